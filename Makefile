@@ -1,0 +1,33 @@
+# The two commands: `make run` shows what this is for, `make test` checks everything. Both fetch what is missing.
+
+.PHONY: run test deps format lint check docs bench
+
+# The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
+run: deps
+	cargo run --release --locked --quiet -p shadowstep-cli -- drift --problem kepler \
+	    --scheme stormer-verlet,yoshida4,blanes-moan-s6,blanes-moan-srkn6b \
+	    --step 1/10,1/20 --until 100 --digits 120 --order auto
+
+test: deps format lint check docs
+
+format:
+	cargo fmt --all --check
+
+lint:
+	cargo clippy --workspace --all-targets --locked -- -D warnings
+
+# all tests and doc tests
+check:
+	cargo test --workspace --locked
+
+docs:
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
+
+bench: deps
+	cargo bench --workspace --locked
+
+# GMP and MPFR are built from their sources, which needs m4 and a C compiler.
+deps:
+	@command -v cc >/dev/null && command -v make >/dev/null || \
+	    { echo "A C compiler and make are needed to build GMP: install gcc and make." >&2; exit 1; }
+	@command -v m4 >/dev/null || ./.ci/install-m4

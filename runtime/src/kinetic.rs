@@ -1,0 +1,174 @@
+//! Kinetic energies T = ½pᵀM⁻¹p: masses 1, one mass per coordinate, a full M⁻¹.
+
+use thiserror::Error;
+
+use crate::Rational;
+use crate::number::Number;
+use num_traits::{Signed, Zero};
+
+/// A quadratic kinetic energy T = ½pᵀM⁻¹p.
+pub trait Kinetic<N: Number> {
+    /// How many coordinates there must be, where that is fixed.
+    fn dimension(&self) -> Option<usize> {
+        None
+    }
+
+    /// q ← q + weight·M⁻¹p; `velocity` is scratch space for one number.
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N);
+
+    /// energy ← ½pᵀM⁻¹p; `velocity` is scratch space for one number.
+    fn energy(&self, p: &[N], energy: &mut N, velocity: &mut N);
+}
+
+/// M = 1: no multiplication by masses at all.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct UnitMasses;
+
+impl<N: Number> Kinetic<N> for UnitMasses {
+    #[inline]
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], _: &mut N) {
+        for (q, p) in q.iter_mut().zip(p) {
+            q.add_product(weight, p);
+        }
+    }
+
+    fn energy(&self, p: &[N], energy: &mut N, _: &mut N) {
+        energy.assign_zero();
+        for p in p {
+            energy.add_product(p, p);
+        }
+        energy.divide_integer(2);
+    }
+}
+
+/// M = diag(m_1, …, m_d).
+#[derive(Clone, Debug)]
+pub struct DiagonalMasses<N> {
+    /// 1/m_i
+    inverse: Vec<N>,
+}
+
+impl<N: Number> DiagonalMasses<N> {
+    /// Masses of the coordinates; each 1/m_i is rounded once.
+    ///
+    /// # Errors
+    /// A mass that is not positive.
+    pub fn new(masses: &[Rational], context: &N::Context) -> Result<Self, MassError> {
+        if let Some(index) = masses.iter().position(|m| !m.is_positive()) {
+            return Err(MassError::NotPositive { index, mass: shadowstep_symbolic::decimal::to_text(&masses[index]) });
+        }
+        Ok(DiagonalMasses { inverse: masses.iter().map(|m| N::from_rational(&m.recip(), context)).collect() })
+    }
+}
+
+impl<N: Number> Kinetic<N> for DiagonalMasses<N> {
+    fn dimension(&self) -> Option<usize> {
+        Some(self.inverse.len())
+    }
+
+    #[inline]
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N) {
+        for ((q, p), inverse) in q.iter_mut().zip(p).zip(&self.inverse) {
+            velocity.assign_product(inverse, p);
+            q.add_product(weight, velocity);
+        }
+    }
+
+    fn energy(&self, p: &[N], energy: &mut N, velocity: &mut N) {
+        energy.assign_zero();
+        for (p, inverse) in p.iter().zip(&self.inverse) {
+            velocity.assign_product(inverse, p);
+            energy.add_product(velocity, p);
+        }
+        energy.divide_integer(2);
+    }
+}
+
+/// A full symmetric M⁻¹.
+#[derive(Clone, Debug)]
+pub struct FullMasses<N> {
+    /// M⁻¹, row by row
+    inverse: Vec<Vec<N>>,
+}
+
+impl<N: Number> FullMasses<N> {
+    /// The rows of M⁻¹, each entry rounded once.
+    ///
+    /// # Errors
+    /// A matrix that is not square or not symmetric or has a diagonal entry that is not positive.
+    pub fn from_inverse(rows: &[Vec<Rational>], context: &N::Context) -> Result<Self, MassError> {
+        for (i, row) in rows.iter().enumerate() {
+            if row.len() != rows.len() {
+                return Err(MassError::NotSquare { row: i, entries: row.len(), rows: rows.len() });
+            }
+            if let Some(j) = (0..i).find(|&j| row[j] != rows[j][i]) {
+                return Err(MassError::NotSymmetric { row: i, column: j });
+            }
+            if !row[i].is_positive() || row[i].is_zero() {
+                return Err(MassError::NotPositive { index: i, mass: shadowstep_symbolic::decimal::to_text(&row[i]) });
+            }
+        }
+        let number = |r: &Rational| N::from_rational(r, context);
+        Ok(FullMasses { inverse: rows.iter().map(|row| row.iter().map(number).collect()).collect() })
+    }
+}
+
+impl<N: Number> Kinetic<N> for FullMasses<N> {
+    fn dimension(&self) -> Option<usize> {
+        Some(self.inverse.len())
+    }
+
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N) {
+        for (q, row) in q.iter_mut().zip(&self.inverse) {
+            dot(row, p, velocity);
+            q.add_product(weight, velocity);
+        }
+    }
+
+    fn energy(&self, p: &[N], energy: &mut N, velocity: &mut N) {
+        energy.assign_zero();
+        for (p_i, row) in p.iter().zip(&self.inverse) {
+            dot(row, p, velocity);
+            energy.add_product(velocity, p_i);
+        }
+        energy.divide_integer(2);
+    }
+}
+
+fn dot<N: Number>(a: &[N], b: &[N], product: &mut N) {
+    product.assign_zero();
+    for (a, b) in a.iter().zip(b) {
+        product.add_product(a, b);
+    }
+}
+
+/// Masses that make no kinetic energy.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum MassError {
+    /// A mass (or a diagonal entry of M⁻¹) is 0 or negative.
+    #[error("mass {index} is {mass}; masses are positive")]
+    NotPositive {
+        /// Which, from 0.
+        index: usize,
+        /// Its value.
+        mass: String,
+    },
+    /// A row of M⁻¹ is too short or too long.
+    #[error("row {row} of the inverse mass matrix has {entries} entries, but there are {rows} rows")]
+    NotSquare {
+        /// Which row, from 0.
+        row: usize,
+        /// How many entries it has.
+        entries: usize,
+        /// How many rows there are.
+        rows: usize,
+    },
+    /// M⁻¹ is not symmetric.
+    #[error("the inverse mass matrix is not symmetric: entries ({row}, {column}) and ({column}, {row}) differ")]
+    NotSymmetric {
+        /// Row of one entry, from 0.
+        row: usize,
+        /// Column of it.
+        column: usize,
+    },
+}

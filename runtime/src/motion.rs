@@ -1,0 +1,215 @@
+//! A state q, p, β and the maps that move it.
+
+use crate::kinetic::Kinetic;
+use crate::number::Number;
+use crate::potential::Potential;
+
+/// What a scheme does to a system: kicks and drifts, with weights h·a_s and h·b_s.
+///
+/// [`Motion`] has these maps; a system with a storage of its own can have them too, and then every scheme moves it.
+pub trait Maps<N> {
+    /// p ← p − weight·U_q(q)
+    fn kick(&mut self, weight: &N);
+
+    /// The kick, and β ← β + weight·(qᵀU_q − 2U).
+    ///
+    /// From β' = qᵀH_q + pᵀH_p − 2H with H = ½pᵀM⁻¹p + U; the paper's eq. 2 has a wrong sign.
+    fn kick_augmented(&mut self, weight: &N);
+
+    /// q ← q + weight·M⁻¹p; β stays, as T is quadratic.
+    fn drift(&mut self, weight: &N);
+
+    /// β ← 0: β counts from the beginning of the step, so that it keeps its digits in long runs.
+    fn restart_beta(&mut self);
+}
+
+/// What is known about the gradient at the present q.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kept {
+    Nothing,
+    Gradient,
+    GradientAndRate,
+}
+
+/// A system H = T(p) + U(q) and its state.
+///
+/// `V` holds coordinates: an array `[N; D]`, or a `Vec<N>` where the dimension is known at run time only. The
+/// gradient of the last kick is kept as long as q stays, so that the next step's first kick costs no evaluation.
+#[derive(Clone, Debug)]
+pub struct Motion<N, V, P, K> {
+    potential: P,
+    kinetic: K,
+    q: V,
+    p: V,
+    beta: N,
+    gradient: V,
+    /// qᵀU_q − 2U
+    rate: N,
+    kept: Kept,
+    scratch: Vec<N>,
+    evaluations: u64,
+}
+
+impl<N, V, P, K> Motion<N, V, P, K>
+where
+    N: Number,
+    V: AsRef<[N]> + AsMut<[N]> + Clone,
+    P: Potential<N>,
+    K: Kinetic<N>,
+{
+    /// The system at q, p.
+    ///
+    /// # Panics
+    /// If q, p, the potential and the masses do not have the same dimension, at least 1.
+    pub fn new(potential: P, kinetic: K, q: V, p: V) -> Self {
+        let dimension = q.as_ref().len();
+        assert!(dimension > 0, "a motion has at least one coordinate");
+        assert_eq!(dimension, p.as_ref().len(), "q and p must have the same dimension");
+        assert_eq!(dimension, potential.dimension(), "q must have the potential's dimension");
+        let masses = kinetic.dimension().unwrap_or(dimension);
+        assert_eq!(dimension, masses, "q must have the masses' dimension");
+        let context = q.as_ref()[0].context();
+        let zero = N::zero(&context);
+        Motion {
+            // one number more for the velocity of drifts
+            scratch: vec![zero.clone(); potential.scratch().max(1)],
+            gradient: p.clone(),
+            rate: zero.clone(),
+            beta: zero,
+            kept: Kept::Nothing,
+            evaluations: 0,
+            potential,
+            kinetic,
+            q,
+            p,
+        }
+    }
+
+    /// Positions.
+    pub fn q(&self) -> &[N] {
+        self.q.as_ref()
+    }
+
+    /// Momenta.
+    pub fn p(&self) -> &[N] {
+        self.p.as_ref()
+    }
+
+    /// What the last augmented step added to β.
+    pub fn beta(&self) -> &N {
+        &self.beta
+    }
+
+    /// Positions, to be changed; the kept gradient is dropped.
+    pub fn q_mut(&mut self) -> &mut [N] {
+        self.kept = Kept::Nothing;
+        self.q.as_mut()
+    }
+
+    /// Momenta, to be changed.
+    pub fn p_mut(&mut self) -> &mut [N] {
+        self.p.as_mut()
+    }
+
+    /// The potential.
+    pub fn potential(&self) -> &P {
+        &self.potential
+    }
+
+    /// The potential, to be changed; the kept gradient is dropped.
+    pub fn potential_mut(&mut self) -> &mut P {
+        self.kept = Kept::Nothing;
+        &mut self.potential
+    }
+
+    /// How often the gradient has been evaluated.
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// The context of the numbers.
+    pub fn context(&self) -> N::Context {
+        self.beta.context()
+    }
+
+    /// H = T(p) + U(q) at the present state.
+    pub fn energy(&mut self) -> N {
+        let mut energy = self.beta.clone();
+        energy_at(&self.potential, &self.kinetic, self.q.as_ref(), self.p.as_ref(), &mut energy, &mut self.scratch);
+        energy
+    }
+
+    /// H = T(p) + U(q) at another state of the same system.
+    pub fn energy_of(&mut self, q: &[N], p: &[N]) -> N {
+        let mut energy = self.beta.clone();
+        energy_at(&self.potential, &self.kinetic, q, p, &mut energy, &mut self.scratch);
+        energy
+    }
+
+    /// Whether every q, p and β is a finite number.
+    pub fn is_finite(&self) -> bool {
+        self.beta.is_finite() && self.q().iter().chain(self.p()).all(Number::is_finite)
+    }
+
+    #[inline]
+    fn kick_with_kept_gradient(&mut self, weight: &N) {
+        for (p, gradient) in self.p.as_mut().iter_mut().zip(self.gradient.as_ref()) {
+            p.subtract_product(weight, gradient);
+        }
+    }
+}
+
+fn energy_at<N: Number, P: Potential<N>, K: Kinetic<N>>(
+    potential: &P,
+    kinetic: &K,
+    q: &[N],
+    p: &[N],
+    energy: &mut N,
+    scratch: &mut [N],
+) {
+    let mut kinetic_energy = energy.clone();
+    kinetic.energy(p, &mut kinetic_energy, &mut scratch[0]);
+    potential.energy(q, energy, scratch);
+    energy.add(&kinetic_energy);
+}
+
+impl<N, V, P, K> Maps<N> for Motion<N, V, P, K>
+where
+    N: Number,
+    V: AsRef<[N]> + AsMut<[N]> + Clone,
+    P: Potential<N>,
+    K: Kinetic<N>,
+{
+    #[inline]
+    fn kick(&mut self, weight: &N) {
+        if self.kept == Kept::Nothing {
+            self.potential.gradient(self.q.as_ref(), self.gradient.as_mut(), &mut self.scratch);
+            self.kept = Kept::Gradient;
+            self.evaluations += 1;
+        }
+        self.kick_with_kept_gradient(weight);
+    }
+
+    #[inline]
+    fn kick_augmented(&mut self, weight: &N) {
+        if self.kept != Kept::GradientAndRate {
+            let gradient = self.gradient.as_mut();
+            self.potential.gradient_and_rate(self.q.as_ref(), gradient, &mut self.rate, &mut self.scratch);
+            self.kept = Kept::GradientAndRate;
+            self.evaluations += 1;
+        }
+        self.kick_with_kept_gradient(weight);
+        self.beta.add_product(weight, &self.rate);
+    }
+
+    #[inline]
+    fn drift(&mut self, weight: &N) {
+        self.kinetic.drift(weight, self.p.as_ref(), self.q.as_mut(), &mut self.scratch[0]);
+        self.kept = Kept::Nothing;
+    }
+
+    #[inline]
+    fn restart_beta(&mut self) {
+        self.beta.assign_zero();
+    }
+}

@@ -1,0 +1,297 @@
+//! `f64` as a [`Number`].
+
+use super::Number;
+use crate::Rational;
+use num_integer::Integer;
+use num_traits::{Signed, Zero};
+
+impl Number for f64 {
+    type Context = ();
+
+    fn zero((): &()) -> f64 {
+        0.0
+    }
+
+    fn from_rational(value: &Rational, (): &()) -> f64 {
+        let magnitude = nearest(value);
+        if value.is_negative() { -magnitude } else { magnitude }
+    }
+
+    fn context(&self) {}
+
+    fn assign_zero(&mut self) {
+        *self = 0.0;
+    }
+
+    fn assign(&mut self, a: &f64) {
+        *self = *a;
+    }
+
+    fn assign_sum(&mut self, a: &f64, b: &f64) {
+        *self = a + b;
+    }
+
+    fn assign_difference(&mut self, a: &f64, b: &f64) {
+        *self = a - b;
+    }
+
+    fn assign_product(&mut self, a: &f64, b: &f64) {
+        *self = a * b;
+    }
+
+    fn assign_quotient(&mut self, a: &f64, b: &f64) {
+        *self = a / b;
+    }
+
+    fn assign_sqrt(&mut self, a: &f64) {
+        *self = a.sqrt();
+    }
+
+    fn assign_reciprocal_sqrt(&mut self, a: &f64) {
+        *self = a.sqrt().recip();
+    }
+
+    fn assign_exp(&mut self, a: &f64) {
+        *self = a.exp();
+    }
+
+    fn assign_sin(&mut self, a: &f64) {
+        *self = a.sin();
+    }
+
+    fn assign_cos(&mut self, a: &f64) {
+        *self = a.cos();
+    }
+
+    fn add(&mut self, a: &f64) {
+        *self += a;
+    }
+
+    fn subtract(&mut self, a: &f64) {
+        *self -= a;
+    }
+
+    fn multiply(&mut self, a: &f64) {
+        *self *= a;
+    }
+
+    fn divide(&mut self, a: &f64) {
+        *self /= a;
+    }
+
+    fn add_product(&mut self, a: &f64, b: &f64) {
+        *self += a * b;
+    }
+
+    fn subtract_product(&mut self, a: &f64, b: &f64) {
+        *self -= a * b;
+    }
+
+    fn multiply_integer(&mut self, n: i32) {
+        *self *= f64::from(n);
+    }
+
+    fn divide_integer(&mut self, n: i32) {
+        *self /= f64::from(n);
+    }
+
+    fn negate(&mut self) {
+        *self = -*self;
+    }
+
+    fn make_absolute(&mut self) {
+        *self = self.abs();
+    }
+
+    fn is_below_zero(&self) -> bool {
+        *self < 0.0
+    }
+
+    fn is_finite(&self) -> bool {
+        f64::is_finite(*self)
+    }
+
+    fn to_f64(&self) -> f64 {
+        *self
+    }
+
+    fn log10_abs(&self) -> f64 {
+        self.abs().log10()
+    }
+
+    fn to_text(&self) -> String {
+        format!("{self:?}")
+    }
+}
+
+/// The `f64` nearest to |value|.
+fn nearest(value: &Rational) -> f64 {
+    const SMALLEST: i64 = -1074; // the spacing of the subnormal numbers is 2^-1074
+    let mut n = value.numer().magnitude().clone();
+    let mut d = value.denom().magnitude().clone();
+
+    // 2^(size - 1) < n/d < 2^(size + 1); out of range, do not even shift
+    let mut size = n.bits() as i64 - d.bits() as i64;
+    if n.is_zero() || size < SMALLEST - 1 {
+        return 0.0;
+    }
+    if size > 1024 {
+        return f64::INFINITY;
+    }
+    let below = if size < 0 { &n << -size < d } else { n < &d << size };
+    if below {
+        size -= 1; // now 2^size <= n/d < 2^(size + 1)
+    }
+    let exponent = (size - 52).max(SMALLEST);
+    if exponent > 971 {
+        return f64::INFINITY;
+    }
+
+    // n/d = (quotient + rest/d) 2^exponent, and quotient has at most 53 bits
+    if exponent < 0 {
+        n <<= -exponent;
+    } else {
+        d <<= exponent;
+    }
+    let (quotient, rest) = n.div_rem(&d);
+    let mut quotient: u64 = quotient.try_into().expect("at most 53 bits");
+    let half = (rest << 1u8).cmp(&d);
+    if half.is_gt() || half.is_eq() && quotient % 2 == 1 {
+        quotient += 1;
+    }
+
+    // The hidden bit of a normal number's quotient adds 1 to the exponent field.  So does a
+    // carry into bit 53: from the subnormal to the normal numbers and to infinity, too.
+    f64::from_bits((((exponent - SMALLEST) as u64) << 52) + quotient)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{functions, operations, products};
+    use super::Number;
+    use crate::Rational;
+    use num_bigint::BigInt;
+    use proptest::prelude::*;
+
+    fn from_rational(value: &Rational) -> f64 {
+        f64::from_rational(value, &())
+    }
+
+    fn integer(n: i128) -> Rational {
+        BigInt::from(n).into()
+    }
+
+    /// n 2^exponent
+    fn dyadic(n: i128, exponent: i32) -> Rational {
+        integer(n) * integer(2).pow(exponent)
+    }
+
+    #[test]
+    fn operations_are_those_of_the_machine() {
+        let [a, b, c]: [f64; 3] = [0.1, -7.3, 1e-3];
+        #[rustfmt::skip]
+        let expected = [
+            0.0, a, a + b, a - b, a * b, a / b, a * a, a.sqrt(),
+            c + a, c - a, c * a, c / a, c * -3.0, c / -3.0, -c, c.abs(),
+        ];
+        assert_eq!(operations(&a, &b, &c), expected);
+        assert_eq!(products(&a, &b, &c), [c + a * b, c - a * b]);
+        let (sin, cos) = a.sin_cos();
+        assert_eq!(functions(&a), [1.0 / a.sqrt(), a.exp(), sin, cos, sin, cos]);
+    }
+
+    #[test]
+    fn products_round_twice() {
+        // a² = 1 + 2ε + ε², and rounded 1 + 2ε
+        let a = 1.0 + f64::EPSILON;
+        assert_eq!(products(&a, &a, &(a * a))[1], 0.0);
+    }
+
+    #[test]
+    fn rational_ties_go_to_even() {
+        let two_53 = 1 << 53;
+        for (tie, even) in [
+            (dyadic(two_53 + 1, 0), two_53 as f64),
+            (dyadic(two_53 + 3, 0), (two_53 + 4) as f64),
+            (dyadic(2 * two_53 - 1, 0), 2.0 * two_53 as f64), // carries
+            (dyadic(1, -1075), 0.0),
+            (dyadic(3, -1075), f64::from_bits(2)),
+            (dyadic(5, -1075), f64::from_bits(2)),
+            (dyadic(two_53 - 1, -1075), f64::MIN_POSITIVE),
+            (dyadic(2 * two_53 - 1, 970), f64::INFINITY),
+        ] {
+            assert_eq!(from_rational(&tie), even);
+            assert_eq!(from_rational(&-&tie), -even);
+            let nudge = &tie * dyadic(1, -1200);
+            let [below, above] = [&tie - &nudge, &tie + &nudge].map(|x| from_rational(&x));
+            assert_eq!(below.next_up(), above, "{tie}");
+        }
+    }
+
+    #[test]
+    fn rational_out_of_range() {
+        assert_eq!(from_rational(&dyadic(-1, 1024)), f64::NEG_INFINITY);
+        assert_eq!(from_rational(&dyadic(3, 100_000)), f64::INFINITY);
+        assert_eq!(from_rational(&(dyadic(1, 1025) / integer(3))), 4.0 / 3.0 * 2f64.powi(1023));
+        assert_eq!(from_rational(&dyadic(3, -1078)), 0.0);
+        assert_eq!(from_rational(&dyadic(3, -100_000)), 0.0);
+        assert_eq!(from_rational(&integer(0)), 0.0);
+    }
+
+    proptest! {
+        // Rust's parser rounds decimal text correctly.
+        #[test]
+        fn rational_agrees_with_decimal_text(digits: i128, exponent in -380i32..300) {
+            let expected: f64 = format!("{digits}e{exponent}").parse().unwrap();
+            let value = integer(digits) * integer(10).pow(exponent);
+            prop_assert_eq!(from_rational(&value), expected);
+        }
+
+        #[test]
+        fn rational_between_two_neighbours(bits in 0..f64::MAX.to_bits(), third: bool) {
+            let [low, high] = [f64::from_bits(bits), f64::from_bits(bits + 1)];
+            let [a, b] = [low, high].map(|x| Rational::from_float(x).unwrap());
+            prop_assert_eq!(from_rational(&a), low);
+            let (between, expected) = if third {
+                ((a * integer(2) + b) / integer(3), low)
+            } else {
+                ((a + b) / integer(2), if bits % 2 == 0 { low } else { high })
+            };
+            prop_assert_eq!(from_rational(&between), expected);
+        }
+
+        #[test]
+        fn text_reads_back(bits: u64) {
+            let x = f64::from_bits(bits);
+            let read: f64 = x.to_text().parse().unwrap();
+            prop_assert!(read.to_bits() == bits || read.is_nan() && x.is_nan());
+        }
+    }
+
+    #[test]
+    fn text_is_short() {
+        for (x, text) in [
+            (0.1, "0.1"),
+            (-0.0, "-0.0"),
+            (2.0, "2.0"),
+            (-1.25e-30, "-1.25e-30"),
+            (1e300, "1e300"),
+            (f64::NAN, "NaN"),
+            (f64::NEG_INFINITY, "-inf"),
+        ] {
+            assert_eq!(x.to_text(), text);
+        }
+    }
+
+    #[test]
+    fn signs_and_sizes() {
+        for (x, below) in [(-2.5, true), (-0.0, false), (1.0, false), (f64::NAN, false)] {
+            assert_eq!(x.is_below_zero(), below);
+        }
+        for (x, finite) in [(1e300, true), (f64::NAN, false), (f64::NEG_INFINITY, false)] {
+            assert_eq!(Number::is_finite(&x), finite);
+        }
+        assert_eq!((-0.001).log10_abs(), -3.0);
+        assert_eq!(0.0.log10_abs(), f64::NEG_INFINITY);
+    }
+}

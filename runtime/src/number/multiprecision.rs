@@ -1,0 +1,385 @@
+//! MPFR's numbers, [`rug::Float`], as a [`Number`], and their precision.
+
+use super::Number;
+use crate::Rational;
+use num_bigint::BigInt;
+use num_traits::Signed;
+use rug::float::Special;
+use rug::integer::Order;
+use rug::{Assign, Float, Integer};
+use std::f64::consts::{LOG2_10, LOG10_2};
+use thiserror::Error;
+
+/// The precision of an MPFR number.
+///
+/// `n` decimal digits are ⌈n log₂10⌉ + 1 bits, so that any text of `n` digits survives being
+/// read and printed:
+///
+/// ```
+/// use shadowstep::number::Precision;
+///
+/// let precision = Precision::digits(120)?;
+/// assert_eq!(precision.in_bits(), 400);
+/// assert_eq!(precision.in_digits(), 120);
+/// # Ok::<(), shadowstep::number::PrecisionError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Precision {
+    bits: u32,
+}
+
+/// A precision out of range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum PrecisionError {
+    /// in decimal digits
+    #[error("the precision is {0} digits, but has to be from {least} to {most}",
+        least = Precision::LEAST.in_digits(), most = Precision::MOST.in_digits())]
+    Digits(u32),
+    /// in bits
+    #[error("the precision is {0} bits, but has to be from {least} to {most}",
+        least = Precision::LEAST.bits, most = Precision::MOST.bits)]
+    Bits(u32),
+}
+
+impl Precision {
+    const LEAST: Precision = Precision { bits: 5 };
+    const MOST: Precision = Precision { bits: 3_321_930 };
+
+    /// The precision for this many decimal digits, from 1 to 1 000 000.
+    pub fn digits(digits: u32) -> Result<Precision, PrecisionError> {
+        let bits = (f64::from(digits) * LOG2_10).ceil() as u32; // `as` saturates: no overflow
+        Precision::bits(bits.saturating_add(1)).map_err(|_| PrecisionError::Digits(digits))
+    }
+
+    /// The precision of this many bits, from 5 (1 digit) to 3 321 930 (1 000 000 digits).
+    pub fn bits(bits: u32) -> Result<Precision, PrecisionError> {
+        let precision = Precision { bits };
+        if (Precision::LEAST..=Precision::MOST).contains(&precision) {
+            Ok(precision)
+        } else {
+            Err(PrecisionError::Bits(bits))
+        }
+    }
+
+    /// The size of the significand in bits.
+    pub fn in_bits(self) -> u32 {
+        self.bits
+    }
+
+    /// How many decimal digits of a text survive: ⌊(bits − 1) log₁₀2⌋.
+    pub fn in_digits(self) -> u32 {
+        (f64::from(self.bits - 1) * LOG10_2) as u32
+    }
+}
+
+impl Number for Float {
+    type Context = Precision;
+
+    fn zero(precision: &Precision) -> Float {
+        Float::new(precision.bits)
+    }
+
+    fn from_rational(value: &Rational, precision: &Precision) -> Float {
+        let exact = rug::Rational::from((integer(value.numer()), integer(value.denom())));
+        Float::with_val(precision.bits, exact)
+    }
+
+    fn context(&self) -> Precision {
+        Precision { bits: self.prec() }
+    }
+
+    fn assign_zero(&mut self) {
+        Assign::assign(self, Special::Zero);
+    }
+
+    fn assign(&mut self, a: &Float) {
+        Assign::assign(self, a);
+    }
+
+    fn assign_sum(&mut self, a: &Float, b: &Float) {
+        Assign::assign(self, a + b);
+    }
+
+    fn assign_difference(&mut self, a: &Float, b: &Float) {
+        Assign::assign(self, a - b);
+    }
+
+    fn assign_product(&mut self, a: &Float, b: &Float) {
+        Assign::assign(self, a * b);
+    }
+
+    fn assign_quotient(&mut self, a: &Float, b: &Float) {
+        Assign::assign(self, a / b);
+    }
+
+    fn assign_sqrt(&mut self, a: &Float) {
+        Assign::assign(self, a.sqrt_ref());
+    }
+
+    fn assign_reciprocal_sqrt(&mut self, a: &Float) {
+        Assign::assign(self, a.recip_sqrt_ref());
+    }
+
+    fn assign_exp(&mut self, a: &Float) {
+        Assign::assign(self, a.exp_ref());
+    }
+
+    fn assign_sin(&mut self, a: &Float) {
+        Assign::assign(self, a.sin_ref());
+    }
+
+    fn assign_cos(&mut self, a: &Float) {
+        Assign::assign(self, a.cos_ref());
+    }
+
+    fn assign_sin_cos(sin: &mut Float, cos: &mut Float, a: &Float) {
+        (sin, cos).assign(a.sin_cos_ref());
+    }
+
+    fn add(&mut self, a: &Float) {
+        *self += a;
+    }
+
+    fn subtract(&mut self, a: &Float) {
+        *self -= a;
+    }
+
+    fn multiply(&mut self, a: &Float) {
+        *self *= a;
+    }
+
+    fn divide(&mut self, a: &Float) {
+        *self /= a;
+    }
+
+    // On references, `+=` and `-=` of a product are one fused operation.
+
+    fn add_product(&mut self, a: &Float, b: &Float) {
+        *self += a * b;
+    }
+
+    fn subtract_product(&mut self, a: &Float, b: &Float) {
+        *self -= a * b;
+    }
+
+    fn multiply_integer(&mut self, n: i32) {
+        *self *= n;
+    }
+
+    fn divide_integer(&mut self, n: i32) {
+        *self /= n;
+    }
+
+    fn negate(&mut self) {
+        rug::ops::NegAssign::neg_assign(self);
+    }
+
+    fn make_absolute(&mut self) {
+        self.abs_mut();
+    }
+
+    fn is_below_zero(&self) -> bool {
+        *self < 0
+    }
+
+    fn is_finite(&self) -> bool {
+        Float::is_finite(self)
+    }
+
+    fn to_f64(&self) -> f64 {
+        Float::to_f64(self)
+    }
+
+    fn log10_abs(&self) -> f64 {
+        let (significand, exponent) = self.to_f64_exp();
+        significand.abs().log10() + f64::from(exponent) * LOG10_2
+    }
+
+    fn to_text(&self) -> String {
+        if self.is_zero() || !self.is_finite() {
+            return self.to_f64().to_text();
+        }
+        // A text that is at most this long survives being read: if there is one for this number,
+        // it comes back, with zeros behind it.  If not, one or two digits more are enough.
+        let mut digits = self.context().in_digits().max(1);
+        loop {
+            let text = decimal(self, digits);
+            let read = Float::parse(&text).expect("a decimal number");
+            if Float::with_val(self.prec(), read) == *self {
+                return text;
+            }
+            digits += 1;
+        }
+    }
+}
+
+fn integer(value: &BigInt) -> Integer {
+    let magnitude = Integer::from_digits(&value.magnitude().to_u64_digits(), Order::Lsf);
+    if value.is_negative() { -magnitude } else { magnitude }
+}
+
+/// So many significant digits, but no zeros at the end, laid out as Rust does for an `f64`.
+fn decimal(value: &Float, digits: u32) -> String {
+    let (negative, digits, point) = value.to_sign_string_exp(10, Some(digits as usize));
+    let point = point.expect("neither infinite nor NaN");
+    let digits = digits.trim_end_matches('0'); // 0.digits 10^point
+    let sign = if negative { "-" } else { "" };
+    match usize::try_from(point) {
+        _ if !(-3..=16).contains(&point) => {
+            let (first, rest) = digits.split_at(1);
+            let dot = if rest.is_empty() { "" } else { "." };
+            format!("{sign}{first}{dot}{rest}e{}", point - 1)
+        }
+        Ok(point) if point >= digits.len() => format!("{sign}{digits:0<point$}.0"),
+        Ok(point) if point > 0 => format!("{sign}{}.{}", &digits[..point], &digits[point..]),
+        _ => format!("{sign}0.{}{digits}", "0".repeat(point.unsigned_abs() as usize)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{functions, operations, products};
+    use super::{Number, Precision, PrecisionError};
+    use crate::Rational;
+    use num_bigint::BigInt;
+    use proptest::prelude::*;
+    use rug::Float;
+
+    /// As precise as an `f64`.
+    fn float(x: f64) -> Float {
+        Float::with_val(53, x)
+    }
+
+    fn integer(n: i128) -> Rational {
+        BigInt::from(n).into()
+    }
+
+    #[test]
+    fn bits_for_digits() {
+        for (digits, bits) in [(1, 5), (15, 51), (16, 55), (34, 114), (120, 400), (1000, 3323), (1_000_000, 3_321_930)]
+        {
+            let precision = Precision::digits(digits).unwrap();
+            assert_eq!(precision.in_bits(), bits);
+            assert_eq!(precision.in_digits(), digits);
+            assert_eq!(Precision::bits(bits), Ok(precision));
+        }
+        assert_eq!(Precision::bits(53).unwrap().in_digits(), 15);
+    }
+
+    #[test]
+    fn precision_out_of_range() {
+        for digits in [0, 1_000_001, u32::MAX] {
+            assert_eq!(Precision::digits(digits), Err(PrecisionError::Digits(digits)));
+        }
+        for bits in [0, 4, 3_321_931, u32::MAX] {
+            assert_eq!(Precision::bits(bits), Err(PrecisionError::Bits(bits)));
+        }
+        assert_eq!(PrecisionError::Digits(0).to_string(), "the precision is 0 digits, but has to be from 1 to 1000000");
+        assert_eq!(PrecisionError::Bits(4).to_string(), "the precision is 4 bits, but has to be from 5 to 3321930");
+    }
+
+    proptest! {
+        #[test]
+        fn operations_at_53_bits_are_those_of_the_machine(
+            a in 1e-60..1e60, b in -1e3..1e3, c in -1e-3..1e60
+        ) {
+            let [x, y, z] = [a, b, c].map(float);
+            prop_assert_eq!(operations(&x, &y, &z), operations(&a, &b, &c).map(float));
+            prop_assert_eq!(products(&x, &y, &z), [b, -b].map(|b| float(a.mul_add(b, c))));
+        }
+
+        #[test]
+        fn functions_at_53_bits_are_close_to_those_of_the_machine(a in 0.0..100.0) {
+            for (x, y) in functions(&float(a)).iter().zip(functions(&a)) {
+                prop_assert!((x.to_f64() - y).abs() <= 2.0 * f64::EPSILON * y.abs());
+            }
+        }
+
+        #[test]
+        fn rational_is_rounded_once(n: i128, d in 1..i128::MAX) {
+            let value = Rational::new(n.into(), d.into());
+            let x = Float::from_rational(&value, &Precision::bits(53).unwrap());
+            prop_assert_eq!(x.to_f64(), f64::from_rational(&value, &()));
+        }
+
+        #[test]
+        fn text_reads_back(n: i128, exponent in -2000i32..2000, bits in 1u32..500) {
+            let x = Float::with_val(bits, n) << exponent;
+            let read = Float::with_val(bits, Float::parse(x.to_text()).unwrap());
+            prop_assert_eq!(read, x);
+        }
+
+        #[test]
+        fn short_text_survives(digits: i64, exponent in -300i32..300) {
+            let precision = Precision::digits(20).unwrap();
+            let value = integer(digits.into()) * integer(10).pow(exponent);
+            let x = Float::from_rational(&value, &precision);
+            let significant = |text: &str| {
+                let digits = text.split('e').next().unwrap().replace(['.', '-'], "");
+                digits.trim_matches('0').to_owned()
+            };
+            prop_assert_eq!(significant(&x.to_text()), significant(&digits.to_string()));
+        }
+
+        #[test]
+        fn text_is_as_short_as_that_of_the_machine(bits: u64) {
+            let x = f64::from_bits(bits);
+            prop_assume!(x.is_normal());
+            let text = float(x).to_text();
+            prop_assert_eq!(text.parse(), Ok(x));
+            prop_assert_eq!(text.len(), x.to_text().len());
+        }
+
+        #[test]
+        fn text_of_usual_size_is_that_of_the_machine(n in 0i64..1_000_000, exponent in -9i32..18) {
+            let x: f64 = format!("{n}e{exponent}").parse().unwrap();
+            prop_assert_eq!(float(x).to_text(), x.to_text());
+        }
+    }
+
+    #[test]
+    fn reciprocal_sqrt_is_rounded_once() {
+        for n in 512..1024 {
+            let [mut few_bits, mut many_bits] = [Float::new(10), Float::new(200)];
+            few_bits.assign_reciprocal_sqrt(&Float::with_val(10, n));
+            many_bits.assign_reciprocal_sqrt(&Float::with_val(10, n));
+            assert_eq!(few_bits, Float::with_val(10, many_bits), "1/√{n}");
+        }
+    }
+
+    #[test]
+    fn functions_of_many_digits() {
+        let precision = Precision::digits(40).unwrap();
+        let third = Float::from_rational(&Rational::new(1.into(), 3.into()), &precision);
+        assert_eq!(third.context(), precision);
+        let mut sixty_degrees = Float::zero(&precision);
+        sixty_degrees.assign_product(&Float::with_val(200, rug::float::Constant::Pi), &third);
+        let mut error = functions(&sixty_degrees)[3].clone();
+        error.subtract(&Float::with_val(2, 0.5));
+        assert!(error.log10_abs() < -40.0, "cos 60° − 1/2 = {error}");
+    }
+
+    #[test]
+    fn sizes_beyond_an_f64() {
+        let precision = Precision::digits(30).unwrap();
+        for exponent in [-400, -5, 0, 7, 400] {
+            let mut x = Float::from_rational(&integer(10).pow(exponent), &precision);
+            x.negate();
+            assert!((x.log10_abs() - f64::from(exponent)).abs() < 1e-13);
+        }
+        assert_eq!(Float::zero(&precision).log10_abs(), f64::NEG_INFINITY);
+    }
+
+    #[test]
+    fn signs_and_what_is_no_number() {
+        assert!(float(-2.5).is_below_zero());
+        for x in [-0.0, 0.0, 1.0, f64::NAN] {
+            assert!(!float(x).is_below_zero());
+        }
+        assert!(Number::is_finite(&float(1.0)));
+        let mut x = float(1.0);
+        x.divide_integer(0);
+        assert!(!Number::is_finite(&x));
+        assert_eq!(x.to_text(), "inf");
+    }
+}

@@ -1,0 +1,74 @@
+//! Potentials U(q).
+
+use crate::number::Number;
+
+/// A potential U(q) with its gradient, for one kind of numbers or, written once, for all.
+///
+/// A potential says how many numbers of scratch space it needs and is given so many with every call: big numbers are
+/// made once, not per call.
+///
+/// ```
+/// use shadowstep::{Number, Potential};
+///
+/// /// U = q⁴/4
+/// struct Quartic;
+///
+/// impl<N: Number> Potential<N> for Quartic {
+///     fn dimension(&self) -> usize { 1 }
+///     fn scratch(&self) -> usize { 1 }
+///     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
+///         scratch[0].assign_square(&q[0]);
+///         energy.assign_square(&scratch[0]);
+///         energy.divide_integer(4);
+///     }
+///     fn gradient(&self, q: &[N], gradient: &mut [N], _: &mut [N]) {
+///         gradient[0].assign_square(&q[0]);
+///         gradient[0].multiply(&q[0]);
+///     }
+///     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
+///         self.gradient(q, gradient, scratch);
+///         // homogeneous of degree 4: qᵀU_q − 2U = (4 − 2) U
+///         self.energy(q, rate, scratch);
+///         rate.multiply_integer(2);
+///     }
+/// }
+/// ```
+pub trait Potential<N: Number> {
+    /// How many coordinates q has.
+    fn dimension(&self) -> usize;
+
+    /// How many numbers of scratch space a call needs.
+    fn scratch(&self) -> usize {
+        0
+    }
+
+    /// energy ← U(q)
+    fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]);
+
+    /// gradient ← U_q(q), as long as q
+    fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]);
+
+    /// gradient ← U_q(q), rate ← qᵀU_q − 2U
+    ///
+    /// The rate is what a kick adds to β (Moan & Niesen, eq. 2, whose printed sign is wrong). A term of U that is
+    /// homogeneous of degree k adds (k − 2) times itself, so a quadratic one nothing.
+    fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]);
+}
+
+impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
+    fn dimension(&self) -> usize {
+        (**self).dimension()
+    }
+    fn scratch(&self) -> usize {
+        (**self).scratch()
+    }
+    fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
+        (**self).energy(q, energy, scratch);
+    }
+    fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
+        (**self).gradient(q, gradient, scratch);
+    }
+    fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
+        (**self).gradient_and_rate(q, gradient, rate, scratch);
+    }
+}

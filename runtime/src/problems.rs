@@ -1,0 +1,221 @@
+//! The problems of the paper, with their parameters and initial states.
+
+mod harmonic_oscillator;
+mod henon_heiles;
+mod kepler;
+mod pendulum;
+mod scattering;
+
+pub use harmonic_oscillator::HarmonicOscillator;
+pub use henon_heiles::HenonHeiles;
+pub use kepler::Kepler;
+pub use pendulum::Pendulum;
+pub use scattering::Scattering;
+
+use std::collections::BTreeMap;
+
+use shadowstep_symbolic::{Exact, evaluate, nearest, parse};
+use thiserror::Error;
+
+use crate::Rational;
+use crate::number::Number;
+use crate::potential::Potential;
+
+/// A problem: its potential and, as exact expressions, its parameters and initial state.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem {
+    /// Short name.
+    pub name: &'static str,
+    /// A line for people.
+    pub title: &'static str,
+    /// H(q, p) as a formula.
+    pub hamiltonian: &'static str,
+    /// Parameters in an order in which each default needs earlier ones only.
+    pub parameters: &'static [Parameter],
+    /// Names and defaults of q_1, …, q_d; defaults may use the parameters.
+    pub positions: &'static [(&'static str, &'static str)],
+    /// Names and defaults of p_1, …, p_d.
+    pub momenta: &'static [(&'static str, &'static str)],
+    /// Where problem and numbers are from.
+    pub source: &'static str,
+}
+
+/// A parameter of a problem.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: &'static str,
+    /// Its default, an exact expression.
+    pub default: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// Which values make sense, in words.
+    pub range: &'static str,
+    /// Whether a value makes sense.
+    pub allowed: fn(&Rational) -> bool,
+}
+
+/// All problems, in the order of the paper.
+pub const PROBLEMS: [Problem; 5] =
+    [harmonic_oscillator::PROBLEM, pendulum::PROBLEM, kepler::PROBLEM, henon_heiles::PROBLEM, scattering::PROBLEM];
+
+/// A problem by its name.
+///
+/// # Errors
+/// An unknown name; the message has the nearest known one.
+pub fn problem(name: &str) -> Result<&'static Problem, ProblemError> {
+    PROBLEMS.iter().find(|p| p.name == name).ok_or_else(|| ProblemError::UnknownProblem {
+        name: name.to_owned(),
+        hint: hint(name, &PROBLEMS.map(|p| p.name)),
+    })
+}
+
+/// A problem with all its values.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// The problem.
+    pub problem: &'static Problem,
+    /// Every parameter, position and momentum by its name, in the order of the problem.
+    pub values: Vec<(&'static str, Exact)>,
+}
+
+impl Problem {
+    /// The problem with some values set by exact expressions, which may use parameters that stand before.
+    ///
+    /// Irrational values are rounded to `digits` digits.
+    ///
+    /// # Errors
+    /// Unknown or repeated names, expressions that have no value, parameters out of range.
+    pub fn setup(&'static self, set: &[(String, String)], digits: u32) -> Result<Setup, ProblemError> {
+        let parameters = self.parameters.iter().map(|p| (p.name, p.default));
+        let all: Vec<(&'static str, &'static str)> =
+            parameters.chain(self.positions.iter().copied()).chain(self.momenta.iter().copied()).collect();
+        let names: Vec<_> = all.iter().map(|(name, _)| *name).collect();
+        for (i, (name, _)) in set.iter().enumerate() {
+            if !names.contains(&name.as_str()) {
+                return Err(ProblemError::UnknownParameter {
+                    problem: self.name,
+                    name: name.clone(),
+                    hint: hint(name, &names),
+                });
+            }
+            if set[..i].iter().any(|(other, _)| other == name) {
+                return Err(ProblemError::SetTwice { name: name.clone() });
+            }
+        }
+        let mut known = BTreeMap::new();
+        let mut values = Vec::new();
+        for (name, default) in all {
+            let text = set.iter().find(|(n, _)| n == name).map_or(default, |(_, text)| text.as_str());
+            let value = value_of(name, text, &known, digits)?;
+            self.check(name, text, &value.value)?;
+            known.insert(name.to_owned(), value.clone());
+            values.push((name, value));
+        }
+        Ok(Setup { problem: self, values })
+    }
+
+    fn check(&self, name: &str, text: &str, value: &Rational) -> Result<(), ProblemError> {
+        match self.parameters.iter().find(|p| p.name == name) {
+            Some(parameter) if !(parameter.allowed)(value) => {
+                Err(ProblemError::OutOfRange { name: parameter.name, text: text.to_owned(), range: parameter.range })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn value_of(name: &str, text: &str, known: &BTreeMap<String, Exact>, digits: u32) -> Result<Exact, ProblemError> {
+    let wrong = |why: String| ProblemError::NoValue { name: name.to_owned(), text: text.to_owned(), why };
+    let expression = parse(text).map_err(|e| wrong(e.to_string()))?;
+    evaluate(&expression, known, digits).map_err(|e| wrong(e.to_string()))
+}
+
+fn hint(word: &str, known: &[&str]) -> String {
+    match nearest(word, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known are {}", known.join(", ")),
+    }
+}
+
+impl Setup {
+    /// A value by its name.
+    ///
+    /// # Panics
+    /// If the problem has no value of this name.
+    pub fn value(&self, name: &str) -> &Rational {
+        let found = self.values.iter().find(|(known, _)| *known == name);
+        &found.unwrap_or_else(|| panic!("{} has no `{name}`", self.problem.name)).1.value
+    }
+
+    /// The initial q, each rounded once.
+    pub fn q<N: Number>(&self, context: &N::Context) -> Vec<N> {
+        self.problem.positions.iter().map(|(name, _)| N::from_rational(self.value(name), context)).collect()
+    }
+
+    /// The initial p, each rounded once.
+    pub fn p<N: Number>(&self, context: &N::Context) -> Vec<N> {
+        self.problem.momenta.iter().map(|(name, _)| N::from_rational(self.value(name), context)).collect()
+    }
+
+    /// The potential.
+    pub fn potential<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Potential<N>> {
+        match self.problem.name {
+            "harmonic-oscillator" => Box::new(HarmonicOscillator::<N>::new(self.value("omega"), 1, context)),
+            "pendulum" => Box::new(Pendulum),
+            "kepler" => Box::new(Kepler),
+            "henon-heiles" => Box::new(HenonHeiles),
+            "scattering" => Box::new(Scattering),
+            name => unreachable!("{name} is not among the problems"),
+        }
+    }
+}
+
+/// What is wrong with a problem's name or values.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ProblemError {
+    /// There is no such problem.
+    #[error("there is no problem `{name}`; {hint}")]
+    UnknownProblem {
+        /// The name given.
+        name: String,
+        /// The nearest one.
+        hint: String,
+    },
+    /// The problem has no such parameter.
+    #[error("{problem} has no parameter `{name}`; {hint}")]
+    UnknownParameter {
+        /// The problem.
+        problem: &'static str,
+        /// The name given.
+        name: String,
+        /// The nearest one.
+        hint: String,
+    },
+    /// A parameter is given twice.
+    #[error("`{name}` is set twice; keep one")]
+    SetTwice {
+        /// Its name.
+        name: String,
+    },
+    /// An expression has no value.
+    #[error("{name}={text}: {why}")]
+    NoValue {
+        /// The parameter.
+        name: String,
+        /// The expression.
+        text: String,
+        /// Why.
+        why: String,
+    },
+    /// A value makes no sense.
+    #[error("{name}={text} is out of range: {range}")]
+    OutOfRange {
+        /// The parameter.
+        name: &'static str,
+        /// The expression.
+        text: String,
+        /// The values that make sense.
+        range: &'static str,
+    },
+}

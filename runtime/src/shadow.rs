@@ -1,0 +1,41 @@
+//! Estimators of the modified energy H̄ at a state of a trajectory.
+//!
+//! The states (p, q, β) of a trajectory lie on the flow of the modified Hamiltonian H̄ and of its homogeneous extension,
+//! for which β' = q̄ᵀH̄_q + p̄ᵀH̄_p − 2H̄. So H̄ = ½(−q̄ᵀp̄' + p̄ᵀq̄' − β') (Moan & Niesen, eq. skModEn), and the
+//! derivatives can be had from neighbouring states.
+
+mod central;
+mod differences;
+
+pub use central::{Central, FixedOrder};
+pub use differences::{AllOrders, Stop};
+
+use crate::number::Number;
+
+/// Turns the states of a trajectory into modified energies.
+///
+/// States come in the order of time, each with what the step that led to it added to β. Once `2·reach` states have
+/// come, every further one completes an estimate at the state `reach` places before it.
+pub trait Estimator<N: Number> {
+    /// How many states it needs on each side.
+    fn reach(&self) -> usize;
+
+    /// Takes the next state; gives the estimate that it completes.
+    fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>>;
+}
+
+/// The modified energy at a state.
+#[derive(Clone, Copy, Debug)]
+pub struct Estimate<'a, N> {
+    /// The modified energy.
+    pub value: &'a N,
+    /// Size of the last term, |T_{m,m} − T_{m−1,m−1}|: an estimate of the error, no bound. Near a close encounter
+    /// the error can be larger by many orders of magnitude.
+    pub error: &'a N,
+    /// The m of D_m.
+    pub order: u32,
+    /// Positions of the state.
+    pub q: &'a [N],
+    /// Momenta of the state.
+    pub p: &'a [N],
+}

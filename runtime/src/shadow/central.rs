@@ -1,0 +1,165 @@
+//! The paper's estimator: central differences D_m, at a fixed m or the best of all.
+
+use std::sync::Arc;
+
+use crate::Rational;
+use crate::number::Number;
+use crate::shadow::{AllOrders, Estimate, Estimator, Stop};
+use crate::weights::central;
+
+/// Central differences (Moan & Niesen): T_{m,m} = ½(−qᵀD_m p + pᵀD_m q − D_m β).
+#[derive(Clone, Debug)]
+pub enum Central<N> {
+    /// One m.
+    Fixed(FixedOrder<N>),
+    /// The best m of each state.
+    Best(AllOrders<N>),
+}
+
+impl<N: Number> Central<N> {
+    /// D_m at one m ≥ 1, for steps of size h in `dimension` coordinates.
+    pub fn fixed(m: u32, h: &Rational, dimension: usize, context: &N::Context) -> Self {
+        Central::Fixed(FixedOrder::new(m, h, dimension, context))
+    }
+
+    /// At each state the m of 2..=`largest` with the smallest |T_{m,m} − T_{m−1,m−1}|, the first of equal ones.
+    pub fn best(largest: u32, stop: Stop, h: &Rational, dimension: usize, context: &N::Context) -> Self {
+        Central::Best(AllOrders::new(largest, stop, h, dimension, context))
+    }
+}
+
+impl<N: Number> Estimator<N> for Central<N> {
+    fn reach(&self) -> usize {
+        match self {
+            Central::Fixed(fixed) => fixed.reach(),
+            Central::Best(best) => best.reach(),
+        }
+    }
+
+    fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
+        match self {
+            Central::Fixed(fixed) => fixed.push(q, p, beta),
+            Central::Best(best) => best.push(q, p, beta),
+        }
+    }
+}
+
+/// D_m at one m, by products of pairs.
+///
+/// With B(i,k) = q_i·p_k − p_i·q_k + (β_k − β_i), i < k, the estimate at n is
+/// T_{m,m} = −1/(2h) Σ_j d_{m,j} (B(n, n+j) + B(n−j, n)), so each pair of states is multiplied once and serves both.
+#[derive(Clone, Debug)]
+pub struct FixedOrder<N> {
+    m: usize,
+    /// d_{m,j}/(2h)
+    weights: Vec<N>,
+    /// (d_{m,j} − d_{m−1,j})/(2h), for the last term alone
+    last_term: Vec<N>,
+    /// The newest m + 1 states, the state k in place k mod (m + 1).
+    ring: Vec<Place<N>>,
+    pushed: usize,
+    pair: N,
+    beta: N,
+    error: N,
+}
+
+#[derive(Clone, Debug)]
+struct Place<N> {
+    q: Vec<N>,
+    p: Vec<N>,
+    /// What the step that led here added to β.
+    beta: N,
+    value: N,
+    last_term: N,
+}
+
+impl<N: Number> FixedOrder<N> {
+    fn new(m: u32, h: &Rational, dimension: usize, context: &N::Context) -> Self {
+        assert!(m >= 1, "a central difference has m ≥ 1");
+        let (this, last) = (central(m), if m > 1 { central(m - 1) } else { Arc::from([]) });
+        let twice_h = h * Rational::from_integer(2.into());
+        let zero = N::zero(context);
+        let number = |weight: Rational| N::from_rational(&(weight / &twice_h), context);
+        let none = Rational::from_integer(0.into());
+        let place = Place {
+            q: vec![zero.clone(); dimension],
+            p: vec![zero.clone(); dimension],
+            beta: zero.clone(),
+            value: zero.clone(),
+            last_term: zero.clone(),
+        };
+        FixedOrder {
+            m: m as usize,
+            weights: this.iter().map(|d| number(d.clone())).collect(),
+            last_term: this.iter().enumerate().map(|(j, d)| number(d - last.get(j).unwrap_or(&none))).collect(),
+            ring: vec![place; m as usize + 1],
+            pushed: 0,
+            pair: zero.clone(),
+            beta: zero.clone(),
+            error: zero,
+        }
+    }
+
+    fn place(&mut self, q: &[N], p: &[N], beta: &N) -> usize {
+        let k = self.pushed % self.ring.len();
+        let place = &mut self.ring[k];
+        place.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
+        place.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        place.beta.assign(beta);
+        place.value.assign_zero();
+        place.last_term.assign_zero();
+        self.pushed += 1;
+        k
+    }
+
+    /// Adds the pair of the states in places i (older) and k to the estimates at both.
+    fn add_pair(&mut self, i: usize, k: usize, j: usize) {
+        let (older, newest) = two(&mut self.ring, i, k);
+        self.pair.assign(&self.beta);
+        for (((q_i, p_i), q_k), p_k) in older.q.iter().zip(&older.p).zip(&newest.q).zip(&newest.p) {
+            self.pair.add_product(q_i, p_k);
+            self.pair.subtract_product(p_i, q_k);
+        }
+        for place in [older, newest] {
+            place.value.subtract_product(&self.weights[j - 1], &self.pair);
+            place.last_term.subtract_product(&self.last_term[j - 1], &self.pair);
+        }
+    }
+}
+
+impl<N: Number> Estimator<N> for FixedOrder<N> {
+    fn reach(&self) -> usize {
+        self.m
+    }
+
+    fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
+        let older = self.pushed.min(self.m);
+        let k = self.place(q, p, beta);
+        let size = self.ring.len();
+        self.beta.assign_zero();
+        for j in 1..=older {
+            // β_k − β_i is the sum of the increments after i
+            let after = (k + size - (j - 1)) % size;
+            self.beta.add(&self.ring[after].beta);
+            self.add_pair((k + size - j) % size, k, j);
+        }
+        if self.pushed <= 2 * self.m {
+            return None;
+        }
+        let place = &self.ring[(k + 1) % size];
+        self.error.assign(&place.last_term);
+        self.error.make_absolute();
+        Some(Estimate { value: &place.value, error: &self.error, order: self.m as u32, q: &place.q, p: &place.p })
+    }
+}
+
+/// Two different elements, to be changed both.
+fn two<T>(all: &mut [T], i: usize, k: usize) -> (&mut T, &mut T) {
+    if i < k {
+        let (left, right) = all.split_at_mut(k);
+        (&mut left[i], &mut right[0])
+    } else {
+        let (left, right) = all.split_at_mut(i);
+        (&mut right[0], &mut left[k])
+    }
+}

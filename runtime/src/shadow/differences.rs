@@ -1,0 +1,174 @@
+//! All T_{m,m}, m = 1..M, of every state from one table of differences.
+//!
+//! T_{m,m} is the sum of the first m terms of Stirling's series, and term k needs ∇^{2k−1} of (q, p, β) at the states
+//! n + k and n + k − 1 only. The table of backward differences of the newest state is updated with 2M vector
+//! subtractions a step; each difference serves two states and is reduced at once to the number that their term needs.
+
+use crate::Rational;
+use crate::number::Number;
+use crate::shadow::{Estimate, Estimator};
+use crate::weights::stirling;
+
+/// When the search for the best m ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// At the largest m allowed.
+    Full,
+    /// At the first m ≥ 13 with max_{j=m−11..m−1} e_j ≤ max_{j=m−10..m} e_j, e_j = |T_{j,j} − T_{j−1,j−1}|
+    /// (Moan & Niesen, section 5.2).
+    Early,
+}
+
+/// How many successive terms the early stop looks at.
+const STOP_WINDOW: usize = 11;
+
+/// The best m of each state.
+#[derive(Clone, Debug)]
+pub struct AllOrders<N> {
+    largest: usize,
+    stop: Stop,
+    /// c_k/(4h): the halves of μ and of H̄ are in it.
+    coefficients: Vec<N>,
+    /// ∇^r of (q, p, β) at the newest state, r = 0..2M−1, and at the one before.
+    table: Vec<Vec<N>>,
+    previous: Vec<Vec<N>>,
+    /// The newest M + 1 states, the state k in place k mod (M + 1).
+    ring: Vec<Place<N>>,
+    pushed: usize,
+    errors: Vec<N>,
+    sum: N,
+    value: N,
+}
+
+#[derive(Clone, Debug)]
+struct Place<N> {
+    q: Vec<N>,
+    p: Vec<N>,
+    /// −qᵀδp + pᵀδq − δβ with δ = 2 μδ^{2k−1}, k = 1..M.
+    terms: Vec<N>,
+}
+
+impl<N: Number> AllOrders<N> {
+    pub(super) fn new(largest: u32, stop: Stop, h: &Rational, dimension: usize, context: &N::Context) -> Self {
+        assert!(largest >= 2, "the best m is looked for among 2, 3, …");
+        let size = largest as usize;
+        let zero = N::zero(context);
+        let numbers = |count| vec![zero.clone(); count];
+        let four_h = h * Rational::from_integer(4.into());
+        let table = vec![numbers(2 * dimension + 1); 2 * size];
+        AllOrders {
+            largest: size,
+            stop,
+            coefficients: stirling(largest).iter().map(|c| N::from_rational(&(c / &four_h), context)).collect(),
+            previous: table.clone(),
+            table,
+            ring: vec![Place { q: numbers(dimension), p: numbers(dimension), terms: numbers(size) }; size + 1],
+            pushed: 0,
+            errors: numbers(size),
+            sum: zero.clone(),
+            value: zero,
+        }
+    }
+
+    /// ∇^0, ∇^1, … of the newest state. β comes as its increment, which is its first difference.
+    fn update_table(&mut self, q: &[N], p: &[N], beta: &N) {
+        std::mem::swap(&mut self.table, &mut self.previous);
+        let dimension = q.len();
+        for (entry, value) in self.table[0].iter_mut().zip(q.iter().chain(p)) {
+            entry.assign(value);
+        }
+        for r in 1..self.table.len() {
+            let (lower, upper) = self.table.split_at_mut(r);
+            let components = if r == 1 { 2 * dimension } else { 2 * dimension + 1 };
+            for c in 0..components {
+                upper[0][c].assign_difference(&lower[r - 1][c], &self.previous[r - 1][c]);
+            }
+            if r == 1 {
+                upper[0][2 * dimension].assign(beta);
+            }
+        }
+    }
+
+    fn place(&mut self, q: &[N], p: &[N]) -> usize {
+        let newest = self.pushed % self.ring.len();
+        let place = &mut self.ring[newest];
+        place.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
+        place.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        self.pushed += 1;
+        newest
+    }
+
+    /// Term k of the state n needs ∇^{2k−1} at n + k − 1 and at n + k.
+    fn add_terms(&mut self, newest: usize) {
+        let size = self.ring.len();
+        for k in 1..=self.largest {
+            let difference = &self.table[2 * k - 1];
+            let begun = &mut self.ring[(newest + size - (k - 1)) % size];
+            begun.terms[k - 1].assign_zero();
+            begun.add(k, difference);
+            self.ring[(newest + size - k) % size].add(k, difference);
+        }
+    }
+
+    /// Sums the series at a state; returns the best m.
+    fn sum_up(&mut self, place: usize) -> usize {
+        self.sum.assign_zero();
+        let mut best = 0;
+        for m in 1..=self.largest {
+            let term = &self.ring[place].terms[m - 1];
+            self.sum.add_product(&self.coefficients[m - 1], term);
+            self.errors[m - 1].assign_product(&self.coefficients[m - 1], term);
+            self.errors[m - 1].make_absolute();
+            if m >= 2 && (best == 0 || self.errors[m - 1] < self.errors[best - 1]) {
+                best = m;
+                self.value.assign(&self.sum);
+            }
+            if self.stop == Stop::Early && self.stops_at(m) {
+                break;
+            }
+        }
+        best
+    }
+
+    fn stops_at(&self, m: usize) -> bool {
+        // errors[j − 1] is e_j, and e_2 is the first one that is a difference
+        m >= STOP_WINDOW + 2
+            && largest(&self.errors[m - STOP_WINDOW - 1..m - 1]) <= largest(&self.errors[m - STOP_WINDOW..m])
+    }
+}
+
+fn largest<N: PartialOrd>(numbers: &[N]) -> &N {
+    numbers.iter().reduce(|a, b| if a < b { b } else { a }).expect("the window is not empty")
+}
+
+impl<N: Number> Place<N> {
+    fn add(&mut self, k: usize, difference: &[N]) {
+        let (dq, rest) = difference.split_at(self.q.len());
+        let (dp, dbeta) = rest.split_at(self.q.len());
+        let term = &mut self.terms[k - 1];
+        for (((q, p), dq), dp) in self.q.iter().zip(&self.p).zip(dq).zip(dp) {
+            term.add_product(p, dq);
+            term.subtract_product(q, dp);
+        }
+        term.subtract(&dbeta[0]);
+    }
+}
+
+impl<N: Number> Estimator<N> for AllOrders<N> {
+    fn reach(&self) -> usize {
+        self.largest
+    }
+
+    fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
+        self.update_table(q, p, beta);
+        let newest = self.place(q, p);
+        self.add_terms(newest);
+        if self.pushed <= 2 * self.largest {
+            return None;
+        }
+        let centre = (newest + 1) % self.ring.len();
+        let best = self.sum_up(centre);
+        let Place { q, p, .. } = &self.ring[centre];
+        Some(Estimate { value: &self.value, error: &self.errors[best - 1], order: best as u32, q, p })
+    }
+}

@@ -1,0 +1,145 @@
+//! The weights of central differences, exact rationals.
+//!
+//! D_m y(0) = Σ_{j=1..m} d_{m,j} (y(jh) − y(−jh)) / h,  d_{m,j} = (−1)^{j+1} (m!)² / (j (m−j)! (m+j)!)
+//!
+//! (Moan & Niesen, eq. cdiff; they are the diagonal of the Richardson table.) The same D_m is the sum of the first m
+//! terms of Stirling's series: D_m y = Σ_{k=1..m} c_k μδ^{2k−1} y / h, c_1 = 1, c_{k+1} = −c_k k² / (2k (2k+1)).
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, LazyLock, Mutex};
+
+use num_bigint::BigInt;
+
+use crate::Rational;
+
+/// d_{m,1}, …, d_{m,m}; computed once for each m and shared.
+///
+/// ```
+/// use shadowstep::{exact, weights::central};
+/// assert_eq!(central(2)[..], [exact("2/3").unwrap(), exact("-1/12").unwrap()]);
+/// ```
+pub fn central(m: u32) -> Arc<[Rational]> {
+    static KNOWN: LazyLock<Mutex<BTreeMap<u32, Arc<[Rational]>>>> = LazyLock::new(Mutex::default);
+    // a panic elsewhere cannot leave a wrong entry: an entry is inserted whole
+    let mut known = KNOWN.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    known.entry(m).or_insert_with(|| computed(m)).clone()
+}
+
+/// Each weight from the one before: r_j = (m!)²/((m−j)!(m+j)!) has r_j = r_{j−1} (m−j+1)/(m+j).
+fn computed(m: u32) -> Arc<[Rational]> {
+    let mut ratio = Rational::from_integer(1.into());
+    (1..=m)
+        .map(|j| {
+            ratio *= Rational::new(BigInt::from(m - j + 1), BigInt::from(m + j));
+            let sign = if j % 2 == 1 { 1 } else { -1 };
+            &ratio * Rational::new(BigInt::from(sign), BigInt::from(j))
+        })
+        .collect()
+}
+
+/// c_1, …, c_m of Stirling's series.
+pub fn stirling(m: u32) -> Vec<Rational> {
+    let mut coefficient = Rational::from_integer(1.into());
+    (1..=u64::from(m))
+        .map(|k| {
+            let this = coefficient.clone();
+            coefficient *= Rational::new(-BigInt::from(k * k), BigInt::from(2 * k * (2 * k + 1)));
+            this
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_traits::Zero;
+
+    /// 1 … 60 and the two large ones of the paper's range.
+    fn orders() -> impl Iterator<Item = u32> {
+        (1..=60).chain([100, 200])
+    }
+
+    #[test]
+    fn closed_formula() {
+        let factorial = |n: u32| (1..=n).map(BigInt::from).product::<BigInt>();
+        for m in orders() {
+            for (j, weight) in (1..).zip(central(m).iter()) {
+                let sign = BigInt::from(if j % 2 == 1 { 1 } else { -1 });
+                let below = BigInt::from(j) * factorial(m - j) * factorial(m + j);
+                assert_eq!(*weight, Rational::new(sign * factorial(m) * factorial(m), below), "d_{{{m},{j}}}");
+            }
+        }
+    }
+
+    /// The definition: T_{j,1} = δ_j/(2j) with δ_j = y_j − y_{−j}, h = 1, and
+    /// T_{j,k+1} = T_{j,k} + (T_{j,k} − T_{j−1,k})/((1−k/j)² − 1). Returns T_{1,1}, …, T_{M,M}.
+    fn richardson_diagonal(differences: &[Rational]) -> Vec<Rational> {
+        let one = Rational::from_integer(1.into());
+        let mut column: Vec<_> =
+            (1..).zip(differences).map(|(j, d)| d / Rational::from_integer((2 * j).into())).collect();
+        let mut diagonal = vec![column[0].clone()];
+        for k in 1..differences.len() {
+            for row in (1..column.len()).rev() {
+                let ratio = Rational::new(row.into(), (row + k).into()); // 1 − k/j with j = row + k
+                let step = (&column[row] - &column[row - 1]) / (&ratio * &ratio - &one);
+                column[row] += step;
+            }
+            column.remove(0);
+            diagonal.push(column[0].clone());
+        }
+        diagonal
+    }
+
+    #[test]
+    fn richardson_triangle_up_to_60() {
+        for i in 0..60 {
+            // the weight of δ_i in every T_{m,m}
+            let mut unit = vec![Rational::zero(); 60];
+            unit[i] = Rational::from_integer(1.into());
+            for (m, value) in (1..).zip(richardson_diagonal(&unit)) {
+                assert_eq!(value, central(m).get(i).cloned().unwrap_or_else(Rational::zero), "d_{{{m},{}}}", i + 1);
+            }
+        }
+    }
+
+    /// Two linear forms in 200 variables that agree at random integers are equal, but for a chance below 2⁻⁶⁰.
+    #[test]
+    fn richardson_triangle_at_100_and_200() {
+        let mut random = 0x9E37_79B9_7F4A_7C15_u64;
+        for _ in 0..4 {
+            let differences: Vec<_> = (0..200)
+                .map(|_| {
+                    random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                    Rational::from_integer((random >> 40).into())
+                })
+                .collect();
+            let diagonal = richardson_diagonal(&differences);
+            for m in [100, 200] {
+                let value: Rational = central(m).iter().zip(&differences).map(|(w, d)| w * d).sum();
+                assert_eq!(value, diagonal[m as usize - 1], "m = {m}");
+            }
+        }
+    }
+
+    /// μδ^{2k−1} y = ½ Σ_i (−1)^i C(2k−1, i) (y_{k−i} + y_{k−1−i})
+    #[test]
+    fn stirling_series() {
+        for m in orders() {
+            let size = m as usize;
+            let mut weights = vec![Rational::zero(); size + 1]; // of y_i; odd in i
+            for (k, coefficient) in (1..).zip(stirling(m)) {
+                let mut binomial = BigInt::from(1);
+                for i in 0..2 * k {
+                    let half = Rational::new(if i % 2 == 0 { binomial.clone() } else { -binomial.clone() }, 2.into());
+                    for place in [k as i64 - i as i64, k as i64 - 1 - i as i64] {
+                        if place > 0 {
+                            weights[place as usize] += &half * &coefficient;
+                        }
+                    }
+                    binomial = binomial * BigInt::from(2 * k - 1 - i) / BigInt::from(i + 1);
+                }
+            }
+            assert_eq!(weights[1..], central(m)[..], "m = {m}");
+        }
+    }
+}

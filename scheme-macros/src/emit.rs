@@ -1,0 +1,225 @@
+//! Plan of a step → Rust code.
+
+use std::path::PathBuf;
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+use shadowstep_schemes::proof::{HIGHEST_ORDER, Order};
+use shadowstep_schemes::{Kinetic, MapKind, Plan, Proved, to_text};
+use syn::{Ident, ItemStruct, LitStr};
+
+/// The struct with its documentation and its steps.
+pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> TokenStream {
+    let ItemStruct { attrs, vis, ident, .. } = item;
+    let plan = proved.plan();
+    let docs = documentation(proved, &plan);
+    let watched = watch(files);
+    let count = Literal::usize_unsuffixed(plan.kicks.len() + plan.drifts.len());
+    let names = weight_names(&plan);
+    let weights: Vec<_> = plan.kicks.iter().chain(&plan.drifts).map(to_text).collect();
+    let summary = summary(proved, &plan);
+    let forth: Vec<_> = plan.maps.clone();
+    let back: Vec<_> = plan.maps.iter().rev().copied().collect();
+    let step = step("step", "forward", &names, &forth, false);
+    let step_augmented = self::step("step_augmented", "forward", &names, &forth, true);
+    let step_back = self::step("step_back", "back", &names, &back, false);
+    let step_back_augmented = self::step("step_back_augmented", "back", &names, &back, true);
+    quote! {
+        #(#attrs)*
+        #(#[doc = #docs])*
+        #vis struct #ident;
+
+        #watched
+
+        impl ::shadowstep::Scheme for #ident {
+            type Array<N: ::shadowstep::Number> = [N; #count];
+
+            fn summary(&self) -> ::shadowstep::Summary<'_> {
+                #summary
+            }
+
+            fn weights<N: ::shadowstep::Number>(
+                &self,
+                h: &::shadowstep::Rational,
+                context: &N::Context,
+            ) -> ::shadowstep::Weights<[N; #count]> {
+                // h·w, rounded once
+                ::shadowstep::Weights::exact([#(#weights),*], h, context)
+            }
+
+            #step
+            #step_augmented
+            #step_back
+            #step_back_augmented
+        }
+    }
+}
+
+/// The struct with a body that compiles, and the faults as one compile error.
+pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &[PathBuf]) -> TokenStream {
+    let ItemStruct { attrs, vis, ident, .. } = item;
+    let error = syn::Error::new(table.span(), message).into_compile_error();
+    let watched = watch(files);
+    let steps = ["step", "step_augmented", "step_back", "step_back_augmented"].map(|name| {
+        let name = format_ident!("{name}");
+        quote! {
+            fn #name<N: ::shadowstep::Number, M: ::shadowstep::Maps<N>>(
+                &self,
+                _: &::shadowstep::Weights<[N; 0]>,
+                _: &mut M,
+            ) {
+            }
+        }
+    });
+    quote! {
+        #(#attrs)*
+        #vis struct #ident;
+
+        #error
+        #watched
+
+        impl ::shadowstep::Scheme for #ident {
+            type Array<N: ::shadowstep::Number> = [N; 0];
+            fn summary(&self) -> ::shadowstep::Summary<'_> {
+                ::core::unreachable!()
+            }
+            fn weights<N: ::shadowstep::Number>(
+                &self,
+                _: &::shadowstep::Rational,
+                _: &N::Context,
+            ) -> ::shadowstep::Weights<[N; 0]> {
+                ::core::unreachable!()
+            }
+            #(#steps)*
+        }
+    }
+}
+
+/// Makes the compiler rebuild when a table on disk changes.
+fn watch(files: &[PathBuf]) -> TokenStream {
+    let files = files.iter().map(|file| file.display().to_string());
+    quote! { #(const _: &[u8] = ::core::include_bytes!(#files);)* }
+}
+
+fn summary(proved: &Proved, plan: &Plan) -> TokenStream {
+    let name = &proved.scheme.table.name.value;
+    let [order, order_quadratic] =
+        [&proved.proof.general, &proved.proof.quadratic].map(|o| Literal::u32_unsuffixed(o.order));
+    let symmetric = proved.proof.symmetric;
+    let evaluations = Literal::usize_unsuffixed(plan.evaluations);
+    quote! {
+        ::shadowstep::Summary {
+            name: #name,
+            order: #order,
+            order_quadratic: #order_quadratic,
+            symmetric: #symmetric,
+            evaluations: #evaluations,
+        }
+    }
+}
+
+/// `kick_1, kick_2, …, drift_1, …`
+fn weight_names(plan: &Plan) -> Vec<Ident> {
+    let kicks = (0..plan.kicks.len()).map(|i| weight_name((MapKind::Kick, i)));
+    kicks.chain((0..plan.drifts.len()).map(|i| weight_name((MapKind::Drift, i)))).collect()
+}
+
+fn weight_name((kind, index): (MapKind, usize)) -> Ident {
+    format_ident!("{kind}_{}", index + 1, kind = kind.to_string())
+}
+
+fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)], augmented: bool) -> TokenStream {
+    let (name, direction) = (format_ident!("{name}"), format_ident!("{direction}"));
+    let count = Literal::usize_unsuffixed(names.len());
+    let maps = maps.iter().map(|&map| {
+        let weight = weight_name(map);
+        match (map.0, augmented) {
+            (MapKind::Kick, false) => quote! { motion.kick(#weight); },
+            (MapKind::Kick, true) => quote! { motion.kick_augmented(#weight); },
+            (MapKind::Drift, _) => quote! { motion.drift(#weight); },
+        }
+    });
+    let begin = augmented.then(|| quote! { motion.restart_beta(); });
+    quote! {
+        #[inline]
+        fn #name<N: ::shadowstep::Number, M: ::shadowstep::Maps<N>>(
+            &self,
+            weights: &::shadowstep::Weights<[N; #count]>,
+            motion: &mut M,
+        ) {
+            let [#(#names),*] = &weights.#direction;
+            #begin
+            #(#maps)*
+        }
+    }
+}
+
+fn documentation(proved: &Proved, plan: &Plan) -> Vec<String> {
+    let table = &proved.scheme.table;
+    let title = table.title.as_deref().unwrap_or(&table.name.value);
+    let cost = plan.cost();
+    let kept = if plan.keeps_gradient() { " (the gradient of the last kick serves the next step)" } else { "" };
+    let kinetic = match table.kinetic {
+        Kinetic::Any => "every kinetic energy T(p)",
+        Kinetic::Quadratic => "quadratic kinetic energy",
+    };
+    let doi = table.doi.as_ref().map_or(String::new(), |doi| format!(", <https://doi.org/{doi}>"));
+    vec![
+        String::new(),
+        format!(" {title}: `{}`, meant for {kinetic}.", table.name.value),
+        String::new(),
+        format!(
+            " - Order {} for every T(p), order {} for quadratic T: proved.",
+            order(&proved.proof.general),
+            order(&proved.proof.quadratic)
+        ),
+        format!(
+            " - {} stages: {} kicks and {} drifts, {}.",
+            proved.scheme.kick.len(),
+            plan.count(MapKind::Kick),
+            plan.count(MapKind::Drift),
+            if proved.proof.symmetric { "symmetric" } else { "not symmetric" }
+        ),
+        format!(
+            " - A step costs {}{kept}, and {products} multiplications and {products} additions per dimension with unit masses; β adds {beta} of both.",
+            evaluations(plan.evaluations),
+            products = cost.products_per_dimension,
+            beta = cost.products_for_beta
+        ),
+        format!(" - Reference: {}{doi}.", table.reference),
+    ]
+}
+
+fn evaluations(count: usize) -> String {
+    if count == 1 { "1 gradient".to_owned() } else { format!("{count} gradients") }
+}
+
+fn order(order: &Order) -> String {
+    let least = if order.failed.is_none() && order.order == HIGHEST_ORDER { " or more" } else { "" };
+    match order.digits {
+        None => format!("{}{least} (exactly)", order.order),
+        Some(digits) => format!("{}{least} (to {digits} digits)", order.order),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowstep_schemes::{read, shipped};
+
+    #[test]
+    fn generated_code_of_every_shipped_table() {
+        insta::glob!("../../schemes/tables", "*.toml", |path| {
+            let name = path.file_stem().unwrap().to_str().unwrap();
+            let proved = read(&shipped(name).unwrap(), &|base, _| shipped(base)).unwrap();
+            let ident = quote::format_ident!("{}", name.split('-').map(capitalised).collect::<String>());
+            let item = syn::parse_quote! { pub struct #ident; };
+            let code = super::scheme(&item, &proved, &[]);
+            let file = syn::parse2(code).expect("generated code is Rust");
+            insta::assert_snapshot!(prettyplease::unparse(&file));
+        });
+    }
+
+    fn capitalised(word: &str) -> String {
+        word[..1].to_uppercase() + &word[1..]
+    }
+}

@@ -1,0 +1,52 @@
+//! `#[splitting_scheme("yoshida4.toml")]`: a table of exact weights becomes straight-line steps.
+//!
+//! The macro is a thin shell: `locate` finds the table, the `shadowstep-schemes` crate proves it, `emit` writes the
+//! code. Use it through the `shadowstep` crate, which re-exports it.
+
+mod arguments;
+mod emit;
+mod locate;
+
+use proc_macro::TokenStream;
+use shadowstep_schemes::{Faults, Proved, read, read_first};
+use syn::parse_macro_input;
+
+use arguments::{Arguments, UnitStruct};
+use locate::Locator;
+
+/// Gives a unit struct the steps of the splitting scheme in a table.
+///
+/// ```ignore
+/// #[splitting_scheme("yoshida4.toml")]
+/// pub struct Yoshida4;
+///
+/// #[splitting_scheme("yoshida4.toml", first = "drift")]
+/// pub struct DriftFirst;
+/// ```
+///
+/// The table is looked for beside the source file, then in the crate's root, then among the shipped ones. Its claims
+/// are proved; a claim that does not hold is a compile error that names the condition which fails. The struct gets
+/// `shadowstep::Scheme`: `step`, `step_augmented` (carries β), `step_back` and `step_back_augmented`, written out map
+/// by map, and documentation with orders, cost and source.
+#[proc_macro_attribute]
+pub fn splitting_scheme(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    let arguments = parse_macro_input!(arguments as Arguments);
+    let item = parse_macro_input!(item as UnitStruct).0;
+    let here = arguments.table.span().unwrap().local_file();
+    let locator = Locator::new(here.as_deref(), std::env::var_os("CARGO_MANIFEST_DIR").as_deref());
+    let code = match prove(&arguments, &locator) {
+        Ok(proved) => emit::scheme(&item, &proved, &locator.files()),
+        Err(message) => emit::refused(&item, &arguments.table, &message, &locator.files()),
+    };
+    code.into()
+}
+
+fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
+    let source = locator.find(&arguments.table.value())?;
+    let library = |name: &str, from: &_| locator.base(name, from);
+    match arguments.first {
+        Some(first) => read_first(&source, &library, first),
+        None => read(&source, &library),
+    }
+    .map_err(|faults: Faults| faults.to_string())
+}

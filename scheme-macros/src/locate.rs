@@ -1,0 +1,91 @@
+//! Where a table is: beside the source file, in the crate's root, among the shipped ones.
+
+use std::cell::RefCell;
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use shadowstep_schemes::{Source, nearest, shipped, shipped_names};
+
+/// Finds tables and remembers which files were read.
+pub(crate) struct Locator {
+    folders: Vec<PathBuf>,
+    files: RefCell<Vec<PathBuf>>,
+}
+
+impl Locator {
+    /// Looks in the folder of the source file and in the crate's root, where they are known.
+    pub(crate) fn new(source_file: Option<&Path>, crate_root: Option<&OsStr>) -> Locator {
+        let beside = source_file.and_then(Path::parent).map(Path::to_path_buf);
+        let root = crate_root.map(PathBuf::from);
+        let mut folders: Vec<_> = beside.into_iter().chain(root).map(|f| f.canonicalize().unwrap_or(f)).collect();
+        folders.dedup();
+        Locator { folders, files: RefCell::default() }
+    }
+
+    /// The table that the attribute names.
+    ///
+    /// # Errors
+    /// One sentence with all places looked at and the nearest names.
+    pub(crate) fn find(&self, name: &str) -> Result<Source, String> {
+        for folder in &self.folders {
+            if let Some(source) = self.read(&folder.join(name), name)? {
+                return Ok(source);
+            }
+        }
+        shipped(name).ok_or_else(|| self.not_found(name))
+    }
+
+    /// The base table of a composition: beside the table that names it, then as [`Locator::find`].
+    pub(crate) fn base(&self, name: &str, from: &Source) -> Option<Source> {
+        let file = if name.ends_with(".toml") { name.to_owned() } else { format!("{name}.toml") };
+        let shown = Path::new(&from.path).with_file_name(&file).display().to_string();
+        let beside = self.files.borrow().iter().find(|f| f.ends_with(&from.path)).map(|f| f.with_file_name(&file));
+        match beside.map(|path| self.read(&path, &shown)) {
+            Some(Ok(Some(source))) => Some(source),
+            _ => self.find(&file).ok(),
+        }
+    }
+
+    /// The files read, for the compiler to watch.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        self.files.borrow().clone()
+    }
+
+    fn read(&self, path: &Path, name: &str) -> Result<Option<Source>, String> {
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let text = fs::read_to_string(path).map_err(|e| format!("{} cannot be read: {e}", path.display()))?;
+        self.files.borrow_mut().push(path.to_path_buf());
+        Ok(Some(Source { path: name.to_owned(), text }))
+    }
+
+    fn not_found(&self, name: &str) -> String {
+        let names = shipped_names();
+        let stem = name.strip_suffix(".toml").unwrap_or(name);
+        let hint =
+            match self.nearest_file(name).or_else(|| nearest(stem, names.iter().copied()).map(|n| format!("{n}.toml")))
+            {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => format!("shipped are {}", names.join(", ")),
+            };
+        let mut message = format!("there is no table \"{name}\"; looked\n");
+        for folder in &self.folders {
+            message += &format!("  in {}\n", folder.display());
+        }
+        message + &format!("  among the {} shipped tables\n  help: {hint}", names.len())
+    }
+
+    fn nearest_file(&self, name: &str) -> Option<String> {
+        let files: Vec<String> = self
+            .folders
+            .iter()
+            .filter_map(|folder| fs::read_dir(folder).ok())
+            .flatten()
+            .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+            .filter(|file| file.ends_with(".toml") && file != "Cargo.toml")
+            .collect();
+        nearest(name, files.iter().map(String::as_str)).map(str::to_owned)
+    }
+}

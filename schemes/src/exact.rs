@@ -1,0 +1,171 @@
+//! Cells → exact rationals: constants, dependent weights, compositions.
+//!
+//! A closed form such as `1/(2 - 2^(1/3))` is rounded once, to a rational of [`DIGITS`] digits; whatever is
+//! derived from it by `1 - 2*g1` is exact again, so that the weights sum to exactly 1.
+
+use std::collections::BTreeMap;
+
+use num_traits::{Signed, ToPrimitive, Zero};
+use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_symbolic::{Exact, Rational, evaluate, nearest, nearest_few, parse};
+
+use crate::fault::{Fault, Faults, Source};
+use crate::scheme::{Held, Scheme, merged, stages_of};
+use crate::shipped::shipped_names;
+use crate::table::{self, Cell, Placed, Table, Weights};
+
+/// Digits to which an irrational constant is rounded.
+pub const DIGITS: u32 = 300;
+
+/// The largest weight that is taken for a weight and not for a slip.
+const LARGEST_WEIGHT: u32 = 1000;
+
+/// The most stages a table may have, compositions written out.
+const MOST_STAGES: usize = 2000;
+
+/// Finds the table that a composition names as its base, as seen from the table that names it.
+pub type Library<'a> = &'a dyn Fn(&str, &Source) -> Option<Source>;
+
+/// Reads a table and evaluates its cells; nothing is proved yet.
+///
+/// # Errors
+/// All faults of the text and of its cells; for a composition those of its base as well.
+pub fn scheme(source: &Source, library: Library<'_>) -> Result<Scheme, Faults> {
+    scheme_within(source, library, &[])
+}
+
+fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> Result<Scheme, Faults> {
+    let table = table::parse(source)?;
+    let mut cells = Cells { source, known: BTreeMap::new(), rounded: false, faults: Vec::new() };
+    cells.constants(&table.constants);
+    let (kick, drift, held) = match &table.weights {
+        Weights::Stages { kick, drift, .. } => {
+            let (kick, drift) = (cells.weights(kick), cells.weights(drift));
+            (kick, drift, held(&table, cells.rounded))
+        }
+        Weights::Composition { base, gamma } => {
+            let gamma = cells.weights(gamma);
+            let base = base_scheme(&table, base, library, above)?;
+            if gamma.len() * base.kick.len() > MOST_STAGES {
+                let message = format!("{} stages are an absurd size", gamma.len() * base.kick.len());
+                cells
+                    .faults
+                    .push(source.fault(&table.name.at, message).help(format!("at most {MOST_STAGES} stages are read")));
+            }
+            let held = held(&table, cells.rounded).weaker(base.held);
+            let (kick, drift) = stages_of(&merged(&scaled(&gamma, &base.kick), &scaled(&gamma, &base.drift)));
+            (kick, drift, held)
+        }
+    };
+    if kick.len() > MOST_STAGES {
+        let message = format!("{} stages are an absurd size", kick.len());
+        cells.faults.push(source.fault(&table.name.at, message).help(format!("at most {MOST_STAGES} are read")));
+    }
+    match Faults::of(cells.faults) {
+        Some(faults) => Err(faults),
+        None => Ok(Scheme { table, kick, drift, held }),
+    }
+}
+
+fn held(table: &Table, rounded: bool) -> Held {
+    match &table.digits {
+        Some(digits) => Held::Digits(digits.value),
+        None if rounded => Held::Digits(DIGITS),
+        None => Held::Exactly,
+    }
+}
+
+fn base_scheme(table: &Table, base: &Placed<String>, library: Library<'_>, above: &[String]) -> Result<Scheme, Faults> {
+    let source = &table.source;
+    let fault = |message: String, help: String| Faults(vec![source.fault(&base.at, message).help(help)]);
+    let Some(found) = library(&base.value, source) else {
+        let names = shipped_names();
+        let help = match nearest(&base.value, names.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("shipped are {}", nearest_few(&base.value, names.iter().copied(), 3).join(", ")),
+        };
+        return Err(fault(format!("there is no table `{}`", base.value), help));
+    };
+    let mut chain = above.to_vec();
+    chain.push(source.path.clone());
+    if chain.contains(&found.path) {
+        let help = "a composition must end at a table with [stages]";
+        return Err(fault(format!("this composition is cyclic: {} → {}", chain.join(" → "), found.path), help.into()));
+    }
+    scheme_within(&found, library, &chain)
+}
+
+/// γ_1·w_1, …, γ_1·w_S, γ_2·w_1, …
+fn scaled(gamma: &[Rational], weights: &[Rational]) -> Vec<Rational> {
+    gamma.iter().flat_map(|g| weights.iter().map(move |w| g * w)).collect()
+}
+
+/// Evaluates cells in the order of the text, collecting faults.
+struct Cells<'a> {
+    source: &'a Source,
+    known: BTreeMap<String, Exact>,
+    rounded: bool,
+    faults: Vec<Fault>,
+}
+
+impl Cells<'_> {
+    fn constants(&mut self, constants: &[(Placed<String>, Cell)]) {
+        for (name, cell) in constants {
+            // a constant that cannot be read stands as 1, so that its users do not add faults of their own
+            let one = Exact { value: Rational::from_integer(1.into()), rounded: false };
+            let value = self.cell(cell).unwrap_or(one);
+            self.known.insert(name.value.clone(), value);
+        }
+    }
+
+    fn weights(&mut self, cells: &[Cell]) -> Vec<Rational> {
+        let weight = |cell| {
+            let value = self.cell(cell).map_or_else(Rational::zero, |exact| {
+                self.rounded |= exact.rounded;
+                exact.value
+            });
+            if value.abs() > Rational::from_integer(LARGEST_WEIGHT.into()) {
+                let message = format!("a weight of {} is an absurd size", to_significant(&value, 6));
+                let help = format!("weights are fractions of a step, at most {LARGEST_WEIGHT}");
+                self.faults.push(self.source.fault(&cell.at, message).help(help));
+            }
+            value
+        };
+        cells.iter().map(weight).collect()
+    }
+
+    fn cell(&mut self, cell: &Cell) -> Option<Exact> {
+        let place = |range: &std::ops::Range<usize>| cell.at.start + range.start..cell.at.start + range.end;
+        let expression = match parse(&cell.value) {
+            Ok(expression) => expression,
+            Err(error) => {
+                self.faults.push(self.source.fault(&place(&error.range), error.to_string()));
+                return None;
+            }
+        };
+        match evaluate(&expression, &self.known, DIGITS) {
+            Ok(value) => Some(value),
+            Err(error) => {
+                self.faults.push(self.source.fault(&place(&error.range), error.to_string()));
+                None
+            }
+        }
+    }
+}
+
+/// The number of decimal digits of which `uncertainty` is one unit, rounded down; `None` for 0.
+pub(crate) fn digits_of(uncertainty: &Rational) -> Option<u32> {
+    if uncertainty.is_zero() {
+        return None;
+    }
+    // bit lengths first: f64 has no room for 1e-400
+    let bits = uncertainty.denom().bits() as f64 - uncertainty.numer().bits() as f64;
+    let shift = bits as i32;
+    let scaled = if shift >= 0 {
+        uncertainty * Rational::from_integer(num_bigint::BigInt::from(1) << shift as usize)
+    } else {
+        uncertainty / Rational::from_integer(num_bigint::BigInt::from(1) << (-shift) as usize)
+    };
+    let log10 = scaled.to_f64().unwrap_or(1.0).abs().log10() - f64::from(shift) * std::f64::consts::LOG10_2;
+    Some((-log10).floor().max(0.0).to_u32().unwrap_or(u32::MAX))
+}

@@ -1,0 +1,39 @@
+//! What a splitting scheme is: a table of exact numbers, and the proof of what the table claims.
+//!
+//! The files are the pipeline, in order:
+//!
+//! | file | from → to |
+//! | --- | --- |
+//! | [`table`] | TOML text → cells with their places |
+//! | [`exact`] | cells → exact rationals |
+//! | [`scheme`] | weights a_s, b_s → the sequence of kicks and drifts |
+//! | [`order`], [`nystrom`] | kicks and drifts → order conditions, general and for quadratic T |
+//! | [`proof`] | claims against conditions → a proved scheme, or faults |
+//! | [`stage`] | proved scheme → the plan of a step: maps, shared constants, cost |
+//!
+//! ```
+//! use shadowstep_schemes::{read, shipped};
+//!
+//! let proved = read(&shipped("yoshida4").unwrap(), &|name, _| shipped(name)).unwrap();
+//! assert_eq!(proved.proof.general.order, 4);
+//! assert_eq!(proved.plan().evaluations, 3);
+//! ```
+
+mod arithmetic;
+pub mod exact;
+pub mod fault;
+pub mod nystrom;
+pub mod order;
+pub mod proof;
+pub mod scheme;
+mod shipped;
+pub mod stage;
+pub mod table;
+
+pub use fault::{Fault, Faults, Source};
+pub use proof::{Proof, Proved, prove, read, read_first};
+pub use scheme::{First, Kinetic, Map, MapKind, Scheme};
+pub use shadowstep_symbolic::decimal::{to_significant, to_text};
+pub use shadowstep_symbolic::{Rational, nearest};
+pub use shipped::{shipped, shipped_names};
+pub use stage::{Cost, Plan};

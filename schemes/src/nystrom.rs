@@ -1,0 +1,166 @@
+//! Order conditions for quadratic T: bicoloured rooted trees in which a drift has at most one child.
+//!
+//! With T = ½pᵀM⁻¹p the elementary differentials of a splitting are the trees whose nodes alternate between kicks
+//! and drifts, and whose drifts, being linear in p, carry at most one kick (Runge–Kutta–Nyström trees: Hairer, Lubich
+//! & Wanner, *Geometric Numerical Integration*, III.2; Calvo & Sanz-Serna 1993). A tree's value is the sum, over
+//! all ways to place its nodes at maps of the step so that each child acts before its parent, of the product of the
+//! weights; the exact flow has 1/γ(t), γ(t) the product of the sizes of all subtrees.
+//!
+//! Dropping the words that have more kicks than drifts + 1 would not do: the Lie brackets which vanish generate an
+//! ideal, and from five letters on its members lie among words that stay. The trees are the functionals that do not
+//! see that ideal. Some of them are redundant for a symplectic scheme; that costs time, not truth.
+
+use shadowstep_symbolic::Rational;
+
+use crate::arithmetic::Arithmetic;
+use crate::order::Condition;
+use crate::scheme::{Map, MapKind};
+
+/// A tree whose root is a kick: its children are drifts, each given by the kick below it.
+struct KickTree {
+    /// For each child the index of the kick tree on that drift, or `None` for a bare drift; sorted.
+    children: Vec<Option<usize>>,
+    size: u32,
+    /// γ(t)
+    density: u64,
+}
+
+/// The conditions of orders 1..=`order` for quadratic T and their values for a sequence of maps.
+pub(crate) fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
+    let trees = kick_trees(order);
+    let weights: Vec<_> = maps.iter().map(|map| arithmetic.weight(&map.weight)).collect();
+    let bare = vec![arithmetic.one(); maps.len()];
+    let (bare_before, bare_value) = drift_sums(&bare, maps, &weights, arithmetic);
+    let mut conditions = vec![(condition("D", 1, 1), bare_value)];
+
+    let mut before: Vec<Vec<A::Value>> = Vec::new();
+    for (i, tree) in trees.iter().enumerate() {
+        let at_kicks = product_of_children(tree, &bare_before, &before, maps, arithmetic);
+        let (kicked_before, value) = sums(MapKind::Kick, &at_kicks, maps, &weights, arithmetic);
+        let name = name(&trees, i);
+        conditions.push((condition(&name, tree.size, tree.density), value));
+        if tree.size < order {
+            let (drifted_before, value) = drift_sums(&kicked_before, maps, &weights, arithmetic);
+            let size = tree.size + 1;
+            conditions.push((condition(&format!("D[{name}]"), size, tree.density * u64::from(size)), value));
+            before.push(drifted_before);
+        }
+    }
+    conditions.sort_by_key(|(condition, _)| condition.order);
+    conditions
+}
+
+fn condition(name: &str, size: u32, density: u64) -> Condition {
+    Condition { order: size, name: format!("the tree {name}"), needed: Rational::new(1.into(), density.into()) }
+}
+
+fn drift_sums<A: Arithmetic>(
+    at_drifts: &[A::Value],
+    maps: &[Map],
+    weights: &[A::Value],
+    arithmetic: &A,
+) -> (Vec<A::Value>, A::Value) {
+    sums(MapKind::Drift, at_drifts, maps, weights, arithmetic)
+}
+
+/// Σ w_r·v_r over the maps r of one kind before each map, and over all of them.
+fn sums<A: Arithmetic>(
+    kind: MapKind,
+    values: &[A::Value],
+    maps: &[Map],
+    weights: &[A::Value],
+    arithmetic: &A,
+) -> (Vec<A::Value>, A::Value) {
+    let mut sum = arithmetic.zero();
+    let before = (0..maps.len())
+        .map(|r| {
+            let before = sum.clone();
+            if maps[r].kind == kind {
+                arithmetic.add_product(&mut sum, &weights[r], &values[r]);
+            }
+            before
+        })
+        .collect();
+    (before, sum)
+}
+
+fn product_of_children<A: Arithmetic>(
+    tree: &KickTree,
+    bare: &[A::Value],
+    before: &[Vec<A::Value>],
+    maps: &[Map],
+    arithmetic: &A,
+) -> Vec<A::Value> {
+    let mut product = vec![arithmetic.one(); maps.len()];
+    for child in &tree.children {
+        let factor = child.map_or(bare, |kick| &before[kick]);
+        for r in (0..maps.len()).filter(|&r| maps[r].kind == MapKind::Kick) {
+            product[r] = arithmetic.product(&product[r], &factor[r]);
+        }
+    }
+    product
+}
+
+/// All trees with a kick as root and at most `largest` nodes, smaller ones first.
+fn kick_trees(largest: u32) -> Vec<KickTree> {
+    let mut trees: Vec<KickTree> = Vec::new();
+    for size in 1..=largest {
+        let mut forests = Vec::new();
+        grow(&trees, size - 1, None, &mut Vec::new(), &mut forests);
+        for children in forests {
+            let below: u64 = children.iter().map(|c| drift_density(&trees, *c)).product();
+            trees.push(KickTree { children, size, density: below * u64::from(size) });
+        }
+    }
+    trees
+}
+
+/// Completes `forest` with children not before `least` to `room` more nodes, in all ways.
+fn grow(
+    trees: &[KickTree],
+    room: u32,
+    least: Option<usize>,
+    forest: &mut Vec<Option<usize>>,
+    found: &mut Vec<Vec<Option<usize>>>,
+) {
+    if room == 0 {
+        found.push(forest.clone());
+        return;
+    }
+    let kicks = (least.unwrap_or(0)..trees.len()).map(Some);
+    for child in (least.is_none().then_some(None)).into_iter().chain(kicks) {
+        let size = drift_size(trees, child);
+        if size <= room {
+            forest.push(child);
+            grow(trees, room - size, child, forest, found);
+            forest.pop();
+        }
+    }
+}
+
+fn drift_size(trees: &[KickTree], child: Option<usize>) -> u32 {
+    child.map_or(1, |kick| trees[kick].size + 1)
+}
+
+fn drift_density(trees: &[KickTree], child: Option<usize>) -> u64 {
+    child.map_or(1, |kick| trees[kick].density * u64::from(trees[kick].size + 1))
+}
+
+fn name(trees: &[KickTree], index: usize) -> String {
+    let child = |child: &Option<usize>| child.map_or("D".to_owned(), |kick| format!("D[{}]", name(trees, kick)));
+    let children: Vec<_> = trees[index].children.iter().map(child).collect();
+    if children.is_empty() { "K".to_owned() } else { format!("K[{}]", children.join(" ")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trees_are_as_many_as_the_literature_counts() {
+        let trees = kick_trees(10);
+        let count = |n| trees.iter().filter(|t| t.size == n).count();
+        // special Nyström trees: Hairer, Nørsett & Wanner, Solving ODEs I, II.14
+        assert_eq!((1..=10).map(count).collect::<Vec<_>>(), [1, 1, 2, 3, 6, 10, 20, 36, 72, 137]);
+    }
+}

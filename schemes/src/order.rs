@@ -1,0 +1,147 @@
+//! Order conditions for every T(p): Lyndon words of the product of exponentials.
+//!
+//! A step is the product exp(h a_1 K) exp(h b_1 D) exp(h a_2 K) … of the Lie derivatives K of the kick and D of the
+//! drift; the exact flow is exp(h (K + D)). Both are group-like elements of the algebra of words in K and D, so they
+//! agree up to order n if and only if the coefficients of the Lyndon words of at most n letters agree (the Lyndon
+//! words generate the shuffle algebra: Radford 1979; for splitting schemes Murua & Sanz-Serna, Phil. Trans. R. Soc.
+//! A 357 (1999) 957). The coefficient of a word of n letters in the exact flow is 1/n!.
+
+use shadowstep_symbolic::Rational;
+
+use crate::arithmetic::Arithmetic;
+use crate::scheme::{Map, MapKind};
+
+/// An order condition: what a scheme's value must be equal to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Condition {
+    /// The power of h that it concerns.
+    pub order: u32,
+    /// `the word KKD` or `the tree K[D D[K]]`.
+    pub name: String,
+    /// The value needed.
+    pub needed: Rational,
+}
+
+/// A word and its place in the tree of prefixes.
+struct Prefix {
+    last: MapKind,
+    /// Index of the word without its last letter; `None` is the empty word.
+    parent: Option<usize>,
+}
+
+/// The conditions of orders 1..=`order` for every T(p) and their values for a sequence of maps.
+pub(crate) fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
+    let mut prefixes = Vec::new();
+    let words: Vec<_> =
+        lyndon_words(order as usize).into_iter().map(|word| (insert(&mut prefixes, &word), word)).collect();
+    let coefficients = coefficients(maps, &prefixes, arithmetic);
+    let mut conditions: Vec<_> =
+        words.into_iter().map(|(index, word)| (condition(&word), coefficients[index].clone())).collect();
+    conditions.sort_by_key(|(condition, _)| condition.order);
+    conditions
+}
+
+fn condition(word: &[MapKind]) -> Condition {
+    let letters: String = word.iter().map(|kind| letter(*kind)).collect();
+    let factorial = (1..=word.len() as u64).product::<u64>();
+    Condition {
+        order: word.len() as u32,
+        name: format!("the word {letters}"),
+        needed: Rational::new(1.into(), factorial.into()),
+    }
+}
+
+pub(crate) fn letter(kind: MapKind) -> char {
+    match kind {
+        MapKind::Kick => 'K',
+        MapKind::Drift => 'D',
+    }
+}
+
+/// The Lyndon words over K < D of at most `longest` letters (Duval's algorithm), in lexicographic order.
+fn lyndon_words(longest: usize) -> Vec<Vec<MapKind>> {
+    let mut words = Vec::new();
+    let mut word = vec![MapKind::Kick];
+    loop {
+        words.push(word.clone());
+        let period = word.len();
+        word = (0..longest).map(|i| word[i % period]).collect();
+        while word.last() == Some(&MapKind::Drift) {
+            word.pop();
+        }
+        match word.last_mut() {
+            Some(last) => *last = MapKind::Drift,
+            None => return words,
+        }
+    }
+}
+
+/// Adds a word with all its prefixes; parents come before children.
+fn insert(prefixes: &mut Vec<Prefix>, word: &[MapKind]) -> usize {
+    let mut parent = None;
+    for &last in word {
+        let known = prefixes.iter().position(|p| p.parent == parent && p.last == last);
+        parent = Some(known.unwrap_or_else(|| {
+            prefixes.push(Prefix { last, parent });
+            prefixes.len() - 1
+        }));
+    }
+    parent.expect("a word has letters")
+}
+
+/// The coefficients of the prefixes in the product of the exponentials of the maps.
+fn coefficients<A: Arithmetic>(maps: &[Map], prefixes: &[Prefix], arithmetic: &A) -> Vec<A::Value> {
+    let longest_run = prefixes.len();
+    let mut values = vec![arithmetic.zero(); prefixes.len()];
+    for map in maps {
+        let powers = divided_powers(&arithmetic.weight(&map.weight), longest_run.min(10), arithmetic);
+        // children before parents: what is still to be read is not yet changed
+        for index in (0..prefixes.len()).rev().filter(|&i| prefixes[i].last == map.kind) {
+            let mut value = values[index].clone();
+            let mut ancestor = Some(index);
+            for power in &powers {
+                let Some(i) = ancestor.filter(|&i| prefixes[i].last == map.kind) else { break };
+                ancestor = prefixes[i].parent;
+                match ancestor {
+                    Some(i) => arithmetic.add_product(&mut value, power, &values[i]),
+                    None => arithmetic.add_product(&mut value, power, &arithmetic.one()),
+                }
+            }
+            values[index] = value;
+        }
+    }
+    values
+}
+
+/// w, w²/2!, w³/3!, …
+fn divided_powers<A: Arithmetic>(weight: &A::Value, count: usize, arithmetic: &A) -> Vec<A::Value> {
+    let mut powers = vec![weight.clone()];
+    for r in 2..=count as u32 {
+        let last = powers.last().expect("the first power is there");
+        powers.push(arithmetic.divide(&arithmetic.product(last, weight), r));
+    }
+    powers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lyndon_words_are_as_many_as_the_free_lie_algebra_has_dimensions() {
+        let words = lyndon_words(10);
+        let count = |n| words.iter().filter(|w| w.len() == n).count();
+        // Witt's formula for two generators
+        assert_eq!((1..=10).map(count).collect::<Vec<_>>(), [2, 1, 2, 3, 6, 9, 18, 30, 56, 99]);
+    }
+
+    #[test]
+    fn each_lyndon_word_is_smaller_than_its_rotations() {
+        for word in lyndon_words(8) {
+            let letters: Vec<char> = word.iter().map(|k| if *k == MapKind::Kick { 'a' } else { 'b' }).collect();
+            for i in 1..letters.len() {
+                assert!(letters < [&letters[i..], &letters[..i]].concat(), "{letters:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! Claims against conditions → a proved scheme, or faults.
+//!
+//! A condition *holds* if it is met exactly, or, where the weights are rounded to so many digits, if it is met as
+//! closely as one unit in the last digit of each weight can account for (a bound, with the rounding of the
+//! arithmetic itself included). How many digits really hold is reported.
+
+use num_traits::{FromPrimitive, Signed, Zero};
+use shadowstep_symbolic::Rational;
+use shadowstep_symbolic::decimal::{to_significant, to_text};
+
+use crate::arithmetic::{Arithmetic, ExactArithmetic, FixedPoint, Sensitivity};
+use crate::exact::{self, Library, digits_of};
+use crate::fault::{Fault, Faults, Source};
+use crate::order::Condition;
+use crate::scheme::{First, Held, Kinetic, Map, Scheme};
+use crate::stage::Plan;
+use crate::{nystrom, order};
+
+/// The highest order that is proved.
+pub const HIGHEST_ORDER: u32 = 10;
+
+/// The order that was proved for one class of kinetic energies.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Order {
+    /// All conditions up to this order hold.
+    pub order: u32,
+    /// To how many digits they hold: `None` for exactly.
+    pub digits: Option<u32>,
+    /// The first condition that fails, and the value found; `None` if none does up to [`HIGHEST_ORDER`].
+    pub failed: Option<(Condition, Rational)>,
+}
+
+/// What is true of a scheme.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Proof {
+    /// For every T(p).
+    pub general: Order,
+    /// For T = ½pᵀM⁻¹p.
+    pub quadratic: Order,
+    /// The step is a palindrome, exactly.
+    pub symmetric: bool,
+}
+
+/// A scheme, what was proved of it, and remarks on claims that say less than the truth.
+#[derive(Clone, Debug)]
+pub struct Proved {
+    /// The scheme.
+    pub scheme: Scheme,
+    /// What is true of it.
+    pub proof: Proof,
+    /// Sentences with places.
+    pub remarks: Vec<Fault>,
+}
+
+impl Proved {
+    /// The plan of a step.
+    pub fn plan(&self) -> Plan {
+        Plan::of(&self.scheme)
+    }
+
+    /// The order proved for the kinetic energies that the table is meant for.
+    pub fn order(&self) -> &Order {
+        self.proof.for_kinetic(self.scheme.table.kinetic)
+    }
+}
+
+impl Proof {
+    /// The order for a class of kinetic energies.
+    pub fn for_kinetic(&self, kinetic: Kinetic) -> &Order {
+        match kinetic {
+            Kinetic::Any => &self.general,
+            Kinetic::Quadratic => &self.quadratic,
+        }
+    }
+}
+
+/// Reads a table and proves what it claims.
+///
+/// # Errors
+/// All faults of the text, of the cells and of the claims; claims are looked at once the cells can be read.
+pub fn read(source: &Source, library: Library<'_>) -> Result<Proved, Faults> {
+    judge(exact::scheme(source, library)?)
+}
+
+/// Like [`read`], with the roles of kick and drift exchanged where `first` asks for it.
+///
+/// # Errors
+/// As [`read`]; also where the order claimed does not survive the exchange.
+pub fn read_first(source: &Source, library: Library<'_>, first: First) -> Result<Proved, Faults> {
+    judge(exact::scheme(source, library)?.starting_with(first))
+}
+
+/// Proves the orders of a scheme, whatever its table claims.
+pub fn prove(scheme: &Scheme) -> Proof {
+    let maps = scheme.maps();
+    let proved = |kinetic| {
+        let first_try = prove_up_to(&maps, scheme.held, kinetic, (scheme.table.order.value + 1).min(HIGHEST_ORDER));
+        match first_try.failed {
+            Some(_) => first_try,
+            None => prove_up_to(&maps, scheme.held, kinetic, HIGHEST_ORDER),
+        }
+    };
+    Proof { general: proved(Kinetic::Any), quadratic: proved(Kinetic::Quadratic), symmetric: scheme.is_symmetric() }
+}
+
+fn prove_up_to(maps: &[Map], held: Held, kinetic: Kinetic, highest: u32) -> Order {
+    let mut proved = Order { order: highest, digits: None, failed: None };
+    for condition in judged_conditions(maps, held, kinetic, highest) {
+        if proved.order >= condition.condition.order && !condition.holds() {
+            proved.order = condition.condition.order - 1;
+            proved.failed = Some((condition.condition, condition.found));
+            break;
+        }
+        let digits = digits_of(&condition.uncertainty());
+        proved.digits = match (proved.digits, digits) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            (known, None) => known,
+            (None, new) => new,
+        };
+    }
+    proved
+}
+
+/// A condition with its value and what the digits of the weights allow.
+struct Judged {
+    condition: Condition,
+    found: Rational,
+    /// Bound of the error of `found`.
+    error: Rational,
+    /// How far the value may be off.
+    tolerance: Rational,
+}
+
+impl Judged {
+    fn uncertainty(&self) -> Rational {
+        (&self.found - &self.condition.needed).abs() + &self.error
+    }
+
+    fn holds(&self) -> bool {
+        self.uncertainty() <= self.tolerance
+    }
+}
+
+fn judged_conditions(maps: &[Map], held: Held, kinetic: Kinetic, highest: u32) -> Vec<Judged> {
+    match held {
+        Held::Exactly => conditions(maps, kinetic, highest, &ExactArithmetic)
+            .into_iter()
+            .map(|(condition, found)| Judged { condition, found, error: Rational::zero(), tolerance: Rational::zero() })
+            .collect(),
+        Held::Digits(digits) => {
+            let arithmetic = FixedPoint::new(digits);
+            let unit = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(digits - 1));
+            let slopes = conditions(maps, kinetic, highest, &Sensitivity);
+            conditions(maps, kinetic, highest, &arithmetic)
+                .into_iter()
+                .zip(slopes)
+                .map(|((condition, value), (_, sensitive))| {
+                    let (found, error) = arithmetic.read(&value);
+                    let slope = Rational::from_f64(sensitive.slope).unwrap_or_else(Rational::zero);
+                    Judged { condition, found, error, tolerance: slope * &unit }
+                })
+                .collect()
+        }
+    }
+}
+
+fn conditions<A: Arithmetic>(
+    maps: &[Map],
+    kinetic: Kinetic,
+    highest: u32,
+    arithmetic: &A,
+) -> Vec<(Condition, A::Value)> {
+    match kinetic {
+        Kinetic::Any => order::conditions(maps, highest, arithmetic),
+        Kinetic::Quadratic => nystrom::conditions(maps, highest, arithmetic),
+    }
+}
+
+fn judge(scheme: Scheme) -> Result<Proved, Faults> {
+    let proof = prove(&scheme);
+    let (mut faults, mut remarks) = (Vec::new(), Vec::new());
+    judge_order(&scheme, &proof, &mut faults, &mut remarks);
+    judge_symmetry(&scheme, &proof, &mut faults, &mut remarks);
+    match Faults::of(faults) {
+        Some(faults) => Err(faults),
+        None => Ok(Proved { scheme, proof, remarks }),
+    }
+}
+
+fn judge_order(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks: &mut Vec<Fault>) {
+    let table = &scheme.table;
+    let claimed = table.order.value;
+    let order = proof.for_kinetic(table.kinetic);
+    let class = match table.kinetic {
+        Kinetic::Any => "for every T(p)",
+        Kinetic::Quadratic => "for quadratic T",
+    };
+    let at = &table.order.at;
+    if order.order > claimed {
+        let message = format!("order {claimed} is claimed, order {} holds {class}", order.order);
+        remarks.push(table.source.fault(at, message).help(format!("write `order = {}`", order.order)));
+    }
+    let Some((failed, found)) = order.failed.as_ref().filter(|_| order.order < claimed) else { return };
+    let fails = match failed.name.as_str() {
+        "the word K" | "the tree K" => "the kicks do not sum to 1".to_owned(),
+        "the word D" | "the tree D" => "the drifts do not sum to 1".to_owned(),
+        name => format!("the condition of {name} fails"),
+    };
+    let message = format!("order {claimed} is claimed, order {} holds {class}: {fails}", order.order);
+    let fault = table.source.fault(at, message).values(short(found), short(&failed.needed));
+    let distance = (found - &failed.needed).abs();
+    faults.push(match (digits_of(&distance), table.kinetic) {
+        (Some(digits), _) if digits >= 6 => fault.help(format!(
+            "the condition is off by {}: if the weights are rounded, say so with `digits = …`",
+            to_significant(&distance, 2)
+        )),
+        (_, Kinetic::Any) if proof.quadratic.order >= claimed => fault
+            .help(format!("order {} holds for quadratic T: write `kinetic = \"quadratic\"`", proof.quadratic.order)),
+        _ => fault,
+    });
+}
+
+fn judge_symmetry(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks: &mut Vec<Fault>) {
+    let table = &scheme.table;
+    match &table.symmetric {
+        Some(claim) if claim.value && !proof.symmetric => faults.push(not_a_palindrome(scheme, &claim.at)),
+        Some(claim) if !claim.value && proof.symmetric => {
+            remarks.push(table.source.fault(&claim.at, "the scheme is a palindrome").help("write `symmetric = true`"))
+        }
+        _ => {}
+    }
+}
+
+fn not_a_palindrome(scheme: &Scheme, at: &std::ops::Range<usize>) -> Fault {
+    let maps = scheme.maps();
+    let fault = scheme.table.source.fault(at, "a palindrome is claimed, the maps do not read the same backwards");
+    let pair = maps.iter().zip(maps.iter().rev()).enumerate().find(|(_, (a, b))| a != b);
+    match pair {
+        Some((i, (from_start, from_end))) => fault
+            .values(
+                format!("{} {} as map {} from the start", from_start.kind, short(&from_start.weight), i + 1),
+                format!("{} {}, the map {} from the end", from_end.kind, short(&from_end.weight), i + 1),
+            )
+            .help("correct the weights, or leave `symmetric` out"),
+        None => fault,
+    }
+}
+
+/// A value as people write it: exact if short, else rounded.
+fn short(value: &Rational) -> String {
+    let exact = to_text(value);
+    if exact.len() <= 20 { exact } else { format!("{}…", to_significant(value, 16)) }
+}

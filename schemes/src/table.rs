@@ -1,0 +1,396 @@
+//! TOML text → the cells of a table with their places.
+//!
+//! ```toml
+//! name = "yoshida4"
+//! title = "Yoshida's triple jump of order 4"      # optional
+//! order = 4                                       # claimed for the kinetic energy below
+//! kinetic = "any"                                 # "any" T(p), or "quadratic"
+//! symmetric = true                                # optional: the palindrome is claimed
+//! digits = 15                                     # optional: the cells are rounded to so many digits
+//! reference = "H. Yoshida, Phys. Lett. A 150 (1990) 262-268"
+//! doi = "10.1016/0375-9601(90)90092-3"            # optional
+//!
+//! [constants]                                     # optional, each from earlier ones
+//! g1 = "1/(2 - 2^(1/3))"
+//!
+//! [composition]                                   # either this …
+//! base = "stormer-verlet"
+//! gamma = ["g1", "1 - 2*g1", "g1"]
+//!
+//! [stages]                                        # … or this: kick, drift, kick, drift, …
+//! kick  = ["1/2", "1/2"]                          # a_s
+//! drift = [1, 0]                                  # b_s
+//! ```
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::fault::{Fault, Faults, Source};
+use crate::scheme::Kinetic;
+use shadowstep_symbolic::nearest;
+
+/// A value and its byte range in the table's text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placed<T> {
+    /// The value.
+    pub value: T,
+    /// Where it stands.
+    pub at: Range<usize>,
+}
+
+/// A cell: the text of an exact expression.
+pub type Cell = Placed<String>;
+
+/// A table as written, before any cell is evaluated.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// The text it was read from.
+    pub source: Source,
+    /// Short name, kebab-case.
+    pub name: Placed<String>,
+    /// A line for people.
+    pub title: Option<String>,
+    /// The order claimed for the kinetic energy `kinetic`.
+    pub order: Placed<u32>,
+    /// The kinetic energies the scheme is meant for.
+    pub kinetic: Kinetic,
+    /// Whether the scheme is claimed to be a palindrome.
+    pub symmetric: Option<Placed<bool>>,
+    /// How many digits of the cells are right, where they were rounded.
+    pub digits: Option<Placed<u32>>,
+    /// Who published it where.
+    pub reference: String,
+    /// Digital object identifier, without the resolver.
+    pub doi: Option<String>,
+    /// Named constants in the order of the text.
+    pub constants: Vec<(Placed<String>, Cell)>,
+    /// The weights.
+    pub weights: Weights,
+}
+
+/// The weights as written.
+#[derive(Clone, Debug)]
+pub enum Weights {
+    /// a_s and b_s of the stages s = 1..S.
+    Stages {
+        /// Kicks a_s.
+        kick: Vec<Cell>,
+        /// Drifts b_s.
+        drift: Vec<Cell>,
+        /// Where the stages are defined.
+        at: Range<usize>,
+    },
+    /// A base scheme with the steps γ_1 h, γ_2 h, ….
+    Composition {
+        /// Name or file of the base scheme's table.
+        base: Placed<String>,
+        /// The γ's.
+        gamma: Vec<Cell>,
+    },
+}
+
+const KEYS: [&str; 11] = [
+    "name",
+    "title",
+    "order",
+    "kinetic",
+    "symmetric",
+    "digits",
+    "reference",
+    "doi",
+    "constants",
+    "composition",
+    "stages",
+];
+
+/// Reads a table's text; all faults of the text are found in one go.
+///
+/// # Errors
+/// Faults of the TOML, unknown or missing or repeated keys, values of the wrong kind.
+pub fn parse(source: &Source) -> Result<Table, Faults> {
+    let (document, errors) = DeTable::parse_recoverable(&source.text);
+    let faults = errors
+        .iter()
+        .map(|e| source.fault(&e.span().unwrap_or(0..0), e.message().replace('\n', ", ")))
+        .collect::<Vec<_>>();
+    // a broken text makes follow-up faults; show the first cause only
+    if let Some(faults) = Faults::of(faults) {
+        return Err(faults);
+    }
+    let mut reader = Reader { source, faults: Vec::new() };
+    let table = reader.table(&document);
+    match (Faults::of(reader.faults), table) {
+        (None, Some(table)) => Ok(table),
+        (Some(faults), _) => Err(faults),
+        (None, None) => unreachable!("a missing table has a fault"),
+    }
+}
+
+/// Collects faults while it reads.
+struct Reader<'a> {
+    source: &'a Source,
+    faults: Vec<Fault>,
+}
+
+impl Reader<'_> {
+    fn fault(&mut self, at: &Range<usize>, message: impl Into<String>, help: impl Into<String>) {
+        self.faults.push(self.source.fault(at, message).help(help));
+    }
+
+    fn table(&mut self, document: &Spanned<DeTable<'_>>) -> Option<Table> {
+        let root = document.get_ref();
+        self.refuse_unknown(root, &KEYS, "a table");
+        let name = self.required(root, "name", "the scheme's short name, such as \"yoshida4\"");
+        let order = self.required(root, "order", "the order claimed, such as 4");
+        let kinetic = self.required(root, "kinetic", "\"any\" or \"quadratic\"");
+        let reference = self.required(root, "reference", "who published the scheme where");
+        let name = name.and_then(|v| self.text(v)).filter(|n| self.is_name(n));
+        let order = order.and_then(|v| self.whole(v, 1..=10, "orders from 1 to 10 can be proved"));
+        let kinetic = kinetic.and_then(|v| self.kinetic(v));
+        let reference = reference.and_then(|v| self.text(v));
+        let title = root.get("title").and_then(|v| self.text(v)).map(|t| t.value);
+        let doi = root.get("doi").and_then(|v| self.text(v)).filter(|d| self.is_doi(d));
+        let symmetric = root.get("symmetric").and_then(|v| self.truth(v));
+        let digits =
+            root.get("digits").and_then(|v| self.whole(v, 1..=300, "digits from 1 to 300 make sense in a table"));
+        let constants = self.constants(root);
+        let weights = self.weights(root);
+        Some(Table {
+            source: self.source.clone(),
+            name: name?,
+            title,
+            order: order?,
+            kinetic: kinetic?,
+            symmetric,
+            digits,
+            reference: reference?.value,
+            doi: doi.map(|d| d.value),
+            constants,
+            weights: weights?,
+        })
+    }
+
+    fn refuse_unknown(&mut self, table: &DeTable<'_>, known: &[&str], whose: &str) {
+        for key in table.keys() {
+            let word: &str = key.get_ref();
+            if !known.contains(&word) {
+                let help = match nearest(word, known.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("the keys of {whose} are {}", known.join(", ")),
+                };
+                self.fault(&key.span(), format!("unknown key `{word}`"), help);
+            }
+        }
+    }
+
+    fn required<'t, 'i>(&mut self, table: &'t DeTable<'i>, key: &str, what: &str) -> Option<&'t Spanned<DeValue<'i>>> {
+        let value = table.get(key);
+        if value.is_none() {
+            self.fault(&(0..0), format!("the key `{key}` is missing"), format!("add `{key} = …`: {what}"));
+        }
+        value
+    }
+
+    fn text(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Placed<String>> {
+        match value.get_ref() {
+            DeValue::String(text) if !text.trim().is_empty() => {
+                Some(Placed { value: text.trim().to_owned(), at: value.span() })
+            }
+            DeValue::String(_) => self.wrong(value, "this text is empty", "write something between the quotes"),
+            _ => self.wrong_kind(value, "a text in quotes"),
+        }
+    }
+
+    fn truth(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Placed<bool>> {
+        match value.get_ref() {
+            DeValue::Boolean(truth) => Some(Placed { value: *truth, at: value.span() }),
+            _ => self.wrong_kind(value, "true or false"),
+        }
+    }
+
+    fn whole(
+        &mut self,
+        value: &Spanned<DeValue<'_>>,
+        range: std::ops::RangeInclusive<u32>,
+        help: &str,
+    ) -> Option<Placed<u32>> {
+        let DeValue::Integer(number) = value.get_ref() else {
+            return self.wrong_kind(value, "a whole number");
+        };
+        match u32::from_str_radix(number.as_str(), number.radix()) {
+            Ok(n) if range.contains(&n) => Some(Placed { value: n, at: value.span() }),
+            _ => self.wrong(value, format!("{} is out of range", number.as_str()), help),
+        }
+    }
+
+    fn kinetic(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Kinetic> {
+        let word = self.text(value)?;
+        match word.value.as_str() {
+            "any" => Some(Kinetic::Any),
+            "quadratic" => Some(Kinetic::Quadratic),
+            other => self.wrong(
+                value,
+                format!("`{other}` is no kind of kinetic energy"),
+                "write \"any\" for every T(p), \"quadratic\" for T = ½pᵀM⁻¹p only",
+            ),
+        }
+    }
+
+    fn is_name(&mut self, name: &Placed<String>) -> bool {
+        let good = name.value.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
+        if !good {
+            self.fault(
+                &name.at,
+                format!("`{}` is no name for a scheme", name.value),
+                "use small letters, digits and hyphens, as in \"blanes-moan-s6\"",
+            );
+        }
+        good
+    }
+
+    fn is_doi(&mut self, doi: &Placed<String>) -> bool {
+        let good = doi.value.starts_with("10.") && doi.value.contains('/');
+        if !good {
+            let help = "a DOI looks like \"10.1016/0375-9601(90)90092-3\", without https://doi.org/";
+            self.fault(&doi.at, format!("`{}` is no DOI", doi.value), help);
+        }
+        good
+    }
+
+    fn constants(&mut self, root: &DeTable<'_>) -> Vec<(Placed<String>, Cell)> {
+        let Some(value) = root.get("constants") else { return Vec::new() };
+        let DeValue::Table(table) = value.get_ref() else {
+            self.wrong_kind::<()>(value, "a table of constants: [constants]");
+            return Vec::new();
+        };
+        let mut constants = Vec::new();
+        for (key, value) in table {
+            let name = Placed { value: key.get_ref().to_string(), at: key.span() };
+            if !is_constant_name(&name.value) {
+                let help = "a constant's name starts with a letter and goes on with letters, digits and _";
+                self.fault(&name.at, format!("`{}` is no name for a constant", name.value), help);
+            } else if let Some(cell) = self.cell(value) {
+                constants.push((name, cell));
+            }
+        }
+        constants.sort_by_key(|(name, _)| name.at.start);
+        constants
+    }
+
+    fn weights(&mut self, root: &DeTable<'_>) -> Option<Weights> {
+        match (root.get("stages"), root.get("composition")) {
+            (Some(stages), None) => self.stages(stages),
+            (None, Some(composition)) => self.composition(composition),
+            (Some(_), Some(both)) => self.wrong(both, "stages and a composition are both given", "keep one of the two"),
+            (None, None) => {
+                let help = "add [stages] with kick and drift, or [composition] with base and gamma";
+                self.fault(&(0..0), "the weights are missing", help);
+                None
+            }
+        }
+    }
+
+    fn stages(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Weights> {
+        let DeValue::Table(table) = value.get_ref() else {
+            return self.wrong_kind(value, "a table: [stages] with kick and drift");
+        };
+        self.refuse_unknown(table, &["kick", "drift"], "[stages]");
+        let kick = self.member(table, value, "kick").and_then(|v| self.cells(v));
+        let drift = self.member(table, value, "drift").and_then(|v| self.cells(v));
+        let (kick, drift) = (kick?, drift?);
+        if kick.len() != drift.len() {
+            let at = table.get("drift").map_or(value.span(), Spanned::span);
+            let help = "each stage is a kick and then a drift; write 0 where there is none";
+            self.faults.push(
+                self.source
+                    .fault(&at, "kick and drift must have as many weights as there are stages")
+                    .values(format!("{} kicks and {} drifts", kick.len(), drift.len()), "as many of both")
+                    .help(help),
+            );
+            return None;
+        }
+        Some(Weights::Stages { kick, drift, at: value.span() })
+    }
+
+    fn composition(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Weights> {
+        let DeValue::Table(table) = value.get_ref() else {
+            return self.wrong_kind(value, "a table: [composition] with base and gamma");
+        };
+        self.refuse_unknown(table, &["base", "gamma"], "[composition]");
+        let base = self.member(table, value, "base").and_then(|v| self.text(v));
+        let gamma = self.member(table, value, "gamma").and_then(|v| self.cells(v));
+        Some(Weights::Composition { base: base?, gamma: gamma? })
+    }
+
+    fn member<'t, 'i>(
+        &mut self,
+        table: &'t DeTable<'i>,
+        whole: &Spanned<DeValue<'_>>,
+        key: &str,
+    ) -> Option<&'t Spanned<DeValue<'i>>> {
+        let value = table.get(key);
+        if value.is_none() {
+            self.fault(&whole.span(), format!("the key `{key}` is missing"), format!("add `{key} = […]`"));
+        }
+        value
+    }
+
+    fn cells(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Vec<Cell>> {
+        let DeValue::Array(array) = value.get_ref() else {
+            return self.wrong_kind(value, "a list of weights, such as [\"1/2\", \"1/2\"]");
+        };
+        if array.is_empty() {
+            return self.wrong(value, "this list of weights is empty", "a scheme has at least one stage");
+        }
+        let cells = array.iter().map(|v| self.cell(v)).collect::<Vec<_>>();
+        cells.into_iter().collect()
+    }
+
+    fn cell(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Cell> {
+        match value.get_ref() {
+            // the place of the expression is inside the quotes
+            DeValue::String(text) => {
+                let span = value.span();
+                let quotes = (span.len().saturating_sub(text.len())) / 2;
+                Some(Placed { value: text.to_string(), at: span.start + quotes..span.end - quotes })
+            }
+            DeValue::Integer(n) if n.radix() == 10 => Some(Placed { value: n.as_str().to_owned(), at: value.span() }),
+            DeValue::Float(x) if x.as_str().contains("inf") || x.as_str().contains("nan") => {
+                self.wrong(value, format!("a weight cannot be {}", x.as_str()), "weights are finite exact numbers")
+            }
+            DeValue::Float(x) => Some(Placed { value: x.as_str().to_owned(), at: value.span() }),
+            _ => self.wrong_kind(value, "an exact number: 1, 0.25 or an expression in quotes, \"1/(2 - 2^(1/3))\""),
+        }
+    }
+
+    fn wrong<T>(
+        &mut self,
+        value: &Spanned<DeValue<'_>>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        self.fault(&value.span(), message, help);
+        None
+    }
+
+    fn wrong_kind<T>(&mut self, value: &Spanned<DeValue<'_>>, needed: &str) -> Option<T> {
+        let found = match value.get_ref() {
+            DeValue::String(_) => "a text",
+            DeValue::Integer(_) => "a whole number",
+            DeValue::Float(_) => "a decimal number",
+            DeValue::Boolean(_) => "a truth value",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "a list",
+            DeValue::Table(_) => "a table",
+        };
+        self.faults.push(self.source.fault(&value.span(), "this value is of the wrong kind").values(found, needed));
+        None
+    }
+}
+
+fn is_constant_name(name: &str) -> bool {
+    let mut letters = name.chars();
+    letters.next().is_some_and(|c| c.is_ascii_alphabetic()) && letters.all(|c| c.is_ascii_alphanumeric() || c == '_')
+}

@@ -1,0 +1,100 @@
+//! Intervals with rational ends that enclose a real number which has no short exact form.
+
+use num_bigint::BigInt;
+use num_traits::{One, Signed};
+
+use crate::Rational;
+use crate::rounding::{self, Direction, at_places, compare, magnitude, scaled};
+
+/// The largest power of ten, up or down, that an enclosed number may have.
+const LARGEST_MAGNITUDE: i64 = 30_000;
+
+/// The numbers from `low` to `high`; `low <= high`.
+#[derive(Debug, Clone)]
+pub(crate) struct Interval {
+    pub(crate) low: Rational,
+    pub(crate) high: Rational,
+}
+
+impl Interval {
+    pub(crate) fn point(value: &Rational) -> Self {
+        Interval { low: value.clone(), high: value.clone() }
+    }
+
+    pub(crate) fn contains_zero(&self) -> bool {
+        !self.low.is_positive() && !self.high.is_negative()
+    }
+
+    pub(crate) fn negate(&self) -> Self {
+        Interval { low: -&self.high, high: -&self.low }
+    }
+
+    pub(crate) fn add(&self, other: &Self) -> Self {
+        Interval { low: &self.low + &other.low, high: &self.high + &other.high }
+    }
+
+    pub(crate) fn multiply(&self, other: &Self) -> Self {
+        let mut products =
+            [&self.low * &other.low, &self.low * &other.high, &self.high * &other.low, &self.high * &other.high];
+        products.sort_by(compare);
+        let [low, _, _, high] = products;
+        Interval { low, high }
+    }
+
+    /// 1/x; the interval must not contain zero.
+    pub(crate) fn reciprocal(&self) -> Self {
+        Interval { low: self.high.recip(), high: self.low.recip() }
+    }
+
+    /// x^exponent, rounded outward after every product; `None` as for [`Interval::outward`].
+    pub(crate) fn power(&self, exponent: u32, digits: u32) -> Option<Self> {
+        let mut result = Interval::point(&Rational::one());
+        for bit in (0..u32::BITS - exponent.leading_zeros()).rev() {
+            result = result.multiply(&result).outward(digits)?;
+            if exponent >> bit & 1 == 1 {
+                result = result.multiply(self).outward(digits)?;
+            }
+        }
+        Some(result)
+    }
+
+    /// The real q-th root to `digits` significant digits; for an even q the interval must not
+    /// reach below zero.
+    pub(crate) fn root(&self, q: u32, digits: u32) -> Self {
+        Interval { low: root(&self.low, q, digits, Direction::Down), high: root(&self.high, q, digits, Direction::Up) }
+    }
+
+    /// Rounds the ends outward to `digits` significant digits, lest they grow with every operation.
+    ///
+    /// `None` if the number in the interval is absurdly large or small.
+    pub(crate) fn outward(&self, digits: u32) -> Option<Self> {
+        let sizes = [magnitude(&self.low), magnitude(&self.high)];
+        let too_large = sizes.iter().any(|size| *size > LARGEST_MAGNITUDE);
+        let too_small = !self.contains_zero() && sizes.iter().any(|size| *size < -LARGEST_MAGNITUDE);
+        if too_large || too_small {
+            return None;
+        }
+        // The ends around a zero may be tiny: they stay on a grid that is fine enough for all else.
+        let finest = LARGEST_MAGNITUDE + i64::from(digits);
+        let round = |end, direction| rounding::to_places(end, rounding::places(end, digits).min(finest), direction);
+        Some(Interval { low: round(&self.low, Direction::Down), high: round(&self.high, Direction::Up) })
+    }
+}
+
+/// The real q-th root, rounded down or up to `digits` significant digits.
+fn root(value: &Rational, q: u32, digits: u32, direction: Direction) -> Rational {
+    if value.is_negative() {
+        let opposite = match direction {
+            Direction::Up => Direction::Down,
+            _ => Direction::Up,
+        };
+        return -root(&-value, q, digits, opposite);
+    }
+    let size = magnitude(value).div_euclid(i64::from(q));
+    let places = i64::from(digits) - 1 - size;
+    let (numerator, denominator) = scaled(value, places * i64::from(q));
+    let floor: BigInt = (&numerator / &denominator).nth_root(q);
+    let inexact = floor.pow(q) * denominator != numerator;
+    let up = matches!(direction, Direction::Up) && inexact;
+    at_places(floor + u8::from(up), places)
+}

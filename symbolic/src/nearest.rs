@@ -1,0 +1,90 @@
+//! The known words that are spelt most like a given one.
+
+/// The known word that was probably meant by `word`: the one with the fewest typing errors
+/// between them, if these are at most a third of the word's letters, or one.
+///
+/// A typing error is a letter missing, added, exchanged, or swapped with its neighbour; case does
+/// not matter. Of equally near words the first is chosen.
+pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let allowed = (word.chars().count() / 3).max(1);
+    let with_distance = known.into_iter().map(|other| (distance(word, other), other));
+    let (errors, found) = with_distance.min_by_key(|(errors, _)| *errors)?;
+    (errors <= allowed).then_some(found)
+}
+
+/// At most `count` known words, the nearest first; equally near ones keep their order.
+pub fn nearest_few<'a>(word: &str, known: impl IntoIterator<Item = &'a str>, count: usize) -> Vec<&'a str> {
+    let mut words: Vec<&str> = known.into_iter().collect();
+    words.sort_by_cached_key(|other| distance(word, other));
+    words.truncate(count);
+    words
+}
+
+/// The typing errors between two words (Damerau-Levenshtein distance, no letter moved twice).
+fn distance(one: &str, other: &str) -> usize {
+    let one: Vec<char> = one.to_lowercase().chars().collect();
+    let other: Vec<char> = other.to_lowercase().chars().collect();
+    // table[i][j] is the distance of the first i letters of `one` from the first j of `other`.
+    let mut table = vec![vec![0; other.len() + 1]; one.len() + 1];
+    for i in 0..=one.len() {
+        for j in 0..=other.len() {
+            table[i][j] = if i == 0 || j == 0 {
+                i + j
+            } else {
+                let exchanged = table[i - 1][j - 1] + usize::from(one[i - 1] != other[j - 1]);
+                let removed_or_added = table[i - 1][j].min(table[i][j - 1]) + 1;
+                let swapped = i > 1 && j > 1 && one[i - 1] == other[j - 2] && one[i - 2] == other[j - 1];
+                let swap = if swapped { table[i - 2][j - 2] + 1 } else { usize::MAX };
+                exchanged.min(removed_or_added).min(swap)
+            };
+        }
+    }
+    table[one.len()][other.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distance_counts_typing_errors() {
+        let table = [
+            ("", "", 0),
+            ("", "abc", 3),
+            ("yoshida", "Yoshida", 0),
+            ("yoshida", "yoshda", 1),
+            ("yoshida", "yoshidas", 1),
+            ("yoshida", "yoshika", 1),
+            ("yoshida", "yosihda", 1),
+            ("kitten", "sitting", 3),
+            ("ç", "c", 1),
+        ];
+        for (one, other, expected) in table {
+            assert_eq!(distance(one, other), expected, "{one} {other}");
+            assert_eq!(distance(other, one), expected, "{other} {one}");
+        }
+    }
+
+    #[test]
+    fn nearest_refuses_what_is_too_far() {
+        let known = ["strang", "yoshida4", "ruth"];
+        assert_eq!(nearest("Strnag", known), Some("strang"));
+        assert_eq!(nearest("yoshida6", known), Some("yoshida4"));
+        assert_eq!(nearest("rutt", known), Some("ruth"));
+        assert_eq!(nearest("leapfrog", known), None);
+        assert_eq!(nearest("rxxh", known), None);
+        assert_eq!(nearest("strang", []), None);
+    }
+
+    #[test]
+    fn of_equally_near_words_the_first_wins() {
+        assert_eq!(nearest("g3", ["g1", "g0"]), Some("g1"));
+        assert_eq!(nearest_few("g3", ["long", "g1", "g0", "g3"], 3), ["g3", "g1", "g0"]);
+    }
+
+    #[test]
+    fn few_have_no_cutoff_but_a_count() {
+        assert_eq!(nearest_few("x", ["leapfrog", "ruth"], 5), ["ruth", "leapfrog"]);
+        assert!(nearest_few("x", ["ruth"], 0).is_empty());
+    }
+}
