@@ -46,12 +46,6 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> Res
         Weights::Composition { base, gamma } => {
             let gamma = cells.weights(gamma);
             let base = base_scheme(&table, base, library, above)?;
-            if gamma.len() * base.kick.len() > MOST_STAGES {
-                let message = format!("{} stages are an absurd size", gamma.len() * base.kick.len());
-                cells
-                    .faults
-                    .push(source.fault(&table.name.at, message).help(format!("at most {MOST_STAGES} stages are read")));
-            }
             let held = held(&table, cells.rounded).weaker(base.held);
             let (kick, drift) = stages_of(&merged(&scaled(&gamma, &base.kick), &scaled(&gamma, &base.drift)));
             (kick, drift, held)
@@ -59,7 +53,7 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> Res
     };
     if kick.len() > MOST_STAGES {
         let message = format!("{} stages are an absurd size", kick.len());
-        cells.faults.push(source.fault(&table.name.at, message).help(format!("at most {MOST_STAGES} are read")));
+        cells.faults.push(source.fault(&table.name.at, message).help(format!("at most {MOST_STAGES} are allowed")));
     }
     match Faults::of(cells.faults) {
         Some(faults) => Err(faults),

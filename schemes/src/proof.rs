@@ -4,9 +4,11 @@
 //! closely as one unit in the last digit of each weight can account for (a bound, with the rounding of the
 //! arithmetic itself included). How many digits really hold is reported.
 
+use std::cmp::Ordering;
+
 use num_traits::{FromPrimitive, Signed, Zero};
-use shadowstep_symbolic::Rational;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
+use shadowstep_symbolic::{Rational, compare};
 
 use crate::arithmetic::{Arithmetic, ExactArithmetic, FixedPoint, Sensitivity};
 use crate::exact::{self, Library, digits_of};
@@ -137,7 +139,8 @@ impl Judged {
     }
 
     fn holds(&self) -> bool {
-        self.uncertainty() <= self.tolerance
+        // `<=` of rationals recurses along continued fractions, too deep for hundreds of digits
+        compare(&self.uncertainty(), &self.tolerance) != Ordering::Greater
     }
 }
 

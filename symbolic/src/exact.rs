@@ -171,10 +171,7 @@ impl Evaluator<'_> {
         let order = match function {
             "sqrt" => 2,
             "cbrt" => 3,
-            _ => {
-                let name = range.start..range.start + function.len();
-                return Err(fault(Fault::UnknownFunction(function.to_string()), &name));
-            }
+            _ => return Err(fault(Fault::UnknownFunction(function.to_string()), range)),
         };
         let [argument] = arguments else {
             let function = function.to_string();

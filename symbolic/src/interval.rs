@@ -74,8 +74,8 @@ impl Interval {
         if too_large || too_small {
             return None;
         }
-        // The ends around a zero may be tiny: they stay on a grid that is fine enough for all else.
-        let finest = LARGEST_MAGNITUDE + i64::from(digits);
+        // Around zero, ends much closer to it than the digits go would only cost time.
+        let finest = if self.contains_zero() { 2 * i64::from(digits) } else { i64::MAX };
         let round = |end, direction| rounding::to_places(end, rounding::places(end, digits).min(finest), direction);
         Some(Interval { low: round(&self.low, Direction::Down), high: round(&self.high, Direction::Up) })
     }
@@ -97,4 +97,48 @@ fn root(value: &Rational, q: u32, digits: u32, direction: Direction) -> Rational
     let inexact = floor.pow(q) * denominator != numerator;
     let up = matches!(direction, Direction::Up) && inexact;
     at_places(floor + u8::from(up), places)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn rational() -> impl Strategy<Value = Rational> {
+        (any::<i32>(), 1..i32::MAX).prop_map(|(n, d)| Rational::new(n.into(), d.into()))
+    }
+
+    fn encloses(interval: &Interval, value: &Rational) -> bool {
+        &interval.low <= value && value <= &interval.high
+    }
+
+    proptest! {
+        #[test]
+        fn rounding_outward_keeps_the_number(value in rational(), digits in 1u32..12) {
+            let rounded = Interval::point(&value).outward(digits).unwrap();
+            prop_assert!(encloses(&rounded, &value));
+        }
+
+        #[test]
+        fn a_root_is_between_its_ends(value in rational(), q in 2u32..7, digits in 1u32..12) {
+            let value = if q % 2 == 0 { value.abs() } else { value };
+            let Interval { low, high } = Interval::point(&value).root(q, digits);
+            let powers = Interval { low: low.pow(q as i32), high: high.pow(q as i32) };
+            prop_assert!(encloses(&powers, &value));
+            prop_assert!(low < high || powers.low == value, "equal ends are the root");
+        }
+
+        #[test]
+        fn operations_enclose_what_they_compute(a in rational(), b in rational(), n in 0u32..9) {
+            let near = |value: &Rational| Interval::point(value).outward(2).unwrap();
+            let (x, y) = (near(&a), near(&b));
+            prop_assert!(encloses(&x.add(&y), &(&a + &b)));
+            prop_assert!(encloses(&x.multiply(&y), &(&a * &b)));
+            prop_assert!(encloses(&x.negate(), &-&a));
+            prop_assert!(encloses(&x.power(n, 3).unwrap(), &a.pow(n as i32)));
+            if !x.contains_zero() {
+                prop_assert!(encloses(&x.reciprocal(), &a.recip()));
+            }
+        }
+    }
 }

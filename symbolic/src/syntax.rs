@@ -25,7 +25,7 @@ const DEEPEST: usize = 200;
 pub struct Expression {
     /// What it is.
     pub kind: Kind,
-    /// Its bytes in the text, with the parentheses around it.
+    /// Its bytes in the text, with the parentheses around it and the plus signs before it.
     pub range: Range<usize>,
 }
 
@@ -42,7 +42,7 @@ pub enum Kind {
     Binary(Operation, Box<Expression>, Box<Expression>),
     /// A function of any number of arguments.
     Call {
-        /// The function's name; it begins the range of the expression.
+        /// The function's name.
         function: String,
         /// The arguments in order.
         arguments: Vec<Expression>,

@@ -59,6 +59,7 @@ pub struct FixedOrder<N> {
     ring: Vec<Place<N>>,
     pushed: usize,
     pair: N,
+    product: N,
     beta: N,
     error: N,
 }
@@ -95,6 +96,7 @@ impl<N: Number> FixedOrder<N> {
             ring: vec![place; m as usize + 1],
             pushed: 0,
             pair: zero.clone(),
+            product: zero.clone(),
             beta: zero.clone(),
             error: zero,
         }
@@ -120,10 +122,12 @@ impl<N: Number> FixedOrder<N> {
             self.pair.add_product(q_i, p_k);
             self.pair.subtract_product(p_i, q_k);
         }
-        for place in [older, newest] {
-            place.value.subtract_product(&self.weights[j - 1], &self.pair);
-            place.last_term.subtract_product(&self.last_term[j - 1], &self.pair);
-        }
+        self.product.assign_product(&self.weights[j - 1], &self.pair);
+        older.value.subtract(&self.product);
+        newest.value.subtract(&self.product);
+        self.product.assign_product(&self.last_term[j - 1], &self.pair);
+        older.last_term.subtract(&self.product);
+        newest.last_term.subtract(&self.product);
     }
 }
 

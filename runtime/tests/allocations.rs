@@ -1,0 +1,157 @@
+//! At 120 digits a step allocates nothing, neither in Rust nor in GMP and MPFR, except inside MPFR's elementary
+//! functions.
+//!
+//! Both allocators count; this file is a program of its own, so that no other test runs beside it.
+#![cfg(feature = "mpfr")]
+#![expect(unsafe_code, reason = "counting allocators are unsafe by their nature")]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::ffi::c_void;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
+use gmp_mpfr_sys::gmp;
+use rug::Float;
+use shadowstep::number::{Number, Precision};
+use shadowstep::problems::{HenonHeiles, Kepler};
+use shadowstep::shadow::{Central, Estimator, Stop};
+use shadowstep::tables::{shipped, shipped_names};
+use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Potential, Scheme, UnitMasses, exact};
+
+static RUST: AtomicU64 = AtomicU64::new(0);
+static GMP: AtomicU64 = AtomicU64::new(0);
+
+struct Counting;
+
+// SAFETY: every call goes on to the system's allocator
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        RUST.fetch_add(1, Relaxed);
+        // SAFETY: as the caller promises
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as the caller promises
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+unsafe extern "C" {
+    fn malloc(size: usize) -> *mut c_void;
+    fn realloc(pointer: *mut c_void, size: usize) -> *mut c_void;
+    fn free(pointer: *mut c_void);
+}
+
+extern "C" fn count_allocate(size: usize) -> *mut c_void {
+    GMP.fetch_add(1, Relaxed);
+    // SAFETY: any size is allowed
+    unsafe { malloc(size) }
+}
+
+extern "C" fn count_reallocate(pointer: *mut c_void, _: usize, size: usize) -> *mut c_void {
+    GMP.fetch_add(1, Relaxed);
+    // SAFETY: GMP hands back what it got from `count_allocate`
+    unsafe { realloc(pointer, size) }
+}
+
+extern "C" fn release(pointer: *mut c_void, _: usize) {
+    // SAFETY: GMP hands back what it got from `count_allocate`
+    unsafe { free(pointer) }
+}
+
+/// (allocations of Rust, allocations of GMP and MPFR) during the work.
+fn allocations(work: impl FnOnce()) -> (u64, u64) {
+    let before = (RUST.load(Relaxed), GMP.load(Relaxed));
+    work();
+    (RUST.load(Relaxed) - before.0, GMP.load(Relaxed) - before.1)
+}
+
+const STEPS: u64 = 10;
+
+/// Allocations of ten steps of each kind by every shipped scheme, after one step that may make caches.
+fn of_all_schemes<P: Potential<Float>, K: Kinetic<Float>>(
+    motion: &Motion<Float, Vec<Float>, P, K>,
+    mut report: impl FnMut(&str, u64, (u64, u64)),
+) where
+    P: Clone,
+    K: Clone,
+{
+    for name in shipped_names() {
+        let scheme = shipped(name).unwrap();
+        let h = scheme.weights::<Float>(&exact("1/50").unwrap(), &motion.context());
+        let mut motion = motion.clone();
+        scheme.step_augmented(&h, &mut motion);
+        let evaluations = motion.evaluations();
+        let found = allocations(|| {
+            for _ in 0..STEPS {
+                scheme.step(&h, &mut motion);
+                scheme.step_augmented(&h, &mut motion);
+                scheme.step_back(&h, &mut motion);
+                scheme.step_back_augmented(&h, &mut motion);
+            }
+        });
+        report(name, motion.evaluations() - evaluations, found);
+    }
+}
+
+fn numbers(texts: [&str; 2], digits: &Precision) -> Vec<Float> {
+    texts.map(|text| Float::from_rational(&exact(text).unwrap(), digits)).to_vec()
+}
+
+/// One test, as the counters are for the whole program.
+#[test]
+fn steps_and_estimators_do_not_allocate() {
+    // SAFETY: the three functions are a matching set over one allocator, installed before the first number is made
+    unsafe { gmp::set_memory_functions(Some(count_allocate), Some(count_reallocate), Some(release)) };
+    let digits = Precision::digits(120).unwrap();
+    let (q, p) = (numbers(["0.1", "0.2"], &digits), numbers(["0.1", "0"], &digits));
+    let masses = ["2", "1/3"].map(|m| exact(m).unwrap());
+    let diagonal = DiagonalMasses::<Float>::new(&masses, &digits).unwrap();
+    let rows = [["2", "1/3"], ["1/3", "1"]].map(|row| row.map(|m| exact(m).unwrap()).to_vec());
+    let full = FullMasses::<Float>::from_inverse(&rows, &digits).unwrap();
+
+    // the counters count
+    assert_ne!(allocations(|| drop(Float::new(400))).1, 0, "GMP's allocations are seen");
+    assert_ne!(allocations(|| drop(Box::new([0_u8; 64]))).0, 0, "Rust's allocations are seen");
+
+    // polynomials only: nothing at all
+    let nothing = |name: &str, _: u64, found: (u64, u64)| assert_eq!(found, (0, 0), "{name} on Hénon–Heiles");
+    of_all_schemes(&Motion::new(HenonHeiles, UnitMasses, q.clone(), p.clone()), nothing);
+    of_all_schemes(&Motion::new(HenonHeiles, diagonal, q.clone(), p.clone()), nothing);
+    of_all_schemes(&Motion::new(HenonHeiles, full, q.clone(), p.clone()), nothing);
+
+    // Kepler: what its reciprocal square roots allocate, and nothing else
+    let root = {
+        let (mut x, a) = (Float::new(400), Float::with_val(400, 0.7));
+        allocations(|| x.assign_reciprocal_sqrt(&a)).1
+    };
+    let kepler = Motion::new(Kepler, UnitMasses, numbers(["0.4", "0"], &digits), numbers(["0", "2"], &digits));
+    of_all_schemes(&kepler, |name, evaluations, found| {
+        assert_eq!(found, (0, evaluations * root), "{name} on Kepler: Rust, GMP");
+    });
+
+    estimators_do_not_allocate(&digits);
+}
+
+fn estimators_do_not_allocate(digits: &Precision) {
+    let h = exact("1/50").unwrap();
+    let scheme = shipped("stormer-verlet").unwrap();
+    let weights = scheme.weights::<Float>(&h, digits);
+    let estimators = [
+        Central::fixed(5, &h, 2, digits),
+        Central::best(20, Stop::Full, &h, 2, digits),
+        Central::best(20, Stop::Early, &h, 2, digits),
+    ];
+    for mut estimator in estimators {
+        let mut motion =
+            Motion::new(HenonHeiles, UnitMasses, numbers(["0.1", "0.2"], digits), numbers(["0.1", "0"], digits));
+        let mut advance = || {
+            scheme.step_augmented(&weights, &mut motion);
+            estimator.push(motion.q(), motion.p(), motion.beta()).is_some()
+        };
+        while !advance() {}
+        assert_eq!(allocations(|| assert!(advance())), (0, 0));
+    }
+}
