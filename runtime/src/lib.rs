@@ -68,3 +68,7 @@ pub use potential::Potential;
 pub use scheme::{Scheme, Summary, Weights};
 pub use shadowstep_macros::splitting_scheme;
 pub use shadowstep_symbolic::{Rational, exact};
+
+#[cfg(all(doctest, feature = "mpfr"))]
+#[doc = include_str!("../../README.md")]
+struct Readme;

@@ -16,12 +16,17 @@ use locate::Locator;
 
 /// Gives a unit struct the steps of the splitting scheme in a table.
 ///
-/// ```ignore
+/// ```
+/// use shadowstep::{Scheme, splitting_scheme};
+///
 /// #[splitting_scheme("yoshida4.toml")]
 /// pub struct Yoshida4;
 ///
 /// #[splitting_scheme("yoshida4.toml", first = "drift")]
 /// pub struct DriftFirst;
+///
+/// assert_eq!(Yoshida4.summary().order, 4);
+/// assert_eq!(DriftFirst.summary().evaluations, 3);
 /// ```
 ///
 /// The table is looked for beside the source file, then in the crate's root, then among the shipped ones. Its claims

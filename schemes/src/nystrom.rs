@@ -163,4 +163,25 @@ mod tests {
         // special Nyström trees: Hairer, Nørsett & Wanner, Solving ODEs I, II.14
         assert_eq!((1..=10).map(count).collect::<Vec<_>>(), [1, 1, 2, 3, 6, 10, 20, 36, 72, 137]);
     }
+
+    #[test]
+    fn small_trees_are_the_sums_that_they_stand_for() {
+        use crate::arithmetic::ExactArithmetic;
+        use num_traits::Zero;
+        let rational = |n: i64, d: i64| Rational::new(n.into(), d.into());
+        let a = [rational(1, 3), rational(-2, 5), rational(7, 11), rational(3, 2)];
+        let b = [rational(5, 7), rational(1, 9), rational(-3, 4), rational(2, 13)];
+        let values = conditions(&crate::scheme::merged(&a, &b), 4, &ExactArithmetic);
+        let value = |name: &str| &values.iter().find(|(c, _)| c.name == format!("the tree {name}")).unwrap().1;
+
+        // c_s: where the kick s acts; f_r: how far the kicks have got before the drift r
+        let c: Vec<Rational> = (0..4).map(|s| b[..s].iter().sum()).collect();
+        let f: Vec<Rational> = (0..4).map(|r| a[..=r].iter().sum()).collect();
+        let sum = |term: &dyn Fn(usize) -> Rational| (0..4).fold(Rational::zero(), |sum, s| sum + term(s));
+        assert_eq!(*value("K[D]"), sum(&|s| &a[s] * &c[s]));
+        assert_eq!(*value("K[D D]"), sum(&|s| &a[s] * &c[s] * &c[s]));
+        assert_eq!(*value("D[K]"), sum(&|r| &b[r] * &f[r]));
+        assert_eq!(*value("K[D[K]]"), sum(&|s| &a[s] * (0..s).map(|r| &b[r] * &f[r]).sum::<Rational>()));
+        assert_eq!(*value("K[D D D]"), sum(&|s| &a[s] * &c[s] * &c[s] * &c[s]));
+    }
 }

@@ -144,4 +144,52 @@ mod tests {
             }
         }
     }
+
+    use crate::arithmetic::{ExactArithmetic, FixedPoint};
+    use crate::scheme::merged;
+
+    fn rationals(fractions: &[(i64, i64)]) -> Vec<Rational> {
+        fractions.iter().map(|&(n, d)| Rational::new(n.into(), d.into())).collect()
+    }
+
+    /// Weights of no scheme in particular.
+    fn any_weights() -> (Vec<Rational>, Vec<Rational>) {
+        (rationals(&[(1, 3), (-2, 5), (7, 11), (3, 2)]), rationals(&[(5, 7), (1, 9), (-3, 4), (2, 13)]))
+    }
+
+    #[test]
+    fn short_words_are_the_sums_that_they_stand_for() {
+        let (a, b) = any_weights();
+        let values = conditions(&merged(&a, &b), 3, &ExactArithmetic);
+        let value = |name: &str| &values.iter().find(|(c, _)| c.name == name).unwrap().1;
+        let stages = || 0..a.len();
+        let sum = |terms: Vec<Rational>| terms.into_iter().sum::<Rational>();
+        let half = Rational::new(1.into(), 2.into());
+
+        assert_eq!(*value("the word K"), sum(a.clone()));
+        assert_eq!(*value("the word D"), sum(b.clone()));
+        let kd = stages().flat_map(|i| stages().filter(move |j| i <= *j).map(move |j| (i, j)));
+        assert_eq!(*value("the word KD"), sum(kd.map(|(i, j)| &a[i] * &b[j]).collect()));
+        // KKD: two kicks i < j before a drift k, or one kick twice with 1/2!
+        let kkd = stages().flat_map(|k| (0..=k).flat_map(move |j| (0..=j).map(move |i| (i, j, k))));
+        let term = |(i, j, k): (usize, usize, usize)| {
+            let product = &a[i] * &a[j] * &b[k];
+            if i == j { product * &half } else { product }
+        };
+        assert_eq!(*value("the word KKD"), sum(kkd.map(term).collect()));
+    }
+
+    #[test]
+    fn fixed_point_keeps_its_bound() {
+        let (a, b) = any_weights();
+        let maps = merged(&a, &b);
+        let fixed = FixedPoint::new(30);
+        let exact = conditions(&maps, 8, &ExactArithmetic);
+        for ((condition, value), (_, approximate)) in exact.iter().zip(conditions(&maps, 8, &fixed)) {
+            let (middle, error) = fixed.read(&approximate);
+            let distance = if middle > *value { &middle - value } else { value - &middle };
+            assert!(distance <= error, "{}", condition.name);
+            assert!(error < Rational::new(1.into(), 10_i64.pow(18).into()), "{}: the bound is of use", condition.name);
+        }
+    }
 }
