@@ -2,7 +2,7 @@
 //!
 //! T_{m,m} is the sum of the first m terms of Stirling's series, and term k needs ∇^{2k−1} of (q, p, β) at the states
 //! n + k and n + k − 1 only. The table of backward differences of the newest state is updated with 2M vector
-//! subtractions a step; each difference serves two states and is reduced at once to the number that their term needs.
+//! subtractions a step; with that of the state before it completes one term of each of M states.
 
 use crate::Rational;
 use crate::number::Number;
@@ -32,6 +32,8 @@ pub struct AllOrders<N> {
     /// ∇^r of (q, p, β) at the newest state, r = 0..2M−1, and at the one before.
     table: Vec<Vec<N>>,
     previous: Vec<Vec<N>>,
+    /// 2 μδ^{2k−1} of (q, p, β)
+    mean: Vec<N>,
     /// The newest M + 1 states, the state k in place k mod (M + 1).
     ring: Vec<Place<N>>,
     pushed: usize,
@@ -61,6 +63,7 @@ impl<N: Number> AllOrders<N> {
             stop,
             coefficients: stirling(largest).iter().map(|c| N::from_rational(&(c / &four_h), context)).collect(),
             previous: table.clone(),
+            mean: numbers(2 * dimension + 1),
             table,
             ring: vec![Place { q: numbers(dimension), p: numbers(dimension), terms: numbers(size) }; size + 1],
             pushed: 0,
@@ -98,15 +101,15 @@ impl<N: Number> AllOrders<N> {
         newest
     }
 
-    /// Term k of the state n needs ∇^{2k−1} at n + k − 1 and at n + k.
+    /// Term k of the state n is complete when n + k has come.
     fn add_terms(&mut self, newest: usize) {
         let size = self.ring.len();
         for k in 1..=self.largest {
-            let difference = &self.table[2 * k - 1];
-            let begun = &mut self.ring[(newest + size - (k - 1)) % size];
-            begun.terms[k - 1].assign_zero();
-            begun.add(k, difference);
-            self.ring[(newest + size - k) % size].add(k, difference);
+            let (this, last) = (&self.table[2 * k - 1], &self.previous[2 * k - 1]);
+            for ((mean, this), last) in self.mean.iter_mut().zip(this).zip(last) {
+                mean.assign_sum(this, last);
+            }
+            self.ring[(newest + size - k) % size].set_term(k, &self.mean);
         }
     }
 
@@ -116,9 +119,10 @@ impl<N: Number> AllOrders<N> {
         let mut best = 0;
         for m in 1..=self.largest {
             let term = &self.ring[place].terms[m - 1];
-            self.sum.add_product(&self.coefficients[m - 1], term);
-            self.errors[m - 1].assign_product(&self.coefficients[m - 1], term);
-            self.errors[m - 1].make_absolute();
+            let error = &mut self.errors[m - 1];
+            error.assign_product(&self.coefficients[m - 1], term);
+            self.sum.add(error);
+            error.make_absolute();
             if m >= 2 && (best == 0 || self.errors[m - 1] < self.errors[best - 1]) {
                 best = m;
                 self.value.assign(&self.sum);
@@ -142,10 +146,11 @@ fn largest<N: PartialOrd>(numbers: &[N]) -> &N {
 }
 
 impl<N: Number> Place<N> {
-    fn add(&mut self, k: usize, difference: &[N]) {
-        let (dq, rest) = difference.split_at(self.q.len());
+    fn set_term(&mut self, k: usize, mean: &[N]) {
+        let (dq, rest) = mean.split_at(self.q.len());
         let (dp, dbeta) = rest.split_at(self.q.len());
         let term = &mut self.terms[k - 1];
+        term.assign_zero();
         for (((q, p), dq), dp) in self.q.iter().zip(&self.p).zip(dq).zip(dp) {
             term.add_product(p, dq);
             term.subtract_product(q, dp);
