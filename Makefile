@@ -16,9 +16,10 @@ format:
 lint:
 	cargo clippy --workspace --all-targets --locked -- -D warnings
 
-# all tests and doc tests
+# all tests and doc tests; and the library without GMP
 check:
 	cargo test --workspace --locked
+	cargo check -p shadowstep --no-default-features --locked
 
 docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked

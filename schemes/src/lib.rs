@@ -32,8 +32,9 @@ pub mod table;
 
 pub use fault::{Fault, Faults, Source};
 pub use proof::{Proof, Proved, prove, read, read_first};
-pub use scheme::{First, Kinetic, Map, MapKind, Scheme};
+pub use scheme::{First, Map, MapKind, Scheme};
 pub use shadowstep_symbolic::decimal::{to_significant, to_text};
 pub use shadowstep_symbolic::{Rational, nearest};
 pub use shipped::{shipped, shipped_names};
 pub use stage::{Cost, Plan};
+pub use table::Kinetic;

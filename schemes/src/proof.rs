@@ -14,8 +14,9 @@ use crate::arithmetic::{Arithmetic, ExactArithmetic, FixedPoint, Sensitivity};
 use crate::exact::{self, Library, digits_of};
 use crate::fault::{Fault, Faults, Source};
 use crate::order::Condition;
-use crate::scheme::{First, Held, Kinetic, Map, Scheme};
+use crate::scheme::{First, Held, Map, Scheme};
 use crate::stage::Plan;
+use crate::table::Kinetic;
 use crate::{nystrom, order};
 
 /// The highest order that is proved.

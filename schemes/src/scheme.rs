@@ -7,15 +7,6 @@ use shadowstep_symbolic::Rational;
 
 use crate::table::Table;
 
-/// The kinetic energies for which a scheme is meant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kinetic {
-    /// Every T(p).
-    Any,
-    /// T = ½ pᵀM⁻¹p only (Runge–Kutta–Nyström schemes).
-    Quadratic,
-}
-
 /// How far the weights of a table are to be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Held {

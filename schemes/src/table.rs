@@ -28,7 +28,6 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::fault::{Fault, Faults, Source};
-use crate::scheme::Kinetic;
 use shadowstep_symbolic::nearest;
 
 /// A value and its byte range in the table's text.
@@ -42,6 +41,15 @@ pub struct Placed<T> {
 
 /// A cell: the text of an exact expression.
 pub type Cell = Placed<String>;
+
+/// The kinetic energies for which a scheme is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kinetic {
+    /// Every T(p).
+    Any,
+    /// T = ½ pᵀM⁻¹p only (Runge–Kutta–Nyström schemes).
+    Quadratic,
+}
 
 /// A table as written, before any cell is evaluated.
 #[derive(Clone, Debug)]
