@@ -9,7 +9,7 @@ use num_traits::{Signed, ToPrimitive, Zero};
 use shadowstep_symbolic::decimal::to_significant;
 use shadowstep_symbolic::{Exact, Rational, evaluate, nearest, nearest_few, parse};
 
-use crate::fault::{Fault, Faults, Source};
+use crate::fault::{Fault, Source};
 use crate::scheme::{Held, Scheme, merged, stages_of};
 use crate::shipped::shipped_names;
 use crate::table::{self, Cell, Placed, Table, Weights};
@@ -26,39 +26,42 @@ const MOST_STAGES: usize = 2000;
 /// Finds the table that a composition names as its base, as seen from the table that names it.
 pub type Library<'a> = &'a dyn Fn(&str, &Source) -> Option<Source>;
 
-/// Reads a table and evaluates its cells; nothing is proved yet.
-///
-/// # Errors
-/// All faults of the text and of its cells; for a composition those of its base as well.
-pub fn scheme(source: &Source, library: Library<'_>) -> Result<Scheme, Faults> {
+/// Reads a table and evaluates its cells; nothing is proved yet. The faults are those of the text and of the cells, for
+/// a composition those of its base as well; without a fault in the cells there is a scheme.
+pub fn scheme(source: &Source, library: Library<'_>) -> (Option<Scheme>, Vec<Fault>) {
     scheme_within(source, library, &[])
 }
 
-fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> Result<Scheme, Faults> {
-    let table = table::parse(source)?;
+fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Option<Scheme>, Vec<Fault>) {
+    let (table, mut faults) = table::parse(source);
+    let Some(table) = table else { return (None, faults) };
     let mut cells = Cells { source, known: BTreeMap::new(), rounded: false, faults: Vec::new() };
     cells.constants(&table.constants);
-    let (kick, drift, held) = match &table.weights {
-        Weights::Stages { kick, drift, .. } => {
-            let (kick, drift) = (cells.weights(kick), cells.weights(drift));
-            (kick, drift, held(&table, cells.rounded))
+    let weights = match &table.weights {
+        None => None,
+        Some(Weights::Stages { kick, drift }) => {
+            let (kick, drift) = (cells.weights(&kick.value), cells.weights(&drift.value));
+            Some((kick, drift, held(&table, cells.rounded)))
         }
-        Weights::Composition { base, gamma } => {
-            let gamma = cells.weights(gamma);
-            let base = base_scheme(&table, base, library, above)?;
-            let held = held(&table, cells.rounded).weaker(base.held);
-            let (kick, drift) = stages_of(&merged(&scaled(&gamma, &base.kick), &scaled(&gamma, &base.drift)));
-            (kick, drift, held)
+        Some(Weights::Composition { base, gamma }) => {
+            let gamma = cells.weights(&gamma.value);
+            let (base, base_faults) = base_scheme(&table, base, library, above);
+            cells.faults.extend(base_faults);
+            base.map(|base| {
+                let maps = merged(&scaled(&gamma, &base.kick), &scaled(&gamma, &base.drift));
+                let (kick, drift) = stages_of(&maps);
+                (kick, drift, held(&table, cells.rounded).weaker(base.held))
+            })
         }
     };
-    if kick.len() > MOST_STAGES {
+    if let Some((kick, ..)) = weights.as_ref().filter(|(kick, ..)| kick.len() > MOST_STAGES) {
         let message = format!("{} stages are an absurd size", kick.len());
         cells.faults.push(source.fault(&table.name.at, message).help(format!("at most {MOST_STAGES} are allowed")));
     }
-    match Faults::of(cells.faults) {
-        Some(faults) => Err(faults),
-        None => Ok(Scheme { table, kick, drift, held }),
-    }
+    let good = cells.faults.is_empty();
+    faults.extend(cells.faults);
+    let scheme = weights.filter(|_| good).map(|(kick, drift, held)| Scheme { table, kick, drift, held });
+    (scheme, faults)
 }
 
 fn held(table: &Table, rounded: bool) -> Held {
@@ -69,22 +72,27 @@ fn held(table: &Table, rounded: bool) -> Held {
     }
 }
 
-fn base_scheme(table: &Table, base: &Placed<String>, library: Library<'_>, above: &[String]) -> Result<Scheme, Faults> {
+fn base_scheme(
+    table: &Table,
+    base: &Placed<String>,
+    library: Library<'_>,
+    above: &[String],
+) -> (Option<Scheme>, Vec<Fault>) {
     let source = &table.source;
-    let fault = |message: String, help: String| Faults(vec![source.fault(&base.at, message).help(help)]);
+    let fault = |message: String, help: String| (None, vec![source.fault(&base.at, message).help(help)]);
     let Some(found) = library(&base.value, source) else {
         let names = shipped_names();
         let help = match nearest(&base.value, names.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("shipped are {}", nearest_few(&base.value, names.iter().copied(), 3).join(", ")),
         };
-        return Err(fault(format!("there is no table `{}`", base.value), help));
+        return fault(format!("there is no table `{}`", base.value), help);
     };
     let mut chain = above.to_vec();
     chain.push(source.path.clone());
     if chain.contains(&found.path) {
         let help = "a composition must end at a table with [stages]";
-        return Err(fault(format!("this composition is cyclic: {} → {}", chain.join(" → "), found.path), help.into()));
+        return fault(format!("this composition is cyclic: {} → {}", chain.join(" → "), found.path), help.into());
     }
     scheme_within(&found, library, &chain)
 }

@@ -16,7 +16,7 @@ use crate::fault::{Fault, Faults, Source};
 use crate::order::Condition;
 use crate::scheme::{First, Held, Map, Scheme};
 use crate::stage::Plan;
-use crate::table::Kinetic;
+use crate::table::{Kinetic, Table, Weights};
 use crate::{nystrom, order};
 
 /// The highest order that is proved.
@@ -80,9 +80,9 @@ impl Proof {
 /// Reads a table and proves what it claims.
 ///
 /// # Errors
-/// All faults of the text, of the cells and of the claims; claims are looked at once the cells can be read.
+/// All faults of the text, of the cells and of the claims; claims are looked at once the cells have values.
 pub fn read(source: &Source, library: Library<'_>) -> Result<Proved, Faults> {
-    judge(exact::scheme(source, library)?)
+    judge(exact::scheme(source, library))
 }
 
 /// Like [`read`], with the roles of kick and drift exchanged where `first` asks for it.
@@ -90,7 +90,8 @@ pub fn read(source: &Source, library: Library<'_>) -> Result<Proved, Faults> {
 /// # Errors
 /// As [`read`]; also where the order claimed does not survive the exchange.
 pub fn read_first(source: &Source, library: Library<'_>, first: First) -> Result<Proved, Faults> {
-    judge(exact::scheme(source, library)?.starting_with(first))
+    let (scheme, faults) = exact::scheme(source, library);
+    judge((scheme.map(|scheme| scheme.starting_with(first)), faults))
 }
 
 /// Proves the orders of a scheme, whatever its table claims.
@@ -107,21 +108,13 @@ pub fn prove(scheme: &Scheme) -> Proof {
 }
 
 fn prove_up_to(maps: &[Map], held: Held, kinetic: Kinetic, highest: u32) -> Order {
-    let mut proved = Order { order: highest, digits: None, failed: None };
-    for condition in judged_conditions(maps, held, kinetic, highest) {
-        if proved.order >= condition.condition.order && !condition.holds() {
-            proved.order = condition.condition.order - 1;
-            proved.failed = Some((condition.condition, condition.found));
-            break;
-        }
-        let digits = digits_of(&condition.uncertainty());
-        proved.digits = match (proved.digits, digits) {
-            (Some(a), Some(b)) => Some(a.min(b)),
-            (known, None) => known,
-            (None, new) => new,
-        };
-    }
-    proved
+    let mut judged = judged_conditions(maps, held, kinetic, highest);
+    let failed = judged.iter().position(|c| !c.holds());
+    let order = failed.map_or(highest, |first| judged[first].condition.order - 1);
+    let holding = judged.iter().filter(|c| c.condition.order <= order);
+    let digits = holding.filter_map(|c| digits_of(&c.uncertainty())).min();
+    let failed = failed.map(|first| judged.swap_remove(first)).map(|c| (c.condition, c.found));
+    Order { order, digits, failed }
 }
 
 /// A condition with its value and what the digits of the weights allow.
@@ -180,9 +173,10 @@ fn conditions<A: Arithmetic>(
     }
 }
 
-fn judge(scheme: Scheme) -> Result<Proved, Faults> {
+fn judge((scheme, mut faults): (Option<Scheme>, Vec<Fault>)) -> Result<Proved, Faults> {
+    let Some(scheme) = scheme else { return Err(Faults::of(faults).expect("what is no scheme has a fault")) };
     let proof = prove(&scheme);
-    let (mut faults, mut remarks) = (Vec::new(), Vec::new());
+    let mut remarks = Vec::new();
     judge_order(&scheme, &proof, &mut faults, &mut remarks);
     judge_symmetry(&scheme, &proof, &mut faults, &mut remarks);
     match Faults::of(faults) {
@@ -204,24 +198,52 @@ fn judge_order(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks:
         let message = format!("order {claimed} is claimed, order {} holds {class}", order.order);
         remarks.push(table.source.fault(at, message).help(format!("write `order = {}`", order.order)));
     }
-    let Some((failed, found)) = order.failed.as_ref().filter(|_| order.order < claimed) else { return };
-    let fails = match failed.name.as_str() {
-        "the word K" | "the tree K" => "the kicks do not sum to 1".to_owned(),
-        "the word D" | "the tree D" => "the drifts do not sum to 1".to_owned(),
-        name => format!("the condition of {name} fails"),
-    };
-    let message = format!("order {claimed} is claimed, order {} holds {class}: {fails}", order.order);
+    if order.order >= claimed {
+        return;
+    }
+    if order.order == 0 {
+        return judge_sums(scheme, faults);
+    }
+    let Some((failed, found)) = &order.failed else { return };
+    let message = format!(
+        "order {claimed} is claimed, order {} holds {class}: the condition of {} fails",
+        order.order, failed.name
+    );
     let fault = table.source.fault(at, message).values(short(found), short(&failed.needed));
-    let distance = (found - &failed.needed).abs();
-    faults.push(match (digits_of(&distance), table.kinetic) {
-        (Some(digits), _) if digits >= 6 => fault.help(format!(
-            "the condition is off by {}: if the weights are rounded, say so with `digits = …`",
-            to_significant(&distance, 2)
-        )),
-        (_, Kinetic::Any) if proof.quadratic.order >= claimed => fault
+    faults.push(match table.kinetic {
+        Kinetic::Any if proof.quadratic.order >= claimed => fault
             .help(format!("order {} holds for quadratic T: write `kinetic = \"quadratic\"`", proof.quadratic.order)),
-        _ => fault,
+        _ => with_rounding_help(fault, table, &(found - &failed.needed)),
     });
+}
+
+/// The conditions of order 1, each at the weights that it is about.
+fn judge_sums(scheme: &Scheme, faults: &mut Vec<Fault>) {
+    let table = &scheme.table;
+    for sum in judged_conditions(&scheme.maps(), scheme.held, Kinetic::Any, 1).iter().filter(|c| !c.holds()) {
+        let kicks = sum.condition.name.ends_with('K');
+        let (weights, at) = match &table.weights {
+            Some(Weights::Stages { kick, .. }) if kicks => ("kicks", &kick.at),
+            Some(Weights::Stages { drift, .. }) => ("drifts", &drift.at),
+            Some(Weights::Composition { gamma, .. }) => (if kicks { "kicks" } else { "drifts" }, &gamma.at),
+            None => continue,
+        };
+        let message = format!("the {weights} do not sum to 1, so not even order 1 holds");
+        let fault = table.source.fault(at, message).values(short(&sum.found), "1");
+        faults.push(with_rounding_help(fault, table, &(&sum.found - &sum.condition.needed)));
+    }
+}
+
+/// Where a condition is off by so little that rounded weights may be the reason.
+fn with_rounding_help(fault: Fault, table: &Table, distance: &Rational) -> Fault {
+    if digits_of(&distance.abs()).is_none_or(|digits| digits < 6) {
+        return fault;
+    }
+    let off = format!("the condition is off by {}", to_significant(&distance.abs(), 2));
+    fault.help(match &table.digits {
+        None => format!("{off}: if the weights are rounded, say so with `digits = …`"),
+        Some(digits) => format!("{off}, more than {} digits of the weights can account for", digits.value),
+    })
 }
 
 fn judge_symmetry(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks: &mut Vec<Fault>) {

@@ -27,7 +27,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::fault::{Fault, Faults, Source};
+use crate::fault::{Fault, Source};
 use shadowstep_symbolic::nearest;
 
 /// A value and its byte range in the table's text.
@@ -74,8 +74,8 @@ pub struct Table {
     pub doi: Option<String>,
     /// Named constants in the order of the text.
     pub constants: Vec<(Placed<String>, Cell)>,
-    /// The weights.
-    pub weights: Weights,
+    /// The weights; `None` where they cannot be read.
+    pub weights: Option<Weights>,
 }
 
 /// The weights as written.
@@ -84,18 +84,16 @@ pub enum Weights {
     /// a_s and b_s of the stages s = 1..S.
     Stages {
         /// Kicks a_s.
-        kick: Vec<Cell>,
+        kick: Placed<Vec<Cell>>,
         /// Drifts b_s.
-        drift: Vec<Cell>,
-        /// Where the stages are defined.
-        at: Range<usize>,
+        drift: Placed<Vec<Cell>>,
     },
     /// A base scheme with the steps γ_1 h, γ_2 h, ….
     Composition {
         /// Name or file of the base scheme's table.
         base: Placed<String>,
         /// The γ's.
-        gamma: Vec<Cell>,
+        gamma: Placed<Vec<Cell>>,
     },
 }
 
@@ -113,27 +111,21 @@ const KEYS: [&str; 11] = [
     "stages",
 ];
 
-/// Reads a table's text; all faults of the text are found in one go.
+/// Reads a table's text and all its faults: of the TOML, unknown or missing or repeated keys, values of the wrong kind.
 ///
-/// # Errors
-/// Faults of the TOML, unknown or missing or repeated keys, values of the wrong kind.
-pub fn parse(source: &Source) -> Result<Table, Faults> {
+/// If the text is TOML at all, the table is there too, with claims that nothing can fail where some are missing, so that
+/// its cells can be looked at as well.
+pub fn parse(source: &Source) -> (Option<Table>, Vec<Fault>) {
     let (document, errors) = DeTable::parse_recoverable(&source.text);
-    let faults = errors
-        .iter()
-        .map(|e| source.fault(&e.span().unwrap_or(0..0), e.message().replace('\n', ", ")))
-        .collect::<Vec<_>>();
-    // a broken text makes follow-up faults; show the first cause only
-    if let Some(faults) = Faults::of(faults) {
-        return Err(faults);
+    let faults: Vec<_> =
+        errors.iter().map(|e| source.fault(&e.span().unwrap_or(0..0), e.message().replace('\n', ", "))).collect();
+    // a text that is no TOML has faults that follow from the first; a repeated key has not
+    if errors.iter().any(|e| !e.message().contains("duplicate key")) {
+        return (None, faults);
     }
-    let mut reader = Reader { source, faults: Vec::new() };
+    let mut reader = Reader { source, faults };
     let table = reader.table(&document);
-    match (Faults::of(reader.faults), table) {
-        (None, Some(table)) => Ok(table),
-        (Some(faults), _) => Err(faults),
-        (None, None) => unreachable!("a missing table has a fault"),
-    }
+    (Some(table), reader.faults)
 }
 
 /// Collects faults while it reads.
@@ -147,7 +139,7 @@ impl Reader<'_> {
         self.faults.push(self.source.fault(at, message).help(help));
     }
 
-    fn table(&mut self, document: &Spanned<DeTable<'_>>) -> Option<Table> {
+    fn table(&mut self, document: &Spanned<DeTable<'_>>) -> Table {
         let root = document.get_ref();
         self.refuse_unknown(root, &KEYS, "a table");
         let name = self.required(root, "name", "the scheme's short name, such as \"yoshida4\"");
@@ -165,19 +157,19 @@ impl Reader<'_> {
             root.get("digits").and_then(|v| self.whole(v, 1..=300, "digits from 1 to 300 make sense in a table"));
         let constants = self.constants(root);
         let weights = self.weights(root);
-        Some(Table {
+        Table {
             source: self.source.clone(),
-            name: name?,
+            name: name.unwrap_or(Placed { value: "unnamed".to_owned(), at: 0..0 }),
             title,
-            order: order?,
-            kinetic: kinetic?,
+            order: order.unwrap_or(Placed { value: 1, at: 0..0 }),
+            kinetic: kinetic.unwrap_or(Kinetic::Quadratic),
             symmetric,
             digits,
-            reference: reference?.value,
+            reference: reference.map_or(String::new(), |r| r.value),
             doi: doi.map(|d| d.value),
             constants,
-            weights: weights?,
-        })
+            weights,
+        }
     }
 
     fn refuse_unknown(&mut self, table: &DeTable<'_>, known: &[&str], whose: &str) {
@@ -308,18 +300,17 @@ impl Reader<'_> {
         let kick = self.member(table, value, "kick").and_then(|v| self.cells(v));
         let drift = self.member(table, value, "drift").and_then(|v| self.cells(v));
         let (kick, drift) = (kick?, drift?);
-        if kick.len() != drift.len() {
-            let at = table.get("drift").map_or(value.span(), Spanned::span);
+        if kick.value.len() != drift.value.len() {
             let help = "each stage is a kick and then a drift; write 0 where there is none";
             self.faults.push(
                 self.source
-                    .fault(&at, "kick and drift must have as many weights as there are stages")
-                    .values(format!("{} kicks and {} drifts", kick.len(), drift.len()), "as many of both")
+                    .fault(&drift.at, "kick and drift must have as many weights as there are stages")
+                    .values(format!("{} kicks and {} drifts", kick.value.len(), drift.value.len()), "as many of both")
                     .help(help),
             );
             return None;
         }
-        Some(Weights::Stages { kick, drift, at: value.span() })
+        Some(Weights::Stages { kick, drift })
     }
 
     fn composition(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Weights> {
@@ -345,7 +336,7 @@ impl Reader<'_> {
         value
     }
 
-    fn cells(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Vec<Cell>> {
+    fn cells(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Placed<Vec<Cell>>> {
         let DeValue::Array(array) = value.get_ref() else {
             return self.wrong_kind(value, "a list of weights, such as [\"1/2\", \"1/2\"]");
         };
@@ -353,7 +344,7 @@ impl Reader<'_> {
             return self.wrong(value, "this list of weights is empty", "a scheme has at least one stage");
         }
         let cells = array.iter().map(|v| self.cell(v)).collect::<Vec<_>>();
-        cells.into_iter().collect()
+        Some(Placed { value: cells.into_iter().collect::<Option<_>>()?, at: value.span() })
     }
 
     fn cell(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Cell> {
