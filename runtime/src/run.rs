@@ -157,7 +157,7 @@ where
     /// The next n with its estimate; `None` after n = steps.
     ///
     /// # Errors
-    /// A state that is not finite, up to the last one that the estimator needs.
+    /// A state that is not finite, up to the last one that the estimator needs, or a modified energy that is not.
     pub fn advance(&mut self) -> Result<Option<(i64, Estimate<'_, N>)>, RunError> {
         loop {
             let Some((n, q, p, beta)) = self.trajectory.advance()? else { return Ok(None) };
@@ -165,7 +165,14 @@ where
                 self.estimator.push(q, p, beta);
                 continue;
             }
-            return Ok(self.estimator.push(q, p, beta).map(|estimate| (n - self.reach, estimate)));
+            let Some(estimate) = self.estimator.push(q, p, beta) else { return Ok(None) };
+            let n = n - self.reach;
+            // states may be finite where their products overflow
+            if !estimate.value.is_finite() {
+                let what = format!("a modified energy of {}", estimate.value.to_text());
+                return Err(RunError::NotFinite { step: n, what });
+            }
+            return Ok(Some((n, estimate)));
         }
     }
 
