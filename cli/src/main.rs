@@ -1,2 +1,49 @@
-//! (in the making)
-fn main() {}
+//! `shadowstep`: the energy drift of splitting schemes, and the schemes themselves, from the command line.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | [`arguments`] | the flags and their help |
+//! | [`quantity`], [`library`] | exact numbers and schemes, as a person names them |
+//! | [`selection`], [`run`] | arguments → problem, schemes and steps: the runs to make |
+//! | [`drift`], [`trace`] | the runs: one line a run, or one line a step |
+//! | [`schemes`], [`problems`] | what can be run |
+//! | [`figures`], [`output`], [`progress`], [`complaint`] | how it is told |
+
+mod arguments;
+mod complaint;
+mod drift;
+mod figures;
+mod library;
+mod output;
+mod problems;
+mod progress;
+mod quantity;
+mod run;
+mod schemes;
+mod selection;
+mod trace;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Command, SchemesCommand};
+use complaint::{Complaint, Ending};
+
+fn main() -> ExitCode {
+    let ending = obey(&Arguments::parse().command).unwrap_or_else(|complaint| complaint.tell());
+    ExitCode::from(ending as u8)
+}
+
+fn obey(command: &Command) -> Result<Ending, Complaint> {
+    match command {
+        Command::Drift(arguments) => drift::drift(arguments),
+        Command::Trace(arguments) => trace::trace(arguments),
+        Command::Problems { name, json } => problems::problems(name.as_deref(), *json),
+        Command::Schemes { json, command: None } => schemes::list(*json),
+        Command::Schemes { json, command: Some(SchemesCommand::Show { name, json: too }) } => {
+            schemes::show(name, *json || *too)
+        }
+        Command::Schemes { command: Some(SchemesCommand::Check { files }), .. } => schemes::check(files),
+    }
+}

@@ -182,8 +182,8 @@ pub enum ProblemError {
         /// The nearest one.
         hint: String,
     },
-    /// The problem has no such parameter.
-    #[error("{problem} has no parameter `{name}`; {hint}")]
+    /// The problem has no such parameter or initial value.
+    #[error("{problem} has no parameter or initial value `{name}`; {hint}")]
     UnknownParameter {
         /// The problem.
         problem: &'static str,

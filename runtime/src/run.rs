@@ -23,6 +23,26 @@ pub enum RunError {
     },
 }
 
+/// A state of a trajectory.
+#[derive(Clone, Copy, Debug)]
+pub struct State<'a, N> {
+    /// Its number: t = n h.
+    pub n: i64,
+    /// Positions.
+    pub q: &'a [N],
+    /// Momenta.
+    pub p: &'a [N],
+    /// What the step to it added to β.
+    pub beta: &'a N,
+}
+
+/// A state made before it is its turn.
+struct Stored<N> {
+    q: Vec<N>,
+    p: Vec<N>,
+    beta: N,
+}
+
 /// The states n = −reach, …, steps + reach of a trajectory in the order of time, with the β of each step.
 ///
 /// States before 0 are made with the scheme's exact inverse from the state 0.
@@ -30,9 +50,9 @@ pub struct Trajectory<'s, S: Scheme, N: Number, V, P, K> {
     scheme: &'s S,
     weights: Weights<S::Array<N>>,
     motion: Motion<N, V, P, K>,
-    /// (q, p, β) of the states before 0, the earliest last.
-    before: Vec<(Vec<N>, Vec<N>, N)>,
-    present: Option<(Vec<N>, Vec<N>, N)>,
+    /// The states up to 0, the earliest last.
+    before: Vec<Stored<N>>,
+    present: Option<Stored<N>>,
     n: i64,
     last: i64,
 }
@@ -59,41 +79,41 @@ where
         let weights = scheme.weights::<N>(h, &motion.context());
         let (q, p) = (motion.q().to_vec(), motion.p().to_vec());
         let mut before = Vec::with_capacity(reach + 1);
-        let mut increment = N::zero(&motion.context());
-        let (mut later_q, mut later_p) = (q.clone(), p.clone());
+        let mut later = (q.clone(), p.clone());
         for n in 1..=reach as i64 {
             scheme.step_back_augmented(&weights, &mut motion);
             check(&motion, -n)?;
             // the step from −n to −n + 1 adds what the step back took
-            increment.assign(motion.beta());
-            increment.negate();
-            before.push((later_q, later_p, increment.clone()));
-            (later_q, later_p) = (motion.q().to_vec(), motion.p().to_vec());
+            let mut beta = motion.beta().clone();
+            beta.negate();
+            let (q, p) = std::mem::replace(&mut later, (motion.q().to_vec(), motion.p().to_vec()));
+            before.push(Stored { q, p, beta });
         }
-        before.push((later_q, later_p, N::zero(&motion.context())));
+        before.push(Stored { q: later.0, p: later.1, beta: N::zero(&motion.context()) });
         motion.q_mut().iter_mut().zip(&q).for_each(|(own, q)| own.assign(q));
         motion.p_mut().iter_mut().zip(&p).for_each(|(own, p)| own.assign(p));
         let last = i64::try_from(steps).unwrap_or(i64::MAX).saturating_add(reach as i64);
         Ok(Trajectory { scheme, weights, motion, before, present: None, n: -(reach as i64) - 1, last })
     }
 
-    /// Goes to the next state; its n, q, p and what the step to it added to β. `None` at the end.
+    /// Goes to the next state; `None` at the end.
     ///
     /// # Errors
     /// A state that is not finite.
-    #[expect(clippy::type_complexity, reason = "a state is three things")]
-    pub fn advance(&mut self) -> Result<Option<(i64, &[N], &[N], &N)>, RunError> {
+    pub fn advance(&mut self) -> Result<Option<State<'_, N>>, RunError> {
         if self.n == self.last {
             return Ok(None);
         }
         self.n += 1;
+        let n = self.n;
         self.present = self.before.pop();
-        if let Some((q, p, beta)) = &self.present {
-            return Ok(Some((self.n, q, p, beta)));
+        if let Some(Stored { q, p, beta }) = &self.present {
+            return Ok(Some(State { n, q, p, beta }));
         }
         self.scheme.step_augmented(&self.weights, &mut self.motion);
-        check(&self.motion, self.n)?;
-        Ok(Some((self.n, self.motion.q(), self.motion.p(), self.motion.beta())))
+        check(&self.motion, n)?;
+        let motion = &self.motion;
+        Ok(Some(State { n, q: motion.q(), p: motion.p(), beta: motion.beta() }))
     }
 
     /// The system, for energies and counts.
@@ -160,7 +180,7 @@ where
     /// A state that is not finite, up to the last one that the estimator needs, or a modified energy that is not.
     pub fn advance(&mut self) -> Result<Option<(i64, Estimate<'_, N>)>, RunError> {
         loop {
-            let Some((n, q, p, beta)) = self.trajectory.advance()? else { return Ok(None) };
+            let Some(State { n, q, p, beta }) = self.trajectory.advance()? else { return Ok(None) };
             if n < self.reach {
                 self.estimator.push(q, p, beta);
                 continue;

@@ -36,8 +36,12 @@ impl Locator {
         shipped(name).ok_or_else(|| self.not_found(name))
     }
 
-    /// The base table of a composition: beside the table that names it, then as [`Locator::find`].
+    /// The base table of a composition: beside the table that names it, then as [`Locator::find`]; for a shipped one a
+    /// shipped one.
     pub(crate) fn base(&self, name: &str, from: &Source) -> Option<Source> {
+        if from.is_shipped() {
+            return shipped(name);
+        }
         let file = if name.ends_with(".toml") { name.to_owned() } else { format!("{name}.toml") };
         let shown = Path::new(&from.path).with_file_name(&file).display().to_string();
         let beside = self.files.borrow().iter().find(|f| f.ends_with(&from.path)).map(|f| f.with_file_name(&file));

@@ -23,6 +23,9 @@ const LARGEST_WEIGHT: u32 = 1000;
 /// The most stages a table may have, compositions written out.
 const MOST_STAGES: usize = 2000;
 
+/// The most compositions within each other: a chain of `../a/b` need not come back to a path it has had.
+const MOST_NESTED: usize = 20;
+
 /// Finds the table that a composition names as its base, as seen from the table that names it.
 pub type Library<'a> = &'a dyn Fn(&str, &Source) -> Option<Source>;
 
@@ -90,6 +93,10 @@ fn base_scheme(
     };
     let mut chain = above.to_vec();
     chain.push(source.path.clone());
+    if chain.len() > MOST_NESTED {
+        let help = "write the stages out, or compose them in fewer tables";
+        return fault(format!("{} compositions within each other are an absurd size", chain.len()), help.into());
+    }
     if chain.contains(&found.path) {
         let help = "a composition must end at a table with [stages]";
         return fault(format!("this composition is cyclic: {} → {}", chain.join(" → "), found.path), help.into());

@@ -1,0 +1,165 @@
+//! The flags and their help.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  1  the answer is no: a checked table has faults
+  2  wrong usage: an unknown flag, name or file, a number out of range
+  3  a run failed: a state or an energy was not finite, or the output could not be written";
+
+const DRIFT_EXAMPLE: &str = "\
+Example:
+  shadowstep drift --problem kepler --set eccentricity=0.3 --scheme stormer-verlet,yoshida4 \\
+      --step 1/10,1/20 --until 100 --digits 60 --order auto";
+
+const TRACE_EXAMPLE: &str = "\
+Example:
+  shadowstep trace --problem pendulum --scheme yoshida4 --step 1/10 --until 20 --digits 40 --csv > pendulum.csv";
+
+const CHECK_EXAMPLE: &str = "\
+Example:
+  shadowstep schemes check mine.toml";
+
+/// Splitting schemes and their modified energy, in any precision.
+#[derive(Debug, Parser)]
+#[command(name = "shadowstep", version, after_help = EXIT_CODES, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// The drift of the modified energy: one run per scheme and step.
+    #[command(after_help = DRIFT_EXAMPLE)]
+    Drift(DriftArguments),
+    /// Energy and modified energy at each step of one run.
+    #[command(after_help = TRACE_EXAMPLE)]
+    Trace(TraceArguments),
+    /// Lists the schemes that come along; shows one; checks a table of yours.
+    #[command(args_conflicts_with_subcommands = true)]
+    Schemes {
+        /// One JSON object a line
+        #[arg(long)]
+        json: bool,
+        #[command(subcommand)]
+        command: Option<SchemesCommand>,
+    },
+    /// Lists the problems with their parameters and initial states.
+    Problems {
+        /// One problem only, such as kepler
+        name: Option<String>,
+        /// One JSON object a line
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum SchemesCommand {
+    /// Everything that is known about a scheme.
+    Show {
+        /// A shipped scheme, such as yoshida4, or a table's file, such as mine.toml
+        #[arg(value_name = "NAME|FILE")]
+        name: String,
+        /// One JSON object with every digit of the weights
+        #[arg(long)]
+        json: bool,
+    },
+    /// Proves what tables claim; exit code 1 if one has faults.
+    #[command(after_help = CHECK_EXAMPLE)]
+    Check {
+        /// The tables
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<String>,
+    },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DriftArguments {
+    #[command(flatten)]
+    pub(crate) run: RunArguments,
+    /// One JSON object per run, a line each, in place of the table
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct TraceArguments {
+    #[command(flatten)]
+    pub(crate) run: RunArguments,
+    /// One JSON object per step, a line each (so it is without --csv)
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// CSV with a header
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) csv: bool,
+    /// Positions and momenta too
+    #[arg(long)]
+    pub(crate) states: bool,
+}
+
+/// What is run, and how.
+#[derive(Debug, Args)]
+pub(crate) struct RunArguments {
+    /// The problem, such as kepler; `shadowstep problems` lists them
+    #[arg(long, value_name = "NAME")]
+    pub(crate) problem: String,
+    /// A parameter or initial value, exact, such as eccentricity=1/3 or "px=sqrt(2)/2"; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// Shipped schemes or files of tables, such as yoshida4,mine.toml; `shadowstep schemes` lists the shipped ones
+    #[arg(long = "scheme", value_name = "NAME|FILE,…", required = true, value_delimiter = ',')]
+    pub(crate) schemes: Vec<String>,
+    /// Step sizes, exact, such as 1/10,0.05
+    #[arg(long = "step", value_name = "H,…", required = true, value_delimiter = ',', allow_hyphen_values = true)]
+    pub(crate) steps: Vec<String>,
+    /// The time at which runs end, exact, such as 100
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub(crate) until: String,
+    /// Decimal digits of all numbers, such as 50
+    #[arg(long, default_value_t = 120, value_name = "DIGITS", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) digits: u32,
+    /// Double precision (f64) instead of --digits
+    #[arg(long, conflicts_with = "digits")]
+    pub(crate) double: bool,
+    /// The m of the central differences D_m, such as 40, or auto for the best m of each state
+    #[arg(long, default_value = "auto", value_name = "M|auto", value_parser = order)]
+    pub(crate) order: OrderChoice,
+    /// The largest m that --order auto tries, such as 100 [default: 200]
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(2..=HIGHEST_M))]
+    pub(crate) max_order: Option<u32>,
+    /// When --order auto stops trying: at the largest m, or early, where the errors rise [default: full]
+    #[arg(long, value_name = "WHEN")]
+    pub(crate) stop: Option<StopChoice>,
+    /// Writes to a file, such as out.json, under a temporary name until all is done
+    #[arg(long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// Beyond this the exact weights take longer than any run.
+const HIGHEST_M: i64 = 1000;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum OrderChoice {
+    Auto,
+    Fixed(u32),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StopChoice {
+    Full,
+    Early,
+}
+
+fn order(text: &str) -> Result<OrderChoice, String> {
+    match text.parse() {
+        _ if text == "auto" => Ok(OrderChoice::Auto),
+        Ok(m) if (1..=HIGHEST_M).contains(&i64::from(m)) => Ok(OrderChoice::Fixed(m)),
+        _ => Err(format!("write a number from 1 to {HIGHEST_M}, or auto")),
+    }
+}

@@ -1,0 +1,179 @@
+//! The drift of the modified energy: one run per scheme and step.
+
+use std::io::{IsTerminal, Write};
+use std::time::Instant;
+
+use rug::Float;
+use serde::{Serialize, Serializer};
+use shadowstep::number::Number;
+use shadowstep::run::{EnergyDrift, energy_drift};
+use shadowstep::shadow::Stop;
+use shadowstep_symbolic::decimal::{to_significant, to_text};
+
+use crate::arguments::DriftArguments;
+use crate::complaint::{Complaint, Ending};
+use crate::figures::{rounded, shortened, table};
+use crate::output::Output;
+use crate::progress::Progress;
+use crate::run::Run;
+use crate::selection::{Arithmetic, Order, Selection};
+
+/// What a run gives, as JSON has it; numbers of high precision are texts.
+#[derive(Serialize)]
+struct Record {
+    problem: &'static str,
+    #[serde(serialize_with = "as_object")]
+    parameters: Vec<(&'static str, String)>,
+    scheme: String,
+    step: String,
+    until: String,
+    digits: NumberOrWord,
+    estimator: &'static str,
+    order: NumberOrWord,
+    drift: String,
+    minimum: String,
+    maximum: String,
+    at_minimum: i64,
+    at_maximum: i64,
+    first: String,
+    last: String,
+    order_least: u32,
+    order_most: u32,
+    steps: u64,
+    force_evaluations: u64,
+    seconds: f64,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum NumberOrWord {
+    Number(u32),
+    Word(&'static str),
+}
+
+fn as_object<S: Serializer>(pairs: &[(&'static str, String)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
+}
+
+/// Runs all; a run that fails is told of, and the others go on.
+pub(crate) fn drift(arguments: &DriftArguments) -> Result<Ending, Complaint> {
+    let selection = Selection::read(&arguments.run)?;
+    let mut output = Output::open(arguments.run.output.as_deref())?;
+    // a bar would run through the lines on the same terminal
+    let bar = !arguments.json || arguments.run.output.is_some() || !std::io::stdout().is_terminal();
+    let mut ending = Ending::Done;
+    let mut rows = Vec::new();
+    for run in selection.runs() {
+        let found = match selection.arithmetic {
+            Arithmetic::Double => measure::<f64>(&selection, run, &(), bar),
+            Arithmetic::Digits(_, precision) => measure::<Float>(&selection, run, &precision, bar),
+        };
+        match found {
+            Ok(record) if arguments.json => {
+                output.json(&record)?;
+                output.flush()?;
+            }
+            Ok(record) => rows.push(row(run, &record)),
+            Err(complaint) => ending = ending.max(complaint.tell()),
+        }
+    }
+    if !arguments.json && !rows.is_empty() {
+        write!(output, "{}", readable(&selection, rows))?;
+    }
+    output.finish()?;
+    Ok(ending)
+}
+
+fn measure<N: Number + 'static>(
+    selection: &Selection,
+    run: Run<'_>,
+    context: &N::Context,
+    bar: bool,
+) -> Result<Record, Complaint> {
+    let progress = Progress::new(bar, run.name(), run.steps);
+    let begin = Instant::now();
+    let estimator = selection.estimator(run.h, context);
+    let motion = selection.motion::<N>(context);
+    let found = energy_drift(&run.scheme.scheme, motion, run.h, run.steps, estimator, progress.listener())
+        .map_err(|error| run.failed(&error))?;
+    // both extremes may be finite where their difference overflows
+    if !found.drift.is_finite() {
+        return Err(run.not_finite("the energy drift"));
+    }
+    Ok(record(selection, run, &found, begin.elapsed().as_secs_f64()))
+}
+
+fn record<N: Number>(selection: &Selection, run: Run<'_>, found: &EnergyDrift<N>, seconds: f64) -> Record {
+    Record {
+        problem: selection.setup.problem.name,
+        parameters: selection.values(),
+        scheme: run.scheme.name.clone(),
+        step: to_text(run.h),
+        until: to_text(&selection.until),
+        digits: match selection.arithmetic {
+            Arithmetic::Double => NumberOrWord::Word("double"),
+            Arithmetic::Digits(digits, _) => NumberOrWord::Number(digits),
+        },
+        estimator: "central",
+        order: match selection.order {
+            Order::Fixed(m) => NumberOrWord::Number(m),
+            Order::Best(..) => NumberOrWord::Word("auto"),
+        },
+        drift: found.drift.to_text(),
+        minimum: found.minimum.to_text(),
+        maximum: found.maximum.to_text(),
+        at_minimum: found.at_minimum,
+        at_maximum: found.at_maximum,
+        first: found.first.to_text(),
+        last: found.last.to_text(),
+        order_least: found.orders.0,
+        order_most: found.orders.1,
+        steps: run.steps,
+        force_evaluations: found.evaluations,
+        seconds,
+    }
+}
+
+const COLUMNS: [&str; 9] =
+    ["scheme", "step", "energy drift", "least at t", "largest at t", "m", "steps", "forces", "seconds"];
+
+fn row(run: Run<'_>, record: &Record) -> [String; 9] {
+    let time = |n: i64| to_significant(&run.time(n), 6);
+    let orders = match (record.order_least, record.order_most) {
+        (least, most) if least == most => least.to_string(),
+        (least, most) => format!("{least}–{most}"),
+    };
+    [
+        record.scheme.clone(),
+        shortened(run.h, 12),
+        rounded(&record.drift, 4),
+        time(record.at_minimum),
+        time(record.at_maximum),
+        orders,
+        record.steps.to_string(),
+        record.force_evaluations.to_string(),
+        format!("{:.3}", record.seconds),
+    ]
+}
+
+fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String {
+    let problem = selection.setup.problem;
+    let values = selection.setup.values.iter().map(|(name, exact)| format!("{name} = {}", shortened(&exact.value, 12)));
+    let digits = match selection.arithmetic {
+        Arithmetic::Double => "double precision".to_owned(),
+        Arithmetic::Digits(digits, _) => format!("{digits} digits"),
+    };
+    let order = match selection.order {
+        Order::Fixed(m) => format!("m = {m}"),
+        Order::Best(largest, Stop::Full) => format!("the best m of 2–{largest}"),
+        Order::Best(largest, Stop::Early) => format!("the best m of 2–{largest} before errors rise"),
+    };
+    format!(
+        "{}: H = {}\n{}\nfrom t = 0 to {}, {digits}; modified energy by central differences, {order}\n{}\n",
+        problem.title,
+        problem.hamiltonian,
+        values.collect::<Vec<_>>().join(", "),
+        shortened(&selection.until, 20),
+        table(COLUMNS, rows, 1..9)
+    )
+}

@@ -1,0 +1,78 @@
+//! Schemes by their names: shipped ones, and tables in files.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Component, Path};
+
+use shadowstep::tables::{self, Source, TableScheme, shipped_names};
+use shadowstep_symbolic::nearest;
+
+use crate::complaint::Complaint;
+
+/// A scheme under the name by which it was asked for.
+#[derive(Debug)]
+pub(crate) struct Named {
+    pub(crate) name: String,
+    pub(crate) scheme: TableScheme,
+}
+
+/// The scheme that a word means: a shipped one, or a file.
+pub(crate) fn scheme(word: &str) -> Result<Named, Complaint> {
+    let scheme = if is_file(word) {
+        tables::read(&source(word)?, &beside_or_shipped, None).map_err(Complaint::Table)?
+    } else {
+        tables::shipped(word).ok_or_else(|| unknown(word))?
+    };
+    Ok(Named { name: word.to_owned(), scheme })
+}
+
+/// The text of a table.
+pub(crate) fn source(path: &str) -> Result<Source, Complaint> {
+    match fs::read_to_string(path) {
+        Ok(text) => Ok(Source { path: path.to_owned(), text }),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let shipped = path.strip_suffix(".toml").filter(|name| shipped_names().contains(name));
+            let hint = match shipped {
+                Some(name) => format!("the shipped scheme is `{name}`, without `.toml`"),
+                None => "give the path of a table, or a name that `shadowstep schemes` lists".to_owned(),
+            };
+            Err(Complaint::usage(format!("there is no file {path}"), hint))
+        }
+        Err(error) if error.kind() == ErrorKind::InvalidData => {
+            Err(Complaint::usage(format!("{path} is no text in UTF-8"), "a table is a TOML file"))
+        }
+        Err(error) => Err(Complaint::usage(format!("{path} cannot be read: {error}"), "give the path of a table")),
+    }
+}
+
+/// The base table of a composition: beside the table that names it, else shipped. What is shipped needs only that.
+pub(crate) fn beside_or_shipped(base: &str, from: &Source) -> Option<Source> {
+    let shipped = shadowstep_schemes::shipped;
+    if from.is_shipped() {
+        return shipped(base);
+    }
+    beside(base, &from.path).or_else(|| shipped(base))
+}
+
+fn beside(base: &str, from: &str) -> Option<Source> {
+    // a file name, no path: so a chain of tables ends or comes back to a name it has had
+    let mut parts = Path::new(base).components();
+    let (Some(Component::Normal(_)), None) = (parts.next(), parts.next()) else { return None };
+    let file = format!("{}.toml", base.strip_suffix(".toml").unwrap_or(base));
+    let path = Path::new(from).with_file_name(file).to_str()?.to_owned();
+    let text = fs::read_to_string(&path).ok()?;
+    Some(Source { path, text })
+}
+
+fn is_file(word: &str) -> bool {
+    word.ends_with(".toml") || word.contains(std::path::is_separator)
+}
+
+fn unknown(word: &str) -> Complaint {
+    let names = shipped_names();
+    let hint = match nearest(word, names.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`? `shadowstep schemes` lists all"),
+        None => format!("shipped are {}; the name of a table of yours ends in .toml", names.join(", ")),
+    };
+    Complaint::usage(format!("there is no scheme `{word}`"), hint)
+}

@@ -1,0 +1,44 @@
+//! One run: a scheme and a step size.
+
+use shadowstep::Rational;
+use shadowstep::run::RunError;
+
+use crate::complaint::Complaint;
+use crate::figures::shortened;
+use crate::library::Named;
+
+/// n = 0, …, steps at the times n h.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Run<'a> {
+    pub(crate) scheme: &'a Named,
+    pub(crate) h: &'a Rational,
+    pub(crate) steps: u64,
+}
+
+impl Run<'_> {
+    /// t = n h
+    pub(crate) fn time(&self, n: i64) -> Rational {
+        self.h * Rational::from_integer(n.into())
+    }
+
+    /// Which run it is, in messages.
+    pub(crate) fn name(&self) -> String {
+        format!("{}, step {}", self.scheme.name, shortened(self.h, 20))
+    }
+
+    /// A state is not finite.
+    pub(crate) fn failed(&self, error: &RunError) -> Complaint {
+        let RunError::NotFinite { step, what } = error;
+        self.ended(&format!("the run ends at n = {step} with {what}"))
+    }
+
+    /// All states are finite, an energy is not.
+    pub(crate) fn not_finite(&self, energy: &str) -> Complaint {
+        self.ended(&format!("{energy} is not finite"))
+    }
+
+    fn ended(&self, how: &str) -> Complaint {
+        let sentence = format!("{}: {how}", self.name());
+        Complaint::run(sentence, "a smaller step or another initial state may go on")
+    }
+}

@@ -1,0 +1,49 @@
+//! The proof of what tables claim.
+
+use std::io::Write;
+
+use shadowstep::tables::{self, Proved};
+use shadowstep_schemes::Kinetic;
+
+use crate::complaint::{Complaint, Ending};
+use crate::library;
+use crate::output::Output;
+
+/// Goes through all tables; the worst answer counts.
+pub(crate) fn check(files: &[String]) -> Result<Ending, Complaint> {
+    let mut output = Output::open(None)?;
+    let mut ending = Ending::Done;
+    for path in files {
+        let source = match library::source(path) {
+            Ok(source) => source,
+            Err(complaint) => {
+                ending = ending.max(complaint.tell());
+                continue;
+            }
+        };
+        match tables::read(&source, &library::beside_or_shipped, None) {
+            Ok(scheme) => write!(output, "{}", verdict(path, scheme.proved()))?,
+            Err(faults) => {
+                writeln!(output, "{faults}")?;
+                ending = ending.max(Ending::AnswerIsNo);
+            }
+        }
+    }
+    output.finish()?;
+    Ok(ending)
+}
+
+fn verdict(path: &str, proved: &Proved) -> String {
+    let order = proved.order();
+    let class = match proved.scheme.table.kinetic {
+        Kinetic::Any => "every T(p)",
+        Kinetic::Quadratic => "quadratic T",
+    };
+    let digits = order.digits.map_or_else(|| "exactly".to_owned(), |digits| format!("to {digits} digits"));
+    let symmetric = if proved.proof.symmetric { ", symmetric" } else { "" };
+    let mut text = format!("{path}: proved: order {} for {class}, {digits}{symmetric}\n", order.order);
+    for remark in &proved.remarks {
+        text += &format!("remark: {remark}\n");
+    }
+    text
+}

@@ -1,0 +1,103 @@
+//! Energy and modified energy at each step of one run.
+
+use rug::Float;
+use serde::Serialize;
+use shadowstep::number::Number;
+use shadowstep::run::ShadowRun;
+
+use crate::arguments::TraceArguments;
+use crate::complaint::{Complaint, Ending};
+use crate::output::Output;
+use crate::progress::Progress;
+use crate::run::Run;
+use crate::selection::{Arithmetic, Selection};
+
+/// A state of the run, as JSON has it; numbers are texts that read back to the same numbers.
+#[derive(Serialize)]
+struct Row {
+    n: i64,
+    t: String,
+    energy: String,
+    modified_energy: String,
+    estimate: String,
+    order: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    q: Option<Vec<String>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    p: Option<Vec<String>>,
+}
+
+pub(crate) fn trace(arguments: &TraceArguments) -> Result<Ending, Complaint> {
+    let selection = Selection::read(&arguments.run)?;
+    let run = selection.single().ok_or_else(|| {
+        Complaint::usage("a trace is of one run: one scheme and one step", "`shadowstep drift` makes many runs")
+    })?;
+    let mut output = Output::open(arguments.run.output.as_deref())?;
+    let bar = arguments.run.output.is_some();
+    let mut write = writer(&selection, arguments, &mut output)?;
+    match selection.arithmetic {
+        Arithmetic::Double => follow::<f64>(&selection, run, &(), arguments.states, bar, &mut write)?,
+        Arithmetic::Digits(_, precision) => {
+            follow::<Float>(&selection, run, &precision, arguments.states, bar, &mut write)?
+        }
+    }
+    drop(write);
+    output.finish()?;
+    Ok(Ending::Done)
+}
+
+type Writer<'a> = Box<dyn FnMut(&Row) -> Result<(), Complaint> + 'a>;
+
+/// Writes rows as JSON, or as CSV under a header.
+fn writer<'a>(
+    selection: &Selection,
+    arguments: &TraceArguments,
+    output: &'a mut Output,
+) -> Result<Writer<'a>, Complaint> {
+    if !arguments.csv {
+        return Ok(Box::new(|row| output.json(row)));
+    }
+    let mut csv = csv::Writer::from_writer(output);
+    let problem = selection.setup.problem;
+    let coordinates = problem.positions.iter().chain(problem.momenta).map(|(name, _)| *name);
+    let columns = ["n", "t", "energy", "modified_energy", "estimate", "order"];
+    csv.write_record(columns.into_iter().chain(coordinates.filter(|_| arguments.states)))?;
+    Ok(Box::new(move |row| {
+        let (n, order) = (row.n.to_string(), row.order.to_string());
+        let fields = [&n, &row.t, &row.energy, &row.modified_energy, &row.estimate, &order];
+        let state = [&row.q, &row.p].into_iter().flatten().flatten();
+        csv.write_record(fields.into_iter().chain(state))?;
+        Ok(csv.flush()?)
+    }))
+}
+
+fn follow<N: Number + 'static>(
+    selection: &Selection,
+    run: Run<'_>,
+    context: &N::Context,
+    states: bool,
+    bar: bool,
+    write: &mut Writer<'_>,
+) -> Result<(), Complaint> {
+    let progress = Progress::new(bar, run.name(), run.steps);
+    let heard = progress.listener();
+    let motion = selection.motion::<N>(context);
+    let (mut q, mut p) = (motion.q().to_vec(), motion.p().to_vec());
+    let estimator = selection.estimator(run.h, context);
+    let mut shadow =
+        ShadowRun::new(&run.scheme.scheme, motion, run.h, run.steps, estimator).map_err(|error| run.failed(&error))?;
+    while let Some((n, found)) = shadow.advance().map_err(|error| run.failed(&error))? {
+        q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
+        p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
+        let (modified_energy, estimate, order) = (found.value.to_text(), found.error.to_text(), found.order);
+        let energy = shadow.motion().energy_of(&q, &p);
+        if !energy.is_finite() {
+            return Err(run.not_finite(&format!("the energy at n = {n}")));
+        }
+        let texts = |numbers: &[N]| states.then(|| numbers.iter().map(N::to_text).collect());
+        let t = N::from_rational(&run.time(n), context).to_text();
+        write(&Row { n, t, energy: energy.to_text(), modified_energy, estimate, order, q: texts(&q), p: texts(&p) })?;
+        heard(n);
+    }
+    Ok(())
+}

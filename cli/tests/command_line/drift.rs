@@ -1,0 +1,206 @@
+//! `shadowstep drift`.
+
+use crate::program::{objects, quietly, shadowstep, text};
+use rug::Float;
+use serde_json::Value;
+use shadowstep::exact;
+
+const FAST: &str = "drift --problem kepler --scheme stormer-verlet --double --order 4 --until 2";
+
+const FIELDS: [&str; 20] = [
+    "problem",
+    "parameters",
+    "scheme",
+    "step",
+    "until",
+    "digits",
+    "estimator",
+    "order",
+    "drift",
+    "minimum",
+    "maximum",
+    "at_minimum",
+    "at_maximum",
+    "first",
+    "last",
+    "order_least",
+    "order_most",
+    "steps",
+    "force_evaluations",
+    "seconds",
+];
+
+#[test]
+fn a_record_has_its_fields_in_order() {
+    let line = quietly(&format!("{FAST} --step 1/10 --json"));
+    let places: Vec<usize> = FIELDS.map(|field| line.find(&format!("\"{field}\":")).expect(field)).to_vec();
+    assert!(places.is_sorted(), "{line}");
+    assert_eq!(objects(&line)[0].as_object().unwrap().len(), FIELDS.len());
+}
+
+#[test]
+fn a_record_says_what_was_run() {
+    let words = "drift --problem kepler --set eccentricity=1/3 --scheme ruth3 --step 0.05 --until 4/2 --digits 20 \
+                 --order 3 --json";
+    let record = &objects(&quietly(words))[0];
+    assert_eq!(text(record, "problem"), "kepler");
+    assert_eq!(text(record, "scheme"), "ruth3");
+    assert_eq!((text(record, "step"), text(record, "until")), ("1/20", "2"));
+    assert_eq!((&record["digits"], &record["order"]), (&Value::from(20), &Value::from(3)));
+    assert_eq!((&record["order_least"], &record["order_most"]), (&Value::from(3), &Value::from(3)));
+    assert_eq!(text(record, "estimator"), "central");
+    assert_eq!(record["steps"], 40);
+    // 40 steps, 3 beyond each end, 3 forces each: ruth3 begins with a kick and ends with a drift
+    assert_eq!(record["force_evaluations"], (40 + 3 + 3) * 3);
+    let parameters = &record["parameters"];
+    assert_eq!(text(parameters, "eccentricity"), "1/3");
+    assert_eq!(text(parameters, "x"), "2/3");
+    // sqrt 2, rounded beyond the digits of the run
+    assert!(text(parameters, "py").starts_with("1.41421356237309504880168872"), "{parameters}");
+}
+
+#[test]
+fn numbers_round_trip_and_the_drift_is_maximum_minus_minimum() {
+    let words = "drift --problem pendulum --scheme yoshida4 --step 1/10 --until 3 --digits 60 --order 6 --json";
+    let record = &objects(&quietly(words))[0];
+    let precision = shadowstep::number::Precision::digits(60).unwrap().in_bits();
+    let number = |field| Float::with_val(precision, Float::parse(text(record, field)).unwrap());
+    assert_eq!(number("drift"), Float::with_val(precision, number("maximum") - number("minimum")));
+    assert!(number("drift") > 0);
+    for field in ["drift", "minimum", "maximum", "first", "last"] {
+        assert_eq!(shadowstep::Number::to_text(&number(field)), text(record, field));
+    }
+    // the last state's modified energy is between the extremes
+    assert!(number("minimum") <= number("last") && number("last") <= number("maximum"));
+}
+
+#[test]
+fn there_is_a_run_per_scheme_and_step() {
+    let words = "drift --problem pendulum --scheme stormer-verlet,ruth3 --step 1/10,1/20 --until 1 --double --order 2 \
+                 --json";
+    let runs = objects(&quietly(words));
+    let made: Vec<_> = runs.iter().map(|run| (text(run, "scheme"), text(run, "step"))).collect();
+    let expected = [("stormer-verlet", "1/10"), ("stormer-verlet", "1/20"), ("ruth3", "1/10"), ("ruth3", "1/20")];
+    assert_eq!(made, expected);
+}
+
+#[test]
+fn auto_chooses_among_the_orders_allowed() {
+    let words = "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 2 --digits 40 --json";
+    let full = &objects(&quietly(&format!("{words} --max-order 20")))[0];
+    assert_eq!(text(full, "order"), "auto");
+    let (least, most) = (full["order_least"].as_u64().unwrap(), full["order_most"].as_u64().unwrap());
+    assert!(2 <= least && least < most && most <= 20, "{least}–{most}");
+    // with D_4 alone it is worse
+    let fixed = &objects(&quietly(&format!("{words} --order 4")))[0];
+    let drift = |record| text(record, "drift").parse::<f64>().unwrap();
+    assert!(drift(full) < drift(fixed) / 10.0, "{full} {fixed}");
+}
+
+#[test]
+fn the_early_stop_is_content_with_lower_orders() {
+    let words =
+        "drift --problem pendulum --scheme stormer-verlet --step 1/10 --until 2 --digits 120 --max-order 80 --json";
+    let least = |stop: &str| objects(&quietly(&format!("{words} --stop {stop}")))[0]["order_least"].as_u64().unwrap();
+    assert!(least("early") < least("full"), "{} {}", least("early"), least("full"));
+}
+
+#[test]
+fn backwards_in_time_goes_as_well() {
+    let words = FAST.replace("--until 2", "--until -2");
+    let record = &objects(&quietly(&format!("{words} --step -1/10 --json")))[0];
+    assert_eq!((text(record, "step"), text(record, "until")), ("-1/10", "-2"));
+    assert_eq!(record["steps"], 20);
+    // the orbit and the scheme are symmetric in time
+    let forward = &objects(&quietly(&format!("{FAST} --step 1/10 --json")))[0];
+    let number = |record, field| text(record, field).parse::<f64>().unwrap();
+    assert!((number(record, "last") - number(forward, "last")).abs() < 1e-14);
+}
+
+#[test]
+fn people_get_a_table() {
+    let words = "drift --problem kepler --scheme stormer-verlet,yoshida4 --step 1/10 --until 2 --digits 30 --order 4";
+    let table = quietly(words);
+    let [title, values, how, ..] = table.lines().collect::<Vec<_>>()[..] else { panic!("{table}") };
+    assert!(title.contains("Kepler") && title.contains("1/sqrt(x^2 + y^2)"), "{title}");
+    assert!(values.contains("eccentricity = 3/5, x = 2/5"), "{values}");
+    assert!(how.contains("30 digits") && how.contains("m = 4"), "{how}");
+    let row = table.lines().find(|line| line.trim_start().starts_with("yoshida4")).expect("a row for each run");
+    let cells: Vec<&str> = row.split_whitespace().collect();
+    assert_eq!((cells[1], cells[5], cells[6]), ("1/10", "4", "20"));
+    // the same drift as JSON has, to 4 digits
+    let record = &objects(&quietly(&format!("{words} --json")))[1];
+    let (shown, full): (f64, f64) = (cells[2].parse().unwrap(), text(record, "drift").parse().unwrap());
+    assert!((shown / full - 1.0).abs() < 1e-3, "{shown} {full}");
+    assert!(!table.contains('\u{1b}'), "no colours where there is no terminal");
+}
+
+#[test]
+fn drifts_below_the_range_of_f64_are_shown() {
+    // the modified energy at h changes by round-off only, some 1e-310 with a step of 1e-90
+    let words = "drift --problem harmonic-oscillator --scheme stormer-verlet --step 1e-90 --until 5e-90 --digits 400 \
+                 --order 1";
+    let table = quietly(words);
+    let cells: Vec<&str> =
+        table.lines().find(|line| line.contains("stormer-verlet")).unwrap().split_whitespace().collect();
+    let exponent: i32 = cells[2].split_once('e').expect("a power of ten").1.parse().unwrap();
+    assert!(exponent < -310, "{cells:?}");
+}
+
+#[test]
+fn a_remark_says_where_an_unfinished_interval_ends() {
+    let said = shadowstep(&format!("{} --step 3/10 --json", FAST.replace("--until 2", "--until 100")));
+    assert_eq!(said.err, "remark: 100 is not a multiple of 3/10: the run ends at n = 333, t = 99.9\n");
+    assert_eq!(objects(&said.out)[0]["steps"], 333);
+    assert_eq!(said.code, 0);
+}
+
+#[test]
+fn a_remark_says_how_far_published_digits_hold() {
+    let words = "drift --problem pendulum --scheme blanes-moan-s6 --step 1/10,1/20 --until 1 --order 2";
+    let said = shadowstep(&format!("{words} --digits 40"));
+    assert!(said.err.starts_with("remark: blanes-moan-s6 has order 4 to 1"), "{}", said.err);
+    assert_eq!(said.err.lines().count(), 1, "once per scheme: {}", said.err);
+    quietly(&format!("{words} --digits 10"));
+}
+
+#[test]
+fn a_run_that_fails_lets_the_others_go_on() {
+    let words = "drift --problem harmonic-oscillator --scheme stormer-verlet --step 10,1/10 --until 4000 --double \
+                 --order 2 --json";
+    let said = shadowstep(words);
+    assert_eq!(said.code, 3);
+    assert!(said.err.starts_with("error: stormer-verlet, step 10: the run ends at n = "), "{}", said.err);
+    let runs = objects(&said.out);
+    assert_eq!(runs.len(), 1);
+    assert_eq!(text(&runs[0], "step"), "1/10");
+}
+
+#[test]
+fn an_energy_that_is_not_finite_fails_though_the_states_are_finite() {
+    let words = "drift --problem harmonic-oscillator --set q=1e200 --scheme stormer-verlet --step 1/10 --until 1 \
+                 --double --order 2 --json";
+    let said = shadowstep(words);
+    assert_eq!((said.code, said.out.as_str()), (3, ""));
+    assert!(said.err.contains("a modified energy of NaN"), "{}", said.err);
+}
+
+#[test]
+fn output_goes_to_a_file_that_is_complete() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("out.json");
+    let said = quietly(&format!("{FAST} --step 1/10 --json --output {}", file.display()));
+    assert_eq!(said, "");
+    assert_eq!(objects(&std::fs::read_to_string(&file).unwrap()).len(), 1);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left");
+}
+
+#[test]
+fn set_takes_the_exact_values_of_expressions() {
+    let words = "drift --problem henon-heiles --set px=sqrt(4)/10 --set y=x+1/8 --set x=0.5 --scheme ruth3 --step 1/10 \
+                 --until 1 --double --order 2 --json";
+    let parameters = &objects(&quietly(words))[0]["parameters"];
+    for (name, value) in [("x", "0.5"), ("y", "0.625"), ("px", "0.2"), ("py", "0")] {
+        assert_eq!(exact(text(parameters, name)).unwrap(), exact(value).unwrap(), "{name}");
+    }
+}

@@ -1,0 +1,53 @@
+//! `shadowstep problems`.
+
+use crate::program::{objects, quietly, shadowstep, text};
+use shadowstep::problems::PROBLEMS;
+
+#[test]
+fn every_problem_is_told_with_all_that_can_be_set() {
+    let all = quietly("problems");
+    let records = objects(&quietly("problems --json"));
+    assert_eq!(records.len(), PROBLEMS.len());
+    for (problem, record) in PROBLEMS.iter().zip(&records) {
+        assert_eq!(text(record, "name"), problem.name);
+        assert_eq!(text(record, "hamiltonian"), problem.hamiltonian);
+        assert!(all.contains(problem.hamiltonian) && all.contains(problem.source), "{all}");
+        let one = quietly(&format!("problems {}", problem.name));
+        for (name, default) in problem.positions.iter().chain(problem.momenta) {
+            assert!(one.contains(&format!("{name} = {default}")), "{name} in\n{one}");
+        }
+        for parameter in problem.parameters {
+            assert!(one.contains(&format!("{} = {}", parameter.name, parameter.default)), "{one}");
+            assert!(one.contains(parameter.meaning) && one.contains(parameter.range), "{one}");
+        }
+    }
+}
+
+#[test]
+fn json_has_parameters_and_state() {
+    let kepler = &objects(&quietly("problems kepler --json"))[0];
+    assert_eq!(text(&kepler["parameters"][0], "name"), "eccentricity");
+    assert_eq!(text(&kepler["parameters"][0], "default"), "0.6");
+    assert_eq!(kepler["positions"][1], serde_json::json!({"name": "y", "default": "0"}));
+    assert_eq!(text(&kepler["momenta"][0], "name"), "px");
+}
+
+#[test]
+fn every_problem_runs() {
+    for problem in &PROBLEMS {
+        let words = format!(
+            "drift --problem {} --scheme stormer-verlet --step 1/10 --until 1 --double --order 2 --json",
+            problem.name
+        );
+        let record = &objects(&quietly(&words))[0];
+        let count = problem.parameters.len() + problem.positions.len() + problem.momenta.len();
+        assert_eq!(record["parameters"].as_object().unwrap().len(), count);
+    }
+}
+
+#[test]
+fn an_unknown_problem_gets_a_hint() {
+    let said = shadowstep("problems pendulun");
+    assert_eq!((said.code, said.out.as_str()), (2, ""));
+    assert_eq!(said.err, "error: there is no problem `pendulun`\n  hint: did you mean `pendulum`?\n");
+}

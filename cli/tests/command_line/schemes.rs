@@ -1,0 +1,186 @@
+//! `shadowstep schemes` and tables in files.
+
+use std::fs;
+use std::path::Path;
+
+use crate::program::{objects, quietly, shadowstep, text};
+use shadowstep::tables::shipped_names;
+use shadowstep::{Rational, exact};
+
+const GOOD: &str = "\
+name = \"mine\"
+order = 4
+kinetic = \"any\"
+symmetric = true
+reference = \"an exercise\"
+
+[constants]
+g = \"1/(2 - 2^(1/3))\"
+
+[composition]
+base = \"stormer-verlet\"
+gamma = [\"g\", \"1 - 2*g\", \"g\"]
+";
+
+fn write(folder: &Path, name: &str, table: &str) -> String {
+    let path = folder.join(name);
+    fs::write(&path, table).unwrap();
+    path.display().to_string()
+}
+
+#[test]
+fn all_shipped_tables_are_listed() {
+    let table = quietly("schemes");
+    let records = objects(&quietly("schemes --json"));
+    assert_eq!(records.len(), shipped_names().len());
+    for name in shipped_names() {
+        assert!(table.contains(&format!(" {name} ")), "{name} is missing in\n{table}");
+        assert!(records.iter().any(|record| text(record, "name") == name), "{name}");
+    }
+    let verlet = records.iter().find(|record| text(record, "name") == "stormer-verlet").unwrap();
+    assert_eq!((&verlet["order"], &verlet["evaluations"]), (&2.into(), &1.into()));
+    assert_eq!((&verlet["symmetric"], &verlet["digits"]), (&true.into(), &serde_json::Value::Null));
+}
+
+#[test]
+fn exact_weights_sum_to_one() {
+    for name in shipped_names() {
+        let record = &objects(&quietly(&format!("schemes show {name} --json")))[0];
+        for weights in ["kick", "drift"] {
+            let texts = record[weights].as_array().unwrap();
+            assert_eq!(texts.len() as u64, record["stages"].as_u64().unwrap());
+            let sum: Rational = texts.iter().map(|w| exact(w.as_str().unwrap()).unwrap()).sum();
+            assert_eq!(sum, exact("1").unwrap(), "{name}: {weights}");
+        }
+    }
+}
+
+#[test]
+fn show_tells_what_is_proved() {
+    let record = &objects(&quietly("schemes show ruth3 --json"))[0];
+    assert_eq!((&record["order"], &record["order_digits"]), (&3.into(), &serde_json::Value::Null));
+    assert_eq!(record["fails"]["order"], 4);
+    assert_eq!(record["symmetric"], false);
+    assert_eq!(text(record, "first"), "kick");
+    assert_eq!(text(record, "doi"), "10.1109/TNS.1983.4332919");
+    assert_eq!(record["maps"][4], serde_json::json!({"map": "kick", "weight": "-1/24"}));
+    let readable = quietly("schemes show ruth3");
+    for part in ["Ruth's third-order scheme", "order 3, exactly", "needed 1/24", "-2/3", "10.1109/TNS.1983.4332919"] {
+        assert!(readable.contains(part), "{part} is missing in\n{readable}");
+    }
+}
+
+#[test]
+fn long_weights_are_shortened_for_people_only() {
+    let longest = |text: &str| text.split(|c: char| !c.is_ascii_digit()).map(str::len).max().unwrap();
+    assert!(longest(&quietly("schemes show yoshida4")) <= 40);
+    assert!(longest(&quietly("schemes show yoshida4 --json")) >= 299);
+}
+
+#[test]
+fn check_proves_a_good_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = write(folder.path(), "mine.toml", GOOD);
+    let said = quietly(&format!("schemes check {path}"));
+    assert!(said.starts_with(&format!("{path}: proved: order 4 for every T(p), to ")), "{said}");
+}
+
+#[test]
+fn check_remarks_on_claims_that_say_too_little() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = write(folder.path(), "mine.toml", &GOOD.replace("order = 4", "order = 3"));
+    let said = quietly(&format!("schemes check {path}"));
+    assert!(said.contains("order 3 is claimed, order 4 holds"), "{said}");
+    assert!(said.contains(&format!("remark: {path}:2:9:")), "{said}");
+}
+
+#[test]
+fn check_shows_the_place_of_each_fault() {
+    let folder = tempfile::tempdir().unwrap();
+    let good = write(folder.path(), "good.toml", GOOD);
+    let wrong = write(folder.path(), "wrong.toml", &GOOD.replace("2^(1/3)", "2^(1/2)"));
+    let said = shadowstep(&format!("schemes check {wrong} {good}"));
+    assert_eq!(said.code, 1, "{}", said.err);
+    assert!(said.out.starts_with(&format!("{wrong}:2:9: order 4 is claimed, order 2 holds")), "{}", said.out);
+    assert!(said.out.contains("  2 | order = 4\n    |         ^\n  found "), "{}", said.out);
+    assert!(said.out.contains(&format!("{good}: proved")), "the others are checked too: {}", said.out);
+}
+
+#[test]
+fn a_file_that_cannot_be_read_weighs_more_than_a_fault() {
+    let folder = tempfile::tempdir().unwrap();
+    let wrong = write(folder.path(), "wrong.toml", "order = 4\n");
+    let said = shadowstep(&format!("schemes check nowhere.toml {wrong}"));
+    assert_eq!(said.code, 2);
+    assert!(said.err.starts_with("error: there is no file nowhere.toml\n  hint: "), "{}", said.err);
+    assert!(said.out.contains("the key `name` is missing"), "{}", said.out);
+}
+
+#[test]
+fn show_takes_files_and_names_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = write(folder.path(), "mine.toml", GOOD);
+    assert!(quietly(&format!("schemes show {path}")).starts_with("mine\n"));
+    let said = shadowstep("schemes show yoshda4");
+    assert_eq!(said.code, 2);
+    assert!(said.err.contains("did you mean `yoshida4`?"), "{}", said.err);
+}
+
+fn run(scheme: &str) -> String {
+    format!("drift --problem pendulum --scheme {scheme} --step 1/10 --until 1 --digits 40 --order 4 --json")
+}
+
+#[test]
+fn a_composition_of_a_shipped_base_runs_like_the_shipped_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = write(folder.path(), "mine.toml", GOOD);
+    let mine = &objects(&quietly(&run(&path)))[0];
+    let shipped = &objects(&quietly(&run("yoshida4")))[0];
+    assert_eq!(text(mine, "scheme"), path);
+    assert_eq!(text(mine, "drift"), text(shipped, "drift"));
+}
+
+#[test]
+fn a_base_beside_the_table_comes_before_a_shipped_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let drift_first = "\
+name = \"stormer-verlet\"
+order = 2
+kinetic = \"any\"
+reference = \"an exercise\"
+
+[stages]
+kick = [0, 1]
+drift = [\"1/2\", \"1/2\"]
+";
+    write(folder.path(), "stormer-verlet.toml", drift_first);
+    let path = write(folder.path(), "mine.toml", GOOD);
+    let show = &objects(&quietly(&format!("schemes show {path} --json")))[0];
+    assert_eq!(text(show, "first"), "drift");
+    // what is shipped takes nothing from here
+    let composed = GOOD.replace("\"stormer-verlet\"", "\"yoshida4\"").replace("2^(1/3)", "2^(1/5)");
+    let path = write(folder.path(), "deeper.toml", &composed.replace("order = 4", "order = 6"));
+    let show = &objects(&quietly(&format!("schemes show {path} --json")))[0];
+    assert_eq!((text(show, "first"), &show["order"]), ("kick", &6.into()));
+}
+
+#[test]
+fn cyclic_and_far_bases_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mine = write(folder.path(), "mine.toml", &GOOD.replace("stormer-verlet", "other"));
+    write(folder.path(), "other.toml", &GOOD.replace("stormer-verlet", "mine"));
+    let said = shadowstep(&format!("schemes check {mine}"));
+    assert!(said.code == 1 && said.out.contains("this composition is cyclic"), "{}", said.out);
+    let far = write(folder.path(), "far.toml", &GOOD.replace("stormer-verlet", "../far"));
+    let said = shadowstep(&format!("schemes check {far}"));
+    assert!(said.code == 1 && said.out.contains("there is no table `../far`"), "{}", said.out);
+}
+
+#[test]
+fn a_faulty_table_does_not_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = write(folder.path(), "mine.toml", &GOOD.replace("order = 4", "order = 5"));
+    let said = shadowstep(&run(&path));
+    assert_eq!((said.code, said.out.as_str()), (2, ""));
+    assert!(said.err.starts_with(&format!("error: {path}:2:9: order 5 is claimed, order 4 holds")), "{}", said.err);
+}

@@ -1,0 +1,97 @@
+//! `shadowstep trace`.
+
+use crate::program::{objects, quietly, shadowstep, text};
+
+const RUN: &str = "trace --problem kepler --scheme stormer-verlet --step 1/32 --until 1/2 --digits 30 --order 5";
+
+#[test]
+fn there_is_a_line_per_state() {
+    let lines = objects(&quietly(RUN));
+    assert_eq!(lines.len(), 16 + 1);
+    for (n, line) in lines.iter().enumerate() {
+        assert_eq!(line["n"], n);
+        assert_eq!(text(line, "t").parse::<f64>().unwrap(), n as f64 / 32.0);
+        assert_eq!(line["order"], 5);
+    }
+    // H at the start; the modified energy changes less than the energy
+    assert_eq!(text(&lines[0], "energy"), "-0.5");
+    let spread = |field| {
+        let values: Vec<f64> = lines.iter().map(|line| text(line, field).parse().unwrap()).collect();
+        values.iter().copied().fold(f64::MIN, f64::max) - values.iter().copied().fold(f64::MAX, f64::min)
+    };
+    assert!(spread("modified_energy") < spread("energy") / 100.0);
+}
+
+#[test]
+fn json_is_the_default() {
+    assert_eq!(quietly(RUN), quietly(&format!("{RUN} --json")));
+}
+
+#[test]
+fn the_extremes_are_those_of_drift() {
+    let values: Vec<String> =
+        objects(&quietly(RUN)).iter().map(|line| text(line, "modified_energy").to_owned()).collect();
+    let record = &objects(&quietly(&format!("{} --json", RUN.replace("trace", "drift"))))[0];
+    assert_eq!(values[record["at_minimum"].as_u64().unwrap() as usize], text(record, "minimum"));
+    assert_eq!(values[record["at_maximum"].as_u64().unwrap() as usize], text(record, "maximum"));
+    assert_eq!((&*values[0], &*values[16]), (text(record, "first"), text(record, "last")));
+}
+
+#[test]
+fn states_are_there_if_asked_for() {
+    let lines = objects(&quietly(&format!("{RUN} --states")));
+    assert_eq!(lines[0]["q"], serde_json::json!(["0.4", "0.0"]));
+    assert_eq!(lines[0]["p"], serde_json::json!(["0.0", "2.0"]));
+    assert_ne!(lines[1]["q"], lines[0]["q"]);
+    assert!(objects(&quietly(RUN))[0].get("q").is_none());
+}
+
+#[test]
+fn csv_has_a_header_and_the_same_numbers() {
+    let csv = quietly(&format!("{RUN} --csv --states"));
+    let mut lines = csv.lines();
+    assert_eq!(lines.next(), Some("n,t,energy,modified_energy,estimate,order,x,y,px,py"));
+    for (row, line) in lines.zip(objects(&quietly(&format!("{RUN} --states")))) {
+        let state = [&line["q"], &line["p"]].map(|v| v.as_array().unwrap().clone()).concat();
+        let numbers = ["n", "t", "energy", "modified_energy", "estimate", "order"].map(|field| line[field].clone());
+        let expected: Vec<String> =
+            numbers.into_iter().chain(state).map(|value| value.to_string().replace('"', "")).collect();
+        assert_eq!(row, expected.join(","));
+    }
+    assert_eq!(csv.lines().count(), 1 + 17);
+    let short = quietly(&format!("{RUN} --csv"));
+    assert_eq!(short.lines().next(), Some("n,t,energy,modified_energy,estimate,order"));
+}
+
+#[test]
+fn a_trace_is_of_one_run() {
+    for several in ["--step 1/10,1/20 --scheme ruth3", "--step 1/10 --scheme ruth3,yoshida4"] {
+        let said = shadowstep(&format!("trace --problem kepler --until 1 --double {several}"));
+        assert_eq!((said.code, said.out.as_str()), (2, ""));
+        assert!(said.err.starts_with("error: a trace is of one run"), "{}", said.err);
+    }
+}
+
+#[test]
+fn a_trace_that_fails_leaves_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("out.csv");
+    let words =
+        "trace --problem harmonic-oscillator --scheme stormer-verlet --step 10 --until 10000 --double --order 2";
+    let said = shadowstep(&format!("{words} --csv --output {}", file.display()));
+    assert_eq!(said.code, 3, "{}", said.err);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_reader_may_stop_reading() {
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_shadowstep"))
+        .args("trace --problem kepler --scheme ruth3 --step 1/1000 --until 100 --double --order 2".split(' '))
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), &b""[..]));
+}

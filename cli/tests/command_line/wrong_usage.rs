@@ -1,0 +1,87 @@
+//! What is wrong is said in one sentence with a hint, and the exit code is 2.
+
+use crate::program::{quietly, shadowstep};
+
+/// Flags that replace or complete a good command line, what the sentence says, and what the hint says.
+const WRONG: &[(&str, &str, &str)] = &[
+    ("--problem keppler", "there is no problem `keppler`", "did you mean `kepler`?"),
+    ("--set ecentricity=0.1", "kepler has no parameter or initial value `ecentricity`", "`eccentricity`"),
+    ("--set eccentricity=1", "--set eccentricity=1 is out of range", "less than 1"),
+    ("--set eccentricity=1/0", "--set eccentricity=1/0: division by zero", "1/10"),
+    ("--set eccentricity=1+", "`1+`, character 3: unexpected end", "1/10"),
+    ("--set x=y", "--set x=y: unknown name `y`", "1/10"),
+    ("--set eccentricity", "--set eccentricity has no `=`", "--set x=1/2"),
+    ("--set x=1 --set x=2", "`x` is set twice", "keep one"),
+    ("--scheme stormer-velet", "there is no scheme `stormer-velet`", "did you mean `stormer-verlet`?"),
+    ("--scheme zzzzzzzzzzzz", "there is no scheme `zzzzzzzzzzzz`", "shipped are"),
+    ("--scheme yoshida4.toml", "there is no file yoshida4.toml", "is `yoshida4`, without `.toml`"),
+    ("--scheme nowhere/mine.toml", "there is no file nowhere/mine.toml", "give the path of a table"),
+    ("--step 0.1x", "--step `0.1x`, character 1: `0.1x`: an operator is missing", "1/10"),
+    ("--step 1/10,*2", "--step `*2`, character 1", "1/10"),
+    ("--step 0", "--step 0 is zero", "such as 1/10"),
+    ("--step -1/10", "steps of -1/10 never come to --until 2: their signs differ", "both are positive"),
+    ("--step 3", "--step 3 is longer than the run until 2", "shorter step"),
+    ("--step 1e-20", "steps of 1e-20 until 2 are 2e20 steps", "more than 1e10"),
+    ("--until 0", "--until 0 leaves no time for a step", "--until 100"),
+    ("--until 2..", "--until `2..`, character 3", "1/10"),
+    ("--digits 301 --scheme yoshida4", "yoshida4 is held to 300 digits, the run asks for 301", "--digits 300"),
+    ("--digits 6000 --set py=sqrt(2)", "py is irrational and computed to 5000 digits", "--digits 4980"),
+    ("--order 4 --max-order 8", "--max-order and --stop are for --order auto, not for --order 4", "leave them out"),
+    ("--order 4 --stop early", "--max-order and --stop are for --order auto, not for --order 4", "leave them out"),
+    ("--output nowhere/out.json", "--output nowhere/out.json cannot be written", "folder that exists"),
+    ("--output /", "--output / is no file", "name of a file"),
+];
+
+#[test]
+fn each_gets_its_sentence_and_hint() {
+    for (flags, sentence, hint) in WRONG {
+        let said = shadowstep(&completed(flags));
+        assert_eq!((said.code, said.out.as_str()), (2, ""), "{flags}: {}", said.err);
+        let lines: Vec<&str> = said.err.lines().collect();
+        let [error, help] = lines[..] else { panic!("{flags}: {}", said.err) };
+        assert!(error.strip_prefix("error: ").is_some_and(|error| error.contains(sentence)), "{flags}: {error}");
+        assert!(help.strip_prefix("  hint: ").is_some_and(|help| help.contains(hint)), "{flags}: {help}");
+    }
+}
+
+#[test]
+fn flags_are_judged_by_their_own_rules() {
+    for (flags, sentence) in [
+        ("--digits 0", "0 is not in 1..=100000"),
+        ("--digits 100001", "100001 is not in 1..=100000"),
+        ("--digits 50 --double", "'--digits <DIGITS>' cannot be used with '--double'"),
+        ("--order 0", "write a number from 1 to 1000, or auto"),
+        ("--order best", "write a number from 1 to 1000, or auto"),
+        ("--max-order 1", "1 is not in 2..=1000"),
+        ("--stop soon", "invalid value 'soon'"),
+        ("--frobnicate", "unexpected argument '--frobnicate'"),
+    ] {
+        let said = shadowstep(&completed(flags));
+        assert_eq!((said.code, said.out.as_str()), (2, ""), "{flags}");
+        assert!(said.err.contains(sentence), "{flags}: {}", said.err);
+    }
+    assert_eq!(shadowstep("frobnicate").code, 2);
+    assert_eq!(shadowstep("drift").code, 2);
+}
+
+/// A command line that is good but for these flags.
+fn completed(flags: &str) -> String {
+    let good = ["--problem kepler", "--scheme stormer-verlet", "--step 1/10", "--until 2"];
+    let kept = good.into_iter().filter(|flag| !flags.contains(flag.split_once(' ').unwrap().0));
+    format!("drift {} {flags}", kept.collect::<Vec<_>>().join(" "))
+}
+
+#[test]
+fn the_good_command_line_is_good() {
+    assert_eq!(quietly(&completed("--double --order 2 --json")).lines().count(), 1);
+}
+
+#[test]
+fn help_tells_of_exit_codes_and_examples() {
+    let help = quietly("--help");
+    for code in ["0  done", "1  the answer is no", "2  wrong usage", "3  a run failed"] {
+        assert!(help.contains(code), "{help}");
+    }
+    let example = quietly("drift --help");
+    assert!(example.contains("Example:\n  shadowstep drift --problem kepler"), "{example}");
+}
