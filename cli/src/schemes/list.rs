@@ -22,7 +22,7 @@ struct Record {
     title: Option<String>,
 }
 
-const COLUMNS: [&str; 8] = ["order", "quadratic T", "stages", "forces a step", "symmetric", "digits", "name", "title"];
+const COLUMNS: [&str; 7] = ["order", "quadratic T", "stages", "forces a step", "symmetric", "digits", "name"];
 
 /// All shipped schemes, the lowest orders and the cheapest first.
 pub(crate) fn list(json: bool) -> Result<Ending, Complaint> {
@@ -53,7 +53,7 @@ fn record(name: &'static str, scheme: &TableScheme) -> Record {
     }
 }
 
-fn row(record: &Record) -> [String; 8] {
+fn row(record: &Record) -> [String; 7] {
     [
         record.order.to_string(),
         record.order_quadratic.to_string(),
@@ -62,6 +62,5 @@ fn row(record: &Record) -> [String; 8] {
         if record.symmetric { "yes" } else { "no" }.to_owned(),
         digits_text(record.digits),
         record.name.to_owned(),
-        record.title.clone().unwrap_or_default(),
     ]
 }

@@ -14,8 +14,13 @@ use crate::weights::stirling;
 pub enum Stop {
     /// At the largest m allowed.
     Full,
-    /// At the first m ≥ 13 with max_{j=m−11..m−1} e_j ≤ max_{j=m−10..m} e_j, e_j = |T_{j,j} − T_{j−1,j−1}|
-    /// (Moan & Niesen, section 5.2).
+    /// At the first m ≥ 13 with max_{j=m−11..m−1} e_j < max_{j=m−10..m} e_j, e_j = |T_{j,j} − T_{j−1,j−1}|: the newest
+    /// of twelve terms is the largest.
+    ///
+    /// Moan & Niesen, section 5.2, print ≤, which also stops where the oldest of the terms is not the largest, thus at
+    /// the first ripple, and say that the result can hardly be told from the full search. That is true of < only: for
+    /// Störmer–Verlet on the pendulum, h = 1/10, 120 digits, the drift over [0, 100] is 1.6e-25 by the full search,
+    /// 2.8e-25 with < and 7.3e-17 with ≤; on Kepler, e = 0.6, h = 1/20, it is 1.0e-7, 1.2e-7 and 2.8e-6.
     Early,
 }
 
@@ -137,7 +142,7 @@ impl<N: Number> AllOrders<N> {
     fn stops_at(&self, m: usize) -> bool {
         // errors[j − 1] is e_j, and e_2 is the first one that is a difference
         m >= STOP_WINDOW + 2
-            && largest(&self.errors[m - STOP_WINDOW - 1..m - 1]) <= largest(&self.errors[m - STOP_WINDOW..m])
+            && largest(&self.errors[m - STOP_WINDOW - 1..m - 1]) < largest(&self.errors[m - STOP_WINDOW..m])
     }
 }
 
