@@ -1,1 +1,74 @@
-//! (in the making)
+//! What the tests of the whole system share: numbers from texts, distances, every shipped scheme as generated code.
+
+pub mod shipped;
+pub mod steps;
+pub mod systems;
+
+use rug::Float;
+use shadowstep::number::{Number, Precision};
+use shadowstep::{Rational, exact};
+
+/// The precision of `digits` decimal digits.
+pub fn precision(digits: u32) -> Precision {
+    Precision::digits(digits).expect("tests use sensible precisions")
+}
+
+/// The exact value of an expression such as `1/3` or `0.1`.
+pub fn rational(text: &str) -> Rational {
+    exact(text).expect("tests write exact numbers")
+}
+
+/// An exact expression, rounded once to `digits` digits.
+pub fn number(text: &str, digits: u32) -> Float {
+    Float::from_rational(&rational(text), &precision(digits))
+}
+
+/// Exact expressions, rounded once to numbers of any kind.
+pub fn numbers<N: Number>(texts: &[&str], context: &N::Context) -> Vec<N> {
+    texts.iter().map(|text| N::from_rational(&rational(text), context)).collect()
+}
+
+/// log₁₀|a − b|, −∞ if they are equal.
+pub fn log10_distance<N: Number>(a: &N, b: &N) -> f64 {
+    let mut difference = a.clone();
+    difference.subtract(b);
+    difference.log10_abs()
+}
+
+/// The largest log₁₀|a_i − b_i|, −∞ if all are equal.
+pub fn log10_largest_distance<N: Number>(a: &[N], b: &[N]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).map(|(a, b)| log10_distance(a, b)).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Numbers whose bits can be compared: −0 is not 0.
+pub trait Bits: Number + 'static {
+    /// The last place of 1, as a power of ten.
+    fn log10_epsilon(&self) -> f64;
+
+    /// Whether both are the same number, sign of zero and precision included.
+    fn same_bits(&self, other: &Self) -> bool;
+}
+
+impl Bits for f64 {
+    fn log10_epsilon(&self) -> f64 {
+        f64::EPSILON.log10()
+    }
+    fn same_bits(&self, other: &f64) -> bool {
+        self.to_bits() == other.to_bits()
+    }
+}
+
+impl Bits for Float {
+    fn log10_epsilon(&self) -> f64 {
+        -f64::from(self.prec() - 1) * std::f64::consts::LOG10_2
+    }
+    fn same_bits(&self, other: &Float) -> bool {
+        self == other && self.is_sign_negative() == other.is_sign_negative() && self.prec() == other.prec()
+    }
+}
+
+/// Whether all bits are the same.
+pub fn same_bits<N: Bits>(a: &[N], b: &[N]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.same_bits(b))
+}

@@ -1,0 +1,328 @@
+//! Protects the code that the attribute writes: for every shipped table it does what the table says, bit for bit what
+//! the same table does when it is read at run time, and costs what its documentation says.
+
+use num_traits::{One, Signed};
+use rug::Float;
+use shadowstep::number::counting::{Counting, Operations, count};
+use shadowstep::problems::{HenonHeiles, Kepler};
+use shadowstep::{Motion, Number, Potential, Rational, Scheme, UnitMasses};
+use shadowstep_schemes::scheme::Held;
+use shadowstep_tests::shipped::{all, for_each};
+use shadowstep_tests::steps::Steps;
+use shadowstep_tests::systems::{System, systems};
+use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits};
+
+/// A step with which nothing is special: in no number type is it exact.
+const STEP: &str = "1/53";
+
+type Move<N> = fn(&Steps<'_, N>, &mut System<N>);
+
+/// Every kind of step after every other one.
+fn mixed_moves<N: Number + 'static>() -> [(&'static str, Move<N>); 12] {
+    let step: (_, Move<N>) = ("step", |s, m| s.step(m));
+    let augmented: (_, Move<N>) = ("step_augmented", |s, m| s.step_augmented(m));
+    let back: (_, Move<N>) = ("step_back", |s, m| s.step_back(m));
+    let back_augmented: (_, Move<N>) = ("step_back_augmented", |s, m| s.step_back_augmented(m));
+    [
+        step,
+        step,
+        augmented,
+        augmented,
+        back_augmented,
+        step,
+        back_augmented,
+        back_augmented,
+        back,
+        back,
+        augmented,
+        back,
+    ]
+}
+
+fn describe<N: Number + 'static>(system: &System<N>) -> String {
+    format!("{:?}, {} coordinates", system.potential(), system.q().len())
+}
+
+/// q, p and β of two systems have the same bits.
+fn assert_same<N: Bits>(one: &System<N>, other: &System<N>, what: &str) {
+    assert!(same_bits(one.q(), other.q()), "q differs: {what}\n{:?}\n{:?}", one.q(), other.q());
+    assert!(same_bits(one.p(), other.p()), "p differs: {what}\n{:?}\n{:?}", one.p(), other.p());
+    assert!(one.beta().same_bits(other.beta()), "β differs: {what}\n{:?}\n{:?}", one.beta(), other.beta());
+}
+
+fn unrolled_steps_have_the_bits_of_their_twins<N: Bits>(context: &N::Context) {
+    let h = rational(STEP);
+    for scheme in all::<N>(&h, context) {
+        let twin = Steps::of(&scheme.twin, &h, context);
+        assert!(same_bits(&scheme.generated.forward, &twin.forward), "{}", scheme.name);
+        assert!(same_bits(&scheme.generated.backward, &twin.backward), "{}", scheme.name);
+        assert_eq!(scheme.summary, scheme.twin.summary());
+        for system in systems::<N>(context) {
+            let (mut one, mut other) = (system.clone(), system);
+            for (i, (name, step)) in mixed_moves().into_iter().enumerate() {
+                step(&scheme.generated, &mut one);
+                step(&twin, &mut other);
+                let what = format!("{}, {name} as move {i}, {}", scheme.name, describe(&one));
+                assert_same(&one, &other, &what);
+                assert_eq!(one.evaluations(), other.evaluations(), "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn unrolled_steps_have_the_bits_of_their_twins_in_double() {
+    unrolled_steps_have_the_bits_of_their_twins::<f64>(&());
+}
+
+#[test]
+fn unrolled_steps_have_the_bits_of_their_twins_at_120_digits() {
+    unrolled_steps_have_the_bits_of_their_twins::<Float>(&precision(120));
+}
+
+/// Two storages of the same system, moved by the generated steps without any indirection.
+#[test]
+fn arrays_and_vectors_have_the_same_bits() {
+    struct Storages;
+    impl shadowstep_tests::shipped::Visitor for Storages {
+        fn visit<S: Scheme>(&mut self, name: &str, _: Option<shadowstep_schemes::First>, scheme: &'static S) {
+            compare::<S, f64, _>(name, scheme, Kepler, &());
+            compare::<S, Float, _>(name, scheme, HenonHeiles, &precision(120));
+        }
+    }
+    fn compare<S: Scheme, N: Bits, P: Potential<N> + Clone>(
+        name: &str,
+        scheme: &S,
+        potential: P,
+        context: &N::Context,
+    ) {
+        let weights = scheme.weights::<N>(&rational(STEP), context);
+        let [q, p] = [["0.4", "0.1"], ["0.2", "-1.3"]].map(|texts| numbers::<N>(&texts, context));
+        let array = |v: &[N]| [v[0].clone(), v[1].clone()];
+        let mut arrays = Motion::new(potential.clone(), UnitMasses, array(&q), array(&p));
+        let mut vectors = Motion::new(potential, UnitMasses, q, p);
+        for _ in 0..3 {
+            scheme.step(&weights, &mut arrays);
+            scheme.step(&weights, &mut vectors);
+            scheme.step_augmented(&weights, &mut arrays);
+            scheme.step_augmented(&weights, &mut vectors);
+            assert!(same_bits(arrays.q(), vectors.q()) && same_bits(arrays.p(), vectors.p()), "{name}");
+            assert!(arrays.beta().same_bits(vectors.beta()), "{name}");
+        }
+    }
+    for_each(&mut Storages);
+}
+
+fn a_step_back_undoes_a_step<N: Bits>(context: &N::Context) {
+    for scheme in all::<N>(&rational(STEP), context) {
+        let steps = &scheme.generated;
+        for start in systems::<N>(context) {
+            // A step and its inverse round some 60 numbers of size 1 by half a last place each, and later maps
+            // enlarge each error a few times; the truncation error, at least (1/53)⁷ = 1e-12 of the state, would be
+            // far above this in 120 digits, and a wrong map (order 1/53) in both.
+            let tolerance = start.beta().log10_epsilon() + 2.5;
+            let what = format!("{}, {}", scheme.name, describe(&start));
+
+            let mut plain = start.clone();
+            steps.step(&mut plain);
+            let moved = log10_largest_distance(plain.q(), start.q());
+            assert!(moved > -4.0, "the step must move: {what}");
+            steps.step_back(&mut plain);
+            let off = log10_largest_distance(plain.q(), start.q()).max(log10_largest_distance(plain.p(), start.p()));
+            assert!(off < tolerance, "10^{off} after step and step_back: {what}");
+
+            let mut augmented = start.clone();
+            steps.step_augmented(&mut augmented);
+            let there = augmented.beta().clone();
+            steps.step_back_augmented(&mut augmented);
+            let off = log10_largest_distance(augmented.q(), start.q());
+            assert!(off < tolerance, "10^{off} after the augmented pair: {what}");
+            let mut back = augmented.beta().clone();
+            back.negate();
+            let off = log10_distance(&there, &back);
+            assert!(there.log10_abs() > -12.0 && off < tolerance, "β: {there} there, {back} back: {what}");
+        }
+    }
+}
+
+#[test]
+fn a_step_back_undoes_a_step_in_double() {
+    a_step_back_undoes_a_step::<f64>(&());
+}
+
+#[test]
+fn a_step_back_undoes_a_step_at_120_digits() {
+    a_step_back_undoes_a_step::<Float>(&precision(120));
+}
+
+fn a_kept_gradient_changes_no_bit<N: Bits>(context: &N::Context) {
+    for scheme in all::<N>(&rational(STEP), context) {
+        for system in systems::<N>(context) {
+            let (mut keeps, mut forgets) = (system.clone(), system);
+            for (name, step) in mixed_moves() {
+                let _ = forgets.q_mut(); // drops the kept gradient
+                step(&scheme.generated, &mut keeps);
+                step(&scheme.generated, &mut forgets);
+                assert_same(&keeps, &forgets, &format!("{}, {name}, {}", scheme.name, describe(&keeps)));
+            }
+            if scheme.twin.plan().keeps_gradient() {
+                assert!(keeps.evaluations() < forgets.evaluations(), "nothing was kept: {}", scheme.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_kept_gradient_changes_no_bit_in_double() {
+    a_kept_gradient_changes_no_bit::<f64>(&());
+}
+
+#[test]
+fn a_kept_gradient_changes_no_bit_at_120_digits() {
+    a_kept_gradient_changes_no_bit::<Float>(&precision(120));
+}
+
+fn augmented_steps_move_as_plain_ones<N: Bits>(context: &N::Context) {
+    for scheme in all::<N>(&rational(STEP), context) {
+        for system in systems::<N>(context) {
+            let (mut plain, mut augmented) = (system.clone(), system);
+            let what = format!("{}, {}", scheme.name, describe(&plain));
+            let same = |plain: &System<N>, augmented: &System<N>| {
+                same_bits(plain.q(), augmented.q()) && same_bits(plain.p(), augmented.p())
+            };
+            for _ in 0..3 {
+                scheme.generated.step(&mut plain);
+                scheme.generated.step_augmented(&mut augmented);
+                assert!(same(&plain, &augmented), "forth: {what}");
+            }
+            for _ in 0..3 {
+                scheme.generated.step_back(&mut plain);
+                scheme.generated.step_back_augmented(&mut augmented);
+                assert!(same(&plain, &augmented), "back: {what}");
+            }
+            assert_eq!(plain.evaluations(), augmented.evaluations(), "{what}");
+        }
+    }
+}
+
+#[test]
+fn augmented_steps_move_as_plain_ones_in_double() {
+    augmented_steps_move_as_plain_ones::<f64>(&());
+}
+
+#[test]
+fn augmented_steps_move_as_plain_ones_at_120_digits() {
+    augmented_steps_move_as_plain_ones::<Float>(&precision(120));
+}
+
+/// The first step of a run may cost one evaluation more: there is no gradient kept from a step before.
+#[test]
+fn a_step_evaluates_as_often_as_its_summary_says() {
+    for scheme in all::<f64>(&rational(STEP), &()) {
+        let said = scheme.summary.evaluations as u64;
+        assert!(said > 0);
+        for (name, step) in mixed_moves::<f64>() {
+            let mut system = systems::<f64>(&()).swap_remove(0);
+            step(&scheme.generated, &mut system);
+            let first = system.evaluations();
+            assert_eq!(first, said + u64::from(scheme.twin.plan().keeps_gradient()), "{}, {name}", scheme.name);
+            for n in 1..=5 {
+                step(&scheme.generated, &mut system);
+                assert_eq!(system.evaluations(), first + n * said, "{}, {name}", scheme.name);
+            }
+        }
+    }
+}
+
+/// U = 0 in d dimensions, without one operation.
+#[derive(Clone, Copy)]
+struct Free(usize);
+
+impl<N: Number> Potential<N> for Free {
+    fn dimension(&self) -> usize {
+        self.0
+    }
+    fn energy(&self, _: &[N], energy: &mut N, _: &mut [N]) {
+        energy.assign_zero();
+    }
+    fn gradient(&self, _: &[N], gradient: &mut [N], _: &mut [N]) {
+        gradient.iter_mut().for_each(Number::assign_zero);
+    }
+    fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
+        self.gradient(q, gradient, scratch);
+        rate.assign_zero();
+    }
+}
+
+/// What the documentation of the generated struct states, counted by numbers that count.
+#[test]
+fn a_step_costs_what_its_documentation_says() {
+    struct Costs;
+    impl shadowstep_tests::shipped::Visitor for Costs {
+        fn visit<S: Scheme>(&mut self, name: &str, first: Option<shadowstep_schemes::First>, scheme: &'static S) {
+            let cost = shadowstep_tests::shipped::twin(name, first).plan().cost();
+            for dimension in 1..=3 {
+                let state = || vec![Counting(0.5); dimension];
+                let mut motion = Motion::new(Free(dimension), UnitMasses, state(), state());
+                let weights = scheme.weights::<Counting<f64>>(&rational(STEP), &());
+                let products =
+                    |n: usize| Operations { additions: n as u64, multiplications: n as u64, ..Operations::default() };
+                let plain = products(cost.products_per_dimension * dimension);
+                let augmented = products(cost.products_per_dimension * dimension + cost.products_for_beta);
+                for _ in 0..2 {
+                    assert_eq!(count(|| scheme.step(&weights, &mut motion)).1, plain, "{name}");
+                    assert_eq!(count(|| scheme.step_augmented(&weights, &mut motion)).1, augmented, "{name}");
+                    assert_eq!(count(|| scheme.step_back(&weights, &mut motion)).1, plain, "{name}");
+                    assert_eq!(count(|| scheme.step_back_augmented(&weights, &mut motion)).1, augmented, "{name}");
+                }
+            }
+        }
+    }
+    for_each(&mut Costs);
+}
+
+fn weights_back_are_the_negatives<N: Bits>(context: &N::Context) {
+    for scheme in all::<N>(&rational(STEP), context) {
+        let Steps { forward, backward, .. } = &scheme.generated;
+        assert_eq!(forward.len(), backward.len());
+        for (forth, back) in forward.iter().zip(backward) {
+            let mut negative = back.clone();
+            negative.negate();
+            assert!(forth.same_bits(&negative), "{}: {forth} forth, {back} back", scheme.name);
+        }
+    }
+}
+
+#[test]
+fn weights_back_are_the_negatives_in_both_kinds_of_numbers() {
+    weights_back_are_the_negatives::<f64>(&());
+    weights_back_are_the_negatives::<Float>(&precision(120));
+}
+
+/// Kicks and drifts each move by the whole step: to the table's own digits, exactly where the table is exact.
+#[test]
+fn weights_sum_to_one() {
+    for scheme in all::<f64>(&rational(STEP), &()) {
+        let tolerance = match scheme.twin.proved().scheme.held {
+            Held::Exactly => Rational::from_integer(0.into()),
+            // some ten weights of size 1, each rounded by at most a unit of the last digit
+            Held::Digits(digits) => rational(&format!("1e{}", 2 - i64::from(digits))),
+        };
+        let table = &scheme.twin.proved().scheme;
+        for weights in [&table.kick, &table.drift] {
+            let sum: Rational = weights.iter().sum();
+            assert!((&sum - Rational::one()).abs() <= tolerance, "{}: {sum}", scheme.name);
+        }
+    }
+}
+
+/// A table that nobody compiled would be tested by nothing here.
+#[test]
+fn every_shipped_table_is_among_them() {
+    let compiled = all::<f64>(&rational(STEP), &());
+    for name in shadowstep_schemes::shipped_names() {
+        assert!(compiled.iter().any(|scheme| scheme.summary.name == name), "{name}");
+    }
+    let exchanged = compiled.iter().filter(|scheme| scheme.name.contains("Drift"));
+    assert!(exchanged.count() > 0, "no scheme with `first = \"drift\"` is tested");
+}

@@ -1,0 +1,593 @@
+//! Protects the modified energy: closed forms, definitions written out naively, exact symmetries, and the signs and
+//! rules of the paper where they can be read in more than one way.
+
+use rug::Float;
+use shadowstep::kinetic::{DiagonalMasses, FullMasses};
+use shadowstep::number::Precision;
+use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
+use shadowstep::run::{EnergyDrift, ShadowRun, Trajectory, energy_drift};
+use shadowstep::shadow::{Central, Estimator, Stop};
+use shadowstep::tables::shipped;
+use shadowstep::weights::central;
+use shadowstep::{Kinetic, Motion, Number, Potential, Rational, Scheme, UnitMasses};
+use shadowstep_tests::{log10_distance, number, numbers, precision, rational};
+
+type Vector<P, K, N> = Motion<N, Vec<N>, P, K>;
+
+/// q, p, and what the step to this state added to β.
+type State = (Vec<Float>, Vec<Float>, Float);
+
+/// n, value, error and m.
+type Estimated<N> = (i64, N, N, u32);
+
+fn kepler<N: Number>(context: &N::Context) -> Vector<Kepler, UnitMasses, N> {
+    Motion::new(Kepler, UnitMasses, numbers(&["0.4", "0"], context), numbers(&["0", "2"], context))
+}
+
+fn pendulum<N: Number>(context: &N::Context) -> Vector<Pendulum, UnitMasses, N> {
+    Motion::new(Pendulum, UnitMasses, numbers(&["0"], context), numbers(&["1"], context))
+}
+
+fn henon_heiles<N: Number>(context: &N::Context) -> Vector<HenonHeiles, UnitMasses, N> {
+    Motion::new(HenonHeiles, UnitMasses, numbers(&["0", "0.1"], context), numbers(&["0.3", "0"], context))
+}
+
+/// n, value, error and m of every estimate of a run.
+fn estimates<S: Scheme, N: Number, P: Potential<N>, K: Kinetic<N>>(
+    scheme: &S,
+    motion: Vector<P, K, N>,
+    h: &Rational,
+    steps: u64,
+    estimator: impl Estimator<N>,
+) -> Vec<Estimated<N>> {
+    let mut run = ShadowRun::new(scheme, motion, h, steps, estimator).expect("it can begin");
+    let mut all = Vec::new();
+    while let Some((n, estimate)) = run.advance().expect("it can go on") {
+        all.push((n, estimate.value.clone(), estimate.error.clone(), estimate.order));
+    }
+    all
+}
+
+/// max − min of the energy itself over n = 0..=steps.
+fn energy_variation<S: Scheme, P: Potential<Float>, K: Kinetic<Float>>(
+    scheme: &S,
+    mut motion: Vector<P, K, Float>,
+    h: &Rational,
+    steps: u64,
+) -> f64 {
+    let weights = scheme.weights::<Float>(h, &motion.context());
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for n in 0..=steps {
+        if n > 0 {
+            scheme.step(&weights, &mut motion);
+        }
+        let energy = motion.energy().to_f64();
+        (least, most) = (least.min(energy), most.max(energy));
+    }
+    most - least
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// The harmonic oscillator, in closed form
+
+/// ½(p² + (1−x²)ω²q²)·arcsin(x)/(x√(1−x²)), x = hω/2: what kick-drift-kick Störmer–Verlet conserves.
+fn closed_form(q: &Float, p: &Float, omega: &Float, h: &Float) -> Float {
+    let x: Float = omega.clone() * h / 2;
+    let rest: Float = 1 - x.clone().square();
+    let potential = rest.clone() * omega.clone().square() * q.clone().square();
+    let factor = x.clone().asin() / (x * rest.sqrt());
+    (p.clone().square() + potential) * factor / 2
+}
+
+#[test]
+fn harmonic_oscillator_has_its_closed_form() {
+    const DIGITS: u32 = 120;
+    let verlet = shipped("stormer-verlet").unwrap();
+    for (omega, step, m) in [("1", "1/20", 40), ("3/2", "1/30", 40), ("1/7", "1/5", 40), ("1", "1/2", 100)] {
+        let (omega, h) = (rational(omega), rational(step));
+        let context = precision(DIGITS);
+        let potential = HarmonicOscillator::new(&omega, 1, &context);
+        let (q, p) = (number("0.8", DIGITS), number("-0.3", DIGITS));
+        let motion = Motion::new(potential, UnitMasses, vec![q.clone()], vec![p.clone()]);
+        let [omega, step] = [&omega, &h].map(|r| Float::from_rational(r, &context));
+        let expected = closed_form(&q, &p, &omega, &step);
+
+        let found = estimates(&verlet, motion, &h, 100, Central::fixed(m, &h, 1, &context));
+        assert_eq!(found.len(), 101);
+        for (n, value, ..) in found {
+            // D_m is off by (hω̃/2)^{2m}, below 1e-120 here; round-off of a hundred steps leaves 118 digits
+            let off = log10_distance(&value, &expected);
+            assert!(off < -115.0, "ω = {omega:.3}, h = {step:.3}, n = {n}: off by 10^{off}");
+        }
+        // and it is not the energy: they differ by h²
+        let energy = (p.clone().square() + omega.clone().square() * q.clone().square()) / 2;
+        assert!(log10_distance(&expected, &energy) > -6.0);
+    }
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// The sign in the β line of the splitting method
+
+/// A potential whose rate has the sign that the paper prints, −(qᵀU_q + 2U), where qᵀU_q − 2U is right.
+struct PrintedSign<P>(P);
+
+impl<N: Number, P: Potential<N>> Potential<N> for PrintedSign<P> {
+    fn dimension(&self) -> usize {
+        self.0.dimension()
+    }
+    fn scratch(&self) -> usize {
+        self.0.scratch()
+    }
+    fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
+        self.0.energy(q, energy, scratch);
+    }
+    fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
+        self.0.gradient(q, gradient, scratch);
+    }
+    fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
+        self.0.energy(q, rate, scratch);
+        self.0.gradient(q, gradient, scratch);
+        rate.multiply_integer(2);
+        for (q, gradient) in q.iter().zip(gradient.iter()) {
+            rate.add_product(q, gradient);
+        }
+        rate.negate();
+    }
+}
+
+fn drift_over<P: Potential<Float>>(potential: P, q: &[&str], p: &[&str]) -> EnergyDrift<Float> {
+    let context = precision(40);
+    let motion = Motion::new(potential, UnitMasses, numbers(q, &context), numbers(p, &context));
+    let (verlet, h) = (shipped("stormer-verlet").unwrap(), rational("1/20"));
+    let estimator = Central::fixed(10, &h, q.len(), &context);
+    energy_drift(&verlet, motion, &h, 400, estimator, |_| {}).unwrap()
+}
+
+/// The first value is near H under both signs; only the drift tells them apart.
+#[test]
+fn printed_sign_of_beta_drifts_and_the_right_one_does_not() {
+    // pendulum from its lowest point: H = −1/2
+    let (q, p, energy) = (["0"], ["1"], -0.5);
+    let right = drift_over(Pendulum, &q, &p);
+    let printed = drift_over(PrintedSign(Pendulum), &q, &p);
+    assert!((right.first.to_f64() - energy).abs() < 1e-3);
+    assert!(right.drift.to_f64() < 1e-12, "{}", right.drift);
+    assert!(printed.drift.to_f64() > energy.abs(), "{}", printed.drift);
+
+    // Hénon–Heiles from the origin: H = 0.045
+    let (q, p, energy) = (["0", "0"], ["0.3", "0"], 0.045);
+    let right = drift_over(HenonHeiles, &q, &p);
+    let printed = drift_over(PrintedSign(HenonHeiles), &q, &p);
+    assert!((right.first.to_f64() - energy).abs() < 1e-3);
+    assert!((printed.first.to_f64() - energy).abs() < 1e-3, "one value does not show it: {}", printed.first);
+    assert!(right.drift.to_f64() < 1e-12, "{}", right.drift);
+    assert!(printed.drift.to_f64() > energy, "{}", printed.drift);
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// The definition of T_{m,m}, written out
+
+/// The states of a trajectory with the increments of β, n = −reach..=steps + reach.
+fn states<S: Scheme, P: Potential<Float>, K: Kinetic<Float>>(
+    scheme: &S,
+    motion: Vector<P, K, Float>,
+    h: &Rational,
+    steps: u64,
+    reach: usize,
+) -> Vec<State> {
+    let mut trajectory = Trajectory::new(scheme, motion, h, steps, reach).unwrap();
+    let mut all = Vec::new();
+    while let Some(state) = trajectory.advance().unwrap() {
+        all.push((state.q.to_vec(), state.p.to_vec(), state.beta.clone()));
+    }
+    all
+}
+
+/// T_{1,1}, …, T_{M,M} at the state `at`: Richardson's triangle for the derivatives of q, p and β, then
+/// H̄ = ½(−qᵀp' + pᵀq' − β').
+fn richardson(states: &[State], at: usize, largest: usize, h: &Float) -> Vec<Float> {
+    let bits = h.prec();
+    let dimension = states[0].0.len();
+    // y = (q, p, β) at at − M..=at + M, β counted from the first of them
+    let mut beta = Float::new(bits);
+    let window: Vec<Vec<Float>> = states[at - largest..=at + largest]
+        .iter()
+        .map(|(q, p, increment)| {
+            beta += increment;
+            q.iter().chain(p).cloned().chain([beta.clone()]).collect()
+        })
+        .collect();
+    let y = |j: usize, forward: bool| &window[if forward { largest + j } else { largest - j }];
+    // T_{j,1} = (y(jh) − y(−jh))/(2jh); T_{j,k+1} = T_{j,k} + (T_{j,k} − T_{j−1,k})/((1 − k/j)² − 1)
+    let mut triangle: Vec<Vec<Vec<Float>>> = Vec::new();
+    for j in 1..=largest {
+        let width = h.clone() * 2_u32 * j as u32;
+        let first = y(j, true).iter().zip(y(j, false)).map(|(a, b)| (a.clone() - b) / &width).collect();
+        let mut row: Vec<Vec<Float>> = vec![first];
+        for k in 1..j {
+            let ratio = Float::with_val(bits, j - k) / j as u32;
+            let weight = ratio.square() - 1;
+            let next = row[k - 1].iter().zip(&triangle[j - 2][k - 1]);
+            let next = next.map(|(fine, coarse)| fine.clone() + (fine.clone() - coarse) / &weight).collect();
+            row.push(next);
+        }
+        triangle.push(row);
+    }
+    let (q, p, _) = &states[at];
+    triangle
+        .iter()
+        .map(|row| {
+            let derivative = row.last().expect("a row has its diagonal");
+            let mut twice = -derivative[2 * dimension].clone();
+            for i in 0..dimension {
+                twice += p[i].clone() * &derivative[i];
+                twice -= q[i].clone() * &derivative[dimension + i];
+            }
+            twice / 2
+        })
+        .collect()
+}
+
+/// |T_{m,m} − T_{m−1,m−1}| for m = 2..=M at [m]; nothing is known of 0 and 1.
+fn term_sizes(diagonal: &[Float]) -> Vec<Option<Float>> {
+    let sizes = diagonal.windows(2).map(|t| Some((t[1].clone() - &t[0]).abs()));
+    [None, None].into_iter().chain(sizes).collect()
+}
+
+const TRIANGLE_DIGITS: u32 = 120;
+
+/// Both problems, with schemes of different kinds: what `check` is told is the scheme's name, the states, where the
+/// state 0 is among them, and the estimates of `estimator`.
+fn against_the_triangle(
+    reach: usize,
+    estimator: impl Fn(&Rational, usize, &Precision) -> Central<Float>,
+    mut check: impl FnMut(&str, &[Float], &Estimated<Float>),
+) {
+    let context = precision(TRIANGLE_DIGITS);
+    let h = rational("1/20");
+    let step = Float::from_rational(&h, &context);
+    const STEPS: u64 = 24;
+    fn both<P: Potential<Float> + Clone>(
+        name: &str,
+        motion: &Vector<P, UnitMasses, Float>,
+        h: &Rational,
+        reach: usize,
+        estimator: Central<Float>,
+    ) -> (Vec<State>, Vec<Estimated<Float>>) {
+        let scheme = shipped(name).unwrap();
+        assert_eq!(estimator.reach(), reach);
+        (states(&scheme, motion.clone(), h, STEPS, reach), estimates(&scheme, motion.clone(), h, STEPS, estimator))
+    }
+    for (name, (states, found)) in [
+        ("stormer-verlet", both("stormer-verlet", &kepler(&context), &h, reach, estimator(&h, 2, &context))),
+        ("ruth3", both("ruth3", &pendulum(&context), &h, reach, estimator(&h, 1, &context))),
+        ("yoshida4", both("yoshida4", &henon_heiles(&context), &h, reach, estimator(&h, 2, &context))),
+    ] {
+        assert_eq!(found.len() as u64, STEPS + 1);
+        for one in &found {
+            check(name, &richardson(&states, reach + one.0 as usize, reach, &step), one);
+        }
+    }
+}
+
+#[test]
+fn fixed_m_is_the_diagonal_of_the_triangle() {
+    for m in [1, 2, 3, 7, 20, 40] {
+        let fixed = |h: &Rational, d, context: &Precision| Central::fixed(m, h, d, context);
+        against_the_triangle(m as usize, fixed, |name, diagonal, (n, value, error, order)| {
+            assert_eq!(*order, m);
+            // divided by h = 1/20 and added up over M differences, round-off leaves at least 110 digits of 120
+            let off = log10_distance(value, &diagonal[m as usize - 1]);
+            assert!(off < -110.0, "{name}, m = {m}, n = {n}: off by 10^{off}");
+            if m > 1 {
+                let last = term_sizes(diagonal)[m as usize].clone().unwrap();
+                let off = log10_distance(error, &last);
+                assert!(off < -110.0, "{name}, m = {m}, n = {n}: the error estimate is off by 10^{off}");
+            }
+        });
+    }
+}
+
+/// The first m of 2..=last with the smallest term.
+fn best(sizes: &[Option<Float>], last: usize) -> usize {
+    let known = (2..=last).map(|m| (m, sizes[m].as_ref().expect("known from 2")));
+    known.reduce(|best, next| if next.1 < best.1 { next } else { best }).expect("there is m = 2").0
+}
+
+/// The m chosen is the best of 2..=last; value and error agree to 10^tolerance.
+fn assert_chosen(name: &str, diagonal: &[Float], last: usize, found: &Estimated<Float>, tolerance: f64) {
+    let (n, value, error, order) = found;
+    let sizes = term_sizes(diagonal);
+    let expected = best(&sizes, last);
+    assert_eq!(*order as usize, expected, "{name}, n = {n}");
+    let off = log10_distance(value, &diagonal[expected - 1]);
+    assert!(off < tolerance, "{name}, n = {n}, m = {expected}: off by 10^{off}");
+    let off = log10_distance(error, sizes[expected].as_ref().unwrap());
+    assert!(off < tolerance, "{name}, n = {n}, m = {expected}: the error estimate is off by 10^{off}");
+}
+
+#[test]
+fn best_m_has_the_smallest_term() {
+    let mut orders = Vec::new();
+    let best = |h: &Rational, d, context: &Precision| Central::best(30, Stop::Full, h, d, context);
+    against_the_triangle(30, best, |name, diagonal, one| {
+        assert_chosen(name, diagonal, 30, one, -110.0);
+        orders.push(one.3);
+    });
+    orders.sort_unstable();
+    orders.dedup();
+    assert!(orders.len() > 3, "with always the same m nothing is shown: {orders:?}");
+}
+
+/// The early stop: all m up to the first one, at least 13 (`first`), at which the largest of the eleven terms before it is less
+/// than the largest of the eleven terms that end with it. (The paper prints ≤, which is met whenever the oldest term is
+/// not the largest, so at the first ripple.)
+fn first_stop(sizes: &[Option<Float>], first: usize) -> usize {
+    let last = sizes.len() - 1;
+    let largest = |range: std::ops::RangeInclusive<usize>| {
+        let known = range.map(|j| sizes[j].as_ref().expect("known from 2"));
+        known.reduce(|a, b| if b > a { b } else { a }).expect("eleven terms")
+    };
+    (first..=last).find(|&m| largest(m - 11..=m - 1) < largest(m - 10..=m)).unwrap_or(last)
+}
+
+#[test]
+fn early_stop_is_its_rule_written_out() {
+    let mut stopped = 0;
+    let early = |h: &Rational, d, context: &Precision| Central::best(40, Stop::Early, h, d, context);
+    against_the_triangle(40, early, |name, diagonal, one| {
+        let sizes = term_sizes(diagonal);
+        let stop = first_stop(&sizes, 13);
+        stopped += usize::from(stop < 40);
+        assert_chosen(name, diagonal, stop, one, -110.0);
+    });
+    assert!(stopped > 0, "the rule never stopped anything, so nothing is shown");
+}
+
+/// What the paper says of the early stop: its results are nearly those of the full search.
+#[test]
+fn early_stop_is_nearly_as_good_as_the_full_search() {
+    let (verlet, h, context) = (shipped("stormer-verlet").unwrap(), rational("1/20"), precision(120));
+    let [full, early] = [Stop::Full, Stop::Early].map(|stop| {
+        let best = Central::<Float>::best(200, stop, &h, 2, &context);
+        energy_drift(&verlet, kepler(&context), &h, 1000, best, |_| {}).unwrap()
+    });
+    let ratio = early.drift.to_f64() / full.drift.to_f64();
+    println!("drift: full {:e}, early {:e}", full.drift.to_f64(), early.drift.to_f64());
+    // the smallest term of fewer m is a little larger; with ≤ in place of < the ratio is above 2
+    assert!(ratio > 0.5 && ratio < 2.0, "{ratio}");
+}
+
+/// States on no flow, made so that the terms are of any size in any order: the rules are tried at their edges, which
+/// smooth motions hardly ever meet. With q = p = 0 the estimate is −½ D_m β, and an odd β_j can give it every value.
+#[test]
+fn both_rules_hold_for_terms_of_any_size() {
+    const LARGEST: usize = 20;
+    let context = precision(TRIANGLE_DIGITS);
+    let h = rational("1/20");
+    let step = Float::from_rational(&h, &context);
+    let zero = Float::new(context.in_bits());
+    let mut seed = 1_u64;
+    let mut random = |range: u64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) % range
+    };
+    // how often the first m that counts was the best, and how often it mattered that the stop is tried at 13
+    let (mut at_two, mut at_thirteen) = (0, 0);
+    for window in 0..300 {
+        let mut value = zero.clone();
+        let mut beta: Vec<Float> = Vec::new();
+        for m in 1..=LARGEST {
+            // T_{m,m} − T_{m−1,m−1} of size 2^−30 to 1
+            value += (Float::with_val(context.in_bits(), 1000 + random(1000)) / 2000) >> random(30) as u32;
+            // −(1/h) Σ_j d_{m,j} β_j = T_{m,m}
+            let weights = central(m as u32);
+            let mut rest = -value.clone() * &step;
+            for (d, beta) in weights.iter().zip(&beta) {
+                rest -= Float::from_rational(d, &context) * beta;
+            }
+            beta.push(rest / Float::from_rational(&weights[m - 1], &context));
+        }
+        let whole: Vec<Float> =
+            beta.iter().rev().map(|b| -b.clone()).chain([zero.clone()]).chain(beta.iter().cloned()).collect();
+        let increments = whole.windows(2).map(|pair| pair[1].clone() - &pair[0]);
+        let states: Vec<State> =
+            [zero.clone()].into_iter().chain(increments).map(|b| (vec![zero.clone()], vec![zero.clone()], b)).collect();
+
+        let diagonal = richardson(&states, LARGEST, LARGEST, &step);
+        assert!(log10_distance(&diagonal[LARGEST - 1], &value) < -90.0, "the states are not what they should be");
+        let sizes = term_sizes(&diagonal);
+        let stop = first_stop(&sizes, 13);
+        for (rule, last) in [(Stop::Full, LARGEST), (Stop::Early, stop)] {
+            let mut estimator = Central::best(LARGEST as u32, rule, &h, 1, &context);
+            for (q, p, beta) in &states {
+                if let Some(e) = estimator.push(q, p, beta) {
+                    let found = (window, e.value.clone(), e.error.clone(), e.order);
+                    // β grows to 4^20 = 1e12, which costs as many digits
+                    assert_chosen("made", &diagonal, last, &found, -90.0);
+                    at_two += usize::from(e.order == 2);
+                }
+            }
+        }
+        at_thirteen += usize::from(best(&sizes, stop) != best(&sizes, first_stop(&sizes, 14)));
+    }
+    assert!(at_two > 0 && at_thirteen > 0, "{at_two}, {at_thirteen}: nothing is shown");
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// Digits
+
+/// What 120 digits say is what 200 digits say: the last ten are lost to round-off at most.
+#[test]
+fn more_digits_tell_the_same() {
+    let h = rational("1/20");
+    let verlet = shipped("stormer-verlet").unwrap();
+    let [few, many] = [120, 200].map(|digits| {
+        let context = precision(digits);
+        estimates(&verlet, kepler::<Float>(&context), &h, 200, Central::fixed(20, &h, 2, &context))
+    });
+    for ((n, few, ..), (_, many, ..)) in few.iter().zip(&many) {
+        let off = Number::log10_abs(&Float::with_val(700, few - many));
+        assert!(off < -110.0, "n = {n}: 10^{off}");
+    }
+    // the two do not agree by being the same numbers
+    assert!(few.iter().zip(&many).any(|(a, b)| a.1 != b.1));
+}
+
+/// In double precision the drift is round-off and nothing else.
+#[test]
+fn drift_in_double_precision_is_round_off() {
+    let h = rational("1/20");
+    let verlet = shipped("stormer-verlet").unwrap();
+    let context = precision(120);
+    let double = energy_drift(&verlet, pendulum(&()), &h, 1000, Central::<f64>::fixed(20, &h, 1, &()), |_| {}).unwrap();
+    let fixed = Central::<Float>::fixed(20, &h, 1, &context);
+    let precise = energy_drift(&verlet, pendulum(&context), &h, 1000, fixed, |_| {}).unwrap();
+    println!("drift {:e} in double precision, {:e} at 120 digits", double.drift, precise.drift.to_f64());
+    // q and p are of size 1: differences of them are off by 1e-16 and are divided by h
+    assert!(double.drift > 1e-16 && double.drift < 1e-13, "{:e}", double.drift);
+    // D_20 itself is off by about (20!)² (h/ρ)^40 = 3e-29, ρ = 2.16 the distance of the singularities in complex time
+    assert!(precise.drift.to_f64() < 1e-27, "{:e}", precise.drift.to_f64());
+    assert!((double.first - precise.first.to_f64()).abs() < 1e-14);
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// How the drift depends on the step
+
+/// Kepler, e = 0.6: the energy varies like h², the drift of the modified energy falls like exp(−c/h).
+#[test]
+fn kepler_drift_is_exponentially_small() {
+    let verlet = shipped("stormer-verlet").unwrap();
+    let context = precision(120);
+    let mut energies = Vec::new();
+    let mut drifts = Vec::new();
+    for inverse in [10_u64, 20, 40] {
+        let h = rational(&format!("1/{inverse}"));
+        energies.push(energy_variation(&verlet, kepler(&context), &h, 20 * inverse).ln());
+        let best = Central::<Float>::best(120, Stop::Full, &h, 2, &context);
+        let found = energy_drift(&verlet, kepler(&context), &h, 20 * inverse, best, |_| {}).unwrap();
+        println!("h = 1/{inverse}: drift {:e}, m = {:?}", found.drift.to_f64(), found.orders);
+        drifts.push(Number::log10_abs(&found.drift));
+    }
+    println!("ln of the energy's variation {energies:?}");
+    for pair in energies.windows(2) {
+        let power = (pair[0] - pair[1]) / std::f64::consts::LN_2;
+        // h² and the next term, h⁴ with a large factor at the pericentre
+        assert!((power - 2.0).abs() < 0.15, "{energies:?}");
+    }
+    // 1/h goes 10, 20, 40: the second gain is twice the first; under a power law they would be the same
+    let gains = [drifts[0] - drifts[1], drifts[1] - drifts[2]];
+    println!("gains {gains:?}");
+    assert!(gains[0] > 1.0, "{drifts:?}");
+    assert!((gains[1] / gains[0] - 2.0).abs() < 0.5, "{drifts:?}");
+}
+
+/// Neither symmetry nor a high order is needed for a modified energy.
+#[test]
+fn schemes_that_are_no_palindromes_conserve_their_modified_energy() {
+    let (h, context) = (rational("1/40"), precision(60));
+    for (name, least_variation) in [("symplectic-euler", 1e-3), ("ruth3", 1e-8)] {
+        let scheme = shipped(name).unwrap();
+        assert!(!scheme.summary().symmetric);
+        let energy = energy_variation(&scheme, pendulum(&context), &h, 400);
+        let fixed = Central::<Float>::fixed(25, &h, 1, &context);
+        let found = energy_drift(&scheme, pendulum(&context), &h, 400, fixed, |_| {}).unwrap();
+        println!("{name}: H varies by {energy:e}, the modified energy by {:e}", found.drift.to_f64());
+        assert!(energy > least_variation, "{name}: {energy:e}");
+        // D_25 is off by about (25!)² (h/ρ)^50 = 4e-47, ρ = 2.16 the distance of the singularities in complex time
+        assert!(found.drift.to_f64() < 1e-45, "{name}: {:e}", found.drift.to_f64());
+    }
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// Masses
+
+/// U in other coordinates: Q = A q.
+#[derive(Clone)]
+struct Changed<P> {
+    potential: P,
+    /// A⁻¹, row by row
+    inverse: [[Float; 2]; 2],
+}
+
+impl<P> Changed<P> {
+    fn old(&self, q: &[Float]) -> Vec<Float> {
+        self.inverse.iter().map(|row| row[0].clone() * &q[0] + row[1].clone() * &q[1]).collect()
+    }
+
+    /// U_Q = A⁻ᵀ U_q
+    fn turn(&self, gradient: &mut [Float]) {
+        let [x, y] = [gradient[0].clone(), gradient[1].clone()];
+        for (j, gradient) in gradient.iter_mut().enumerate() {
+            *gradient = self.inverse[0][j].clone() * &x + self.inverse[1][j].clone() * &y;
+        }
+    }
+}
+
+impl<P: Potential<Float>> Potential<Float> for Changed<P> {
+    fn dimension(&self) -> usize {
+        2
+    }
+    fn scratch(&self) -> usize {
+        self.potential.scratch()
+    }
+    fn energy(&self, q: &[Float], energy: &mut Float, scratch: &mut [Float]) {
+        self.potential.energy(&self.old(q), energy, scratch);
+    }
+    fn gradient(&self, q: &[Float], gradient: &mut [Float], scratch: &mut [Float]) {
+        self.potential.gradient(&self.old(q), gradient, scratch);
+        self.turn(gradient);
+    }
+    /// QᵀU_Q = qᵀU_q
+    fn gradient_and_rate(&self, q: &[Float], gradient: &mut [Float], rate: &mut Float, scratch: &mut [Float]) {
+        self.potential.gradient_and_rate(&self.old(q), gradient, rate, scratch);
+        self.turn(gradient);
+    }
+}
+
+/// Linear changes of coordinates commute with kicks and drifts, so the modified energy is the same: Q = A q,
+/// P = A⁻ᵀ p, M⁻¹ = A Aᵀ.
+fn assert_same_energies<K: Kinetic<Float> + Clone>(a: [[&str; 2]; 2], kinetic: K) {
+    let context = precision(120);
+    let h = rational("1/20");
+    let [[a, b], [c, d]] = a.map(|row| row.map(rational));
+    let determinant = &a * &d - &b * &c;
+    let float = |r: Rational| Float::from_rational(&r, &context);
+    let inverse = [[&d / &determinant, -&b / &determinant], [-&c / &determinant, &a / &determinant]];
+    let inverse = inverse.map(|row| row.map(float));
+
+    let plain = henon_heiles(&context);
+    let (q, p) = (plain.q().to_vec(), plain.p().to_vec());
+    let [a, b, c, d] = [a, b, c, d].map(float);
+    let new_q = vec![a * &q[0] + b * &q[1], c * &q[0] + d * &q[1]];
+    let mut new_p = p;
+    let potential = Changed { potential: HenonHeiles, inverse };
+    potential.turn(&mut new_p);
+    let changed = Motion::new(potential, kinetic, new_q, new_p);
+
+    for name in ["stormer-verlet", "ruth3", "blanes-moan-srkn6b"] {
+        let scheme = shipped(name).unwrap();
+        let fixed = || Central::fixed(12, &h, 2, &context);
+        let expected = estimates(&scheme, plain.clone(), &h, 60, fixed());
+        let found = estimates(&scheme, changed.clone(), &h, 60, fixed());
+        for ((n, expected, ..), (_, found, ..)) in expected.iter().zip(&found) {
+            let off = log10_distance(expected, found);
+            // round-off of sixty steps, divided by h
+            assert!(off < -112.0, "{name}, n = {n}: 10^{off}");
+        }
+    }
+}
+
+#[test]
+fn diagonal_masses_are_a_change_of_units() {
+    let masses = DiagonalMasses::new(&[rational("1/4"), rational("9")], &precision(120)).unwrap();
+    assert_same_energies([["2", "0"], ["0", "1/3"]], masses);
+}
+
+#[test]
+fn full_masses_are_a_change_of_coordinates() {
+    // A Aᵀ for the A below
+    let rows = [[rational("5"), rational("5/3")], [rational("5/3"), rational("10/9")]];
+    let masses = FullMasses::from_inverse(&rows.map(|row| row.to_vec()), &precision(120)).unwrap();
+    assert_same_energies([["2", "1"], ["1/3", "1"]], masses);
+}

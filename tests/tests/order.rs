@@ -1,0 +1,138 @@
+//! Protects the orders: what is proved of a table is what its steps show on nonlinear problems, the pendulum and
+//! Hénon–Heiles. (On a linear problem many conditions are met by chance.)
+//!
+//! One step of size h from a general state is compared with a solution that owes nothing to any table. Its error is
+//! C h^{p+1} (1 + c h + …), so halving h shows p + 1 up to about c h.
+
+use std::array;
+
+use rug::Float;
+use shadowstep_schemes::scheme::Held;
+use shadowstep_tests::precision;
+use shadowstep_tests::shipped::{Shipped, all};
+use shadowstep_tests::systems::{Masses, Problem, system};
+
+/// Digits of the computation; the smallest errors, of order 10, are about 1e-33.
+const DIGITS: u32 = 80;
+
+/// Columns of the extrapolation: the error of the reference is about h^25, below 1e-60 at the steps used here.
+const COLUMNS: u32 = 12;
+
+/// The state of a problem in d dimensions, q before p.
+type State = Vec<Float>;
+
+/// U_q, written once more, in plain formulas.
+fn gradient(problem: Problem, q: &[Float]) -> Vec<Float> {
+    match problem {
+        Problem::Pendulum => vec![q[0].clone().sin()],
+        Problem::HenonHeiles => {
+            let [x, y] = [q[0].clone(), q[1].clone()];
+            vec![x.clone() + x.clone() * &y * 2, y.clone() + x.square() - y.square()]
+        }
+        other => unreachable!("{other:?} is not measured"),
+    }
+}
+
+/// The flow over a time h by extrapolation of the leapfrog rule: its error has even powers of the step only.
+fn reference(problem: Problem, start: &[Float], h: &Float, columns: u32) -> State {
+    let mut row: Vec<State> = Vec::new();
+    for k in 1..=columns {
+        let mut next = vec![leapfrog(problem, start, h, k)];
+        for j in 1..k {
+            // Aitken–Neville in (h/k)²: T + (T − T_above)/((k/(k−j))² − 1)
+            let (coarse, fine) = (&row[j as usize - 1], &next[j as usize - 1]);
+            let ratio = Float::with_val(coarse[0].prec(), k) / (k - j);
+            let weight = ratio.square() - 1;
+            next.push(coarse.iter().zip(fine).map(|(c, f)| f.clone() + (f.clone() - c) / &weight).collect());
+        }
+        row = next;
+    }
+    row.pop().expect("there is a column")
+}
+
+/// k leapfrog steps over a time h, unit masses.
+fn leapfrog(problem: Problem, start: &[Float], h: &Float, k: u32) -> State {
+    let dimension = start.len() / 2;
+    let step = h.clone() / k;
+    let half = step.clone() / 2;
+    let mut state = start.to_vec();
+    let (q, p) = state.split_at_mut(dimension);
+    let kick = |q: &[Float], p: &mut [Float]| {
+        for (p, g) in p.iter_mut().zip(gradient(problem, q)) {
+            *p -= g * &half;
+        }
+    };
+    for _ in 0..k {
+        kick(q, p);
+        for (q, p) in q.iter_mut().zip(p.iter()) {
+            *q += p.clone() * &step;
+        }
+        kick(q, p);
+    }
+    state
+}
+
+/// Largest difference, as a power of two.
+fn log2_distance(a: &[Float], b: &[Float]) -> f64 {
+    shadowstep_tests::log10_largest_distance(a, b) / std::f64::consts::LOG10_2
+}
+
+/// The h that shows the order best: as small as the digits of the table allow. A table with D digits moves at order 3
+/// or so by 10^−D, which must stay far below the error C h^{p+1}.
+fn smallest_halving(scheme: &Shipped<Float>, order: u32) -> i32 {
+    match scheme.twin.proved().scheme.held {
+        Held::Digits(digits) if order > 2 && digits < DIGITS => {
+            (f64::from(digits.saturating_sub(5)) / std::f64::consts::LOG10_2 / f64::from(order - 2)) as i32
+        }
+        _ => i32::MAX,
+    }
+    .clamp(1, 10)
+}
+
+fn start(problem: Problem) -> State {
+    let system = system(problem, Masses::Unit, &precision(DIGITS));
+    [system.q(), system.p()].concat()
+}
+
+/// log₂ of the error of one step of size 2^−k, for every shipped scheme.
+fn errors(problem: Problem, k: i32) -> Vec<(Shipped<Float>, f64)> {
+    let context = precision(DIGITS);
+    let h = shadowstep_tests::rational(&format!("1/{}", 1_u64 << k));
+    let exact = reference(problem, &start(problem), &(Float::with_val(context.in_bits(), 1) >> k), COLUMNS);
+    all::<Float>(&h, &context)
+        .into_iter()
+        .map(|scheme| {
+            let mut motion = system(problem, Masses::Unit, &context);
+            scheme.generated.step(&mut motion);
+            let error = log2_distance(&[motion.q(), motion.p()].concat(), &exact);
+            (scheme, error)
+        })
+        .collect()
+}
+
+#[test]
+fn the_reference_is_far_better_than_what_it_judges() {
+    let half_step = Float::with_val(precision(DIGITS).in_bits(), 1) >> 6;
+    for problem in [Problem::Pendulum, Problem::HenonHeiles] {
+        let start = start(problem);
+        let [good, better] = [COLUMNS, COLUMNS + 1].map(|columns| reference(problem, &start, &half_step, columns));
+        let change = shadowstep_tests::log10_largest_distance(&good, &better);
+        assert!(change < -50.0, "{problem:?}: 10^{change}");
+    }
+}
+
+#[test]
+fn the_order_measured_is_the_order_proved() {
+    for problem in [Problem::Pendulum, Problem::HenonHeiles] {
+        // every step size that some table needs, once
+        let table: [Vec<(Shipped<Float>, f64)>; 12] = array::from_fn(|k| errors(problem, k as i32));
+        for (i, (scheme, _)) in table[0].iter().enumerate() {
+            let proved = scheme.summary.order_quadratic;
+            let k = smallest_halving(scheme, proved) as usize;
+            let order = table[k - 1][i].1 - table[k][i].1 - 1.0;
+            println!("{problem:?} {}: {order:.4} at h = 2^-{k}, error 2^{:.1}", scheme.name, table[k][i].1);
+            // c h / ln 2 with c of size 1 to 10, h ≤ 1/64
+            assert!((order - f64::from(proved)).abs() < 0.1, "{}: {order} measured, {proved} proved", scheme.name);
+        }
+    }
+}
