@@ -89,10 +89,11 @@ impl Selection {
         Motion::new(setup.potential(context), UnitMasses, setup.q(context), setup.p(context))
     }
 
-    /// The estimator for steps of size h.
-    pub(crate) fn estimator<N: Number>(&self, h: &Rational, context: &N::Context) -> Central<N> {
+    /// The estimator for steps of size h; a fixed order estimates its error only if asked to.
+    pub(crate) fn estimator<N: Number>(&self, h: &Rational, with_error: bool, context: &N::Context) -> Central<N> {
         let dimension = self.setup.problem.positions.len();
         match self.order {
+            Order::Fixed(m) if with_error => Central::fixed_with_error(m, h, dimension, context),
             Order::Fixed(m) => Central::fixed(m, h, dimension, context),
             Order::Best(largest, stop) => Central::best(largest, stop, h, dimension, context),
         }

@@ -19,7 +19,7 @@ struct Row {
     t: String,
     energy: String,
     modified_energy: String,
-    estimate: String,
+    estimate: Option<String>,
     order: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
     q: Option<Vec<String>>,
@@ -64,7 +64,9 @@ fn writer<'a>(
     csv.write_record(columns.into_iter().chain(coordinates.filter(|_| arguments.states)))?;
     Ok(Box::new(move |row| {
         let (n, order) = (row.n.to_string(), row.order.to_string());
-        let fields = [&n, &row.t, &row.energy, &row.modified_energy, &row.estimate, &order];
+        let none = String::new();
+        let estimate = row.estimate.as_ref().unwrap_or(&none);
+        let fields = [&n, &row.t, &row.energy, &row.modified_energy, estimate, &order];
         let state = [&row.q, &row.p].into_iter().flatten().flatten();
         csv.write_record(fields.into_iter().chain(state))?;
         Ok(csv.flush()?)
@@ -83,13 +85,13 @@ fn follow<N: Number + 'static>(
     let heard = progress.listener();
     let motion = selection.motion::<N>(context);
     let (mut q, mut p) = (motion.q().to_vec(), motion.p().to_vec());
-    let estimator = selection.estimator(run.h, context);
+    let estimator = selection.estimator(run.h, true, context);
     let mut shadow =
         ShadowRun::new(&run.scheme.scheme, motion, run.h, run.steps, estimator).map_err(|error| run.failed(&error))?;
     while let Some((n, found)) = shadow.advance().map_err(|error| run.failed(&error))? {
         q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
         p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
-        let (modified_energy, estimate, order) = (found.value.to_text(), found.error.to_text(), found.order);
+        let (modified_energy, estimate, order) = (found.value.to_text(), found.error.map(N::to_text), found.order);
         let energy = shadow.motion().energy_of(&q, &p);
         if !energy.is_finite() {
             return Err(run.not_finite(&format!("the energy at n = {n}")));

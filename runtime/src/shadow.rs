@@ -29,9 +29,9 @@ pub trait Estimator<N: Number> {
 pub struct Estimate<'a, N> {
     /// The modified energy.
     pub value: &'a N,
-    /// Size of the last term, |T_{m,m} − T_{m−1,m−1}|: an estimate of the error, no bound. Near a close encounter
-    /// the error can be larger by many orders of magnitude.
-    pub error: &'a N,
+    /// Size of the last term, |T_{m,m} − T_{m−1,m−1}|, where it was asked for and m ≥ 2: an estimate of the error, no
+    /// bound. Near a close encounter the error can be larger by many orders of magnitude.
+    pub error: Option<&'a N>,
     /// The m of D_m.
     pub order: u32,
     /// Positions of the state.

@@ -174,15 +174,15 @@ fn documentation(proved: &Proved, plan: &Plan) -> Vec<String> {
             order(&proved.proof.quadratic)
         ),
         format!(
-            " - {} stages: {} kicks and {} drifts, {}.",
-            proved.scheme.kick.len(),
-            plan.count(MapKind::Kick),
-            plan.count(MapKind::Drift),
+            " - {}: {} and {}, {}.",
+            counted(proved.scheme.kick.len(), "stage"),
+            counted(plan.count(MapKind::Kick), "kick"),
+            counted(plan.count(MapKind::Drift), "drift"),
             if proved.proof.symmetric { "symmetric" } else { "not symmetric" }
         ),
         format!(
             " - A step costs {}{kept}, and {products} multiplications and {products} additions per dimension with unit masses; β adds {beta} of both.",
-            evaluations(plan.evaluations),
+            counted(plan.evaluations, "gradient"),
             products = cost.products_per_dimension,
             beta = cost.products_for_beta
         ),
@@ -190,8 +190,8 @@ fn documentation(proved: &Proved, plan: &Plan) -> Vec<String> {
     ]
 }
 
-fn evaluations(count: usize) -> String {
-    if count == 1 { "1 gradient".to_owned() } else { format!("{count} gradients") }
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 fn order(order: &Order) -> String {

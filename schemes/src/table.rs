@@ -117,15 +117,30 @@ const KEYS: [&str; 11] = [
 /// its cells can be looked at as well.
 pub fn parse(source: &Source) -> (Option<Table>, Vec<Fault>) {
     let (document, errors) = DeTable::parse_recoverable(&source.text);
-    let faults: Vec<_> =
-        errors.iter().map(|e| source.fault(&e.span().unwrap_or(0..0), e.message().replace('\n', ", "))).collect();
-    // a text that is no TOML has faults that follow from the first; a repeated key has not
-    if errors.iter().any(|e| !e.message().contains("duplicate key")) {
-        return (None, faults);
+    // what follows a broken line may be a fault of that line only; a repeated key breaks nothing
+    if let Some(first) = errors.iter().find(|e| !is_repeated_key(e)) {
+        return (None, vec![toml_fault(source, first)]);
     }
+    let faults = errors.iter().map(|e| toml_fault(source, e)).collect();
     let mut reader = Reader { source, faults };
     let table = reader.table(&document);
     (Some(table), reader.faults)
+}
+
+fn is_repeated_key(error: &toml::de::Error) -> bool {
+    error.message().contains("duplicate key")
+}
+
+fn toml_fault(source: &Source, error: &toml::de::Error) -> Fault {
+    let at = error.span().unwrap_or(0..0);
+    match error.message() {
+        // what the parser says of any bare word
+        message if message.starts_with("invalid boolean") => {
+            source.fault(&at, "a bare word is no value").help("write numbers in digits and texts in quotes")
+        }
+        message if is_repeated_key(error) => source.fault(&at, message).help("keep one of the two"),
+        message => source.fault(&at, message.replace('\n', ", ")),
+    }
 }
 
 /// Collects faults while it reads.
@@ -187,7 +202,8 @@ impl Reader<'_> {
 
     fn required<'t, 'i>(&mut self, table: &'t DeTable<'i>, key: &str, what: &str) -> Option<&'t Spanned<DeValue<'i>>> {
         let value = table.get(key);
-        if value.is_none() {
+        let misspelt = |word: &str| !KEYS.contains(&word) && nearest(word, KEYS) == Some(key);
+        if value.is_none() && !table.keys().any(|word| misspelt(word.get_ref())) {
             self.fault(&(0..0), format!("the key `{key}` is missing"), format!("add `{key} = …`: {what}"));
         }
         value
@@ -305,7 +321,10 @@ impl Reader<'_> {
             self.faults.push(
                 self.source
                     .fault(&drift.at, "kick and drift must have as many weights as there are stages")
-                    .values(format!("{} kicks and {} drifts", kick.value.len(), drift.value.len()), "as many of both")
+                    .values(
+                        format!("{} for the kicks, {} for the drifts", kick.value.len(), drift.value.len()),
+                        "as many of both",
+                    )
                     .help(help),
             );
             return None;

@@ -200,7 +200,7 @@ where
         let mut run = ShadowRun::new(&scheme, kepler::<N>("0.4", context), &h, 100, best).unwrap();
         let mut values = Vec::new();
         while let Some((_, estimate)) = run.advance().unwrap() {
-            values.push((estimate.value.clone(), estimate.error.clone(), estimate.order));
+            values.push((estimate.value.clone(), estimate.error.expect("it was asked for").clone(), estimate.order));
         }
         values
     };

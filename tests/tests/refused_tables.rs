@@ -361,10 +361,6 @@ mine.toml:1:1: unknown key `nam`
   1 | nam = "Mine"
     | ^^^
   help: did you mean `name`?
-mine.toml:1:1: the key `name` is missing
-  1 | nam = "Mine"
-    | ^
-  help: add `name = …`: the scheme's short name, such as "yoshida4"
 mine.toml:1:1: the key `reference` is missing
   1 | nam = "Mine"
     | ^
@@ -495,6 +491,7 @@ drift = [1, 0]
 mine.toml:8:1: duplicate key
   8 | a = "1/3"
     | ^
+  help: keep one of the two
 "#,
     );
 }
@@ -570,7 +567,7 @@ drift = [1]
 mine.toml:8:9: kick and drift must have as many weights as there are stages
   8 | drift = [1]
     |         ^^^
-  found 2 kicks and 1 drifts, needed as many of both
+  found 2 for the kicks, 1 for the drifts, needed as many of both
   help: each stage is a kick and then a drift; write 0 where there is none
 "#,
     );

@@ -1,6 +1,6 @@
 //! The paper's estimator: central differences D_m, at a fixed m or the best of all.
 
-use std::sync::Arc;
+use num_traits::Zero;
 
 use crate::Rational;
 use crate::number::Number;
@@ -17,9 +17,14 @@ pub enum Central<N> {
 }
 
 impl<N: Number> Central<N> {
-    /// D_m at one m ≥ 1, for steps of size h in `dimension` coordinates.
+    /// D_m at one m ≥ 1, for steps of size h in `dimension` coordinates; no estimate of the error.
     pub fn fixed(m: u32, h: &Rational, dimension: usize, context: &N::Context) -> Self {
-        Central::Fixed(FixedOrder::new(m, h, dimension, context))
+        Central::Fixed(FixedOrder::new(m, false, h, dimension, context))
+    }
+
+    /// D_m at one m, with |T_{m,m} − T_{m−1,m−1}| for m ≥ 2.
+    pub fn fixed_with_error(m: u32, h: &Rational, dimension: usize, context: &N::Context) -> Self {
+        Central::Fixed(FixedOrder::new(m, true, h, dimension, context))
     }
 
     /// At each state the m of 2..=`largest` with the smallest |T_{m,m} − T_{m−1,m−1}|, the first of equal ones.
@@ -53,7 +58,7 @@ pub struct FixedOrder<N> {
     m: usize,
     /// d_{m,j}/(2h)
     weights: Vec<N>,
-    /// (d_{m,j} − d_{m−1,j})/(2h), for the last term alone
+    /// (d_{m,j} − d_{m−1,j})/(2h), for the last term alone; empty where no error is asked for
     last_term: Vec<N>,
     /// The newest m + 1 states, the state k in place k mod (m + 1).
     ring: Vec<Place<N>>,
@@ -75,13 +80,12 @@ struct Place<N> {
 }
 
 impl<N: Number> FixedOrder<N> {
-    fn new(m: u32, h: &Rational, dimension: usize, context: &N::Context) -> Self {
+    fn new(m: u32, with_error: bool, h: &Rational, dimension: usize, context: &N::Context) -> Self {
         assert!(m >= 1, "a central difference has m ≥ 1");
-        let (this, last) = (central(m), if m > 1 { central(m - 1) } else { Arc::from([]) });
+        let this = central(m);
         let twice_h = h * Rational::from_integer(2.into());
         let zero = N::zero(context);
         let number = |weight: Rational| N::from_rational(&(weight / &twice_h), context);
-        let none = Rational::from_integer(0.into());
         let place = Place {
             q: vec![zero.clone(); dimension],
             p: vec![zero.clone(); dimension],
@@ -92,7 +96,7 @@ impl<N: Number> FixedOrder<N> {
         FixedOrder {
             m: m as usize,
             weights: this.iter().map(|d| number(d.clone())).collect(),
-            last_term: this.iter().enumerate().map(|(j, d)| number(d - last.get(j).unwrap_or(&none))).collect(),
+            last_term: last_term_weights(m, with_error).into_iter().map(number).collect(),
             ring: vec![place; m as usize + 1],
             pushed: 0,
             pair: zero.clone(),
@@ -125,9 +129,11 @@ impl<N: Number> FixedOrder<N> {
         self.product.assign_product(&self.weights[j - 1], &self.pair);
         older.value.subtract(&self.product);
         newest.value.subtract(&self.product);
-        self.product.assign_product(&self.last_term[j - 1], &self.pair);
-        older.last_term.subtract(&self.product);
-        newest.last_term.subtract(&self.product);
+        if let Some(weight) = self.last_term.get(j - 1) {
+            self.product.assign_product(weight, &self.pair);
+            older.last_term.subtract(&self.product);
+            newest.last_term.subtract(&self.product);
+        }
     }
 }
 
@@ -153,8 +159,19 @@ impl<N: Number> Estimator<N> for FixedOrder<N> {
         let place = &self.ring[(k + 1) % size];
         self.error.assign(&place.last_term);
         self.error.make_absolute();
-        Some(Estimate { value: &place.value, error: &self.error, order: self.m as u32, q: &place.q, p: &place.p })
+        let error = (!self.last_term.is_empty()).then_some(&self.error);
+        Some(Estimate { value: &place.value, error, order: self.m as u32, q: &place.q, p: &place.p })
     }
+}
+
+/// d_{m,j} − d_{m−1,j}, j = 1..m; none for m = 1, whose one term is the derivative itself and no error.
+fn last_term_weights(m: u32, with_error: bool) -> Vec<Rational> {
+    if !with_error || m == 1 {
+        return Vec::new();
+    }
+    let (this, last) = (central(m), central(m - 1));
+    let before = |j: usize| last.get(j).cloned().unwrap_or_else(Rational::zero);
+    this.iter().enumerate().map(|(j, weight)| weight - before(j)).collect()
 }
 
 /// Two different elements, to be changed both.

@@ -179,6 +179,6 @@ impl<N: Number> Estimator<N> for AllOrders<N> {
         let centre = (newest + 1) % self.ring.len();
         let best = self.sum_up(centre);
         let Place { q, p, .. } = &self.ring[centre];
-        Some(Estimate { value: &self.value, error: &self.errors[best - 1], order: best as u32, q, p })
+        Some(Estimate { value: &self.value, error: Some(&self.errors[best - 1]), order: best as u32, q, p })
     }
 }
