@@ -62,7 +62,7 @@ pub mod tables;
 pub mod weights;
 
 pub use kinetic::{DiagonalMasses, FullMasses, Kinetic, UnitMasses};
-pub use motion::{Maps, Motion};
+pub use motion::{Coordinates, Maps, Motion};
 pub use number::Number;
 pub use potential::Potential;
 pub use scheme::{Scheme, Summary, Weights};

@@ -23,6 +23,12 @@ pub trait Maps<N> {
     fn restart_beta(&mut self);
 }
 
+/// Holds the coordinates of a state: an array `[N; D]`, or a `Vec<N>` or `Box<[N]>` where the dimension is known at run
+/// time only.
+pub trait Coordinates<N>: AsRef<[N]> + AsMut<[N]> + Clone {}
+
+impl<N, V: AsRef<[N]> + AsMut<[N]> + Clone> Coordinates<N> for V {}
+
 /// What is known about the gradient at the present q.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kept {
@@ -33,8 +39,7 @@ enum Kept {
 
 /// A system H = T(p) + U(q) and its state.
 ///
-/// `V` holds coordinates: an array `[N; D]`, or a `Vec<N>` where the dimension is known at run time only. The
-/// gradient of the last kick is kept as long as q stays, so that the next step's first kick costs no evaluation.
+/// The gradient of the last kick is kept as long as q stays, so that the next step's first kick costs no evaluation.
 #[derive(Clone, Debug)]
 pub struct Motion<N, V, P, K> {
     potential: P,
@@ -53,7 +58,7 @@ pub struct Motion<N, V, P, K> {
 impl<N, V, P, K> Motion<N, V, P, K>
 where
     N: Number,
-    V: AsRef<[N]> + AsMut<[N]> + Clone,
+    V: Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N>,
 {
@@ -71,7 +76,7 @@ where
         let context = q.as_ref()[0].context();
         let zero = N::zero(&context);
         Motion {
-            // one number more for the velocity of drifts
+            // at least one number, for the velocity of drifts
             scratch: vec![zero.clone(); potential.scratch().max(1)],
             gradient: p.clone(),
             rate: zero.clone(),
@@ -176,7 +181,7 @@ fn energy_at<N: Number, P: Potential<N>, K: Kinetic<N>>(
 impl<N, V, P, K> Maps<N> for Motion<N, V, P, K>
 where
     N: Number,
-    V: AsRef<[N]> + AsMut<[N]> + Clone,
+    V: Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N>,
 {

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::Rational;
 use crate::kinetic::Kinetic;
-use crate::motion::Motion;
+use crate::motion::{Coordinates, Motion};
 use crate::number::Number;
 use crate::potential::Potential;
 use crate::scheme::{Scheme, Weights};
@@ -61,7 +61,7 @@ impl<'s, S, N, V, P, K> Trajectory<'s, S, N, V, P, K>
 where
     S: Scheme,
     N: Number,
-    V: AsRef<[N]> + AsMut<[N]> + Clone,
+    V: Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N>,
 {
@@ -125,7 +125,7 @@ where
 fn check<N, V, P, K>(motion: &Motion<N, V, P, K>, step: i64) -> Result<(), RunError>
 where
     N: Number,
-    V: AsRef<[N]> + AsMut<[N]> + Clone,
+    V: Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N>,
 {
@@ -153,7 +153,7 @@ impl<'s, S, N, V, P, K, E> ShadowRun<'s, S, N, V, P, K, E>
 where
     S: Scheme,
     N: Number,
-    V: AsRef<[N]> + AsMut<[N]> + Clone,
+    V: Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N>,
     E: Estimator<N>,
@@ -240,7 +240,7 @@ pub fn energy_drift<S, N, V, P, K, E>(
 where
     S: Scheme,
     N: Number,
-    V: AsRef<[N]> + AsMut<[N]> + Clone,
+    V: Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N>,
     E: Estimator<N>,
