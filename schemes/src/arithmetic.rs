@@ -71,7 +71,9 @@ impl FixedPoint {
     /// The middle and the bound of the error as rationals.
     pub(crate) fn read(&self, value: &Fixed) -> (Rational, Rational) {
         let unit = BigInt::one() << self.bits;
-        (Rational::new(value.units.clone(), unit.clone()), Rational::new(BigInt::from(value.error), unit))
+        // a bound that ran over is none: then the value may be anything
+        let error = if value.error == u128::MAX { BigInt::one() << (2 * self.bits) } else { value.error.into() };
+        (Rational::new(value.units.clone(), unit.clone()), Rational::new(error, unit))
     }
 
     /// An upper bound of |value|, rounded up to a whole number.
@@ -99,7 +101,8 @@ impl Arithmetic for FixedPoint {
         target.error = target.error.saturating_add(error).saturating_add(1);
     }
     fn divide(&self, a: &Fixed, n: u32) -> Fixed {
-        Fixed { units: &a.units / n, error: a.error / u128::from(n) + 2 }
+        let error = if a.error == u128::MAX { a.error } else { a.error / u128::from(n) + 2 };
+        Fixed { units: &a.units / n, error }
     }
 }
 

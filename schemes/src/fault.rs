@@ -17,16 +17,17 @@ impl Source {
     pub fn fault(&self, at: &Range<usize>, message: impl Into<String>) -> Fault {
         let start = self.floor_boundary(at.start);
         let line_start = self.text[..start].rfind('\n').map_or(0, |i| i + 1);
-        let rest = &self.text[line_start..];
-        let source_line = rest.lines().next().unwrap_or("");
-        let length = at.end.saturating_sub(start);
-        let marked = source_line.get(start - line_start..).unwrap_or("");
+        let line = self.text[line_start..].lines().next().unwrap_or("");
+        let before = self.text[line_start..start].chars().count();
+        let (source_line, shown_before) = shortened(line, before);
+        let marked = source_line.chars().count().saturating_sub(shown_before).max(1);
+        let meant = self.text[start..].char_indices().take_while(|(i, _)| start + i < at.end).count();
         Fault {
             path: self.path.clone(),
             line: self.text[..line_start].matches('\n').count() + 1,
-            column: self.text[line_start..start].chars().count() + 1,
-            width: marked.char_indices().take_while(|(i, _)| *i < length).count().max(1),
-            source_line: source_line.to_owned(),
+            column: before + 1,
+            marked: shown_before..shown_before + meant.clamp(1, marked),
+            source_line,
             message: message.into(),
             values: None,
             help: None,
@@ -36,6 +37,21 @@ impl Source {
     fn floor_boundary(&self, at: usize) -> usize {
         (0..=at.min(self.text.len())).rev().find(|&i| self.text.is_char_boundary(i)).unwrap_or(0)
     }
+}
+
+/// The most characters of a line that are shown.
+const LONGEST_LINE: usize = 160;
+
+/// A line, or what stands around the character `place` of a long one; and how many characters are before it then.
+fn shortened(line: &str, place: usize) -> (String, usize) {
+    let length = line.chars().count();
+    if length <= LONGEST_LINE {
+        return (line.to_owned(), place);
+    }
+    let begin = place.saturating_sub(LONGEST_LINE / 4);
+    let part: String = line.chars().skip(begin).take(LONGEST_LINE).collect();
+    let (head, tail) = (if begin > 0 { "…" } else { "" }, if begin + LONGEST_LINE < length { "…" } else { "" });
+    (format!("{head}{part}{tail}"), place - begin + head.chars().count())
 }
 
 /// One fault of a table, with its place.
@@ -55,10 +71,10 @@ pub struct Fault {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// How many characters are meant, at least 1.
-    pub width: usize,
-    /// The line itself.
+    /// The line itself; of a long one the part around the place.
     pub source_line: String,
+    /// Which characters of `source_line` are meant, at least one.
+    pub marked: Range<usize>,
     /// What is wrong, one sentence.
     pub message: String,
     /// The value found and the value needed.
@@ -83,12 +99,12 @@ impl Fault {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Fault { path, line, column, source_line, message, .. } = self;
+        let Fault { path, line, column, source_line, marked, message, .. } = self;
         let margin = " ".repeat(line.to_string().len());
-        let place = " ".repeat(column - 1);
+        let place = " ".repeat(marked.start);
         writeln!(f, "{path}:{line}:{column}: {message}")?;
         writeln!(f, "  {line} | {}", source_line.replace('\t', " "))?;
-        write!(f, "  {margin} | {place}{}", "^".repeat(self.width))?;
+        write!(f, "  {margin} | {place}{}", "^".repeat(marked.len()))?;
         if let Some((found, needed)) = &self.values {
             write!(f, "\n  found {found}, needed {needed}")?;
         }

@@ -1,8 +1,9 @@
 //! Claims against conditions → a proved scheme, or faults.
 //!
-//! A condition *holds* if it is met exactly, or, where the weights are rounded to so many digits, if it is met as
-//! closely as one unit in the last digit of each weight can account for (a bound, with the rounding of the
-//! arithmetic itself included). How many digits really hold is reported.
+//! Where the weights are exact, a condition *holds* if it is met exactly. Where they are rounded to so many digits, it
+//! holds if it is met as closely as one unit of 10^(1−digits) in each weight can account for (a bound to first order,
+//! with the rounding of the arithmetic itself included), and if that is close enough to tell: at most a thousandth of the
+//! value needed. How many digits really hold is reported.
 
 use std::cmp::Ordering;
 
@@ -31,6 +32,8 @@ pub struct Order {
     pub digits: Option<u32>,
     /// The first condition that fails, and the value found; `None` if none does up to [`HIGHEST_ORDER`].
     pub failed: Option<(Condition, Rational)>,
+    /// Whether that condition is met as far as the digits of the weights go, which is not far enough to tell.
+    pub undecided: bool,
 }
 
 /// What is true of a scheme.
@@ -113,8 +116,9 @@ fn prove_up_to(maps: &[Map], held: Held, kinetic: Kinetic, highest: u32) -> Orde
     let order = failed.map_or(highest, |first| judged[first].condition.order - 1);
     let holding = judged.iter().filter(|c| c.condition.order <= order);
     let digits = holding.filter_map(|c| digits_of(&c.uncertainty())).min();
-    let failed = failed.map(|first| judged.swap_remove(first)).map(|c| (c.condition, c.found));
-    Order { order, digits, failed }
+    let failed = failed.map(|first| judged.swap_remove(first));
+    let undecided = failed.as_ref().is_some_and(Judged::is_met);
+    Order { order, digits, failed: failed.map(|c| (c.condition, c.found)), undecided }
 }
 
 /// A condition with its value and what the digits of the weights allow.
@@ -133,14 +137,27 @@ impl Judged {
     }
 
     fn holds(&self) -> bool {
-        // `<=` of rationals recurses along continued fractions, too deep for hundreds of digits
-        compare(&self.uncertainty(), &self.tolerance) != Ordering::Greater
+        self.is_met() && self.is_decided()
     }
+
+    fn is_met(&self) -> bool {
+        at_most(&self.uncertainty(), &self.tolerance)
+    }
+
+    /// Whether the weights have digits enough to tell a condition that is met from one that is not.
+    fn is_decided(&self) -> bool {
+        at_most(&(&self.tolerance * Rational::from_integer(1000.into())), &self.condition.needed)
+    }
+}
+
+/// a ≤ b; the operator recurses along continued fractions, too deep for hundreds of digits.
+fn at_most(a: &Rational, b: &Rational) -> bool {
+    compare(a, b) != Ordering::Greater
 }
 
 fn judged_conditions(maps: &[Map], held: Held, kinetic: Kinetic, highest: u32) -> Vec<Judged> {
     match held {
-        Held::Exactly => conditions(maps, kinetic, highest, &ExactArithmetic)
+        Held::Exactly => conditions(maps, kinetic, worth_exactness(maps, kinetic, highest), &ExactArithmetic)
             .into_iter()
             .map(|(condition, found)| Judged { condition, found, error: Rational::zero(), tolerance: Rational::zero() })
             .collect(),
@@ -159,6 +176,16 @@ fn judged_conditions(maps: &[Map], held: Held, kinetic: Kinetic, highest: u32) -
                 .collect()
         }
     }
+}
+
+/// The first order that certainly fails, or the highest: exact arithmetic beyond would be long and tell nothing.
+fn worth_exactness(maps: &[Map], kinetic: Kinetic, highest: u32) -> u32 {
+    let arithmetic = FixedPoint::new(60);
+    let fails = |(condition, value): &(Condition, _)| {
+        let (found, error) = arithmetic.read(value);
+        !at_most(&(found - &condition.needed).abs(), &error)
+    };
+    conditions(maps, kinetic, highest, &arithmetic).iter().find(|c| fails(c)).map_or(highest, |(c, _)| c.order)
 }
 
 fn conditions<A: Arithmetic>(
@@ -201,10 +228,16 @@ fn judge_order(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks:
     if order.order >= claimed {
         return;
     }
+    let Some((failed, found)) = &order.failed else { return };
+    if let (true, Some(digits)) = (order.undecided, &table.digits) {
+        let message =
+            format!("{} digits are too few to tell whether order {} holds {class}", digits.value, failed.order);
+        faults.push(table.source.fault(&digits.at, message).help("take the weights from a source with more digits"));
+        return;
+    }
     if order.order == 0 {
         return judge_sums(scheme, faults);
     }
-    let Some((failed, found)) = &order.failed else { return };
     let message = format!(
         "order {claimed} is claimed, order {} holds {class}: the condition of {} fails",
         order.order, failed.name
@@ -220,7 +253,7 @@ fn judge_order(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks:
 /// The conditions of order 1, each at the weights that it is about.
 fn judge_sums(scheme: &Scheme, faults: &mut Vec<Fault>) {
     let table = &scheme.table;
-    for sum in judged_conditions(&scheme.maps(), scheme.held, Kinetic::Any, 1).iter().filter(|c| !c.holds()) {
+    for sum in judged_conditions(&scheme.maps(), scheme.held, Kinetic::Any, 1).iter().filter(|c| !c.is_met()) {
         let kicks = sum.condition.name.ends_with('K');
         let (weights, at) = match &table.weights {
             Some(Weights::Stages { kick, .. }) if kicks => ("kicks", &kick.at),

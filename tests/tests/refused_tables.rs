@@ -754,3 +754,48 @@ base.toml:7:12: division by zero
 "#,
     );
 }
+
+#[test]
+fn digits_that_are_too_few_to_tell_one_order_from_the_next() {
+    // a palindrome has no order 3, but to two digits 1/8 may be 1/6
+    for digits in 1..=4 {
+        let table = format!(
+            "name = \"mine\"\norder = 3\nkinetic = \"any\"\nreference = \"none\"\ndigits = {digits}\n\n\
+             [stages]\nkick = [\"1/2\", \"1/2\"]\ndrift = [1, 0]\n"
+        );
+        let faults = judge(&table).unwrap_err().to_string();
+        let expected =
+            format!("mine.toml:5:10: {digits} digits are too few to tell whether order 1 holds for every T(p)");
+        assert!(faults.starts_with(&expected), "{faults}");
+    }
+}
+
+#[test]
+fn a_long_line_is_shown_around_the_place() {
+    let weights = "\"1/2\", ".repeat(100);
+    let table = format!(
+        "name = \"mine\"\norder = 1\nkinetic = \"any\"\nreference = \"none\"\n\n\
+         [stages]\nkick = [{weights}\"1/0\"]\ndrift = [{weights}1]\n"
+    );
+    let faults = judge(&table).unwrap_err().to_string();
+    assert_eq!(
+        faults,
+        r#"mine.toml:7:712: division by zero
+  7 | …, "1/2", "1/2", "1/2", "1/2", "1/2", "1/0"]
+    |                                          ^"#
+    );
+}
+
+/// A hundred weights of unlike denominators: exact sums of them are long, and not needed to see that they are wrong.
+#[test]
+fn many_unlike_fractions_are_refused_quickly() {
+    let list = |start: u32| (start..start + 300).map(|n| format!("\"7/{n}\"")).collect::<Vec<_>>().join(", ");
+    let table = format!(
+        "name = \"mine\"\norder = 4\nkinetic = \"any\"\nreference = \"none\"\n\n\
+         [stages]\nkick = [{}]\ndrift = [{}]\n",
+        list(1001),
+        list(2001)
+    );
+    let faults = judge(&table).unwrap_err();
+    assert_eq!(faults.0.len(), 2, "the kicks and the drifts: {faults}");
+}
