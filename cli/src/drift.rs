@@ -92,10 +92,10 @@ fn measure<N: Number + 'static>(
 ) -> Result<Record, Complaint> {
     let progress = Progress::new(bar, run.name(), run.steps);
     let begin = Instant::now();
-    let estimator = selection.estimator(run.h, false, context);
     let motion = selection.motion::<N>(context);
-    let found = energy_drift(&run.scheme.scheme, motion, run.h, run.steps, estimator, progress.listener())
-        .map_err(|error| run.failed(&error))?;
+    let found =
+        energy_drift(&run.scheme.scheme, motion, run.h, run.steps, &selection.method(false), progress.listener())
+            .map_err(|error| run.failed(&error))?;
     // both extremes may be finite where their difference overflows
     if !found.drift.is_finite() {
         return Err(run.not_finite("the energy drift"));

@@ -28,8 +28,10 @@ impl Run<'_> {
 
     /// A state is not finite.
     pub(crate) fn failed(&self, error: &RunError) -> Complaint {
-        let RunError::NotFinite { step, what } = error;
-        self.ended(&format!("the run ends at n = {step} with {what}"))
+        match error {
+            RunError::NotFinite { step, what } => self.ended(&format!("the run ends at n = {step} with {what}")),
+            RunError::ZeroStep => self.ended(&error.to_string()),
+        }
     }
 
     /// All states are finite, an energy is not.

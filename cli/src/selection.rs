@@ -89,13 +89,11 @@ impl Selection {
         Motion::new(setup.potential(context), UnitMasses, setup.q(context), setup.p(context))
     }
 
-    /// The estimator for steps of size h; a fixed order estimates its error only if asked to.
-    pub(crate) fn estimator<N: Number>(&self, h: &Rational, with_error: bool, context: &N::Context) -> Central<N> {
-        let dimension = self.setup.problem.positions.len();
+    /// The estimator; a fixed order estimates its error only if asked to.
+    pub(crate) fn method(&self, with_error: bool) -> Central {
         match self.order {
-            Order::Fixed(m) if with_error => Central::fixed_with_error(m, h, dimension, context),
-            Order::Fixed(m) => Central::fixed(m, h, dimension, context),
-            Order::Best(largest, stop) => Central::best(largest, stop, h, dimension, context),
+            Order::Fixed(m) => Central::Fixed { m, with_error },
+            Order::Best(largest, stop) => Central::best(largest, stop),
         }
     }
 
@@ -134,7 +132,8 @@ fn check_digits(Named { name, scheme }: &Named, digits: u32) -> Result<(), Compl
     let proved = scheme.proved();
     let closed_forms = proved.scheme.held == Held::Digits(TABLE_DIGITS) && proved.scheme.table.digits.is_none();
     if closed_forms && digits > TABLE_DIGITS {
-        let sentence = format!("{name} is held to {TABLE_DIGITS} digits, the run asks for {digits}");
+        let sentence =
+            format!("{name} has irrational weights, held to {TABLE_DIGITS} digits; the run asks for {digits}");
         let hint = format!("use --digits {TABLE_DIGITS}, or a scheme whose weights are fractions");
         return Err(Complaint::usage(sentence, hint));
     }

@@ -85,9 +85,8 @@ fn follow<N: Number + 'static>(
     let heard = progress.listener();
     let motion = selection.motion::<N>(context);
     let (mut q, mut p) = (motion.q().to_vec(), motion.p().to_vec());
-    let estimator = selection.estimator(run.h, true, context);
-    let mut shadow =
-        ShadowRun::new(&run.scheme.scheme, motion, run.h, run.steps, estimator).map_err(|error| run.failed(&error))?;
+    let mut shadow = ShadowRun::new(&run.scheme.scheme, motion, run.h, run.steps, &selection.method(true))
+        .map_err(|error| run.failed(&error))?;
     while let Some((n, found)) = shadow.advance().map_err(|error| run.failed(&error))? {
         q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
         p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));

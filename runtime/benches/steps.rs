@@ -8,7 +8,7 @@ use std::time::Instant;
 use rug::Float;
 use shadowstep::number::{Number as _, Precision};
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::shadow::{Central, Estimator, Stop};
+use shadowstep::shadow::{Central, Estimator, Method, Stop};
 use shadowstep::{Motion, Potential, Scheme, UnitMasses, exact, splitting_scheme, tables};
 
 #[splitting_scheme("stormer-verlet.toml")]
@@ -202,9 +202,11 @@ fn henon_heiles_by_hand() -> Contestant<'static> {
 }
 
 /// Takes a state a repetition; the states are those of Störmer–Verlet on Kepler, made before.
-fn estimates<'a>(name: &'static str, mut estimator: Central<Float>) -> Contestant<'a> {
+fn estimates<'a>(name: &'static str, method: Central) -> Contestant<'a> {
     let mut motion = big(Kepler, ["0.4", "0"], ["0", "2"]);
-    let h = StormerVerlet.weights::<Float>(&exact("1/20").expect("exact"), &digits());
+    let h = exact("1/20").expect("exact");
+    let mut estimator = method.estimator(&h, 2, &digits());
+    let h = StormerVerlet.weights::<Float>(&h, &digits());
     let run = move |repetitions| {
         for _ in 0..repetitions {
             StormerVerlet.step_augmented(&h, &mut motion);
@@ -253,15 +255,14 @@ fn main() {
         ],
         2_000,
     );
-    let h = exact("1/20").expect("exact");
     compare(
         "Störmer–Verlet on Kepler with the modified energy at each step, 120 digits",
         vec![
             augmented("step with β alone", StormerVerlet, kepler()),
-            estimates("D_20", Central::fixed(20, &h, 2, &digits())),
-            estimates("D_200", Central::fixed(200, &h, 2, &digits())),
-            estimates("best m ≤ 200", Central::best(200, Stop::Full, &h, 2, &digits())),
-            estimates("best m ≤ 200, early stop", Central::best(200, Stop::Early, &h, 2, &digits())),
+            estimates("D_20", Central::fixed(20)),
+            estimates("D_200", Central::fixed(200)),
+            estimates("best m ≤ 200", Central::best(200, Stop::Full)),
+            estimates("best m ≤ 200, early stop", Central::best(200, Stop::Early)),
         ],
         150,
     );

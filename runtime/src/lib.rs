@@ -24,8 +24,7 @@
 //!
 //! ```
 //! use shadowstep::{problems::Kepler, run::energy_drift, shadow::Central, tables, Motion, UnitMasses};
-//! use shadowstep::number::{Number, Precision};
-//! use rug::Float;
+//! use shadowstep::number::{Float, Number, Precision};
 //!
 //! let digits = Precision::digits(120).unwrap();
 //! let number = |text| Float::from_rational(&shadowstep::exact(text).unwrap(), &digits);
@@ -33,7 +32,7 @@
 //!
 //! let verlet = tables::shipped("stormer-verlet").unwrap();
 //! let h = shadowstep::exact("1/40").unwrap();
-//! let found = energy_drift(&verlet, motion, &h, 400, Central::fixed(20, &h, 2, &digits), |_| {}).unwrap();
+//! let found = energy_drift(&verlet, motion, &h, 400, &Central::fixed(20), |_| {}).unwrap();
 //! assert!(found.drift.to_f64() < 1e-9); // the energy itself changes by 1e-3
 //! ```
 //!

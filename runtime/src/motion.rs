@@ -65,7 +65,8 @@ where
     /// The system at q, p.
     ///
     /// # Panics
-    /// If q, p, the potential and the masses do not have the same dimension, at least 1.
+    /// If q, p, the potential and the masses do not have the same dimension, at least 1, or the numbers of q and p not
+    /// the same context.
     pub fn new(potential: P, kinetic: K, q: V, p: V) -> Self {
         let dimension = q.as_ref().len();
         assert!(dimension > 0, "a motion has at least one coordinate");
@@ -74,6 +75,8 @@ where
         let masses = kinetic.dimension().unwrap_or(dimension);
         assert_eq!(dimension, masses, "q must have the masses' dimension");
         let context = q.as_ref()[0].context();
+        let alike = q.as_ref().iter().chain(p.as_ref()).all(|x| x.context() == context);
+        assert!(alike, "the numbers of q and p must have the same precision");
         let zero = N::zero(&context);
         Motion {
             // at least one number, for the velocity of drifts

@@ -8,6 +8,10 @@ mod multiprecision;
 #[cfg(feature = "mpfr")]
 pub use multiprecision::{Precision, PrecisionError};
 
+/// MPFR's numbers, of the version that implements [`Number`].
+#[cfg(feature = "mpfr")]
+pub use rug::Float;
+
 use crate::Rational;
 use std::fmt;
 
@@ -46,7 +50,7 @@ use std::fmt;
 /// ```
 pub trait Number: Clone + PartialOrd + fmt::Debug + fmt::Display {
     /// What a new number has to know: `()` for `f64`, the precision for MPFR.
-    type Context: Clone + fmt::Debug;
+    type Context: Clone + PartialEq + fmt::Debug;
 
     /// A new 0.
     fn zero(context: &Self::Context) -> Self;

@@ -25,12 +25,6 @@ use crate::number::Number;
 ///         gradient[0].assign_square(&q[0]);
 ///         gradient[0].multiply(&q[0]);
 ///     }
-///     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
-///         self.gradient(q, gradient, scratch);
-///         // homogeneous of degree 4: qᵀU_q − 2U = (4 − 2) U
-///         self.energy(q, rate, scratch);
-///         rate.multiply_integer(2);
-///     }
 /// }
 /// ```
 pub trait Potential<N: Number> {
@@ -51,8 +45,16 @@ pub trait Potential<N: Number> {
     /// gradient ← U_q(q), rate ← qᵀU_q − 2U
     ///
     /// The rate is what a kick adds to β (Moan & Niesen, eq. 2, whose printed sign is wrong). A term of U that is
-    /// homogeneous of degree k adds (k − 2) times itself, so a quadratic one nothing.
-    fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]);
+    /// homogeneous of degree k adds (k − 2) times itself, so a quadratic one nothing: written so, it costs less than
+    /// the definition, which is what is computed if it is not written at all.
+    fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
+        self.gradient(q, gradient, scratch);
+        self.energy(q, rate, scratch);
+        rate.multiply_integer(-2);
+        for (q, gradient) in q.iter().zip(gradient) {
+            rate.add_product(q, gradient);
+        }
+    }
 }
 
 impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {

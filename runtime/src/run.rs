@@ -1,5 +1,6 @@
 //! Trajectories with the states that an estimator needs on both sides, and the energy drift.
 
+use num_traits::Zero;
 use thiserror::Error;
 
 use crate::Rational;
@@ -8,13 +9,16 @@ use crate::motion::{Coordinates, Motion};
 use crate::number::Number;
 use crate::potential::Potential;
 use crate::scheme::{Scheme, Weights};
-use crate::shadow::{Estimate, Estimator};
+use crate::shadow::{Estimate, Estimator, Method};
 
 /// A run that cannot go on.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum RunError {
+    /// h = 0.
+    #[error("a step of size 0 leads nowhere; a step has a size, such as 1/10")]
+    ZeroStep,
     /// A step led to an infinity or to something that is not a number.
-    #[error("step {step} led to {what}: the run ends there; a smaller step or another start may go on")]
+    #[error("the run ends at step {step} with {what}; a smaller step or another start may go on")]
     NotFinite {
         /// n of the state that is not finite (negative before the start).
         step: i64,
@@ -68,7 +72,7 @@ where
     /// Begins at the motion's present state with steps of size h.
     ///
     /// # Errors
-    /// A state before 0 that is not finite.
+    /// A step of size 0; an initial energy, or a state before 0, that is not finite.
     pub fn new(
         scheme: &'s S,
         mut motion: Motion<N, V, P, K>,
@@ -76,6 +80,14 @@ where
         steps: u64,
         reach: usize,
     ) -> Result<Self, RunError> {
+        if h.is_zero() {
+            return Err(RunError::ZeroStep);
+        }
+        let energy = motion.energy();
+        if !energy.is_finite() {
+            let what = format!("an energy of {}", energy.to_text());
+            return Err(RunError::NotFinite { step: 0, what });
+        }
         let weights = scheme.weights::<N>(h, &motion.context());
         let (q, p) = (motion.q().to_vec(), motion.p().to_vec());
         let mut before = Vec::with_capacity(reach + 1);
@@ -161,14 +173,18 @@ where
     /// Begins at the motion's present state; makes the states before it that the estimator needs.
     ///
     /// # Errors
-    /// A state before 0 that is not finite.
+    /// As [`Trajectory::new`].
     pub fn new(
         scheme: &'s S,
         motion: Motion<N, V, P, K>,
         h: &Rational,
         steps: u64,
-        estimator: E,
+        method: &impl Method<N, Estimator = E>,
     ) -> Result<Self, RunError> {
+        if h.is_zero() {
+            return Err(RunError::ZeroStep);
+        }
+        let estimator = method.estimator(h, motion.q().len(), &motion.context());
         let reach = estimator.reach();
         let trajectory = Trajectory::new(scheme, motion, h, steps, reach)?;
         Ok(ShadowRun { trajectory, estimator, reach: reach as i64 })
@@ -228,13 +244,13 @@ pub struct EnergyDrift<N> {
 /// Runs over n = 0..=steps and keeps the extremes of the modified energy; `progress` hears of each n.
 ///
 /// # Errors
-/// A state that is not finite.
-pub fn energy_drift<S, N, V, P, K, E>(
+/// A step of size 0, a state or a modified energy that is not finite.
+pub fn energy_drift<S, N, V, P, K>(
     scheme: &S,
     motion: Motion<N, V, P, K>,
     h: &Rational,
     steps: u64,
-    estimator: E,
+    method: &impl Method<N>,
     mut progress: impl FnMut(i64),
 ) -> Result<EnergyDrift<N>, RunError>
 where
@@ -243,9 +259,8 @@ where
     V: Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N>,
-    E: Estimator<N>,
 {
-    let mut run = ShadowRun::new(scheme, motion, h, steps, estimator)?;
+    let mut run = ShadowRun::new(scheme, motion, h, steps, method)?;
     let mut found: Option<EnergyDrift<N>> = None;
     while let Some((n, estimate)) = run.advance()? {
         match &mut found {

@@ -7,10 +7,20 @@
 mod central;
 mod differences;
 
-pub use central::{Central, FixedOrder};
-pub use differences::{AllOrders, Stop};
+pub use central::{Central, CentralEstimator};
+pub use differences::Stop;
 
+use crate::Rational;
 use crate::number::Number;
+
+/// A way to estimate the modified energy, from which a run makes the estimator that fits it.
+pub trait Method<N: Number> {
+    /// The estimator.
+    type Estimator: Estimator<N>;
+
+    /// An estimator for steps of size h ≠ 0 and states of `dimension` coordinates.
+    fn estimator(&self, h: &Rational, dimension: usize, context: &N::Context) -> Self::Estimator;
+}
 
 /// Turns the states of a trajectory into modified energies.
 ///

@@ -57,6 +57,8 @@ impl TableScheme {
         augmented: bool,
         motion: &mut M,
     ) {
+        let expected = self.plan.kicks.len() + self.plan.drifts.len();
+        assert_eq!(weights.len(), expected, "these are weights of another scheme");
         let (kicks, drifts) = weights.split_at(self.plan.kicks.len());
         for &(kind, index) in maps {
             match (kind, augmented) {

@@ -13,7 +13,7 @@ use gmp_mpfr_sys::gmp;
 use rug::Float;
 use shadowstep::number::{Number, Precision};
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::shadow::{Central, Estimator, Stop};
+use shadowstep::shadow::{Central, Estimator, Method, Stop};
 use shadowstep::tables::{shipped, shipped_names};
 use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Potential, Scheme, UnitMasses, exact};
 
@@ -136,12 +136,9 @@ fn estimators_do_not_allocate(digits: &Precision) {
     let h = exact("1/50").unwrap();
     let scheme = shipped("stormer-verlet").unwrap();
     let weights = scheme.weights::<Float>(&h, digits);
-    let estimators = [
-        Central::fixed(5, &h, 2, digits),
-        Central::best(20, Stop::Full, &h, 2, digits),
-        Central::best(20, Stop::Early, &h, 2, digits),
-    ];
-    for mut estimator in estimators {
+    let methods = [Central::fixed(5), Central::best(20, Stop::Full), Central::best(20, Stop::Early)];
+    for method in methods {
+        let mut estimator = method.estimator(&h, 2, digits);
         let mut motion =
             Motion::new(HenonHeiles, UnitMasses, numbers(["0.1", "0.2"], digits), numbers(["0.1", "0"], digits));
         let mut advance = || {

@@ -156,7 +156,7 @@ fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)],
 
 fn documentation(proved: &Proved, plan: &Plan) -> Vec<String> {
     let table = &proved.scheme.table;
-    let title = table.title.as_deref().unwrap_or(&table.name.value);
+    let title = table.title.as_deref().unwrap_or("A splitting scheme");
     let cost = plan.cost();
     let kept = if plan.keeps_gradient() { " (the gradient of the last kick serves the next step)" } else { "" };
     let kinetic = match table.kinetic {

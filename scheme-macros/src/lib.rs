@@ -33,6 +33,8 @@ use locate::Locator;
 /// are proved; a claim that does not hold is a compile error that names the condition which fails. The struct gets
 /// `shadowstep::Scheme`: `step`, `step_augmented` (carries β), `step_back` and `step_back_augmented`, written out map
 /// by map, and documentation with orders, cost and source.
+///
+#[doc = include_str!("../../schemes/tables/README.md")]
 #[proc_macro_attribute]
 pub fn splitting_scheme(arguments: TokenStream, item: TokenStream) -> TokenStream {
     let arguments = parse_macro_input!(arguments as Arguments);

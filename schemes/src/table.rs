@@ -1,26 +1,6 @@
 //! TOML text → the cells of a table with their places.
 //!
-//! ```toml
-//! name = "yoshida4"
-//! title = "Yoshida's triple jump of order 4"      # optional
-//! order = 4                                       # claimed for the kinetic energy below
-//! kinetic = "any"                                 # "any" T(p), or "quadratic"
-//! symmetric = true                                # optional: the palindrome is claimed
-//! digits = 15                                     # optional: the cells are rounded to so many digits
-//! reference = "H. Yoshida, Phys. Lett. A 150 (1990) 262-268"
-//! doi = "10.1016/0375-9601(90)90092-3"            # optional
-//!
-//! [constants]                                     # optional, each from earlier ones
-//! g1 = "1/(2 - 2^(1/3))"
-//!
-//! [composition]                                   # either this …
-//! base = "stormer-verlet"
-//! gamma = ["g1", "1 - 2*g1", "g1"]
-//!
-//! [stages]                                        # … or this: kick, drift, kick, drift, …
-//! kick  = ["1/2", "1/2"]                          # a_s
-//! drift = [1, 0]                                  # b_s
-//! ```
+#![doc = include_str!("../tables/README.md")]
 
 use std::ops::Range;
 

@@ -27,9 +27,9 @@ fn drift<P: Potential<N>, K: Kinetic<N>, N: Number>(
     steps: u64,
     m: u32,
 ) -> Result<EnergyDrift<N>, RunError> {
-    let (h, context) = (rational(h), motion.context());
-    let estimator = Central::fixed(m, &h, motion.q().len(), &context);
-    energy_drift(&shipped(scheme).unwrap(), motion, &h, steps, estimator, |_| {})
+    let h = rational(h);
+    let estimator = Central::fixed(m);
+    energy_drift(&shipped(scheme).unwrap(), motion, &h, steps, &estimator, |_| {})
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -42,14 +42,16 @@ fn a_head_on_collision_names_its_step() {
     for reach in [1, 3] {
         let start = state::<_, f64>(Kepler, &["2", "0"], &["-7/4", "0"], &());
         let error = drift("symplectic-euler", start, "1", 20, reach).unwrap_err();
-        let RunError::NotFinite { step, what } = &error;
+        let RunError::NotFinite { step, what } = &error else { panic!("the step has a size") };
         assert_eq!(*step, 2, "{error}");
         assert!(what.starts_with("q1 = ") || what.starts_with("p1 = "), "{error}");
         let said = error.to_string();
-        assert!(said.starts_with(&format!("step 2 led to {what}: ")), "{said}");
+        assert!(said.starts_with(&format!("the run ends at step 2 with {what}; ")), "{said}");
     }
     let start = state::<_, Float>(Kepler, &["2", "0"], &["-7/4", "0"], &precision(120));
-    let RunError::NotFinite { step, .. } = drift("symplectic-euler", start, "1", 20, 3).unwrap_err();
+    let RunError::NotFinite { step, .. } = drift("symplectic-euler", start, "1", 20, 3).unwrap_err() else {
+        panic!("the step has a size")
+    };
     assert_eq!(step, 2, "the same at 120 digits");
 }
 
@@ -58,7 +60,9 @@ fn a_head_on_collision_names_its_step() {
 fn a_collision_before_the_start_has_a_negative_step() {
     // the inverse of symplectic Euler drifts first: from q = 1 back to 1 − 1·1 = 0
     let start = state::<_, f64>(Kepler, &["1", "0"], &["1", "0"], &());
-    let RunError::NotFinite { step, what } = drift("symplectic-euler", start, "1", 5, 2).unwrap_err();
+    let RunError::NotFinite { step, what } = drift("symplectic-euler", start, "1", 5, 2).unwrap_err() else {
+        panic!("the step has a size")
+    };
     assert_eq!(step, -1, "{what}");
 }
 
@@ -67,7 +71,7 @@ fn a_collision_before_the_start_has_a_negative_step() {
 fn an_escape_ends_with_its_step() {
     let start = state::<_, f64>(HenonHeiles, &["0", "0"], &["0", "2"], &());
     let error = drift("yoshida4", start.clone(), "1/4", 1000, 2).unwrap_err();
-    let RunError::NotFinite { step, .. } = &error;
+    let RunError::NotFinite { step, .. } = &error else { panic!("the step has a size") };
     assert!((1..100).contains(step), "{error}");
 
     // the states before that one are finite, the one after the last of them is not
@@ -96,8 +100,8 @@ fn eccentric_orbits_run_through() {
     for (gap, least) in [("0.1", 1e-3), ("0.01", 1e-1)] {
         let start = kepler::<f64>(gap, &());
         let h = rational("1/20");
-        let best = Central::best(30, Stop::Full, &h, 2, &());
-        let found = energy_drift(&shipped("stormer-verlet").unwrap(), start, &h, 2000, best, |_| {}).unwrap();
+        let best = Central::best(30, Stop::Full);
+        let found = energy_drift(&shipped("stormer-verlet").unwrap(), start, &h, 2000, &best, |_| {}).unwrap();
         assert!(found.drift.is_finite() && found.drift > least, "1 − e = {gap}: {:e}", found.drift);
         assert!(found.minimum <= found.first && found.last <= found.maximum);
     }
@@ -135,7 +139,9 @@ fn stability_ends_at_two() {
 fn above_the_limit_the_run_says_so() {
     let potential = HarmonicOscillator::new(&rational("1"), 1, &());
     let start: State<_, f64> = state(potential, &["1"], &["0"], &());
-    let RunError::NotFinite { step, what } = drift("stormer-verlet", start, "2.1", 100_000, 2).unwrap_err();
+    let RunError::NotFinite { step, what } = drift("stormer-verlet", start, "2.1", 100_000, 2).unwrap_err() else {
+        panic!("the step has a size")
+    };
     // growth per step: μ with μ + 1/μ = 2.1² − 2, μ = 1.88; the squares in the modified energy overflow at
     // q = 1e154 = 1.88^563, and each estimate needs two states on
     assert!((555..575).contains(&step) && what.starts_with("a modified energy of "), "{step}: {what}");
@@ -169,8 +175,8 @@ fn negative_steps_go_back() {
     assert!(log10_largest_distance(motion.q(), start.q()) < -56.0);
 
     let [one, other] = [(start, &forth), (turned, &back)].map(|(motion, h)| {
-        let fixed = Central::fixed(15, h, 2, &context);
-        energy_drift(&scheme, motion, h, 100, fixed, |_| {}).unwrap()
+        let fixed = Central::fixed(15);
+        energy_drift(&scheme, motion, h, 100, &fixed, |_| {}).unwrap()
     });
     // the same states in the other direction
     for (a, b) in [(&one.first, &other.last), (&one.last, &other.first), (&one.drift, &other.drift)] {
@@ -196,8 +202,8 @@ where
 {
     let values = || -> Vec<(N, N, u32)> {
         let (scheme, h) = (shipped("blanes-moan-s6").unwrap(), rational("1/20"));
-        let best = Central::best(20, Stop::Early, &h, 2, context);
-        let mut run = ShadowRun::new(&scheme, kepler::<N>("0.4", context), &h, 100, best).unwrap();
+        let best = Central::best(20, Stop::Early);
+        let mut run = ShadowRun::new(&scheme, kepler::<N>("0.4", context), &h, 100, &best).unwrap();
         let mut values = Vec::new();
         while let Some((_, estimate)) = run.advance().unwrap() {
             values.push((estimate.value.clone(), estimate.error.expect("it was asked for").clone(), estimate.order));
@@ -229,9 +235,9 @@ fn long_runs_keep_the_digits_of_beta() {
     const STEPS: u64 = 300_000;
     let scheme = shipped("stormer-verlet").unwrap();
     let h = rational("1/20");
-    let fixed = Central::fixed(10, &h, 1, &());
+    let fixed = Central::fixed(10);
     let start = state::<_, f64>(Pendulum, &["0"], &["1"], &());
-    let mut run = ShadowRun::new(&scheme, start, &h, STEPS, fixed).unwrap();
+    let mut run = ShadowRun::new(&scheme, start, &h, STEPS, &fixed).unwrap();
     let mut values = Vec::new();
     while let Some((_, estimate)) = run.advance().unwrap() {
         values.push(*estimate.value);
@@ -247,4 +253,28 @@ fn long_runs_keep_the_digits_of_beta() {
     // Now: last places of q and p, about 1e-16, over h = 1/20. A running sum would have grown to |β| = 10⁴, whose last
     // place of 2e-12 over h makes 1e-11 late in the run.
     assert!(early < 5e-15 && late < 5e-15, "{early:e}, {late:e}");
+}
+
+/// Mistakes of a caller that would otherwise give numbers.
+#[test]
+fn what_cannot_be_meant_is_refused() {
+    assert_eq!(drift("stormer-verlet", kepler::<f64>("0.4", &()), "0", 10, 3), Err(RunError::ZeroStep));
+    // at the singularity already
+    let start = state::<_, f64>(Kepler, &["0", "0"], &["1", "0"], &());
+    assert!(matches!(drift("stormer-verlet", start, "1/10", 10, 3), Err(RunError::NotFinite { step: 0, .. })));
+}
+
+#[test]
+#[should_panic(expected = "the same precision")]
+fn numbers_of_two_precisions_make_no_motion() {
+    let q = shadowstep_tests::numbers::<Float>(&["0.4", "0"], &precision(60));
+    let p = shadowstep_tests::numbers::<Float>(&["0", "2"], &precision(16));
+    Motion::new(Kepler, UnitMasses, q, p);
+}
+
+#[test]
+#[should_panic(expected = "weights of another scheme")]
+fn weights_of_another_scheme_make_no_step() {
+    let weights = shipped("yoshida4").unwrap().weights::<f64>(&rational("1/10"), &());
+    shipped("stormer-verlet").unwrap().step(&weights, &mut kepler::<f64>("0.4", &()));
 }

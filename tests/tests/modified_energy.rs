@@ -3,10 +3,9 @@
 
 use rug::Float;
 use shadowstep::kinetic::{DiagonalMasses, FullMasses};
-use shadowstep::number::Precision;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
 use shadowstep::run::{EnergyDrift, ShadowRun, Trajectory, energy_drift};
-use shadowstep::shadow::{Central, Estimator, Stop};
+use shadowstep::shadow::{Central, Estimator, Method, Stop};
 use shadowstep::tables::shipped;
 use shadowstep::weights::central;
 use shadowstep::{Kinetic, Motion, Number, Potential, Rational, Scheme, UnitMasses};
@@ -38,9 +37,9 @@ fn estimates<S: Scheme, N: Number, P: Potential<N>, K: Kinetic<N>>(
     motion: Vector<P, K, N>,
     h: &Rational,
     steps: u64,
-    estimator: impl Estimator<N>,
+    method: &impl Method<N>,
 ) -> Vec<Estimated<N>> {
-    let mut run = ShadowRun::new(scheme, motion, h, steps, estimator).expect("it can begin");
+    let mut run = ShadowRun::new(scheme, motion, h, steps, method).expect("it can begin");
     let mut all = Vec::new();
     while let Some((n, estimate)) = run.advance().expect("it can go on") {
         all.push((n, estimate.value.clone(), estimate.error.cloned(), estimate.order));
@@ -92,7 +91,7 @@ fn harmonic_oscillator_has_its_closed_form() {
         let [omega, step] = [&omega, &h].map(|r| Float::from_rational(r, &context));
         let expected = closed_form(&q, &p, &omega, &step);
 
-        let found = estimates(&verlet, motion, &h, 100, Central::fixed(m, &h, 1, &context));
+        let found = estimates(&verlet, motion, &h, 100, &Central::fixed(m));
         assert_eq!(found.len(), 101);
         for (n, value, ..) in found {
             // D_m is off by (hω̃/2)^{2m}, below 1e-120 here; round-off of a hundred steps leaves 118 digits
@@ -139,8 +138,8 @@ fn drift_over<P: Potential<Float>>(potential: P, q: &[&str], p: &[&str]) -> Ener
     let context = precision(40);
     let motion = Motion::new(potential, UnitMasses, numbers(q, &context), numbers(p, &context));
     let (verlet, h) = (shipped("stormer-verlet").unwrap(), rational("1/20"));
-    let estimator = Central::fixed(10, &h, q.len(), &context);
-    energy_drift(&verlet, motion, &h, 400, estimator, |_| {}).unwrap()
+    let estimator = Central::fixed(10);
+    energy_drift(&verlet, motion, &h, 400, &estimator, |_| {}).unwrap()
 }
 
 /// The first value is near H under both signs; only the drift tells them apart.
@@ -237,12 +236,8 @@ fn term_sizes(diagonal: &[Float]) -> Vec<Option<Float>> {
 const TRIANGLE_DIGITS: u32 = 120;
 
 /// Both problems, with schemes of different kinds: what `check` is told is the scheme's name, the states, where the
-/// state 0 is among them, and the estimates of `estimator`.
-fn against_the_triangle(
-    reach: usize,
-    estimator: impl Fn(&Rational, usize, &Precision) -> Central<Float>,
-    mut check: impl FnMut(&str, &[Float], &Estimated<Float>),
-) {
+/// state 0 is among them, and the estimates of `method`.
+fn against_the_triangle(reach: usize, method: Central, mut check: impl FnMut(&str, &[Float], &Estimated<Float>)) {
     let context = precision(TRIANGLE_DIGITS);
     let h = rational("1/20");
     let step = Float::from_rational(&h, &context);
@@ -252,16 +247,16 @@ fn against_the_triangle(
         motion: &Vector<P, UnitMasses, Float>,
         h: &Rational,
         reach: usize,
-        estimator: Central<Float>,
+        method: Central,
     ) -> (Vec<State>, Vec<Estimated<Float>>) {
         let scheme = shipped(name).unwrap();
-        assert_eq!(estimator.reach(), reach);
-        (states(&scheme, motion.clone(), h, STEPS, reach), estimates(&scheme, motion.clone(), h, STEPS, estimator))
+        assert_eq!(Method::<Float>::estimator(&method, h, 1, &precision(TRIANGLE_DIGITS)).reach(), reach);
+        (states(&scheme, motion.clone(), h, STEPS, reach), estimates(&scheme, motion.clone(), h, STEPS, &method))
     }
     for (name, (states, found)) in [
-        ("stormer-verlet", both("stormer-verlet", &kepler(&context), &h, reach, estimator(&h, 2, &context))),
-        ("ruth3", both("ruth3", &pendulum(&context), &h, reach, estimator(&h, 1, &context))),
-        ("yoshida4", both("yoshida4", &henon_heiles(&context), &h, reach, estimator(&h, 2, &context))),
+        ("stormer-verlet", both("stormer-verlet", &kepler(&context), &h, reach, method)),
+        ("ruth3", both("ruth3", &pendulum(&context), &h, reach, method)),
+        ("yoshida4", both("yoshida4", &henon_heiles(&context), &h, reach, method)),
     ] {
         assert_eq!(found.len() as u64, STEPS + 1);
         for one in &found {
@@ -273,7 +268,7 @@ fn against_the_triangle(
 #[test]
 fn fixed_m_is_the_diagonal_of_the_triangle() {
     for m in [1, 2, 3, 7, 20, 40] {
-        let fixed = |h: &Rational, d, context: &Precision| Central::fixed_with_error(m, h, d, context);
+        let fixed = Central::fixed_with_error(m);
         against_the_triangle(m as usize, fixed, |name, diagonal, (n, value, error, order)| {
             assert_eq!(*order, m);
             // divided by h = 1/20 and added up over M differences, round-off leaves at least 110 digits of 120
@@ -310,7 +305,7 @@ fn assert_chosen(name: &str, diagonal: &[Float], last: usize, found: &Estimated<
 #[test]
 fn best_m_has_the_smallest_term() {
     let mut orders = Vec::new();
-    let best = |h: &Rational, d, context: &Precision| Central::best(30, Stop::Full, h, d, context);
+    let best = Central::best(30, Stop::Full);
     against_the_triangle(30, best, |name, diagonal, one| {
         assert_chosen(name, diagonal, 30, one, -110.0);
         orders.push(one.3);
@@ -335,7 +330,7 @@ fn first_stop(sizes: &[Option<Float>], first: usize) -> usize {
 #[test]
 fn early_stop_is_its_rule_written_out() {
     let mut stopped = 0;
-    let early = |h: &Rational, d, context: &Precision| Central::best(40, Stop::Early, h, d, context);
+    let early = Central::best(40, Stop::Early);
     against_the_triangle(40, early, |name, diagonal, one| {
         let sizes = term_sizes(diagonal);
         let stop = first_stop(&sizes, 13);
@@ -350,8 +345,8 @@ fn early_stop_is_its_rule_written_out() {
 fn early_stop_is_nearly_as_good_as_the_full_search() {
     let (verlet, h, context) = (shipped("stormer-verlet").unwrap(), rational("1/20"), precision(120));
     let [full, early] = [Stop::Full, Stop::Early].map(|stop| {
-        let best = Central::<Float>::best(200, stop, &h, 2, &context);
-        energy_drift(&verlet, kepler(&context), &h, 1000, best, |_| {}).unwrap()
+        let best = Central::best(200, stop);
+        energy_drift(&verlet, kepler::<Float>(&context), &h, 1000, &best, |_| {}).unwrap()
     });
     let ratio = early.drift.to_f64() / full.drift.to_f64();
     println!("drift: full {:e}, early {:e}", full.drift.to_f64(), early.drift.to_f64());
@@ -400,7 +395,7 @@ fn both_rules_hold_for_terms_of_any_size() {
         let sizes = term_sizes(&diagonal);
         let stop = first_stop(&sizes, 13);
         for (rule, last) in [(Stop::Full, LARGEST), (Stop::Early, stop)] {
-            let mut estimator = Central::best(LARGEST as u32, rule, &h, 1, &context);
+            let mut estimator = Central::best(LARGEST as u32, rule).estimator(&h, 1, &context);
             for (q, p, beta) in &states {
                 if let Some(e) = estimator.push(q, p, beta) {
                     let found = (window, e.value.clone(), e.error.cloned(), e.order);
@@ -425,7 +420,7 @@ fn more_digits_tell_the_same() {
     let verlet = shipped("stormer-verlet").unwrap();
     let [few, many] = [120, 200].map(|digits| {
         let context = precision(digits);
-        estimates(&verlet, kepler::<Float>(&context), &h, 200, Central::fixed(20, &h, 2, &context))
+        estimates(&verlet, kepler::<Float>(&context), &h, 200, &Central::fixed(20))
     });
     for ((n, few, ..), (_, many, ..)) in few.iter().zip(&many) {
         let off = Number::log10_abs(&Float::with_val(700, few - many));
@@ -441,9 +436,9 @@ fn drift_in_double_precision_is_round_off() {
     let h = rational("1/20");
     let verlet = shipped("stormer-verlet").unwrap();
     let context = precision(120);
-    let double = energy_drift(&verlet, pendulum(&()), &h, 1000, Central::<f64>::fixed(20, &h, 1, &()), |_| {}).unwrap();
-    let fixed = Central::<Float>::fixed(20, &h, 1, &context);
-    let precise = energy_drift(&verlet, pendulum(&context), &h, 1000, fixed, |_| {}).unwrap();
+    let double = energy_drift(&verlet, pendulum::<f64>(&()), &h, 1000, &Central::fixed(20), |_| {}).unwrap();
+    let fixed = Central::fixed(20);
+    let precise = energy_drift(&verlet, pendulum::<Float>(&context), &h, 1000, &fixed, |_| {}).unwrap();
     println!("drift {:e} in double precision, {:e} at 120 digits", double.drift, precise.drift.to_f64());
     // q and p are of size 1: differences of them are off by 1e-16 and are divided by h
     assert!(double.drift > 1e-16 && double.drift < 1e-13, "{:e}", double.drift);
@@ -464,9 +459,9 @@ fn kepler_drift_is_exponentially_small() {
     let mut drifts = Vec::new();
     for inverse in [10_u64, 20, 40] {
         let h = rational(&format!("1/{inverse}"));
-        energies.push(energy_variation(&verlet, kepler(&context), &h, 20 * inverse).ln());
-        let best = Central::<Float>::best(120, Stop::Full, &h, 2, &context);
-        let found = energy_drift(&verlet, kepler(&context), &h, 20 * inverse, best, |_| {}).unwrap();
+        energies.push(energy_variation(&verlet, kepler::<Float>(&context), &h, 20 * inverse).ln());
+        let best = Central::best(120, Stop::Full);
+        let found = energy_drift(&verlet, kepler::<Float>(&context), &h, 20 * inverse, &best, |_| {}).unwrap();
         println!("h = 1/{inverse}: drift {:e}, m = {:?}", found.drift.to_f64(), found.orders);
         drifts.push(Number::log10_abs(&found.drift));
     }
@@ -491,8 +486,8 @@ fn schemes_that_are_no_palindromes_conserve_their_modified_energy() {
         let scheme = shipped(name).unwrap();
         assert!(!scheme.summary().symmetric);
         let energy = energy_variation(&scheme, pendulum(&context), &h, 400);
-        let fixed = Central::<Float>::fixed(25, &h, 1, &context);
-        let found = energy_drift(&scheme, pendulum(&context), &h, 400, fixed, |_| {}).unwrap();
+        let fixed = Central::fixed(25);
+        let found = energy_drift(&scheme, pendulum::<Float>(&context), &h, 400, &fixed, |_| {}).unwrap();
         println!("{name}: H varies by {energy:e}, the modified energy by {:e}", found.drift.to_f64());
         assert!(energy > least_variation, "{name}: {energy:e}");
         // D_25 is off by about (25!)² (h/ρ)^50 = 4e-47, ρ = 2.16 the distance of the singularities in complex time
@@ -568,9 +563,9 @@ fn assert_same_energies<K: Kinetic<Float> + Clone>(a: [[&str; 2]; 2], kinetic: K
 
     for name in ["stormer-verlet", "ruth3", "blanes-moan-srkn6b"] {
         let scheme = shipped(name).unwrap();
-        let fixed = || Central::fixed(12, &h, 2, &context);
-        let expected = estimates(&scheme, plain.clone(), &h, 60, fixed());
-        let found = estimates(&scheme, changed.clone(), &h, 60, fixed());
+        let fixed = || Central::fixed(12);
+        let expected = estimates(&scheme, plain.clone(), &h, 60, &fixed());
+        let found = estimates(&scheme, changed.clone(), &h, 60, &fixed());
         for ((n, expected, ..), (_, found, ..)) in expected.iter().zip(&found) {
             let off = log10_distance(expected, found);
             // round-off of sixty steps, divided by h

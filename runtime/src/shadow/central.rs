@@ -4,47 +4,81 @@ use num_traits::Zero;
 
 use crate::Rational;
 use crate::number::Number;
-use crate::shadow::{AllOrders, Estimate, Estimator, Stop};
+use crate::shadow::differences::AllOrders;
+use crate::shadow::{Estimate, Estimator, Method, Stop};
 use crate::weights::central;
 
 /// Central differences (Moan & Niesen): T_{m,m} = ½(−qᵀD_m p + pᵀD_m q − D_m β).
-#[derive(Clone, Debug)]
-pub enum Central<N> {
-    /// One m.
-    Fixed(FixedOrder<N>),
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Central {
+    /// One m ≥ 1.
+    Fixed {
+        /// The m of D_m.
+        m: u32,
+        /// Whether |T_{m,m} − T_{m−1,m−1}| is wanted as well.
+        with_error: bool,
+    },
     /// The best m of each state.
-    Best(AllOrders<N>),
+    Best {
+        /// The largest m allowed, at least 2.
+        largest: u32,
+        /// When the search ends.
+        stop: Stop,
+    },
 }
 
-impl<N: Number> Central<N> {
-    /// D_m at one m ≥ 1, for steps of size h in `dimension` coordinates; no estimate of the error.
-    pub fn fixed(m: u32, h: &Rational, dimension: usize, context: &N::Context) -> Self {
-        Central::Fixed(FixedOrder::new(m, false, h, dimension, context))
+impl Central {
+    /// D_m at one m ≥ 1; no estimate of the error.
+    pub fn fixed(m: u32) -> Self {
+        Central::Fixed { m, with_error: false }
     }
 
     /// D_m at one m, with |T_{m,m} − T_{m−1,m−1}| for m ≥ 2.
-    pub fn fixed_with_error(m: u32, h: &Rational, dimension: usize, context: &N::Context) -> Self {
-        Central::Fixed(FixedOrder::new(m, true, h, dimension, context))
+    pub fn fixed_with_error(m: u32) -> Self {
+        Central::Fixed { m, with_error: true }
     }
 
     /// At each state the m of 2..=`largest` with the smallest |T_{m,m} − T_{m−1,m−1}|, the first of equal ones.
-    pub fn best(largest: u32, stop: Stop, h: &Rational, dimension: usize, context: &N::Context) -> Self {
-        Central::Best(AllOrders::new(largest, stop, h, dimension, context))
+    pub fn best(largest: u32, stop: Stop) -> Self {
+        Central::Best { largest, stop }
     }
 }
 
-impl<N: Number> Estimator<N> for Central<N> {
+impl<N: Number> Method<N> for Central {
+    type Estimator = CentralEstimator<N>;
+
+    /// # Panics
+    /// If m is 0, or the largest m less than 2.
+    fn estimator(&self, h: &Rational, dimension: usize, context: &N::Context) -> CentralEstimator<N> {
+        CentralEstimator(match *self {
+            Central::Fixed { m, with_error } => Kind::Fixed(FixedOrder::new(m, with_error, h, dimension, context)),
+            Central::Best { largest, stop } => Kind::Best(AllOrders::new(largest, stop, h, dimension, context)),
+        })
+    }
+}
+
+/// The estimator that [`Central`] describes.
+#[derive(Clone, Debug)]
+pub struct CentralEstimator<N>(Kind<N>);
+
+#[derive(Clone, Debug)]
+enum Kind<N> {
+    Fixed(FixedOrder<N>),
+    Best(AllOrders<N>),
+}
+
+impl<N: Number> Estimator<N> for CentralEstimator<N> {
     fn reach(&self) -> usize {
-        match self {
-            Central::Fixed(fixed) => fixed.reach(),
-            Central::Best(best) => best.reach(),
+        match &self.0 {
+            Kind::Fixed(fixed) => fixed.reach(),
+            Kind::Best(best) => best.reach(),
         }
     }
 
     fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
-        match self {
-            Central::Fixed(fixed) => fixed.push(q, p, beta),
-            Central::Best(best) => best.push(q, p, beta),
+        match &mut self.0 {
+            Kind::Fixed(fixed) => fixed.push(q, p, beta),
+            Kind::Best(best) => best.push(q, p, beta),
         }
     }
 }
@@ -54,7 +88,7 @@ impl<N: Number> Estimator<N> for Central<N> {
 /// With B(i,k) = q_i·p_k − p_i·q_k + (β_k − β_i), i < k, the estimate at n is
 /// T_{m,m} = −1/(2h) Σ_j d_{m,j} (B(n, n+j) + B(n−j, n)), so each pair of states is multiplied once and serves both.
 #[derive(Clone, Debug)]
-pub struct FixedOrder<N> {
+struct FixedOrder<N> {
     m: usize,
     /// d_{m,j}/(2h)
     weights: Vec<N>,

@@ -29,7 +29,7 @@ const STOP_WINDOW: usize = 11;
 
 /// The best m of each state.
 #[derive(Clone, Debug)]
-pub struct AllOrders<N> {
+pub(super) struct AllOrders<N> {
     largest: usize,
     stop: Stop,
     /// c_k/(4h): the halves of μ and of H̄ are in it.
