@@ -90,6 +90,9 @@ pub trait Number: Clone + PartialOrd + fmt::Debug + fmt::Display {
     /// x ← 1/√a, in `f64` with two roundings
     fn assign_reciprocal_sqrt(&mut self, a: &Self);
 
+    /// x ← the real root of a of an order n ≥ 1; of a negative a only if n is odd, else NaN
+    fn assign_root(&mut self, a: &Self, n: u32);
+
     /// x ← exp a
     fn assign_exp(&mut self, a: &Self);
 
@@ -98,6 +101,30 @@ pub trait Number: Clone + PartialOrd + fmt::Debug + fmt::Display {
 
     /// x ← cos a
     fn assign_cos(&mut self, a: &Self);
+
+    /// x ← log a, the natural logarithm
+    fn assign_log(&mut self, a: &Self);
+
+    /// x ← tan a
+    fn assign_tan(&mut self, a: &Self);
+
+    /// x ← sinh a
+    fn assign_sinh(&mut self, a: &Self);
+
+    /// x ← cosh a
+    fn assign_cosh(&mut self, a: &Self);
+
+    /// x ← tanh a
+    fn assign_tanh(&mut self, a: &Self);
+
+    /// x ← arctan a
+    fn assign_atan(&mut self, a: &Self);
+
+    /// x ← arcsin a
+    fn assign_asin(&mut self, a: &Self);
+
+    /// x ← arccos a
+    fn assign_acos(&mut self, a: &Self);
 
     /// sin ← sin a and cos ← cos a, in MPFR for little more than the price of one
     fn assign_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
@@ -195,15 +222,32 @@ mod tests {
         [sum, difference]
     }
 
-    /// 1/√a, exp a, sin a, cos a, and the last two together
-    pub(super) fn functions<N: Number>(a: &N) -> [N; 6] {
-        let mut results = [(); 6].map(|()| N::zero(&a.context()));
-        let [reciprocal_sqrt, exp, sin, cos, sin_too, cos_too] = &mut results;
-        reciprocal_sqrt.assign_reciprocal_sqrt(a);
-        exp.assign_exp(a);
-        sin.assign_sin(a);
-        cos.assign_cos(a);
-        N::assign_sin_cos(sin_too, cos_too, a);
-        results
+    /// Every function, of a or, where a may be too large, of b = a/100; sine and cosine together come last.
+    pub(super) fn functions<N: Number>(a: &N) -> [N; 16] {
+        let mut b = a.clone();
+        b.divide_integer(100);
+        let functions: [fn(&mut N, &N, &N); 16] = [
+            |x, a, _| x.assign_reciprocal_sqrt(a),
+            |x, a, _| x.assign_exp(a),
+            |x, a, _| x.assign_sin(a),
+            |x, a, _| x.assign_cos(a),
+            |x, a, _| x.assign_log(a),
+            |x, _, b| x.assign_tan(b),
+            |x, _, b| x.assign_sinh(b),
+            |x, _, b| x.assign_cosh(b),
+            |x, _, b| x.assign_tanh(b),
+            |x, a, _| x.assign_atan(a),
+            |x, _, b| x.assign_asin(b),
+            |x, _, b| x.assign_acos(b),
+            |x, a, _| x.assign_root(a, 3),
+            |x, a, _| x.assign_root(a, 7),
+            |x, a, _| N::assign_sin_cos(x, &mut a.clone(), a),
+            |x, a, _| N::assign_sin_cos(&mut a.clone(), x, a),
+        ];
+        functions.map(|function| {
+            let mut x = N::zero(&a.context());
+            function(&mut x, a, &b);
+            x
+        })
     }
 }

@@ -118,6 +118,14 @@ impl<N: Number> Number for Counting<N> {
         assign_exp(a) elementary;
         assign_sin(a) elementary;
         assign_cos(a) elementary;
+        assign_log(a) elementary;
+        assign_tan(a) elementary;
+        assign_sinh(a) elementary;
+        assign_cosh(a) elementary;
+        assign_tanh(a) elementary;
+        assign_atan(a) elementary;
+        assign_asin(a) elementary;
+        assign_acos(a) elementary;
         add(a) additions;
         subtract(a) additions;
         multiply(a) multiplications;
@@ -148,6 +156,11 @@ impl<N: Number> Number for Counting<N> {
     fn multiply_integer(&mut self, n: i32) {
         tally(|operations| operations.multiplications += 1);
         self.0.multiply_integer(n);
+    }
+
+    fn assign_root(&mut self, a: &Self, n: u32) {
+        tally(|operations| operations.roots += 1);
+        self.0.assign_root(&a.0, n);
     }
 
     fn divide_integer(&mut self, n: i32) {
@@ -207,7 +220,7 @@ mod tests {
             [
                 "4 additions, 4 multiplications, 3 divisions, 1 root",
                 "2 additions, 2 multiplications",
-                "1 root, 4 elementary functions",
+                "1 division, 3 roots, 13 elementary functions",
             ]
         );
     }

@@ -63,6 +63,48 @@ impl Number for f64 {
         *self = a.cos();
     }
 
+    fn assign_root(&mut self, a: &f64, n: u32) {
+        let root = match n {
+            1 => a.abs(),
+            2 => a.abs().sqrt(),
+            3 => a.abs().cbrt(),
+            _ => a.abs().powf(1.0 / f64::from(n)),
+        };
+        *self = if *a < 0.0 && n.is_multiple_of(2) { f64::NAN } else { root.copysign(*a) };
+    }
+
+    fn assign_log(&mut self, a: &f64) {
+        *self = a.ln();
+    }
+
+    fn assign_tan(&mut self, a: &f64) {
+        *self = a.tan();
+    }
+
+    fn assign_sinh(&mut self, a: &f64) {
+        *self = a.sinh();
+    }
+
+    fn assign_cosh(&mut self, a: &f64) {
+        *self = a.cosh();
+    }
+
+    fn assign_tanh(&mut self, a: &f64) {
+        *self = a.tanh();
+    }
+
+    fn assign_atan(&mut self, a: &f64) {
+        *self = a.atan();
+    }
+
+    fn assign_asin(&mut self, a: &f64) {
+        *self = a.asin();
+    }
+
+    fn assign_acos(&mut self, a: &f64) {
+        *self = a.acos();
+    }
+
     fn add(&mut self, a: &f64) {
         *self += a;
     }
@@ -196,8 +238,18 @@ mod tests {
         ];
         assert_eq!(operations(&a, &b, &c), expected);
         assert_eq!(products(&a, &b, &c), [c + a * b, c - a * b]);
-        let (sin, cos) = a.sin_cos();
-        assert_eq!(functions(&a), [1.0 / a.sqrt(), a.exp(), sin, cos, sin, cos]);
+        let ((sin, cos), b) = (a.sin_cos(), a / 100.0);
+        #[rustfmt::skip]
+        let expected = [
+            1.0 / a.sqrt(), a.exp(), sin, cos, a.ln(), b.tan(), b.sinh(), b.cosh(), b.tanh(), a.atan(), b.asin(),
+            b.acos(), a.cbrt(), a.powf(1.0 / 7.0), sin, cos,
+        ];
+        assert_eq!(functions(&a), expected);
+        let mut root = 0.0;
+        root.assign_root(&-8.0, 3);
+        assert_eq!(root, -2.0);
+        root.assign_root(&-8.0, 2);
+        assert!(root.is_nan());
     }
 
     #[test]

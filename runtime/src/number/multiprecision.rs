@@ -132,6 +132,42 @@ impl Number for Float {
         Assign::assign(self, a.cos_ref());
     }
 
+    fn assign_root(&mut self, a: &Float, n: u32) {
+        Assign::assign(self, a.root_ref(n));
+    }
+
+    fn assign_log(&mut self, a: &Float) {
+        Assign::assign(self, a.ln_ref());
+    }
+
+    fn assign_tan(&mut self, a: &Float) {
+        Assign::assign(self, a.tan_ref());
+    }
+
+    fn assign_sinh(&mut self, a: &Float) {
+        Assign::assign(self, a.sinh_ref());
+    }
+
+    fn assign_cosh(&mut self, a: &Float) {
+        Assign::assign(self, a.cosh_ref());
+    }
+
+    fn assign_tanh(&mut self, a: &Float) {
+        Assign::assign(self, a.tanh_ref());
+    }
+
+    fn assign_atan(&mut self, a: &Float) {
+        Assign::assign(self, a.atan_ref());
+    }
+
+    fn assign_asin(&mut self, a: &Float) {
+        Assign::assign(self, a.asin_ref());
+    }
+
+    fn assign_acos(&mut self, a: &Float) {
+        Assign::assign(self, a.acos_ref());
+    }
+
     fn assign_sin_cos(sin: &mut Float, cos: &mut Float, a: &Float) {
         (sin, cos).assign(a.sin_cos_ref());
     }
