@@ -20,6 +20,9 @@ pub(crate) fn assignment(text: &str) -> Result<(String, String), Complaint> {
     let Some((name, expression)) = text.split_once('=') else {
         return Err(Complaint::usage(format!("--set {text} has no `=`"), "write a name and a value: --set x=1/2"));
     };
+    if name.trim().is_empty() {
+        return Err(Complaint::usage(format!("--set {text} names nothing before its `=`"), "write --set x=1/2"));
+    }
     if let Err(error) = parse(expression) {
         let place = character(expression, error.range.start);
         return Err(Complaint::usage(format!("--set {text}: `{expression}`, character {place}: {error}"), EXAMPLES));

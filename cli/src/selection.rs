@@ -59,8 +59,10 @@ impl Selection {
         let order = order(arguments)?;
         let setup = setup(arguments, arithmetic)?;
         let until = quantity::number("--until", &arguments.until)?;
-        let steps = arguments.steps.iter().map(|text| step(text, &until)).collect::<Result<_, _>>()?;
-        let schemes = arguments.schemes.iter().map(|word| library::scheme(word)).collect::<Result<_, _>>()?;
+        let mut steps: Vec<_> = arguments.steps.iter().map(|text| step(text, &until)).collect::<Result<_, _>>()?;
+        let words = each_once(&arguments.schemes, |word| word.clone(), "scheme");
+        let schemes = words.iter().map(|word| library::scheme(word)).collect::<Result<_, _>>()?;
+        steps = each_once(&steps, |(h, _)| to_text(h), "step");
         let selection = Selection { setup, until, arithmetic, order, schemes, steps };
         let digits = arithmetic.digits();
         selection.schemes.iter().try_for_each(|scheme| check_digits(scheme, digits))?;
@@ -186,6 +188,19 @@ fn setup(arguments: &RunArguments, arithmetic: Arithmetic) -> Result<Setup, Comp
 
 fn value_digits(arithmetic: Arithmetic) -> u32 {
     arithmetic.digits() + GUARD_DIGITS
+}
+
+/// The list without what is in it twice, which a remark tells.
+fn each_once<T: Clone>(list: &[T], name: impl Fn(&T) -> String, what: &str) -> Vec<T> {
+    let mut kept: Vec<T> = Vec::new();
+    for item in list {
+        if kept.iter().any(|other| name(other) == name(item)) {
+            remark(format_args!("the {what} {} is named twice; it is run once", name(item)));
+        } else {
+            kept.push(item.clone());
+        }
+    }
+    kept
 }
 
 /// A step size h, and how many steps end at or before `until`.

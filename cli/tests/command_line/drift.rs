@@ -209,3 +209,13 @@ fn set_takes_the_exact_values_of_expressions() {
         assert_eq!(exact(text(parameters, name)).unwrap(), exact(value).unwrap(), "{name}");
     }
 }
+
+#[test]
+fn what_is_named_twice_is_run_once() {
+    let said = shadowstep(
+        "drift --problem kepler --scheme ruth3,ruth3 --step 1/10,0.1,1/5 --until 1 --double --order 2 --json",
+    );
+    assert_eq!((said.code, objects(&said.out).len()), (0, 2));
+    assert!(said.err.contains("the scheme ruth3 is named twice"), "{}", said.err);
+    assert!(said.err.contains("the step 1/10 is named twice"), "{}", said.err);
+}

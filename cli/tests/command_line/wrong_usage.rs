@@ -24,7 +24,11 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("--step 1e-20", "steps of 1e-20 until 2 are 2e20 steps", "more than 1e10"),
     ("--until 0", "--until 0 leaves no time for a step", "--until 100"),
     ("--until 2..", "--until `2..`, character 3", "1/10"),
-    ("--digits 301 --scheme yoshida4", "yoshida4 has irrational weights, held to 300 digits; the run asks for 301", "--digits 300"),
+    (
+        "--digits 301 --scheme yoshida4",
+        "yoshida4 has irrational weights, held to 300 digits; the run asks for 301",
+        "--digits 300",
+    ),
     ("--digits 6000 --set py=sqrt(2)", "py is irrational and computed to 5000 digits", "--digits 4980"),
     ("--order 4 --max-order 8", "--max-order and --stop are for --order auto, not for --order 4", "leave them out"),
     ("--order 4 --stop early", "--max-order and --stop are for --order auto, not for --order 4", "leave them out"),
