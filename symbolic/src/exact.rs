@@ -27,7 +27,7 @@ const GUARD_DIGITS: u32 = 20;
 const ATTEMPTS: u32 = 4;
 
 /// The most bits of an exact numerator or denominator.
-const MOST_BITS: u64 = 100_000;
+pub(crate) const MOST_BITS: u64 = 100_000;
 
 /// A number as a rational.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -297,7 +297,7 @@ fn sized(value: Rational, rounded: bool, range: &Range<usize>) -> Result<Value, 
 }
 
 /// The integer power; `None` if it would be absurdly long.
-fn rational_power(value: &Rational, exponent: u32) -> Option<Rational> {
+pub(crate) fn rational_power(value: &Rational, exponent: u32) -> Option<Rational> {
     let bits = value.numer().bits().max(value.denom().bits());
     let least = (bits - 1).checked_mul(exponent.into())?;
     // A ratio in lowest terms stays so.
@@ -306,7 +306,7 @@ fn rational_power(value: &Rational, exponent: u32) -> Option<Rational> {
 }
 
 /// The rational number whose power of this order is the value, if there is one.
-fn perfect_root(value: &Rational, order: u32) -> Option<Rational> {
+pub(crate) fn perfect_root(value: &Rational, order: u32) -> Option<Rational> {
     if value.is_negative() && order.is_even() {
         return None;
     }

@@ -1,8 +1,10 @@
-//! Exact formulas: text, to a syntax tree with byte ranges, to an exact rational number.
+//! Exact formulas: text, to a syntax tree with byte ranges, to an exact rational number, or to derivatives and programs.
 //!
 //! * [`parse`] reads a formula such as `1/(2 - 2^(1/3))` into an [`Expression`].
 //! * [`evaluate`] computes it. Rational arithmetic stays exact; a formula with an irrational
 //!   root is rounded once, correctly, to the digits that were asked for.
+//! * [`Graph::build`] simplifies it into a graph without repetitions, where [`Graph::derivative`] and [`Graph::rate`]
+//!   (qᵀU_q − 2U) find formulas, and [`Graph::program`] computes them with few operations in place.
 //! * [`decimal`] writes rationals as text and reads them back.
 //! * [`nearest`](nearest()) finds the word that was probably meant by a misspelt one.
 //!
@@ -30,23 +32,38 @@
 //! # Ok::<(), shadowstep_symbolic::Error>(())
 //! ```
 
+mod build;
+mod cost;
 pub mod decimal;
+mod derivative;
 mod exact;
+mod factor;
 mod fault;
+mod function;
+mod graph;
 mod interval;
 mod literal;
+mod lower;
 mod nearest;
+mod program;
+mod rate;
 mod rounding;
+mod simplify;
 mod syntax;
 mod token;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+pub use build::{GraphError, GraphFault};
+pub use cost::Cost;
 pub use exact::{Exact, evaluate};
 pub use fault::{EvaluationError, Fault};
+pub use function::Function;
+pub use graph::{Form, Graph, Node};
 pub use nearest::{nearest, nearest_few};
 pub use num_rational::BigRational as Rational;
+pub use program::{Instruction, Place, Program};
 pub use rounding::compare;
 pub use syntax::{Expression, Kind, Operation, SyntaxError, parse};
 

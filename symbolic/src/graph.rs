@@ -1,0 +1,239 @@
+//! Formulas as a directed acyclic graph without repetitions: equal parts are one node.
+//!
+//! A node can only be made of nodes that exist, so the nodes below a node have smaller numbers. Whoever
+//! needs the parts before the whole walks through the numbers in order, without recursion.
+
+use std::collections::{BTreeSet, HashMap};
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
+use num_traits::One;
+
+use crate::Rational;
+use crate::derivative::Derivation;
+use crate::function::Function;
+
+/// A formula in a [`Graph`]: a handle that is cheap to copy and means nothing elsewhere.
+///
+/// Two nodes of one graph are equal if, and only if, their simplified formulas are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Node(u32);
+
+/// What a node is made of.
+#[derive(Debug, Clone)]
+pub enum Form {
+    /// An exact number.
+    Number(Rational),
+    /// The coordinate with this index.
+    Coordinate(usize),
+    /// The parameter with this index.
+    Parameter(usize),
+    /// constant + Σ coefficient · node, sorted by node. No node is a sum or a number, none occurs twice, no
+    /// coefficient is 0. A multiple c·node is a sum of one term.
+    Sum {
+        /// The number in the sum, often 0.
+        constant: Rational,
+        /// Nodes and their coefficients.
+        terms: Vec<(Node, Rational)>,
+    },
+    /// Π node^exponent, sorted by node. None occurs twice, no exponent is 0.
+    ///
+    /// A power with an exponent p/q in lowest terms is the real q-th root to the power p: for an odd q it is defined
+    /// for negative bases, too, for an even one only for positive ones.
+    Product(Vec<(Node, Rational)>),
+    /// function(node)
+    Call(Function, Node),
+}
+
+/// Formulas without repetitions, simplified as they are made.
+///
+/// ```
+/// use shadowstep_symbolic::{Graph, Rational, parse};
+///
+/// let coordinates = ["x".to_string(), "y".to_string()];
+/// let mut graph = Graph::new();
+/// let potential = graph.build(&parse("-1/sqrt(x^2 + y^2)")?, &coordinates, &[])?;
+/// assert_eq!(graph.degree(potential), Some(Rational::from_integer((-1).into())));
+///
+/// let rate = graph.rate(potential);
+/// assert_eq!(rate, graph.build(&parse("3*(y*y + x*x)^-0.5")?, &coordinates, &[])?);
+///
+/// let force = graph.derivative(potential, 0);
+/// assert_eq!(force, graph.build(&parse("x/sqrt(x^2 + y^2)^3")?, &coordinates, &[])?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct Graph {
+    forms: Vec<Arc<Form>>,
+    nodes: HashMap<Arc<Form>, Node>,
+    /// Derivatives found so far.
+    pub(crate) derivatives: HashMap<(Node, Derivation), Node>,
+}
+
+impl Graph {
+    /// A graph without nodes.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// How many nodes there are.
+    pub fn len(&self) -> usize {
+        self.forms.len()
+    }
+
+    /// Whether there are no nodes.
+    pub fn is_empty(&self) -> bool {
+        self.forms.is_empty()
+    }
+
+    /// What a node of this graph is made of.
+    ///
+    /// # Panics
+    /// If the node is from a larger graph.
+    pub fn form(&self, node: Node) -> &Form {
+        &self.forms[node.0 as usize]
+    }
+
+    /// The form, kept alive while the graph grows.
+    pub(crate) fn shared_form(&self, node: Node) -> Arc<Form> {
+        Arc::clone(&self.forms[node.0 as usize])
+    }
+
+    /// The node with this form, which must be simplified already.
+    pub(crate) fn intern(&mut self, form: Form) -> Node {
+        if let Some(node) = self.nodes.get(&form) {
+            return *node;
+        }
+        let number = u32::try_from(self.forms.len()).expect("fewer nodes than 2^32: memory ends before");
+        let form = Arc::new(form);
+        self.forms.push(Arc::clone(&form));
+        self.nodes.insert(form, Node(number));
+        Node(number)
+    }
+
+    /// The nodes that a node is directly made of.
+    pub(crate) fn children(&self, node: Node) -> impl Iterator<Item = Node> {
+        let (parts, argument) = match self.form(node) {
+            Form::Number(_) | Form::Coordinate(_) | Form::Parameter(_) => (&[][..], None),
+            Form::Sum { terms: parts, .. } | Form::Product(parts) => (&parts[..], None),
+            Form::Call(_, argument) => (&[][..], Some(*argument)),
+        };
+        parts.iter().map(|(part, _)| *part).chain(argument)
+    }
+
+    /// The nodes themselves and all below them, parts before wholes.
+    pub(crate) fn below(&self, nodes: &[Node]) -> BTreeSet<Node> {
+        self.below_unless(nodes, |_| false)
+    }
+
+    /// As [`Graph::below`], but neither a node that is `known` nor what is below it alone.
+    pub(crate) fn below_unless(&self, nodes: &[Node], known: impl Fn(Node) -> bool) -> BTreeSet<Node> {
+        let mut found = BTreeSet::new();
+        let mut waiting = nodes.to_vec();
+        while let Some(node) = waiting.pop() {
+            if !known(node) && found.insert(node) {
+                waiting.extend(self.children(node));
+            }
+        }
+        found
+    }
+
+    /// The number of a node that is one.
+    pub fn as_number(&self, node: Node) -> Option<&Rational> {
+        match self.form(node) {
+            Form::Number(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// A number.
+    pub fn number(&mut self, value: Rational) -> Node {
+        self.intern(Form::Number(value))
+    }
+
+    /// The coordinate with this index.
+    pub fn coordinate(&mut self, index: usize) -> Node {
+        self.intern(Form::Coordinate(index))
+    }
+
+    /// The parameter with this index.
+    pub fn parameter(&mut self, index: usize) -> Node {
+        self.intern(Form::Parameter(index))
+    }
+
+    /// coefficient · node
+    pub fn scaled(&mut self, node: Node, coefficient: &Rational) -> Node {
+        self.sum(&[(node, coefficient.clone())])
+    }
+
+    /// node^exponent, as described at [`Form::Product`]
+    pub fn power(&mut self, node: Node, exponent: &Rational) -> Node {
+        self.product(&[(node, exponent.clone())])
+    }
+
+    /// left · right
+    pub fn times(&mut self, left: Node, right: Node) -> Node {
+        self.product(&[(left, Rational::one()), (right, Rational::one())])
+    }
+
+    /// left + right
+    pub fn plus(&mut self, left: Node, right: Node) -> Node {
+        self.sum(&[(left, Rational::one()), (right, Rational::one())])
+    }
+}
+
+// Rationals are in lowest terms, so that equal ones have equal parts. The comparison and the hash of `Ratio` itself
+// go along its continued fraction by recursion, for long numbers beyond the end of the stack.
+
+/// Whether two rationals are the same.
+pub(crate) fn same(one: &Rational, other: &Rational) -> bool {
+    one.numer() == other.numer() && one.denom() == other.denom()
+}
+
+fn same_parts(one: &[(Node, Rational)], other: &[(Node, Rational)]) -> bool {
+    one.len() == other.len() && one.iter().zip(other).all(|((a, x), (b, y))| a == b && same(x, y))
+}
+
+impl PartialEq for Form {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Form::Number(one), Form::Number(other)) => same(one, other),
+            (Form::Coordinate(one), Form::Coordinate(other)) => one == other,
+            (Form::Parameter(one), Form::Parameter(other)) => one == other,
+            (Form::Sum { constant: a, terms: one }, Form::Sum { constant: b, terms: other }) => {
+                same(a, b) && same_parts(one, other)
+            }
+            (Form::Product(one), Form::Product(other)) => same_parts(one, other),
+            (Form::Call(f, one), Form::Call(g, other)) => (f, one) == (g, other),
+            _ => false,
+        }
+    }
+}
+
+impl Eq for Form {}
+
+impl Hash for Form {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        fn rational<H: Hasher>(value: &Rational, state: &mut H) {
+            value.numer().hash(state);
+            value.denom().hash(state);
+        }
+        fn parts<H: Hasher>(parts: &[(Node, Rational)], state: &mut H) {
+            for (node, value) in parts {
+                node.hash(state);
+                rational(value, state);
+            }
+        }
+        std::mem::discriminant(self).hash(state);
+        match self {
+            Form::Number(value) => rational(value, state),
+            Form::Coordinate(index) | Form::Parameter(index) => index.hash(state),
+            Form::Sum { constant, terms } => {
+                rational(constant, state);
+                parts(terms, state);
+            }
+            Form::Product(factors) => parts(factors, state),
+            Form::Call(function, argument) => (function, argument).hash(state),
+        }
+    }
+}
