@@ -51,7 +51,10 @@ pub struct Motion<N, V, P, K> {
     /// qᵀU_q − 2U
     rate: N,
     kept: Kept,
+    /// The potential's, with what it keeps there.
     scratch: Vec<N>,
+    /// For drifts.
+    velocity: N,
     evaluations: u64,
 }
 
@@ -78,9 +81,11 @@ where
         let alike = q.as_ref().iter().chain(p.as_ref()).all(|x| x.context() == context);
         assert!(alike, "the numbers of q and p must have the same precision");
         let zero = N::zero(&context);
+        let mut scratch = vec![zero.clone(); potential.scratch()];
+        potential.prepare(&mut scratch, &context);
         Motion {
-            // at least one number, for the velocity of drifts
-            scratch: vec![zero.clone(); potential.scratch().max(1)],
+            scratch,
+            velocity: zero.clone(),
             gradient: p.clone(),
             rate: zero.clone(),
             beta: zero,
@@ -124,10 +129,13 @@ where
         &self.potential
     }
 
-    /// The potential, to be changed; the kept gradient is dropped.
-    pub fn potential_mut(&mut self) -> &mut P {
+    /// Changes the potential, which keeps its dimension; the kept gradient is dropped.
+    pub fn change_potential(&mut self, change: impl FnOnce(&mut P)) {
+        change(&mut self.potential);
         self.kept = Kept::Nothing;
-        &mut self.potential
+        let context = self.context();
+        self.scratch.resize(self.potential.scratch(), N::zero(&context));
+        self.potential.prepare(&mut self.scratch, &context);
     }
 
     /// How often the gradient has been evaluated.
@@ -142,16 +150,14 @@ where
 
     /// H = T(p) + U(q) at the present state.
     pub fn energy(&mut self) -> N {
-        let mut energy = self.beta.clone();
-        energy_at(&self.potential, &self.kinetic, self.q.as_ref(), self.p.as_ref(), &mut energy, &mut self.scratch);
-        energy
+        let Motion { potential, kinetic, q, p, scratch, velocity, beta, .. } = self;
+        energy_at(potential, kinetic, (q.as_ref(), p.as_ref()), scratch, velocity, beta.clone())
     }
 
     /// H = T(p) + U(q) at another state of the same system.
     pub fn energy_of(&mut self, q: &[N], p: &[N]) -> N {
-        let mut energy = self.beta.clone();
-        energy_at(&self.potential, &self.kinetic, q, p, &mut energy, &mut self.scratch);
-        energy
+        let Motion { potential, kinetic, scratch, velocity, beta, .. } = self;
+        energy_at(potential, kinetic, (q, p), scratch, velocity, beta.clone())
     }
 
     /// Whether every q, p and β is a finite number.
@@ -170,15 +176,16 @@ where
 fn energy_at<N: Number, P: Potential<N>, K: Kinetic<N>>(
     potential: &P,
     kinetic: &K,
-    q: &[N],
-    p: &[N],
-    energy: &mut N,
+    (q, p): (&[N], &[N]),
     scratch: &mut [N],
-) {
+    velocity: &mut N,
+    mut energy: N,
+) -> N {
     let mut kinetic_energy = energy.clone();
-    kinetic.energy(p, &mut kinetic_energy, &mut scratch[0]);
-    potential.energy(q, energy, scratch);
+    kinetic.energy(p, &mut kinetic_energy, velocity);
+    potential.energy(q, &mut energy, scratch);
     energy.add(&kinetic_energy);
+    energy
 }
 
 impl<N, V, P, K> Maps<N> for Motion<N, V, P, K>
@@ -212,7 +219,7 @@ where
 
     #[inline]
     fn drift(&mut self, weight: &N) {
-        self.kinetic.drift(weight, self.p.as_ref(), self.q.as_mut(), &mut self.scratch[0]);
+        self.kinetic.drift(weight, self.p.as_ref(), self.q.as_mut(), &mut self.velocity);
         self.kept = Kept::Nothing;
     }
 

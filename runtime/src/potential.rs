@@ -31,9 +31,15 @@ pub trait Potential<N: Number> {
     /// How many coordinates q has.
     fn dimension(&self) -> usize;
 
-    /// How many numbers of scratch space a call needs.
+    /// How many numbers of scratch space there must be for every call.
     fn scratch(&self) -> usize {
         0
+    }
+
+    /// Puts into the scratch space what every call finds there: what depends on no coordinate. Called once, before all
+    /// others, and again when the potential has changed.
+    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+        let _ = (scratch, context);
     }
 
     /// energy ← U(q)
@@ -63,6 +69,9 @@ impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
     }
     fn scratch(&self) -> usize {
         (**self).scratch()
+    }
+    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+        (**self).prepare(scratch, context);
     }
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
         (**self).energy(q, energy, scratch);

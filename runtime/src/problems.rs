@@ -161,7 +161,9 @@ impl Setup {
     /// The potential.
     pub fn potential<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Potential<N>> {
         match self.problem.name {
-            "harmonic-oscillator" => Box::new(HarmonicOscillator::<N>::new(self.value("omega"), 1, context)),
+            "harmonic-oscillator" => {
+                Box::new(HarmonicOscillator { omega: N::from_rational(self.value("omega"), context) })
+            }
             "pendulum" => Box::new(Pendulum),
             "kepler" => Box::new(Kepler),
             "henon-heiles" => Box::new(HenonHeiles),

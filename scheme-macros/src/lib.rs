@@ -1,11 +1,16 @@
 //! `#[splitting_scheme("yoshida4.toml")]`: a table of exact weights becomes straight-line steps.
 //!
-//! The macro is a thin shell: `locate` finds the table, the `shadowstep-schemes` crate proves it, `emit` writes the
-//! code. Use it through the `shadowstep` crate, which re-exports it.
+//! `potential!{…}`: a formula becomes a potential with its gradient.
+//!
+//! The macros are a thin shell: `locate` finds the table, the `shadowstep-schemes` crate proves it, `emit` writes the
+//! code; `formula` turns tokens to text, the `shadowstep-symbolic` crate derives it, `potential` writes the code. Use
+//! them through the `shadowstep` crate, which re-exports them.
 
 mod arguments;
 mod emit;
+mod formula;
 mod locate;
+mod potential;
 
 use proc_macro::TokenStream;
 use shadowstep_schemes::{Faults, Proved, read, read_first};
@@ -56,4 +61,29 @@ fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
         None => read(&source, &library),
     }
     .map_err(|faults: Faults| faults.to_string())
+}
+
+/// A potential from its formula: the gradient and qᵀU_q − 2U are derived, for every type of numbers.
+///
+/// ```
+/// use shadowstep::{Motion, UnitMasses, potential};
+///
+/// potential! {
+///     /// A Gaussian well.
+///     pub struct Well { depth, width }
+///     U(x, y) = -depth * exp(-(x^2 + y^2) / width^2)
+/// }
+///
+/// let well = Well { depth: 2.0, width: 0.5 };
+/// let mut motion = Motion::new(well, UnitMasses, [0.0, 0.0], [1.0, 0.0]);
+/// assert_eq!(motion.energy(), 0.5 - 2.0);
+/// ```
+///
+/// Formulas have numbers (exact), coordinates, parameters, `+ - * / ^` with rational exponents, and the functions sqrt,
+/// cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin, acos. The struct gets `shadowstep::Potential`, with the
+/// cost of a call in its documentation; what depends on parameters only is computed once.
+#[proc_macro]
+pub fn potential(input: TokenStream) -> TokenStream {
+    let input = parse_macro_input!(input as potential::Potential);
+    potential::emit(&input).unwrap_or_else(syn::Error::into_compile_error).into()
 }

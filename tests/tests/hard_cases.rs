@@ -120,7 +120,7 @@ fn stability_ends_at_two() {
     let scheme = shipped("stormer-verlet").unwrap();
     let largest = |h: &str| {
         let weights = scheme.weights::<f64>(&rational(h), &());
-        let potential = HarmonicOscillator::new(&rational("1"), 1, &());
+        let potential = HarmonicOscillator { omega: 1.0 };
         let mut motion = state(potential, &["1"], &["0"], &());
         let mut largest = 0.0_f64;
         for _ in 0..20_000 {
@@ -137,7 +137,7 @@ fn stability_ends_at_two() {
 
 #[test]
 fn above_the_limit_the_run_says_so() {
-    let potential = HarmonicOscillator::new(&rational("1"), 1, &());
+    let potential = HarmonicOscillator { omega: 1.0 };
     let start: State<_, f64> = state(potential, &["1"], &["0"], &());
     let RunError::NotFinite { step, what } = drift("stormer-verlet", start, "2.1", 100_000, 2).unwrap_err() else {
         panic!("the step has a size")

@@ -85,7 +85,7 @@ fn harmonic_oscillator_has_its_closed_form() {
     for (omega, step, m) in [("1", "1/20", 40), ("3/2", "1/30", 40), ("1/7", "1/5", 40), ("1", "1/2", 100)] {
         let (omega, h) = (rational(omega), rational(step));
         let context = precision(DIGITS);
-        let potential = HarmonicOscillator::new(&omega, 1, &context);
+        let potential = HarmonicOscillator { omega: Float::from_rational(&omega, &context) };
         let (q, p) = (number("0.8", DIGITS), number("-0.3", DIGITS));
         let motion = Motion::new(potential, UnitMasses, vec![q.clone()], vec![p.clone()]);
         let [omega, step] = [&omega, &h].map(|r| Float::from_rational(r, &context));

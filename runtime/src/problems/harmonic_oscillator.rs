@@ -1,52 +1,14 @@
 //! The harmonic oscillator, whose modified Hamiltonian is known in closed form.
 
 use num_traits::Signed;
+use shadowstep_macros::potential;
 
-use crate::Rational;
-use crate::number::Number;
-use crate::potential::Potential;
 use crate::problems::{Parameter, Problem};
 
-/// U = ½ω²|q|² in any dimension. Homogeneous of degree 2: β stays 0.
-#[derive(Clone, Debug)]
-pub struct HarmonicOscillator<N> {
-    omega_squared: N,
-    dimension: usize,
-}
-
-impl<N: Number> HarmonicOscillator<N> {
-    /// With angular frequency ω; ω² is rounded once.
-    pub fn new(omega: &Rational, dimension: usize, context: &N::Context) -> Self {
-        HarmonicOscillator { omega_squared: N::from_rational(&(omega * omega), context), dimension }
-    }
-}
-
-impl<N: Number> Potential<N> for HarmonicOscillator<N> {
-    fn dimension(&self) -> usize {
-        self.dimension
-    }
-
-    fn energy(&self, q: &[N], energy: &mut N, _: &mut [N]) {
-        energy.assign_zero();
-        for q in q {
-            energy.add_product(q, q);
-        }
-        energy.multiply(&self.omega_squared);
-        energy.divide_integer(2);
-    }
-
-    #[inline]
-    fn gradient(&self, q: &[N], gradient: &mut [N], _: &mut [N]) {
-        for (gradient, q) in gradient.iter_mut().zip(q) {
-            gradient.assign_product(&self.omega_squared, q);
-        }
-    }
-
-    #[inline]
-    fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
-        self.gradient(q, gradient, scratch);
-        rate.assign_zero();
-    }
+potential! {
+    /// The harmonic oscillator. U is homogeneous of degree 2: β stays 0.
+    pub struct HarmonicOscillator { omega }
+    U(q) = omega^2 * q^2/2
 }
 
 pub(super) const PROBLEM: Problem = Problem {

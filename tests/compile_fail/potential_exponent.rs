@@ -1,0 +1,10 @@
+//! An exponent that varies.
+
+use shadowstep::potential;
+
+potential! {
+    pub struct Odd;
+    U(x, y) = x^y
+}
+
+fn main() {}

@@ -1,0 +1,10 @@
+//! No coordinates.
+
+use shadowstep::potential;
+
+potential! {
+    pub struct Nothing;
+    U() = 1
+}
+
+fn main() {}

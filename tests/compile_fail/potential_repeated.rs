@@ -1,0 +1,10 @@
+//! A coordinate that is there twice.
+
+use shadowstep::potential;
+
+potential! {
+    pub struct Spring;
+    U(x, x) = x^2
+}
+
+fn main() {}

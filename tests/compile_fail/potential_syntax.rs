@@ -1,0 +1,10 @@
+//! An operator is missing.
+
+use shadowstep::potential;
+
+potential! {
+    pub struct Spring;
+    U(x) = 3 x^2
+}
+
+fn main() {}
