@@ -39,7 +39,7 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | [`number`] | numbers that compute in place: `f64`, MPFR, and one that counts |
-//! | [`potential`](mod@potential), [`kinetic`], [`problems`] | H = ½pᵀM⁻¹p + U(q) |
+//! | [`potential`](mod@potential), [`formula`], [`kinetic`], [`problems`] | H = ½pᵀM⁻¹p + U(q) |
 //! | [`motion`] | a state q, p, β and the maps that move it: kicks and drifts |
 //! | [`scheme`], [`tables`] | steps, written out by the compiler or read from a table at run time |
 //! | [`weights`] | the exact central-difference weights D_m |
@@ -49,6 +49,7 @@
 // generated code speaks of `::shadowstep`, in this crate too
 extern crate self as shadowstep;
 
+pub mod formula;
 pub mod kinetic;
 pub mod motion;
 pub mod number;

@@ -11,6 +11,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use gmp_mpfr_sys::gmp;
 use rug::Float;
+use shadowstep::formula::FormulaPotential;
 use shadowstep::number::{Number, Precision};
 use shadowstep::problems::{HenonHeiles, Kepler};
 use shadowstep::shadow::{Central, Estimator, Method, Stop};
@@ -118,6 +119,11 @@ fn steps_and_estimators_do_not_allocate() {
     of_all_schemes(&Motion::new(HenonHeiles, UnitMasses, q.clone(), p.clone()), nothing);
     of_all_schemes(&Motion::new(HenonHeiles, diagonal, q.clone(), p.clone()), nothing);
     of_all_schemes(&Motion::new(HenonHeiles, full, q, p), nothing);
+
+    // a formula read at run time
+    let formula = FormulaPotential::new("(x^2 + y^2)/2 + x^2*y - y^3/3", &["x", "y"], &[]).unwrap();
+    let (q_too, p_too) = (numbers(["0.1", "0.2"], &digits), numbers(["0.1", "0"], &digits));
+    of_all_schemes(&Motion::new(formula, UnitMasses, q_too, p_too), nothing);
 
     // Kepler: what its reciprocal square roots allocate, and nothing else
     let root = {

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_symbolic::{Graph, Instruction, Place, Program};
+use shadowstep_symbolic::{Graph, Instruction, Place, PotentialPrograms, Program};
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Token, Visibility, braced, parenthesized};
@@ -62,39 +62,14 @@ fn refuse_repeated<'a>(names: impl Iterator<Item = &'a Ident>) -> syn::Result<()
     Ok(())
 }
 
-/// The programs of a potential: U; its gradient; its gradient and qᵀU_q − 2U.
-struct Programs {
-    energy: Program,
-    gradient: Program,
-    gradient_and_rate: Program,
-}
-
-impl Programs {
-    fn new(potential: &Potential) -> syn::Result<Programs> {
-        let expression = potential.formula.parse()?;
-        let names = |idents: &[Ident]| idents.iter().map(Ident::to_string).collect::<Vec<_>>();
-        let mut graph = Graph::new();
-        let energy = graph
-            .build(&expression, &names(&potential.coordinates), &names(&potential.parameters))
-            .map_err(|e| potential.formula.error(&e.range, &e.fault))?;
-        let mut outputs: Vec<_> = (0..potential.coordinates.len()).map(|i| graph.derivative(energy, i)).collect();
-        outputs.push(graph.rate(energy));
-        let gradient_and_rate = graph.program(&outputs);
-        // the same operations: a trajectory has the same bits whether β is carried or not
-        let gradient = gradient_and_rate.without_last_output();
-        Ok(Programs { energy: graph.program(&[energy]), gradient, gradient_and_rate })
-    }
-
-    /// The scratch space has what the energy keeps, then what the gradient keeps, with or without the rate, and then
-    /// room for intermediate results.
-    fn kept(&self) -> usize {
-        self.energy.kept + self.gradient_and_rate.kept
-    }
-
-    fn scratch(&self) -> usize {
-        let needed = [&self.energy, &self.gradient, &self.gradient_and_rate].map(|program| program.scratch);
-        self.kept() + needed.into_iter().max().unwrap_or(0)
-    }
+fn programs(potential: &Potential) -> syn::Result<PotentialPrograms> {
+    let expression = potential.formula.parse()?;
+    let names = |idents: &[Ident]| idents.iter().map(Ident::to_string).collect::<Vec<_>>();
+    let mut graph = Graph::new();
+    let energy = graph
+        .build(&expression, &names(&potential.coordinates), &names(&potential.parameters))
+        .map_err(|e| potential.formula.error(&e.range, &e.fault))?;
+    Ok(graph.potential(energy, potential.coordinates.len()))
 }
 
 /// The struct and its implementation.
@@ -102,7 +77,7 @@ impl Programs {
 /// # Errors
 /// A formula that is none, at its tokens.
 pub(crate) fn emit(potential: &Potential) -> syn::Result<TokenStream> {
-    let programs = Programs::new(potential)?;
+    let programs = programs(potential)?;
     let Potential { attributes, visibility, name, parameters, .. } = potential;
     let docs = documentation(potential, &programs);
     let (structure, this) = if parameters.is_empty() {
@@ -114,7 +89,7 @@ pub(crate) fn emit(potential: &Potential) -> syn::Result<TokenStream> {
         });
         (quote! { #[derive(Clone, Debug)] #visibility struct #name<N> { #(#fields),* } }, quote! { #name<N> })
     };
-    let (dimension, scratch) = (size(potential.coordinates.len()), size(programs.scratch()));
+    let (dimension, scratch) = (size(potential.coordinates.len()), size(programs.kept() + programs.scratch()));
     let prepare = prepare(potential, &programs);
     let kept_by_energy = programs.energy.kept;
     let body = |program, kept_before, outputs: &[TokenStream]| {
@@ -162,7 +137,7 @@ pub(crate) fn emit(potential: &Potential) -> syn::Result<TokenStream> {
 }
 
 /// Computes what each program keeps.
-fn prepare(potential: &Potential, programs: &Programs) -> Option<TokenStream> {
+fn prepare(potential: &Potential, programs: &PotentialPrograms) -> Option<TokenStream> {
     let mut before = 0;
     let mut parts = Vec::new();
     for program in [&programs.energy, &programs.gradient_and_rate].into_iter().filter(|program| program.kept > 0) {
@@ -255,7 +230,7 @@ fn statement(instruction: &Instruction, place: &dyn Fn(Place) -> TokenStream) ->
     }
 }
 
-fn documentation(potential: &Potential, programs: &Programs) -> Vec<String> {
+fn documentation(potential: &Potential, programs: &PotentialPrograms) -> Vec<String> {
     let names = potential.coordinates.iter().map(Ident::to_string).collect::<Vec<_>>().join(", ");
     vec![
         String::new(),

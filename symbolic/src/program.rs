@@ -155,6 +155,20 @@ impl Instruction {
         name.to_string()
     }
 
+    /// The place that it names first, which it writes to.
+    pub fn target(&self) -> Place {
+        use Instruction as I;
+        match *self {
+            I::AssignRational(x, _) | I::AssignZero(x) | I::MultiplyInteger(x, _) | I::DivideInteger(x, _) => x,
+            I::Negate(x) | I::Assign(x, _) | I::AssignSquare(x, _) | I::AssignSqrt(x, _) => x,
+            I::AssignReciprocalSqrt(x, _) | I::AssignRoot(x, _, _) | I::AssignFunction(_, x, _) => x,
+            I::Add(x, _) | I::Subtract(x, _) | I::Multiply(x, _) | I::Divide(x, _) => x,
+            I::AssignSum(x, _, _) | I::AssignDifference(x, _, _) | I::AssignProduct(x, _, _) => x,
+            I::AssignQuotient(x, _, _) | I::AssignSinCos(x, _, _) => x,
+            I::AddProduct(x, _, _) | I::SubtractProduct(x, _, _) => x,
+        }
+    }
+
     /// The places it writes to.
     pub fn targets(&self) -> Vec<Place> {
         let written = if matches!(self, Instruction::AssignSinCos(..)) { 2 } else { 1 };
@@ -176,7 +190,7 @@ impl Instruction {
     }
 
     /// The same operation at other places.
-    pub(crate) fn with_places(self, to: impl Fn(Place) -> Place) -> Self {
+    pub fn with_places(self, to: impl Fn(Place) -> Place) -> Self {
         use Instruction as I;
         match self {
             I::AssignRational(x, value) => I::AssignRational(to(x), value),
