@@ -8,7 +8,7 @@ use std::time::Instant;
 use rug::Float;
 use shadowstep::formula::FormulaPotential;
 use shadowstep::number::{Number as _, Precision};
-use shadowstep::problems::{HenonHeiles, Kepler};
+use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
 use shadowstep::shadow::{Central, Estimator, Method, Stop};
 use shadowstep::{Motion, Potential, Scheme, UnitMasses, exact, splitting_scheme, tables};
 
@@ -65,10 +65,10 @@ fn big<P: Potential<Float>>(potential: P, q: [&str; 2], p: [&str; 2]) -> Big<P> 
     Motion::new(potential, UnitMasses, q.map(number), p.map(number))
 }
 
-fn steps<'a, S: Scheme + 'a, N: shadowstep::Number + 'a, P: Potential<N> + 'a>(
+fn steps<'a, S: Scheme + 'a, N: shadowstep::Number + 'a, P: Potential<N> + 'a, const D: usize>(
     name: &'static str,
     scheme: S,
-    mut motion: Motion<N, [N; 2], P, UnitMasses>,
+    mut motion: Motion<N, [N; D], P, UnitMasses>,
 ) -> Contestant<'a> {
     let h = scheme.weights::<N>(&exact("1/100").expect("exact"), &motion.context());
     let run = move |repetitions| {
@@ -186,21 +186,35 @@ fn kepler_by_hand() -> Contestant<'static> {
     ("by hand", Box::new(run))
 }
 
-fn henon_heiles_by_hand() -> Contestant<'static> {
-    let (mut q, mut p, h) = ([0.1_f64, 0.2], [0.1, 0.0], 0.01);
-    let gradient = |q: [f64; 2]| [q[0] + 2.0 * q[0] * q[1], q[1] + q[0] * q[0] - q[1] * q[1]];
-    let mut g = gradient(q);
-    let run = move |repetitions| {
-        for _ in 0..repetitions {
-            p = [p[0] - 0.5 * h * g[0], p[1] - 0.5 * h * g[1]];
-            q = [q[0] + h * p[0], q[1] + h * p[1]];
-            g = gradient(q);
-            p = [p[0] - 0.5 * h * g[0], p[1] - 0.5 * h * g[1]];
+/// Potentials as a careful person writes them for f64 alone.
+struct ByHand<const PROBLEM: char>;
+
+macro_rules! by_hand {
+    ($problem:literal, $dimension:literal, |$q:ident| $energy:expr, $gradient:expr) => {
+        impl Potential<f64> for ByHand<$problem> {
+            fn dimension(&self) -> usize {
+                $dimension
+            }
+            fn energy(&self, $q: &[f64], energy: &mut f64, _: &mut [f64]) {
+                *energy = $energy;
+            }
+            #[inline]
+            fn gradient(&self, $q: &[f64], gradient: &mut [f64], _: &mut [f64]) {
+                gradient.copy_from_slice(&$gradient);
+            }
         }
-        black_box((q, p));
     };
-    ("by hand", Box::new(run))
 }
+
+by_hand!('h', 2, |q| (q[0] * q[0] + q[1] * q[1]) / 2.0 + q[0] * q[0] * q[1] - q[1] * q[1] * q[1] / 3.0, {
+    [q[0] + 2.0 * q[0] * q[1], q[1] + q[0] * q[0] - q[1] * q[1]]
+});
+by_hand!('k', 2, |q| -1.0 / q[0].hypot(q[1]), {
+    let inverse = 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt();
+    let cube = inverse * inverse * inverse;
+    [cube * q[0], cube * q[1]]
+});
+by_hand!('p', 1, |q| -q[0].cos(), [q[0].sin()]);
 
 /// Takes a state a repetition; the states are those of Störmer–Verlet on Kepler, made before.
 fn estimates<'a>(name: &'static str, method: Central) -> Contestant<'a> {
@@ -220,7 +234,9 @@ fn estimates<'a>(name: &'static str, method: Central) -> Contestant<'a> {
 fn main() {
     let table = |name| tables::shipped(name).expect("a shipped scheme");
     let double = || Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]);
-    let double_henon = || Motion::new(HenonHeiles, UnitMasses, [0.1, 0.2], [0.1, 0.0]);
+    fn double_henon<P: Potential<f64>>(potential: P) -> Motion<f64, [f64; 2], P, UnitMasses> {
+        Motion::new(potential, UnitMasses, [0.1, 0.2], [0.1, 0.0])
+    }
     let kepler = || big(Kepler, ["0.4", "0"], ["0", "2"]);
 
     let text = "-1/sqrt(x^2 + y^2)";
@@ -243,9 +259,24 @@ fn main() {
     compare(
         "Störmer–Verlet on Hénon–Heiles, f64",
         vec![
-            henon_heiles_by_hand(),
-            steps("generated", StormerVerlet, double_henon()),
-            steps("from the table at run time", table("stormer-verlet"), double_henon()),
+            steps("potential by hand", StormerVerlet, double_henon(ByHand::<'h'>)),
+            steps("potential from its formula", StormerVerlet, double_henon(HenonHeiles)),
+        ],
+        1_000_000,
+    );
+    compare(
+        "Störmer–Verlet on Kepler, f64",
+        vec![
+            steps("potential by hand", StormerVerlet, Motion::new(ByHand::<'k'>, UnitMasses, [0.4, 0.0], [0.0, 2.0])),
+            steps("potential from its formula", StormerVerlet, double()),
+        ],
+        1_000_000,
+    );
+    compare(
+        "Störmer–Verlet on the pendulum, f64",
+        vec![
+            steps("potential by hand", StormerVerlet, Motion::new(ByHand::<'p'>, UnitMasses, [0.0], [1.0])),
+            steps("potential from its formula", StormerVerlet, Motion::new(Pendulum, UnitMasses, [0.0], [1.0])),
         ],
         1_000_000,
     );
