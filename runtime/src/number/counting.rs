@@ -5,21 +5,9 @@ use crate::Rational;
 use std::cell::Cell;
 use std::fmt;
 
-/// Numbers of operations on [`Counting`] numbers.  Copies, negations, absolute values and
-/// comparisons are not counted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Operations {
-    /// additions and subtractions
-    pub additions: u64,
-    /// multiplications, squares, and multiplications by an integer
-    pub multiplications: u64,
-    /// divisions, also by an integer
-    pub divisions: u64,
-    /// square roots and their reciprocals
-    pub roots: u64,
-    /// exponentials, sines and cosines; a sine together with its cosine is one
-    pub elementary: u64,
-}
+/// Numbers of operations on [`Counting`] numbers: what a program of `shadowstep-symbolic` says that it costs is counted in
+/// the same way.
+pub use shadowstep_symbolic::Cost as Operations;
 
 thread_local! {
     /// all operations of this thread so far
@@ -56,24 +44,6 @@ pub fn count<R>(work: impl FnOnce() -> R) -> (R, Operations) {
         elementary: after.elementary - before.elementary,
     };
     (result, operations)
-}
-
-impl fmt::Display for Operations {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let counts = [
-            (self.additions, "addition", "additions"),
-            (self.multiplications, "multiplication", "multiplications"),
-            (self.divisions, "division", "divisions"),
-            (self.roots, "root", "roots"),
-            (self.elementary, "elementary function", "elementary functions"),
-        ];
-        let mut separator = "";
-        for (count, one, many) in counts.into_iter().filter(|(count, ..)| *count > 0) {
-            write!(f, "{separator}{count} {}", if count == 1 { one } else { many })?;
-            separator = ", ";
-        }
-        if separator.is_empty() { f.write_str("no operations") } else { Ok(()) }
-    }
 }
 
 /// A number whose operations are counted, by [`count`].

@@ -1,9 +1,7 @@
 //! What programs cost: never more than what a careful person writes by hand.
 
-mod support;
-
+use crate::support::program;
 use shadowstep_symbolic::Cost;
-use support::program;
 
 /// Additions, multiplications, divisions, roots, elementary functions.
 type Columns = [u64; 5];

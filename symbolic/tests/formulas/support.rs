@@ -1,7 +1,5 @@
 //! Values of syntax trees, nodes and programs in any numbers.
 
-#![allow(dead_code)] // each test uses some of it
-
 use std::collections::HashMap;
 
 use shadowstep_symbolic::{

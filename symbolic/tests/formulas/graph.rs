@@ -1,9 +1,7 @@
 //! Formulas as nodes: what is equal is one node, what is wrong is refused at its place, nothing blows up.
 
-mod support;
-
+use crate::support::names;
 use shadowstep_symbolic::{Graph, Node, Place, Rational, parse};
-use support::names;
 
 fn build(graph: &mut Graph, text: &str) -> Node {
     let tree = parse(text).unwrap_or_else(|error| panic!("{text}: {error}"));
@@ -122,10 +120,10 @@ fn a_derivative_that_exists_nowhere_is_no_fault() {
     let mut graph = Graph::new();
     let node = build(&mut graph, "asin(sqrt(x^2)/x)");
     let derivative = graph.derivative(node, 0);
-    let point = support::Point { coordinates: vec![0.5, 1.0, 1.0], parameters: vec![] };
-    assert!(!support::of_node(&graph, derivative, &point).is_finite());
+    let point = crate::support::Point { coordinates: vec![0.5, 1.0, 1.0], parameters: vec![] };
+    assert!(!crate::support::of_node(&graph, derivative, &point).is_finite());
     let program = graph.program(&[derivative]);
-    assert!(!support::of_program(&program, &point)[0].is_finite(), "{program}");
+    assert!(!crate::support::of_program(&program, &point)[0].is_finite(), "{program}");
 }
 
 #[test]
@@ -347,10 +345,10 @@ fn sums_share_parts_of_either_sign() {
     let program = graph.program(&outputs);
     // x + y and x − y, and one more for each of the other four.
     assert_eq!(program.cost().additions, 6, "{program}");
-    let point = support::Point { coordinates: vec![0.3, 0.45, 1.7], parameters: vec![0.2, 0.0, 0.0] };
-    let found = support::of_program(&program, &point);
+    let point = crate::support::Point { coordinates: vec![0.3, 0.45, 1.7], parameters: vec![0.2, 0.0, 0.0] };
+    let found = crate::support::of_program(&program, &point);
     for (output, found) in outputs.into_iter().zip(found) {
-        let expected = support::of_node(&graph, output, &point);
+        let expected = crate::support::of_node(&graph, output, &point);
         assert!((found - expected).abs() < 1e-14, "{found} instead of {expected}\n{program}");
     }
 }

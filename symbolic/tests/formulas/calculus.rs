@@ -1,17 +1,13 @@
 //! Simplification, derivatives, rates and programs of random formulas, against values computed in other ways.
 
-#[path = "support/random.rs"]
-mod random;
-mod support;
-
 use std::collections::HashMap;
 
+use crate::random::Random;
+use crate::support::{DIGITS, Point, Real, names, of_node, of_program, of_tree};
 use num_dual::{Dual64, DualNum};
-use random::Random;
 use rug::Float;
 use rug::ops::Pow;
 use shadowstep_symbolic::{Expression, Function, Graph, Node, Rational, parse};
-use support::{DIGITS, Point, Real, names, of_node, of_program, of_tree};
 
 /// A random formula, and where it is to be computed: x, y, a, b.
 struct Case {

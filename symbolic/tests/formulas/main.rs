@@ -1,0 +1,7 @@
+//! Formulas: what they mean, their derivatives, and the programs that compute them.
+
+mod calculus;
+mod cost;
+mod graph;
+mod random;
+mod support;
