@@ -23,6 +23,9 @@ const LARGEST_WEIGHT: u32 = 1000;
 /// The most stages a table may have, compositions written out.
 const MOST_STAGES: usize = 2000;
 
+/// The most stages of a composition before neighbours are merged: what is refused must not be written out first.
+const MOST_UNMERGED: usize = 10 * MOST_STAGES;
+
 /// The most compositions within each other: a chain of `../a/b` need not come back to a path it has had.
 const MOST_NESTED: usize = 20;
 
@@ -50,7 +53,11 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
             let gamma = cells.weights(&gamma.value);
             let (base, base_faults) = base_scheme(&table, base, library, above);
             cells.faults.extend(base_faults);
-            base.map(|base| {
+            let size = base.as_ref().map_or(0, |base| gamma.len() * base.kick.len());
+            if size > MOST_UNMERGED {
+                cells.faults.push(too_long(&table, size));
+            }
+            base.filter(|_| size <= MOST_UNMERGED).map(|base| {
                 let maps = merged(&scaled(&gamma, &base.kick), &scaled(&gamma, &base.drift));
                 let (kick, drift) = stages_of(&maps);
                 (kick, drift, held(&table, cells.rounded).weaker(base.held))
@@ -58,13 +65,17 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
         }
     };
     if let Some((kick, ..)) = weights.as_ref().filter(|(kick, ..)| kick.len() > MOST_STAGES) {
-        let message = format!("{} stages are an absurd size", kick.len());
-        cells.faults.push(source.fault(&table.name.at, message).help(format!("at most {MOST_STAGES} are allowed")));
+        cells.faults.push(too_long(&table, kick.len()));
     }
     let good = cells.faults.is_empty();
     faults.extend(cells.faults);
     let scheme = weights.filter(|_| good).map(|(kick, drift, held)| Scheme { table, kick, drift, held });
     (scheme, faults)
+}
+
+fn too_long(table: &Table, stages: usize) -> Fault {
+    let message = format!("{stages} stages are an absurd size");
+    table.source.fault(&table.name.at, message).help(format!("at most {MOST_STAGES} are allowed"))
 }
 
 fn held(table: &Table, rounded: bool) -> Held {

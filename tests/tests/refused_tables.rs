@@ -799,3 +799,22 @@ fn many_unlike_fractions_are_refused_quickly() {
     let faults = judge(&table).unwrap_err();
     assert_eq!(faults.0.len(), 2, "the kicks and the drifts: {faults}");
 }
+
+/// Refused before it is written out, which would take gigabytes.
+#[test]
+fn a_composition_of_absurd_size() {
+    let ones = |count: usize| vec!["1"; count].join(", ");
+    let base = format!(
+        "name = \"base\"\norder = 1\nkinetic = \"any\"\nreference = \"none\"\n\n[stages]\nkick = [{0}]\ndrift = [{0}]\n",
+        ones(2000)
+    );
+    let table = format!(
+        "name = \"mine\"\norder = 1\nkinetic = \"any\"\nreference = \"none\"\n\n\
+         [composition]\nbase = \"base\"\ngamma = [{}]\n",
+        ones(20_000)
+    );
+    let source = |path: &str, text: &str| Source { path: path.to_owned(), text: text.to_owned() };
+    let faults = read(&source("mine.toml", &table), &|_, _| Some(source("base.toml", &base))).unwrap_err().to_string();
+    assert!(faults.starts_with("mine.toml:1:8: 40000000 stages are an absurd size"), "{faults}");
+    assert!(faults.ends_with("help: at most 2000 are allowed"), "{faults}");
+}
