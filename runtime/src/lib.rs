@@ -50,6 +50,7 @@
 extern crate self as shadowstep;
 
 pub mod formula;
+mod interpreter;
 pub mod kinetic;
 pub mod motion;
 pub mod number;

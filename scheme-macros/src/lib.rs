@@ -7,16 +7,19 @@
 //! them through the `shadowstep` crate, which re-exports them.
 
 mod arguments;
+mod definition;
 mod emit;
 mod formula;
 mod locate;
 mod potential;
+mod program;
 
 use proc_macro::TokenStream;
 use shadowstep_schemes::{Faults, Proved, read, read_first};
 use syn::parse_macro_input;
 
 use arguments::{Arguments, UnitStruct};
+use definition::Definition;
 use locate::Locator;
 
 /// Gives a unit struct the steps of the splitting scheme in a table.
@@ -84,6 +87,6 @@ fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
 /// cost of a call in its documentation; what depends on parameters only is computed once.
 #[proc_macro]
 pub fn potential(input: TokenStream) -> TokenStream {
-    let input = parse_macro_input!(input as potential::Potential);
+    let input = parse_macro_input!(input as Definition);
     potential::emit(&input).unwrap_or_else(syn::Error::into_compile_error).into()
 }

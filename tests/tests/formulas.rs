@@ -112,3 +112,12 @@ fn a_wrong_formula_is_refused_at_its_place() {
         assert_eq!(error.range(), range, "{text}: {error}");
     }
 }
+
+#[test]
+fn names_differ() {
+    let repeated = FormulaPotential::<f64>::new("x*y", &["x", "y", "x"], &[]).unwrap_err();
+    let message = "`x` is there twice; the names of coordinates and parameters must differ";
+    assert_eq!((repeated.to_string().as_str(), repeated.range()), (message, 0..0));
+    assert!(FormulaPotential::new("x*y", &["x"], &[("y", 1.0), ("y", 2.0)]).is_err());
+    assert!(FormulaPotential::new("x*y", &["x", "y"], &[("y", 2.0)]).is_err());
+}
