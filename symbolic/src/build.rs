@@ -113,7 +113,22 @@ impl Graph {
         coordinates: &[String],
         parameters: &[String],
     ) -> Result<Node, GraphError> {
-        Builder { graph: self, coordinates, parameters }.node(expression)
+        Builder { graph: self, coordinates, parameters, properties: &[] }.node(expression)
+    }
+
+    /// The formula of an expression about a pair of bodies at some separation, the only coordinate, with properties of
+    /// the bodies, such as `m_i` and `m_j`.
+    ///
+    /// # Errors
+    /// As [`Graph::build`].
+    pub fn build_pair(
+        &mut self,
+        expression: &Expression,
+        separation: &str,
+        properties: &[String],
+        parameters: &[String],
+    ) -> Result<Node, GraphError> {
+        Builder { graph: self, coordinates: &[separation.to_owned()], parameters, properties }.node(expression)
     }
 }
 
@@ -121,6 +136,7 @@ struct Builder<'a> {
     graph: &'a mut Graph,
     coordinates: &'a [String],
     parameters: &'a [String],
+    properties: &'a [String],
 }
 
 fn fault(fault: GraphFault, range: &Range<usize>) -> GraphError {
@@ -148,7 +164,11 @@ impl Builder<'_> {
         if let Some(index) = position(self.parameters) {
             return Ok(self.graph.parameter(index));
         }
-        let known: Vec<&str> = self.coordinates.iter().chain(self.parameters).map(String::as_str).collect();
+        if let Some(index) = position(self.properties) {
+            return Ok(self.graph.property(index));
+        }
+        let known: Vec<&str> =
+            [self.coordinates, self.properties, self.parameters].into_iter().flatten().map(String::as_str).collect();
         let none = "no names are known here";
         Err(GraphFault::UnknownName { name: name.to_string(), hint: hint(name, &known, "known names", none) })
     }

@@ -44,7 +44,7 @@ impl Graph {
     /// D(node), from D of its parts.
     fn by_rule(&mut self, node: Node, derivation: Derivation) -> Node {
         match &*self.shared_form(node) {
-            Form::Number(_) | Form::Parameter(_) => self.number(Rational::zero()),
+            Form::Number(_) | Form::Parameter(_) | Form::Property(_) => self.number(Rational::zero()),
             Form::Coordinate(index) => match derivation {
                 Derivation::Along(other) if *index == other => self.number(Rational::one()),
                 Derivation::Along(_) => self.number(Rational::zero()),

@@ -204,7 +204,7 @@ fn with_children(graph: &mut Graph, node: Node, changed: &HashMap<Node, Node>) -
     let parts =
         |parts: &[(Node, Rational)]| parts.iter().map(|(part, x)| (replace(*part), x.clone())).collect::<Vec<_>>();
     match &*graph.shared_form(node) {
-        Form::Number(_) | Form::Coordinate(_) | Form::Parameter(_) => node,
+        Form::Number(_) | Form::Coordinate(_) | Form::Parameter(_) | Form::Property(_) => node,
         Form::Sum { constant, terms } => {
             let mut terms = parts(terms);
             terms.push((graph.number(constant.clone()), Rational::one()));

@@ -28,6 +28,9 @@ pub enum Form {
     Coordinate(usize),
     /// The parameter with this index.
     Parameter(usize),
+    /// The property with this index of the bodies at hand, such as a mass: given anew with every evaluation, as a
+    /// coordinate is, and not differentiated, as a parameter is not.
+    Property(usize),
     /// constant + Σ coefficient · node, sorted by node. No node is a sum or a number, none occurs twice, no
     /// coefficient is 0. A multiple c·node is a sum of one term.
     Sum {
@@ -114,7 +117,7 @@ impl Graph {
     /// The nodes that a node is directly made of.
     pub(crate) fn children(&self, node: Node) -> impl Iterator<Item = Node> {
         let (parts, argument) = match self.form(node) {
-            Form::Number(_) | Form::Coordinate(_) | Form::Parameter(_) => (&[][..], None),
+            Form::Number(_) | Form::Coordinate(_) | Form::Parameter(_) | Form::Property(_) => (&[][..], None),
             Form::Sum { terms: parts, .. } | Form::Product(parts) => (&parts[..], None),
             Form::Call(_, argument) => (&[][..], Some(*argument)),
         };
@@ -161,6 +164,11 @@ impl Graph {
         self.intern(Form::Parameter(index))
     }
 
+    /// A property of bodies.
+    pub fn property(&mut self, index: usize) -> Node {
+        self.intern(Form::Property(index))
+    }
+
     /// coefficient · node
     pub fn scaled(&mut self, node: Node, coefficient: &Rational) -> Node {
         self.sum(&[(node, coefficient.clone())])
@@ -200,6 +208,7 @@ impl PartialEq for Form {
             (Form::Number(one), Form::Number(other)) => same(one, other),
             (Form::Coordinate(one), Form::Coordinate(other)) => one == other,
             (Form::Parameter(one), Form::Parameter(other)) => one == other,
+            (Form::Property(one), Form::Property(other)) => one == other,
             (Form::Sum { constant: a, terms: one }, Form::Sum { constant: b, terms: other }) => {
                 same(a, b) && same_parts(one, other)
             }
@@ -227,7 +236,7 @@ impl Hash for Form {
         std::mem::discriminant(self).hash(state);
         match self {
             Form::Number(value) => rational(value, state),
-            Form::Coordinate(index) | Form::Parameter(index) => index.hash(state),
+            Form::Coordinate(index) | Form::Parameter(index) | Form::Property(index) => index.hash(state),
             Form::Sum { constant, terms } => {
                 rational(constant, state);
                 parts(terms, state);

@@ -64,7 +64,7 @@ pub use function::Function;
 pub use graph::{Form, Graph, Node};
 pub use nearest::{nearest, nearest_few};
 pub use num_rational::BigRational as Rational;
-pub use potential::PotentialPrograms;
+pub use potential::{PotentialPrograms, Separation};
 pub use program::{Instruction, Place, Program};
 pub use rounding::compare;
 pub use syntax::{Expression, Kind, Operation, SyntaxError, parse};

@@ -13,6 +13,8 @@ pub enum Place {
     Coordinate(usize),
     /// The parameter with this index; never written.
     Parameter(usize),
+    /// The property of bodies with this index; never written.
+    Property(usize),
     /// The constant with this index; written in [`Program::prepare`] only.
     Constant(usize),
     /// A number for intermediate results.
@@ -239,6 +241,7 @@ impl fmt::Display for Place {
         match self {
             Place::Coordinate(index) => write!(f, "q{index}"),
             Place::Parameter(index) => write!(f, "p{index}"),
+            Place::Property(index) => write!(f, "b{index}"),
             Place::Constant(index) => write!(f, "c{index}"),
             Place::Scratch(index) => write!(f, "s{index}"),
             Place::Output(index) => write!(f, "out{index}"),

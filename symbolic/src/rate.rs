@@ -38,7 +38,7 @@ impl Graph {
     /// The degree of a node from those of its parts.
     fn degree_by_rule(&self, node: Node, known: &HashMap<Node, Option<Rational>>) -> Option<Rational> {
         match self.form(node) {
-            Form::Number(_) | Form::Parameter(_) => Some(Rational::zero()),
+            Form::Number(_) | Form::Parameter(_) | Form::Property(_) => Some(Rational::zero()),
             Form::Coordinate(_) => Some(Rational::one()),
             Form::Sum { constant, terms } => {
                 let degree = known[&terms[0].0].clone()?;

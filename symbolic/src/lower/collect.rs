@@ -204,7 +204,7 @@ impl Collector<'_> {
     fn varies(&mut self, node: Node) -> bool {
         for part in self.graph.below_unless(&[node], |part| self.varying.contains_key(&part)) {
             let varies = match self.graph.form(part) {
-                Form::Coordinate(_) => true,
+                Form::Coordinate(_) | Form::Property(_) => true,
                 Form::Parameter(_) => self.stage == Stage::Prepare,
                 Form::Number(_) => false,
                 _ if self.stage == Stage::Prepare => true,
@@ -223,6 +223,7 @@ impl Collector<'_> {
         match &*self.graph.shared_form(node) {
             Form::Coordinate(index) if coefficient.is_one() => Quantity::Leaf(Place::Coordinate(*index)),
             Form::Parameter(index) if coefficient.is_one() => Quantity::Leaf(Place::Parameter(*index)),
+            Form::Property(index) if coefficient.is_one() => Quantity::Leaf(Place::Property(*index)),
             Form::Call(function, argument) if coefficient.is_one() => Quantity::Call(*function, self.exact(*argument)),
             Form::Sum { constant, terms } if coefficient.is_one() => Quantity::Sum(self.summands(constant, terms)),
             Form::Product(factors) => self.product(id, coefficient, factors),

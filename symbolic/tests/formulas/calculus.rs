@@ -41,7 +41,7 @@ impl Case {
 
     fn point<R: Real>(&self) -> Point<R> {
         let [x, y, a, b] = self.values();
-        Point { coordinates: vec![x, y], parameters: vec![a, b] }
+        Point { coordinates: vec![x, y], parameters: vec![a, b], properties: vec![] }
     }
 
     /// The value of the formula as it is written.

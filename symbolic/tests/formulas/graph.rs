@@ -120,7 +120,7 @@ fn a_derivative_that_exists_nowhere_is_no_fault() {
     let mut graph = Graph::new();
     let node = build(&mut graph, "asin(sqrt(x^2)/x)");
     let derivative = graph.derivative(node, 0);
-    let point = crate::support::Point { coordinates: vec![0.5, 1.0, 1.0], parameters: vec![] };
+    let point = crate::support::Point { coordinates: vec![0.5, 1.0, 1.0], parameters: vec![], properties: vec![] };
     assert!(!crate::support::of_node(&graph, derivative, &point).is_finite());
     let program = graph.program(&[derivative]);
     assert!(!crate::support::of_program(&program, &point)[0].is_finite(), "{program}");
@@ -345,7 +345,11 @@ fn sums_share_parts_of_either_sign() {
     let program = graph.program(&outputs);
     // x + y and x − y, and one more for each of the other four.
     assert_eq!(program.cost().additions, 6, "{program}");
-    let point = crate::support::Point { coordinates: vec![0.3, 0.45, 1.7], parameters: vec![0.2, 0.0, 0.0] };
+    let point = crate::support::Point {
+        coordinates: vec![0.3, 0.45, 1.7],
+        parameters: vec![0.2, 0.0, 0.0],
+        properties: vec![],
+    };
     let found = crate::support::of_program(&program, &point);
     for (output, found) in outputs.into_iter().zip(found) {
         let expected = crate::support::of_node(&graph, output, &point);

@@ -3,5 +3,6 @@
 mod calculus;
 mod cost;
 mod graph;
+mod pair;
 mod random;
 mod support;

@@ -138,10 +138,11 @@ pub(crate) fn rug_rational(value: &Rational) -> rug::Rational {
     value.to_string().parse().unwrap()
 }
 
-/// Coordinates, parameters and their values.
+/// The values of coordinates, parameters and properties of bodies.
 pub(crate) struct Point<R> {
     pub(crate) coordinates: Vec<R>,
     pub(crate) parameters: Vec<R>,
+    pub(crate) properties: Vec<R>,
 }
 
 pub(crate) fn names(text: &str) -> Vec<String> {
@@ -190,6 +191,7 @@ pub(crate) fn of_node<R: Real>(graph: &Graph, node: Node, point: &Point<R>) -> R
             Form::Number(value) => R::rational(value),
             Form::Coordinate(index) => point.coordinates[*index].clone(),
             Form::Parameter(index) => point.parameters[*index].clone(),
+            Form::Property(index) => point.properties[*index].clone(),
             Form::Sum { constant, terms } => terms.iter().fold(R::rational(constant), |sum, (part, coefficient)| {
                 sum.add(&R::rational(coefficient).multiply(&value(graph, *part, point, known)))
             }),
@@ -238,6 +240,7 @@ impl<R: Real> Machine<'_, R> {
         match place {
             Place::Coordinate(index) => self.point.coordinates[index].clone(),
             Place::Parameter(index) => self.point.parameters[index].clone(),
+            Place::Property(index) => self.point.properties[index].clone(),
             _ => self.places.get(&place).unwrap_or_else(|| panic!("{place} was never written")).clone(),
         }
     }
