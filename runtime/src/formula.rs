@@ -1,5 +1,9 @@
 //! Potentials from formulas read at run time: the twin of [`crate::potential!`], with the same bits.
 
+mod pair;
+
+pub use pair::FormulaPair;
+
 use std::ops::Range;
 
 use shadowstep_symbolic::{Graph, GraphError, Node, SyntaxError, parse};
@@ -58,7 +62,7 @@ impl<N: Number> FormulaPotential<N> {
         let (mut graph, energy) = build(formula, coordinates, parameters)?;
         let programs = graph.potential(energy, coordinates.len());
         let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
-        let interpreter = Interpreter::new(programs, parameters, coordinates.len());
+        let interpreter = Interpreter::new(programs, parameters, coordinates.len(), 0);
         Ok(FormulaPotential { dimension: coordinates.len(), interpreter })
     }
 }
@@ -68,14 +72,21 @@ fn build<N>(formula: &str, coordinates: &[&str], parameters: &[(&str, N)]) -> Re
     let expression = parse(formula)?;
     let coordinates: Vec<String> = coordinates.iter().map(|name| (*name).to_owned()).collect();
     let parameters: Vec<String> = parameters.iter().map(|(name, _)| (*name).to_owned()).collect();
-    let mut names = coordinates.iter().chain(&parameters).enumerate();
-    if let Some((_, name)) = names.find(|(i, name)| coordinates.iter().chain(&parameters).take(*i).any(|n| n == *name))
-    {
-        return Err(FormulaError::RepeatedName(name.clone()));
-    }
+    refuse_repeated(coordinates.iter().chain(&parameters))?;
     let mut graph = Graph::new();
     let node = graph.build(&expression, &coordinates, &parameters).map_err(FormulaError::Meaning)?;
     Ok((graph, node))
+}
+
+fn refuse_repeated<'a>(names: impl Iterator<Item = &'a String>) -> Result<(), FormulaError> {
+    let mut seen = Vec::new();
+    for name in names {
+        if seen.contains(&name) {
+            return Err(FormulaError::RepeatedName(name.clone()));
+        }
+        seen.push(name);
+    }
+    Ok(())
 }
 
 impl<N: Number> Potential<N> for FormulaPotential<N> {

@@ -21,15 +21,16 @@ struct Layout {
     energy_kept: usize,
     gradient_kept: usize,
     coordinates: usize,
+    properties: usize,
     outputs: usize,
     intermediate: usize,
     end: usize,
 }
 
 impl<N: Number> Interpreter<N> {
-    /// For a function of so many coordinates.
-    pub(crate) fn new(programs: PotentialPrograms, parameters: Vec<N>, coordinates: usize) -> Self {
-        let layout = Layout::of(&programs, parameters.len(), coordinates);
+    /// For a function x of so many coordinates and, behind them, properties of bodies.
+    pub(crate) fn new(programs: PotentialPrograms, parameters: Vec<N>, coordinates: usize, properties: usize) -> Self {
+        let layout = Layout::of(&programs, parameters.len(), [coordinates, properties]);
         let programs = PotentialPrograms {
             energy: layout.placed(programs.energy, layout.energy_kept),
             gradient: layout.placed(programs.gradient, layout.gradient_kept),
@@ -57,21 +58,37 @@ impl<N: Number> Interpreter<N> {
     }
 
     /// The function at x.
-    pub(crate) fn energy<'r>(&self, x: &[N], registers: &'r mut [N]) -> &'r N {
+    pub(crate) fn energy<'x, 'r>(&self, x: impl IntoIterator<Item = &'x N>, registers: &'r mut [N]) -> &'r N
+    where
+        N: 'x,
+    {
         &self.compute(&self.programs.energy, x, registers)[0]
     }
 
     /// Its gradient at x, and something more.
-    pub(crate) fn gradient<'r>(&self, x: &[N], registers: &'r mut [N]) -> &'r [N] {
+    pub(crate) fn gradient<'x, 'r>(&self, x: impl IntoIterator<Item = &'x N>, registers: &'r mut [N]) -> &'r [N]
+    where
+        N: 'x,
+    {
         self.compute(&self.programs.gradient, x, registers)
     }
 
     /// Its gradient at x, then its rate, and something more.
-    pub(crate) fn gradient_and_rate<'r>(&self, x: &[N], registers: &'r mut [N]) -> &'r [N] {
+    pub(crate) fn gradient_and_rate<'x, 'r>(
+        &self,
+        x: impl IntoIterator<Item = &'x N>,
+        registers: &'r mut [N],
+    ) -> &'r [N]
+    where
+        N: 'x,
+    {
         self.compute(&self.programs.gradient_and_rate, x, registers)
     }
 
-    fn compute<'r>(&self, program: &Program, x: &[N], registers: &'r mut [N]) -> &'r [N] {
+    fn compute<'x, 'r>(&self, program: &Program, x: impl IntoIterator<Item = &'x N>, registers: &'r mut [N]) -> &'r [N]
+    where
+        N: 'x,
+    {
         for (register, x) in registers[self.layout.coordinates..].iter_mut().zip(x) {
             register.assign(x);
         }
@@ -81,16 +98,17 @@ impl<N: Number> Interpreter<N> {
 }
 
 impl Layout {
-    fn of(programs: &PotentialPrograms, parameters: usize, coordinates: usize) -> Layout {
+    fn of(programs: &PotentialPrograms, parameters: usize, arguments: [usize; 2]) -> Layout {
         let energy_kept = parameters;
         let gradient_kept = energy_kept + programs.energy.kept;
-        let first_coordinate = gradient_kept + programs.gradient_and_rate.kept;
-        let outputs = first_coordinate + coordinates;
+        let coordinates = gradient_kept + programs.gradient_and_rate.kept;
+        let properties = coordinates + arguments[0];
+        let outputs = properties + arguments[1];
         let intermediate = outputs + programs.gradient_and_rate.outputs;
         // constants that are not kept are computed among the intermediate results
         let spare = [&programs.energy, &programs.gradient_and_rate].map(|program| program.constants - program.kept);
         let end = intermediate + programs.scratch().max(spare[0]).max(spare[1]);
-        Layout { energy_kept, gradient_kept, coordinates: first_coordinate, outputs, intermediate, end }
+        Layout { energy_kept, gradient_kept, coordinates, properties, outputs, intermediate, end }
     }
 
     /// The program with registers for places.
@@ -102,6 +120,7 @@ impl Layout {
                 Place::Constant(k) if k < kept => kept_from + k,
                 Place::Constant(k) => self.intermediate + k - kept,
                 Place::Coordinate(i) => self.coordinates + i,
+                Place::Property(i) => self.properties + i,
                 Place::Output(o) => self.outputs + o,
                 Place::Scratch(s) => self.intermediate + s,
             })

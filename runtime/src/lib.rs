@@ -54,6 +54,7 @@ mod interpreter;
 pub mod kinetic;
 pub mod motion;
 pub mod number;
+pub mod pairs;
 pub mod potential;
 pub mod problems;
 pub mod run;

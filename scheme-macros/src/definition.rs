@@ -15,9 +15,13 @@ pub(crate) struct Definition {
     visibility: Visibility,
     name: Ident,
     parameters: Vec<Ident>,
+    /// `pair`, if it stands before the function.
+    pub(crate) pair: Option<Ident>,
     /// U or T.
     pub(crate) function: Ident,
     pub(crate) arguments: Vec<Ident>,
+    /// What stands behind a semicolon: `m_i`, `m_j`.
+    pub(crate) properties: Vec<Ident>,
     pub(crate) formula: Formula,
 }
 
@@ -35,15 +39,32 @@ impl Parse for Definition {
             input.parse::<Token![;]>()?;
             Vec::new()
         };
-        let function: Ident = input.parse()?;
+        let first: Ident = input.parse()?;
+        let (pair, function) = if first == "pair" { (Some(first), input.parse()?) } else { (None, first) };
         let names;
         parenthesized!(names in input);
-        let arguments: Vec<Ident> = Punctuated::<Ident, Token![,]>::parse_terminated(&names)?.into_iter().collect();
-        refuse_repeated(arguments.iter().chain(&parameters))?;
+        let arguments = comma_separated(&names)?;
+        let properties = if names.parse::<Option<Token![;]>>()?.is_some() { comma_separated(&names)? } else { vec![] };
+        if !names.is_empty() {
+            return Err(names.error("expected `,` or `)`"));
+        }
+        refuse_repeated(arguments.iter().chain(&properties).chain(&parameters))?;
         let equals = input.parse::<Token![=]>()?;
         let formula = Formula::new(input.parse()?, equals.span);
-        Ok(Definition { attributes, visibility, name, parameters, function, arguments, formula })
+        Ok(Definition { attributes, visibility, name, parameters, pair, function, arguments, properties, formula })
     }
+}
+
+/// Names with commas between them, up to something else.
+fn comma_separated(input: ParseStream<'_>) -> syn::Result<Vec<Ident>> {
+    let mut names = Vec::new();
+    while input.peek(syn::Ident) {
+        names.push(input.parse()?);
+        if input.parse::<Option<Token![,]>>()?.is_none() {
+            break;
+        }
+    }
+    Ok(names)
 }
 
 fn refuse_repeated<'a>(names: impl Iterator<Item = &'a Ident>) -> syn::Result<()> {
@@ -62,11 +83,12 @@ pub(crate) fn texts(names: &[Ident]) -> Vec<String> {
 }
 
 impl Definition {
-    /// The struct with this documentation behind the user's, and its type.
-    pub(crate) fn structure(&self, documentation: &[String]) -> (TokenStream, TokenStream) {
+    /// The struct with this documentation behind the user's, and its type. Beside the parameters it has for each of
+    /// these properties the values of all bodies.
+    pub(crate) fn structure(&self, documentation: &[String], properties: &[Ident]) -> (TokenStream, TokenStream) {
         let Definition { attributes, visibility, name, parameters, .. } = self;
         let head = quote! { #(#attributes)* #(#[doc = #documentation])* };
-        if parameters.is_empty() {
+        if parameters.is_empty() && properties.is_empty() {
             let structure = quote! { #head #[derive(Clone, Copy, Debug, Default)] #visibility struct #name; };
             return (structure, quote! { #name });
         }
@@ -74,7 +96,12 @@ impl Definition {
             let doc = format!(" The parameter {p} of the formula.");
             quote! { #[doc = #doc] pub #p: N }
         });
-        let structure = quote! { #head #[derive(Clone, Debug)] #visibility struct #name<N> { #(#fields),* } };
+        let lists = properties.iter().map(|p| {
+            let doc = format!(" The {p} of each body.");
+            quote! { #[doc = #doc] pub #p: ::std::vec::Vec<N> }
+        });
+        let structure =
+            quote! { #head #[derive(Clone, Debug)] #visibility struct #name<N> { #(#fields,)* #(#lists),* } };
         (structure, quote! { #name<N> })
     }
 
@@ -83,16 +110,22 @@ impl Definition {
         texts(&self.parameters)
     }
 
-    /// The arguments are called as the user calls them.
+    /// The arguments and properties are called as the user calls them.
     pub(crate) fn names(&self) -> Names {
+        let as_written = |names: &[Ident]| names.iter().map(|name| quote! { #name }).collect();
         Names {
-            coordinates: self.arguments.iter().map(|name| quote! { #name }).collect(),
+            coordinates: as_written(&self.arguments),
             parameters: self.parameters.iter().map(|name| quote! { &self.#name }).collect(),
+            properties: as_written(&self.properties),
         }
     }
 
     /// ` U(x, y) = -1/sqrt(x^2 + y^2)`, for the documentation.
     pub(crate) fn equation(&self) -> String {
-        format!(" {}({}) = {}", self.function, texts(&self.arguments).join(", "), self.formula.text())
+        let pair = if self.pair.is_some() { "pair " } else { "" };
+        let arguments = texts(&self.arguments).join(", ");
+        let behind = if self.properties.is_empty() { "" } else { "; " };
+        let properties = texts(&self.properties).join(", ");
+        format!(" {pair}{}({arguments}{behind}{properties}) = {}", self.function, self.formula.text())
     }
 }

@@ -11,6 +11,7 @@ mod definition;
 mod emit;
 mod formula;
 mod locate;
+mod pair;
 mod potential;
 mod program;
 

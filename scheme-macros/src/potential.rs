@@ -5,6 +5,7 @@ use quote::quote;
 use shadowstep_symbolic::{Graph, PotentialPrograms, Program};
 
 use crate::definition::{Definition, texts};
+use crate::pair;
 use crate::program::{numbered, own, prepare, scratch_names, size, statements};
 
 /// The struct and its implementation.
@@ -12,8 +13,14 @@ use crate::program::{numbered, own, prepare, scratch_names, size, statements};
 /// # Errors
 /// A formula that is none, at its tokens.
 pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
+    if definition.function != "U" {
+        return Err(syn::Error::new(definition.function.span(), "the potential is called U: `U(x, y) = …`"));
+    }
+    if definition.pair.is_some() {
+        return pair::emit(definition);
+    }
     let programs = programs(definition)?;
-    let (structure, this) = definition.structure(&documentation(definition, &programs));
+    let (structure, this) = definition.structure(&documentation(definition, &programs), &[]);
     let dimension = definition.arguments.len();
     let names = definition.names();
     let prepare = prepare(&[&programs.energy, &programs.gradient_and_rate], &names);
@@ -68,9 +75,9 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
 }
 
 fn programs(definition: &Definition) -> syn::Result<PotentialPrograms> {
-    let Definition { function, arguments, formula, .. } = definition;
-    if function != "U" {
-        return Err(syn::Error::new(function.span(), "the potential is called U: `U(x, y) = …`"));
+    let Definition { function, arguments, properties, formula, .. } = definition;
+    if let Some(property) = properties.first() {
+        return Err(syn::Error::new(property.span(), "properties of bodies are for pairs: `pair U(r2; m_i, m_j) = …`"));
     }
     if arguments.is_empty() {
         return Err(syn::Error::new(function.span(), "a potential has at least one coordinate: `U(q) = …`"));
@@ -95,12 +102,15 @@ fn documentation(definition: &Definition, programs: &PotentialPrograms) -> Vec<S
 #[cfg(test)]
 mod tests {
     /// Each case: a name and what the user writes.
-    const CASES: [(&str, &str); 6] = [
+    const CASES: [(&str, &str); 9] = [
         ("kepler", "pub struct Kepler; U(x, y) = -1/sqrt(x^2 + y^2)"),
         ("pendulum", "pub struct Pendulum; U(q) = -cos(q)"),
         ("henon-heiles", "pub struct HenonHeiles; U(x, y) = (x^2 + y^2)/2 + x^2*y - y^3/3"),
         ("hill", "pub struct Hill; U(x, y) = exp(-(x^2 + y^2))"),
         ("well", "pub struct Well { depth, width } U(x, y) = -depth * exp(-(x^2 + y^2) / width^2)"),
+        ("gravity", "pub struct Gravity { g } pair U(r2; m_i, m_j) = -g*m_i*m_j / sqrt(r2)"),
+        ("lennard-jones", "pub struct LennardJones { e, s } pair U(r2) = 4*e*(s^12/r2^6 - s^6/r2^3)"),
+        ("toda", "struct Toda; pair U(d) = exp(-d) + d - 1"),
         ("morse", "struct Morse { d, a } U(r) = d * (1 - exp(-a*(r - 1.4)))^2"),
     ];
 

@@ -9,6 +9,7 @@ use shadowstep_symbolic::{Instruction, Place, Program};
 pub(crate) struct Names {
     pub(crate) coordinates: Vec<TokenStream>,
     pub(crate) parameters: Vec<TokenStream>,
+    pub(crate) properties: Vec<TokenStream>,
 }
 
 /// The method `prepare`, which computes what each program keeps, one after the other from the beginning of the scratch
@@ -63,6 +64,7 @@ fn place_name(place: Place, names: &Names, outputs: &[TokenStream]) -> TokenStre
     match place {
         Place::Coordinate(i) => names.coordinates[i].clone(),
         Place::Parameter(i) => names.parameters[i].clone(),
+        Place::Property(i) => names.properties[i].clone(),
         Place::Constant(i) => numbered("constant", i),
         Place::Scratch(i) => numbered("scratch", i),
         Place::Output(i) => outputs[i].clone(),

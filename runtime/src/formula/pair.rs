@@ -1,0 +1,100 @@
+//! The energy of a pair of bodies from a formula read at run time.
+
+use shadowstep_symbolic::{Graph, Separation, parse};
+
+use super::{FormulaError, refuse_repeated};
+use crate::interpreter::Interpreter;
+use crate::number::Number;
+use crate::pairs::{Pair, PairPotential};
+
+/// The energy of a pair of bodies whose operations are carried out one by one from a list: the twin of a `pair` formula
+/// in [`crate::potential!`], with the same bits.
+///
+/// ```
+/// use shadowstep::{Potential, formula::FormulaPair, pairs::{Pairs, Separation}};
+///
+/// let gravity = "-g * m_i * m_j / sqrt(r2)";
+/// let (masses, g) = (("m", vec![4.0, 2.0]), ("g", 1.0));
+/// let pair = FormulaPair::new(gravity, Separation::SquaredDistance, &[masses], &[g]).unwrap();
+/// let gravity = Pairs::<_, 2>::all(2, pair);
+/// assert_eq!(Potential::<f64>::dimension(&gravity), 4);
+/// ```
+#[derive(Clone, Debug)]
+pub struct FormulaPair<N> {
+    separation: Separation,
+    /// The values of each property for all bodies.
+    properties: Vec<Vec<N>>,
+    /// The properties in the order in which the formula has them: of i, then of j.
+    interpreter: Interpreter<N>,
+}
+
+impl<N: Number> FormulaPair<N> {
+    /// The energy of a formula in `r2` or `d`, in which the property `m` of the bodies i < j is called `m_i` and `m_j`;
+    /// with the values of each property for all bodies, and the values of parameters.
+    ///
+    /// # Errors
+    /// A text that is no formula, unknown or repeated names, functions that are not smooth.
+    pub fn new(
+        formula: &str,
+        separation: Separation,
+        properties: &[(&str, Vec<N>)],
+        parameters: &[(&str, N)],
+    ) -> Result<Self, FormulaError> {
+        let expression = parse(formula)?;
+        let of = |body: &'static str| properties.iter().map(move |(name, _)| format!("{name}_{body}"));
+        let names: Vec<String> = of("i").chain(of("j")).collect();
+        let parameter_names: Vec<String> = parameters.iter().map(|(name, _)| (*name).to_owned()).collect();
+        refuse_repeated([separation.name().to_owned()].iter().chain(&names).chain(&parameter_names))?;
+        let mut graph = Graph::new();
+        let energy = graph
+            .build_pair(&expression, separation.name(), &names, &parameter_names)
+            .map_err(FormulaError::Meaning)?;
+        let programs = graph.pair(energy, separation);
+        let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
+        Ok(FormulaPair {
+            separation,
+            properties: properties.iter().map(|(_, values)| values.clone()).collect(),
+            interpreter: Interpreter::new(programs, parameters, 1, names.len()),
+        })
+    }
+
+    /// x and the properties of i and j.
+    fn arguments<'a>(&'a self, i: usize, j: usize, x: &'a N) -> impl Iterator<Item = &'a N> {
+        let of = move |body: usize| self.properties.iter().map(move |values| &values[body]);
+        std::iter::once(x).chain(of(i)).chain(of(j))
+    }
+}
+
+impl<N> Pair for FormulaPair<N> {
+    fn separation(&self) -> Separation {
+        self.separation
+    }
+
+    fn properties(&self) -> Vec<usize> {
+        self.properties.iter().map(Vec::len).collect()
+    }
+}
+
+impl<N: Number> PairPotential<N> for FormulaPair<N> {
+    fn scratch(&self) -> usize {
+        self.interpreter.registers()
+    }
+
+    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+        self.interpreter.prepare(scratch, context);
+    }
+
+    fn energy(&self, i: usize, j: usize, x: &N, energy: &mut N, scratch: &mut [N]) {
+        energy.assign(self.interpreter.energy(self.arguments(i, j, x), scratch));
+    }
+
+    fn slope(&self, i: usize, j: usize, x: &N, slope: &mut N, scratch: &mut [N]) {
+        slope.assign(&self.interpreter.gradient(self.arguments(i, j, x), scratch)[0]);
+    }
+
+    fn slope_and_rate(&self, i: usize, j: usize, x: &N, slope: &mut N, rate: &mut N, scratch: &mut [N]) {
+        let outputs = self.interpreter.gradient_and_rate(self.arguments(i, j, x), scratch);
+        slope.assign(&outputs[0]);
+        rate.assign(&outputs[1]);
+    }
+}

@@ -1,0 +1,268 @@
+//! Sums over pairs of bodies: all pairs i < j in D dimensions, or neighbours in a chain.
+
+pub use shadowstep_symbolic::Separation;
+
+use crate::number::Number;
+use crate::potential::Potential;
+
+/// What the energy u of a pair of bodies depends on.
+pub trait Pair {
+    /// What u is a function of: of d = q_j − q_i on a line, or of r² = |q_j − q_i|² in any dimension.
+    fn separation(&self) -> Separation;
+
+    /// For each property of the bodies, such as a mass, for how many bodies it is given.
+    fn properties(&self) -> Vec<usize>;
+}
+
+/// The energy u of a pair of bodies i < j. [`crate::potential!`] implements it for a `pair` formula.
+pub trait PairPotential<N: Number>: Pair {
+    /// How many numbers of scratch space there must be for every call.
+    fn scratch(&self) -> usize;
+
+    /// Puts into the scratch space what every call finds there: what depends on parameters only.
+    fn prepare(&self, scratch: &mut [N], context: &N::Context);
+
+    /// energy ← u(x) of the bodies i and j
+    fn energy(&self, i: usize, j: usize, x: &N, energy: &mut N, scratch: &mut [N]);
+
+    /// slope ← u'(d) or 2u'(r²), so that ∂u/∂q_j = slope or slope·(q_j − q_i)
+    fn slope(&self, i: usize, j: usize, x: &N, slope: &mut N, scratch: &mut [N]);
+
+    /// The slope, and rate ← d u'(d) − 2u or 2r²u'(r²) − 2u: what the pair adds to qᵀU_q − 2U
+    fn slope_and_rate(&self, i: usize, j: usize, x: &N, slope: &mut N, rate: &mut N, scratch: &mut [N]);
+}
+
+/// The potential U = Σ u over pairs of bodies in D dimensions.
+///
+/// The coordinates are those of the first body, then those of the second, and so on.
+///
+/// ```
+/// use shadowstep::{DiagonalMasses, Motion, Rational, pairs::Pairs, potential};
+///
+/// potential! {
+///     /// Newton's gravity.
+///     pub struct Gravity { g }
+///     pair U(r2; m_i, m_j) = -g * m_i * m_j / sqrt(r2)
+/// }
+///
+/// let gravity = Pairs::<_, 3>::all(2, Gravity { g: 1.0, m: vec![4.0, 2.0] });
+/// let masses: Vec<_> = [4, 4, 4, 2, 2, 2].map(|m| Rational::from_integer(m.into())).into();
+/// let masses = DiagonalMasses::new(&masses, &()).unwrap();
+/// let mut motion = Motion::new(gravity, masses, vec![0.0, 0.0, 0.0, 1.0, 2.0, 2.0], vec![0.0; 6]);
+/// assert_eq!(motion.energy(), -8.0 / 3.0);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Pairs<P, const D: usize> {
+    pair: P,
+    bodies: usize,
+    which: Which,
+}
+
+/// The pairs that interact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Which {
+    All,
+    Neighbours(Ends),
+}
+
+/// What is at the ends of a chain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// Nothing: the first and the last body have one neighbour.
+    Free,
+    /// Walls: both have a neighbour that rests at 0.
+    Fixed,
+    /// The first body follows the last one: a ring. Positions are displacements, hence unwrapped.
+    Periodic,
+}
+
+impl<P: Pair, const D: usize> Pairs<P, D> {
+    /// Every body interacts with every other one.
+    ///
+    /// # Panics
+    /// If there are no bodies, no dimensions, properties of more or fewer bodies, or if the pair's formula is in d and
+    /// D is not 1.
+    pub fn all(bodies: usize, pair: P) -> Self {
+        Self::checked(bodies, pair, Which::All)
+    }
+
+    /// Each body interacts with the next one.
+    ///
+    /// # Panics
+    /// As [`Pairs::all`]; and if the ends are fixed and the bodies have properties, which walls have not.
+    pub fn neighbours(bodies: usize, pair: P, ends: Ends) -> Self {
+        assert!(ends != Ends::Fixed || pair.properties().is_empty(), "walls have no properties");
+        Self::checked(bodies, pair, Which::Neighbours(ends))
+    }
+
+    fn checked(bodies: usize, pair: P, which: Which) -> Self {
+        assert!(bodies > 0 && D > 0, "there is at least one body, in at least one dimension");
+        let fits = D == 1 || pair.separation() == Separation::SquaredDistance;
+        assert!(fits, "a formula in d is for bodies on a line, D = 1; in more dimensions it is in r2");
+        let given = pair.properties().into_iter().all(|count| count == bodies);
+        assert!(given, "each property must be given for each of the {bodies} bodies");
+        Pairs { pair, bodies, which }
+    }
+
+    /// How many bodies there are.
+    pub fn bodies(&self) -> usize {
+        self.bodies
+    }
+
+    /// The pair's energy.
+    pub fn pair(&self) -> &P {
+        &self.pair
+    }
+
+    /// Calls for each pair that interacts; a wall is `None`.
+    #[inline(always)]
+    fn each(&self, mut visit: impl FnMut(Option<usize>, Option<usize>)) {
+        match self.which {
+            Which::All => {
+                for i in 0..self.bodies {
+                    for j in i + 1..self.bodies {
+                        visit(Some(i), Some(j));
+                    }
+                }
+            }
+            Which::Neighbours(ends) => {
+                if ends == Ends::Fixed {
+                    visit(None, Some(0));
+                }
+                for j in 1..self.bodies {
+                    visit(Some(j - 1), Some(j));
+                }
+                match ends {
+                    Ends::Free => {}
+                    Ends::Fixed => visit(Some(self.bodies - 1), None),
+                    Ends::Periodic => visit(Some(self.bodies - 1), Some(0)),
+                }
+            }
+        }
+    }
+}
+
+/// The scratch space of a call.
+struct Scratch<'a, N, const D: usize> {
+    difference: &'a mut [N; D],
+    squared: &'a mut N,
+    slope: &'a mut N,
+    result: &'a mut N,
+    pair: &'a mut [N],
+}
+
+/// difference, squared, slope, result
+const fn own_scratch(dimensions: usize) -> usize {
+    dimensions + 3
+}
+
+fn parts<N, const D: usize>(scratch: &mut [N]) -> Scratch<'_, N, D> {
+    let (difference, rest) = scratch.split_first_chunk_mut::<D>().expect("as much as asked for");
+    let [squared, slope, result, pair @ ..] = rest else { unreachable!("as much as asked for") };
+    Scratch { difference, squared, slope, result, pair }
+}
+
+/// difference ← q_j − q_i, where a wall is at 0
+#[inline(always)]
+fn subtract<N: Number, const D: usize>(q: &[N], i: Option<usize>, j: Option<usize>, difference: &mut [N; D]) {
+    for (axis, difference) in difference.iter_mut().enumerate() {
+        match (i, j) {
+            (Some(i), Some(j)) => difference.assign_difference(&q[j * D + axis], &q[i * D + axis]),
+            (None, Some(j)) => difference.assign(&q[j * D + axis]),
+            (Some(i), None) => {
+                difference.assign(&q[i * D + axis]);
+                difference.negate();
+            }
+            (None, None) => difference.assign_zero(),
+        }
+    }
+}
+
+impl<P, const D: usize> Pairs<P, D> {
+    /// What u is a function of, from the difference.
+    #[inline(always)]
+    fn separation<'a, N: Number>(&self, difference: &'a [N; D], squared: &'a mut N) -> &'a N
+    where
+        P: PairPotential<N>,
+    {
+        match self.pair.separation() {
+            Separation::Difference => &difference[0],
+            Separation::SquaredDistance => {
+                let (first, others) = difference.split_first().expect("at least one dimension");
+                squared.assign_square(first);
+                others.iter().for_each(|other| squared.add_product(other, other));
+                squared
+            }
+        }
+    }
+
+    /// gradient ← U_q; `slope` computes a pair's.
+    #[inline(always)]
+    fn sum_gradient<N: Number>(
+        &self,
+        q: &[N],
+        gradient: &mut [N],
+        scratch: &mut [N],
+        mut slope: impl FnMut(usize, usize, &N, &mut N, &mut N, &mut [N]),
+    ) where
+        P: PairPotential<N>,
+    {
+        gradient.iter_mut().for_each(N::assign_zero);
+        let s = parts::<N, D>(scratch);
+        self.each(|i, j| {
+            subtract(q, i, j, s.difference);
+            let x = self.separation(s.difference, s.squared);
+            // a wall is asked for no properties
+            slope(i.unwrap_or(0), j.unwrap_or(0), x, s.slope, s.result, s.pair);
+            for (axis, difference) in s.difference.iter_mut().enumerate() {
+                match self.pair.separation() {
+                    Separation::Difference => difference.assign(s.slope),
+                    Separation::SquaredDistance => difference.multiply(s.slope),
+                }
+                if let Some(j) = j {
+                    gradient[j * D + axis].add(difference);
+                }
+                if let Some(i) = i {
+                    gradient[i * D + axis].subtract(difference);
+                }
+            }
+        });
+    }
+}
+
+impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D> {
+    fn dimension(&self) -> usize {
+        self.bodies * D
+    }
+
+    fn scratch(&self) -> usize {
+        own_scratch(D) + self.pair.scratch()
+    }
+
+    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+        self.pair.prepare(parts::<N, D>(scratch).pair, context);
+    }
+
+    fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
+        energy.assign_zero();
+        let s = parts::<N, D>(scratch);
+        self.each(|i, j| {
+            subtract(q, i, j, s.difference);
+            let x = self.separation(s.difference, s.squared);
+            self.pair.energy(i.unwrap_or(0), j.unwrap_or(0), x, s.result, s.pair);
+            energy.add(s.result);
+        });
+    }
+
+    fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
+        self.sum_gradient(q, gradient, scratch, |i, j, x, slope, _, scratch| self.pair.slope(i, j, x, slope, scratch));
+    }
+
+    fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
+        rate.assign_zero();
+        self.sum_gradient(q, gradient, scratch, |i, j, x, slope, part, scratch| {
+            self.pair.slope_and_rate(i, j, x, slope, part, scratch);
+            rate.add(part);
+        });
+    }
+}

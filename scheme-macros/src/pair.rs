@@ -1,0 +1,140 @@
+//! `potential! { pub struct Gravity { g } pair U(r2; m_i, m_j) = -g*m_i*m_j/sqrt(r2) }` → the energy of a pair of bodies.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+use shadowstep_symbolic::{Graph, PotentialPrograms, Program, Separation};
+
+use crate::definition::{Definition, texts};
+use crate::program::{own, prepare, scratch_names, size, statements};
+
+/// The struct and its implementation.
+///
+/// # Errors
+/// A formula that is none, arguments that are none of a pair, at their tokens.
+pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
+    let separation = separation(definition)?;
+    let properties = properties(definition)?;
+    let programs = programs(definition, separation)?;
+    let (structure, this) = definition.structure(&documentation(definition, separation, &programs), &properties);
+    let generics = if definition.parameters().is_empty() && properties.is_empty() {
+        quote! {}
+    } else {
+        quote! { <N> }
+    };
+    let prepare = prepare(&[&programs.energy, &programs.gradient_and_rate], &definition.names());
+    let prepare = prepare.unwrap_or_else(|| quote! { fn prepare(&self, _: &mut [N], _: &N::Context) {} });
+    let x = &definition.arguments[0];
+    let [i, j, energy, slope, rate, scratch] = ["i", "j", "energy", "slope", "rate", "scratch"].map(own);
+    let written = definition.properties.iter().map(|name| {
+        let text = name.to_string();
+        let (property, index) =
+            if text.ends_with("_i") { (&text[..text.len() - 2], &i) } else { (&text[..text.len() - 2], &j) };
+        let property = format_ident!("{property}", span = name.span());
+        quote! { let #name = &self.#property[#index]; }
+    });
+    let written = quote! { #(#written)* };
+    let body = |program: &Program, kept_before, outputs: &[TokenStream]| {
+        let scratch_names = scratch_names(program, kept_before, programs.kept());
+        let statements = statements(program, &definition.names(), outputs);
+        quote! { #written #scratch_names #(#statements)* }
+    };
+    let energy_body = body(&programs.energy, 0, &[quote! { #energy }]);
+    let slope_body = body(&programs.gradient, programs.energy.kept, &[quote! { #slope }]);
+    let rate_body = body(&programs.gradient_and_rate, programs.energy.kept, &[quote! { #slope }, quote! { #rate }]);
+    let scratch_size = size(programs.kept() + programs.scratch());
+    let kind = format_ident!("{separation:?}");
+    Ok(quote! {
+        #structure
+
+        impl #generics ::shadowstep::pairs::Pair for #this {
+            fn separation(&self) -> ::shadowstep::pairs::Separation { ::shadowstep::pairs::Separation::#kind }
+            fn properties(&self) -> ::std::vec::Vec<usize> { ::std::vec![#(self.#properties.len()),*] }
+        }
+
+        #[allow(unused_variables, clippy::all)]
+        impl<N: ::shadowstep::Number> ::shadowstep::pairs::PairPotential<N> for #this {
+            fn scratch(&self) -> usize { #scratch_size }
+            #prepare
+            fn energy(&self, #i: usize, #j: usize, #x: &N, #energy: &mut N, #scratch: &mut [N]) {
+                #energy_body
+            }
+            #[inline]
+            fn slope(&self, #i: usize, #j: usize, #x: &N, #slope: &mut N, #scratch: &mut [N]) {
+                #slope_body
+            }
+            #[inline]
+            fn slope_and_rate(
+                &self,
+                #i: usize,
+                #j: usize,
+                #x: &N,
+                #slope: &mut N,
+                #rate: &mut N,
+                #scratch: &mut [N],
+            ) {
+                #rate_body
+            }
+        }
+    })
+}
+
+/// What the formula is in, by the name of its only argument.
+fn separation(definition: &Definition) -> syn::Result<Separation> {
+    let Definition { function, arguments, .. } = definition;
+    let named = |name: &Ident| Separation::named(&name.to_string());
+    let message =
+        "a pair's formula is in r2, the square of the distance, or on a line in d = q_j - q_i: `pair U(r2) = …`";
+    match &arguments[..] {
+        [argument] => named(argument).ok_or_else(|| syn::Error::new(argument.span(), message)),
+        _ => Err(syn::Error::new(function.span(), message)),
+    }
+}
+
+/// `m` for `m_i` and `m_j`.
+fn properties(definition: &Definition) -> syn::Result<Vec<Ident>> {
+    let mut found: Vec<Ident> = Vec::new();
+    let parameters = definition.parameters();
+    for name in &definition.properties {
+        let text = name.to_string();
+        let stem = text.strip_suffix("_i").or_else(|| text.strip_suffix("_j")).filter(|stem| !stem.is_empty());
+        let Some(stem) = stem else {
+            let message = "a property of the bodies i and j is called such as m_i, m_j";
+            return Err(syn::Error::new(name.span(), message));
+        };
+        if parameters.iter().any(|parameter| parameter == stem) {
+            let message =
+                format!("`{stem}` is a parameter of all bodies in the braces, but `{text}` is that of one body");
+            return Err(syn::Error::new(name.span(), message));
+        }
+        if !found.iter().any(|other| other == stem) {
+            found.push(Ident::new(stem, name.span()));
+        }
+    }
+    Ok(found)
+}
+
+fn programs(definition: &Definition, separation: Separation) -> syn::Result<PotentialPrograms> {
+    let Definition { properties, formula, .. } = definition;
+    let mut graph = Graph::new();
+    let energy = graph
+        .build_pair(&formula.parse()?, separation.name(), &texts(properties), &definition.parameters())
+        .map_err(|e| formula.error(&e.range, &e.fault))?;
+    Ok(graph.pair(energy, separation))
+}
+
+fn documentation(definition: &Definition, separation: Separation, programs: &PotentialPrograms) -> Vec<String> {
+    let (slope, rate) = match separation {
+        Separation::Difference => ("U'(d)", "d U'(d) − 2U"),
+        Separation::SquaredDistance => ("2U'(r²)", "2r²U'(r²) − 2U"),
+    };
+    vec![
+        String::new(),
+        definition.equation(),
+        String::new(),
+        " The energy of a pair of bodies i < j; `shadowstep::pairs::Pairs` sums it over all pairs, or over neighbours."
+            .to_owned(),
+        String::new(),
+        format!(" - A pair's {slope} costs {}.", programs.gradient.cost()),
+        format!(" - {slope} and {rate} cost {}.", programs.gradient_and_rate.cost()),
+    ]
+}
