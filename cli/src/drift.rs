@@ -23,7 +23,7 @@ use crate::selection::{Arithmetic, Order, Selection};
 struct Record {
     problem: &'static str,
     #[serde(serialize_with = "as_object")]
-    parameters: Vec<(&'static str, String)>,
+    parameters: Vec<(String, String)>,
     scheme: String,
     step: String,
     until: String,
@@ -51,7 +51,7 @@ enum NumberOrWord {
     Word(&'static str),
 }
 
-fn as_object<S: Serializer>(pairs: &[(&'static str, String)], serializer: S) -> Result<S::Ok, S::Error> {
+fn as_object<S: Serializer>(pairs: &[(String, String)], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
 }
 

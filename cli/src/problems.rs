@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use serde::Serialize;
-use shadowstep::problems::{PROBLEMS, Problem, problem};
+use shadowstep::problems::{Initial, PROBLEMS, Problem, problem};
 
 use crate::complaint::{Complaint, Ending};
 use crate::output::Output;
@@ -14,8 +14,9 @@ struct Record {
     title: &'static str,
     hamiltonian: &'static str,
     parameters: Vec<Parameter>,
-    positions: Vec<Initial>,
-    momenta: Vec<Initial>,
+    positions: Vec<Value>,
+    momenta: Vec<Value>,
+    masses: Option<Vec<String>>,
     source: &'static str,
 }
 
@@ -28,10 +29,13 @@ struct Parameter {
 }
 
 #[derive(Serialize)]
-struct Initial {
-    name: &'static str,
-    default: &'static str,
+struct Value {
+    name: String,
+    default: String,
 }
+
+/// A list of all problems shows no more initial values of each.
+const SHORT: usize = 12;
 
 /// One problem, or all.
 pub(crate) fn problems(name: Option<&str>, json: bool) -> Result<Ending, Complaint> {
@@ -39,12 +43,13 @@ pub(crate) fn problems(name: Option<&str>, json: bool) -> Result<Ending, Complai
         Some(name) => vec![problem(name)?],
         None => PROBLEMS.iter().collect(),
     };
+    let most_values = if name.is_some() { usize::MAX } else { SHORT };
     let mut output = Output::open(None)?;
     for (i, problem) in chosen.into_iter().enumerate() {
         if json {
             output.json(&record(problem))?;
         } else {
-            write!(output, "{}{}", if i == 0 { "" } else { "\n" }, readable(problem))?;
+            write!(output, "{}{}", if i == 0 { "" } else { "\n" }, readable(problem, most_values))?;
         }
     }
     output.finish()?;
@@ -53,9 +58,9 @@ pub(crate) fn problems(name: Option<&str>, json: bool) -> Result<Ending, Complai
 
 fn record(problem: &Problem) -> Record {
     let parameters = problem.parameters.iter();
-    let initial = |values: &[(&'static str, &'static str)]| {
-        values.iter().map(|&(name, default)| Initial { name, default }).collect()
-    };
+    let Initial { positions, momenta, masses } = (problem.initial)();
+    let values =
+        |list: Vec<(String, String)>| list.into_iter().map(|(name, default)| Value { name, default }).collect();
     Record {
         name: problem.name,
         title: problem.title,
@@ -63,18 +68,29 @@ fn record(problem: &Problem) -> Record {
         parameters: parameters
             .map(|p| Parameter { name: p.name, default: p.default, meaning: p.meaning, range: p.range })
             .collect(),
-        positions: initial(problem.positions),
-        momenta: initial(problem.momenta),
+        positions: values(positions),
+        momenta: values(momenta),
+        masses,
         source: problem.source,
     }
 }
 
-fn readable(problem: &Problem) -> String {
+/// The problem in words; long lists of values in part only.
+fn readable(problem: &Problem, most_values: usize) -> String {
     let mut text = format!("{}: {}\n  H = {}\n", problem.name, problem.title, problem.hamiltonian);
     for p in problem.parameters {
         text += &format!("  {} = {}    {}; {}\n", p.name, p.default, p.meaning, p.range);
     }
-    let state = problem.positions.iter().chain(problem.momenta).map(|(name, value)| format!("{name} = {value}"));
-    text += &format!("  at t = 0: {}\n  source: {}\n", state.collect::<Vec<_>>().join(", "), problem.source);
+    let Initial { positions, momenta, masses } = (problem.initial)();
+    let mut state: Vec<_> = positions.iter().chain(&momenta).map(|(name, value)| format!("{name} = {value}")).collect();
+    if state.len() > most_values {
+        state.truncate(most_values / 4);
+        state.push(format!("… ({} coordinates; `shadowstep problems {}` has all)", positions.len(), problem.name));
+    }
+    text += &format!("  at t = 0: {}\n", state.join(", "));
+    if let Some(masses) = masses.filter(|masses| masses.len() <= most_values) {
+        text += &format!("  masses of the coordinates: {}\n", masses.join(", "));
+    }
+    text += &format!("  source: {}\n", problem.source);
     text
 }

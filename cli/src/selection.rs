@@ -4,7 +4,7 @@ use num_traits::{Signed, ToPrimitive, Zero};
 use shadowstep::number::{Number, Precision};
 use shadowstep::problems::{Setup, problem};
 use shadowstep::shadow::{Central, Stop};
-use shadowstep::{Motion, Potential, Rational, UnitMasses};
+use shadowstep::{Kinetic, Motion, Potential, Rational};
 use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
@@ -86,9 +86,10 @@ impl Selection {
     pub(crate) fn motion<N: Number + 'static>(
         &self,
         context: &N::Context,
-    ) -> Motion<N, Vec<N>, Box<dyn Potential<N>>, UnitMasses> {
+    ) -> Motion<N, Vec<N>, Box<dyn Potential<N>>, Box<dyn Kinetic<N>>> {
         let setup = &self.setup;
-        Motion::new(setup.potential(context), UnitMasses, setup.q(context), setup.p(context))
+        let kinetic = setup.kinetic(context).expect("problems allow positive masses only");
+        Motion::new(setup.potential(context), kinetic, setup.q(context), setup.p(context))
     }
 
     /// The estimator; a fixed order estimates its error only if asked to.
@@ -100,13 +101,13 @@ impl Selection {
     }
 
     /// Every parameter and initial value with its exact text, or the digits of what is irrational.
-    pub(crate) fn values(&self) -> Vec<(&'static str, String)> {
+    pub(crate) fn values(&self) -> Vec<(String, String)> {
         let digits = value_digits(self.arithmetic) as usize;
         let text = |exact: &shadowstep_symbolic::Exact| match exact.rounded {
             true => to_significant(&exact.value, digits),
             false => to_text(&exact.value),
         };
-        self.setup.values.iter().map(|(name, exact)| (*name, text(exact))).collect()
+        self.setup.values.iter().map(|(name, exact)| (name.clone(), text(exact))).collect()
     }
 
     fn remark_on_ends(&self) {

@@ -58,8 +58,8 @@ fn writer<'a>(
         return Ok(Box::new(|row| output.json(row)));
     }
     let mut csv = csv::Writer::from_writer(output);
-    let problem = selection.setup.problem;
-    let coordinates = problem.positions.iter().chain(problem.momenta).map(|(name, _)| *name);
+    let setup = &selection.setup;
+    let coordinates = setup.positions().iter().chain(setup.momenta()).map(|(name, _)| name.as_str());
     let columns = ["n", "t", "energy", "modified_energy", "estimate", "order"];
     csv.write_record(columns.into_iter().chain(coordinates.filter(|_| arguments.states)))?;
     Ok(Box::new(move |row| {

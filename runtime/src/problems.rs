@@ -1,16 +1,31 @@
-//! The problems of the paper, with their parameters and initial states.
+//! Problems with their parameters and initial states: those of the paper, then scenes of many bodies.
 
+mod argon_crystal;
+mod figure_eight;
+mod fput_alpha;
+mod fput_stiff;
+mod gravity;
 mod harmonic_oscillator;
 mod henon_heiles;
+mod initial;
 mod kepler;
+mod outer_solar_system;
 mod pendulum;
+mod pythagorean;
 mod scattering;
+mod toda;
 
+pub use argon_crystal::LennardJones;
+pub use fput_alpha::CubicSpring;
+pub use fput_stiff::StiffFput;
+pub use gravity::Gravity;
 pub use harmonic_oscillator::HarmonicOscillator;
 pub use henon_heiles::HenonHeiles;
+pub use initial::Initial;
 pub use kepler::Kepler;
 pub use pendulum::Pendulum;
 pub use scattering::Scattering;
+pub use toda::TodaSpring;
 
 use std::collections::BTreeMap;
 
@@ -18,7 +33,9 @@ use shadowstep_symbolic::{Exact, evaluate, nearest, parse};
 use thiserror::Error;
 
 use crate::Rational;
+use crate::kinetic::{DiagonalMasses, Kinetic, MassError, UnitMasses};
 use crate::number::Number;
+use crate::pairs::{Ends, Pairs};
 use crate::potential::Potential;
 
 /// A problem: its potential and, as exact expressions, its parameters and initial state.
@@ -32,10 +49,8 @@ pub struct Problem {
     pub hamiltonian: &'static str,
     /// Parameters in an order in which each default needs earlier ones only.
     pub parameters: &'static [Parameter],
-    /// Names and defaults of q_1, …, q_d; defaults may use the parameters.
-    pub positions: &'static [(&'static str, &'static str)],
-    /// Names and defaults of p_1, …, p_d.
-    pub momenta: &'static [(&'static str, &'static str)],
+    /// The initial state and the masses, which may use the parameters.
+    pub initial: fn() -> Initial,
     /// Where problem and numbers are from.
     pub source: &'static str,
 }
@@ -55,9 +70,21 @@ pub struct Parameter {
     pub allowed: fn(&Rational) -> bool,
 }
 
-/// All problems, in the order of the paper.
-pub const PROBLEMS: [Problem; 5] =
-    [harmonic_oscillator::PROBLEM, pendulum::PROBLEM, kepler::PROBLEM, henon_heiles::PROBLEM, scattering::PROBLEM];
+/// All problems: those of the paper in its order, then those of many bodies.
+pub const PROBLEMS: [Problem; 12] = [
+    harmonic_oscillator::PROBLEM,
+    pendulum::PROBLEM,
+    kepler::PROBLEM,
+    henon_heiles::PROBLEM,
+    scattering::PROBLEM,
+    outer_solar_system::PROBLEM,
+    figure_eight::PROBLEM,
+    pythagorean::PROBLEM,
+    argon_crystal::PROBLEM,
+    fput_stiff::PROBLEM,
+    fput_alpha::PROBLEM,
+    toda::PROBLEM,
+];
 
 /// A problem by its name.
 ///
@@ -76,7 +103,9 @@ pub struct Setup {
     /// The problem.
     pub problem: &'static Problem,
     /// Every parameter, position and momentum by its name, in the order of the problem.
-    pub values: Vec<(&'static str, Exact)>,
+    pub values: Vec<(String, Exact)>,
+    /// One per coordinate; none, if all are 1.
+    pub masses: Option<Vec<Rational>>,
 }
 
 impl Problem {
@@ -87,10 +116,10 @@ impl Problem {
     /// # Errors
     /// Unknown or repeated names, expressions that have no value, parameters out of range.
     pub fn setup(&'static self, set: &[(String, String)], digits: u32) -> Result<Setup, ProblemError> {
-        let parameters = self.parameters.iter().map(|p| (p.name, p.default));
-        let all: Vec<(&'static str, &'static str)> =
-            parameters.chain(self.positions.iter().copied()).chain(self.momenta.iter().copied()).collect();
-        let names: Vec<_> = all.iter().map(|(name, _)| *name).collect();
+        let Initial { positions, momenta, masses } = (self.initial)();
+        let parameters = self.parameters.iter().map(|p| (p.name.to_owned(), p.default.to_owned()));
+        let all: Vec<(String, String)> = parameters.chain(positions).chain(momenta).collect();
+        let names: Vec<_> = all.iter().map(|(name, _)| name.as_str()).collect();
         for (i, (name, _)) in set.iter().enumerate() {
             if !names.contains(&name.as_str()) {
                 return Err(ProblemError::UnknownParameter {
@@ -106,13 +135,15 @@ impl Problem {
         let mut known = BTreeMap::new();
         let mut values = Vec::new();
         for (name, default) in all {
-            let text = set.iter().find(|(n, _)| n == name).map_or(default, |(_, text)| text.as_str());
-            let value = value_of(name, text, &known, digits)?;
-            self.check(name, text, &value.value)?;
-            known.insert(name.to_owned(), value.clone());
+            let text = set.iter().find(|(n, _)| *n == name).map_or(default, |(_, text)| text.clone());
+            let value = value_of(&name, &text, &known, digits)?;
+            self.check(&name, &text, &value.value)?;
+            known.insert(name.clone(), value.clone());
             values.push((name, value));
         }
-        Ok(Setup { problem: self, values })
+        let mass = |text: &String| Ok(value_of("mass", text, &known, digits)?.value);
+        let masses = masses.map(|texts| texts.iter().map(mass).collect::<Result<_, ProblemError>>()).transpose()?;
+        Ok(Setup { problem: self, values, masses })
     }
 
     fn check(&self, name: &str, text: &str, value: &Rational) -> Result<(), ProblemError> {
@@ -138,36 +169,80 @@ fn hint(word: &str, known: &[&str]) -> String {
     }
 }
 
+fn numbers<N: Number>(values: &[(String, Exact)], context: &N::Context) -> Vec<N> {
+    values.iter().map(|(_, exact)| N::from_rational(&exact.value, context)).collect()
+}
+
 impl Setup {
     /// A value by its name.
     ///
     /// # Panics
     /// If the problem has no value of this name.
     pub fn value(&self, name: &str) -> &Rational {
-        let found = self.values.iter().find(|(known, _)| *known == name);
+        let found = self.values.iter().find(|(known, _)| known == name);
         &found.unwrap_or_else(|| panic!("{} has no `{name}`", self.problem.name)).1.value
+    }
+
+    /// The initial positions by their names.
+    pub fn positions(&self) -> &[(String, Exact)] {
+        let state = &self.values[self.problem.parameters.len()..];
+        &state[..state.len() / 2]
+    }
+
+    /// The initial momenta by their names.
+    pub fn momenta(&self) -> &[(String, Exact)] {
+        let state = &self.values[self.problem.parameters.len()..];
+        &state[state.len() / 2..]
     }
 
     /// The initial q, each rounded once.
     pub fn q<N: Number>(&self, context: &N::Context) -> Vec<N> {
-        self.problem.positions.iter().map(|(name, _)| N::from_rational(self.value(name), context)).collect()
+        numbers(self.positions(), context)
     }
 
     /// The initial p, each rounded once.
     pub fn p<N: Number>(&self, context: &N::Context) -> Vec<N> {
-        self.problem.momenta.iter().map(|(name, _)| N::from_rational(self.value(name), context)).collect()
+        numbers(self.momenta(), context)
+    }
+
+    /// The kinetic energy.
+    ///
+    /// # Errors
+    /// A mass that is not positive.
+    pub fn kinetic<N: Number + 'static>(&self, context: &N::Context) -> Result<Box<dyn Kinetic<N>>, MassError> {
+        Ok(match &self.masses {
+            None => Box::new(UnitMasses),
+            Some(masses) => Box::new(DiagonalMasses::new(masses, context)?),
+        })
     }
 
     /// The potential.
     pub fn potential<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Potential<N>> {
+        let number = |name: &str| N::from_rational(self.value(name), context);
         match self.problem.name {
-            "harmonic-oscillator" => {
-                Box::new(HarmonicOscillator { omega: N::from_rational(self.value("omega"), context) })
-            }
+            "harmonic-oscillator" => Box::new(HarmonicOscillator { omega: number("omega") }),
             "pendulum" => Box::new(Pendulum),
             "kepler" => Box::new(Kepler),
             "henon-heiles" => Box::new(HenonHeiles),
             "scattering" => Box::new(Scattering),
+            "outer-solar-system" => {
+                let m = outer_solar_system::MASSES.map(number).to_vec();
+                Box::new(Pairs::<_, 3>::all(m.len(), Gravity { g: number("g"), m }))
+            }
+            "figure-eight" | "pythagorean" => {
+                let m = ["m_1", "m_2", "m_3"].map(number).to_vec();
+                Box::new(Pairs::<_, 2>::all(3, Gravity { g: number("g"), m }))
+            }
+            "argon-crystal" => {
+                let pair = LennardJones { epsilon: number("epsilon"), sigma: number("sigma") };
+                Box::new(Pairs::<_, 2>::all(argon_crystal::ATOMS, pair))
+            }
+            "fput-stiff" => Box::new(StiffFput { omega: number("omega") }),
+            "fput-alpha" => {
+                let pair = CubicSpring { alpha: number("alpha") };
+                Box::new(Pairs::<_, 1>::neighbours(fput_alpha::BODIES, pair, Ends::Fixed))
+            }
+            "toda" => Box::new(Pairs::<_, 1>::neighbours(toda::BODIES, TodaSpring, Ends::Periodic)),
             name => unreachable!("{name} is not among the problems"),
         }
     }

@@ -169,6 +169,11 @@ impl Builder<'_> {
         }
         let known: Vec<&str> =
             [self.coordinates, self.properties, self.parameters].into_iter().flatten().map(String::as_str).collect();
+        let of_bodies = [format!("{name}_i"), format!("{name}_j")];
+        if of_bodies.iter().any(|of_body| self.properties.contains(of_body)) {
+            let hint = format!("of the bodies i and j it is `{}` and `{}`", of_bodies[0], of_bodies[1]);
+            return Err(GraphFault::UnknownName { name: name.to_string(), hint });
+        }
         let none = "no names are known here";
         Err(GraphFault::UnknownName { name: name.to_string(), hint: hint(name, &known, "known names", none) })
     }

@@ -13,7 +13,8 @@ fn every_problem_is_told_with_all_that_can_be_set() {
         assert_eq!(text(record, "hamiltonian"), problem.hamiltonian);
         assert!(all.contains(problem.hamiltonian) && all.contains(problem.source), "{all}");
         let one = quietly(&format!("problems {}", problem.name));
-        for (name, default) in problem.positions.iter().chain(problem.momenta) {
+        let initial = (problem.initial)();
+        for (name, default) in initial.positions.iter().chain(&initial.momenta) {
             assert!(one.contains(&format!("{name} = {default}")), "{name} in\n{one}");
         }
         for parameter in problem.parameters {
@@ -40,7 +41,8 @@ fn every_problem_runs() {
             problem.name
         );
         let record = &objects(&quietly(&words))[0];
-        let count = problem.parameters.len() + problem.positions.len() + problem.momenta.len();
+        let initial = (problem.initial)();
+        let count = problem.parameters.len() + initial.positions.len() + initial.momenta.len();
         assert_eq!(record["parameters"].as_object().unwrap().len(), count);
     }
 }

@@ -3,7 +3,7 @@
 use num_traits::Signed;
 use shadowstep_macros::potential;
 
-use crate::problems::{Parameter, Problem};
+use crate::problems::{Initial, Parameter, Problem};
 
 potential! {
     /// The harmonic oscillator. U is homogeneous of degree 2: β stays 0.
@@ -22,7 +22,6 @@ pub(super) const PROBLEM: Problem = Problem {
         range: "it must be positive",
         allowed: |omega| omega.is_positive(),
     }],
-    positions: &[("q", "1")],
-    momenta: &[("p", "0")],
+    initial: || Initial::new([("q", "1")], [("p", "0")]),
     source: "closed form of the modified Hamiltonian of kick-drift-kick Störmer–Verlet: ½(p² + (1−x²)ω²q²)·arcsin(x)/(x√(1−x²)), x = hω/2",
 };

@@ -2,7 +2,7 @@
 
 use shadowstep_macros::potential;
 
-use crate::problems::Problem;
+use crate::problems::{Initial, Problem};
 
 potential! {
     /// The Hénon–Heiles potential.
@@ -15,7 +15,6 @@ pub(super) const PROBLEM: Problem = Problem {
     title: "Hénon–Heiles",
     hamiltonian: "(px^2 + py^2 + x^2 + y^2)/2 + x^2 y - y^3/3",
     parameters: &[],
-    positions: &[("x", "0"), ("y", "0")],
-    momenta: &[("px", "0.1"), ("py", "0")],
+    initial: || Initial::new([("x", "0"), ("y", "0")], [("px", "0.1"), ("py", "0")]),
     source: "Moan & Niesen, section 5.3: p_1(0) = 0.1; chaotic from H = 1/12, escape from H = 1/6",
 };

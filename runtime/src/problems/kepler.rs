@@ -4,7 +4,7 @@ use num_traits::{One, Signed};
 use shadowstep_macros::potential;
 
 use crate::Rational;
-use crate::problems::{Parameter, Problem};
+use crate::problems::{Initial, Parameter, Problem};
 
 potential! {
     /// Kepler's problem in the plane.
@@ -23,7 +23,11 @@ pub(super) const PROBLEM: Problem = Problem {
         range: "it must be at least 0 and less than 1",
         allowed: |e| !e.is_negative() && *e < Rational::one(),
     }],
-    positions: &[("x", "1 - eccentricity"), ("y", "0")],
-    momenta: &[("px", "0"), ("py", "sqrt((1 + eccentricity)/(1 - eccentricity))")],
+    initial: || {
+        Initial::new(
+            [("x", "1 - eccentricity"), ("y", "0")],
+            [("px", "0"), ("py", "sqrt((1 + eccentricity)/(1 - eccentricity))")],
+        )
+    },
     source: "Moan & Niesen, section 5.2: e = 0.6, t in [0, 100]; H = -1/2, period 2 pi",
 };

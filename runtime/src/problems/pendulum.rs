@@ -2,7 +2,7 @@
 
 use shadowstep_macros::potential;
 
-use crate::problems::Problem;
+use crate::problems::{Initial, Problem};
 
 potential! {
     /// The mathematical pendulum.
@@ -15,7 +15,6 @@ pub(super) const PROBLEM: Problem = Problem {
     title: "Pendulum",
     hamiltonian: "p^2/2 - cos(q)",
     parameters: &[],
-    positions: &[("q", "0")],
-    momenta: &[("p", "1")],
+    initial: || Initial::new([("q", "0")], [("p", "1")]),
     source: "Moan & Niesen, section 5.1: p(0) = 1, t in [0, 100]; p = 2 is the separatrix",
 };

@@ -3,7 +3,7 @@
 use num_traits::Signed;
 use shadowstep_macros::potential;
 
-use crate::problems::{Parameter, Problem};
+use crate::problems::{Initial, Parameter, Problem};
 
 potential! {
     /// A Gaussian hill.
@@ -38,7 +38,6 @@ pub(super) const PROBLEM: Problem = Problem {
             allowed: |speed| speed.is_positive(),
         },
     ],
-    positions: &[("x", "-start"), ("y", "impact")],
-    momenta: &[("px", "speed"), ("py", "0")],
+    initial: || Initial::new([("x", "-start"), ("y", "impact")], [("px", "speed"), ("py", "0")]),
     source: "after Benettin & Giorgilli, J. Stat. Phys. 74 (1994) 569, quoted in Moan & Niesen, section 5",
 };

@@ -1,0 +1,20 @@
+//! The Pythagorean problem of three bodies.
+
+use crate::problems::figure_eight::three_bodies;
+use crate::problems::initial::Body;
+use crate::problems::{Initial, Problem};
+
+const BODIES: [Body<2>; 3] = [
+    Body { name: "1", mass: "m_1", position: ["1", "3"], velocity: ["0", "0"] },
+    Body { name: "2", mass: "m_2", position: ["-2", "-1"], velocity: ["0", "0"] },
+    Body { name: "3", mass: "m_3", position: ["1", "-1"], velocity: ["0", "0"] },
+];
+
+pub(super) const PROBLEM: Problem = Problem {
+    name: "pythagorean",
+    title: "Three bodies of masses 3, 4, 5 at rest in the corners of a triangle: close encounters",
+    hamiltonian: "sum_i |p_i|^2/(2 m_i) - g sum_(i<j) m_i m_j/|q_i - q_j|",
+    parameters: &three_bodies(["3", "4", "5"]),
+    initial: || Initial::of_bodies(&BODIES),
+    source: "Burrau, Astronomische Nachrichten 195 (1913) 113: no fixed step resolves its encounters",
+};

@@ -1,0 +1,22 @@
+//! The Toda lattice.
+
+use shadowstep_macros::potential;
+
+use crate::problems::{Initial, Problem};
+
+potential! {
+    /// Toda's spring, at rest at d = 0.
+    pub struct TodaSpring;
+    pair U(d) = exp(-d) + d - 1
+}
+
+pub(super) const BODIES: usize = 200;
+
+pub(super) const PROBLEM: Problem = Problem {
+    name: "toda",
+    title: "Toda lattice: a ring of 200 bodies, begun with a long wave of velocities",
+    hamiltonian: "sum_i p_i^2/2 + sum_i (exp(-d_i) + d_i - 1), d_i = q_(i+1) - q_i, around the ring",
+    parameters: &[],
+    initial: || Initial::of_chain(BODIES, |_| "0".to_owned(), |i| format!("sin({i}*pi/100)")),
+    source: "Toda, Journal of the Physical Society of Japan 22 (1967) 431: integrable, with solitons; the wave is our choice",
+};
