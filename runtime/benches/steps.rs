@@ -2,54 +2,24 @@
 //!
 //! `cargo bench -p shadowstep`
 
+mod timing;
+
 use std::hint::black_box;
-use std::time::Instant;
 
 use rug::Float;
 use shadowstep::formula::FormulaPotential;
 use shadowstep::number::{Number as _, Precision};
-use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
+use shadowstep::problems::Kepler;
 use shadowstep::shadow::{Central, Estimator, Method, Stop};
 use shadowstep::{Motion, Potential, Scheme, UnitMasses, exact, splitting_scheme, tables};
+
+use timing::{Contestant, compare, medians};
 
 #[splitting_scheme("stormer-verlet.toml")]
 struct StormerVerlet;
 
 #[splitting_scheme("yoshida4.toml")]
 struct Yoshida4;
-
-const ROUNDS: usize = 21;
-
-/// A contestant: its name and a run of so many repetitions.
-type Contestant<'a> = (&'static str, Box<dyn FnMut(u32) + 'a>);
-
-/// Nanoseconds per repetition, the median over the rounds, for each contestant.
-fn medians(contestants: &mut [Contestant<'_>], repetitions: u32) -> Vec<f64> {
-    let mut times = vec![Vec::new(); contestants.len()];
-    for _ in 0..ROUNDS {
-        for ((_, run), times) in contestants.iter_mut().zip(&mut times) {
-            let start = Instant::now();
-            run(repetitions);
-            times.push(start.elapsed().as_secs_f64() * 1e9 / f64::from(repetitions));
-        }
-    }
-    times
-        .into_iter()
-        .map(|mut times| {
-            times.sort_by(f64::total_cmp);
-            times[ROUNDS / 2]
-        })
-        .collect()
-}
-
-/// Prints the contestants' times and their ratios to the first one.
-fn compare(title: &str, mut contestants: Vec<Contestant<'_>>, repetitions: u32) {
-    let times = medians(&mut contestants, repetitions);
-    println!("\n{title}");
-    for ((name, _), time) in contestants.iter().zip(&times) {
-        println!("  {name:<48} {time:>10.1} ns {:>8.3}", time / times[0]);
-    }
-}
 
 fn digits() -> Precision {
     Precision::digits(120).expect("120 digits are allowed")
@@ -186,36 +156,6 @@ fn kepler_by_hand() -> Contestant<'static> {
     ("by hand", Box::new(run))
 }
 
-/// Potentials as a careful person writes them for f64 alone.
-struct ByHand<const PROBLEM: char>;
-
-macro_rules! by_hand {
-    ($problem:literal, $dimension:literal, |$q:ident| $energy:expr, $gradient:expr) => {
-        impl Potential<f64> for ByHand<$problem> {
-            fn dimension(&self) -> usize {
-                $dimension
-            }
-            fn energy(&self, $q: &[f64], energy: &mut f64, _: &mut [f64]) {
-                *energy = $energy;
-            }
-            #[inline]
-            fn gradient(&self, $q: &[f64], gradient: &mut [f64], _: &mut [f64]) {
-                gradient.copy_from_slice(&$gradient);
-            }
-        }
-    };
-}
-
-by_hand!('h', 2, |q| (q[0] * q[0] + q[1] * q[1]) / 2.0 + q[0] * q[0] * q[1] - q[1] * q[1] * q[1] / 3.0, {
-    [q[0] + 2.0 * q[0] * q[1], q[1] + q[0] * q[0] - q[1] * q[1]]
-});
-by_hand!('k', 2, |q| -1.0 / q[0].hypot(q[1]), {
-    let inverse = 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt();
-    let cube = inverse * inverse * inverse;
-    [cube * q[0], cube * q[1]]
-});
-by_hand!('p', 1, |q| -q[0].cos(), [q[0].sin()]);
-
 /// Takes a state a repetition; the states are those of Störmer–Verlet on Kepler, made before.
 fn estimates<'a>(name: &'static str, method: Central) -> Contestant<'a> {
     let mut motion = big(Kepler, ["0.4", "0"], ["0", "2"]);
@@ -234,9 +174,6 @@ fn estimates<'a>(name: &'static str, method: Central) -> Contestant<'a> {
 fn main() {
     let table = |name| tables::shipped(name).expect("a shipped scheme");
     let double = || Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]);
-    fn double_henon<P: Potential<f64>>(potential: P) -> Motion<f64, [f64; 2], P, UnitMasses> {
-        Motion::new(potential, UnitMasses, [0.1, 0.2], [0.1, 0.0])
-    }
     let kepler = || big(Kepler, ["0.4", "0"], ["0", "2"]);
 
     let text = "-1/sqrt(x^2 + y^2)";
@@ -253,30 +190,6 @@ fn main() {
             steps("generated", StormerVerlet, double()),
             steps("from the table at run time", table("stormer-verlet"), double()),
             steps("generated, potential from a formula at run time", StormerVerlet, double_formula),
-        ],
-        1_000_000,
-    );
-    compare(
-        "Störmer–Verlet on Hénon–Heiles, f64",
-        vec![
-            steps("potential by hand", StormerVerlet, double_henon(ByHand::<'h'>)),
-            steps("potential from its formula", StormerVerlet, double_henon(HenonHeiles)),
-        ],
-        1_000_000,
-    );
-    compare(
-        "Störmer–Verlet on Kepler, f64",
-        vec![
-            steps("potential by hand", StormerVerlet, Motion::new(ByHand::<'k'>, UnitMasses, [0.4, 0.0], [0.0, 2.0])),
-            steps("potential from its formula", StormerVerlet, double()),
-        ],
-        1_000_000,
-    );
-    compare(
-        "Störmer–Verlet on the pendulum, f64",
-        vec![
-            steps("potential by hand", StormerVerlet, Motion::new(ByHand::<'p'>, UnitMasses, [0.0], [1.0])),
-            steps("potential from its formula", StormerVerlet, Motion::new(Pendulum, UnitMasses, [0.0], [1.0])),
         ],
         1_000_000,
     );

@@ -113,33 +113,6 @@ impl<P: Pair, const D: usize> Pairs<P, D> {
     pub fn pair(&self) -> &P {
         &self.pair
     }
-
-    /// Calls for each pair that interacts; a wall is `None`.
-    #[inline(always)]
-    fn each(&self, mut visit: impl FnMut(Option<usize>, Option<usize>)) {
-        match self.which {
-            Which::All => {
-                for i in 0..self.bodies {
-                    for j in i + 1..self.bodies {
-                        visit(Some(i), Some(j));
-                    }
-                }
-            }
-            Which::Neighbours(ends) => {
-                if ends == Ends::Fixed {
-                    visit(None, Some(0));
-                }
-                for j in 1..self.bodies {
-                    visit(Some(j - 1), Some(j));
-                }
-                match ends {
-                    Ends::Free => {}
-                    Ends::Fixed => visit(Some(self.bodies - 1), None),
-                    Ends::Periodic => visit(Some(self.bodies - 1), Some(0)),
-                }
-            }
-        }
-    }
 }
 
 /// The scratch space of a call.
@@ -162,18 +135,43 @@ fn parts<N, const D: usize>(scratch: &mut [N]) -> Scratch<'_, N, D> {
     Scratch { difference, squared, slope, result, pair }
 }
 
-/// difference ← q_j − q_i, where a wall is at 0
-#[inline(always)]
-fn subtract<N: Number, const D: usize>(q: &[N], i: Option<usize>, j: Option<usize>, difference: &mut [N; D]) {
-    for (axis, difference) in difference.iter_mut().enumerate() {
-        match (i, j) {
-            (Some(i), Some(j)) => difference.assign_difference(&q[j * D + axis], &q[i * D + axis]),
-            (None, Some(j)) => difference.assign(&q[j * D + axis]),
-            (Some(i), None) => {
-                difference.assign(&q[i * D + axis]);
-                difference.negate();
+/// A body, or a wall at 0, with its number.
+enum End<'a, N, const D: usize> {
+    Wall,
+    Body(usize, &'a [N; D]),
+}
+
+// derived, it would ask for numbers that are `Copy`
+impl<N, const D: usize> Copy for End<'_, N, D> {}
+
+impl<N, const D: usize> Clone for End<'_, N, D> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<N: Number, const D: usize> End<'_, N, D> {
+    /// A wall is asked for no properties.
+    fn number(self) -> usize {
+        match self {
+            End::Wall => 0,
+            End::Body(number, _) => number,
+        }
+    }
+
+    /// difference ← q_j − q_i
+    #[inline(always)]
+    fn subtract(i: Self, j: Self, difference: &mut [N; D]) {
+        for (axis, difference) in difference.iter_mut().enumerate() {
+            match (i, j) {
+                (End::Body(_, i), End::Body(_, j)) => difference.assign_difference(&j[axis], &i[axis]),
+                (End::Wall, End::Body(_, j)) => difference.assign(&j[axis]),
+                (End::Body(_, i), End::Wall) => {
+                    difference.assign(&i[axis]);
+                    difference.negate();
+                }
+                (End::Wall, End::Wall) => difference.assign_zero(),
             }
-            (None, None) => difference.assign_zero(),
         }
     }
 }
@@ -196,6 +194,34 @@ impl<P, const D: usize> Pairs<P, D> {
         }
     }
 
+    /// Visits the pairs that interact.
+    #[inline(always)]
+    fn each<'q, N: Number>(&self, q: &'q [N], mut visit: impl FnMut(End<'q, N, D>, End<'q, N, D>)) {
+        let (q, _) = q.as_chunks::<D>();
+        let body = |number: usize| End::Body(number, &q[number]);
+        let last = q.len() - 1;
+        match self.which {
+            Which::All => {
+                for (i, q_i) in q.iter().enumerate() {
+                    for (j, q_j) in q.iter().enumerate().skip(i + 1) {
+                        visit(End::Body(i, q_i), End::Body(j, q_j));
+                    }
+                }
+            }
+            Which::Neighbours(ends) => {
+                if ends == Ends::Fixed {
+                    visit(End::Wall, body(0));
+                }
+                (0..last).for_each(|i| visit(body(i), body(i + 1)));
+                match ends {
+                    Ends::Free => {}
+                    Ends::Fixed => visit(body(last), End::Wall),
+                    Ends::Periodic => visit(body(last), body(0)),
+                }
+            }
+        }
+    }
+
     /// gradient ← U_q; `slope` computes a pair's.
     #[inline(always)]
     fn sum_gradient<N: Number>(
@@ -208,23 +234,23 @@ impl<P, const D: usize> Pairs<P, D> {
         P: PairPotential<N>,
     {
         gradient.iter_mut().for_each(N::assign_zero);
+        let (gradient, _) = gradient.as_chunks_mut::<D>();
         let s = parts::<N, D>(scratch);
-        self.each(|i, j| {
-            subtract(q, i, j, s.difference);
+        self.each(q, |i, j| {
+            End::subtract(i, j, s.difference);
             let x = self.separation(s.difference, s.squared);
-            // a wall is asked for no properties
-            slope(i.unwrap_or(0), j.unwrap_or(0), x, s.slope, s.result, s.pair);
-            for (axis, difference) in s.difference.iter_mut().enumerate() {
+            slope(i.number(), j.number(), x, s.slope, s.result, s.pair);
+            for difference in s.difference.iter_mut() {
                 match self.pair.separation() {
                     Separation::Difference => difference.assign(s.slope),
                     Separation::SquaredDistance => difference.multiply(s.slope),
                 }
-                if let Some(j) = j {
-                    gradient[j * D + axis].add(difference);
-                }
-                if let Some(i) = i {
-                    gradient[i * D + axis].subtract(difference);
-                }
+            }
+            if let End::Body(j, _) = j {
+                gradient[j].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.add(force));
+            }
+            if let End::Body(i, _) = i {
+                gradient[i].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.subtract(force));
             }
         });
     }
@@ -246,10 +272,10 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
         energy.assign_zero();
         let s = parts::<N, D>(scratch);
-        self.each(|i, j| {
-            subtract(q, i, j, s.difference);
+        self.each(q, |i, j| {
+            End::subtract(i, j, s.difference);
             let x = self.separation(s.difference, s.squared);
-            self.pair.energy(i.unwrap_or(0), j.unwrap_or(0), x, s.result, s.pair);
+            self.pair.energy(i.number(), j.number(), x, s.result, s.pair);
             energy.add(s.result);
         });
     }

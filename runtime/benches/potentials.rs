@@ -1,0 +1,110 @@
+//! What potentials from formulas cost against those that a careful person writes by hand for one type of numbers, in the
+//! same step of Störmer–Verlet.
+//!
+//! `cargo bench -p shadowstep --bench potentials`
+
+mod by_hand;
+mod timing;
+
+use std::hint::black_box;
+
+use rug::Float;
+use shadowstep::number::Precision;
+use shadowstep::pairs::Pairs;
+use shadowstep::problems::{Gravity, HenonHeiles, Kepler, Pendulum, problem};
+use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Scheme, UnitMasses, exact, splitting_scheme};
+
+use by_hand::{BODIES, ByHand, HenonHeilesStar, KeplerOrbit, PendulumBob, Planets};
+use timing::{Contestant, compare};
+
+#[splitting_scheme("stormer-verlet.toml")]
+struct StormerVerlet;
+
+fn digits() -> Precision {
+    Precision::digits(120).expect("120 digits are allowed")
+}
+
+fn numbers<N: Number, const D: usize>(texts: [&str; D], context: &N::Context) -> [N; D] {
+    texts.map(|text| N::from_rational(&exact(text).expect("an exact number"), context))
+}
+
+fn contestant<'a, N, V, P, K>(name: &'static str, mut motion: Motion<N, V, P, K>, h: &str) -> Contestant<'a>
+where
+    N: Number + 'a,
+    V: shadowstep::Coordinates<N> + 'a,
+    P: Potential<N> + 'a,
+    K: Kinetic<N> + 'a,
+{
+    let h = StormerVerlet.weights::<N>(&exact(h).expect("exact"), &motion.context());
+    let run = move |repetitions| {
+        for _ in 0..repetitions {
+            StormerVerlet.step(&h, &mut motion);
+        }
+        black_box(motion.q());
+    };
+    (name, Box::new(run))
+}
+
+fn orbit<'a, N: Number + 'a, P: Potential<N> + 'a, const D: usize>(
+    name: &'static str,
+    potential: P,
+    [q, p]: [[&str; D]; 2],
+    context: &N::Context,
+) -> Contestant<'a> {
+    let (q, p) = (numbers::<N, D>(q, context), numbers::<N, D>(p, context));
+    contestant(name, Motion::new(potential, UnitMasses, q, p), "1/100")
+}
+
+/// The outer solar system, steps of 100 days.
+fn planets<'a, N: Number + 'a, P: Potential<N> + 'a>(
+    name: &'static str,
+    potential: impl FnOnce(N, Vec<N>) -> P,
+    context: &N::Context,
+) -> Contestant<'a> {
+    let setup = problem("outer-solar-system").and_then(|problem| problem.setup(&[], 150)).expect("a problem");
+    let masses = setup.masses.as_ref().expect("planets have masses");
+    let m = masses.iter().step_by(3).map(|m| N::from_rational(m, context)).collect();
+    let kinetic = DiagonalMasses::new(masses, context).expect("positive");
+    let potential = potential(N::from_rational(setup.value("g"), context), m);
+    contestant(name, Motion::new(potential, kinetic, setup.q(context), setup.p(context)), "100")
+}
+
+const BY_HAND: &str = "potential by hand";
+const BY_FORMULA: &str = "potential from its formula";
+
+fn in_numbers<N: Number>(numbers: &str, context: &N::Context, repetitions: u32)
+where
+    ByHand<KeplerOrbit>: Potential<N>,
+    ByHand<HenonHeilesStar>: Potential<N>,
+    ByHand<PendulumBob>: Potential<N>,
+    ByHand<Planets<N>>: Potential<N>,
+{
+    let start = [["0.4", "0"], ["0", "2"]];
+    let contestants = vec![
+        orbit::<N, _, 2>(BY_HAND, ByHand(KeplerOrbit), start, context),
+        orbit::<N, _, 2>(BY_FORMULA, Kepler, start, context),
+    ];
+    compare(&format!("Kepler, {numbers}"), contestants, repetitions);
+    let start = [["0.1", "0.2"], ["0.1", "0"]];
+    let contestants = vec![
+        orbit::<N, _, 2>(BY_HAND, ByHand(HenonHeilesStar), start, context),
+        orbit::<N, _, 2>(BY_FORMULA, HenonHeiles, start, context),
+    ];
+    compare(&format!("Hénon–Heiles, {numbers}"), contestants, repetitions);
+    let start = [["0"], ["1"]];
+    let contestants = vec![
+        orbit::<N, _, 1>(BY_HAND, ByHand(PendulumBob), start, context),
+        orbit::<N, _, 1>(BY_FORMULA, Pendulum, start, context),
+    ];
+    compare(&format!("Pendulum, {numbers}"), contestants, repetitions);
+    let contestants = vec![
+        planets::<N, _>(BY_HAND, |g, m| ByHand(Planets { g, m }), context),
+        planets::<N, _>(BY_FORMULA, |g, m| Pairs::<_, 3>::all(BODIES, Gravity { g, m }), context),
+    ];
+    compare(&format!("The Sun and five planets, {numbers}"), contestants, repetitions / 20);
+}
+
+fn main() {
+    in_numbers::<f64>("f64", &(), 1_000_000);
+    in_numbers::<Float>("120 digits", &digits(), 2_000);
+}
