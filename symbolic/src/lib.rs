@@ -47,6 +47,7 @@ mod lower;
 mod nearest;
 mod potential;
 mod program;
+mod quadratic;
 mod rate;
 mod rounding;
 mod simplify;
