@@ -1,4 +1,4 @@
-//! Kinetic energies T = ½pᵀM⁻¹p: masses 1, one mass per coordinate, a full M⁻¹.
+//! Kinetic energies T(p): the quadratic ones of masses (1, one per coordinate, a full M⁻¹), and any other.
 
 use thiserror::Error;
 
@@ -6,18 +6,100 @@ use crate::Rational;
 use crate::number::Number;
 use num_traits::{Signed, Zero};
 
-/// A quadratic kinetic energy T = ½pᵀM⁻¹p.
+/// The class of T = ½pᵀM⁻¹p. Every scheme has its order for these ([`crate::Moves`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quadratic {}
+
+/// The class of every T(p). Runge–Kutta–Nyström schemes lose their order here, and are refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum General {}
+
+/// A kinetic energy T(p), for one kind of numbers or, written once, for all.
+///
+/// As a potential it says how many numbers of scratch space it needs and is given so many with every call.
+///
+/// ```
+/// use shadowstep::kinetic::{General, Kinetic};
+/// use shadowstep::Number;
+///
+/// /// T = p⁴/4
+/// struct Quartic;
+///
+/// impl<N: Number> Kinetic<N> for Quartic {
+///     type Class = General;
+///     fn dimension(&self) -> Option<usize> { Some(1) }
+///     fn scratch(&self) -> usize { 1 }
+///     fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
+///         scratch[0].assign_square(&p[0]);
+///         scratch[0].multiply(&p[0]);
+///         q[0].add_product(weight, &scratch[0]); // T_p = p³
+///     }
+///     fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], beta: &mut N, scratch: &mut [N]) {
+///         self.drift(weight, p, q, scratch);
+///         self.energy(p, &mut scratch[0], &mut []);
+///         scratch[0].multiply_integer(2);
+///         beta.add_product(weight, &scratch[0]); // p T_p − 2T = 2T, as T has degree 4
+///     }
+///     fn energy(&self, p: &[N], energy: &mut N, _: &mut [N]) {
+///         energy.assign_square(&p[0]);
+///         energy.multiply(&p[0]);
+///         energy.multiply(&p[0]);
+///         energy.divide_integer(4);
+///     }
+/// }
+/// ```
 pub trait Kinetic<N: Number> {
+    /// [`Quadratic`], if T is a quadratic form in p, else [`General`].
+    type Class;
+
     /// How many coordinates there must be, where that is fixed.
     fn dimension(&self) -> Option<usize> {
         None
     }
 
-    /// q ← q + weight·M⁻¹p; `velocity` is scratch space for one number.
-    fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N);
+    /// How many numbers of scratch space there must be for every call.
+    fn scratch(&self) -> usize {
+        0
+    }
 
-    /// energy ← ½pᵀM⁻¹p; `velocity` is scratch space for one number.
-    fn energy(&self, p: &[N], energy: &mut N, velocity: &mut N);
+    /// Puts into the scratch space what every call finds there: what does not depend on p. Called once, before all
+    /// others.
+    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+        let _ = (scratch, context);
+    }
+
+    /// q ← q + weight·T_p(p)
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]);
+
+    /// The drift, with the same bits of q, and β ← β + weight·(pᵀT_p − 2T).
+    ///
+    /// A term of T that is homogeneous of degree k adds (k − 2) times itself; for quadratic T this is the drift alone.
+    fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], beta: &mut N, scratch: &mut [N]);
+
+    /// energy ← T(p)
+    fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]);
+}
+
+impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
+    type Class = K::Class;
+    fn dimension(&self) -> Option<usize> {
+        (**self).dimension()
+    }
+    fn scratch(&self) -> usize {
+        (**self).scratch()
+    }
+    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+        (**self).prepare(scratch, context);
+    }
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
+        (**self).drift(weight, p, q, scratch);
+    }
+    fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], beta: &mut N, scratch: &mut [N]) {
+        (**self).drift_augmented(weight, p, q, beta, scratch);
+    }
+    fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
+        (**self).energy(p, energy, scratch);
+    }
 }
 
 impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
@@ -37,14 +119,21 @@ impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
 pub struct UnitMasses;
 
 impl<N: Number> Kinetic<N> for UnitMasses {
+    type Class = Quadratic;
+
     #[inline]
-    fn drift(&self, weight: &N, p: &[N], q: &mut [N], _: &mut N) {
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], _: &mut [N]) {
         for (q, p) in q.iter_mut().zip(p) {
             q.add_product(weight, p);
         }
     }
 
-    fn energy(&self, p: &[N], energy: &mut N, _: &mut N) {
+    #[inline]
+    fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], _: &mut N, scratch: &mut [N]) {
+        self.drift(weight, p, q, scratch);
+    }
+
+    fn energy(&self, p: &[N], energy: &mut N, _: &mut [N]) {
         energy.assign_zero();
         for p in p {
             energy.add_product(p, p);
@@ -74,19 +163,32 @@ impl<N: Number> DiagonalMasses<N> {
 }
 
 impl<N: Number> Kinetic<N> for DiagonalMasses<N> {
+    type Class = Quadratic;
+
     fn dimension(&self) -> Option<usize> {
         Some(self.inverse.len())
     }
 
+    fn scratch(&self) -> usize {
+        1
+    }
+
     #[inline]
-    fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N) {
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
+        let velocity = &mut scratch[0];
         for ((q, p), inverse) in q.iter_mut().zip(p).zip(&self.inverse) {
             velocity.assign_product(inverse, p);
             q.add_product(weight, velocity);
         }
     }
 
-    fn energy(&self, p: &[N], energy: &mut N, velocity: &mut N) {
+    #[inline]
+    fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], _: &mut N, scratch: &mut [N]) {
+        self.drift(weight, p, q, scratch);
+    }
+
+    fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
+        let velocity = &mut scratch[0];
         energy.assign_zero();
         for (p, inverse) in p.iter().zip(&self.inverse) {
             velocity.assign_product(inverse, p);
@@ -126,18 +228,31 @@ impl<N: Number> FullMasses<N> {
 }
 
 impl<N: Number> Kinetic<N> for FullMasses<N> {
+    type Class = Quadratic;
+
     fn dimension(&self) -> Option<usize> {
         Some(self.inverse.len())
     }
 
-    fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N) {
+    fn scratch(&self) -> usize {
+        1
+    }
+
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
+        let velocity = &mut scratch[0];
         for (q, row) in q.iter_mut().zip(&self.inverse) {
             dot(row, p, velocity);
             q.add_product(weight, velocity);
         }
     }
 
-    fn energy(&self, p: &[N], energy: &mut N, velocity: &mut N) {
+    #[inline]
+    fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], _: &mut N, scratch: &mut [N]) {
+        self.drift(weight, p, q, scratch);
+    }
+
+    fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
+        let velocity = &mut scratch[0];
         energy.assign_zero();
         for (p_i, row) in p.iter().zip(&self.inverse) {
             dot(row, p, velocity);

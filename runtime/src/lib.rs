@@ -39,7 +39,7 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | [`number`] | numbers that compute in place: `f64`, MPFR, and one that counts |
-//! | [`potential`](mod@potential), [`formula`], [`kinetic`], [`problems`] | H = ½pᵀM⁻¹p + U(q) |
+//! | [`potential`](mod@potential), [`formula`], [`kinetic`], [`problems`] | H = T(p) + U(q) |
 //! | [`motion`] | a state q, p, β and the maps that move it: kicks and drifts |
 //! | [`scheme`], [`tables`] | steps, written out by the compiler or read from a table at run time |
 //! | [`weights`] | the exact central-difference weights D_m |
@@ -67,7 +67,7 @@ pub use kinetic::{DiagonalMasses, FullMasses, Kinetic, UnitMasses};
 pub use motion::{Coordinates, Maps, Motion};
 pub use number::Number;
 pub use potential::Potential;
-pub use scheme::{Scheme, Summary, Weights};
+pub use scheme::{Moves, Scheme, Summary, Weights};
 pub use shadowstep_macros::{potential, splitting_scheme};
 pub use shadowstep_symbolic::{Rational, exact};
 

@@ -8,16 +8,23 @@ use crate::potential::Potential;
 ///
 /// [`Motion`] has these maps; a system with a storage of its own can have them too, and then every scheme moves it.
 pub trait Maps<N> {
+    /// What is known of its kinetic energy: [`Quadratic`](crate::kinetic::Quadratic) or
+    /// [`General`](crate::kinetic::General). Schemes whose order holds for quadratic T only do not move the latter.
+    type Class;
+
     /// p ← p − weight·U_q(q)
     fn kick(&mut self, weight: &N);
 
     /// The kick, and β ← β + weight·(qᵀU_q − 2U).
     ///
-    /// From β' = qᵀH_q + pᵀH_p − 2H with H = ½pᵀM⁻¹p + U; the paper's eq. 2 has a wrong sign.
+    /// From β' = qᵀH_q + pᵀH_p − 2H with H = T(p) + U(q); the paper's eq. 2 has a wrong sign.
     fn kick_augmented(&mut self, weight: &N);
 
-    /// q ← q + weight·M⁻¹p; β stays, as T is quadratic.
+    /// q ← q + weight·T_p(p)
     fn drift(&mut self, weight: &N);
+
+    /// The drift, and β ← β + weight·(pᵀT_p − 2T), which is nothing for quadratic T.
+    fn drift_augmented(&mut self, weight: &N);
 
     /// β ← 0: β counts from the beginning of the step, so that it keeps its digits in long runs.
     fn restart_beta(&mut self);
@@ -53,8 +60,8 @@ pub struct Motion<N, V, P, K> {
     kept: Kept,
     /// The potential's, with what it keeps there.
     scratch: Vec<N>,
-    /// For drifts.
-    velocity: N,
+    /// The kinetic energy's, likewise.
+    kinetic_scratch: Vec<N>,
     evaluations: u64,
 }
 
@@ -68,24 +75,26 @@ where
     /// The system at q, p.
     ///
     /// # Panics
-    /// If q, p, the potential and the masses do not have the same dimension, at least 1, or the numbers of q and p not
+    /// If q, p, the potential and the kinetic energy do not have the same dimension, at least 1, or the numbers of q and p not
     /// the same context.
     pub fn new(potential: P, kinetic: K, q: V, p: V) -> Self {
         let dimension = q.as_ref().len();
         assert!(dimension > 0, "a motion has at least one coordinate");
         assert_eq!(dimension, p.as_ref().len(), "q and p must have the same dimension");
         assert_eq!(dimension, potential.dimension(), "q must have the potential's dimension");
-        let masses = kinetic.dimension().unwrap_or(dimension);
-        assert_eq!(dimension, masses, "q must have the masses' dimension");
+        let momenta = kinetic.dimension().unwrap_or(dimension);
+        assert_eq!(dimension, momenta, "p must have the kinetic energy's dimension");
         let context = q.as_ref()[0].context();
         let alike = q.as_ref().iter().chain(p.as_ref()).all(|x| x.context() == context);
         assert!(alike, "the numbers of q and p must have the same precision");
         let zero = N::zero(&context);
         let mut scratch = vec![zero.clone(); potential.scratch()];
         potential.prepare(&mut scratch, &context);
+        let mut kinetic_scratch = vec![zero.clone(); kinetic.scratch()];
+        kinetic.prepare(&mut kinetic_scratch, &context);
         Motion {
             scratch,
-            velocity: zero.clone(),
+            kinetic_scratch,
             gradient: p.clone(),
             rate: zero.clone(),
             beta: zero,
@@ -138,7 +147,7 @@ where
         self.potential.prepare(&mut self.scratch, &context);
     }
 
-    /// How often the gradient has been evaluated.
+    /// How often the gradient U_q has been evaluated; that every drift evaluates T_p is not counted.
     pub fn evaluations(&self) -> u64 {
         self.evaluations
     }
@@ -150,14 +159,14 @@ where
 
     /// H = T(p) + U(q) at the present state.
     pub fn energy(&mut self) -> N {
-        let Motion { potential, kinetic, q, p, scratch, velocity, beta, .. } = self;
-        energy_at(potential, kinetic, (q.as_ref(), p.as_ref()), scratch, velocity, beta.clone())
+        let Motion { potential, kinetic, q, p, scratch, kinetic_scratch, beta, .. } = self;
+        energy_at(potential, kinetic, (q.as_ref(), p.as_ref()), (scratch, kinetic_scratch), beta.clone())
     }
 
     /// H = T(p) + U(q) at another state of the same system.
     pub fn energy_of(&mut self, q: &[N], p: &[N]) -> N {
-        let Motion { potential, kinetic, scratch, velocity, beta, .. } = self;
-        energy_at(potential, kinetic, (q, p), scratch, velocity, beta.clone())
+        let Motion { potential, kinetic, scratch, kinetic_scratch, beta, .. } = self;
+        energy_at(potential, kinetic, (q, p), (scratch, kinetic_scratch), beta.clone())
     }
 
     /// Whether every q, p and β is a finite number.
@@ -177,12 +186,11 @@ fn energy_at<N: Number, P: Potential<N>, K: Kinetic<N>>(
     potential: &P,
     kinetic: &K,
     (q, p): (&[N], &[N]),
-    scratch: &mut [N],
-    velocity: &mut N,
+    (scratch, kinetic_scratch): (&mut [N], &mut [N]),
     mut energy: N,
 ) -> N {
     let mut kinetic_energy = energy.clone();
-    kinetic.energy(p, &mut kinetic_energy, velocity);
+    kinetic.energy(p, &mut kinetic_energy, kinetic_scratch);
     potential.energy(q, &mut energy, scratch);
     energy.add(&kinetic_energy);
     energy
@@ -195,6 +203,8 @@ where
     P: Potential<N>,
     K: Kinetic<N>,
 {
+    type Class = K::Class;
+
     #[inline]
     fn kick(&mut self, weight: &N) {
         if self.kept == Kept::Nothing {
@@ -219,7 +229,14 @@ where
 
     #[inline]
     fn drift(&mut self, weight: &N) {
-        self.kinetic.drift(weight, self.p.as_ref(), self.q.as_mut(), &mut self.velocity);
+        self.kinetic.drift(weight, self.p.as_ref(), self.q.as_mut(), &mut self.kinetic_scratch);
+        self.kept = Kept::Nothing;
+    }
+
+    #[inline]
+    fn drift_augmented(&mut self, weight: &N) {
+        let (p, q) = (self.p.as_ref(), self.q.as_mut());
+        self.kinetic.drift_augmented(weight, p, q, &mut self.beta, &mut self.kinetic_scratch);
         self.kept = Kept::Nothing;
     }
 

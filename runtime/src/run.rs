@@ -8,7 +8,7 @@ use crate::kinetic::Kinetic;
 use crate::motion::{Coordinates, Motion};
 use crate::number::Number;
 use crate::potential::Potential;
-use crate::scheme::{Scheme, Weights};
+use crate::scheme::{Moves, Scheme, Weights};
 use crate::shadow::{Estimate, Estimator, Method};
 
 /// A run that cannot go on.
@@ -63,7 +63,7 @@ pub struct Trajectory<'s, S: Scheme, N: Number, V, P, K> {
 
 impl<'s, S, N, V, P, K> Trajectory<'s, S, N, V, P, K>
 where
-    S: Scheme,
+    S: Scheme + Moves<K::Class>,
     N: Number,
     V: Coordinates<N>,
     P: Potential<N>,
@@ -163,7 +163,7 @@ pub struct ShadowRun<'s, S: Scheme, N: Number, V, P, K, E> {
 
 impl<'s, S, N, V, P, K, E> ShadowRun<'s, S, N, V, P, K, E>
 where
-    S: Scheme,
+    S: Scheme + Moves<K::Class>,
     N: Number,
     V: Coordinates<N>,
     P: Potential<N>,
@@ -254,7 +254,7 @@ pub fn energy_drift<S, N, V, P, K>(
     mut progress: impl FnMut(i64),
 ) -> Result<EnergyDrift<N>, RunError>
 where
-    S: Scheme,
+    S: Scheme + Moves<K::Class>,
     N: Number,
     V: Coordinates<N>,
     P: Potential<N>,

@@ -3,6 +3,7 @@
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::Rational;
+use crate::kinetic::Quadratic;
 use crate::motion::Maps;
 use crate::number::Number;
 
@@ -19,17 +20,58 @@ pub trait Scheme {
     fn weights<N: Number>(&self, h: &Rational, context: &N::Context) -> Weights<Self::Array<N>>;
 
     /// One step: t → t + h.
-    fn step<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M);
+    fn step<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M)
+    where
+        Self: Moves<M::Class>;
 
     /// One step, with what it adds to β.
-    fn step_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M);
+    fn step_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M)
+    where
+        Self: Moves<M::Class>;
 
     /// The exact inverse of [`Scheme::step`]: t → t − h, up to round-off.
-    fn step_back<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M);
+    fn step_back<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M)
+    where
+        Self: Moves<M::Class>;
 
     /// The exact inverse of [`Scheme::step_augmented`]; β gets the negative of what that adds.
-    fn step_back_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M);
+    fn step_back_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M)
+    where
+        Self: Moves<M::Class>;
 }
+
+/// Schemes that have the order they claim for a class of kinetic energies: [`Quadratic`] or
+/// [`General`](crate::kinetic::General).
+///
+/// Every scheme has it for quadratic T. [`crate::splitting_scheme`] says so of every T(p) where it is proved of the
+/// table; of a table read at run time [`crate::tables::TableScheme::for_every_kinetic`] says so. What steps a system of
+/// any class asks for it:
+///
+/// ```
+/// use shadowstep::{Maps, Moves, Number, Scheme, Weights};
+///
+/// fn ten_steps<N: Number, S: Scheme + Moves<M::Class>, M: Maps<N>>(
+///     scheme: &S,
+///     weights: &Weights<S::Array<N>>,
+///     motion: &mut M,
+/// ) {
+///     (0..10).for_each(|_| scheme.step(weights, motion));
+/// }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "the order of `{Self}` is known to hold for quadratic T only, but this T(p) is of the class `{Class}`",
+    note = "take a scheme whose table says `kinetic = \"any\"`, such as `yoshida4.toml`",
+    note = "ask a table read at run time by `for_every_kinetic`; in generic code write `S: Scheme + Moves<K::Class>`"
+)]
+pub trait Moves<Class> {}
+
+impl<S: Scheme> Moves<Quadratic> for S {}
+
+/// No kinetic energy is of this class. From a single implementation the compiler would conclude which class is meant,
+/// and complain of types that differ, with no word of schemes.
+enum NoClass {}
+
+impl<S: Scheme> Moves<NoClass> for S {}
 
 /// Name and proved properties of a scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +84,7 @@ pub struct Summary<'a> {
     pub order_quadratic: u32,
     /// Whether the step is its own adjoint.
     pub symmetric: bool,
-    /// Evaluations of the gradient per step.
+    /// Evaluations of the gradient U_q per step.
     pub evaluations: usize,
 }
 

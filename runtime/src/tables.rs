@@ -1,18 +1,45 @@
 //! Schemes read from a table at run time: the twin of the attribute, with the same bits.
 
+use std::marker::PhantomData;
+
 pub use shadowstep_schemes::{Fault, Faults, Proved, Source, shipped_names};
 use shadowstep_schemes::{First, MapKind, Plan};
+use thiserror::Error;
 
 use crate::Rational;
+use crate::kinetic::{General, Quadratic};
 use crate::motion::Maps;
 use crate::number::Number;
-use crate::scheme::{Scheme, Summary, Weights};
+use crate::scheme::{Moves, Scheme, Summary, Weights};
 
 /// A proved scheme with the plan of its step.
+///
+/// It moves systems with quadratic T; a `TableScheme<General>`, which [`TableScheme::for_every_kinetic`] makes, moves
+/// all.
 #[derive(Clone, Debug)]
-pub struct TableScheme {
+pub struct TableScheme<Class = Quadratic> {
     proved: Proved,
     plan: Plan,
+    class: PhantomData<fn() -> Class>,
+}
+
+/// A scheme that has its order for quadratic T only, asked to move a general one.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error(
+    "{name} has order {order_quadratic} for quadratic T only, for a general T(p) order {order}; take a scheme such as \
+     {better}, which has order {better_order} for every T(p)"
+)]
+pub struct QuadraticOnly {
+    /// The scheme's name.
+    pub name: String,
+    /// The order proved for every T(p), less than the table claims.
+    pub order: u32,
+    /// The order proved for quadratic T.
+    pub order_quadratic: u32,
+    /// A shipped scheme for every T(p), with the least evaluations of those whose order is nearest to the one claimed.
+    pub better: String,
+    /// Its order.
+    pub better_order: u32,
 }
 
 /// A shipped scheme by its name, such as `yoshida4`; `None` if there is none.
@@ -36,10 +63,45 @@ pub fn read(
         Some(first) => shadowstep_schemes::read_first(source, library, first)?,
         None => shadowstep_schemes::read(source, library)?,
     };
-    Ok(TableScheme { plan: proved.plan(), proved })
+    Ok(TableScheme { plan: proved.plan(), proved, class: PhantomData })
 }
 
 impl TableScheme {
+    /// The scheme for systems with any T(p).
+    ///
+    /// # Errors
+    /// The order that the table claims is proved for quadratic T only.
+    pub fn for_every_kinetic(self) -> Result<TableScheme<General>, QuadraticOnly> {
+        let TableScheme { proved, plan, .. } = self;
+        if proved.holds_for_every_kinetic() {
+            return Ok(TableScheme { proved, plan, class: PhantomData });
+        }
+        Err(QuadraticOnly::of(&proved))
+    }
+}
+
+impl QuadraticOnly {
+    fn of(proved: &Proved) -> Self {
+        let claimed = proved.scheme.table.order.value;
+        let all =
+            shipped_names().into_iter().filter_map(shipped).filter(|other| other.proved.holds_for_every_kinetic());
+        // the order needed, or the most there is; then the cheapest
+        let best =
+            all.max_by_key(|other| (other.summary().order.min(claimed), std::cmp::Reverse(other.plan.evaluations)));
+        let better = best.expect("there are shipped schemes for every T(p)");
+        QuadraticOnly {
+            name: proved.scheme.table.name.value.clone(),
+            order: proved.proof.general.order,
+            order_quadratic: proved.proof.quadratic.order,
+            better_order: better.summary().order,
+            better: better.proved.scheme.table.name.value,
+        }
+    }
+}
+
+impl Moves<General> for TableScheme<General> {}
+
+impl<Class> TableScheme<Class> {
     /// Everything that is known about the scheme.
     pub fn proved(&self) -> &Proved {
         &self.proved
@@ -64,13 +126,14 @@ impl TableScheme {
             match (kind, augmented) {
                 (MapKind::Kick, false) => motion.kick(&kicks[index]),
                 (MapKind::Kick, true) => motion.kick_augmented(&kicks[index]),
-                (MapKind::Drift, _) => motion.drift(&drifts[index]),
+                (MapKind::Drift, false) => motion.drift(&drifts[index]),
+                (MapKind::Drift, true) => motion.drift_augmented(&drifts[index]),
             }
         }
     }
 }
 
-impl Scheme for TableScheme {
+impl<Class> Scheme for TableScheme<Class> {
     type Array<N: Number> = Vec<N>;
 
     fn summary(&self) -> Summary<'_> {
@@ -87,20 +150,32 @@ impl Scheme for TableScheme {
         Weights::of(self.plan.kicks.iter().chain(&self.plan.drifts), h, context)
     }
 
-    fn step<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M) {
+    fn step<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M)
+    where
+        Self: Moves<M::Class>,
+    {
         self.run(&weights.forward, self.plan.maps.iter(), false, motion);
     }
 
-    fn step_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M) {
+    fn step_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M)
+    where
+        Self: Moves<M::Class>,
+    {
         motion.restart_beta();
         self.run(&weights.forward, self.plan.maps.iter(), true, motion);
     }
 
-    fn step_back<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M) {
+    fn step_back<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M)
+    where
+        Self: Moves<M::Class>,
+    {
         self.run(&weights.back, self.plan.maps.iter().rev(), false, motion);
     }
 
-    fn step_back_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M) {
+    fn step_back_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M)
+    where
+        Self: Moves<M::Class>,
+    {
         motion.restart_beta();
         self.run(&weights.back, self.plan.maps.iter().rev(), true, motion);
     }

@@ -12,6 +12,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use gmp_mpfr_sys::gmp;
 use rug::Float;
 use shadowstep::formula::FormulaPotential;
+use shadowstep::kinetic::Quadratic;
 use shadowstep::number::{Number, Precision};
 use shadowstep::problems::{HenonHeiles, Kepler};
 use shadowstep::shadow::{Central, Estimator, Method, Stop};
@@ -72,7 +73,7 @@ fn allocations(work: impl FnOnce()) -> (u64, u64) {
 const STEPS: u64 = 10;
 
 /// Allocations of ten steps of each kind by every shipped scheme, after one step that may make caches.
-fn of_all_schemes<P: Potential<Float> + Clone, K: Kinetic<Float> + Clone>(
+fn of_all_schemes<P: Potential<Float> + Clone, K: Kinetic<Float, Class = Quadratic> + Clone>(
     motion: &Motion<Float, Vec<Float>, P, K>,
     mut report: impl FnMut(&str, u64, (u64, u64)),
 ) {

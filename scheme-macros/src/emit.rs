@@ -24,6 +24,9 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
     let step_augmented = self::step("step_augmented", "forward", &names, &forth, true);
     let step_back = self::step("step_back", "back", &names, &back, false);
     let step_back_augmented = self::step("step_back_augmented", "back", &names, &back, true);
+    let moves = proved.holds_for_every_kinetic().then(|| {
+        quote! { impl ::shadowstep::Moves<::shadowstep::kinetic::General> for #ident {} }
+    });
     quote! {
         #(#attrs)*
         #(#[doc = #docs])*
@@ -52,6 +55,8 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
             #step_back
             #step_back_augmented
         }
+
+        #moves
     }
 }
 
@@ -67,7 +72,10 @@ pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &
                 &self,
                 _: &::shadowstep::Weights<[N; 0]>,
                 _: &mut M,
-            ) {
+            )
+            where
+                Self: ::shadowstep::Moves<M::Class>,
+            {
             }
         }
     });
@@ -92,6 +100,8 @@ pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &
             }
             #(#steps)*
         }
+
+        impl ::shadowstep::Moves<::shadowstep::kinetic::General> for #ident {}
     }
 }
 
@@ -136,7 +146,8 @@ fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)],
         match (map.0, augmented) {
             (MapKind::Kick, false) => quote! { motion.kick(#weight); },
             (MapKind::Kick, true) => quote! { motion.kick_augmented(#weight); },
-            (MapKind::Drift, _) => quote! { motion.drift(#weight); },
+            (MapKind::Drift, false) => quote! { motion.drift(#weight); },
+            (MapKind::Drift, true) => quote! { motion.drift_augmented(#weight); },
         }
     });
     let begin = augmented.then(|| quote! { motion.restart_beta(); });
@@ -146,7 +157,10 @@ fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)],
             &self,
             weights: &::shadowstep::Weights<[N; #count]>,
             motion: &mut M,
-        ) {
+        )
+        where
+            Self: ::shadowstep::Moves<M::Class>,
+        {
             let [#(#names),*] = &weights.#direction;
             #begin
             #(#maps)*
@@ -169,9 +183,10 @@ fn documentation(proved: &Proved, plan: &Plan) -> Vec<String> {
         format!(" {title}: `{}`, meant for {kinetic}.", table.name.value),
         String::new(),
         format!(
-            " - Order {} for every T(p), order {} for quadratic T: proved.",
+            " - Order {} for every T(p), order {} for quadratic T: proved.{}",
             order(&proved.proof.general),
-            order(&proved.proof.quadratic)
+            order(&proved.proof.quadratic),
+            if proved.holds_for_every_kinetic() { "" } else { " A T(p) that is not quadratic is refused." }
         ),
         format!(
             " - {}: {} and {}, {}.",

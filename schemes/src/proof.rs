@@ -68,6 +68,11 @@ impl Proved {
     pub fn order(&self) -> &Order {
         self.proof.for_kinetic(self.scheme.table.kinetic)
     }
+
+    /// Whether the order claimed holds for every T(p), whatever kinetic energies the table is meant for.
+    pub fn holds_for_every_kinetic(&self) -> bool {
+        self.proof.general.order >= self.scheme.table.order.value
+    }
 }
 
 impl Proof {

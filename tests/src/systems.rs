@@ -1,5 +1,6 @@
 //! Systems on which every scheme is checked, as one type: problem and masses are chosen at run time.
 
+use shadowstep::kinetic::Quadratic;
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum, Scattering};
 use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Number, Potential, UnitMasses};
 
@@ -84,7 +85,7 @@ impl<N: Number> Masses<N> {
         ]
     }
 
-    fn kinetic(&self) -> &dyn Kinetic<N> {
+    fn kinetic(&self) -> &dyn Kinetic<N, Class = Quadratic> {
         match self {
             Masses::Unit => &UnitMasses,
             Masses::Diagonal(masses) => masses,
@@ -94,14 +95,21 @@ impl<N: Number> Masses<N> {
 }
 
 impl<N: Number> Kinetic<N> for Masses<N> {
+    type Class = Quadratic;
     fn dimension(&self) -> Option<usize> {
         self.kinetic().dimension()
     }
-    fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N) {
-        self.kinetic().drift(weight, p, q, velocity);
+    fn scratch(&self) -> usize {
+        self.kinetic().scratch()
     }
-    fn energy(&self, p: &[N], energy: &mut N, velocity: &mut N) {
-        self.kinetic().energy(p, energy, velocity);
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
+        self.kinetic().drift(weight, p, q, scratch);
+    }
+    fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], beta: &mut N, scratch: &mut [N]) {
+        self.kinetic().drift_augmented(weight, p, q, beta, scratch);
+    }
+    fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
+        self.kinetic().energy(p, energy, scratch);
     }
 }
 

@@ -2,6 +2,7 @@
 //! say the same on every run.
 
 use rug::Float;
+use shadowstep::kinetic::Quadratic;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
 use shadowstep::run::{EnergyDrift, RunError, ShadowRun, energy_drift};
 use shadowstep::shadow::{Central, Stop};
@@ -20,7 +21,7 @@ fn kepler<N: Number>(gap: &str, context: &N::Context) -> State<Kepler, N> {
     state(Kepler, &[gap, "0"], &["0", &format!("sqrt((2 - {gap})/{gap})")], context)
 }
 
-fn drift<P: Potential<N>, K: Kinetic<N>, N: Number>(
+fn drift<P: Potential<N>, K: Kinetic<N, Class = Quadratic>, N: Number>(
     scheme: &str,
     motion: Motion<N, Vec<N>, P, K>,
     h: &str,

@@ -2,13 +2,13 @@
 //! rules of the paper where they can be read in more than one way.
 
 use rug::Float;
-use shadowstep::kinetic::{DiagonalMasses, FullMasses};
+use shadowstep::kinetic::{DiagonalMasses, FullMasses, Quadratic};
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
 use shadowstep::run::{EnergyDrift, ShadowRun, Trajectory, energy_drift};
 use shadowstep::shadow::{Central, Estimator, Method, Stop};
 use shadowstep::tables::shipped;
 use shadowstep::weights::central;
-use shadowstep::{Kinetic, Motion, Number, Potential, Rational, Scheme, UnitMasses};
+use shadowstep::{Kinetic, Motion, Moves, Number, Potential, Rational, Scheme, UnitMasses};
 use shadowstep_tests::{log10_distance, number, numbers, precision, rational};
 
 type Vector<P, K, N> = Motion<N, Vec<N>, P, K>;
@@ -32,7 +32,7 @@ fn henon_heiles<N: Number>(context: &N::Context) -> Vector<HenonHeiles, UnitMass
 }
 
 /// n, value, error and m of every estimate of a run.
-fn estimates<S: Scheme, N: Number, P: Potential<N>, K: Kinetic<N>>(
+fn estimates<S: Scheme + Moves<K::Class>, N: Number, P: Potential<N>, K: Kinetic<N>>(
     scheme: &S,
     motion: Vector<P, K, N>,
     h: &Rational,
@@ -48,7 +48,7 @@ fn estimates<S: Scheme, N: Number, P: Potential<N>, K: Kinetic<N>>(
 }
 
 /// max − min of the energy itself over n = 0..=steps.
-fn energy_variation<S: Scheme, P: Potential<Float>, K: Kinetic<Float>>(
+fn energy_variation<S: Scheme + Moves<K::Class>, P: Potential<Float>, K: Kinetic<Float>>(
     scheme: &S,
     mut motion: Vector<P, K, Float>,
     h: &Rational,
@@ -167,7 +167,7 @@ fn printed_sign_of_beta_drifts_and_the_right_one_does_not() {
 // The definition of T_{m,m}, written out
 
 /// The states of a trajectory with the increments of β, n = −reach..=steps + reach.
-fn states<S: Scheme, P: Potential<Float>, K: Kinetic<Float>>(
+fn states<S: Scheme + Moves<K::Class>, P: Potential<Float>, K: Kinetic<Float>>(
     scheme: &S,
     motion: Vector<P, K, Float>,
     h: &Rational,
@@ -543,7 +543,7 @@ impl<P: Potential<Float>> Potential<Float> for Changed<P> {
 
 /// Linear changes of coordinates commute with kicks and drifts, so the modified energy is the same: Q = A q,
 /// P = A⁻ᵀ p, M⁻¹ = A Aᵀ.
-fn assert_same_energies<K: Kinetic<Float> + Clone>(a: [[&str; 2]; 2], kinetic: K) {
+fn assert_same_energies<K: Kinetic<Float, Class = Quadratic> + Clone>(a: [[&str; 2]; 2], kinetic: K) {
     let context = precision(120);
     let h = rational("1/20");
     let [[a, b], [c, d]] = a.map(|row| row.map(rational));
