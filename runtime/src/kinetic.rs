@@ -1,4 +1,6 @@
 //! Kinetic energies T(p): the quadratic ones of masses (1, one per coordinate, a full M⁻¹), and any other.
+//!
+//! [`crate::kinetic!`] makes one from its formula.
 
 use thiserror::Error;
 

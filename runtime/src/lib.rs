@@ -36,10 +36,27 @@
 //! assert!(found.drift.to_f64() < 1e-9); // the energy itself changes by 1e-3
 //! ```
 //!
+//! H = T(p) + U(q), and both may be formulas, of which the derivatives are found while your crate compiles. A T that is
+//! not quadratic is moved by schemes whose order holds for every T(p); with another one this does not compile:
+//!
+//! ```
+//! use shadowstep::{exact, kinetic, potential, run::energy_drift, shadow::Central, splitting_scheme, Motion};
+//!
+//! #[splitting_scheme("yoshida4.toml")]
+//! pub struct Yoshida4;
+//!
+//! kinetic! { pub struct Relativistic; T(p) = sqrt(1 + p^2) }
+//! potential! { pub struct Spring; U(q) = q^2/2 }
+//!
+//! let motion = Motion::new(Spring, Relativistic, [1.0], [0.0]);
+//! let found = energy_drift(&Yoshida4, motion, &exact("1/10").unwrap(), 400, &Central::fixed(8), |_| {}).unwrap();
+//! assert!(found.drift < 1e-8); // the energy itself changes by 8e-7
+//! ```
+//!
 //! | file | what it is |
 //! | --- | --- |
 //! | [`number`] | numbers that compute in place: `f64`, MPFR, and one that counts |
-//! | [`potential`](mod@potential), [`formula`], [`kinetic`], [`problems`] | H = T(p) + U(q) |
+//! | [`potential`](mod@potential), [`formula`], [`kinetic`](mod@kinetic), [`problems`] | H = T(p) + U(q) |
 //! | [`motion`] | a state q, p, β and the maps that move it: kicks and drifts |
 //! | [`scheme`], [`tables`] | steps, written out by the compiler or read from a table at run time |
 //! | [`weights`] | the exact central-difference weights D_m |
@@ -68,7 +85,7 @@ pub use motion::{Coordinates, Maps, Motion};
 pub use number::Number;
 pub use potential::Potential;
 pub use scheme::{Moves, Scheme, Summary, Weights};
-pub use shadowstep_macros::{potential, splitting_scheme};
+pub use shadowstep_macros::{kinetic, potential, splitting_scheme};
 pub use shadowstep_symbolic::{Rational, exact};
 
 #[cfg(all(doctest, feature = "mpfr"))]

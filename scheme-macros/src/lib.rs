@@ -1,15 +1,16 @@
 //! `#[splitting_scheme("yoshida4.toml")]`: a table of exact weights becomes straight-line steps.
 //!
-//! `potential!{…}`: a formula becomes a potential with its gradient.
+//! `potential!{…}`: a formula becomes a potential with its gradient; `kinetic!{…}`: a kinetic energy with its drifts.
 //!
 //! The macros are a thin shell: `locate` finds the table, the `shadowstep-schemes` crate proves it, `emit` writes the
-//! code; `formula` turns tokens to text, the `shadowstep-symbolic` crate derives it, `potential` writes the code. Use
-//! them through the `shadowstep` crate, which re-exports them.
+//! code; `formula` turns tokens to text, the `shadowstep-symbolic` crate derives it, `potential` and `kinetic`
+//! write the code. Use them through the `shadowstep` crate, which re-exports them.
 
 mod arguments;
 mod definition;
 mod emit;
 mod formula;
+mod kinetic;
 mod locate;
 mod pair;
 mod potential;
@@ -90,4 +91,36 @@ fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
 pub fn potential(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as Definition);
     potential::emit(&input).unwrap_or_else(syn::Error::into_compile_error).into()
+}
+
+/// A kinetic energy T(p) from its formula: T_p and pᵀT_p − 2T are derived, for every type of numbers.
+///
+/// ```
+/// use shadowstep::{Motion, exact, kinetic, potential, Scheme, splitting_scheme};
+///
+/// kinetic! {
+///     /// With the speed of light c and mass 1.
+///     pub struct Relativistic { c }
+///     T(p) = sqrt(c^4 + c^2*p^2)
+/// }
+///
+/// potential! { pub struct Spring; U(q) = q^2/2 }
+///
+/// #[splitting_scheme("yoshida4.toml")]
+/// pub struct Yoshida4;
+///
+/// let h = Yoshida4.weights(&exact("1/20").unwrap(), &());
+/// let mut motion = Motion::new(Spring, Relativistic { c: 2.0 }, [0.0], [1.5]);
+/// assert_eq!(motion.energy(), 5.0);
+/// (0..1000).for_each(|_| Yoshida4.step(&h, &mut motion));
+/// assert!((motion.energy() - 5.0).abs() < 1e-5);
+/// ```
+///
+/// Formulas are those of [`potential!`]. The struct gets `shadowstep::Kinetic`, with the cost of a call in its
+/// documentation. If the formula is a quadratic form in p, every scheme moves it, and β gets nothing from a drift; if
+/// not, a scheme whose order holds for quadratic T only is a compile error.
+#[proc_macro]
+pub fn kinetic(input: TokenStream) -> TokenStream {
+    let input = parse_macro_input!(input as Definition);
+    kinetic::emit(&input).unwrap_or_else(syn::Error::into_compile_error).into()
 }
