@@ -1,4 +1,7 @@
-//! Potentials from formulas read at run time: the twin of [`crate::potential!`], with the same bits.
+//! Potentials and kinetic energies from formulas read at run time: the twins of [`crate::potential!`] and
+//! [`crate::kinetic!`], with the same bits.
+
+mod kinetic;
 
 mod pair;
 
@@ -8,6 +11,8 @@ use std::ops::Range;
 
 use shadowstep_symbolic::{Graph, GraphError, Node, SyntaxError, parse};
 use thiserror::Error;
+
+pub use kinetic::FormulaKinetic;
 
 use crate::interpreter::Interpreter;
 use crate::number::Number;
@@ -28,7 +33,7 @@ pub struct FormulaPotential<N> {
     interpreter: Interpreter<N>,
 }
 
-/// A text that is no potential, and the place.
+/// A text that is no potential or kinetic energy, and the place.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum FormulaError {
     /// The text is no formula.

@@ -1,6 +1,6 @@
 //! Kinetic energies T(p): the quadratic ones of masses (1, one per coordinate, a full M⁻¹), and any other.
 //!
-//! [`crate::kinetic!`] makes one from its formula.
+//! [`crate::kinetic!`] makes one from its formula, [`crate::formula::FormulaKinetic`] from a text at run time.
 
 use thiserror::Error;
 

@@ -69,6 +69,20 @@ pub fn read(
 impl TableScheme {
     /// The scheme for systems with any T(p).
     ///
+    /// ```
+    /// use shadowstep::{Motion, Scheme, exact, tables::shipped};
+    /// use shadowstep::formula::{FormulaKinetic, FormulaPotential};
+    ///
+    /// let relativistic = FormulaKinetic::new("sqrt(1 + p^2)", &["p"], &[]).unwrap();
+    /// let spring = FormulaPotential::new("q^2/2", &["q"], &[]).unwrap();
+    /// let mut motion = Motion::new(spring, relativistic, [1.0], [0.0]);
+    ///
+    /// let verlet = shipped("stormer-verlet").unwrap().for_every_kinetic().unwrap();
+    /// let h = verlet.weights(&exact("1/10").unwrap(), &());
+    /// verlet.step(&h, &mut motion);
+    /// assert!((motion.energy() - 1.5).abs() < 1e-3);
+    /// ```
+    ///
     /// # Errors
     /// The order that the table claims is proved for quadratic T only.
     pub fn for_every_kinetic(self) -> Result<TableScheme<General>, QuadraticOnly> {

@@ -11,13 +11,12 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use gmp_mpfr_sys::gmp;
 use rug::Float;
-use shadowstep::formula::FormulaPotential;
-use shadowstep::kinetic::Quadratic;
+use shadowstep::formula::{FormulaKinetic, FormulaPotential};
 use shadowstep::number::{Number, Precision};
 use shadowstep::problems::{HenonHeiles, Kepler};
 use shadowstep::shadow::{Central, Estimator, Method, Stop};
-use shadowstep::tables::{shipped, shipped_names};
-use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Potential, Scheme, UnitMasses, exact};
+use shadowstep::tables::{TableScheme, shipped, shipped_names};
+use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Moves, Potential, Scheme, UnitMasses, exact, kinetic};
 
 static RUST: AtomicU64 = AtomicU64::new(0);
 static GMP: AtomicU64 = AtomicU64::new(0);
@@ -70,15 +69,32 @@ fn allocations(work: impl FnOnce()) -> (u64, u64) {
     (RUST.load(Relaxed) - before.0, GMP.load(Relaxed) - before.1)
 }
 
+kinetic! {
+    /// A polynomial.
+    struct Quartic;
+    T(px, py) = (px^4 + py^4)/4 + px^2*py
+}
+
 const STEPS: u64 = 10;
 
 /// Allocations of ten steps of each kind by every shipped scheme, after one step that may make caches.
-fn of_all_schemes<P: Potential<Float> + Clone, K: Kinetic<Float, Class = Quadratic> + Clone>(
+fn of_all_schemes<P: Potential<Float> + Clone, K: Kinetic<Float> + Clone>(
+    motion: &Motion<Float, Vec<Float>, P, K>,
+    report: impl FnMut(&str, u64, (u64, u64)),
+) where
+    TableScheme: Moves<K::Class>,
+{
+    of_schemes(shipped_names().into_iter().filter_map(shipped), motion, report);
+}
+
+fn of_schemes<C, P: Potential<Float> + Clone, K: Kinetic<Float> + Clone>(
+    schemes: impl IntoIterator<Item = TableScheme<C>>,
     motion: &Motion<Float, Vec<Float>, P, K>,
     mut report: impl FnMut(&str, u64, (u64, u64)),
-) {
-    for name in shipped_names() {
-        let scheme = shipped(name).unwrap();
+) where
+    TableScheme<C>: Moves<K::Class>,
+{
+    for scheme in schemes {
         let h = scheme.weights::<Float>(&exact("1/50").unwrap(), &motion.context());
         let mut motion = motion.clone();
         scheme.step_augmented(&h, &mut motion);
@@ -91,7 +107,7 @@ fn of_all_schemes<P: Potential<Float> + Clone, K: Kinetic<Float, Class = Quadrat
                 scheme.step_back_augmented(&h, &mut motion);
             }
         });
-        report(name, motion.evaluations() - evaluations, found);
+        report(scheme.summary().name, motion.evaluations() - evaluations, found);
     }
 }
 
@@ -125,6 +141,16 @@ fn steps_and_estimators_do_not_allocate() {
     let formula = FormulaPotential::new("(x^2 + y^2)/2 + x^2*y - y^3/3", &["x", "y"], &[]).unwrap();
     let (q_too, p_too) = (numbers(["0.1", "0.2"], &digits), numbers(["0.1", "0"], &digits));
     of_all_schemes(&Motion::new(formula, UnitMasses, q_too, p_too), nothing);
+
+    // kinetic energies from formulas, compiled and read
+    let any: Vec<_> = shipped_names().into_iter().filter_map(|name| shipped(name)?.for_every_kinetic().ok()).collect();
+    assert!(!any.is_empty(), "schemes for every T(p)");
+    let state = || (numbers(["0.1", "0.2"], &digits), numbers(["0.1", "0.3"], &digits));
+    let (q, p) = state();
+    of_schemes(any.clone(), &Motion::new(HenonHeiles, Quartic, q, p), nothing);
+    let formula = FormulaKinetic::new("(px^4 + py^4)/4 + px^2*py", &["px", "py"], &[]).unwrap();
+    let (q, p) = state();
+    of_schemes(any, &Motion::new(HenonHeiles, formula, q, p), nothing);
 
     // Kepler: what its reciprocal square roots allocate, and nothing else
     let root = {

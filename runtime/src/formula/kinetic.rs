@@ -1,0 +1,94 @@
+//! Kinetic energies from formulas read at run time: the twin of [`crate::kinetic!`], with the same bits.
+
+use std::marker::PhantomData;
+
+use super::{FormulaError, build};
+use crate::interpreter::Interpreter;
+use crate::kinetic::{General, Kinetic, Quadratic};
+use crate::number::Number;
+
+/// A kinetic energy whose operations are carried out one by one from a list; nothing is allocated per call.
+///
+/// It is taken as a general T(p), which schemes for quadratic T only do not move;
+/// [`into_quadratic`](FormulaKinetic::into_quadratic) says so of a formula that is a quadratic form.
+///
+/// ```
+/// use shadowstep::{Motion, formula::{FormulaKinetic, FormulaPotential}};
+///
+/// let relativistic = FormulaKinetic::new("sqrt(c^4 + c^2*p^2)", &["p"], &[("c", 2.0)]).unwrap();
+/// let spring = FormulaPotential::new("q^2/2", &["q"], &[]).unwrap();
+/// let mut motion = Motion::new(spring, relativistic, [0.0], [1.5]);
+/// assert_eq!(motion.energy(), 5.0);
+/// ```
+#[derive(Clone, Debug)]
+pub struct FormulaKinetic<N, Class = General> {
+    dimension: usize,
+    quadratic: bool,
+    interpreter: Interpreter<N>,
+    class: PhantomData<fn() -> Class>,
+}
+
+impl<N: Number> FormulaKinetic<N> {
+    /// The kinetic energy of a formula in these momenta, with the values of its parameters.
+    ///
+    /// # Errors
+    /// A text that is no formula, unknown or repeated names, functions that are not smooth.
+    pub fn new(formula: &str, momenta: &[&str], parameters: &[(&str, N)]) -> Result<Self, FormulaError> {
+        let (mut graph, energy) = build(formula, momenta, parameters)?;
+        let quadratic = graph.is_quadratic(energy, momenta.len());
+        let programs = graph.potential(energy, momenta.len());
+        let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
+        let interpreter = Interpreter::new(programs, parameters, momenta.len());
+        Ok(FormulaKinetic { dimension: momenta.len(), quadratic, interpreter, class: PhantomData })
+    }
+
+    /// The same, as one that every scheme moves.
+    ///
+    /// # Errors
+    /// The formula is no quadratic form; it is given back.
+    #[expect(clippy::result_large_err, reason = "both are the same value; neither is an error")]
+    pub fn into_quadratic(self) -> Result<FormulaKinetic<N, Quadratic>, Self> {
+        if !self.quadratic {
+            return Err(self);
+        }
+        let FormulaKinetic { dimension, quadratic, interpreter, .. } = self;
+        Ok(FormulaKinetic { dimension, quadratic, interpreter, class: PhantomData })
+    }
+}
+
+impl<N: Number, Class> Kinetic<N> for FormulaKinetic<N, Class> {
+    type Class = Class;
+
+    fn dimension(&self) -> Option<usize> {
+        Some(self.dimension)
+    }
+
+    fn scratch(&self) -> usize {
+        self.interpreter.registers()
+    }
+
+    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+        self.interpreter.prepare(scratch, context);
+    }
+
+    fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
+        for (q, velocity) in q.iter_mut().zip(self.interpreter.gradient(p, scratch)) {
+            q.add_product(weight, velocity);
+        }
+    }
+
+    fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], beta: &mut N, scratch: &mut [N]) {
+        if self.quadratic {
+            return self.drift(weight, p, q, scratch);
+        }
+        let outputs = self.interpreter.gradient_and_rate(p, scratch);
+        for (q, velocity) in q.iter_mut().zip(outputs) {
+            q.add_product(weight, velocity);
+        }
+        beta.add_product(weight, &outputs[self.dimension]);
+    }
+
+    fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
+        energy.assign(self.interpreter.energy(p, scratch));
+    }
+}
