@@ -4,38 +4,46 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::{env, fs};
 
-use shadowstep_schemes::shipped_names;
+use shadowstep_schemes::{First, Proved, read, read_first, shipped, shipped_names};
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs"); // a change of the tables rebuilds the crate that lists them
     let mut code = String::new();
-    let mut visits = String::new();
+    let [mut visits, mut visits_for_every_kinetic] = [String::new(), String::new()];
     for name in shipped_names() {
         let kinds = [("", "", "None"), ("DriftFirst", ", first = \"drift\"", "Some(First::Drift)")];
         for (suffix, argument, first) in kinds {
-            if suffix.is_empty() || survives_exchange(name) {
-                let ident = camel(name) + suffix;
-                writeln!(code, "#[splitting_scheme(\"{name}.toml\"{argument})]\npub struct {ident};\n").unwrap();
-                writeln!(visits, "    visitor.visit({name:?}, {first}, &{ident});").unwrap();
+            let Some(proved) = proved(name, !suffix.is_empty()) else { continue };
+            let ident = camel(name) + suffix;
+            writeln!(code, "#[splitting_scheme(\"{name}.toml\"{argument})]\npub struct {ident};\n").unwrap();
+            let visit = format!("    visitor.visit({name:?}, {first}, &{ident});\n");
+            if proved.holds_for_every_kinetic() {
+                visits_for_every_kinetic += &visit;
             }
+            visits += &visit;
         }
     }
     write!(
         code,
         "/// Shows a visitor every shipped scheme; with the roles of kick and drift exchanged too, where the\n\
          /// order claimed survives that.\n\
-         pub fn for_each(visitor: &mut impl Visitor) {{\n{visits}}}\n"
+         pub fn for_each(visitor: &mut impl Visitor) {{\n{visits}}}\n\n\
+         /// Likewise, but only those whose order holds for every T(p).\n\
+         pub fn for_each_for_every_kinetic(visitor: &mut impl Visitor<General>) {{\n{visits_for_every_kinetic}}}\n"
     )
     .unwrap();
     let out = Path::new(&env::var("OUT_DIR").expect("cargo sets it")).join("shipped.rs");
     fs::write(out, code).expect("the build folder can be written");
 }
 
-/// A refused exchange is a compile error, which the compile-fail cases show.
-fn survives_exchange(name: &str) -> bool {
-    use shadowstep_schemes::{First, read_first, shipped};
+/// `None` for an exchange that is refused: a compile error, which the compile-fail cases show.
+fn proved(name: &str, drift_first: bool) -> Option<Proved> {
     let source = shipped(name).expect("it is listed");
-    read_first(&source, &|base, _| shipped(base), First::Drift).is_ok()
+    let library = |base: &str, _: &_| shipped(base);
+    match drift_first {
+        false => Some(read(&source, &library).expect("shipped tables are proved")),
+        true => read_first(&source, &library, First::Drift).ok(),
+    }
 }
 
 fn camel(name: &str) -> String {

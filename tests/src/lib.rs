@@ -1,5 +1,8 @@
-//! What the tests of the whole system share: numbers from texts, distances, every shipped scheme as generated code.
+//! What the tests of the whole system share: numbers from texts, distances, every shipped scheme as generated code, a solution to
+//! compare with.
 
+pub mod general;
+pub mod reference;
 pub mod shipped;
 pub mod steps;
 pub mod systems;

@@ -1,51 +1,79 @@
 //! Every shipped table, as the attribute compiles it and as it is read at run time.
 
+use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::tables::{self, TableScheme};
-use shadowstep::{Rational, Scheme, Summary, splitting_scheme};
+use shadowstep::{Moves, Rational, Scheme, Summary, splitting_scheme};
 use shadowstep_schemes::First;
+use shadowstep_schemes::scheme::Held;
 
 use crate::Bits;
 use crate::steps::Steps;
 
-/// Does something with every shipped scheme.
-pub trait Visitor {
+/// Does something with every shipped scheme that moves a class of kinetic energies.
+pub trait Visitor<C = Quadratic> {
     /// Takes the generated scheme of one table. `first` is what the attribute was given.
-    fn visit<S: Scheme>(&mut self, name: &str, first: Option<First>, scheme: &'static S);
+    fn visit<S: Scheme + Moves<C>>(&mut self, name: &str, first: Option<First>, scheme: &'static S);
 }
 
 include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 
 /// A shipped scheme in both forms.
-pub struct Shipped<N: 'static> {
+pub struct Shipped<N: 'static, C: 'static = Quadratic> {
     /// Name, and whether the roles of kick and drift are exchanged.
     pub name: String,
     /// What the generated code says of itself.
     pub summary: Summary<'static>,
     /// What the attribute wrote.
-    pub generated: Steps<'static, N>,
+    pub generated: Steps<'static, N, C>,
     /// The same table read at run time.
-    pub twin: TableScheme,
+    pub twin: TableScheme<C>,
+}
+
+impl<N, C> Shipped<N, C> {
+    /// The k for which a step of 2^−k shows an order best in a computation of so many digits: as small a step as the
+    /// digits of the table allow. A table with D digits moves at order 3 or so by 10^−D, which must stay far below the
+    /// error C h^{p+1}.
+    pub fn halvings(&self, order: u32, computed: u32) -> u32 {
+        match self.twin.proved().scheme.held {
+            Held::Digits(digits) if order > 2 && digits < computed => {
+                (f64::from(digits.saturating_sub(5)) / std::f64::consts::LOG10_2 / f64::from(order - 2)) as u32
+            }
+            _ => u32::MAX,
+        }
+        .clamp(1, 10)
+    }
+}
+
+struct Collect<'a, N: Bits, C: 'static> {
+    found: Vec<Shipped<N, C>>,
+    h: &'a Rational,
+    context: &'a N::Context,
+    twin: fn(&str, Option<First>) -> TableScheme<C>,
+}
+
+impl<N: Bits, C: 'static> Visitor<C> for Collect<'_, N, C> {
+    fn visit<S: Scheme + Moves<C>>(&mut self, name: &str, first: Option<First>, scheme: &'static S) {
+        self.found.push(Shipped {
+            name: format!("{name} (first: {first:?})"),
+            summary: scheme.summary(),
+            generated: Steps::of(scheme, self.h, self.context),
+            twin: (self.twin)(name, first),
+        });
+    }
 }
 
 /// All shipped schemes with steps of size h. The order of `first = "drift"` ones was proved again.
 pub fn all<N: Bits>(h: &Rational, context: &N::Context) -> Vec<Shipped<N>> {
-    struct Collect<'a, N: Bits> {
-        found: Vec<Shipped<N>>,
-        h: &'a Rational,
-        context: &'a N::Context,
-    }
-    impl<N: Bits> Visitor for Collect<'_, N> {
-        fn visit<S: Scheme>(&mut self, name: &str, first: Option<First>, scheme: &'static S) {
-            self.found.push(Shipped {
-                name: format!("{name} (first: {first:?})"),
-                summary: scheme.summary(),
-                generated: Steps::of(scheme, self.h, self.context),
-                twin: twin(name, first),
-            });
-        }
-    }
-    let mut collect = Collect { found: Vec::new(), h, context };
+    let mut collect = Collect { found: Vec::new(), h, context, twin };
     for_each(&mut collect);
+    collect.found
+}
+
+/// Those whose order holds for every T(p), as schemes that move any.
+pub fn all_for_every_kinetic<N: Bits>(h: &Rational, context: &N::Context) -> Vec<Shipped<N, General>> {
+    let twin = |name: &str, first| twin(name, first).for_every_kinetic().expect("it is listed");
+    let mut collect = Collect { found: Vec::new(), h, context, twin };
+    for_each_for_every_kinetic(&mut collect);
     collect.found
 }
 

@@ -7,8 +7,8 @@
 use std::array;
 
 use rug::Float;
-use shadowstep_schemes::scheme::Held;
 use shadowstep_tests::precision;
+use shadowstep_tests::reference::{Separable, State};
 use shadowstep_tests::shipped::{Shipped, all};
 use shadowstep_tests::systems::{Masses, Problem, system};
 
@@ -17,9 +17,6 @@ const DIGITS: u32 = 80;
 
 /// Columns of the extrapolation: the error of the reference is about h^25, below 1e-60 at the steps used here.
 const COLUMNS: u32 = 12;
-
-/// The state of a problem in d dimensions, q before p.
-type State = Vec<Float>;
 
 /// U_q, written once more, in plain formulas.
 fn gradient(problem: Problem, q: &[Float]) -> Vec<Float> {
@@ -33,60 +30,15 @@ fn gradient(problem: Problem, q: &[Float]) -> Vec<Float> {
     }
 }
 
-/// The flow over a time h by extrapolation of the leapfrog rule: its error has even powers of the step only.
+/// The flow over a time h, unit masses.
 fn reference(problem: Problem, start: &[Float], h: &Float, columns: u32) -> State {
-    let mut row: Vec<State> = Vec::new();
-    for k in 1..=columns {
-        let mut next = vec![leapfrog(problem, start, h, k)];
-        for j in 1..k {
-            // Aitken–Neville in (h/k)²: T + (T − T_above)/((k/(k−j))² − 1)
-            let (coarse, fine) = (&row[j as usize - 1], &next[j as usize - 1]);
-            let ratio = Float::with_val(coarse[0].prec(), k) / (k - j);
-            let weight = ratio.square() - 1;
-            next.push(coarse.iter().zip(fine).map(|(c, f)| f.clone() + (f.clone() - c) / &weight).collect());
-        }
-        row = next;
-    }
-    row.pop().expect("there is a column")
-}
-
-/// k leapfrog steps over a time h, unit masses.
-fn leapfrog(problem: Problem, start: &[Float], h: &Float, k: u32) -> State {
-    let dimension = start.len() / 2;
-    let step = h.clone() / k;
-    let half = step.clone() / 2;
-    let mut state = start.to_vec();
-    let (q, p) = state.split_at_mut(dimension);
-    let kick = |q: &[Float], p: &mut [Float]| {
-        for (p, g) in p.iter_mut().zip(gradient(problem, q)) {
-            *p -= g * &half;
-        }
-    };
-    for _ in 0..k {
-        kick(q, p);
-        for (q, p) in q.iter_mut().zip(p.iter()) {
-            *q += p.clone() * &step;
-        }
-        kick(q, p);
-    }
-    state
+    let system = Separable { velocity: &|p| p.to_vec(), gradient: &|q| gradient(problem, q) };
+    system.flow(start, h, columns)
 }
 
 /// Largest difference, as a power of two.
 fn log2_distance(a: &[Float], b: &[Float]) -> f64 {
     shadowstep_tests::log10_largest_distance(a, b) / std::f64::consts::LOG10_2
-}
-
-/// The h that shows the order best: as small as the digits of the table allow. A table with D digits moves at order 3
-/// or so by 10^−D, which must stay far below the error C h^{p+1}.
-fn smallest_halving(scheme: &Shipped<Float>, order: u32) -> i32 {
-    match scheme.twin.proved().scheme.held {
-        Held::Digits(digits) if order > 2 && digits < DIGITS => {
-            (f64::from(digits.saturating_sub(5)) / std::f64::consts::LOG10_2 / f64::from(order - 2)) as i32
-        }
-        _ => i32::MAX,
-    }
-    .clamp(1, 10)
 }
 
 fn start(problem: Problem) -> State {
@@ -128,7 +80,7 @@ fn the_order_measured_is_the_order_proved() {
         let table: [Vec<(Shipped<Float>, f64)>; 12] = array::from_fn(|k| errors(problem, k as i32));
         for (i, (scheme, _)) in table[0].iter().enumerate() {
             let proved = scheme.summary.order_quadratic;
-            let k = smallest_halving(scheme, proved) as usize;
+            let k = scheme.halvings(proved, DIGITS) as usize;
             let order = table[k - 1][i].1 - table[k][i].1 - 1.0;
             println!("{problem:?} {}: {order:.4} at h = 2^-{k}, error 2^{:.1}", scheme.name, table[k][i].1);
             // c h / ln 2 with c of size 1 to 10, h ≤ 1/64
