@@ -1,6 +1,7 @@
 //! Arguments → problem, schemes and steps: the runs to make.
 
 use num_traits::{Signed, ToPrimitive, Zero};
+use shadowstep::kinetic::Quadratic;
 use shadowstep::number::{Number, Precision};
 use shadowstep::problems::{Setup, problem};
 use shadowstep::shadow::{Central, Stop};
@@ -86,7 +87,7 @@ impl Selection {
     pub(crate) fn motion<N: Number + 'static>(
         &self,
         context: &N::Context,
-    ) -> Motion<N, Vec<N>, Box<dyn Potential<N>>, Box<dyn Kinetic<N>>> {
+    ) -> Motion<N, Vec<N>, Box<dyn Potential<N>>, Box<dyn Kinetic<N, Class = Quadratic>>> {
         let setup = &self.setup;
         let kinetic = setup.kinetic(context).expect("problems allow positive masses only");
         Motion::new(setup.potential(context), kinetic, setup.q(context), setup.p(context))

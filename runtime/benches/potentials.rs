@@ -9,6 +9,7 @@ mod timing;
 use std::hint::black_box;
 
 use rug::Float;
+use shadowstep::kinetic::Quadratic;
 use shadowstep::number::Precision;
 use shadowstep::pairs::Pairs;
 use shadowstep::problems::{Gravity, HenonHeiles, Kepler, Pendulum, problem};
@@ -33,7 +34,7 @@ where
     N: Number + 'a,
     V: shadowstep::Coordinates<N> + 'a,
     P: Potential<N> + 'a,
-    K: Kinetic<N> + 'a,
+    K: Kinetic<N, Class = Quadratic> + 'a,
 {
     let h = StormerVerlet.weights::<N>(&exact(h).expect("exact"), &motion.context());
     let run = move |repetitions| {

@@ -104,18 +104,6 @@ impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
     }
 }
 
-impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
-    fn dimension(&self) -> Option<usize> {
-        (**self).dimension()
-    }
-    fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N) {
-        (**self).drift(weight, p, q, velocity);
-    }
-    fn energy(&self, p: &[N], energy: &mut N, velocity: &mut N) {
-        (**self).energy(p, energy, velocity);
-    }
-}
-
 /// M = 1: no multiplication by masses at all.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct UnitMasses;

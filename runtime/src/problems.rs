@@ -33,7 +33,7 @@ use shadowstep_symbolic::{Exact, evaluate, nearest, parse};
 use thiserror::Error;
 
 use crate::Rational;
-use crate::kinetic::{DiagonalMasses, Kinetic, MassError, UnitMasses};
+use crate::kinetic::{DiagonalMasses, Kinetic, MassError, Quadratic, UnitMasses};
 use crate::number::Number;
 use crate::pairs::{Ends, Pairs};
 use crate::potential::Potential;
@@ -209,7 +209,10 @@ impl Setup {
     ///
     /// # Errors
     /// A mass that is not positive.
-    pub fn kinetic<N: Number + 'static>(&self, context: &N::Context) -> Result<Box<dyn Kinetic<N>>, MassError> {
+    pub fn kinetic<N: Number + 'static>(
+        &self,
+        context: &N::Context,
+    ) -> Result<Box<dyn Kinetic<N, Class = Quadratic>>, MassError> {
         Ok(match &self.masses {
             None => Box::new(UnitMasses),
             Some(masses) => Box::new(DiagonalMasses::new(masses, context)?),

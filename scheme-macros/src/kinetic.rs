@@ -21,7 +21,7 @@ struct Derived {
 pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     let derived = derive(definition)?;
     let Derived { programs, quadratic } = &derived;
-    let (structure, this) = definition.structure(&documentation(definition, &derived));
+    let (structure, this) = definition.structure(&documentation(definition, &derived), &[]);
     let names = definition.names();
     let prepare = prepare(&[&programs.energy, &programs.gradient_and_rate], &names);
     let arguments = &definition.arguments;
@@ -100,7 +100,10 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
 }
 
 fn derive(definition: &Definition) -> syn::Result<Derived> {
-    let Definition { function, arguments, formula, .. } = definition;
+    let Definition { pair, function, arguments, properties, formula, .. } = definition;
+    if let Some(word) = pair.as_ref().or(properties.first()) {
+        return Err(syn::Error::new(word.span(), "pairs are for potentials; a kinetic energy is `T(px, py) = …`"));
+    }
     if function != "T" {
         return Err(syn::Error::new(function.span(), "the kinetic energy is called T: `T(px, py) = …`"));
     }

@@ -38,7 +38,7 @@ impl<N: Number> FormulaKinetic<N> {
         let quadratic = graph.is_quadratic(energy, momenta.len());
         let programs = graph.potential(energy, momenta.len());
         let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
-        let interpreter = Interpreter::new(programs, parameters, momenta.len());
+        let interpreter = Interpreter::new(programs, parameters, momenta.len(), 0);
         Ok(FormulaKinetic { dimension: momenta.len(), quadratic, interpreter, class: PhantomData })
     }
 
