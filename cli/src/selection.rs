@@ -1,11 +1,10 @@
 //! Arguments → problem, schemes and steps: the runs to make.
 
 use num_traits::{Signed, ToPrimitive, Zero};
-use shadowstep::kinetic::Quadratic;
+use shadowstep::Rational;
 use shadowstep::number::{Number, Precision};
-use shadowstep::problems::{Setup, problem};
+use shadowstep::problems::{ProblemMotion, Setup, problem};
 use shadowstep::shadow::{Central, Stop};
-use shadowstep::{Kinetic, Motion, Potential, Rational};
 use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
@@ -84,13 +83,8 @@ impl Selection {
     }
 
     /// The problem at its initial state.
-    pub(crate) fn motion<N: Number + 'static>(
-        &self,
-        context: &N::Context,
-    ) -> Motion<N, Vec<N>, Box<dyn Potential<N>>, Box<dyn Kinetic<N, Class = Quadratic>>> {
-        let setup = &self.setup;
-        let kinetic = setup.kinetic(context).expect("problems allow positive masses only");
-        Motion::new(setup.potential(context), kinetic, setup.q(context), setup.p(context))
+    pub(crate) fn motion<N: Number + 'static>(&self, context: &N::Context) -> ProblemMotion<N> {
+        self.setup.motion(context).expect("problems allow positive masses only")
     }
 
     /// The estimator; a fixed order estimates its error only if asked to.

@@ -34,6 +34,7 @@ use thiserror::Error;
 
 use crate::Rational;
 use crate::kinetic::{DiagonalMasses, Kinetic, MassError, Quadratic, UnitMasses};
+use crate::motion::Motion;
 use crate::number::Number;
 use crate::pairs::{Ends, Pairs};
 use crate::potential::Potential;
@@ -96,6 +97,9 @@ pub fn problem(name: &str) -> Result<&'static Problem, ProblemError> {
         hint: hint(name, &PROBLEMS.map(|p| p.name)),
     })
 }
+
+/// The system of a problem, chosen at run time.
+pub type ProblemMotion<N> = Motion<N, Vec<N>, Box<dyn Potential<N>>, Box<dyn Kinetic<N, Class = Quadratic>>>;
 
 /// A problem with all its values.
 #[derive(Clone, Debug)]
@@ -203,6 +207,15 @@ impl Setup {
     /// The initial p, each rounded once.
     pub fn p<N: Number>(&self, context: &N::Context) -> Vec<N> {
         numbers(self.momenta(), context)
+    }
+
+    /// The system at its initial state.
+    ///
+    /// # Errors
+    /// A mass that is not positive.
+    pub fn motion<N: Number + 'static>(&self, context: &N::Context) -> Result<ProblemMotion<N>, MassError> {
+        let kinetic = self.kinetic(context)?;
+        Ok(Motion::new(self.potential(context), kinetic, self.q(context), self.p(context)))
     }
 
     /// The kinetic energy.
