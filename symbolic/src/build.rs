@@ -8,22 +8,17 @@ use num_traits::{One, Signed, Zero};
 
 use crate::exact::MOST_BITS;
 use crate::fault::HIGHEST_ROOT;
-use crate::function::Function;
+use crate::function::{Function, NOT_SMOOTH, ROOTS, hint_at_functions};
 use crate::graph::{Form, Graph, Node};
+use crate::nearest::hint;
 use crate::simplify::exact_power;
-use crate::{Expression, Kind, Operation, Rational, nearest};
+use crate::{Expression, Kind, Operation, Rational};
 
 /// The largest numerator of an exponent.
 const LARGEST_POWER: u32 = 10_000;
 
 /// The most factors of a product: its gradient has as many terms, each as long as the product.
 const MOST_FACTORS: usize = 64;
-
-/// The names of functions with a kink or a jump.
-const NOT_SMOOTH: [&str; 10] = ["abs", "sign", "sgn", "min", "max", "floor", "ceil", "round", "mod", "step"];
-
-/// The names of functions that are powers.
-const ROOTS: [(&str, u32); 2] = [("sqrt", 2), ("cbrt", 3)];
 
 /// Why a syntax tree is no formula of a smooth function, and where.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -174,8 +169,8 @@ impl Builder<'_> {
             let hint = format!("of the bodies i and j it is `{}` and `{}`", of_bodies[0], of_bodies[1]);
             return Err(GraphFault::UnknownName { name: name.to_string(), hint });
         }
-        let none = "no names are known here";
-        Err(GraphFault::UnknownName { name: name.to_string(), hint: hint(name, &known, "known names", none) })
+        let hint = hint(name, &known, &[], "known names", "no names are known here");
+        Err(GraphFault::UnknownName { name: name.to_string(), hint })
     }
 
     /// All terms of a chain of additions at once, so that long sums cost no more than their length.
@@ -274,10 +269,8 @@ impl Builder<'_> {
         let root = ROOTS.into_iter().find(|(root, _)| *root == name);
         let function = Function::named(name);
         if root.is_none() && function.is_none() {
-            let known: Vec<&str> =
-                ROOTS.map(|(root, _)| root).into_iter().chain(Function::ALL.map(Function::name)).collect();
-            let hint = hint(name, &known, "known functions", "");
-            return Err(fault(GraphFault::UnknownFunction { name: name.to_string(), hint }, range));
+            let unknown = GraphFault::UnknownFunction { name: name.to_string(), hint: hint_at_functions(name) };
+            return Err(fault(unknown, range));
         }
         let [argument] = arguments else {
             let function = name.to_string();
@@ -335,15 +328,5 @@ fn outside(function: Function, value: &Rational) -> bool {
         Function::Log => !value.is_positive(),
         Function::Asin | Function::Acos => value.numer().magnitude() > value.denom().magnitude(),
         _ => false,
-    }
-}
-
-/// The known words, and the one that was probably meant.
-fn hint(word: &str, known: &[&str], title: &str, none: &str) -> String {
-    let list = known.join(", ");
-    match nearest(word, known.iter().copied()) {
-        Some(meant) => format!("did you mean `{meant}`? {title}: {list}"),
-        None if known.is_empty() => none.to_string(),
-        None => format!("{title}: {list}"),
     }
 }

@@ -1,8 +1,10 @@
 //! A syntax tree to its value: exact while it is rational, else rounded once and correctly.
 //!
-//! An irrational root is enclosed in an interval, and so is all that depends on it. If both ends of
+//! An irrational root, value of a function or π is enclosed in an interval, and so is all that depends on it. If both ends of
 //! the whole formula's interval round to the same decimal, that is the value; if not, the formula
 //! is computed again with twice the digits.
+
+mod functions;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -12,10 +14,13 @@ use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use crate::decimal::{round_significant, to_significant};
-use crate::fault::{EvaluationError, Fault, HIGHEST_ROOT};
+use crate::elementary::pi;
+use crate::fault::{EvaluationError, Fault, HIGHEST_ROOT, NO_NAMES};
+use crate::function::{Function, PI, ROOTS, hint_at_functions};
 use crate::interval::Interval;
+use crate::nearest::hint;
 use crate::rounding::{at_places, compare};
-use crate::{Expression, Kind, Operation, Rational, nearest};
+use crate::{Expression, Kind, Operation, Rational};
 
 /// More digits would take long and meet the limits on the size of numbers.
 const MOST_DIGITS: u32 = 5000;
@@ -34,21 +39,30 @@ pub(crate) const MOST_BITS: u64 = 100_000;
 pub struct Exact {
     /// The number, or the decimal that stands for it.
     pub value: Rational,
-    /// Whether an irrational root went into it, here or in a name it was computed from.
+    /// Whether something irrational went into it, a root, a value of a function or π, here or in a name it was computed
+    /// from.
     pub rounded: bool,
 }
 
 /// Computes an expression.
 ///
-/// Rational arithmetic and roots of perfect powers are exact, whatever the names were computed
-/// from. With any other root, the value of the whole expression is correctly rounded to `digits`
-/// significant decimal digits (at least 1, at most 5000), half to even. An irrational expression
-/// that cannot be told from zero with eight times these digits counts as zero.
+/// Rational arithmetic, roots of perfect powers, and the few rational values of functions, such as
+/// `exp(0)` and `acos(1)`, are exact, whatever the names were computed from. With any other root or
+/// value of a function, or with `pi` (unless a name hides it), the value of the whole expression is
+/// correctly rounded to `digits` significant decimal digits (at least 1, at most 5000), half to even.
+///
+/// The functions are sqrt, cbrt, exp, log (the natural logarithm), sin, cos, tan, sinh, cosh, tanh,
+/// atan, asin and acos. They are enclosed rigorously, in integer arithmetic alone.
+///
+/// An irrational expression that cannot be told from zero with eight times these digits counts as
+/// zero, so that `sin(pi)` is 0; one that cannot be told from the middle between two decimals counts
+/// as being there; and the argument of a root or function that cannot be told from the border of
+/// the domain counts as the border: `asin(sin(pi/2))` is pi/2, `log(sin(pi))` and `tan(pi/2)` have no value.
 ///
 /// # Errors
 /// An [`EvaluationError`] for an unknown name or function, a division by zero, `0^0`, an even root
-/// of a negative number, an exponent that is not an exact rational, and for numbers that are too
-/// large, too small or too near to each other to compute with.
+/// of a negative number, a function outside its domain, an exponent that is not an exact rational,
+/// and for numbers that are too large, too small or too near to each other to compute with.
 pub fn evaluate(
     expression: &Expression,
     names: &BTreeMap<String, Exact>,
@@ -157,27 +171,30 @@ impl Evaluator<'_> {
         if let Some(exact) = self.names.get(name) {
             return Ok(Value::Exact(exact.clone()));
         }
+        if name == PI {
+            return Ok(Value::Enclosed(pi(self.digits)));
+        }
         let known: Vec<&str> = self.names.keys().map(String::as_str).collect();
-        let list = known.join(", ");
-        let hint = match nearest(name, known) {
-            Some(meant) => format!("did you mean `{meant}`? known names: {list}"),
-            None if list.is_empty() => "no names are known here".to_string(),
-            None => format!("known names: {list}"),
-        };
+        let hint = hint(name, &known, &[PI], "known names", NO_NAMES);
         Err(Fault::UnknownName { name: name.to_string(), hint })
     }
 
-    fn call(&self, function: &str, arguments: &[Expression], range: &Range<usize>) -> Result<Value, Stop> {
-        let order = match function {
-            "sqrt" => 2,
-            "cbrt" => 3,
-            _ => return Err(fault(Fault::UnknownFunction(function.to_string()), range)),
-        };
+    fn call(&self, name: &str, arguments: &[Expression], range: &Range<usize>) -> Result<Value, Stop> {
+        let root = ROOTS.into_iter().find(|(root, _)| *root == name);
+        let function = Function::named(name);
+        if root.is_none() && function.is_none() {
+            let unknown = Fault::UnknownFunction { name: name.to_string(), hint: hint_at_functions(name) };
+            return Err(fault(unknown, range));
+        }
         let [argument] = arguments else {
-            let function = function.to_string();
+            let function = name.to_string();
             return Err(fault(Fault::ArgumentCount { function, found: arguments.len() }, range));
         };
-        self.power(argument, &Rational::new(1.into(), order.into()), range)
+        if let Some((_, order)) = root {
+            return self.power(argument, &Rational::new(1.into(), order.into()), range);
+        }
+        let function = function.expect("every name that is not a root's is a function's, as seen above");
+        self.function(function, argument, range)
     }
 
     fn binary(
@@ -275,11 +292,17 @@ impl Evaluator<'_> {
     fn not_zero(&self, value: &Value, refusal: Fault, range: &Range<usize>) -> Result<(), Stop> {
         match value {
             Value::Exact(exact) if exact.value.is_zero() => Err(fault(refusal, range)),
-            Value::Enclosed(interval) if interval.contains_zero() => match self.last {
-                true => Err(fault(refusal, range)),
-                false => Err(Stop::Undecided),
-            },
-            _ => Ok(()),
+            Value::Exact(_) => Ok(()),
+            Value::Enclosed(interval) => self.without_zero(interval, refusal, range),
+        }
+    }
+
+    /// As `not_zero`, of the number in the interval.
+    fn without_zero(&self, interval: &Interval, refusal: Fault, range: &Range<usize>) -> Result<(), Stop> {
+        match interval.contains_zero() {
+            true if self.last => Err(fault(refusal, range)),
+            true => Err(Stop::Undecided),
+            false => Ok(()),
         }
     }
 

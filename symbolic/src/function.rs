@@ -2,6 +2,20 @@
 
 use std::fmt;
 
+use num_traits::{One, Zero};
+
+use crate::Rational;
+use crate::nearest::hint;
+
+/// The name of the circle's number, unless something else has that name.
+pub(crate) const PI: &str = "pi";
+
+/// The names of functions that are powers.
+pub(crate) const ROOTS: [(&str, u32); 2] = [("sqrt", 2), ("cbrt", 3)];
+
+/// The names of functions with a kink or a jump.
+pub(crate) const NOT_SMOOTH: [&str; 10] = ["abs", "sign", "sgn", "min", "max", "floor", "ceil", "round", "mod", "step"];
+
 /// An elementary function of one real argument. Square and cube roots are powers, not functions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Function {
@@ -86,6 +100,25 @@ impl Function {
             Function::Exp | Function::Log | Function::Acos => Parity::Neither,
         }
     }
+}
+
+/// The functions' rational values at rational numbers.
+pub(crate) fn exact_value(function: Function, argument: &Rational) -> Option<Rational> {
+    let zero = argument.is_zero();
+    match function {
+        Function::Exp | Function::Cos | Function::Cosh if zero => Some(Rational::one()),
+        Function::Log | Function::Acos if argument.is_one() => Some(Rational::zero()),
+        _ if zero && function.parity() == Parity::Odd => Some(Rational::zero()),
+        _ => None,
+    }
+}
+
+/// The known functions, and the one that was probably meant by an unknown name.
+pub(crate) fn hint_at_functions(name: &str) -> String {
+    let known: Vec<&str> = ROOTS.map(|(root, _)| root).into_iter().chain(Function::ALL.map(Function::name)).collect();
+    // Who writes `min` does not mean `sin`.
+    let meant = if NOT_SMOOTH.contains(&name) { "" } else { name };
+    hint(meant, &known, &[], "known functions", "")
 }
 
 impl fmt::Display for Function {

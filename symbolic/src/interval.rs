@@ -25,6 +25,28 @@ impl Interval {
         !self.low.is_positive() && !self.high.is_negative()
     }
 
+    pub(crate) fn is_point(&self) -> bool {
+        compare(&self.low, &self.high).is_eq()
+    }
+
+    /// Whether the ends are 1 apart, or more.
+    pub(crate) fn is_wide(&self) -> bool {
+        !self.is_point() && compare(&(&self.high - &self.low), &Rational::one()).is_ge()
+    }
+
+    /// Whether the ends are those of the other.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        compare(&self.low, &other.low).is_eq() && compare(&self.high, &other.high).is_eq()
+    }
+
+    /// The part between −1 and 1, if there is one.
+    pub(crate) fn within_one(&self) -> Option<Self> {
+        let one = Rational::one();
+        let low = if compare(&self.low, &-&one).is_lt() { -&one } else { self.low.clone() };
+        let high = if compare(&self.high, &one).is_gt() { one } else { self.high.clone() };
+        compare(&low, &high).is_le().then_some(Interval { low, high })
+    }
+
     pub(crate) fn negate(&self) -> Self {
         Interval { low: -&self.high, high: -&self.low }
     }

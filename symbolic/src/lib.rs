@@ -1,8 +1,8 @@
 //! Exact formulas: text, to a syntax tree with byte ranges, to an exact rational number, or to derivatives and programs.
 //!
 //! * [`parse`] reads a formula such as `1/(2 - 2^(1/3))` into an [`Expression`].
-//! * [`evaluate`] computes it. Rational arithmetic stays exact; a formula with an irrational
-//!   root is rounded once, correctly, to the digits that were asked for.
+//! * [`evaluate`] computes it. Rational arithmetic stays exact; a formula with an irrational root, a
+//!   function such as exp or sin, or `pi` is rounded once, correctly, to the digits that were asked for.
 //! * [`Graph::build`] simplifies it into a graph without repetitions, where [`Graph::derivative`] and [`Graph::rate`]
 //!   (qᵀU_q − 2U) find formulas, and [`Graph::program`] computes them with few operations in place.
 //! * [`decimal`] writes rationals as text and reads them back.
@@ -32,10 +32,12 @@
 //! # Ok::<(), shadowstep_symbolic::Error>(())
 //! ```
 
+mod ball;
 mod build;
 mod cost;
 pub mod decimal;
 mod derivative;
+mod elementary;
 mod exact;
 mod factor;
 mod fault;
@@ -50,6 +52,7 @@ mod program;
 mod quadratic;
 mod rate;
 mod rounding;
+mod series;
 mod simplify;
 mod syntax;
 mod token;

@@ -20,6 +20,15 @@ pub fn nearest_few<'a>(word: &str, known: impl IntoIterator<Item = &'a str>, cou
     words
 }
 
+/// The known words, and the one that was probably meant, which may also be one of those that are not listed.
+pub(crate) fn hint(word: &str, known: &[&str], unlisted: &[&str], title: &str, none: &str) -> String {
+    let list = if known.is_empty() { none.to_string() } else { format!("{title}: {}", known.join(", ")) };
+    match nearest(word, known.iter().chain(unlisted).copied()) {
+        Some(meant) => format!("did you mean `{meant}`? {list}"),
+        None => list,
+    }
+}
+
 /// The typing errors between two words (Damerau-Levenshtein distance, no letter moved twice).
 fn distance(one: &str, other: &str) -> usize {
     let one: Vec<char> = one.to_lowercase().chars().collect();

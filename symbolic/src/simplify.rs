@@ -10,7 +10,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use crate::Rational;
 use crate::exact::{perfect_root, rational_power};
-use crate::function::{Function, Parity};
+use crate::function::{Function, Parity, exact_value};
 use crate::graph::{Form, Graph, Node, same};
 
 /// c · Π node^exponent: what a power turned out to be.
@@ -184,15 +184,4 @@ pub(crate) fn exact_power(value: &Rational, exponent: &Rational) -> Option<Ratio
     let count = if root.is_zero() || root.is_one() { Some(1) } else { count };
     let power = rational_power(&root, count?)?;
     Some(if exponent.is_negative() { power.recip() } else { power })
-}
-
-/// The functions' rational values at rational numbers.
-fn exact_value(function: Function, argument: &Rational) -> Option<Rational> {
-    let zero = argument.is_zero();
-    match function {
-        Function::Exp | Function::Cos | Function::Cosh if zero => Some(Rational::one()),
-        Function::Log | Function::Acos if argument.is_one() => Some(Rational::zero()),
-        _ if zero && function.parity() == Parity::Odd => Some(Rational::zero()),
-        _ => None,
-    }
 }

@@ -261,11 +261,11 @@ fn any_number_of_digits_is_accepted() {
 #[test]
 fn faults_have_a_message_and_a_place() {
     let size = "a number of absurd size: more than about 30000 digits";
-    let inexact = "an exponent must be an exact rational, not an irrational or rounded number";
+    let inexact =
+        "an exponent must be an exact rational, not an irrational or rounded number; write exp(y*log(x)) for x^y";
     let table = [
         ("1 + g", 4..5, "unknown name `g`; did you mean `g0`? known names: g0, g1"),
         ("gamma", 0..5, "unknown name `gamma`; known names: g0, g1"),
-        ("2*(sinn(1))", 2..11, "unknown function `sinn`; known: sqrt, cbrt"),
         ("sqrt(1, 2)", 0..10, "`sqrt` takes one argument, not 2"),
         ("cbrt()", 0..6, "`cbrt` takes one argument, not 0"),
         ("1/(2 - 2)", 2..9, "division by zero"),
@@ -300,7 +300,7 @@ fn faults_have_a_message_and_a_place() {
 #[test]
 fn without_names_the_hint_says_so() {
     let error = exact("1 + x").unwrap_err();
-    assert_eq!(error.to_string(), "unknown name `x`; no names are known here");
+    assert_eq!(error.to_string(), "unknown name `x`; no names are known here but `pi`");
     assert_eq!(error.range(), 4..5);
     let error = exact("1 + ").unwrap_err();
     assert_eq!(error.to_string(), "unexpected end: a number, a name or `(` should follow `+`");
