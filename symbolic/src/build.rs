@@ -7,8 +7,8 @@ use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
 use crate::exact::MOST_BITS;
-use crate::fault::HIGHEST_ROOT;
-use crate::function::{Function, NOT_SMOOTH, ROOTS, hint_at_functions};
+use crate::fault::{HIGHEST_ROOT, NO_NAMES};
+use crate::function::{Function, NOT_SMOOTH, PI, ROOTS, hint_at_functions};
 use crate::graph::{Form, Graph, Node};
 use crate::nearest::hint;
 use crate::simplify::exact_power;
@@ -96,8 +96,8 @@ pub enum GraphFault {
 impl Graph {
     /// The formula of an expression whose names are coordinates and parameters, known by their index.
     ///
-    /// The functions are sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin and acos; exponents are
-    /// rational numbers. The tree is walked by recursion, which the heights that [`parse`](crate::parse) allows suit.
+    /// The functions are sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin and acos; `pi` is π, unless a
+    /// coordinate or parameter has that name; exponents are rational numbers. The tree is walked by recursion, which the heights that [`parse`](crate::parse) allows suit.
     ///
     /// # Errors
     /// A [`GraphError`] at the first unknown name, unknown or not smooth function, wrong number of arguments, exponent
@@ -162,6 +162,9 @@ impl Builder<'_> {
         if let Some(index) = position(self.properties) {
             return Ok(self.graph.property(index));
         }
+        if name == PI {
+            return Ok(self.graph.pi());
+        }
         let known: Vec<&str> =
             [self.coordinates, self.properties, self.parameters].into_iter().flatten().map(String::as_str).collect();
         let of_bodies = [format!("{name}_i"), format!("{name}_j")];
@@ -169,7 +172,7 @@ impl Builder<'_> {
             let hint = format!("of the bodies i and j it is `{}` and `{}`", of_bodies[0], of_bodies[1]);
             return Err(GraphFault::UnknownName { name: name.to_string(), hint });
         }
-        let hint = hint(name, &known, &[], "known names", "no names are known here");
+        let hint = hint(name, &known, &[PI], "known names", NO_NAMES);
         Err(GraphFault::UnknownName { name: name.to_string(), hint })
     }
 

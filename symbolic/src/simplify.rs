@@ -123,6 +123,13 @@ impl Graph {
         Some((number, vec![(rest, exponent.clone())]))
     }
 
+    /// π as 4 arctan 1: a constant, which programs compute once for their numbers.
+    pub fn pi(&mut self) -> Node {
+        let one = self.number(Rational::one());
+        let quarter = self.call(Function::Atan, one);
+        self.scaled(quarter, &Rational::from_integer(4.into()))
+    }
+
     /// function(node), with f(−x) = ±f(x) where it is, and the few arguments with rational values.
     pub fn call(&mut self, function: Function, node: Node) -> Node {
         if let Some(value) = self.as_number(node).and_then(|argument| exact_value(function, argument)) {

@@ -1,6 +1,6 @@
 //! Formulas as nodes: what is equal is one node, what is wrong is refused at its place, nothing blows up.
 
-use crate::support::names;
+use crate::support::{names, program};
 use shadowstep_symbolic::{Graph, Node, Place, Rational, parse};
 
 fn build(graph: &mut Graph, text: &str) -> Node {
@@ -175,7 +175,7 @@ fn faults_have_a_message_and_a_place() {
     let table = [
         ("x + w", 4..5, "unknown name `w`; did you mean `x`? known names: x, y, z, a, m_1, omega".to_string()),
         ("2*omga", 2..6, "unknown name `omga`; did you mean `omega`? known names: x, y, z, a, m_1, omega".into()),
-        ("pi^2", 0..2, "unknown name `pi`; known names: x, y, z, a, m_1, omega".into()),
+        ("Pi^2", 0..2, "unknown name `Pi`; did you mean `pi`? known names: x, y, z, a, m_1, omega".into()),
         ("1 + abs(x)", 4..10, format!("`abs` {smooth}")),
         ("min(x, y)", 0..9, format!("`min` {smooth}")),
         ("-floor(x)", 1..9, format!("`floor` {smooth}")),
@@ -196,6 +196,7 @@ fn faults_have_a_message_and_a_place() {
         ("sin(x, y)", 0..9, "`sin` takes one argument, not 2".into()),
         ("x + sqrt()", 4..10, "`sqrt` takes one argument, not 0".into()),
         ("2^x", 2..3, exponent.into()),
+        ("2^pi", 2..4, exponent.into()),
         ("x^a", 2..3, exponent.into()),
         ("x^sqrt(2)", 2..9, exponent.into()),
         ("x^20000", 2..7, "an exponent is at most 10000, and a root at most of order 100; here it is 20000".into()),
@@ -219,7 +220,7 @@ fn faults_have_a_message_and_a_place() {
         assert_eq!(refusal(text), (message, range), "{text}");
     }
     let error = Graph::new().build(&parse("x").unwrap(), &[], &[]).unwrap_err();
-    assert_eq!(error.to_string(), "unknown name `x`; no names are known here");
+    assert_eq!(error.to_string(), "unknown name `x`; no names are known here but `pi`");
 }
 
 #[test]
@@ -316,6 +317,34 @@ fn places_of_a_program() {
     assert_eq!((program.constants, program.kept, program.scratch, program.outputs), (2, 1, 0, 4));
     assert_eq!(program.instructions[0].targets(), [Place::Output(1)]);
     assert_eq!(program.instructions[0].operands(), [Place::Constant(0), Place::Coordinate(1)]);
+}
+
+#[test]
+fn pi_is_prepared_once() {
+    let text = program("-cos(pi*x)/pi", "x", "", false).to_string();
+    assert_eq!(
+        text,
+        "c1.from_rational(1)\n\
+         c0.assign_atan(c1)\n\
+         c0.multiply_integer(4)\n\
+         s0.assign_product(c0, q0)\n\
+         out0.assign_sin(s0)\n"
+    );
+}
+
+#[test]
+fn pi_is_a_number_like_others_unless_it_is_a_name() {
+    let mut graph = Graph::new();
+    let pi = build(&mut graph, "pi");
+    assert_eq!(pi, graph.pi());
+    assert_eq!(pi, build(&mut graph, "4*atan(1)"));
+    assert_eq!(build(&mut graph, "pi*x/pi"), build(&mut graph, "x"));
+    assert_eq!(graph.degree(pi), Some(ratio(0, 1)));
+    let (names, expression) = (["pi".to_string()], parse("2*pi").unwrap());
+    let coordinate = graph.coordinate(0);
+    let parameter = graph.parameter(0);
+    assert_eq!(graph.build(&expression, &names, &[]).unwrap(), graph.plus(coordinate, coordinate));
+    assert_eq!(graph.build(&expression, &[], &names).unwrap(), graph.plus(parameter, parameter));
 }
 
 #[test]
