@@ -84,9 +84,27 @@ fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
 /// assert_eq!(motion.energy(), 0.5 - 2.0);
 /// ```
 ///
-/// Formulas have numbers (exact), coordinates, parameters, `+ - * / ^` with rational exponents, and the functions sqrt,
-/// cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin, acos. The struct gets `shadowstep::Potential`, with the
-/// cost of a call in its documentation; what depends on parameters only is computed once.
+/// Formulas have numbers (exact), `pi`, coordinates, parameters, `+ - * / ^` with rational exponents, and the functions
+/// sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin, acos. The struct gets `shadowstep::Potential`, with
+/// the cost of a call in its documentation; what depends on parameters only is computed once.
+///
+/// A `pair` formula is the energy of two bodies i < j, in r2, the square of their distance, or on a line in d = q_j − q_i;
+/// properties of bodies such as masses are called `m_i` and `m_j`, and the struct has the values of all bodies as `m`.
+/// `shadowstep::pairs::Pairs` sums it over all pairs, or over the neighbours in a chain.
+///
+/// ```
+/// use shadowstep::{Motion, UnitMasses, pairs::{Ends, Pairs}, potential};
+///
+/// potential! {
+///     /// Toda's spring.
+///     pub struct Toda;
+///     pair U(d) = exp(-d) + d - 1
+/// }
+///
+/// let ring = Pairs::<_, 1>::neighbours(3, Toda, Ends::Periodic);
+/// let mut motion = Motion::new(ring, UnitMasses, [0.0; 3], [1.0, -1.0, 2.0]);
+/// assert_eq!(motion.energy(), 3.0);
+/// ```
 #[proc_macro]
 pub fn potential(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as Definition);

@@ -457,7 +457,7 @@ mine.toml:13:43: `2 3`: an operator is missing between `2` and `3`
 mine.toml:14:11: the exponent of this number is beyond 10000
   14 | drift = ["1e400000", "foo(2)", "0^0", 5000]
      |           ^^^^^^^^
-mine.toml:14:23: unknown function `foo`; known: sqrt, cbrt
+mine.toml:14:23: unknown function `foo`; known functions: sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin, acos
   14 | drift = ["1e400000", "foo(2)", "0^0", 5000]
      |                       ^^^^^^
 mine.toml:14:33: 0^0 has no value
