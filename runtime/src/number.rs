@@ -14,6 +14,7 @@ pub use rug::Float;
 
 use crate::Rational;
 use std::fmt;
+use std::ops::DerefMut;
 
 /// A real number that computes in place.
 ///
@@ -51,6 +52,15 @@ use std::fmt;
 pub trait Number: Clone + PartialOrd + fmt::Debug + fmt::Display {
     /// What a new number has to know: `()` for `f64`, the precision for MPFR.
     type Context: Clone + PartialEq + fmt::Debug;
+
+    /// Holds an intermediate result: for a big number, `&mut Self`; for one of a few bytes a copy, which can stay in the
+    /// processor's registers.
+    type Register<'a>: DerefMut<Target = Self>
+    where
+        Self: 'a;
+
+    /// This number, or a copy of it, as a place for intermediate results: what it holds afterwards is lost.
+    fn register(&mut self) -> Self::Register<'_>;
 
     /// A new 0.
     fn zero(context: &Self::Context) -> Self;

@@ -116,11 +116,11 @@ impl<P: Pair, const D: usize> Pairs<P, D> {
 }
 
 /// The scratch space of a call.
-struct Scratch<'a, N, const D: usize> {
-    difference: &'a mut [N; D],
-    squared: &'a mut N,
-    slope: &'a mut N,
-    result: &'a mut N,
+struct Scratch<'a, N: Number + 'a, const D: usize> {
+    difference: [N::Register<'a>; D],
+    squared: N::Register<'a>,
+    slope: N::Register<'a>,
+    result: N::Register<'a>,
     pair: &'a mut [N],
 }
 
@@ -129,9 +129,12 @@ const fn own_scratch(dimensions: usize) -> usize {
     dimensions + 3
 }
 
-fn parts<N, const D: usize>(scratch: &mut [N]) -> Scratch<'_, N, D> {
+#[inline(always)]
+fn parts<N: Number, const D: usize>(scratch: &mut [N]) -> Scratch<'_, N, D> {
     let (difference, rest) = scratch.split_first_chunk_mut::<D>().expect("as much as asked for");
     let [squared, slope, result, pair @ ..] = rest else { unreachable!("as much as asked for") };
+    let difference = difference.each_mut().map(N::register);
+    let [squared, slope, result] = [squared, slope, result].map(N::register);
     Scratch { difference, squared, slope, result, pair }
 }
 
@@ -161,7 +164,7 @@ impl<N: Number, const D: usize> End<'_, N, D> {
 
     /// difference ← q_j − q_i
     #[inline(always)]
-    fn subtract(i: Self, j: Self, difference: &mut [N; D]) {
+    fn subtract(i: Self, j: Self, difference: &mut [N::Register<'_>; D]) {
         for (axis, difference) in difference.iter_mut().enumerate() {
             match (i, j) {
                 (End::Body(_, i), End::Body(_, j)) => difference.assign_difference(&j[axis], &i[axis]),
@@ -179,7 +182,7 @@ impl<N: Number, const D: usize> End<'_, N, D> {
 impl<P, const D: usize> Pairs<P, D> {
     /// What u is a function of, from the difference.
     #[inline(always)]
-    fn separation<'a, N: Number>(&self, difference: &'a [N; D], squared: &'a mut N) -> &'a N
+    fn separation<'a, N: Number>(&self, difference: &'a [N::Register<'_>; D], squared: &'a mut N) -> &'a N
     where
         P: PairPotential<N>,
     {
@@ -188,37 +191,19 @@ impl<P, const D: usize> Pairs<P, D> {
             Separation::SquaredDistance => {
                 let (first, others) = difference.split_first().expect("at least one dimension");
                 squared.assign_square(first);
-                others.iter().for_each(|other| squared.add_product(other, other));
+                for other in others {
+                    squared.add_product(other, other);
+                }
                 squared
             }
         }
     }
 
     /// Visits the pairs that interact.
-    #[inline(always)]
-    fn each<'q, N: Number>(&self, q: &'q [N], mut visit: impl FnMut(End<'q, N, D>, End<'q, N, D>)) {
-        let (q, _) = q.as_chunks::<D>();
-        let body = |number: usize| End::Body(number, &q[number]);
-        let last = q.len() - 1;
+    fn each<'q, N>(&self, q: &'q [N], visit: impl FnMut(End<'q, N, D>, End<'q, N, D>)) {
         match self.which {
-            Which::All => {
-                for (i, q_i) in q.iter().enumerate() {
-                    for (j, q_j) in q.iter().enumerate().skip(i + 1) {
-                        visit(End::Body(i, q_i), End::Body(j, q_j));
-                    }
-                }
-            }
-            Which::Neighbours(ends) => {
-                if ends == Ends::Fixed {
-                    visit(End::Wall, body(0));
-                }
-                (0..last).for_each(|i| visit(body(i), body(i + 1)));
-                match ends {
-                    Ends::Free => {}
-                    Ends::Fixed => visit(body(last), End::Wall),
-                    Ends::Periodic => visit(body(last), body(0)),
-                }
-            }
+            Which::All => each_pair(q, visit),
+            Which::Neighbours(ends) => each_neighbour(q, ends, visit),
         }
     }
 
@@ -235,24 +220,70 @@ impl<P, const D: usize> Pairs<P, D> {
     {
         gradient.iter_mut().for_each(N::assign_zero);
         let (gradient, _) = gradient.as_chunks_mut::<D>();
-        let s = parts::<N, D>(scratch);
-        self.each(q, |i, j| {
-            End::subtract(i, j, s.difference);
-            let x = self.separation(s.difference, s.squared);
-            slope(i.number(), j.number(), x, s.slope, s.result, s.pair);
-            for difference in s.difference.iter_mut() {
-                match self.pair.separation() {
-                    Separation::Difference => difference.assign(s.slope),
-                    Separation::SquaredDistance => difference.multiply(s.slope),
-                }
+        let mut s = parts::<N, D>(scratch);
+        // a closure each, so that the loop over all pairs has its own, inlined
+        match self.which {
+            Which::All => each_pair(q, |i, j| self.add_pair(i, j, gradient, &mut s, &mut slope)),
+            Which::Neighbours(ends) => {
+                each_neighbour(q, ends, |i, j| self.add_pair(i, j, gradient, &mut s, &mut slope));
             }
-            if let End::Body(j, _) = j {
-                gradient[j].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.add(force));
+        }
+    }
+
+    /// Adds what a pair adds to the gradient.
+    #[inline(always)]
+    fn add_pair<N: Number>(
+        &self,
+        i: End<'_, N, D>,
+        j: End<'_, N, D>,
+        gradient: &mut [[N; D]],
+        s: &mut Scratch<'_, N, D>,
+        slope: &mut impl FnMut(usize, usize, &N, &mut N, &mut N, &mut [N]),
+    ) where
+        P: PairPotential<N>,
+    {
+        End::subtract(i, j, &mut s.difference);
+        let x = self.separation(&s.difference, &mut s.squared);
+        slope(i.number(), j.number(), x, &mut s.slope, &mut s.result, s.pair);
+        for difference in s.difference.iter_mut() {
+            match self.pair.separation() {
+                Separation::Difference => difference.assign(&s.slope),
+                Separation::SquaredDistance => difference.multiply(&s.slope),
             }
-            if let End::Body(i, _) = i {
-                gradient[i].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.subtract(force));
-            }
-        });
+        }
+        if let End::Body(j, _) = j {
+            gradient[j].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.add(force));
+        }
+        if let End::Body(i, _) = i {
+            gradient[i].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.subtract(force));
+        }
+    }
+}
+
+/// Visits all pairs i < j.
+#[inline(always)]
+fn each_pair<'q, N, const D: usize>(q: &'q [N], mut visit: impl FnMut(End<'q, N, D>, End<'q, N, D>)) {
+    let (q, _) = q.as_chunks::<D>();
+    for (i, q_i) in q.iter().enumerate() {
+        for (j, q_j) in q.iter().enumerate().skip(i + 1) {
+            visit(End::Body(i, q_i), End::Body(j, q_j));
+        }
+    }
+}
+
+/// Visits the pairs of neighbours in a chain.
+fn each_neighbour<'q, N, const D: usize>(q: &'q [N], ends: Ends, mut visit: impl FnMut(End<'q, N, D>, End<'q, N, D>)) {
+    let (q, _) = q.as_chunks::<D>();
+    let body = |number: usize| End::Body(number, &q[number]);
+    let last = q.len() - 1;
+    if ends == Ends::Fixed {
+        visit(End::Wall, body(0));
+    }
+    (0..last).for_each(|i| visit(body(i), body(i + 1)));
+    match ends {
+        Ends::Free => {}
+        Ends::Fixed => visit(body(last), End::Wall),
+        Ends::Periodic => visit(body(last), body(0)),
     }
 }
 
@@ -271,12 +302,12 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
 
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
         energy.assign_zero();
-        let s = parts::<N, D>(scratch);
+        let mut s = parts::<N, D>(scratch);
         self.each(q, |i, j| {
-            End::subtract(i, j, s.difference);
-            let x = self.separation(s.difference, s.squared);
-            self.pair.energy(i.number(), j.number(), x, s.result, s.pair);
-            energy.add(s.result);
+            End::subtract(i, j, &mut s.difference);
+            let x = self.separation(&s.difference, &mut s.squared);
+            self.pair.energy(i.number(), j.number(), x, &mut s.result, s.pair);
+            energy.add(&s.result);
         });
     }
 

@@ -50,8 +50,16 @@ pub(crate) fn scratch_names(program: &Program, kept_before: usize, kept: usize) 
     let intermediate = (0..program.scratch).map(|i| numbered("scratch", i));
     let places = before.chain(constants).chain(after).chain(intermediate);
     let scratch = own("scratch");
+    let registers: Vec<_> = (0..program.scratch).map(|i| numbered("scratch", i)).collect();
+    // of small numbers copies, so that no intermediate result is stored
+    let registers = (!registers.is_empty()).then(|| {
+        quote! { let [#(mut #registers),*] = [#(#registers),*].map(N::register); }
+    });
     (program.kept + program.scratch > 0).then(|| {
-        quote! { let [#(#places,)* ..] = #scratch else { ::core::unreachable!("as much as asked for") }; }
+        quote! {
+            let [#(#places,)* ..] = #scratch else { ::core::unreachable!("as much as asked for") };
+            #registers
+        }
     })
 }
 
@@ -74,9 +82,15 @@ fn place_name(place: Place, names: &Names, outputs: &[TokenStream]) -> TokenStre
 fn statement(instruction: &Instruction, names: &Names, outputs: &[TokenStream]) -> TokenStream {
     let place = |place| place_name(place, names, outputs);
     let method = Ident::new(&instruction.method(), Span::mixed_site());
-    let operands: Vec<_> = instruction.operands().into_iter().map(place).collect();
-    let targets: Vec<_> = instruction.targets().into_iter().map(place).collect();
-    let target = &targets[0];
+    let operand = |at: Place| match at {
+        Place::Scratch(_) => {
+            let name = place(at);
+            quote! { &#name }
+        }
+        _ => place(at),
+    };
+    let operands: Vec<_> = instruction.operands().into_iter().map(operand).collect();
+    let target = place(instruction.target());
     match instruction {
         Instruction::AssignRational(_, value) => {
             let text = to_text(value);
@@ -90,7 +104,16 @@ fn statement(instruction: &Instruction, names: &Names, outputs: &[TokenStream]) 
             let n = Literal::i32_unsuffixed(*n);
             quote! { #target.#method(#n); }
         }
-        Instruction::AssignSinCos(..) => quote! { N::#method(#(#targets),*, #(#operands),*); },
+        Instruction::AssignSinCos(sin, cos, _) => {
+            let [sin, cos] = [*sin, *cos].map(|at| match at {
+                Place::Scratch(_) => {
+                    let name = place(at);
+                    quote! { &mut #name }
+                }
+                _ => place(at),
+            });
+            quote! { N::#method(#sin, #cos, #(#operands),*); }
+        }
         _ => quote! { #target.#method(#(#operands),*); },
     }
 }

@@ -112,11 +112,21 @@ impl Program {
             if !targets.iter().any(|target| needed.contains(target)) {
                 continue;
             }
+            let instruction = match *instruction {
+                // both are rounded correctly, or as the platform does it: one alone has the same bits
+                Instruction::AssignSinCos(sin, cos, a) if !needed.contains(&cos) => {
+                    Instruction::AssignFunction(Function::Sin, sin, a)
+                }
+                Instruction::AssignSinCos(sin, cos, a) if !needed.contains(&sin) => {
+                    Instruction::AssignFunction(Function::Cos, cos, a)
+                }
+                _ => instruction.clone(),
+            };
             if instruction.overwrites() {
                 needed.retain(|place| !targets.contains(place));
             }
             needed.extend(instruction.operands());
-            instructions.push(instruction.clone().with_places(|place| if place == dropped { spare } else { place }));
+            instructions.push(instruction.with_places(|place| if place == dropped { spare } else { place }));
         }
         instructions.reverse();
         let uses_spare = instructions.iter().any(|i: &Instruction| i.targets().contains(&spare));

@@ -74,6 +74,14 @@ macro_rules! delegate {
 
 impl<N: Number> Number for Counting<N> {
     type Context = N::Context;
+    type Register<'a>
+        = &'a mut Self
+    where
+        N: 'a;
+
+    fn register(&mut self) -> &mut Self {
+        self
+    }
 
     delegate! {
         assign_zero();

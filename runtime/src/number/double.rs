@@ -1,12 +1,40 @@
 //! `f64` as a [`Number`].
 
+use std::ops::{Deref, DerefMut};
+
 use super::Number;
 use crate::Rational;
 use num_integer::Integer;
 use num_traits::{Signed, Zero};
 
+/// A number of its own.
+#[derive(Debug)]
+pub struct Copied(f64);
+
+impl Deref for Copied {
+    type Target = f64;
+
+    #[inline]
+    fn deref(&self) -> &f64 {
+        &self.0
+    }
+}
+
+impl DerefMut for Copied {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut f64 {
+        &mut self.0
+    }
+}
+
 impl Number for f64 {
     type Context = ();
+    type Register<'a> = Copied;
+
+    #[inline]
+    fn register(&mut self) -> Copied {
+        Copied(*self)
+    }
 
     fn zero((): &()) -> f64 {
         0.0

@@ -74,6 +74,11 @@ impl Precision {
 
 impl Number for Float {
     type Context = Precision;
+    type Register<'a> = &'a mut Float;
+
+    fn register(&mut self) -> &mut Float {
+        self
+    }
 
     fn zero(precision: &Precision) -> Float {
         Float::new(precision.bits)
