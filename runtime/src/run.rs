@@ -41,20 +41,23 @@ pub struct State<'a, N> {
 }
 
 /// A state made before it is its turn.
+#[derive(Clone)]
 struct Stored<N> {
     q: Vec<N>,
     p: Vec<N>,
     beta: N,
 }
 
-/// The states n = −reach, …, steps + reach of a trajectory in the order of time, with the β of each step.
+/// The states of a trajectory in the order of time: for an estimator n = −reach, …, steps + reach with the β of each
+/// step, or [plain](Trajectory::plain) ones without β.
 ///
 /// States before 0 are made with the scheme's exact inverse from the state 0.
 pub struct Trajectory<'s, S: Scheme, N: Number, V, P, K> {
     scheme: &'s S,
     weights: Weights<S::Array<N>>,
     motion: Motion<N, V, P, K>,
-    /// The states up to 0, the earliest last.
+    augmented: bool,
+    /// The states that the motion begins with or comes from, the earliest last.
     before: Vec<Stored<N>>,
     present: Option<Stored<N>>,
     n: i64,
@@ -75,37 +78,81 @@ where
     /// A step of size 0; an initial energy, or a state before 0, that is not finite.
     pub fn new(
         scheme: &'s S,
-        mut motion: Motion<N, V, P, K>,
+        motion: Motion<N, V, P, K>,
         h: &Rational,
         steps: u64,
         reach: usize,
     ) -> Result<Self, RunError> {
+        let mut trajectory = Self::after(scheme, motion, h, 0)?;
+        trajectory.last = last(steps, reach);
+        trajectory.step_back(reach)?;
+        Ok(trajectory)
+    }
+
+    /// The states n = `from`, …, steps without β, which is 0 in all of them; the motion is at the state `from`.
+    ///
+    /// They have the bits of the states with β, and the bits of a trajectory from 0 where `from` is one of its states.
+    ///
+    /// # Errors
+    /// A step of size 0; an energy at `from` that is not finite.
+    pub fn plain(
+        scheme: &'s S,
+        motion: Motion<N, V, P, K>,
+        h: &Rational,
+        from: i64,
+        steps: u64,
+    ) -> Result<Self, RunError> {
+        let mut trajectory = Self::after(scheme, motion, h, from)?;
+        trajectory.last = last(steps, 0);
+        trajectory.augmented = false;
+        trajectory.before.push(stored(&trajectory.motion));
+        trajectory.n -= 1;
+        Ok(trajectory)
+    }
+
+    /// The states after `from`, with β, up to a `last` one to be set; the motion is at the state `from`.
+    fn after(scheme: &'s S, mut motion: Motion<N, V, P, K>, h: &Rational, from: i64) -> Result<Self, RunError> {
         if h.is_zero() {
             return Err(RunError::ZeroStep);
         }
         let energy = motion.energy();
         if !energy.is_finite() {
             let what = format!("an energy of {}", energy.to_text());
-            return Err(RunError::NotFinite { step: 0, what });
+            return Err(RunError::NotFinite { step: from, what });
         }
         let weights = scheme.weights::<N>(h, &motion.context());
-        let (q, p) = (motion.q().to_vec(), motion.p().to_vec());
-        let mut before = Vec::with_capacity(reach + 1);
-        let mut later = (q.clone(), p.clone());
+        Ok(Trajectory {
+            scheme,
+            weights,
+            motion,
+            augmented: true,
+            before: Vec::new(),
+            present: None,
+            n: from,
+            last: from,
+        })
+    }
+
+    /// Makes the states −reach, …, 0 from the present one, which is 0, and goes back to it.
+    fn step_back(&mut self, reach: usize) -> Result<(), RunError> {
+        let Trajectory { scheme, weights, motion, before, .. } = self;
+        let start = stored(motion);
+        let mut later = start.clone();
         for n in 1..=reach as i64 {
-            scheme.step_back_augmented(&weights, &mut motion);
-            check(&motion, -n)?;
+            scheme.step_back_augmented(weights, motion);
+            check(motion, -n)?;
             // the step from −n to −n + 1 adds what the step back took
-            let mut beta = motion.beta().clone();
-            beta.negate();
-            let (q, p) = std::mem::replace(&mut later, (motion.q().to_vec(), motion.p().to_vec()));
-            before.push(Stored { q, p, beta });
+            later.beta.assign(motion.beta());
+            later.beta.negate();
+            let earlier = stored(motion);
+            before.push(std::mem::replace(&mut later, earlier));
         }
-        before.push(Stored { q: later.0, p: later.1, beta: N::zero(&motion.context()) });
-        motion.q_mut().iter_mut().zip(&q).for_each(|(own, q)| own.assign(q));
-        motion.p_mut().iter_mut().zip(&p).for_each(|(own, p)| own.assign(p));
-        let last = i64::try_from(steps).unwrap_or(i64::MAX).saturating_add(reach as i64);
-        Ok(Trajectory { scheme, weights, motion, before, present: None, n: -(reach as i64) - 1, last })
+        later.beta.assign_zero();
+        before.push(later);
+        motion.q_mut().iter_mut().zip(&start.q).for_each(|(own, q)| own.assign(q));
+        motion.p_mut().iter_mut().zip(&start.p).for_each(|(own, p)| own.assign(p));
+        self.n = -(reach as i64) - 1;
+        Ok(())
     }
 
     /// Goes to the next state; `None` at the end.
@@ -113,7 +160,7 @@ where
     /// # Errors
     /// A state that is not finite.
     pub fn advance(&mut self) -> Result<Option<State<'_, N>>, RunError> {
-        if self.n == self.last {
+        if self.n >= self.last {
             return Ok(None);
         }
         self.n += 1;
@@ -122,7 +169,11 @@ where
         if let Some(Stored { q, p, beta }) = &self.present {
             return Ok(Some(State { n, q, p, beta }));
         }
-        self.scheme.step_augmented(&self.weights, &mut self.motion);
+        if self.augmented {
+            self.scheme.step_augmented(&self.weights, &mut self.motion);
+        } else {
+            self.scheme.step(&self.weights, &mut self.motion);
+        }
         check(&self.motion, n)?;
         let motion = &self.motion;
         Ok(Some(State { n, q: motion.q(), p: motion.p(), beta: motion.beta() }))
@@ -132,6 +183,20 @@ where
     pub fn motion(&mut self) -> &mut Motion<N, V, P, K> {
         &mut self.motion
     }
+}
+
+fn last(steps: u64, reach: usize) -> i64 {
+    i64::try_from(steps).unwrap_or(i64::MAX).saturating_add(reach as i64)
+}
+
+fn stored<N, V, P, K>(motion: &Motion<N, V, P, K>) -> Stored<N>
+where
+    N: Number,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
+{
+    Stored { q: motion.q().to_vec(), p: motion.p().to_vec(), beta: motion.beta().clone() }
 }
 
 fn check<N, V, P, K>(motion: &Motion<N, V, P, K>, step: i64) -> Result<(), RunError>
@@ -159,6 +224,8 @@ pub struct ShadowRun<'s, S: Scheme, N: Number, V, P, K, E> {
     trajectory: Trajectory<'s, S, N, V, P, K>,
     estimator: E,
     reach: i64,
+    /// How many states are to come before the one that completes the first estimate.
+    missing: usize,
 }
 
 impl<'s, S, N, V, P, K, E> ShadowRun<'s, S, N, V, P, K, E>
@@ -181,13 +248,38 @@ where
         steps: u64,
         method: &impl Method<N, Estimator = E>,
     ) -> Result<Self, RunError> {
-        if h.is_zero() {
-            return Err(RunError::ZeroStep);
-        }
-        let estimator = method.estimator(h, motion.q().len(), &motion.context());
+        let mut run = Self::resume(scheme, motion, h, 0, steps, method)?;
+        run.trajectory.step_back(run.reach as usize)?;
+        Ok(run)
+    }
+
+    /// Takes a run up again: the estimates of n = `from` + reach + 1, …, steps, with the bits of the run from 0.
+    ///
+    /// The motion is at the state `from` of that run. An estimate depends on the states n − reach, …, n + reach and
+    /// the β of the steps between them only. States after 0 are all made by steps forward; those before 0 are not, and
+    /// so the estimates of n ≤ reach cannot be had this way.
+    ///
+    /// # Errors
+    /// A step of size 0; an energy at `from` that is not finite.
+    pub fn resume(
+        scheme: &'s S,
+        motion: Motion<N, V, P, K>,
+        h: &Rational,
+        from: i64,
+        steps: u64,
+        method: &impl Method<N, Estimator = E>,
+    ) -> Result<Self, RunError> {
+        // the reach is known only where h is known to be no 0
+        let mut trajectory = Trajectory::after(scheme, motion, h, from)?;
+        let estimator = method.estimator(h, trajectory.motion.q().len(), &trajectory.motion.context());
         let reach = estimator.reach();
-        let trajectory = Trajectory::new(scheme, motion, h, steps, reach)?;
-        Ok(ShadowRun { trajectory, estimator, reach: reach as i64 })
+        trajectory.last = last(steps, reach);
+        Ok(ShadowRun { trajectory, estimator, reach: reach as i64, missing: 2 * reach })
+    }
+
+    /// How many states the estimator needs on each side.
+    pub fn reach(&self) -> i64 {
+        self.reach
     }
 
     /// The next n with its estimate; `None` after n = steps.
@@ -197,7 +289,8 @@ where
     pub fn advance(&mut self) -> Result<Option<(i64, Estimate<'_, N>)>, RunError> {
         loop {
             let Some(State { n, q, p, beta }) = self.trajectory.advance()? else { return Ok(None) };
-            if n < self.reach {
+            if self.missing > 0 {
+                self.missing -= 1;
                 self.estimator.push(q, p, beta);
                 continue;
             }
@@ -302,5 +395,124 @@ impl<N: Number> EnergyDrift<N> {
         }
         self.last.assign(estimate.value);
         self.orders = (self.orders.0.min(estimate.order), self.orders.1.max(estimate.order));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinetic::UnitMasses;
+    use crate::problems::Kepler;
+    use crate::shadow::{Central, Stop};
+    use crate::tables::{TableScheme, shipped};
+
+    const SCHEMES: [&str; 3] = ["stormer-verlet", "yoshida4", "ruth3"];
+
+    fn motion(q: Vec<f64>, p: Vec<f64>) -> Motion<f64, Vec<f64>, Kepler, UnitMasses> {
+        Motion::new(Kepler, UnitMasses, q, p)
+    }
+
+    fn start() -> Motion<f64, Vec<f64>, Kepler, UnitMasses> {
+        motion(vec![0.4, 0.0], vec![0.0, 2.0])
+    }
+
+    fn step() -> Rational {
+        Rational::new(1.into(), 20.into())
+    }
+
+    /// n, q and p of the states from 0 on.
+    fn plain(scheme: &TableScheme, steps: u64) -> Vec<(i64, Vec<f64>, Vec<f64>)> {
+        let mut trajectory = Trajectory::plain(scheme, start(), &step(), 0, steps).unwrap();
+        let mut states = Vec::new();
+        while let Some(state) = trajectory.advance().unwrap() {
+            states.push((state.n, state.q.to_vec(), state.p.to_vec()));
+        }
+        states
+    }
+
+    #[test]
+    fn a_plain_trajectory_has_the_states_of_one_with_beta() {
+        for name in SCHEMES {
+            let scheme = shipped(name).unwrap();
+            let states = plain(&scheme, 50);
+            assert_eq!(states.len(), 51);
+            let mut with_beta = Trajectory::new(&scheme, start(), &step(), 50, 3).unwrap();
+            while let Some(State { n, q, p, .. }) = with_beta.advance().unwrap() {
+                if (0..=50).contains(&n) {
+                    assert_eq!((n, q, p), (states[n as usize].0, &*states[n as usize].1, &*states[n as usize].2));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_plain_trajectory_costs_its_steps_only() {
+        let scheme = shipped("stormer-verlet").unwrap();
+        let mut trajectory = Trajectory::plain(&scheme, start(), &step(), 0, 40).unwrap();
+        while trajectory.advance().unwrap().is_some() {}
+        assert_eq!(trajectory.motion().evaluations(), 41);
+    }
+
+    #[test]
+    fn a_plain_trajectory_taken_up_has_the_same_states() {
+        for name in SCHEMES {
+            let scheme = shipped(name).unwrap();
+            let states = plain(&scheme, 50);
+            let (n, q, p) = states[20].clone();
+            let mut later = Trajectory::plain(&scheme, motion(q, p), &step(), n, 50).unwrap();
+            for (n, q, p) in &states[20..] {
+                let state = later.advance().unwrap().unwrap();
+                assert_eq!((state.n, state.q, state.p), (*n, &**q, &**p), "{name}");
+            }
+            assert!(later.advance().unwrap().is_none());
+        }
+    }
+
+    /// n, value, error and m.
+    type Estimated = (i64, f64, Option<f64>, u32);
+
+    fn estimates<E: Estimator<f64>>(
+        mut run: ShadowRun<'_, TableScheme, f64, Vec<f64>, Kepler, UnitMasses, E>,
+    ) -> Vec<Estimated> {
+        let mut all = Vec::new();
+        while let Some((n, found)) = run.advance().unwrap() {
+            all.push((n, *found.value, found.error.copied(), found.order));
+        }
+        all
+    }
+
+    #[test]
+    fn modified_energies_taken_up_are_the_same() {
+        let methods = [
+            Central::fixed_with_error(4),
+            Central::fixed(1),
+            Central::best(9, Stop::Full),
+            Central::best(20, Stop::Early),
+        ];
+        for name in SCHEMES {
+            let scheme = shipped(name).unwrap();
+            let states = plain(&scheme, 60);
+            for method in &methods {
+                let run = ShadowRun::new(&scheme, start(), &step(), 60, method).unwrap();
+                let reach = run.reach() as usize;
+                let all = estimates(run);
+                assert_eq!(all.len(), 61);
+                for from in [0, 1, 17, 59] {
+                    let (n, q, p) = states[from].clone();
+                    let run = ShadowRun::resume(&scheme, motion(q, p), &step(), n, 60, method).unwrap();
+                    let expected = all.get(from + reach + 1..).unwrap_or_default();
+                    assert_eq!(estimates(run), expected, "{name}, {method:?}, from {from}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_step_of_size_0_is_refused_by_all() {
+        let scheme = shipped("stormer-verlet").unwrap();
+        let h = Rational::zero();
+        assert_eq!(Trajectory::new(&scheme, start(), &h, 9, 2).err(), Some(RunError::ZeroStep));
+        assert_eq!(Trajectory::plain(&scheme, start(), &h, 0, 9).err(), Some(RunError::ZeroStep));
+        assert_eq!(ShadowRun::new(&scheme, start(), &h, 9, &Central::fixed(2)).err(), Some(RunError::ZeroStep));
     }
 }
