@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::arithmetic::{DEFAULT_DIGITS, MOST_DIGITS};
+use crate::order::HIGHEST_M;
+
 const EXIT_CODES: &str = "\
 Exit codes:
   0  done
@@ -122,7 +125,7 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) until: String,
     /// Decimal digits of all numbers, such as 50
-    #[arg(long, default_value_t = 120, value_name = "DIGITS", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, default_value_t = DEFAULT_DIGITS, value_name = "DIGITS", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_DIGITS)))]
     pub(crate) digits: u32,
     /// Double precision (f64) instead of --digits
     #[arg(long, conflicts_with = "digits")]
@@ -131,7 +134,7 @@ pub(crate) struct RunArguments {
     #[arg(long, default_value = "auto", value_name = "M|auto", value_parser = order)]
     pub(crate) order: OrderChoice,
     /// The largest m that --order auto tries, such as 100 [default: 200]
-    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(2..=HIGHEST_M))]
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(2..=i64::from(HIGHEST_M)))]
     pub(crate) max_order: Option<u32>,
     /// When --order auto stops trying: at the largest m, or early, where the errors rise [default: full]
     #[arg(long, value_name = "WHEN")]
@@ -140,9 +143,6 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 }
-
-/// Beyond this the exact weights take longer than any run.
-const HIGHEST_M: i64 = 1000;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum OrderChoice {
@@ -159,7 +159,7 @@ pub(crate) enum StopChoice {
 fn order(text: &str) -> Result<OrderChoice, String> {
     match text.parse() {
         _ if text == "auto" => Ok(OrderChoice::Auto),
-        Ok(m) if (1..=HIGHEST_M).contains(&i64::from(m)) => Ok(OrderChoice::Fixed(m)),
+        Ok(m) if (1..=HIGHEST_M).contains(&m) => Ok(OrderChoice::Fixed(m)),
         _ => Err(format!("write a number from 1 to {HIGHEST_M}, or auto")),
     }
 }

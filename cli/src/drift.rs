@@ -11,12 +11,14 @@ use shadowstep::shadow::Stop;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 
 use crate::arguments::DriftArguments;
+use crate::arithmetic::Arithmetic;
 use crate::complaint::{Complaint, Ending};
 use crate::figures::{rounded, shortened, table};
+use crate::order::Order;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::run::Run;
-use crate::selection::{Arithmetic, Order, Selection};
+use crate::selection::Selection;
 
 /// What a run gives, as JSON has it; numbers of high precision are texts.
 #[derive(Serialize)]
@@ -94,7 +96,7 @@ fn measure<N: Number + 'static>(
     let begin = Instant::now();
     let motion = selection.motion::<N>(context);
     let found =
-        energy_drift(&run.scheme.scheme, motion, run.h, run.steps, &selection.method(false), progress.listener())
+        energy_drift(&run.scheme.scheme, motion, run.h, run.steps, &selection.order.method(false), progress.listener())
             .map_err(|error| run.failed(&error))?;
     // both extremes may be finite where their difference overflows
     if !found.drift.is_finite() {

@@ -10,10 +10,12 @@
 //! | [`figures`], [`output`], [`progress`], [`complaint`] | how it is told |
 
 mod arguments;
+mod arithmetic;
 mod complaint;
 mod drift;
 mod figures;
 mod library;
+mod order;
 mod output;
 mod problems;
 mod progress;
@@ -21,6 +23,7 @@ mod quantity;
 mod run;
 mod schemes;
 mod selection;
+mod steps;
 mod trace;
 
 use std::process::ExitCode;

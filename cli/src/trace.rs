@@ -6,11 +6,12 @@ use shadowstep::number::Number;
 use shadowstep::run::ShadowRun;
 
 use crate::arguments::TraceArguments;
+use crate::arithmetic::Arithmetic;
 use crate::complaint::{Complaint, Ending};
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::run::Run;
-use crate::selection::{Arithmetic, Selection};
+use crate::selection::Selection;
 
 /// A state of the run, as JSON has it; numbers are texts that read back to the same numbers.
 #[derive(Serialize)]
@@ -85,7 +86,7 @@ fn follow<N: Number + 'static>(
     let heard = progress.listener();
     let motion = selection.motion::<N>(context);
     let (mut q, mut p) = (motion.q().to_vec(), motion.p().to_vec());
-    let mut shadow = ShadowRun::new(&run.scheme.scheme, motion, run.h, run.steps, &selection.method(true))
+    let mut shadow = ShadowRun::new(&run.scheme.scheme, motion, run.h, run.steps, &selection.order.method(true))
         .map_err(|error| run.failed(&error))?;
     while let Some((n, found)) = shadow.advance().map_err(|error| run.failed(&error))? {
         q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
