@@ -12,7 +12,7 @@ Exit codes:
   0  done
   1  the answer is no: a checked table has faults
   2  wrong usage: an unknown flag, name or file, a number out of range
-  3  a run failed: a state or an energy was not finite, or the output could not be written";
+  3  a run failed: a state or an energy was not finite, the output could not be written, or it was interrupted";
 
 const DRIFT_EXAMPLE: &str = "\
 Example:
@@ -26,6 +26,17 @@ Example:
 const CHECK_EXAMPLE: &str = "\
 Example:
   shadowstep schemes check mine.toml";
+
+const RUN_EXAMPLE: &str = "\
+Example:
+  shadowstep scene kepler > scene.toml
+  shadowstep run scene.toml
+
+A run that was stopped goes on from its last checkpoint when its scene is run again.";
+
+const SCENE_EXAMPLE: &str = "\
+Example:
+  shadowstep scene kepler > scene.toml";
 
 /// Splitting schemes and their modified energy, in any precision.
 #[derive(Debug, Parser)]
@@ -43,6 +54,18 @@ pub(crate) enum Command {
     /// Energy and modified energy at each step of one run.
     #[command(after_help = TRACE_EXAMPLE)]
     Trace(TraceArguments),
+    /// Runs a scene: a file that says what is run and what is written.
+    #[command(after_help = RUN_EXAMPLE)]
+    Run(SceneRunArguments),
+    /// Writes a scene to begin with; lists the problems that have one; explains the keys of scenes.
+    #[command(after_help = SCENE_EXAMPLE)]
+    Scene {
+        /// The problem, such as kepler
+        name: Option<String>,
+        /// Says what every key of a scene means
+        #[arg(long, conflicts_with = "name")]
+        explain: bool,
+    },
     /// Lists the schemes that come along; shows one; checks a table of yours.
     #[command(args_conflicts_with_subcommands = true)]
     Schemes {
@@ -104,6 +127,16 @@ pub(crate) struct TraceArguments {
     /// Positions and momenta too
     #[arg(long)]
     pub(crate) states: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SceneRunArguments {
+    /// The scene's file, such as scene.toml
+    #[arg(value_name = "FILE")]
+    pub(crate) scene: String,
+    /// Begins again where there is a checkpoint to go on from
+    #[arg(long)]
+    pub(crate) restart: bool,
 }
 
 /// What is run, and how.

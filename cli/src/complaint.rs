@@ -20,8 +20,8 @@ pub(crate) enum Ending {
 pub(crate) enum Complaint {
     /// One sentence, and what would be right.
     Usage { sentence: String, hint: String },
-    /// A table that is to be run has faults.
-    Table(Faults),
+    /// A scene, or a table that is to be run, has faults.
+    Faults(Faults),
     /// One sentence, and what may help.
     Run { sentence: String, hint: String },
     /// The output cannot be written.
@@ -44,7 +44,7 @@ impl Complaint {
                 say(format_args!("error: {sentence}\n  hint: {hint}"));
                 Ending::WrongUsage
             }
-            Complaint::Table(faults) => {
+            Complaint::Faults(faults) => {
                 say(format_args!("error: {faults}"));
                 Ending::WrongUsage
             }

@@ -60,7 +60,7 @@ fn as_object<S: Serializer>(pairs: &[(String, String)], serializer: S) -> Result
 /// Runs all; a run that fails is told of, and the others go on.
 pub(crate) fn drift(arguments: &DriftArguments) -> Result<Ending, Complaint> {
     let selection = Selection::read(&arguments.run)?;
-    let mut output = Output::open(arguments.run.output.as_deref())?;
+    let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
     // a bar would run through the lines on the same terminal
     let bar = !arguments.json || arguments.run.output.is_some() || !std::io::stdout().is_terminal();
     let mut ending = Ending::Done;

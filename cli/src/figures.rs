@@ -17,6 +17,23 @@ pub(crate) fn rounded(text: &str, digits: usize) -> String {
     from_text(text).map_or_else(|_| text.to_owned(), |value| to_significant(&value, digits))
 }
 
+/// A text in lines of at most 100 characters, each of which begins with `margin`.
+pub(crate) fn wrapped(text: &str, margin: &str) -> String {
+    let mut lines = String::new();
+    for paragraph in text.lines() {
+        let mut line = margin.to_owned();
+        for word in paragraph.split_whitespace() {
+            if line.len() > margin.len() && line.chars().count() + 1 + word.chars().count() > 100 {
+                lines += &format!("{}\n", line.trim_end());
+                line = margin.to_owned();
+            }
+            line += &format!("{}{word}", if line.len() > margin.len() { " " } else { "" });
+        }
+        lines += &format!("{}\n", line.trim_end());
+    }
+    lines
+}
+
 /// A table with lines above, below the header, and below; the columns of numbers are flush right.
 pub(crate) fn table<const N: usize>(header: [&str; N], rows: Vec<[String; N]>, numbers: Range<usize>) -> String {
     let mut table = Table::new();

@@ -5,6 +5,7 @@ use std::io::ErrorKind;
 use std::path::{Component, Path};
 
 use shadowstep::tables::{self, Source, TableScheme, shipped_names};
+use shadowstep_schemes::First;
 use shadowstep_symbolic::nearest;
 
 use crate::complaint::Complaint;
@@ -18,11 +19,17 @@ pub(crate) struct Named {
 
 /// The scheme that a word means: a shipped one, or a file.
 pub(crate) fn scheme(word: &str) -> Result<Named, Complaint> {
-    let scheme = if is_file(word) {
-        tables::read(&source(word)?, &beside_or_shipped, None).map_err(Complaint::Table)?
+    scheme_from(word, Path::new(""), None)
+}
+
+/// The same, with files as seen from a folder and steps that may begin with the other map.
+pub(crate) fn scheme_from(word: &str, folder: &Path, first: Option<First>) -> Result<Named, Complaint> {
+    let source = if is_file(word) {
+        source(&folder.join(word).to_string_lossy())?
     } else {
-        tables::shipped(word).ok_or_else(|| unknown(word))?
+        shadowstep_schemes::shipped(word).ok_or_else(|| unknown(word))?
     };
+    let scheme = tables::read(&source, &beside_or_shipped, first).map_err(Complaint::Faults)?;
     Ok(Named { name: word.to_owned(), scheme })
 }
 

@@ -5,7 +5,9 @@
 //! | [`arguments`] | the flags and their help |
 //! | [`quantity`], [`library`] | exact numbers and schemes, as a person names them |
 //! | [`selection`], [`run`] | arguments → problem, schemes and steps: the runs to make |
+//! | [`arithmetic`], [`steps`], [`order`] | digits, the number of steps, and the m of the estimator |
 //! | [`drift`], [`trace`] | the runs: one line a run, or one line a step |
+//! | [`scene`] | runs that a file describes |
 //! | [`schemes`], [`problems`] | what can be run |
 //! | [`figures`], [`output`], [`progress`], [`complaint`] | how it is told |
 
@@ -21,6 +23,7 @@ mod problems;
 mod progress;
 mod quantity;
 mod run;
+mod scene;
 mod schemes;
 mod selection;
 mod steps;
@@ -42,6 +45,9 @@ fn obey(command: &Command) -> Result<Ending, Complaint> {
     match command {
         Command::Drift(arguments) => drift::drift(arguments),
         Command::Trace(arguments) => trace::trace(arguments),
+        Command::Run(arguments) => scene::run(arguments),
+        Command::Scene { explain: true, .. } => scene::explain(),
+        Command::Scene { name, explain: false } => scene::template(name.as_deref()),
         Command::Problems { name, json } => problems::problems(name.as_deref(), *json),
         Command::Schemes { json, command: None } => schemes::list(*json),
         Command::Schemes { json, command: Some(SchemesCommand::Show { name, json: too }) } => {

@@ -21,17 +21,17 @@ struct Unfinished {
 }
 
 impl Output {
-    /// The file, or stdout.
-    pub(crate) fn open(path: Option<&Path>) -> Result<Self, Complaint> {
+    /// The file, or stdout. In complaints, `named` is the flag or key that gives the file.
+    pub(crate) fn open(path: Option<&Path>, named: &str) -> Result<Self, Complaint> {
         let Some(path) = path else {
             return Ok(Output { writer: Box::new(io::stdout().lock()), file: None });
         };
         let name = path.file_name().filter(|_| path.is_file() || !path.exists()).ok_or_else(|| {
-            Complaint::usage(format!("--output {} is no file", path.display()), "give the name of a file")
+            Complaint::usage(format!("{named} {} is no file", path.display()), "give the name of a file")
         })?;
         let temporary = path.with_file_name(format!("{}.{}.partial", name.display(), std::process::id()));
         let file = File::create_new(&temporary).map_err(|error| {
-            let sentence = format!("--output {} cannot be written: {error}", path.display());
+            let sentence = format!("{named} {} cannot be written: {error}", path.display());
             Complaint::usage(sentence, "give a file in a folder that exists and is yours")
         })?;
         let file = (BufWriter::new(file), Unfinished { temporary, path: path.to_owned() });

@@ -44,7 +44,7 @@ pub(crate) fn problems(name: Option<&str>, json: bool) -> Result<Ending, Complai
         None => PROBLEMS.iter().collect(),
     };
     let most_values = if name.is_some() { usize::MAX } else { SHORT };
-    let mut output = Output::open(None)?;
+    let mut output = Output::open(None, "")?;
     for (i, problem) in chosen.into_iter().enumerate() {
         if json {
             output.json(&record(problem))?;

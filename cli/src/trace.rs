@@ -33,7 +33,7 @@ pub(crate) fn trace(arguments: &TraceArguments) -> Result<Ending, Complaint> {
     let run = selection.single().ok_or_else(|| {
         Complaint::usage("a trace is of one run: one scheme and one step", "`shadowstep drift` makes many runs")
     })?;
-    let mut output = Output::open(arguments.run.output.as_deref())?;
+    let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
     let bar = arguments.run.output.is_some();
     let mut write = writer(&selection, arguments, &mut output)?;
     match selection.arithmetic {

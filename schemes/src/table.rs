@@ -111,7 +111,8 @@ fn is_repeated_key(error: &toml::de::Error) -> bool {
     error.message().contains("duplicate key")
 }
 
-fn toml_fault(source: &Source, error: &toml::de::Error) -> Fault {
+/// What keeps a text from being TOML, as a fault at its place.
+pub fn toml_fault(source: &Source, error: &toml::de::Error) -> Fault {
     let at = error.span().unwrap_or(0..0);
     match error.message() {
         // what the parser says of any bare word

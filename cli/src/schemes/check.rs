@@ -11,7 +11,7 @@ use crate::output::Output;
 
 /// Goes through all tables; the worst answer counts.
 pub(crate) fn check(files: &[String]) -> Result<Ending, Complaint> {
-    let mut output = Output::open(None)?;
+    let mut output = Output::open(None, "")?;
     let mut ending = Ending::Done;
     for path in files {
         let source = match library::source(path) {

@@ -29,7 +29,7 @@ pub(crate) fn list(json: bool) -> Result<Ending, Complaint> {
     let named = |name| shipped(name).map(|scheme| record(name, &scheme));
     let mut records: Vec<Record> = shipped_names().into_iter().filter_map(named).collect();
     records.sort_by_key(|record| (record.order, record.order_quadratic, record.evaluations));
-    let mut output = Output::open(None)?;
+    let mut output = Output::open(None, "")?;
     if json {
         records.iter().try_for_each(|record| output.json(record))?;
     } else {

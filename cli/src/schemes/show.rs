@@ -60,7 +60,7 @@ struct Map {
 
 pub(crate) fn show(word: &str, json: bool) -> Result<Ending, Complaint> {
     let scheme = library::scheme(word)?.scheme;
-    let mut output = Output::open(None)?;
+    let mut output = Output::open(None, "")?;
     if json {
         output.json(&record(&scheme))?;
     } else {
