@@ -47,43 +47,48 @@ use crate::steps;
 pub(crate) fn run(arguments: &SceneRunArguments) -> Result<Ending, Complaint> {
     let scene = Scene::read(source(&arguments.scene)?)?;
     interrupt::listen();
-    let (target, checkpoint) = Target::open(&scene, arguments.restart)?;
-    let mut rows = Rows { target, format: scene.output.format, columns: columns(&scene) };
-    match &checkpoint {
-        Some(checkpoint) => remark(format_args!("taken up at n = {} of {}", checkpoint.n, scene.steps)),
-        None => {
-            steps::remark_on_end(&scene.h, scene.steps, &scene.until);
-            rows.head(&Metadata::of(&scene))?;
-        }
-    }
     let begin = Instant::now();
-    let end = match scene.arithmetic {
-        Arithmetic::Double => follow::<f64>(&scene, &(), &mut rows, checkpoint.as_ref()),
-        Arithmetic::Digits(_, precision) => follow::<Float>(&scene, &precision, &mut rows, checkpoint.as_ref()),
-    };
-    match end {
-        Ok(End::Complete { evaluations }) => {
-            rows.target.finish()?;
+    match perform(&scene, arguments.restart, &interrupt::asked)? {
+        End::Complete { evaluations } => {
             if std::io::stderr().is_terminal() {
                 let (steps, seconds) = (scene.steps, begin.elapsed().as_secs_f64());
                 remark(format_args!("{steps} steps, {evaluations} force evaluations, {seconds:.3} seconds"));
             }
             Ok(Ending::Done)
         }
-        Ok(End::Interrupted(n)) => {
+        End::Interrupted(n) => {
             let hint = match scene.output.checkpoint {
                 Some(_) => "run the scene again to go on from there",
                 None => "with `checkpoint = \"1 min\"` in [output] it could go on from there",
             };
             Err(Complaint::run(format!("{}: interrupted at n = {n}", scene.source.path), hint))
         }
-        Err(complaint) => {
-            if let Complaint::Run { .. } = complaint {
-                rows.target.give_up()?;
-            }
-            Err(complaint)
+    }
+}
+
+/// Runs a scene from its beginning, or from its checkpoint, until it is complete or told to `stop`.
+fn perform(scene: &Scene, restart: bool, stop: &dyn Fn() -> bool) -> Result<End, Complaint> {
+    let (target, checkpoint) = Target::open(scene, restart)?;
+    let mut rows = Rows { target, format: scene.output.format, columns: columns(scene) };
+    match &checkpoint {
+        Some(checkpoint) => remark(format_args!("taken up at n = {} of {}", checkpoint.n, scene.steps)),
+        None => {
+            steps::remark_on_end(&scene.h, scene.steps, &scene.until);
+            rows.head(&Metadata::of(scene))?;
         }
     }
+    let checkpoint = checkpoint.as_ref();
+    let end = match scene.arithmetic {
+        Arithmetic::Double => follow::<f64>(scene, &(), &mut rows, checkpoint, stop),
+        Arithmetic::Digits(_, precision) => follow::<Float>(scene, &precision, &mut rows, checkpoint, stop),
+    };
+    match &end {
+        Ok(End::Complete { .. }) => rows.target.finish()?,
+        Err(Complaint::Run { .. }) => rows.target.give_up()?,
+        // interrupted, or the disk is full: a later run may go on
+        Ok(End::Interrupted(_)) | Err(_) => {}
+    }
+    end
 }
 
 fn columns(scene: &Scene) -> Columns {
@@ -106,5 +111,75 @@ fn source(path: &str) -> Result<Source, Complaint> {
         Err(error) if error.kind() == ErrorKind::NotFound => Err(refuse(format!("there is no file {path}"))),
         Err(error) if error.kind() == ErrorKind::InvalidData => Err(refuse(format!("{path} is no text in UTF-8"))),
         Err(error) => Err(refuse(format!("{path} cannot be read: {error}"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::Cell;
+    use std::path::Path;
+
+    /// 20 steps at 30 digits with a checkpoint at each `interrupt`, and what else the output is.
+    fn scene(folder: &Path, output: &str) -> Scene {
+        let text = format!(
+            "[problem]\nname = \"kepler\"\n[run]\nscheme = \"ruth3\"\nstep = \"1/20\"\nsteps = 20\ndigits = 30\n\
+             [output]\nfile = \"out.csv\"\ncheckpoint = \"1 h\"\n{output}\n"
+        );
+        let path = folder.join("scene.toml");
+        fs::write(&path, text).unwrap();
+        Scene::read(source(path.to_str().unwrap()).unwrap()).unwrap()
+    }
+
+    /// Stops after so many states, then after twice as many of those that are made from there, and so on; gives the
+    /// bytes of the file and the n of the stops.
+    fn with_stops(output: &str, each: usize) -> (String, Vec<i64>) {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = scene(folder.path(), output);
+        let mut stops = Vec::new();
+        loop {
+            let states = Cell::new(0);
+            let stop = || {
+                states.set(states.get() + 1);
+                states.get() > each * (stops.len() + 1)
+            };
+            match perform(&scene, false, &stop).unwrap() {
+                End::Complete { .. } => break,
+                End::Interrupted(n) => stops.push(n),
+            }
+        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "the file and its scene");
+        (fs::read_to_string(folder.path().join("out.csv")).unwrap(), stops)
+    }
+
+    #[test]
+    fn wherever_a_run_is_stopped_its_file_has_the_same_bytes() {
+        for output in [
+            "trajectory = true",
+            "energy = { every = 3 }\ntrajectory = { every = 2 }",
+            "modified_energy = { order = 1 }",
+            "modified_energy = { order = 4, every = 3 }\nenergy = true",
+            "modified_energy = { max_order = 6 }\ntrajectory = { every = 5 }",
+            "modified_energy = { max_order = 30 }",
+        ] {
+            let (whole, stops) = with_stops(output, 1000);
+            assert_eq!((stops.len(), whole.lines().last().unwrap().split(',').next()), (0, Some("20")), "{output}");
+            for each in [5, 7, 8, 12, 13, 19, 20] {
+                let (bytes, stops) = with_stops(output, each);
+                assert!(!stops.is_empty() && stops.is_sorted(), "{output}: {stops:?}");
+                assert_eq!(bytes, whole, "{output}: {stops:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_plain_run_evaluates_the_gradient_once_a_step_and_once_to_begin() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut scene = scene(folder.path(), "energy = true");
+        scene.scheme = crate::library::scheme("stormer-verlet").unwrap();
+        let End::Complete { evaluations } = perform(&scene, false, &|| false).unwrap() else {
+            panic!("it is complete")
+        };
+        assert_eq!(evaluations, 21);
     }
 }

@@ -11,7 +11,6 @@ use crate::order::Order;
 use crate::progress::Progress;
 use crate::run::Run;
 use crate::scene::checkpoint::{Checkpoint, Saved};
-use crate::scene::interrupt;
 use crate::scene::read::{Cadence, Scene};
 use crate::scene::system::Moving;
 use crate::scene::write::{Modified, Row, Rows};
@@ -27,12 +26,13 @@ pub(crate) enum End {
     Interrupted(i64),
 }
 
-/// Runs the scene, from a checkpoint if there is one.
+/// Runs the scene, from a checkpoint if there is one, until it is complete or told to `stop`.
 pub(crate) fn follow<N: Number + 'static>(
     scene: &Scene,
     context: &N::Context,
     rows: &mut Rows,
     checkpoint: Option<&Checkpoint>,
+    stop: &dyn Fn() -> bool,
 ) -> Result<End, Complaint> {
     let run = Run { scheme: &scene.scheme, h: &scene.h, steps: scene.steps };
     let progress = Progress::new(scene.output.file.is_some(), run.name(), run.steps);
@@ -50,6 +50,7 @@ pub(crate) fn follow<N: Number + 'static>(
         written: checkpoint.map_or(-1, |checkpoint| checkpoint.n),
         last_checkpoint: Instant::now(),
         heard: &progress.listener(),
+        stop,
     };
     let from = saved.map(|saved| saved.n);
     match scene.output.modified {
@@ -72,6 +73,7 @@ struct Recorder<'a, N: Number> {
     written: i64,
     last_checkpoint: Instant,
     heard: &'a dyn Fn(i64),
+    stop: &'a dyn Fn() -> bool,
 }
 
 impl<N: Number + 'static> Recorder<'_, N> {
@@ -156,7 +158,7 @@ impl<N: Number + 'static> Recorder<'_, N> {
     ///
     /// `state` is what to go on from; `None` for the state at t = 0.
     fn ends(&mut self, n: i64, state: Option<State<'_, N>>) -> Result<bool, Complaint> {
-        let interrupted = interrupt::asked();
+        let interrupted = (self.stop)();
         let due = match self.scene.output.checkpoint {
             None => false,
             Some(Cadence::Steps(every)) => n.unsigned_abs().is_multiple_of(every),

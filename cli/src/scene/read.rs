@@ -114,7 +114,10 @@ fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>) {
         };
         reader.fault(&key.span(), format!("unknown section `{word}`"), help);
     }
-    for name in ["problem", "run", "output"] {
+    // a shipped problem has a state of its own
+    let potential = root.get("problem").and_then(|problem| problem.get_ref().as_table()?.get("potential"));
+    let needed = ["problem", "run", "output"].into_iter().chain(potential.map(|_| "initial"));
+    for name in needed {
         let misspelt = |word: &str| !names.contains(&word) && nearest(word, names.iter().copied()) == Some(name);
         if root.get(name).is_none() && !root.keys().any(|word| misspelt(word.get_ref())) {
             let help = "`shadowstep scene kepler` writes a scene with all sections";
@@ -344,4 +347,65 @@ fn duration(text: &str) -> Option<Duration> {
     };
     let number: f64 = number.trim().parse().ok()?;
     Duration::try_from_secs_f64(number * seconds).ok().filter(|time| !time.is_zero())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::keys::KEYS;
+
+    /// The faults of a scene, each as `line:column: sentence`.
+    fn faults(text: &str) -> Vec<String> {
+        match Scene::read(Source { path: "test.toml".to_owned(), text: text.to_owned() }) {
+            Err(Complaint::Faults(Faults(faults))) => {
+                faults.iter().map(|fault| format!("{}:{}: {}", fault.line, fault.column, fault.message)).collect()
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn every_key_that_is_explained_is_read() {
+        // a date is a value of no key
+        for key in &KEYS {
+            let text = format!("[{}]\n{} = 2001-01-01", key.section, key.name);
+            let wrong = format!("2:{}: this value is of the wrong kind", key.name.len() + 4);
+            assert!(faults(&text).contains(&wrong), "{text}: {:?}", faults(&text));
+        }
+    }
+
+    #[test]
+    fn what_is_not_explained_is_refused() {
+        for section in &SECTIONS {
+            let text = format!("[{}]\nfrobnicate = 1", section.name);
+            assert!(faults(&text).contains(&"2:1: unknown key `frobnicate`".to_owned()), "{text}: {:?}", faults(&text));
+        }
+    }
+
+    #[test]
+    fn every_section_is_explained() {
+        for key in &KEYS {
+            assert!(SECTIONS.iter().any(|section| section.name == key.section), "{}", key.section);
+            assert!(!key.meaning.is_empty() && !key.example.is_empty(), "{}", key.name);
+        }
+    }
+
+    #[test]
+    fn the_examples_are_values_that_can_be_read() {
+        for key in &KEYS {
+            let text = format!("[{}]\n{} = {}", key.section, key.name, key.example);
+            let faults = faults(&text);
+            assert!(!faults.iter().any(|fault| fault.contains("wrong kind")), "{text}: {faults:?}");
+        }
+    }
+
+    #[test]
+    fn durations() {
+        for (text, seconds) in [("1 min", 60.0), ("30 s", 30.0), ("2h", 7200.0), ("0.5 min", 30.0)] {
+            assert_eq!(duration(text), Some(Duration::from_secs_f64(seconds)), "{text}");
+        }
+        for wrong in ["", "1", "min", "1 m", "0 s", "-1 s", "1e99 h", "1 min 3"] {
+            assert_eq!(duration(wrong), None, "{wrong}");
+        }
+    }
 }

@@ -214,7 +214,9 @@ impl Given {
             }
             values.iter().any(|mass| !mass.value.is_one()).then_some(values)
         });
-        self.state.all_there(reader, self.initial.as_ref().unwrap_or(&self.problem));
+        if let Some(initial) = &self.initial {
+            self.state.all_there(reader, initial);
+        }
         let (q, p) = self.state.values(reader, coordinates.len(), masses.as_deref());
         let energy = PotentialEnergy::Formula(potential.value.clone());
         Some(System { energy, parameters, coordinates, momenta, masses, q: q?, p: p? })

@@ -1,8 +1,11 @@
 //! The command line, used as a person or a script uses it.
 
+mod checkpoints;
 mod drift;
 mod problems;
 mod program;
+mod scene_faults;
+mod scenes;
 mod schemes;
 mod trace;
 mod wrong_usage;

@@ -1,0 +1,278 @@
+//! A run that is stopped at any moment goes on from its checkpoint, and its file has the bytes of one that was not.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+use crate::scenes::{folder, names, run};
+
+/// In double precision, without modified energies.
+const PLAIN: &str = r#"
+[problem]
+potential = "-1/sqrt(x^2 + y^2)"
+coordinates = ["x", "y"]
+[initial]
+q = ["0.4", 0]
+p = [0, 2]
+[run]
+scheme = "stormer-verlet"
+step = "1/1000"
+steps = 300000
+digits = "double"
+[output]
+energy = { every = 700 }
+trajectory = { every = 1100 }
+file = "out.csv"
+checkpoint = 1000
+"#;
+
+/// With modified energies, whose estimator needs states on both sides.
+const SHADOWED: &str = r#"
+[problem]
+name = "pendulum"
+[run]
+scheme = "yoshida4"
+step = "1/20"
+steps = 3000
+digits = 60
+[output]
+modified_energy = { order = "auto", max_order = 12 }
+energy = { every = 7 }
+file = "out.jsonl"
+checkpoint = 25
+"#;
+
+/// The file of a run that nobody disturbs.
+fn undisturbed(scene: &str, file: &str) -> String {
+    let folder = folder(scene);
+    assert_eq!(run(folder.path(), "").code, 0);
+    assert_eq!(names(folder.path()), [file, "scene.toml"]);
+    fs::read_to_string(folder.path().join(file)).unwrap()
+}
+
+fn begin(folder: &Path) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_shadowstep"))
+        .args(["run", folder.join("scene.toml").to_str().unwrap()])
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap()
+}
+
+/// Waits until there is a checkpoint other than `before`, and ends the run with no time to tidy up.
+fn kill_after_checkpoint(folder: &Path, file: &str, before: &str) -> String {
+    let checkpoint = folder.join(format!("{file}.checkpoint"));
+    let mut child = begin(folder);
+    let begun = Instant::now();
+    let found = loop {
+        let found = fs::read_to_string(&checkpoint).unwrap_or_default();
+        if !found.is_empty() && found != before {
+            break found;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(60), "no checkpoint comes");
+        std::thread::sleep(Duration::from_millis(1));
+    };
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(!folder.join(file).exists(), "the run was over before it could be killed");
+    assert!(folder.join(format!("{file}.partial")).exists());
+    found
+}
+
+fn survives_kills(scene: &str, file: &str) {
+    let folder = folder(scene);
+    let mut checkpoint = String::new();
+    for _ in 0..3 {
+        checkpoint = kill_after_checkpoint(folder.path(), file, &checkpoint);
+    }
+    let said = run(folder.path(), "");
+    assert_eq!(said.code, 0, "{}", said.err);
+    assert!(said.err.starts_with("remark: taken up at n = "), "{}", said.err);
+    assert_eq!(names(folder.path()), [file, "scene.toml"]);
+    assert!(fs::read_to_string(folder.path().join(file)).unwrap() == undisturbed(scene, file), "other bytes");
+}
+
+#[test]
+fn a_killed_run_in_double_precision_goes_on_with_the_same_bytes() {
+    survives_kills(PLAIN, "out.csv");
+}
+
+#[test]
+fn a_killed_run_with_modified_energies_goes_on_with_the_same_bytes() {
+    survives_kills(SHADOWED, "out.jsonl");
+}
+
+/// A folder where a run was killed.
+fn stopped(scene: &str, file: &str) -> TempDir {
+    let folder = folder(scene);
+    kill_after_checkpoint(folder.path(), file, "");
+    folder
+}
+
+/// Whether the run of a folder is refused with this sentence, and begins again with --restart.
+fn refused(folder: &TempDir, sentence: &str) {
+    let said = run(folder.path(), "");
+    assert_eq!(said.code, 2, "{}", said.err);
+    assert!(said.err.contains(sentence) && said.err.contains("help: --restart discards it"), "{}", said.err);
+    let said = run(folder.path(), "--restart");
+    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+}
+
+#[test]
+fn another_scene_is_not_gone_on_with() {
+    let folder = stopped(PLAIN, "out.csv");
+    fs::write(folder.path().join("scene.toml"), PLAIN.replace("0.4", "0.5")).unwrap();
+    refused(&folder, "out.csv.checkpoint was made with another text of the scene, so the run cannot go on from it");
+    let file = fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    assert!(file.contains("# q: [\"1/2\",\"0\"]"));
+}
+
+#[test]
+fn another_table_is_not_gone_on_with() {
+    let scene = PLAIN.replace("stormer-verlet", "mine.toml");
+    let euler =
+        "name = \"euler\"\norder = 1\nkinetic = \"any\"\nreference = \"Euler\"\n[stages]\nkick = [1]\ndrift = [1]\n";
+    let folder = folder(&scene);
+    fs::write(folder.path().join("mine.toml"), euler).unwrap();
+    kill_after_checkpoint(folder.path(), "out.csv", "");
+    fs::write(folder.path().join("mine.toml"), format!("{euler}\n# a word more")).unwrap();
+    let said = run(folder.path(), "");
+    assert_eq!(said.code, 2);
+    assert!(said.err.contains("was made with another table of the scheme"), "{}", said.err);
+}
+
+#[test]
+fn a_damaged_checkpoint_is_refused() {
+    let folder = stopped(PLAIN, "out.csv");
+    let checkpoint = folder.path().join("out.csv.checkpoint");
+    let text = fs::read_to_string(&checkpoint).unwrap();
+    fs::write(&checkpoint, &text[..text.len() / 2]).unwrap();
+    refused(&folder, "out.csv.checkpoint is damaged");
+}
+
+#[test]
+fn a_changed_checkpoint_is_refused() {
+    let folder = stopped(PLAIN, "out.csv");
+    let checkpoint = folder.path().join("out.csv.checkpoint");
+    let text = fs::read_to_string(&checkpoint).unwrap();
+    let position = text.find("\"q\": [").unwrap();
+    let digit = position + text[position..].find(|c: char| ('1'..='8').contains(&c)).unwrap();
+    let changed = format!("{}9{}", &text[..digit], &text[digit + 1..]);
+    fs::write(&checkpoint, changed).unwrap();
+    refused(&folder, "out.csv.checkpoint was changed after it was written");
+}
+
+#[test]
+fn changed_rows_are_refused() {
+    let folder = stopped(PLAIN, "out.csv");
+    let partial = folder.path().join("out.csv.partial");
+    let rows = fs::read_to_string(&partial).unwrap();
+    fs::write(&partial, rows.replacen("-0.5", "-0.6", 1)).unwrap();
+    refused(&folder, "out.csv.partial was changed after its checkpoint was written");
+    let folder = stopped(PLAIN, "out.csv");
+    fs::OpenOptions::new().write(true).open(folder.path().join("out.csv.partial")).unwrap().set_len(9).unwrap();
+    refused(&folder, "out.csv.partial is shorter than its checkpoint says");
+}
+
+#[test]
+fn rows_without_a_checkpoint_are_begun_again() {
+    let folder = folder(PLAIN);
+    fs::write(folder.path().join("out.csv.partial"), "of a run that was killed before its first checkpoint").unwrap();
+    let said = run(folder.path(), "");
+    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    assert!(fs::read_to_string(folder.path().join("out.csv")).unwrap() == undisturbed(PLAIN, "out.csv"));
+    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+}
+
+#[test]
+fn a_checkpoint_that_a_complete_run_left_is_no_obstacle() {
+    let folder = stopped(PLAIN, "out.csv");
+    fs::rename(folder.path().join("out.csv.partial"), folder.path().join("out.csv")).unwrap();
+    let said = run(folder.path(), "");
+    assert_eq!(said.code, 0, "{}", said.err);
+    assert!(said.err.contains("has no rows beside it: the run begins again"), "{}", said.err);
+    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+}
+
+#[test]
+fn two_runs_do_not_write_one_file() {
+    let folder = folder(&PLAIN.replace("steps = 300000", "steps = 100000000"));
+    let mut child = begin(folder.path());
+    let begun = Instant::now();
+    while !folder.path().join("out.csv.checkpoint").exists() {
+        assert!(begun.elapsed() < Duration::from_secs(60), "no checkpoint comes");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let said = run(folder.path(), "");
+    let restarted = run(folder.path(), "--restart");
+    child.kill().unwrap();
+    child.wait().unwrap();
+    for said in [said, restarted] {
+        assert_eq!(said.code, 2);
+        assert!(said.err.contains("another run is writing"), "{}", said.err);
+    }
+}
+
+#[test]
+fn a_run_that_fails_keeps_its_rows_and_no_checkpoint() {
+    let folder = folder(
+        "[problem]\nname = \"harmonic-oscillator\"\n[run]\nscheme = \"stormer-verlet\"\nstep = 10\nuntil = 10000\n\
+         digits = \"double\"\n[output]\ntrajectory = true\nfile = \"out.csv\"\ncheckpoint = 10\n",
+    );
+    let said = run(folder.path(), "");
+    assert_eq!(said.code, 3);
+    assert!(said.err.contains("out.csv.partial") && said.err.contains("the run ends at n = "), "{}", said.err);
+    assert_eq!(names(folder.path()), ["out.csv.partial", "scene.toml"]);
+}
+
+/// Sends a signal, as Ctrl-C and `kill` do.
+#[cfg(unix)]
+fn signal(child: &Child, name: &str) {
+    assert!(Command::new("kill").args([name, &child.id().to_string()]).status().unwrap().success());
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_ends_with_a_checkpoint() {
+    // no checkpoint would come before the signal
+    let scene = SHADOWED.replace("checkpoint = 25", "checkpoint = \"1 h\"");
+    let folder = folder(&scene);
+    let (mut checkpoint, mut length) = (String::new(), 0);
+    let partial = folder.path().join("out.jsonl.partial");
+    for name in ["-INT", "-TERM"] {
+        let mut child = begin(folder.path());
+        let begun = Instant::now();
+        // it listens before it writes
+        while fs::metadata(&partial).map_or(0, |file| file.len()) <= length {
+            assert!(begun.elapsed() < Duration::from_secs(60), "no rows come");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        signal(&child, name);
+        assert_eq!(child.wait().unwrap().code(), Some(3));
+        let before = checkpoint;
+        checkpoint = fs::read_to_string(folder.path().join("out.jsonl.checkpoint")).unwrap();
+        assert_ne!(checkpoint, before);
+        length = fs::metadata(&partial).unwrap().len();
+    }
+    assert_eq!(run(folder.path(), "").code, 0);
+    let whole = undisturbed(&scene, "out.jsonl");
+    assert!(fs::read_to_string(folder.path().join("out.jsonl")).unwrap() == whole, "other bytes");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_without_checkpoints_leaves_nothing() {
+    let folder = folder(&PLAIN.replace("checkpoint = 1000", "").replace("steps = 300000", "steps = 100000000"));
+    let mut child = begin(folder.path());
+    let begun = Instant::now();
+    while names(folder.path()).len() < 2 {
+        assert!(begun.elapsed() < Duration::from_secs(60), "no file comes");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    signal(&child, "-INT");
+    assert_eq!(child.wait().unwrap().code(), Some(3));
+    assert_eq!(names(folder.path()), ["scene.toml"]);
+}

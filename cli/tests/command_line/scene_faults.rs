@@ -1,0 +1,195 @@
+//! What is wrong in a scene has its line and column, a sentence and what would be right; the exit code is 2.
+
+use std::fs;
+
+use crate::program::shadowstep;
+use crate::scenes::{folder, names, run};
+
+const GOOD: &str = r#"[problem]
+potential = "k/sqrt(x^2 + y^2)"
+coordinates = ["x", "y"]
+parameters = { k = -1 }
+masses = [1, 2]
+[initial]
+q = [1, 0]
+p = [0, 1]
+[run]
+scheme = "yoshida4"
+step = "1/20"
+until = 2
+digits = 30
+[output]
+energy = true
+"#;
+
+/// What is replaced in the good scene, by what; then place and sentence, and what would be right.
+const WRONG: &[(&str, &str, &str, &str)] = &[
+    ("scheme =", "shceme =", "10:1: unknown key `shceme`", "did you mean `scheme`?"),
+    ("digits = 30\n[output]", "[output]\ndigits = 30", "14:1: unknown key `digits`", "`digits` is a key of [run]"),
+    ("[initial]", "[intial]", "6:2: unknown section `intial`", "did you mean [initial]?"),
+    ("[output]\nenergy = true\n", "", "1:1: the section [output] is missing", "shadowstep scene kepler"),
+    ("[initial]\nq = [1, 0]\np = [0, 1]\n", "", "1:1: the section [initial] is missing", "shadowstep scene"),
+    ("step = \"1/20\"\n", "", "9:1: the key `step` is missing", "add `step = \"1/20\"`"),
+    ("until = 2\n", "", "9:1: the key `until` is missing", "add `until = 100`"),
+    ("potential = \"k/sqrt(x^2 + y^2)\"\n", "", "1:1: the key `potential` is missing", "add `potential"),
+    ("coordinates = [\"x\", \"y\"]\n", "", "1:1: the key `coordinates` is missing", "add `coordinates"),
+    ("q = [1, 0]\n", "", "6:1: the key `q` is missing", "add `q = […]`"),
+    ("scheme = \"yoshida4\"", "scheme = 4", "10:10: this value is of the wrong kind", "found a whole number"),
+    ("q = [1, 0]", "q = 1", "7:5: this value is of the wrong kind", "needed a list of numbers"),
+    ("digits = 30", "digits = 30.5", "13:10: this value is of the wrong kind", "needed a whole number"),
+    ("q = [1, 0]", "q = [1, 0, 0]", "7:5: this list needs a number for each coordinate", "found 3 numbers, needed 2"),
+    ("masses = [1, 2]", "masses = []", "5:10: this list is empty", "a list of numbers"),
+    ("sqrt(x^2", "sqrt(z^2", "2:21: unknown name `z`", "a smooth formula"),
+    ("\"k/sqrt(x", "\"\\u006b/sqrt(z", "2:13: unknown name `z`", "a smooth formula"),
+    ("\"k/sqrt(x^2 + y^2)\"", "'''\nk/sqrt(x^2 + z^2)'''", "3:14: unknown name `z`", "a smooth formula"),
+    ("x^2 + y^2)", "x^2 + y^2", "2:20: unexpected end: this `(` has no `)`", "a smooth formula"),
+    ("k/sqrt(x^2", "k/abs(x^2", "2:16: `abs` is not smooth", "a smooth formula"),
+    ("[\"x\", \"y\"]", "[\"x\", \"x\"]", "3:21: the coordinate `x` is named twice", "another name"),
+    ("[\"x\", \"y\"]", "[\"x\", \"k\"]", "3:21: the coordinate `k` has the name of a parameter", "another name"),
+    ("[\"x\", \"y\"]", "[\"x\", \"px\"]", "3:21: the coordinate `px` has the name of the momentum of `x`", "another"),
+    ("[\"x\", \"y\"]", "[\"px\", \"x\"]", "3:22: the momentum `px` of `x` has the name of a coordinate", "another"),
+    ("[\"x\", \"y\"]", "[\"x\", \"t\"]", "3:21: the coordinate `t` has the name of a column of the output", "another"),
+    ("[\"x\", \"y\"]", "[\"x\", \"2y\"]", "3:21: `2y` is no name", "begins with a letter"),
+    ("k = -1", "k = \"1/0\"", "4:23: division by zero", "1/10"),
+    ("k = -1", "k = \"2*x\"", "4:23: unknown name `x`", "1/10"),
+    ("masses = [1, 2]", "masses = [1, -2]", "5:14: a mass of -2 is not positive", "masses are positive"),
+    ("masses = [1, 2]", "masses = [0, 2]", "5:11: a mass of 0 is not positive", "masses are positive"),
+    ("q = [1, 0]", "q = [\"1 + z\", 0]", "7:11: unknown name `z`", "known names: k"),
+    ("q = [1, 0]", "q = [inf, 0]", "7:6: inf is no finite number", "1/10"),
+    ("q = [1, 0]", "q = [-nan, 0]", "7:6: -nan is no finite number", "1/10"),
+    ("q = [1, 0]", "q = [1e99999, 0]", "7:6: the exponent of this number is beyond 10000", "1/10"),
+    ("q = [1, 0]", "q = [0x10, 0]", "7:6: this value is of the wrong kind", "decimal digits"),
+    ("p = [0, 1]", "p = [0, 1]\nv = [0, 1]", "9:5: p and v are both given", "keep one of the two"),
+    ("step = \"1/20\"", "step = 0", "11:8: step 0 is zero", "such as 1/10"),
+    ("step = \"1/20\"", "step = -0.05", "11:8: steps of -0.05 never come to until 2", "both are positive"),
+    ("step = \"1/20\"", "step = 3", "11:8: step 3 is longer than the run until 2", "a shorter step"),
+    ("step = \"1/20\"", "step = 1e-20", "11:8: steps of 1e-20 until 2 are 2e20 steps", "more than 1e10"),
+    ("until = 2", "until = 0", "12:9: until 0 leaves no time for a step", "until 100"),
+    ("until = 2", "until = 2\nsteps = 40", "13:9: until and steps are both given", "keep one of the two"),
+    ("until = 2", "steps = 0", "12:9: 0 is out of range", "from 1 to"),
+    ("step = \"1/20\"\nuntil = 2", "step = 0\nsteps = 2", "11:8: step 0 is zero", "such as 1/10"),
+    ("digits = 30", "digits = 301", "10:10: yoshida4 has irrational weights, held to 300 digits", "digits = 300"),
+    ("digits = 30", "digits = 0", "13:10: 0 is out of range", "from 1 to 100000"),
+    ("digits = 30", "digits = \"single\"", "13:10: `single` is not known here", "write \"double\""),
+    (
+        "digits = 30",
+        "digits = \"double\"\n[initial.extra]",
+        "14:10: unknown key `extra`",
+        "the keys of [initial] are q, p, v",
+    ),
+    ("\"yoshida4\"", "\"yoshida5\"", "10:10: there is no scheme `yoshida5`", "did you mean `yoshida4`?"),
+    ("\"yoshida4\"", "\"mine.toml\"", "10:10: there is no file ", "give the path of a table"),
+    ("\"yoshida4\"", "\"yoshida4\"\nfirst = \"kik\"", "11:9: `kik` is not known here", "write \"kick\" or \"drift\""),
+    ("energy = true", "energy = false", "14:1: nothing is asked for", "energy = true"),
+    ("energy = true", "energy = { evry = 2 }", "15:12: unknown key `evry`", "did you mean `every`?"),
+    ("energy = true", "energy = { every = 0 }", "15:20: 0 is out of range", "from 1"),
+    ("energy = true", "energy = \"yes\"", "15:10: this value is of the wrong kind", "needed true, or a table"),
+    ("energy = true", "modified_energy = { order = 0 }", "15:29: 0 is out of range", "from 1 to 1000"),
+    ("energy = true", "modified_energy = { order = \"best\" }", "15:29: `best` is not known", "write \"auto\""),
+    ("energy = true", "modified_energy = { max_order = 1 }", "15:33: 1 is out of range", "from 2 to 1000"),
+    (
+        "energy = true",
+        "modified_energy = { order = 4, stop = \"early\" }",
+        "15:39: max_order and stop are for",
+        "leave",
+    ),
+    ("energy = true", "energy = true\nfile = \"x.txt\"", "16:8: `x.txt` says no format by its name", ".csv or .jsonl"),
+    ("energy = true", "energy = true\nfile = \"no/x.csv\"", "16:8: file ", "a folder that exists"),
+    (
+        "energy = true",
+        "energy = true\nfile = \"scene.toml\"\nformat = \"csv\"",
+        "16:8: the file is the scene",
+        "another",
+    ),
+    ("energy = true", "energy = true\ncheckpoint = 9", "16:14: a checkpoint needs a file", "file = \"out.csv\""),
+    ("energy = true", "energy = true\nfile = \"x.csv\"\ncheckpoint = \"1 m\"", "17:14: `1 m` is no time", "\"1 min\""),
+    (
+        "energy = true",
+        "energy = true\nfile = \"x.csv\"\ncheckpoint = \"-1 s\"",
+        "17:14: `-1 s` is no time",
+        "\"1 min\"",
+    ),
+    ("energy = true", "energy = yes", "15:10: string values must be quoted", ""),
+    ("[output]", "[output", "14:", ""),
+    ("[problem]", "[problem]\nname = \"kepler\"", "3:13: name and potential are both given", "keep one of the two"),
+    ("until = 2", "until = 2\nuntil = 3", "13:1: duplicate key", "keep one of the two"),
+];
+
+#[test]
+fn each_has_its_place_and_sentence() {
+    for (part, replacement, sentence, help) in WRONG {
+        assert!(GOOD.contains(part), "{part}");
+        complains(&GOOD.replacen(part, replacement, 1), sentence, help);
+    }
+}
+
+const NAMED: &str = "[problem]\nname = \"kepler\"\nparameters = { eccentricity = \"1/2\" }\n\
+                     [run]\nscheme = \"ruth3\"\nsteps = 2\nstep = 0.1\n[output]\nenergy = true\n";
+
+#[test]
+fn so_have_those_of_shipped_problems() {
+    for (part, replacement, sentence, help) in [
+        ("\"kepler\"", "\"keppler\"", "2:8: there is no problem `keppler`", "did you mean `kepler`?"),
+        ("eccentricity", "ecentricity", "3:16: kepler has no parameter `ecentricity`", "did you mean `eccentricity`?"),
+        ("\"1/2\"", "\"3/2\"", "3:31: eccentricity = 3/2 is out of range", "less than 1"),
+        ("\"1/2\"", "\"1/x\"", "3:34: unknown name `x`", "1/10"),
+        ("[run]", "coordinates = [\"x\", \"y\"]\n[run]", "4:15: kepler has coordinates of its own", "leave them out"),
+        ("[run]", "masses = [1, 1]\n[run]", "4:10: kepler has masses of its own", "leave them out"),
+        ("[run]", "[initial]\nq = [1]\n[run]", "5:5: this list needs a number for each", "found 1 number, needed 2"),
+        ("0.1", "1e-400\ndigits = \"double\"", "7:8: 1e-400 is beyond double precision", "digits = 16"),
+        ("0.1", "0.1\ndigits = 6000\n[initial]\np = [0, \"sqrt(2)\"]", "10:9: this is irrational", "digits = 4980"),
+    ] {
+        complains(&NAMED.replacen(part, replacement, 1), sentence, help);
+    }
+}
+
+fn complains(scene: &str, sentence: &str, help: &str) {
+    let folder = folder(scene);
+    let said = run(folder.path(), "");
+    assert_eq!((said.code, said.out.as_str()), (2, ""), "{scene}");
+    let place = format!("{}:{sentence}", folder.path().join("scene.toml").display());
+    let message = said.err.strip_prefix("error: ").unwrap();
+    let at = message.find(&place).unwrap_or_else(|| panic!("{sentence}: {scene}\n{message}"));
+    assert!(message[at..].contains(help), "{help}: {message}");
+    assert_eq!(names(folder.path()), ["scene.toml"], "{scene}");
+}
+
+#[test]
+fn the_line_is_shown() {
+    let folder = folder(&GOOD.replace("sqrt(x^2", "sqrt(z^2"));
+    let said = run(folder.path(), "");
+    assert!(
+        said.err.contains("  2 | potential = \"k/sqrt(z^2 + y^2)\"\n    |                     ^\n  help: "),
+        "{}",
+        said.err
+    );
+}
+
+#[test]
+fn all_faults_are_told_of_at_once() {
+    let folder = folder(&GOOD.replace("yoshida4", "yoshida5").replace("masses = [1, 2]", "masses = [1, -2]"));
+    let said = run(folder.path(), "");
+    assert!(said.err.contains(":5:14: ") && said.err.contains(":10:10: "), "{}", said.err);
+}
+
+#[test]
+fn the_good_scenes_are_good() {
+    for scene in [GOOD, NAMED] {
+        let folder = folder(scene);
+        assert_eq!(run(folder.path(), "").code, 0);
+    }
+}
+
+#[test]
+fn a_scene_that_is_none_is_told_of() {
+    let folder = folder("");
+    fs::write(folder.path().join("bytes.toml"), [0xff, 0xfe]).unwrap();
+    for (file, sentence) in
+        [("none.toml", "there is no file"), ("scene.toml", "is empty"), ("bytes.toml", "UTF-8"), ("", "cannot be read")]
+    {
+        let said = shadowstep(&format!("run {}", folder.path().join(file).display()));
+        assert_eq!(said.code, 2);
+        assert!(said.err.contains(sentence) && said.err.contains("hint: give the path of a scene"), "{}", said.err);
+    }
+    assert_eq!(shadowstep("run").code, 2);
+}

@@ -1,0 +1,282 @@
+//! `shadowstep run` and `shadowstep scene`: what a scene asks for is written, and nothing else.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::program::{Said, objects, quietly, shadowstep, text};
+
+/// The scene of the documentation, over a shorter time.
+const KEPLER: &str = r#"
+[problem]
+potential = "-1/sqrt(x^2 + y^2)"       # or  name = "kepler"  with its parameters
+coordinates = ["x", "y"]
+masses = [1, 1]
+[initial]
+q = ["1 - 0.6", 0]
+p = [0, "sqrt((1 + 0.6)/(1 - 0.6))"]
+[run]
+scheme = "yoshida4"
+step = "1/20"
+until = 2
+digits = 120
+[output]
+energy = { every = 10 }
+modified_energy = { order = "auto", max_order = 40 }
+file = "kepler.csv"
+"#;
+
+/// A folder with a scene.
+pub(crate) fn folder(scene: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    folder
+}
+
+/// Runs the scene of a folder.
+pub(crate) fn run(folder: &Path, flags: &str) -> Said {
+    shadowstep(&format!("run {} {flags}", folder.join("scene.toml").display()))
+}
+
+/// Runs a scene without a file; all must go well, and stderr be silent.
+fn printed(scene: &str) -> String {
+    let folder = folder(scene);
+    quietly(&format!("run {}", folder.path().join("scene.toml").display()))
+}
+
+/// Columns and rows of CSV without its head.
+fn table(csv: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(csv.as_bytes());
+    let words = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
+    let header = words(reader.headers().unwrap());
+    (header, reader.records().map(|record| words(&record.unwrap())).collect())
+}
+
+/// The names in a folder.
+pub(crate) fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_scene_of_the_documentation_runs() {
+    let folder = folder(KEPLER);
+    let said = run(folder.path(), "");
+    assert_eq!((said.code, said.out.as_str(), said.err.as_str()), (0, "", ""));
+    assert_eq!(names(folder.path()), ["kepler.csv", "scene.toml"]);
+    let (header, rows) = table(&fs::read_to_string(folder.path().join("kepler.csv")).unwrap());
+    assert_eq!(header, ["n", "t", "energy", "modified_energy", "estimate", "order"]);
+    assert_eq!(rows.len(), 41);
+    for (n, row) in rows.iter().enumerate() {
+        assert_eq!((row[0].parse(), row[1].parse()), (Ok(n), Ok(n as f64 / 20.0)));
+        assert_eq!(row[2].is_empty(), n % 10 != 0);
+        // all digits are there
+        assert!(row[3].starts_with("-0.50029") && row[3].len() > 115, "{row:?}");
+    }
+    assert_eq!(rows[0][2], "-0.5");
+}
+
+#[test]
+fn the_numbers_are_those_of_trace() {
+    let scene = "[problem]\nname = \"kepler\"\nparameters = { eccentricity = \"1/3\" }\n[run]\nscheme = \"ruth3\"\n\
+                 step = 0.05\nuntil = 1\ndigits = 30\n\
+                 [output]\nformat = \"jsonl\"\nenergy = true\nmodified_energy = { order = 5 }\ntrajectory = true\n";
+    let lines = objects(&printed(scene));
+    let trace = "trace --problem kepler --set eccentricity=1/3 --scheme ruth3 --step 1/20 --until 1 --digits 30 \
+                 --order 5 --states";
+    assert_eq!(lines[1..], objects(&quietly(trace)));
+}
+
+#[test]
+fn a_formula_has_the_numbers_of_the_shipped_problem() {
+    let formula = KEPLER.replace("file = \"kepler.csv\"", "trajectory = true");
+    let problem = formula
+        .replace("potential = \"-1/sqrt(x^2 + y^2)\"", "name = \"kepler\"")
+        .replace("coordinates = [\"x\", \"y\"]\nmasses = [1, 1]\n", "");
+    assert_eq!(table(&printed(&formula)), table(&printed(&problem)));
+}
+
+/// A scene with these outputs, in double precision.
+fn asking(outputs: &str) -> String {
+    format!(
+        "[problem]\nname = \"pendulum\"\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/8\"\nsteps = 4\n\
+         digits = \"double\"\n[output]\n{outputs}\n"
+    )
+}
+
+#[test]
+fn only_what_is_asked_for_is_written() {
+    for (outputs, columns) in [
+        ("energy = true", "n,t,energy"),
+        ("modified_energy = { order = 2 }", "n,t,modified_energy,estimate,order"),
+        ("trajectory = true", "n,t,q,p"),
+        ("energy = true\ntrajectory = true", "n,t,energy,q,p"),
+        ("energy = false\ntrajectory = true", "n,t,q,p"),
+    ] {
+        let (header, rows) = table(&printed(&asking(outputs)));
+        assert_eq!(header.join(","), columns);
+        assert_eq!(rows.len(), 5);
+        let lines = objects(&printed(&asking(&format!("format = \"jsonl\"\n{outputs}"))));
+        for line in &lines[1..] {
+            let names: Vec<&str> = line.as_object().unwrap().keys().map(String::as_str).collect();
+            let mut expected: Vec<&str> = columns.split(',').collect();
+            expected.sort_unstable();
+            assert_eq!(names, expected);
+        }
+    }
+}
+
+#[test]
+fn a_row_is_there_where_something_is_due() {
+    let outputs = "energy = { every = 2 }\ntrajectory = { every = 3 }";
+    let (_, rows) = table(&printed(&asking(outputs)));
+    let due: Vec<_> = rows.iter().map(|row| (row[0].as_str(), !row[2].is_empty(), !row[3].is_empty())).collect();
+    assert_eq!(due, [("0", true, true), ("2", true, false), ("3", false, true), ("4", true, false)]);
+    let lines = objects(&printed(&asking(&format!("format = \"jsonl\"\n{outputs}"))));
+    assert_eq!((&lines[2].get("energy").is_some(), &lines[2].get("q").is_some()), (&true, &false));
+    assert_eq!(lines.len(), 1 + 4);
+}
+
+#[test]
+fn every_tells_which_estimates_are_written_and_not_which_are_right() {
+    let all = table(&printed(&asking("modified_energy = { order = 2 }"))).1;
+    let some = table(&printed(&asking("modified_energy = { order = 2, every = 2 }"))).1;
+    assert_eq!(some, [all[0].clone(), all[2].clone(), all[4].clone()]);
+}
+
+#[test]
+fn the_head_says_what_was_run() {
+    let csv = printed(&KEPLER.replace("file = \"kepler.csv\"", ""));
+    let head: Vec<&str> = csv.lines().map_while(|line| line.strip_prefix("# ")).collect();
+    for line in [
+        "scene: scene.toml",
+        "scheme: yoshida4",
+        "digits: 120",
+        "potential: -1/sqrt(x^2 + y^2)",
+        "step: 1/20",
+        "steps: 40",
+    ] {
+        assert!(head.contains(&line), "{head:?}");
+    }
+    assert!(head.contains(&"q: [\"2/5\",\"0\"]") && head.contains(&"p: [\"0\",\"2\"]"), "{head:?}");
+    // a composition has its own table and the one of its base
+    let hash = |name: &str| head.iter().find_map(|line| line.strip_prefix(name)).unwrap().len();
+    assert_eq!([hash("scene_sha256: "), hash("table_sha256: "), hash("base_table_sha256: ")], [64; 3]);
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes() {
+    assert_eq!(printed(&asking("energy = true")), printed(&asking("energy = true")));
+}
+
+#[test]
+fn masses_velocities_and_parameters() {
+    // a spring k between the wall and a mass m: the period of q = cos(t) is 2 pi for k = m
+    let scene = "[problem]\npotential = \"k*x^2/2\"\ncoordinates = [\"x\"]\nparameters = { m = 3, k = \"m\" }\n\
+                 masses = [\"m\"]\n[initial]\nq = [0]\nv = [\"1/m\"]\n[run]\nscheme = \"yoshida4\"\nstep = \"1/(10*m)\"\n\
+                 until = \"m/3\"\ndigits = 20\n[output]\nformat = \"jsonl\"\ntrajectory = true\n";
+    let lines = objects(&printed(scene));
+    assert_eq!(lines.len(), 1 + 31);
+    assert_eq!(lines[1]["p"], serde_json::json!(["1.0"]));
+    let last: f64 = lines[31]["q"][0].as_str().unwrap().parse().unwrap();
+    // the error of order 4 at h = 1/30
+    assert!((last - 1.0_f64.sin() / 3.0).abs() < 1e-6, "{last}");
+}
+
+#[test]
+fn a_table_is_found_beside_the_scene_and_may_begin_with_the_other_map() {
+    let scene = asking("trajectory = true").replace("\"stormer-verlet\"", "\"mine.toml\"");
+    let euler = "name = \"euler\"\norder = 1\nkinetic = \"any\"\nreference = \"Euler\"\n\
+                 [stages]\nkick = [1]\ndrift = [1]\n";
+    let rows = |scene: &str| {
+        let folder = folder(scene);
+        fs::write(folder.path().join("mine.toml"), euler).unwrap();
+        table(&quietly(&format!("run {}", folder.path().join("scene.toml").display()))).1
+    };
+    let kick_first = rows(&scene);
+    let drift_first = rows(&scene.replace("[output]", "first = \"drift\"\n[output]"));
+    assert_eq!(kick_first, rows(&scene.replace("[output]", "first = \"kick\"\n[output]")));
+    assert_ne!(kick_first[1], drift_first[1]);
+}
+
+#[test]
+fn a_run_that_fails_leaves_the_old_file() {
+    let folder = folder(
+        "[problem]\nname = \"harmonic-oscillator\"\n[run]\nscheme = \"stormer-verlet\"\nstep = 10\nuntil = 10000\n\
+         digits = \"double\"\n[output]\ntrajectory = true\nfile = \"out.csv\"\n",
+    );
+    fs::write(folder.path().join("out.csv"), "old").unwrap();
+    let said = run(folder.path(), "");
+    assert_eq!(said.code, 3);
+    assert!(said.err.contains("the run ends at n = "), "{}", said.err);
+    assert_eq!(fs::read_to_string(folder.path().join("out.csv")).unwrap(), "old");
+    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+}
+
+#[test]
+fn an_end_that_is_no_multiple_of_the_step_is_told_of() {
+    let folder = folder(&asking("energy = true").replace("steps = 4", "until = \"1/3\""));
+    let said = run(folder.path(), "");
+    assert_eq!(said.code, 0);
+    assert_eq!(said.err, "remark: 1/3 is not a multiple of 1/8: the run ends at n = 2, t = 0.25\n");
+}
+
+#[test]
+fn every_shipped_problem_has_a_scene_that_runs() {
+    let problems = objects(&quietly("problems --json"));
+    assert!(problems.len() >= 5);
+    for problem in &problems {
+        let name = text(problem, "name");
+        let scene = quietly(&format!("scene {name}")).replace("until = 100", "until = 1");
+        let folder = folder(&scene);
+        let said = run(folder.path(), "");
+        assert_eq!((said.code, said.err.as_str()), (0, ""), "{scene}");
+        let file = format!("{name}.csv");
+        assert_eq!(names(folder.path()).iter().filter(|found| **found == file).count(), 1);
+        let (header, rows) = table(&fs::read_to_string(folder.path().join(file)).unwrap());
+        assert_eq!((header.len(), rows.len()), (6, 21), "{name}");
+    }
+}
+
+#[test]
+fn the_state_of_a_scene_is_that_of_its_problem() {
+    let scene = quietly("scene kepler").replace("until = 100", "until = 1").replace("\"1 min\"", "9");
+    let stateless: String = scene
+        .lines()
+        .filter(|line| !line.starts_with("q =") && !line.starts_with("p ="))
+        .map(|l| format!("{l}\n"))
+        .collect();
+    let state = |scene: &str| {
+        let folder = folder(scene);
+        assert_eq!(run(folder.path(), "").code, 0);
+        table(&fs::read_to_string(folder.path().join("kepler.csv")).unwrap())
+    };
+    assert_eq!(state(&scene), state(&stateless));
+}
+
+#[test]
+fn scene_lists_and_explains() {
+    let list = quietly("scene");
+    assert!(list.contains("  kepler  ") && list.contains("shadowstep scene kepler > scene.toml"), "{list}");
+    let explained = quietly("scene --explain");
+    for line in
+        ["[problem]", "[output.modified_energy]", "  step = \"1/20\"", "      It is needed.", "      Default: 120."]
+    {
+        assert!(explained.lines().any(|l| l == line), "{line}: {explained}");
+    }
+    let said = shadowstep("scene keppler");
+    assert_eq!(said.code, 2);
+    assert!(said.err.contains("did you mean `kepler`?"), "{}", said.err);
+}
+
+#[test]
+fn json_has_its_head_first() {
+    let lines = objects(&printed(&asking("format = \"jsonl\"\nenergy = true")));
+    let metadata = &lines[0]["metadata"];
+    assert_eq!((text(metadata, "problem"), &metadata["steps"]), ("pendulum", &Value::from(4)));
+    assert_eq!(lines[1], serde_json::json!({ "n": 0, "t": "0.0", "energy": text(&lines[1], "energy") }));
+}
