@@ -47,6 +47,11 @@ impl Arithmetic {
         self.digits() + GUARD_DIGITS
     }
 
+    /// Whether a value is exact, or has the digits that a run needs.
+    pub(crate) fn has_digits_of(self, value: &Exact) -> bool {
+        !value.rounded || self.value_digits() <= MOST_VALUE_DIGITS
+    }
+
     /// The exact text of a value that is given to the run, or the digits of an irrational one.
     pub(crate) fn text(self, exact: &Exact) -> String {
         match exact.rounded {

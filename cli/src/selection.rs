@@ -103,7 +103,7 @@ fn setup(arguments: &RunArguments, arithmetic: Arithmetic) -> Result<Setup, Comp
     let set = arguments.set.iter().map(|text| quantity::assignment(text)).collect::<Result<Vec<_>, _>>()?;
     let digits = arithmetic.value_digits();
     let setup = problem(&arguments.problem)?.setup(&set, digits)?;
-    match setup.values.iter().find(|(_, value)| value.rounded && digits > MOST_VALUE_DIGITS) {
+    match setup.values.iter().find(|(_, value)| !arithmetic.has_digits_of(value)) {
         None => Ok(setup),
         Some((name, _)) => Err(Complaint::usage(
             format!("{name} is irrational and computed to {MOST_VALUE_DIGITS} digits, the run needs {digits}"),

@@ -200,7 +200,7 @@ impl<'a> Reader<'a> {
         let digits = self.arithmetic.value_digits();
         let found = value(&text.value, &self.known, digits);
         match found {
-            Ok(exact) if exact.rounded && digits > MOST_VALUE_DIGITS => {
+            Ok(exact) if !self.arithmetic.has_digits_of(&exact) => {
                 let message =
                     format!("this is irrational and computed to {MOST_VALUE_DIGITS} digits, the run needs {digits}");
                 let help = format!("use digits = {} or less, or write a fraction", MOST_VALUE_DIGITS - GUARD_DIGITS);

@@ -9,6 +9,7 @@ use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, U
 use shadowstep_symbolic::{Exact, Expression, Kind, evaluate, nearest, parse};
 use toml::de::DeValue;
 
+use crate::arithmetic::{GUARD_DIGITS, MOST_VALUE_DIGITS};
 use crate::scene::reader::{List, Reader, Section, Text, Value};
 use crate::scene::write::COLUMNS;
 
@@ -123,6 +124,15 @@ impl Given {
         let (coordinates, q) = of(setup.problem.positions);
         let (momenta, p) = of(setup.problem.momenta);
         let (own_q, own_p) = self.state.values(reader, coordinates.len(), None);
+        for (given, names, values) in [(&own_q, &coordinates, &q), (&own_p, &momenta, &p)] {
+            let mut values = names.iter().zip(values);
+            let short = values.find(|(_, value)| given.is_none() && !reader.arithmetic.has_digits_of(value));
+            if let Some((value, _)) = short {
+                let message = format!("{value} is irrational and computed to {MOST_VALUE_DIGITS} digits");
+                let help = format!("use digits = {} or less, or other parameters", MOST_VALUE_DIGITS - GUARD_DIGITS);
+                reader.fault(&name.at, message, help);
+            }
+        }
         Some(System {
             parameters: reader.known.iter().map(|(name, value)| (name.clone(), value.clone())).collect(),
             energy: PotentialEnergy::Shipped(setup),

@@ -155,6 +155,12 @@ fn complains(scene: &str, sentence: &str, help: &str) {
 }
 
 #[test]
+fn irrational_values_of_a_problem_have_the_digits_of_the_run() {
+    let scene = NAMED.replace("1/2", "1/3").replace("0.1", "0.1\ndigits = 6000");
+    complains(&scene, "2:8: py is irrational and computed to 5000 digits", "digits = 4980");
+}
+
+#[test]
 fn the_line_is_shown() {
     let folder = folder(&GOOD.replace("sqrt(x^2", "sqrt(z^2"));
     let said = run(folder.path(), "");
