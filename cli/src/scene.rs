@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`keys`] | every key with its meaning; [`explain`] prints them, [`template`] writes scenes with them |
 //! | [`reader`] | TOML values → texts, numbers and lists with their places |
-//! | [`read`], [`system`] | a scene's text → all that it asks for, or all its faults |
+//! | [`read`], [`system`] | a scene's text → all that it asks for, or all its faults; what moves |
 //! | [`engine`], [`interrupt`] | the run |
 //! | [`write`], [`metadata`] | rows and the head of a file |
 //! | [`target`], [`resumable`], [`checkpoint`] | where rows go, and how a run goes on that was stopped |

@@ -159,18 +159,24 @@ impl<'a> Reader<'a> {
     }
 
     /// A list of numbers or of texts.
-    pub(crate) fn list(
-        &mut self,
-        value: &Value<'_>,
-        what: &str,
-        read: fn(&mut Self, &Value<'_>) -> Option<Text>,
-    ) -> Option<List> {
+    fn list(&mut self, value: &Value<'_>, what: &str, read: fn(&mut Self, &Value<'_>) -> Option<Text>) -> Option<List> {
         let DeValue::Array(array) = value.get_ref() else { return self.wrong_kind(value, what) };
         if array.is_empty() {
             return self.wrong(&value.span(), "this list is empty", format!("write {what}"));
         }
         let texts: Vec<_> = array.iter().map(|value| read(self, value)).collect();
         Some(List { texts: texts.into_iter().collect::<Option<_>>()?, at: value.span() })
+    }
+
+    /// The list of a key, where it is given.
+    pub(crate) fn list_of(
+        &mut self,
+        section: &Section<'_, '_>,
+        key: &str,
+        what: &str,
+        read: fn(&mut Self, &Value<'_>) -> Option<Text>,
+    ) -> Option<List> {
+        self.get(section, key).and_then(|value| self.list(value, what, read))
     }
 
     pub(crate) fn whole(&mut self, value: &Value<'_>, range: RangeInclusive<u64>) -> Option<u64> {

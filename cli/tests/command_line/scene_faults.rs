@@ -38,6 +38,8 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ("q = [1, 0]", "q = 1", "7:5: this value is of the wrong kind", "needed a list of numbers"),
     ("digits = 30", "digits = 30.5", "13:10: this value is of the wrong kind", "needed a whole number"),
     ("q = [1, 0]", "q = [1, 0, 0]", "7:5: this list needs a number for each coordinate", "found 3 numbers, needed 2"),
+    ("coordinates = [\"x\", \"y\"]", "coordinates = \"x\"", "3:15: this value is of the wrong kind", "a list of names"),
+    ("k = -1", "j = \"1 + 1\", k = \"z\"", "4:34: unknown name `z`", "1/10"),
     ("masses = [1, 2]", "masses = []", "5:10: this list is empty", "a list of numbers"),
     ("sqrt(x^2", "sqrt(z^2", "2:21: unknown name `z`", "a smooth formula"),
     ("\"k/sqrt(x", "\"\\u006b/sqrt(z", "2:13: unknown name `z`", "a smooth formula"),

@@ -1,0 +1,172 @@
+//! [output]: what is written, where, and how often.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use shadowstep::shadow::Stop;
+use toml::de::DeValue;
+
+use crate::order::{DEFAULT_LARGEST_M, HIGHEST_M, Order};
+use crate::scene::reader::{Reader, Section, Value};
+use crate::scene::write::Format;
+use crate::steps::MOST_STEPS;
+
+/// What is to be written, and where.
+#[derive(Debug)]
+pub(crate) struct Asked {
+    /// The file, and the place of its name in the scene.
+    pub(crate) file: Option<(PathBuf, Range<usize>)>,
+    pub(crate) format: Format,
+    /// At each n that is a multiple of this.
+    pub(crate) energy: Option<u64>,
+    pub(crate) modified: Option<(Order, u64)>,
+    pub(crate) trajectory: Option<u64>,
+    pub(crate) checkpoint: Option<Cadence>,
+}
+
+/// How often a checkpoint is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Cadence {
+    Steps(u64),
+    Time(Duration),
+}
+
+impl Asked {
+    pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<Asked> {
+        let before = reader.faults.len();
+        let file = reader.get(output, "file").and_then(|value| reader.text(value));
+        let format = reader
+            .get(output, "format")
+            .map(|value| reader.word(value, &[("csv", Format::Csv), ("jsonl", Format::JsonLines)]));
+        let energy = every(reader, output, "energy", "output.energy");
+        let modified = modified(reader, output);
+        let trajectory = every(reader, output, "trajectory", "output.trajectory");
+        let checkpoint = reader.get(output, "checkpoint").map(|value| (value.span(), cadence(reader, value)));
+        if let (Some((at, _)), None) = (&checkpoint, reader.get(output, "file")) {
+            reader.fault(at, "a checkpoint needs a file to go on with", "add `file = \"out.csv\"`");
+        }
+        let silent = energy.is_none() && modified.is_none() && trajectory.is_none();
+        if silent && reader.faults.len() == before && output.is_there() {
+            let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
+            reader.fault(&output.at, "nothing is asked for", help);
+        }
+        let format = match (format, &file) {
+            (Some(format), _) => format,
+            (None, None) => Some(Format::Csv),
+            (None, Some(name)) => Format::of(&name.value).or_else(|| {
+                let message = format!("`{}` says no format by its name", name.value);
+                reader.wrong(&name.at, message, "end it with .csv or .jsonl, or add `format = \"csv\"`")
+            }),
+        };
+        let folder = Path::new(&reader.source.path).parent().unwrap_or(Path::new(""));
+        let file = file.map(|name| (folder.join(&name.value), name.at));
+        let checkpoint = checkpoint.and_then(|(_, cadence)| cadence);
+        Some(Asked { file, format: format?, energy, modified, trajectory, checkpoint })
+    }
+}
+
+/// `true`, `false`, or a table with a section's name: when something is written, and the table.
+fn when<'t, 'i>(
+    reader: &mut Reader<'_>,
+    output: &Section<'t, 'i>,
+    key: &'static str,
+    section: &'static str,
+) -> Option<(u64, Option<Section<'t, 'i>>)> {
+    let value = reader.get(output, key)?;
+    match value.get_ref() {
+        DeValue::Boolean(true) => Some((1, None)),
+        DeValue::Boolean(false) => None,
+        DeValue::Table(table) => {
+            let table = reader.table(table, value.span(), section);
+            let every = match reader.get(&table, "every") {
+                Some(value) => reader.whole(value, 1..=MOST_STEPS)?,
+                None => 1,
+            };
+            Some((every, Some(table)))
+        }
+        _ => reader.wrong_kind(value, "true, or a table: { every = 10 }"),
+    }
+}
+
+fn every(reader: &mut Reader<'_>, output: &Section<'_, '_>, key: &'static str, section: &'static str) -> Option<u64> {
+    when(reader, output, key, section).map(|(every, _)| every)
+}
+
+fn modified(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(Order, u64)> {
+    let (every, table) = when(reader, output, "modified_energy", "output.modified_energy")?;
+    let automatic = Order::Best(DEFAULT_LARGEST_M, Stop::Full);
+    let Some(table) = table else { return Some((automatic, every)) };
+    let largest = reader.get(&table, "max_order").map(|value| (value.span(), m(reader, value, 2)));
+    let stop = reader.get(&table, "stop");
+    let stop = stop.map(|value| (value.span(), reader.word(value, &[("full", Stop::Full), ("early", Stop::Early)])));
+    let fixed = match reader.get(&table, "order") {
+        Some(value) if matches!(value.get_ref(), DeValue::Integer(_)) => Some(m(reader, value, 1)?),
+        Some(value) => {
+            reader.word(value, &[("auto", ())])?;
+            None
+        }
+        None => None,
+    };
+    match (fixed, largest, stop) {
+        (Some(m), None, None) => Some((Order::Fixed(m), every)),
+        (Some(m), Some((at, _)), _) | (Some(m), None, Some((at, _))) => {
+            let message = format!("max_order and stop are for order = \"auto\", not for order = {m}");
+            reader.wrong(&at, message, "leave them out, or write order = \"auto\"")
+        }
+        (None, largest, stop) => {
+            let largest = largest.map_or(Some(DEFAULT_LARGEST_M), |(_, m)| m)?;
+            let stop = stop.map_or(Some(Stop::Full), |(_, stop)| stop)?;
+            Some((Order::Best(largest, stop), every))
+        }
+    }
+}
+
+/// The m of a central difference.
+fn m(reader: &mut Reader<'_>, value: &Value<'_>, least: u64) -> Option<u32> {
+    reader.whole(value, least..=HIGHEST_M.into()).and_then(|m| u32::try_from(m).ok())
+}
+
+/// A number of steps, or a time such as `1 min`.
+fn cadence(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Cadence> {
+    if matches!(value.get_ref(), DeValue::Integer(_)) {
+        return reader.whole(value, 1..=MOST_STEPS).map(Cadence::Steps);
+    }
+    if !matches!(value.get_ref(), DeValue::String(_)) {
+        return reader.wrong_kind(value, "a time such as \"1 min\", or a number of steps");
+    }
+    let text = reader.text(value)?;
+    let found = duration(text.value.trim());
+    if found.is_none() {
+        let message = format!("`{}` is no time between checkpoints", text.value);
+        reader.fault(&text.at, message, "write a time in s, min or h such as \"1 min\", or a number of steps");
+    }
+    found.map(Cadence::Time)
+}
+
+fn duration(text: &str) -> Option<Duration> {
+    let (number, unit) = text.split_at(text.find(|c: char| c.is_ascii_alphabetic())?);
+    let seconds = match unit {
+        "s" => 1.0,
+        "min" => 60.0,
+        "h" => 3600.0,
+        _ => return None,
+    };
+    let number: f64 = number.trim().parse().ok()?;
+    Duration::try_from_secs_f64(number * seconds).ok().filter(|time| !time.is_zero())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations() {
+        for (text, seconds) in [("1 min", 60.0), ("30 s", 30.0), ("2h", 7200.0), ("0.5 min", 30.0)] {
+            assert_eq!(duration(text), Some(Duration::from_secs_f64(seconds)), "{text}");
+        }
+        for wrong in ["", "1", "min", "1 m", "0 s", "-1 s", "1e99 h", "1 min 3"] {
+            assert_eq!(duration(wrong), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! [run]: the scheme, its steps and the digits.
+
+use std::path::Path;
+
+use shadowstep::Rational;
+use shadowstep::number::Precision;
+use shadowstep_schemes::First;
+use shadowstep_symbolic::decimal::to_text;
+use toml::de::DeValue;
+
+use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS, OTHER_SCHEME};
+use crate::complaint::Complaint;
+use crate::library::{self, Named};
+use crate::scene::reader::{Reader, Section, Text};
+use crate::steps::{self, Blamed, MOST_STEPS};
+
+/// The digits, which all values of the scene need.
+pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<Arithmetic> {
+    let digits = match reader.get(run, "digits") {
+        None => DEFAULT_DIGITS,
+        Some(value) if matches!(value.get_ref(), DeValue::String(_)) => {
+            return reader.word(value, &[("double", Arithmetic::Double)]);
+        }
+        Some(value) => u32::try_from(reader.whole(value, 1..=MOST_DIGITS.into())?).ok()?,
+    };
+    match Precision::digits(digits) {
+        Ok(precision) => Some(Arithmetic::Digits(digits, precision)),
+        Err(error) => reader.wrong(&run.at, error.to_string(), "write digits = 120"),
+    }
+}
+
+/// The section [run].
+pub(super) struct Steps {
+    pub(super) scheme: Named,
+    pub(super) h: Rational,
+    pub(super) until: Rational,
+    pub(super) steps: u64,
+}
+
+impl Steps {
+    pub(super) fn read(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<Steps> {
+        let first =
+            reader.get(run, "first").map(|value| reader.word(value, &[("kick", First::Kick), ("drift", First::Drift)]));
+        let scheme = match reader.get(run, "scheme") {
+            Some(value) => reader.text(value).and_then(|text| scheme(reader, &text, first.flatten())),
+            None => {
+                reader.missing(run, "scheme");
+                None
+            }
+        };
+        let times = times(reader, run);
+        if matches!(first, Some(None)) {
+            return None;
+        }
+        let (h, until, steps) = times?;
+        Some(Steps { scheme: scheme?, h, until, steps })
+    }
+}
+
+fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>) -> Option<Named> {
+    let folder = Path::new(&reader.source.path).parent().unwrap_or(Path::new(""));
+    let named = match library::scheme_from(&word.value, folder, first) {
+        Ok(named) => named,
+        Err(Complaint::Usage { sentence, hint }) => return reader.wrong(&word.at, sentence, hint),
+        Err(Complaint::Faults(faults)) => {
+            reader.faults.extend(faults.0);
+            return None;
+        }
+        Err(Complaint::Run { .. } | Complaint::Output(_)) => unreachable!("a table is only read"),
+    };
+    match reader.arithmetic.suits(&named) {
+        Ok(()) => Some(named),
+        Err((sentence, most)) => {
+            reader.wrong(&word.at, sentence, format!("write digits = {most}, or use {OTHER_SCHEME}"))
+        }
+    }
+}
+
+/// h, the end and the number of steps.
+fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<(Rational, Rational, u64)> {
+    let value = |reader: &mut Reader<'_>, key| {
+        let text = reader.get(run, key).and_then(|value| reader.number(value))?;
+        let exact = reader.evaluate(&text)?;
+        Some((text, exact.value))
+    };
+    let step = value(reader, "step");
+    let until = value(reader, "until");
+    let steps = reader.get(run, "steps").map(|value| (value.span(), reader.whole(value, 1..=MOST_STEPS)));
+    if reader.get(run, "step").is_none() {
+        reader.missing(run, "step");
+    }
+    if reader.get(run, "until").is_none() && steps.is_none() {
+        reader.missing(run, "until");
+    }
+    if let (Some(_), Some((at, _))) = (reader.get(run, "until"), &steps) {
+        return reader.wrong(at, "until and steps are both given", "keep one of the two");
+    }
+    let (step, h) = step?;
+    if let Some((_, steps)) = steps {
+        let steps = steps?;
+        // only a step of 0 is not within its own time
+        return match steps::count((&h, &step.value), (&h, &step.value), "") {
+            Err(none) => reader.wrong(&step.at, none.sentence, none.hint),
+            Ok(_) => Some((h.clone(), h * Rational::from_integer(steps.into()), steps)),
+        };
+    }
+    let (end, until) = until?;
+    match steps::count((&h, &step.value), (&until, &to_text(&until)), "") {
+        Ok(count) => Some((h, until, count)),
+        Err(none) => {
+            let at = if none.blamed == Blamed::Step { &step.at } else { &end.at };
+            reader.wrong(at, none.sentence, none.hint)
+        }
+    }
+}
