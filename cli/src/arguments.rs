@@ -11,7 +11,7 @@ const EXIT_CODES: &str = "\
 Exit codes:
   0  done
   1  the answer is no: a checked table has faults
-  2  wrong usage: an unknown flag, name or file, a number out of range
+  2  wrong usage: an unknown flag, name or file, a number out of range, a fault in a scene
   3  a run failed: a state or an energy was not finite, the output could not be written, or it was interrupted";
 
 const DRIFT_EXAMPLE: &str = "\

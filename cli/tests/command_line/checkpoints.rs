@@ -41,13 +41,13 @@ name = "pendulum"
 [run]
 scheme = "yoshida4"
 step = "1/20"
-steps = 3000
+steps = 15000
 digits = 60
 [output]
 modified_energy = { order = "auto", max_order = 12 }
 energy = { every = 7 }
 file = "out.jsonl"
-checkpoint = 25
+checkpoint = 50
 "#;
 
 /// The file of a run that nobody disturbs.
@@ -248,7 +248,7 @@ fn signal(child: &Child, name: &str) {
 #[test]
 fn an_interrupted_run_ends_with_a_checkpoint() {
     // no checkpoint would come before the signal
-    let scene = SHADOWED.replace("checkpoint = 25", "checkpoint = \"1 h\"");
+    let scene = SHADOWED.replace("checkpoint = 50", "checkpoint = \"1 h\"");
     let folder = folder(&scene);
     let (mut checkpoint, mut length) = (String::new(), 0);
     let partial = folder.path().join("out.jsonl.partial");
