@@ -118,6 +118,7 @@ fn source(path: &str) -> Result<Source, Complaint> {
 mod tests {
     use super::*;
     use std::cell::Cell;
+    use std::io::Write;
     use std::path::Path;
 
     /// 20 steps at 30 digits with a checkpoint at each `interrupt`, and what else the output is.
@@ -147,6 +148,9 @@ mod tests {
                 End::Complete { .. } => break,
                 End::Interrupted(n) => stops.push(n),
             }
+            // a run that is killed may have written more than its checkpoint knows of
+            let partial = fs::OpenOptions::new().append(true).open(folder.path().join("out.csv.partial"));
+            partial.unwrap().write_all(b"a row, and the half of").unwrap();
         }
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "the file and its scene");
         (fs::read_to_string(folder.path().join("out.csv")).unwrap(), stops)
@@ -169,6 +173,28 @@ mod tests {
                 assert!(!stops.is_empty() && stops.is_sorted(), "{output}: {stops:?}");
                 assert_eq!(bytes, whole, "{output}: {stops:?}");
             }
+        }
+    }
+
+    #[test]
+    fn no_more_is_done_again_than_an_estimate_needs() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = scene(folder.path(), "modified_energy = { order = 4 }");
+        // each fourth state is kept, and the estimates after n need one at or before n - 4; the run that goes on from 8
+        // has its first estimate at 13, and so it keeps no state 12
+        let mut first = 0;
+        for (n, kept) in [(3, None), (5, Some(0)), (14, Some(8)), (15, Some(8)), (19, Some(8)), (20, Some(16))] {
+            let states = Cell::new(first - 1);
+            let stop = || {
+                states.set(states.get() + 1);
+                states.get() == n
+            };
+            assert!(matches!(perform(&scene, false, &stop).unwrap(), End::Interrupted(at) if at == n));
+            let text = fs::read_to_string(folder.path().join("out.csv.checkpoint")).unwrap();
+            let state = serde_json::from_str::<serde_json::Value>(&text).unwrap()["checkpoint"]["state"]["n"].as_i64();
+            assert_eq!(state, kept, "at n = {n}");
+            // the first estimate of the run that goes on from there
+            first = kept.map_or(0, |kept| kept + 5);
         }
     }
 
