@@ -17,6 +17,8 @@ struct Record {
     positions: Vec<Value>,
     momenta: Vec<Value>,
     masses: Option<Vec<String>>,
+    step: &'static str,
+    until: &'static str,
     source: &'static str,
 }
 
@@ -71,6 +73,8 @@ fn record(problem: &Problem) -> Record {
         positions: values(positions),
         momenta: values(momenta),
         masses,
+        step: problem.step,
+        until: problem.until,
         source: problem.source,
     }
 }
@@ -91,6 +95,6 @@ fn readable(problem: &Problem, most_values: usize) -> String {
     if let Some(masses) = masses.filter(|masses| masses.len() <= most_values) {
         text += &format!("  masses of the coordinates: {}\n", masses.join(", "));
     }
-    text += &format!("  source: {}\n", problem.source);
+    text += &format!("  steps such as {} until {}\n  source: {}\n", problem.step, problem.until, problem.source);
     text
 }

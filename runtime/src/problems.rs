@@ -52,6 +52,10 @@ pub struct Problem {
     pub parameters: &'static [Parameter],
     /// The initial state and the masses, which may use the parameters.
     pub initial: fn() -> Initial,
+    /// A step size with which a scheme of order 4 follows it.
+    pub step: &'static str,
+    /// A time by which something has happened.
+    pub until: &'static str,
     /// Where problem and numbers are from.
     pub source: &'static str,
 }
@@ -109,7 +113,7 @@ pub struct Setup {
     /// Every parameter, position and momentum by its name, in the order of the problem.
     pub values: Vec<(String, Exact)>,
     /// One per coordinate; none, if all are 1.
-    pub masses: Option<Vec<Rational>>,
+    pub masses: Option<Vec<Exact>>,
 }
 
 impl Problem {
@@ -145,7 +149,7 @@ impl Problem {
             known.insert(name.clone(), value.clone());
             values.push((name, value));
         }
-        let mass = |text: &String| Ok(value_of("mass", text, &known, digits)?.value);
+        let mass = |text: &String| value_of("mass", text, &known, digits);
         let masses = masses.map(|texts| texts.iter().map(mass).collect::<Result<_, ProblemError>>()).transpose()?;
         Ok(Setup { problem: self, values, masses })
     }
@@ -228,7 +232,10 @@ impl Setup {
     ) -> Result<Box<dyn Kinetic<N, Class = Quadratic>>, MassError> {
         Ok(match &self.masses {
             None => Box::new(UnitMasses),
-            Some(masses) => Box::new(DiagonalMasses::new(masses, context)?),
+            Some(masses) => {
+                let masses: Vec<Rational> = masses.iter().map(|mass| mass.value.clone()).collect();
+                Box::new(DiagonalMasses::new(&masses, context)?)
+            }
         })
     }
 

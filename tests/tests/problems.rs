@@ -91,7 +91,7 @@ fn planets_go_around_the_sun_at_their_distances() {
     // semi-major axes in astronomical units, from 1/a = 2/r − v²/μ
     let known = [5.2, 9.55, 19.2, 30.1, 39.5];
     let setup = setup("outer-solar-system");
-    let masses: Vec<f64> = setup.masses.as_ref().unwrap().iter().map(|m| f64::from_rational(m, &())).collect();
+    let masses: Vec<f64> = setup.masses.as_ref().unwrap().iter().map(|m| f64::from_rational(&m.value, &())).collect();
     let (q, p) = (setup.q::<f64>(&()), setup.p::<f64>(&()));
     let g = 2.95912208286e-4;
     for (planet, known) in (1..6).zip(known) {

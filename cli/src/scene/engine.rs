@@ -12,8 +12,8 @@ use crate::progress::Progress;
 use crate::run::Run;
 use crate::scene::checkpoint::{Checkpoint, Saved};
 use crate::scene::read::{Cadence, Scene};
-use crate::scene::system::Moving;
 use crate::scene::write::{Modified, Row, Rows};
+use shadowstep::problems::ProblemMotion;
 
 /// How a run ended.
 pub(crate) enum End {
@@ -78,7 +78,7 @@ struct Recorder<'a, N: Number> {
 
 impl<N: Number + 'static> Recorder<'_, N> {
     /// Without β, thus without states beyond both ends.
-    fn plain(&mut self, motion: Moving<N>, from: i64) -> Result<End, Complaint> {
+    fn plain(&mut self, motion: ProblemMotion<N>, from: i64) -> Result<End, Complaint> {
         let run = self.run;
         let failed = |error| run.failed(&error);
         let mut trajectory = Trajectory::plain(&run.scheme.scheme, motion, run.h, from, run.steps).map_err(failed)?;
@@ -94,7 +94,7 @@ impl<N: Number + 'static> Recorder<'_, N> {
     }
 
     /// With β and an estimate at each state; taken up after the state `from`.
-    fn shadowed(&mut self, motion: Moving<N>, from: Option<i64>, order: Order) -> Result<End, Complaint> {
+    fn shadowed(&mut self, motion: ProblemMotion<N>, from: Option<i64>, order: Order) -> Result<End, Complaint> {
         let run = self.run;
         let failed = |error| run.failed(&error);
         let (mut q, mut p) = (motion.q().to_vec(), motion.p().to_vec());

@@ -1,7 +1,8 @@
 //! What moves: a shipped problem or a formula's potential, its masses and its state at t = 0.
 
 use shadowstep::formula::{FormulaError, FormulaPotential};
-use shadowstep::problems::Setup;
+use shadowstep::kinetic::Quadratic;
+use shadowstep::problems::{ProblemMotion, Setup};
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, UnitMasses};
 use shadowstep_symbolic::Exact;
 
@@ -28,9 +29,6 @@ pub(crate) enum PotentialEnergy {
     Formula(String),
 }
 
-/// A system in motion.
-pub(crate) type Moving<N> = Motion<N, Vec<N>, Box<dyn Potential<N>>, Masses<N>>;
-
 impl System {
     /// Positions and momenta at t = 0.
     pub(crate) fn start<N: Number>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
@@ -39,7 +37,7 @@ impl System {
     }
 
     /// The system at q, p.
-    pub(crate) fn motion<N: Number + 'static>(&self, q: Vec<N>, p: Vec<N>, context: &N::Context) -> Moving<N> {
+    pub(crate) fn motion<N: Number + 'static>(&self, q: Vec<N>, p: Vec<N>, context: &N::Context) -> ProblemMotion<N> {
         Motion::new(self.potential(context), self.kinetic(context), q, p)
     }
 
@@ -53,10 +51,10 @@ impl System {
         }
     }
 
-    fn kinetic<N: Number>(&self, context: &N::Context) -> Masses<N> {
-        let Some(masses) = &self.masses else { return Masses::Unit };
+    fn kinetic<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Kinetic<N, Class = Quadratic>> {
+        let Some(masses) = &self.masses else { return Box::new(UnitMasses) };
         let masses: Vec<Rational> = masses.iter().map(|mass| mass.value.clone()).collect();
-        Masses::Diagonal(DiagonalMasses::new(&masses, context).expect("the masses were read with the scene"))
+        Box::new(DiagonalMasses::new(&masses, context).expect("the masses were read with the scene"))
     }
 }
 
@@ -71,33 +69,4 @@ pub(crate) fn formula_potential<N: Number>(
     let parameters: Vec<(&str, N)> =
         parameters.iter().map(|(name, exact)| (name.as_str(), N::from_rational(&exact.value, context))).collect();
     FormulaPotential::new(formula, &coordinates, &parameters)
-}
-
-/// T = ½pᵀM⁻¹p with the masses of a scene.
-pub(crate) enum Masses<N> {
-    Unit,
-    Diagonal(DiagonalMasses<N>),
-}
-
-impl<N: Number> Kinetic<N> for Masses<N> {
-    fn dimension(&self) -> Option<usize> {
-        match self {
-            Masses::Unit => None,
-            Masses::Diagonal(masses) => masses.dimension(),
-        }
-    }
-
-    fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N) {
-        match self {
-            Masses::Unit => UnitMasses.drift(weight, p, q, velocity),
-            Masses::Diagonal(masses) => masses.drift(weight, p, q, velocity),
-        }
-    }
-
-    fn energy(&self, p: &[N], energy: &mut N, velocity: &mut N) {
-        match self {
-            Masses::Unit => UnitMasses.energy(p, energy, velocity),
-            Masses::Diagonal(masses) => masses.energy(p, energy, velocity),
-        }
-    }
 }

@@ -61,14 +61,15 @@ fn scene(problem: &Problem) -> String {
         lines.0 += &format!("parameters.{} = \"{}\"\n", parameter.name, parameter.default);
     }
     lines.section("initial");
-    for (key, values) in [("q", problem.positions), ("p", problem.momenta)] {
+    let initial = (problem.initial)();
+    for (key, values) in [("q", initial.positions), ("p", initial.momenta)] {
         let texts: Vec<String> = values.iter().map(|(_, value)| format!("\"{value}\"")).collect();
         lines.key("initial", key, Some(&format!("[{}]", texts.join(", "))));
     }
     lines.section("run");
     lines.key("run", "scheme", Some("\"yoshida4\""));
-    lines.key("run", "step", Some("\"1/20\""));
-    lines.key("run", "until", Some("100"));
+    lines.key("run", "step", Some(&format!("\"{}\"", problem.step)));
+    lines.key("run", "until", Some(&format!("\"{}\"", problem.until)));
     lines.key("run", "digits", Some("120"));
     lines.section("output");
     lines.key("output", "file", Some(&format!("\"{name}.csv\"")));

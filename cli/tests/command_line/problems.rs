@@ -37,8 +37,8 @@ fn json_has_parameters_and_state() {
 fn every_problem_runs() {
     for problem in &PROBLEMS {
         let words = format!(
-            "drift --problem {} --scheme stormer-verlet --step 1/10 --until 1 --double --order 2 --json",
-            problem.name
+            "drift --problem {} --scheme stormer-verlet --step {} --until 10*{1} --double --order 2 --json",
+            problem.name, problem.step
         );
         let record = &objects(&quietly(&words))[0];
         let initial = (problem.initial)();

@@ -44,5 +44,7 @@ pub(super) const PROBLEM: Problem = Problem {
         positive("sigma", "0.341", "distance of its zero in nanometres"),
     ],
     initial: || Initial::of_bodies(&BODIES),
+    step: "4e-5",
+    until: "0.2",
     source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.4.1: H(0) = -1260.2 k_b, 0.2 ns",
 };

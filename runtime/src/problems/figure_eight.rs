@@ -32,5 +32,7 @@ pub(super) const PROBLEM: Problem = Problem {
     hamiltonian: "sum_i |p_i|^2/(2 m_i) - g sum_(i<j) m_i m_j/|q_i - q_j|",
     parameters: &three_bodies(["1", "1", "1"]),
     initial: || Initial::of_bodies(&BODIES),
+    step: "1/100",
+    until: "6.32591398",
     source: "Chenciner & Montgomery, Annals of Mathematics 152 (2000) 881; initial values by C. Simó; period 6.32591398",
 };

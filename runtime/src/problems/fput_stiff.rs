@@ -29,5 +29,7 @@ pub(super) const PROBLEM: Problem = Problem {
         let momenta = [("y01", "1"), ("y02", "0"), ("y03", "0"), ("y11", "1"), ("y12", "0"), ("y13", "0")];
         Initial::new(positions, momenta)
     },
+    step: "1/1000",
+    until: "10",
     source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.5.1: H(0) = 2.00120008, steps of 0.001 and 0.03",
 };

@@ -23,5 +23,7 @@ pub(super) const PROBLEM: Problem = Problem {
         allowed: |omega| omega.is_positive(),
     }],
     initial: || Initial::new([("q", "1")], [("p", "0")]),
+    step: "1/20",
+    until: "100",
     source: "closed form of the modified Hamiltonian of kick-drift-kick Störmer–Verlet: ½(p² + (1−x²)ω²q²)·arcsin(x)/(x√(1−x²)), x = hω/2",
 };

@@ -16,5 +16,7 @@ pub(super) const PROBLEM: Problem = Problem {
     hamiltonian: "(px^2 + py^2 + x^2 + y^2)/2 + x^2 y - y^3/3",
     parameters: &[],
     initial: || Initial::new([("x", "0"), ("y", "0")], [("px", "0.1"), ("py", "0")]),
+    step: "1/10",
+    until: "100",
     source: "Moan & Niesen, section 5.3: p_1(0) = 0.1; chaotic from H = 1/12, escape from H = 1/6",
 };

@@ -29,5 +29,7 @@ pub(super) const PROBLEM: Problem = Problem {
             [("px", "0"), ("py", "sqrt((1 + eccentricity)/(1 - eccentricity))")],
         )
     },
+    step: "1/20",
+    until: "100",
     source: "Moan & Niesen, section 5.2: e = 0.6, t in [0, 100]; H = -1/2, period 2 pi",
 };

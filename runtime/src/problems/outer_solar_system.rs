@@ -72,5 +72,7 @@ pub(super) const PROBLEM: Problem = Problem {
         mass("m_pluto", "1/1.3e8"),
     ],
     initial: || Initial::of_bodies(&BODIES),
+    step: "100",
+    until: "200000",
     source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.2.2: steps of 100 to 200 days over 200000 days",
 };

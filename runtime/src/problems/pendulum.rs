@@ -16,5 +16,7 @@ pub(super) const PROBLEM: Problem = Problem {
     hamiltonian: "p^2/2 - cos(q)",
     parameters: &[],
     initial: || Initial::new([("q", "0")], [("p", "1")]),
+    step: "1/10",
+    until: "100",
     source: "Moan & Niesen, section 5.1: p(0) = 1, t in [0, 100]; p = 2 is the separatrix",
 };

@@ -16,5 +16,7 @@ pub(super) const PROBLEM: Problem = Problem {
     hamiltonian: "sum_i |p_i|^2/(2 m_i) - g sum_(i<j) m_i m_j/|q_i - q_j|",
     parameters: &three_bodies(["3", "4", "5"]),
     initial: || Initial::of_bodies(&BODIES),
+    step: "1/1000",
+    until: "10",
     source: "Burrau, Astronomische Nachrichten 195 (1913) 113: no fixed step resolves its encounters",
 };

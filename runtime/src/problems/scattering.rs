@@ -39,5 +39,7 @@ pub(super) const PROBLEM: Problem = Problem {
         },
     ],
     initial: || Initial::new([("x", "-start"), ("y", "impact")], [("px", "speed"), ("py", "0")]),
+    step: "1/20",
+    until: "17",
     source: "after Benettin & Giorgilli, J. Stat. Phys. 74 (1994) 569, quoted in Moan & Niesen, section 5",
 };

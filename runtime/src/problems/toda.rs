@@ -18,5 +18,7 @@ pub(super) const PROBLEM: Problem = Problem {
     hamiltonian: "sum_i p_i^2/2 + sum_i (exp(-d_i) + d_i - 1), d_i = q_(i+1) - q_i, around the ring",
     parameters: &[],
     initial: || Initial::of_chain(BODIES, |_| "0".to_owned(), |i| format!("sin({i}*pi/100)")),
+    step: "1/20",
+    until: "100",
     source: "Toda, Journal of the Physical Society of Japan 22 (1967) 431: integrable, with solitons; the wave is our choice",
 };

@@ -67,13 +67,10 @@ impl Given {
             }
         }
         let setup = self.setup(reader, name)?;
-        let of = |names: &[(&'static str, &'static str)]| -> (Vec<String>, Vec<Exact>) {
-            let value = |name| setup.values.iter().find(|(known, _)| known == name).map(|(_, value)| value.clone());
-            names.iter().filter_map(|(name, _)| Some(((*name).to_owned(), value(name)?))).unzip()
-        };
-        let (coordinates, q) = of(setup.problem.positions);
-        let (momenta, p) = of(setup.problem.momenta);
-        let (own_q, own_p) = self.state.values(reader, coordinates.len(), None);
+        let (coordinates, q): (Vec<_>, Vec<_>) = setup.positions().iter().cloned().unzip();
+        let (momenta, p): (Vec<_>, Vec<_>) = setup.momenta().iter().cloned().unzip();
+        let masses = setup.masses.clone();
+        let (own_q, own_p) = self.state.values(reader, coordinates.len(), masses.as_deref());
         for (given, names, values) in [(&own_q, &coordinates, &q), (&own_p, &momenta, &p)] {
             let mut values = names.iter().zip(values);
             let short = values.find(|(_, value)| given.is_none() && !reader.arithmetic.has_digits_of(value));
@@ -88,7 +85,7 @@ impl Given {
             energy: PotentialEnergy::Shipped(setup),
             coordinates,
             momenta,
-            masses: None,
+            masses,
             q: own_q.unwrap_or(q),
             p: own_p.unwrap_or(p),
         })
