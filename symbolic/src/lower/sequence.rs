@@ -204,7 +204,18 @@ impl Sequencer {
         }
         let mut factors = factors.into_iter();
         let mut value = match (factors.next(), factors.next()) {
-            (Some(a), Some(b)) => self.push(Operation::Product(a, b)),
+            (Some(a), Some(b)) => {
+                // 2ab is (a + a)b: a sum costs less than a product
+                let twice = integers.iter().position(|integer| matches!(integer, Atom::Scale(2)));
+                match twice.and_then(|twice| Some((twice, self.first_leaf(a, b)?))) {
+                    Some((twice, (a, b))) => {
+                        integers.remove(twice);
+                        let sum = self.push(Operation::Sum(vec![(false, a), (false, a)]));
+                        self.push(Operation::Product(sum, b))
+                    }
+                    None => self.push(Operation::Product(a, b)),
+                }
+            }
             (Some(a), None) => a,
             _ => self.one(),
         };
@@ -223,6 +234,17 @@ impl Sequencer {
             value = self.push(Operation::Quotient(value, denominator));
         }
         if negative { self.push(Operation::Negate(value)) } else { value }
+    }
+
+    /// The two values, first one at a place that is never written, so that it can be an operand twice. Of two the earlier
+    /// coordinate: in registers that hold several numbers it lies where single ones are computed with.
+    fn first_leaf(&self, a: Value, b: Value) -> Option<(Value, Value)> {
+        match (&self.sequence.operations[a], &self.sequence.operations[b]) {
+            (Operation::Leaf(one), Operation::Leaf(other)) if other < one => Some((b, a)),
+            (Operation::Leaf(_), _) => Some((a, b)),
+            (_, Operation::Leaf(_)) => Some((b, a)),
+            _ => None,
+        }
     }
 
     /// base^exponent by repeated squaring

@@ -16,8 +16,8 @@ const BY_HAND: [(&str, &str, &str, Columns, Columns); 10] = [
     ("-cos(q)", "q", "", [0, 0, 0, 0, 1], [1, 2, 0, 0, 1]),
     // x² + y·y, 1/√, square, cube, two products; with the rate a tripled 1/|q|
     ("-1/sqrt(x^2 + y^2)", "x y", "", [1, 6, 0, 1, 0], [1, 7, 0, 1, 0]),
-    // x², y², xy, 2xy + x, x² − y² + y; with the rate y² / −3 + x², times y
-    ("(x^2 + y^2)/2 + x^2*y - y^3/3", "x y", "", [3, 4, 0, 0, 0], [4, 5, 1, 0, 0]),
+    // x², y², (x + x)y + x, x² − y² + y; with the rate y² / −3 + x², times y
+    ("(x^2 + y^2)/2 + x^2*y - y^3/3", "x y", "", [4, 3, 0, 0, 0], [5, 4, 1, 0, 0]),
     // x² + y·y, exp, times −2, two products; with the rate a product added
     ("exp(-(x^2+y^2))", "x y", "", [1, 5, 0, 0, 1], [2, 6, 0, 0, 1]),
     ("exp(-x^2-y^2)", "x y", "", [1, 5, 0, 0, 1], [2, 6, 0, 0, 1]),
