@@ -67,7 +67,7 @@ impl<N: Number> FormulaPotential<N> {
         let (mut graph, energy) = build(formula, coordinates, parameters)?;
         let programs = graph.potential(energy, coordinates.len());
         let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
-        let interpreter = Interpreter::new(programs, parameters, coordinates.len(), 0);
+        let interpreter = Interpreter::new(programs, parameters, 0);
         Ok(FormulaPotential { dimension: coordinates.len(), interpreter })
     }
 }
@@ -108,20 +108,17 @@ impl<N: Number> Potential<N> for FormulaPotential<N> {
     }
 
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
-        energy.assign(self.interpreter.energy(q, scratch));
+        std::mem::swap(energy, self.interpreter.energy(q, scratch));
     }
 
     fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
-        for (gradient, output) in gradient.iter_mut().zip(self.interpreter.gradient(q, scratch)) {
-            gradient.assign(output);
-        }
+        let outputs = self.interpreter.gradient(q, scratch);
+        gradient.swap_with_slice(&mut outputs[..self.dimension]);
     }
 
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
         let outputs = self.interpreter.gradient_and_rate(q, scratch);
-        for (gradient, output) in gradient.iter_mut().zip(outputs) {
-            gradient.assign(output);
-        }
-        rate.assign(&outputs[self.dimension]);
+        gradient.swap_with_slice(&mut outputs[..self.dimension]);
+        std::mem::swap(rate, &mut outputs[self.dimension]);
     }
 }

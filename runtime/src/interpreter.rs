@@ -9,9 +9,29 @@ use crate::number::Number;
 #[derive(Clone, Debug)]
 pub(crate) struct Interpreter<N> {
     parameters: Vec<N>,
-    /// All places are registers, in the order of [`Layout`].
-    programs: PotentialPrograms,
+    prepare: Vec<Instruction<Slot>>,
+    energy: Vec<Instruction<Slot>>,
+    gradient: Vec<Instruction<Slot>>,
+    gradient_and_rate: Vec<Instruction<Slot>>,
     layout: Layout,
+}
+
+/// Where an operand is, or a target.
+#[derive(Clone, Copy, Debug)]
+struct Slot {
+    side: Side,
+    index: u32,
+}
+
+/// Seen from the register that is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    /// A register before it; the target itself is given as such a one.
+    Before,
+    /// A register after it, counted from the next one.
+    After,
+    /// A coordinate.
+    Coordinate,
 }
 
 /// Where the registers of each kind begin.
@@ -20,7 +40,6 @@ struct Layout {
     /// After the parameters: what the energy keeps, then what the gradient keeps.
     energy_kept: usize,
     gradient_kept: usize,
-    coordinates: usize,
     properties: usize,
     outputs: usize,
     intermediate: usize,
@@ -28,15 +47,22 @@ struct Layout {
 }
 
 impl<N: Number> Interpreter<N> {
-    /// For a function x of so many coordinates and, behind them, properties of bodies.
-    pub(crate) fn new(programs: PotentialPrograms, parameters: Vec<N>, coordinates: usize, properties: usize) -> Self {
-        let layout = Layout::of(&programs, parameters.len(), [coordinates, properties]);
-        let programs = PotentialPrograms {
-            energy: layout.placed(programs.energy, layout.energy_kept),
-            gradient: layout.placed(programs.gradient, layout.gradient_kept),
-            gradient_and_rate: layout.placed(programs.gradient_and_rate, layout.gradient_kept),
-        };
-        Interpreter { parameters, programs, layout }
+    /// For the programs of a function of so many properties of bodies, with the values of its parameters.
+    pub(crate) fn new(programs: PotentialPrograms, parameters: Vec<N>, properties: usize) -> Self {
+        let layout = Layout::of(&programs, parameters.len(), properties);
+        let PotentialPrograms { energy, gradient, gradient_and_rate } = programs;
+        let place = |program: &Program, list: &[Instruction], kept_from| layout.placed(program, list, kept_from);
+        let mut prepare = place(&energy, &energy.prepare, layout.energy_kept);
+        prepare.extend(place(&gradient_and_rate, &gradient_and_rate.prepare, layout.gradient_kept));
+        let run = |program: &Program, kept_from| place(program, &program.instructions, kept_from);
+        Interpreter {
+            parameters,
+            prepare,
+            energy: run(&energy, layout.energy_kept),
+            gradient: run(&gradient, layout.gradient_kept),
+            gradient_and_rate: run(&gradient_and_rate, layout.gradient_kept),
+            layout,
+        }
     }
 
     /// How many registers there must be.
@@ -49,151 +75,144 @@ impl<N: Number> Interpreter<N> {
         for (register, parameter) in registers.iter_mut().zip(&self.parameters) {
             register.assign(parameter);
         }
-        for instruction in self.programs.energy.prepare.iter().chain(&self.programs.gradient_and_rate.prepare) {
+        for instruction in &self.prepare {
             match instruction {
-                Instruction::AssignRational(place, value) => registers[index(*place)] = exact(value, context),
-                other => execute(other, registers),
+                Instruction::AssignRational(slot, value) => registers[slot.index as usize] = exact(value, context),
+                other => execute(other, registers, &[]),
             }
         }
     }
 
+    /// The places of properties of bodies, to be filled before each call.
+    pub(crate) fn properties<'r>(&self, registers: &'r mut [N]) -> &'r mut [N] {
+        &mut registers[self.layout.properties..self.layout.outputs]
+    }
+
     /// The function at x.
-    pub(crate) fn energy<'x, 'r>(&self, x: impl IntoIterator<Item = &'x N>, registers: &'r mut [N]) -> &'r N
-    where
-        N: 'x,
-    {
-        &self.compute(&self.programs.energy, x, registers)[0]
+    pub(crate) fn energy<'r>(&self, x: &[N], registers: &'r mut [N]) -> &'r mut N {
+        &mut self.compute(&self.energy, x, registers)[0]
     }
 
-    /// Its gradient at x, and something more.
-    pub(crate) fn gradient<'x, 'r>(&self, x: impl IntoIterator<Item = &'x N>, registers: &'r mut [N]) -> &'r [N]
-    where
-        N: 'x,
-    {
-        self.compute(&self.programs.gradient, x, registers)
+    /// Its gradient at x, and something more; all may be swapped with other numbers.
+    pub(crate) fn gradient<'r>(&self, x: &[N], registers: &'r mut [N]) -> &'r mut [N] {
+        self.compute(&self.gradient, x, registers)
     }
 
-    /// Its gradient at x, then its rate, and something more.
-    pub(crate) fn gradient_and_rate<'x, 'r>(
-        &self,
-        x: impl IntoIterator<Item = &'x N>,
-        registers: &'r mut [N],
-    ) -> &'r [N]
-    where
-        N: 'x,
-    {
-        self.compute(&self.programs.gradient_and_rate, x, registers)
+    /// Its gradient at x, then its rate, and something more; all may be swapped with other numbers.
+    pub(crate) fn gradient_and_rate<'r>(&self, x: &[N], registers: &'r mut [N]) -> &'r mut [N] {
+        self.compute(&self.gradient_and_rate, x, registers)
     }
 
-    fn compute<'x, 'r>(&self, program: &Program, x: impl IntoIterator<Item = &'x N>, registers: &'r mut [N]) -> &'r [N]
-    where
-        N: 'x,
-    {
-        for (register, x) in registers[self.layout.coordinates..].iter_mut().zip(x) {
-            register.assign(x);
-        }
-        program.instructions.iter().for_each(|instruction| execute(instruction, registers));
-        &registers[self.layout.outputs..]
+    fn compute<'r>(&self, program: &[Instruction<Slot>], x: &[N], registers: &'r mut [N]) -> &'r mut [N] {
+        program.iter().for_each(|instruction| execute(instruction, registers, x));
+        &mut registers[self.layout.outputs..]
     }
 }
 
 impl Layout {
-    fn of(programs: &PotentialPrograms, parameters: usize, arguments: [usize; 2]) -> Layout {
+    fn of(programs: &PotentialPrograms, parameters: usize, properties: usize) -> Layout {
         let energy_kept = parameters;
         let gradient_kept = energy_kept + programs.energy.kept;
-        let coordinates = gradient_kept + programs.gradient_and_rate.kept;
-        let properties = coordinates + arguments[0];
-        let outputs = properties + arguments[1];
+        let first_property = gradient_kept + programs.gradient_and_rate.kept;
+        let outputs = first_property + properties;
         let intermediate = outputs + programs.gradient_and_rate.outputs;
         // constants that are not kept are computed among the intermediate results
         let spare = [&programs.energy, &programs.gradient_and_rate].map(|program| program.constants - program.kept);
         let end = intermediate + programs.scratch().max(spare[0]).max(spare[1]);
-        Layout { energy_kept, gradient_kept, coordinates, properties, outputs, intermediate, end }
+        Layout { energy_kept, gradient_kept, properties: first_property, outputs, intermediate, end }
     }
 
-    /// The program with registers for places.
-    fn placed(&self, program: Program, kept_from: usize) -> Program {
-        let kept = program.kept;
-        let register = |place| {
-            Place::Scratch(match place {
-                Place::Parameter(j) => j,
-                Place::Constant(k) if k < kept => kept_from + k,
-                Place::Constant(k) => self.intermediate + k - kept,
-                Place::Coordinate(i) => self.coordinates + i,
-                Place::Property(i) => self.properties + i,
-                Place::Output(o) => self.outputs + o,
-                Place::Scratch(s) => self.intermediate + s,
+    /// The instructions of a program with slots for places.
+    fn placed(&self, program: &Program, instructions: &[Instruction], kept_from: usize) -> Vec<Instruction<Slot>> {
+        let register = |place| match place {
+            Place::Parameter(j) => j,
+            Place::Constant(k) if k < program.kept => kept_from + k,
+            Place::Constant(k) => self.intermediate + k - program.kept,
+            Place::Property(i) => self.properties + i,
+            Place::Output(o) => self.outputs + o,
+            Place::Scratch(s) => self.intermediate + s,
+            Place::Coordinate(_) => unreachable!("a coordinate is in no register"),
+        };
+        let placed = |instruction: &Instruction| {
+            let target = register(instruction.target());
+            instruction.clone().with_places(|place| match place {
+                Place::Coordinate(i) => slot(Side::Coordinate, i),
+                _ if register(place) > target => slot(Side::After, register(place) - target - 1),
+                _ => slot(Side::Before, register(place)),
             })
         };
-        let placed = |list: Vec<Instruction>| list.into_iter().map(|i| i.with_places(register)).collect();
-        Program { prepare: placed(program.prepare), instructions: placed(program.instructions), ..program }
+        instructions.iter().map(placed).collect()
     }
+}
+
+fn slot(side: Side, index: usize) -> Slot {
+    Slot { side, index: u32::try_from(index).expect("fewer registers than 2^32: memory ends before") }
 }
 
 fn exact<N: Number>(value: &Rational, context: &N::Context) -> N {
     N::from_rational(value, context)
 }
 
-fn index(place: Place) -> usize {
-    match place {
-        Place::Scratch(register) => register,
-        other => unreachable!("{other} is no register"),
-    }
-}
-
-/// The registers beside the one that is written.
-struct Others<'a, N> {
-    before: &'a [N],
-    after: &'a [N],
-}
-
-impl<N> Others<'_, N> {
-    fn at(&self, place: Place) -> &N {
-        let register = index(place);
-        // no operation reads its target
-        self.before.get(register).unwrap_or_else(|| &self.after[register - self.before.len() - 1])
-    }
-}
-
-fn execute<N: Number>(instruction: &Instruction, registers: &mut [N]) {
+#[inline]
+fn execute<N: Number>(instruction: &Instruction<Slot>, registers: &mut [N], x: &[N]) {
     use Instruction as I;
-    if let I::AssignSinCos(sin, cos, a) = *instruction {
-        return assign_sin_cos(registers, index(sin), index(cos), index(a));
+    let (before, rest) = registers.split_at_mut(instruction.target().index as usize);
+    let Some((target, after)) = rest.split_first_mut() else { return };
+    if let I::AssignSinCos(_, cos, a) = *instruction {
+        return assign_sin_cos(target, cos, a, [before, after], x);
     }
-    let target = index(instruction.target());
-    let (before, rest) = registers.split_at_mut(target);
-    let Some((x, after)) = rest.split_first_mut() else { return };
-    let of = Others { before, after };
+    let of = Operands([before, after, x]);
     match *instruction {
-        I::AssignZero(_) => x.assign_zero(),
-        I::Assign(_, a) => x.assign(of.at(a)),
-        I::AssignSum(_, a, b) => x.assign_sum(of.at(a), of.at(b)),
-        I::AssignDifference(_, a, b) => x.assign_difference(of.at(a), of.at(b)),
-        I::AssignProduct(_, a, b) => x.assign_product(of.at(a), of.at(b)),
-        I::AssignQuotient(_, a, b) => x.assign_quotient(of.at(a), of.at(b)),
-        I::AssignSquare(_, a) => x.assign_square(of.at(a)),
-        I::AssignSqrt(_, a) => x.assign_sqrt(of.at(a)),
-        I::AssignReciprocalSqrt(_, a) => x.assign_reciprocal_sqrt(of.at(a)),
-        I::AssignRoot(_, a, order) => x.assign_root(of.at(a), order),
-        I::AssignFunction(function, _, a) => assign_function(function, x, of.at(a)),
-        I::Add(_, a) => x.add(of.at(a)),
-        I::Subtract(_, a) => x.subtract(of.at(a)),
-        I::Multiply(_, a) => x.multiply(of.at(a)),
-        I::Divide(_, a) => x.divide(of.at(a)),
-        I::AddProduct(_, a, b) => x.add_product(of.at(a), of.at(b)),
-        I::SubtractProduct(_, a, b) => x.subtract_product(of.at(a), of.at(b)),
-        I::MultiplyInteger(_, n) => x.multiply_integer(n),
-        I::DivideInteger(_, n) => x.divide_integer(n),
-        I::Negate(_) => x.negate(),
+        I::AssignZero(_) => target.assign_zero(),
+        I::Assign(_, a) => target.assign(of.at(a)),
+        I::AssignSum(_, a, b) => target.assign_sum(of.at(a), of.at(b)),
+        I::AssignDifference(_, a, b) => target.assign_difference(of.at(a), of.at(b)),
+        I::AssignProduct(_, a, b) => target.assign_product(of.at(a), of.at(b)),
+        I::AssignQuotient(_, a, b) => target.assign_quotient(of.at(a), of.at(b)),
+        I::AssignSquare(_, a) => target.assign_square(of.at(a)),
+        I::AssignSqrt(_, a) => target.assign_sqrt(of.at(a)),
+        I::AssignReciprocalSqrt(_, a) => target.assign_reciprocal_sqrt(of.at(a)),
+        I::AssignRoot(_, a, order) => target.assign_root(of.at(a), order),
+        I::AssignFunction(function, _, a) => assign_function(function, target, of.at(a)),
+        I::Add(_, a) => target.add(of.at(a)),
+        I::Subtract(_, a) => target.subtract(of.at(a)),
+        I::Multiply(_, a) => target.multiply(of.at(a)),
+        I::Divide(_, a) => target.divide(of.at(a)),
+        I::AddProduct(_, a, b) => target.add_product(of.at(a), of.at(b)),
+        I::SubtractProduct(_, a, b) => target.subtract_product(of.at(a), of.at(b)),
+        I::MultiplyInteger(_, n) => target.multiply_integer(n),
+        I::DivideInteger(_, n) => target.divide_integer(n),
+        I::Negate(_) => target.negate(),
         I::AssignRational(..) | I::AssignSinCos(..) => unreachable!("done before"),
     }
 }
 
-fn assign_sin_cos<N: Number>(registers: &mut [N], sin: usize, cos: usize, a: usize) {
-    // three different registers, as no operation reads its target
-    if let Ok([sin, cos, a]) = registers.get_disjoint_mut([sin, cos, a]) {
-        N::assign_sin_cos(sin, cos, a);
+/// What can be read beside the register that is written, by its side.
+struct Operands<'a, N>([&'a [N]; 3]);
+
+impl<N> Operands<'_, N> {
+    #[inline]
+    fn at(&self, slot: Slot) -> &N {
+        &self.0[slot.side as usize][slot.index as usize]
     }
+}
+
+/// The cosine and its argument are on either side of the sine.
+fn assign_sin_cos<N: Number>(sin: &mut N, cos: Slot, a: Slot, [before, after]: [&mut [N]; 2], x: &[N]) {
+    let (own, other, others_side) = match cos.side {
+        Side::Before => (before, after, Side::After),
+        Side::After | Side::Coordinate => (after, before, Side::Before),
+    };
+    let (low, rest) = own.split_at_mut(cos.index as usize);
+    let Some((cos_target, high)) = rest.split_first_mut() else { return };
+    let index = a.index as usize;
+    let argument = match a.side {
+        Side::Coordinate => &x[index],
+        side if side == others_side => &other[index],
+        _ if index > low.len() => &high[index - low.len() - 1],
+        _ => &low[index],
+    };
+    N::assign_sin_cos(sin, cos_target, argument);
 }
 
 fn assign_function<N: Number>(function: Function, x: &mut N, a: &N) {

@@ -23,56 +23,56 @@ pub enum Place {
     Output(usize),
 }
 
-/// One operation, which writes into the place that it names first.
+/// One operation, which writes into the place that it names first; places are [`Place`]s, or what stands for them.
 ///
 /// Nothing is read from the place that an `Assign…` writes to, and what another operation reads beside its target is
 /// elsewhere, so that the target may be borrowed mutably and the rest not.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Instruction {
+pub enum Instruction<P = Place> {
     /// x ← an exact number, rounded once; in [`Program::prepare`] only
-    AssignRational(Place, Rational),
+    AssignRational(P, Rational),
     /// x ← 0
-    AssignZero(Place),
+    AssignZero(P),
     /// x ← a
-    Assign(Place, Place),
+    Assign(P, P),
     /// x ← a + b
-    AssignSum(Place, Place, Place),
+    AssignSum(P, P, P),
     /// x ← a − b
-    AssignDifference(Place, Place, Place),
+    AssignDifference(P, P, P),
     /// x ← a b
-    AssignProduct(Place, Place, Place),
+    AssignProduct(P, P, P),
     /// x ← a / b
-    AssignQuotient(Place, Place, Place),
+    AssignQuotient(P, P, P),
     /// x ← a²
-    AssignSquare(Place, Place),
+    AssignSquare(P, P),
     /// x ← √a
-    AssignSqrt(Place, Place),
+    AssignSqrt(P, P),
     /// x ← 1/√a
-    AssignReciprocalSqrt(Place, Place),
+    AssignReciprocalSqrt(P, P),
     /// x ← the real root of a of this order, at least 3; of a negative number, too, if the order is odd
-    AssignRoot(Place, Place, u32),
+    AssignRoot(P, P, u32),
     /// x ← f(a)
-    AssignFunction(Function, Place, Place),
+    AssignFunction(Function, P, P),
     /// x ← sin a, y ← cos a
-    AssignSinCos(Place, Place, Place),
+    AssignSinCos(P, P, P),
     /// x ← x + a
-    Add(Place, Place),
+    Add(P, P),
     /// x ← x − a
-    Subtract(Place, Place),
+    Subtract(P, P),
     /// x ← x a
-    Multiply(Place, Place),
+    Multiply(P, P),
     /// x ← x / a
-    Divide(Place, Place),
+    Divide(P, P),
     /// x ← x + a b
-    AddProduct(Place, Place, Place),
+    AddProduct(P, P, P),
     /// x ← x − a b
-    SubtractProduct(Place, Place, Place),
+    SubtractProduct(P, P, P),
     /// x ← n x
-    MultiplyInteger(Place, i32),
+    MultiplyInteger(P, i32),
     /// x ← x / n
-    DivideInteger(Place, i32),
+    DivideInteger(P, i32),
     /// x ← −x
-    Negate(Place),
+    Negate(P),
 }
 
 /// A list of operations that computes formulas.
@@ -134,7 +134,7 @@ impl Program {
     }
 }
 
-impl Instruction {
+impl<P: Copy> Instruction<P> {
     /// The name of the method of the number that is written to, as in `target.assign_sum(a, b)`.
     ///
     /// `assign_sin_cos` writes to two numbers, and for [`AssignRational`](Instruction::AssignRational) there is a
@@ -168,7 +168,7 @@ impl Instruction {
     }
 
     /// The place that it names first, which it writes to.
-    pub fn target(&self) -> Place {
+    pub fn target(&self) -> P {
         use Instruction as I;
         match *self {
             I::AssignRational(x, _) | I::AssignZero(x) | I::MultiplyInteger(x, _) | I::DivideInteger(x, _) => x,
@@ -182,13 +182,13 @@ impl Instruction {
     }
 
     /// The places it writes to.
-    pub fn targets(&self) -> Vec<Place> {
+    pub fn targets(&self) -> Vec<P> {
         let written = if matches!(self, Instruction::AssignSinCos(..)) { 2 } else { 1 };
         self.places()[..written].to_vec()
     }
 
     /// The places it reads beside its target.
-    pub fn operands(&self) -> Vec<Place> {
+    pub fn operands(&self) -> Vec<P> {
         let written = if matches!(self, Instruction::AssignSinCos(..)) { 2 } else { 1 };
         self.places()[written..].to_vec()
     }
@@ -202,7 +202,7 @@ impl Instruction {
     }
 
     /// The same operation at other places.
-    pub fn with_places(self, to: impl Fn(Place) -> Place) -> Self {
+    pub fn with_places<Q>(self, to: impl Fn(P) -> Q) -> Instruction<Q> {
         use Instruction as I;
         match self {
             I::AssignRational(x, value) => I::AssignRational(to(x), value),
@@ -231,7 +231,7 @@ impl Instruction {
     }
 
     /// All places in the order in which they stand.
-    fn places(&self) -> Vec<Place> {
+    fn places(&self) -> Vec<P> {
         use Instruction as I;
         match *self {
             I::AssignRational(x, _) | I::AssignZero(x) | I::MultiplyInteger(x, _) | I::DivideInteger(x, _) => vec![x],
@@ -260,7 +260,7 @@ impl fmt::Display for Place {
 }
 
 /// As in `s0.add_product(q0, q1)`.
-impl fmt::Display for Instruction {
+impl fmt::Display for Instruction<Place> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut arguments: Vec<String> = self.places()[1..].iter().map(Place::to_string).collect();
         match self {

@@ -38,7 +38,7 @@ impl<N: Number> FormulaKinetic<N> {
         let quadratic = graph.is_quadratic(energy, momenta.len());
         let programs = graph.potential(energy, momenta.len());
         let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
-        let interpreter = Interpreter::new(programs, parameters, momenta.len(), 0);
+        let interpreter = Interpreter::new(programs, parameters, 0);
         Ok(FormulaKinetic { dimension: momenta.len(), quadratic, interpreter, class: PhantomData })
     }
 
@@ -82,13 +82,13 @@ impl<N: Number, Class> Kinetic<N> for FormulaKinetic<N, Class> {
             return self.drift(weight, p, q, scratch);
         }
         let outputs = self.interpreter.gradient_and_rate(p, scratch);
-        for (q, velocity) in q.iter_mut().zip(outputs) {
+        for (q, velocity) in q.iter_mut().zip(&*outputs) {
             q.add_product(weight, velocity);
         }
         beta.add_product(weight, &outputs[self.dimension]);
     }
 
     fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
-        energy.assign(self.interpreter.energy(p, scratch));
+        std::mem::swap(energy, self.interpreter.energy(p, scratch));
     }
 }

@@ -3,6 +3,8 @@
 use shadowstep_symbolic::{Graph, Separation, parse};
 
 use super::{FormulaError, refuse_repeated};
+use std::slice::from_ref;
+
 use crate::interpreter::Interpreter;
 use crate::number::Number;
 use crate::pairs::{Pair, PairPotential};
@@ -54,14 +56,16 @@ impl<N: Number> FormulaPair<N> {
         Ok(FormulaPair {
             separation,
             properties: properties.iter().map(|(_, values)| values.clone()).collect(),
-            interpreter: Interpreter::new(programs, parameters, 1, names.len()),
+            interpreter: Interpreter::new(programs, parameters, names.len()),
         })
     }
 
-    /// x and the properties of i and j.
-    fn arguments<'a>(&'a self, i: usize, j: usize, x: &'a N) -> impl Iterator<Item = &'a N> {
-        let of = move |body: usize| self.properties.iter().map(move |values| &values[body]);
-        std::iter::once(x).chain(of(i)).chain(of(j))
+    /// Puts the properties of i and j where the programs find them.
+    fn place_properties(&self, i: usize, j: usize, scratch: &mut [N]) {
+        let of = |body: usize| self.properties.iter().map(move |values| &values[body]);
+        for (place, property) in self.interpreter.properties(scratch).iter_mut().zip(of(i).chain(of(j))) {
+            place.assign(property);
+        }
     }
 }
 
@@ -85,16 +89,19 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
     }
 
     fn energy(&self, i: usize, j: usize, x: &N, energy: &mut N, scratch: &mut [N]) {
-        energy.assign(self.interpreter.energy(self.arguments(i, j, x), scratch));
+        self.place_properties(i, j, scratch);
+        std::mem::swap(energy, self.interpreter.energy(from_ref(x), scratch));
     }
 
     fn slope(&self, i: usize, j: usize, x: &N, slope: &mut N, scratch: &mut [N]) {
-        slope.assign(&self.interpreter.gradient(self.arguments(i, j, x), scratch)[0]);
+        self.place_properties(i, j, scratch);
+        std::mem::swap(slope, &mut self.interpreter.gradient(from_ref(x), scratch)[0]);
     }
 
     fn slope_and_rate(&self, i: usize, j: usize, x: &N, slope: &mut N, rate: &mut N, scratch: &mut [N]) {
-        let outputs = self.interpreter.gradient_and_rate(self.arguments(i, j, x), scratch);
-        slope.assign(&outputs[0]);
-        rate.assign(&outputs[1]);
+        self.place_properties(i, j, scratch);
+        let outputs = self.interpreter.gradient_and_rate(from_ref(x), scratch);
+        std::mem::swap(slope, &mut outputs[0]);
+        std::mem::swap(rate, &mut outputs[1]);
     }
 }
