@@ -11,12 +11,15 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use gmp_mpfr_sys::gmp;
 use rug::Float;
-use shadowstep::formula::{FormulaKinetic, FormulaPotential};
+use shadowstep::formula::{FormulaKinetic, FormulaPair, FormulaPotential};
 use shadowstep::number::{Number, Precision};
+use shadowstep::pairs::{Ends, Pairs, Separation};
 use shadowstep::problems::{HenonHeiles, Kepler};
 use shadowstep::shadow::{Central, Estimator, Method, Stop};
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
-use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Moves, Potential, Scheme, UnitMasses, exact, kinetic};
+use shadowstep::{
+    DiagonalMasses, FullMasses, Kinetic, Motion, Moves, Potential, Scheme, UnitMasses, exact, kinetic, potential,
+};
 
 static RUST: AtomicU64 = AtomicU64::new(0);
 static GMP: AtomicU64 = AtomicU64::new(0);
@@ -73,6 +76,12 @@ kinetic! {
     /// A polynomial.
     struct Quartic;
     T(px, py) = (px^4 + py^4)/4 + px^2*py
+}
+
+potential! {
+    /// A polynomial.
+    struct Spring;
+    pair U(d) = d^2/2 + d^4/4
 }
 
 const STEPS: u64 = 10;
@@ -141,6 +150,14 @@ fn steps_and_estimators_do_not_allocate() {
     let formula = FormulaPotential::new("(x^2 + y^2)/2 + x^2*y - y^3/3", &["x", "y"], &[]).unwrap();
     let (q_too, p_too) = (numbers(["0.1", "0.2"], &digits), numbers(["0.1", "0"], &digits));
     of_all_schemes(&Motion::new(formula, UnitMasses, q_too, p_too), nothing);
+
+    // neighbours, compiled and read
+    let state = || (numbers(["0.1", "0.2"], &digits), numbers(["0.1", "0"], &digits));
+    let (q, p) = state();
+    of_all_schemes(&Motion::new(Pairs::<_, 1>::neighbours(2, Spring, Ends::Fixed), UnitMasses, q, p), nothing);
+    let spring = FormulaPair::new("d^2/2 + d^4/4", Separation::Difference, &[], &[]).unwrap();
+    let (q, p) = state();
+    of_all_schemes(&Motion::new(Pairs::<_, 1>::neighbours(2, spring, Ends::Fixed), UnitMasses, q, p), nothing);
 
     // kinetic energies from formulas, compiled and read
     let any: Vec<_> = shipped_names().into_iter().filter_map(|name| shipped(name)?.for_every_kinetic().ok()).collect();

@@ -9,7 +9,7 @@ pub mod systems;
 
 use rug::Float;
 use shadowstep::number::{Number, Precision};
-use shadowstep::{Rational, exact};
+use shadowstep::{Potential, Rational, exact};
 
 /// The precision of `digits` decimal digits.
 pub fn precision(digits: u32) -> Precision {
@@ -42,6 +42,21 @@ pub fn log10_distance<N: Number>(a: &N, b: &N) -> f64 {
 pub fn log10_largest_distance<N: Number>(a: &[N], b: &[N]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| log10_distance(a, b)).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// U, qᵀU_q − 2U, U_q alone and U_q as it comes with that.
+pub fn potential_values<N: Number>(potential: &impl Potential<N>, q: &[N]) -> Vec<N> {
+    let context = q[0].context();
+    let zeros = |count| vec![N::zero(&context); count];
+    let mut scratch = zeros(potential.scratch());
+    potential.prepare(&mut scratch, &context);
+    let (mut all, mut gradient) = (zeros(2), zeros(q.len()));
+    let [energy, rate] = &mut all[..] else { unreachable!("two") };
+    potential.energy(q, energy, &mut scratch);
+    potential.gradient(q, &mut gradient, &mut scratch);
+    let plain = gradient.clone();
+    potential.gradient_and_rate(q, &mut gradient, rate, &mut scratch);
+    all.into_iter().chain(plain).chain(gradient).collect()
 }
 
 /// Numbers whose bits can be compared: −0 is not 0.

@@ -4,7 +4,7 @@ use rug::Float;
 use shadowstep::formula::FormulaPotential;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum, Scattering};
 use shadowstep::{Number, Potential, potential};
-use shadowstep_tests::{Bits, numbers, precision};
+use shadowstep_tests::{Bits, numbers, potential_values, precision};
 
 potential! {
     /// Uses every function, with parameters alone, with coordinates alone, and with both.
@@ -16,21 +16,6 @@ potential! {
 const EVERYTHING: &str = "-depth * exp(-(x^2 + y^2)/width^2) + log(2 + sin(x)*cos(y)) + tan(x/3) * sinh(y) / cosh(x) \
     + tanh(width*x) * atan(y) + asin(x/4) * acos(y/5) + cbrt(3 + x) * (2 + y)^(2/5) + sqrt(depth) * x^4/7 - 0.3*y";
 
-/// U, U_q, and U_q with qᵀU_q − 2U.
-fn values<N: Number>(potential: &impl Potential<N>, q: &[N]) -> Vec<N> {
-    let context = q[0].context();
-    let zeros = |count| vec![N::zero(&context); count];
-    let mut scratch = zeros(potential.scratch());
-    potential.prepare(&mut scratch, &context);
-    let (mut all, mut gradient) = (zeros(2), zeros(q.len()));
-    let [energy, rate] = &mut all[..] else { unreachable!("two") };
-    potential.energy(q, energy, &mut scratch);
-    potential.gradient(q, &mut gradient, &mut scratch);
-    let plain = gradient.clone();
-    potential.gradient_and_rate(q, &mut gradient, rate, &mut scratch);
-    all.into_iter().chain(plain).chain(gradient).collect()
-}
-
 fn assert_twins<N: Bits>(
     formula: &str,
     coordinates: &[&str],
@@ -41,7 +26,7 @@ fn assert_twins<N: Bits>(
     let read = FormulaPotential::new(formula, coordinates, parameters).unwrap();
     for point in [["0.3", "-0.7"], ["1/7", "1.2"], ["-0.9", "2/3"]] {
         let q = numbers::<N>(&point[..coordinates.len()], context);
-        let (one, other) = (values(compiled, &q), values(&read, &q));
+        let (one, other) = (potential_values(compiled, &q), potential_values(&read, &q));
         assert!(one.iter().all(Number::is_finite), "{formula} at {point:?}");
         for (one, other) in one.iter().zip(&other) {
             assert!(one.same_bits(other), "{formula} at {point:?}: {one} and {other}");
@@ -81,14 +66,14 @@ fn gradient_and_rate_are_those_of_the_energy() {
         width: shadowstep_tests::number("0.6", 120),
     };
     let q = numbers::<Float>(&["0.3", "-0.7"], &context);
-    let found = values(&potential, &q);
+    let found = potential_values(&potential, &q);
     let [energy, rate, x_slope, y_slope] = &found[..4] else { unreachable!("U, rate, U_x, U_y") };
     let step = shadowstep_tests::number("1e-30", 120);
     for (i, slope) in [x_slope, y_slope].into_iter().enumerate() {
         let at = |sign: i32| {
             let mut moved = q.clone();
             moved[i] += step.clone() * sign;
-            values(&potential, &moved).remove(0)
+            potential_values(&potential, &moved).remove(0)
         };
         let quotient = (at(1) - at(-1)) / (step.clone() * 2);
         assert!(shadowstep_tests::log10_distance(&quotient, slope) < -55.0, "{quotient} and {slope}");

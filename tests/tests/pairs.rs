@@ -6,7 +6,7 @@ use shadowstep::number::counting::{Counting, Operations, count};
 use shadowstep::pairs::{Ends, Pairs, Separation};
 use shadowstep::problems::Gravity;
 use shadowstep::{Number, Potential, potential};
-use shadowstep_tests::{Bits, log10_distance, numbers, precision};
+use shadowstep_tests::{Bits, log10_distance, numbers, potential_values, precision};
 
 potential! {
     /// Has every kind of name: a parameter, two properties, the separation.
@@ -21,21 +21,6 @@ potential! {
     pair U(d) = d^2/2 + a*d^3/3 + exp(-d)
 }
 const SPRING: &str = "d^2/2 + a*d^3/3 + exp(-d)";
-
-/// U, U_q, and U_q with qᵀU_q − 2U.
-fn values<N: Number>(potential: &impl Potential<N>, q: &[N]) -> Vec<N> {
-    let context = q[0].context();
-    let zeros = |count| vec![N::zero(&context); count];
-    let mut scratch = zeros(potential.scratch());
-    potential.prepare(&mut scratch, &context);
-    let (mut all, mut gradient) = (zeros(2), zeros(q.len()));
-    let [energy, rate] = &mut all[..] else { unreachable!("two") };
-    potential.energy(q, energy, &mut scratch);
-    potential.gradient(q, &mut gradient, &mut scratch);
-    let plain = gradient.clone();
-    potential.gradient_and_rate(q, &mut gradient, rate, &mut scratch);
-    all.into_iter().chain(plain).chain(gradient).collect()
-}
 
 const POINT: [&str; 6] = ["0.3", "-1.7", "2.1", "1/7", "-0.9", "2/3"];
 const CHARGES: [&str; 3] = ["1.5", "-2/3", "0.7"];
@@ -62,7 +47,7 @@ fn assert_is(potential: &impl Potential<Float>, written_out: &str, what: &str) {
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let plain = FormulaPotential::<Float>::new(written_out, &names, &[]).unwrap();
     let q = numbers::<Float>(&POINT, &context);
-    for (found, expected) in values(potential, &q).iter().zip(values(&plain, &q)) {
+    for (found, expected) in potential_values(potential, &q).iter().zip(potential_values(&plain, &q)) {
         assert!(log10_distance(found, &expected) < -115.0, "{what}: {found} and {expected}");
     }
 }
@@ -101,11 +86,11 @@ fn compiled_and_read_have_the_same_bits<N: Bits>(context: &N::Context) {
     };
     let q = numbers::<N>(&POINT, context);
     let (compiled, read) = charged::<N>(context);
-    same(&values(&Pairs::<_, 2>::all(3, compiled), &q), &values(&Pairs::<_, 2>::all(3, read), &q));
+    same(&potential_values(&Pairs::<_, 2>::all(3, compiled), &q), &potential_values(&Pairs::<_, 2>::all(3, read), &q));
     for ends in [Ends::Free, Ends::Fixed, Ends::Periodic] {
         let (compiled, read) = spring::<N>(context);
         let (compiled, read) = (Pairs::<_, 1>::neighbours(6, compiled, ends), Pairs::<_, 1>::neighbours(6, read, ends));
-        same(&values(&compiled, &q), &values(&read, &q));
+        same(&potential_values(&compiled, &q), &potential_values(&read, &q));
     }
 }
 
@@ -125,7 +110,7 @@ fn a_moved_origin_changes_round_off_only() {
     let pairs = Pairs::<_, 2>::all(3, pair);
     let q = numbers::<Float>(&POINT, &precision(120));
     let moved: Vec<Float> = q.iter().map(|x| x.clone() + 1000).collect();
-    for (here, there) in values(&pairs, &q).iter().zip(values(&pairs, &moved)) {
+    for (here, there) in potential_values(&pairs, &q).iter().zip(potential_values(&pairs, &moved)) {
         assert!(log10_distance(here, &there) < -112.0, "{here} and {there}");
     }
 }
