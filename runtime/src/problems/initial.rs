@@ -11,7 +11,7 @@ pub struct Initial {
     pub masses: Option<Vec<String>>,
 }
 
-/// A body of a problem: its name, its mass, and its position and velocity in D dimensions, as exact expressions.
+/// A body of a problem: its name, its mass, and its position and velocity in D dimensions, as exact numbers.
 pub(super) struct Body<const D: usize> {
     pub(super) name: &'static str,
     pub(super) mass: &'static str,
@@ -32,7 +32,12 @@ impl Initial {
         for Body { name, mass, position, velocity } in bodies {
             for ((axis, position), velocity) in ["x", "y", "z"].iter().zip(position).zip(velocity) {
                 initial.positions.push((format!("{axis}_{name}"), (*position).to_owned()));
-                initial.momenta.push((format!("p{axis}_{name}"), format!("{mass} * ({velocity})")));
+                let momentum = match velocity.strip_prefix('-') {
+                    _ if *velocity == "0" => "0".to_owned(),
+                    Some(speed) => format!("-{mass} * {speed}"),
+                    None => format!("{mass} * {velocity}"),
+                };
+                initial.momenta.push((format!("p{axis}_{name}"), momentum));
                 initial.masses.get_or_insert_default().push((*mass).to_owned());
             }
         }
