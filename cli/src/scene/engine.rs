@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 use std::time::Instant;
 
-use shadowstep::Number;
 use shadowstep::run::{ShadowRun, Trajectory};
+use shadowstep::{Kinetic, Motion, Moves, Number, Potential, Scheme};
 
 use crate::complaint::{Complaint, remark};
 use crate::order::Order;
@@ -12,8 +12,8 @@ use crate::progress::Progress;
 use crate::run::Run;
 use crate::scene::checkpoint::{Checkpoint, Saved};
 use crate::scene::read::{Cadence, Scene};
+use crate::scene::system::Classed;
 use crate::scene::write::{Modified, Row, Rows};
-use shadowstep::problems::ProblemMotion;
 
 /// How a run ended.
 pub(crate) enum End {
@@ -41,8 +41,7 @@ pub(crate) fn follow<N: Number + 'static>(
     if let Some(saved) = saved {
         (q, p) = saved.numbers(context).ok_or_else(|| unreadable(saved.n))?;
     }
-    let motion = scene.system.motion(q, p, context);
-    let mut recorder = Recorder {
+    let recorder = Recorder {
         scene,
         run,
         context,
@@ -53,9 +52,14 @@ pub(crate) fn follow<N: Number + 'static>(
         stop,
     };
     let from = saved.map(|saved| saved.n);
-    match scene.output.modified {
-        None => recorder.plain(motion, from.unwrap_or(0)),
-        Some((order, _)) => recorder.shadowed(motion, from, order),
+    let potential = scene.system.potential(context);
+    let scheme = &scene.scheme.scheme;
+    match scene.system.kinetic(context) {
+        Classed::Quadratic(kinetic) => recorder.take(scheme, Motion::new(potential, kinetic, q, p), from),
+        Classed::General(kinetic) => {
+            let scheme = scheme.clone().for_every_kinetic().expect("the scheme was read for this T");
+            recorder.take(&scheme, Motion::new(potential, kinetic, q, p), from)
+        }
     }
 }
 
@@ -76,12 +80,31 @@ struct Recorder<'a, N: Number> {
     stop: &'a dyn Fn() -> bool,
 }
 
+/// What moves, with a kinetic energy of any class.
+type Moving<N, K> = Motion<N, Vec<N>, Box<dyn Potential<N>>, K>;
+
 impl<N: Number + 'static> Recorder<'_, N> {
+    /// Takes the states of the run from its beginning, or after the state `from`.
+    fn take<K, S>(mut self, scheme: &S, motion: Moving<N, K>, from: Option<i64>) -> Result<End, Complaint>
+    where
+        K: Kinetic<N>,
+        S: Scheme + Moves<K::Class>,
+    {
+        match self.scene.output.modified {
+            None => self.plain(scheme, motion, from.unwrap_or(0)),
+            Some((order, _)) => self.shadowed(scheme, motion, from, order),
+        }
+    }
+
     /// Without β, thus without states beyond both ends.
-    fn plain(&mut self, motion: ProblemMotion<N>, from: i64) -> Result<End, Complaint> {
+    fn plain<K, S>(&mut self, scheme: &S, motion: Moving<N, K>, from: i64) -> Result<End, Complaint>
+    where
+        K: Kinetic<N>,
+        S: Scheme + Moves<K::Class>,
+    {
         let run = self.run;
         let failed = |error| run.failed(&error);
-        let mut trajectory = Trajectory::plain(&run.scheme.scheme, motion, run.h, from, run.steps).map_err(failed)?;
+        let mut trajectory = Trajectory::plain(scheme, motion, run.h, from, run.steps).map_err(failed)?;
         while let Some(n) = trajectory.advance().map_err(failed)?.map(|state| state.n) {
             let motion = trajectory.motion();
             let energy = self.is_due(self.scene.output.energy, n).then(|| motion.energy());
@@ -94,11 +117,21 @@ impl<N: Number + 'static> Recorder<'_, N> {
     }
 
     /// With β and an estimate at each state; taken up after the state `from`.
-    fn shadowed(&mut self, motion: ProblemMotion<N>, from: Option<i64>, order: Order) -> Result<End, Complaint> {
+    fn shadowed<K, S>(
+        &mut self,
+        scheme: &S,
+        motion: Moving<N, K>,
+        from: Option<i64>,
+        order: Order,
+    ) -> Result<End, Complaint>
+    where
+        K: Kinetic<N>,
+        S: Scheme + Moves<K::Class>,
+    {
         let run = self.run;
         let failed = |error| run.failed(&error);
         let (mut q, mut p) = (motion.q().to_vec(), motion.p().to_vec());
-        let (scheme, method) = (&run.scheme.scheme, order.method(true));
+        let method = order.method(true);
         let mut shadow = match from {
             None => ShadowRun::new(scheme, motion, run.h, run.steps, &method),
             Some(from) => ShadowRun::resume(scheme, motion, run.h, from, run.steps, &method),

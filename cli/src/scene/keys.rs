@@ -30,7 +30,7 @@ pub(crate) const SECTIONS: [Section; 7] = [
     section("output.trajectory", "When positions and momenta are, in place of `trajectory = true`."),
 ];
 
-pub(crate) const KEYS: [Key; 26] = [
+pub(crate) const KEYS: [Key; 28] = [
     key(
         "problem",
         "name",
@@ -48,7 +48,7 @@ pub(crate) const KEYS: [Key; 26] = [
     key(
         "problem",
         "coordinates",
-        "Names of q_1, q_2, … for `potential`. The momentum of x is called px.",
+        "Names of q_1, q_2, … for `potential`.",
         "[\"x\", \"y\"]",
         Some("none; a shipped problem has its own"),
     ),
@@ -66,6 +66,21 @@ pub(crate) const KEYS: [Key; 26] = [
         "The m_i of T = p_1^2/(2 m_1) + p_2^2/(2 m_2) + …, one for each coordinate.",
         "[1, \"1/1000\"]",
         Some("all are 1"),
+    ),
+    key(
+        "problem",
+        "kinetic",
+        "T(p), a smooth formula in the momenta and parameters, in place of `masses`. Where it is not quadratic in p, the \
+         scheme must be one for every T(p).",
+        "\"sqrt(1 + px^2 + py^2)\"",
+        Some("p_1^2/(2 m_1) + p_2^2/(2 m_2) + …"),
+    ),
+    key(
+        "problem",
+        "momenta",
+        "Names of p_1, p_2, … for `kinetic` and the output, one for each of the `coordinates`.",
+        "[\"px\", \"py\"]",
+        Some("the momentum of x is called px"),
     ),
     key(
         "initial",

@@ -13,7 +13,7 @@ use shadowstep_symbolic::decimal::to_text;
 use crate::arithmetic::Arithmetic;
 use crate::library;
 use crate::scene::read::Scene;
-use crate::scene::system::{PotentialEnergy, System};
+use crate::scene::system::{KineticEnergy, PotentialEnergy, System};
 
 /// Names and values in the order in which they are written.
 pub(crate) struct Metadata(Vec<(&'static str, Value)>);
@@ -31,6 +31,7 @@ impl Metadata {
             Arithmetic::Double => json!("double"),
             Arithmetic::Digits(digits, _) => json!(digits),
         };
+        let order = if scene.system.has_general_kinetic() { &proved.proof.general } else { proved.order() };
         let mut all = vec![
             ("shadowstep", json!(env!("CARGO_PKG_VERSION"))),
             ("platform", json!(platform())),
@@ -42,7 +43,7 @@ impl Metadata {
         all.extend(bases(&proved.scheme.table).iter().map(|base| ("base_table_sha256", json!(sha256(&base.text)))));
         all.extend([
             ("first", json!(proved.scheme.maps().first().map(|map| map.kind.to_string()))),
-            ("scheme_order", json!(proved.order().order)),
+            ("scheme_order", json!(order.order)),
             ("digits", digits),
         ]);
         all.extend(system(&scene.system, scene.arithmetic));
@@ -65,7 +66,7 @@ impl Metadata {
 
 fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)> {
     let texts = |values: &[Exact]| json!(values.iter().map(|value| arithmetic.text(value)).collect::<Vec<_>>());
-    let named = match &system.energy {
+    let named = match &system.potential {
         PotentialEnergy::Shipped(setup) => {
             vec![("problem", json!(setup.problem.name)), ("hamiltonian", json!(setup.problem.hamiltonian))]
         }
@@ -73,11 +74,14 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
     };
     let parameters: serde_json::Map<_, _> =
         system.parameters.iter().map(|(name, value)| (name.clone(), json!(arithmetic.text(value)))).collect();
-    let masses = system.masses.as_ref().map(|masses| ("masses", texts(masses)));
+    let kinetic = match &system.kinetic {
+        KineticEnergy::Masses(masses) => masses.iter().map(|masses| ("masses", texts(masses))).collect(),
+        KineticEnergy::Formula(formula) => vec![("kinetic", json!(formula)), ("momenta", json!(system.momenta))],
+    };
     named
         .into_iter()
         .chain([("parameters", json!(parameters)), ("coordinates", json!(system.coordinates))])
-        .chain(masses)
+        .chain(kinetic)
         .chain([("q", texts(&system.q)), ("p", texts(&system.p))])
         .collect()
 }

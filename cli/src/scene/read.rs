@@ -1,9 +1,11 @@
 //! A scene's text → all that it asks for, or all its faults. Each section has its file.
 
+mod formula;
 mod initial;
 mod output;
 mod problem;
 mod run;
+mod shipped;
 
 pub(crate) use output::{Asked, Cadence};
 
@@ -75,7 +77,8 @@ fn parts(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<(System, run::St
     let arithmetic = run::arithmetic(reader, &run);
     reader.arithmetic = arithmetic.unwrap_or(Arithmetic::Double);
     let system = problem::system(reader, &problem, &initial);
-    let steps = run::Steps::read(reader, &run);
+    let general = system.as_ref().is_some_and(System::has_general_kinetic);
+    let steps = run::Steps::read(reader, &run, general);
     let asked = Asked::read(reader, &output);
     arithmetic?;
     Some((system?, steps?, asked?))

@@ -1,23 +1,22 @@
-//! What moves: a shipped problem or a formula's potential, its masses and its state at t = 0.
+//! What moves: a shipped problem or a formula's potential, its kinetic energy and its state at t = 0.
 
-use shadowstep::formula::{FormulaError, FormulaPotential};
-use shadowstep::kinetic::Quadratic;
-use shadowstep::problems::{ProblemMotion, Setup};
-use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, UnitMasses};
+use shadowstep::formula::{FormulaError, FormulaKinetic, FormulaPotential};
+use shadowstep::kinetic::{General, Quadratic};
+use shadowstep::problems::Setup;
+use shadowstep::{DiagonalMasses, Kinetic, Number, Potential, Rational, UnitMasses};
 use shadowstep_symbolic::Exact;
 
 /// H = T(p) + U(q) and the state at t = 0, all exact.
 #[derive(Debug)]
 pub(crate) struct System {
-    pub(crate) energy: PotentialEnergy,
+    pub(crate) potential: PotentialEnergy,
+    pub(crate) kinetic: KineticEnergy,
     /// Names and values.
     pub(crate) parameters: Vec<(String, Exact)>,
     /// Names of q_1, q_2, ….
     pub(crate) coordinates: Vec<String>,
     /// Names of p_1, p_2, ….
     pub(crate) momenta: Vec<String>,
-    /// One for each coordinate, unless all are 1.
-    pub(crate) masses: Option<Vec<Exact>>,
     pub(crate) q: Vec<Exact>,
     pub(crate) p: Vec<Exact>,
 }
@@ -29,6 +28,20 @@ pub(crate) enum PotentialEnergy {
     Formula(String),
 }
 
+/// T(p)
+#[derive(Debug)]
+pub(crate) enum KineticEnergy {
+    /// One for each coordinate, unless all are 1.
+    Masses(Option<Vec<Exact>>),
+    Formula(String),
+}
+
+/// A kinetic energy with its class, which decides about the schemes that move it.
+pub(crate) enum Classed<N> {
+    Quadratic(Box<dyn Kinetic<N, Class = Quadratic>>),
+    General(Box<dyn Kinetic<N, Class = General>>),
+}
+
 impl System {
     /// Positions and momenta at t = 0.
     pub(crate) fn start<N: Number>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
@@ -36,13 +49,9 @@ impl System {
         (numbers(&self.q), numbers(&self.p))
     }
 
-    /// The system at q, p.
-    pub(crate) fn motion<N: Number + 'static>(&self, q: Vec<N>, p: Vec<N>, context: &N::Context) -> ProblemMotion<N> {
-        Motion::new(self.potential(context), self.kinetic(context), q, p)
-    }
-
-    fn potential<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Potential<N>> {
-        match &self.energy {
+    /// U(q)
+    pub(crate) fn potential<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Potential<N>> {
+        match &self.potential {
             PotentialEnergy::Shipped(setup) => setup.potential(context),
             PotentialEnergy::Formula(formula) => {
                 let potential = formula_potential::<N>(formula, &self.coordinates, &self.parameters, context);
@@ -51,10 +60,31 @@ impl System {
         }
     }
 
-    fn kinetic<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Kinetic<N, Class = Quadratic>> {
-        let Some(masses) = &self.masses else { return Box::new(UnitMasses) };
-        let masses: Vec<Rational> = masses.iter().map(|mass| mass.value.clone()).collect();
-        Box::new(DiagonalMasses::new(&masses, context).expect("the masses were read with the scene"))
+    /// T(p)
+    pub(crate) fn kinetic<N: Number + 'static>(&self, context: &N::Context) -> Classed<N> {
+        match &self.kinetic {
+            KineticEnergy::Masses(None) => Classed::Quadratic(Box::new(UnitMasses)),
+            KineticEnergy::Masses(Some(masses)) => {
+                let masses: Vec<Rational> = masses.iter().map(|mass| mass.value.clone()).collect();
+                let masses = DiagonalMasses::new(&masses, context);
+                Classed::Quadratic(Box::new(masses.expect("the masses were read with the scene")))
+            }
+            KineticEnergy::Formula(formula) => {
+                let kinetic = formula_kinetic::<N>(formula, &self.momenta, &self.parameters, context);
+                match kinetic.expect("the formula was read with the scene").into_quadratic() {
+                    Ok(quadratic) => Classed::Quadratic(Box::new(quadratic)),
+                    Err(general) => Classed::General(Box::new(general)),
+                }
+            }
+        }
+    }
+
+    /// Whether schemes for quadratic T only do not move it.
+    pub(crate) fn has_general_kinetic(&self) -> bool {
+        match &self.kinetic {
+            KineticEnergy::Masses(_) => false,
+            KineticEnergy::Formula(_) => matches!(self.kinetic::<f64>(&()), Classed::General(_)),
+        }
     }
 }
 
@@ -65,8 +95,23 @@ pub(crate) fn formula_potential<N: Number>(
     parameters: &[(String, Exact)],
     context: &N::Context,
 ) -> Result<FormulaPotential<N>, FormulaError> {
-    let coordinates: Vec<&str> = coordinates.iter().map(String::as_str).collect();
-    let parameters: Vec<(&str, N)> =
-        parameters.iter().map(|(name, exact)| (name.as_str(), N::from_rational(&exact.value, context))).collect();
-    FormulaPotential::new(formula, &coordinates, &parameters)
+    FormulaPotential::new(formula, &borrowed(coordinates), &rounded(parameters, context))
+}
+
+/// The kinetic energy of a formula, likewise.
+pub(crate) fn formula_kinetic<N: Number>(
+    formula: &str,
+    momenta: &[String],
+    parameters: &[(String, Exact)],
+    context: &N::Context,
+) -> Result<FormulaKinetic<N>, FormulaError> {
+    FormulaKinetic::new(formula, &borrowed(momenta), &rounded(parameters, context))
+}
+
+fn borrowed(names: &[String]) -> Vec<&str> {
+    names.iter().map(String::as_str).collect()
+}
+
+fn rounded<'a, N: Number>(parameters: &'a [(String, Exact)], context: &N::Context) -> Vec<(&'a str, N)> {
+    parameters.iter().map(|(name, exact)| (name.as_str(), N::from_rational(&exact.value, context))).collect()
 }

@@ -5,6 +5,7 @@ mod drift;
 mod problems;
 mod program;
 mod scene_faults;
+mod scene_kinetic;
 mod scenes;
 mod schemes;
 mod trace;

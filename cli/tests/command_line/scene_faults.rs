@@ -125,6 +125,32 @@ fn each_has_its_place_and_sentence() {
     }
 }
 
+/// What is replaced in the good scene, where T is given.
+const WRONG_KINETIC: &[(&str, &str, &str, &str)] = &[
+    ("p = [0, 1]", "v = [0, 1]", "8:5: v is of masses, and here T is given by `kinetic`", "the momenta `p`"),
+    ("sqrt(k", "sqrt(x", "5:17: unknown name `x`", "in the momenta px, py and the parameters"),
+    ("sqrt(k", "abs(k", "5:12: `abs` is not smooth", "a smooth formula in the momenta"),
+    ("sqrt(k", "sqrt((k", "5:16: unexpected end: this `(` has no `)`", "a smooth formula"),
+    ("[initial]", "masses = [1, 1]\n[initial]", "6:10: masses and kinetic are both given", "keep one of the two"),
+    ("[initial]", "momenta = [\"px\"]\n[initial]", "6:11: this list needs a name for each", "found 1, needed 2"),
+    ("[initial]", "momenta = [\"px\", \"x\"]\n[initial]", "6:18: the momentum `x` has the name of a coord", "another"),
+    ("[initial]", "momenta = [\"k\", \"b\"]\n[initial]", "6:12: the momentum `k` has the name of a param", "another"),
+    ("[initial]", "momenta = [\"n\", \"b\"]\n[initial]", "6:12: the momentum `n` has the name of a column", "another"),
+    ("[initial]", "momenta = [\"b\", \"b\"]\n[initial]", "6:17: the momentum `b` has the name of another", "another"),
+    ("[initial]", "momenta = [\"1b\", \"b\"]\n[initial]", "6:12: `1b` is no name", "begins with a letter"),
+    ("[initial]", "momenta = [\"a\", \"b\"]\n[initial]", "5:23: unknown name `px`", "in the momenta a, b and"),
+];
+
+#[test]
+fn so_have_those_of_kinetic_energies() {
+    let good = GOOD.replace("masses = [1, 2]", "kinetic = \"sqrt(k^2 + px^2 + py^2)\"");
+    for (part, replacement, sentence, help) in WRONG_KINETIC {
+        assert!(good.contains(part), "{part}");
+        complains(&good.replacen(part, replacement, 1), sentence, help);
+    }
+    assert_eq!(run(folder(&good).path(), "").code, 0);
+}
+
 const NAMED: &str = "[problem]\nname = \"kepler\"\nparameters = { eccentricity = \"1/2\" }\n\
                      [run]\nscheme = \"ruth3\"\nsteps = 2\nstep = 0.1\n[output]\nenergy = true\n";
 
@@ -135,8 +161,10 @@ fn so_have_those_of_shipped_problems() {
         ("eccentricity", "ecentricity", "3:16: kepler has no parameter `ecentricity`", "did you mean `eccentricity`?"),
         ("\"1/2\"", "\"3/2\"", "3:31: eccentricity = 3/2 is out of range", "less than 1"),
         ("\"1/2\"", "\"1/x\"", "3:34: unknown name `x`", "1/10"),
-        ("[run]", "coordinates = [\"x\", \"y\"]\n[run]", "4:15: kepler has coordinates of its own", "leave them out"),
-        ("[run]", "masses = [1, 1]\n[run]", "4:10: kepler has masses of its own", "leave them out"),
+        ("[run]", "coordinates = [\"x\", \"y\"]\n[run]", "4:15: kepler has coordinates of its own", "leave out `"),
+        ("[run]", "masses = [1, 1]\n[run]", "4:10: kepler has masses of its own", "leave out `"),
+        ("[run]", "kinetic = \"px^2\"\n[run]", "4:11: kepler has kinetic of its own", "leave out `kinetic`"),
+        ("[run]", "momenta = [\"px\"]\n[run]", "4:11: kepler has momenta of its own", "leave out `momenta`"),
         ("[run]", "[initial]\nq = [1]\n[run]", "5:5: this list needs a number for each", "found 1 number, needed 2"),
         ("0.1", "1e-400\ndigits = \"double\"", "7:8: 1e-400 is beyond double precision", "digits = 16"),
         ("0.1", "0.1\ndigits = 6000\n[initial]\np = [0, \"sqrt(2)\"]", "10:9: this is irrational", "digits = 4980"),

@@ -41,13 +41,13 @@ pub(crate) fn run(folder: &Path, flags: &str) -> Said {
 }
 
 /// Runs a scene without a file; all must go well, and stderr be silent.
-fn printed(scene: &str) -> String {
+pub(crate) fn printed(scene: &str) -> String {
     let folder = folder(scene);
     quietly(&format!("run {}", folder.path().join("scene.toml").display()))
 }
 
 /// Columns and rows of CSV without its head.
-fn table(csv: &str) -> (Vec<String>, Vec<Vec<String>>) {
+pub(crate) fn table(csv: &str) -> (Vec<String>, Vec<Vec<String>>) {
     let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(csv.as_bytes());
     let words = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
     let header = words(reader.headers().unwrap());

@@ -10,8 +10,8 @@ use crate::scene::reader::{List, Reader, Section};
 pub(super) struct State {
     q: Option<List>,
     p: Option<List>,
-    /// Whether `p` is of velocities.
-    velocities: bool,
+    /// The place of `v`: then `p` is of velocities.
+    velocities: Option<Range<usize>>,
     /// How many of the lists are there, right or wrong.
     has_q: bool,
     has_p: bool,
@@ -24,9 +24,10 @@ impl State {
         let p = reader.list_of(initial, "p", what, Reader::number);
         let v = reader.list_of(initial, "v", what, Reader::number);
         let has = |key| reader.get(initial, key).is_some();
-        let (has_q, has_p, velocities) = (has("q"), has("p") || has("v"), has("v"));
-        if let (Some(_), Some(value)) = (reader.get(initial, "p"), reader.get(initial, "v")) {
-            reader.fault(&value.span(), "p and v are both given", "keep one of the two");
+        let (has_q, has_p) = (has("q"), has("p") || has("v"));
+        let velocities = reader.get(initial, "v").map(|value| value.span());
+        if let (true, Some(at)) = (has("p"), &velocities) {
+            reader.fault(at, "p and v are both given", "keep one of the two");
         }
         State { q, p: v.or(p), velocities, has_q, has_p }
     }
@@ -41,6 +42,13 @@ impl State {
         }
     }
 
+    /// Refuses velocities, where T(p) is no sum over masses.
+    pub(super) fn refuse_velocities(&self, reader: &mut Reader<'_>) {
+        if let Some(at) = &self.velocities {
+            reader.fault(at, "v is of masses, and here T is given by `kinetic`", "give the momenta `p` in place of v");
+        }
+    }
+
     /// q and p, where they are given.
     pub(super) fn values(
         &self,
@@ -50,7 +58,7 @@ impl State {
     ) -> (Option<Vec<Exact>>, Option<Vec<Exact>>) {
         let q = self.q.as_ref().and_then(|list| reader.values(list, coordinates));
         let mut p = self.p.as_ref().and_then(|list| reader.values(list, coordinates));
-        if let (true, Some(p), Some(masses)) = (self.velocities, &mut p, masses) {
+        if let (Some(_), Some(p), Some(masses)) = (&self.velocities, &mut p, masses) {
             for (p, mass) in p.iter_mut().zip(masses) {
                 p.value *= &mass.value;
                 p.rounded |= mass.rounded;

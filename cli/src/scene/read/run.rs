@@ -38,11 +38,12 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    pub(super) fn read(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<Steps> {
+    /// For a general T(p), or for a quadratic one.
+    pub(super) fn read(reader: &mut Reader<'_>, run: &Section<'_, '_>, general: bool) -> Option<Steps> {
         let first =
             reader.get(run, "first").map(|value| reader.word(value, &[("kick", First::Kick), ("drift", First::Drift)]));
         let scheme = match reader.get(run, "scheme") {
-            Some(value) => reader.text(value).and_then(|text| scheme(reader, &text, first.flatten())),
+            Some(value) => reader.text(value).and_then(|text| scheme(reader, &text, first.flatten(), general)),
             None => {
                 reader.missing(run, "scheme");
                 None
@@ -57,7 +58,7 @@ impl Steps {
     }
 }
 
-fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>) -> Option<Named> {
+fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>, general: bool) -> Option<Named> {
     let folder = Path::new(&reader.source.path).parent().unwrap_or(Path::new(""));
     let named = match library::scheme_from(&word.value, folder, first) {
         Ok(named) => named,
@@ -68,6 +69,11 @@ fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>) -> Option<
         }
         Err(Complaint::Run { .. } | Complaint::Output(_)) => unreachable!("a table is only read"),
     };
+    if general && let Err(error) = named.scheme.clone().for_every_kinetic() {
+        // it says which one would do
+        reader.faults.push(reader.source.fault(&word.at, error.to_string()));
+        return None;
+    }
     match reader.arithmetic.suits(&named) {
         Ok(()) => Some(named),
         Err((sentence, most)) => {

@@ -1,0 +1,135 @@
+//! A potential of one's own with coordinates, parameters and masses, or a kinetic energy of one's own.
+
+use num_traits::{One, Signed};
+use shadowstep::Rational;
+use shadowstep_symbolic::Exact;
+
+use super::problem::{Given, check_name};
+use crate::scene::reader::{List, Reader, Text};
+use crate::scene::system::{KineticEnergy, PotentialEnergy, System, formula_kinetic, formula_potential};
+use crate::scene::write::COLUMNS;
+
+impl Given {
+    /// The system with this potential.
+    pub(super) fn formula(self, reader: &mut Reader<'_>, potential: &Text) -> Option<System> {
+        let parameters = self.own_parameters(reader);
+        let list = self.coordinates.as_ref()?;
+        let before = reader.faults.len();
+        let (coordinates, momenta) = self.names(reader, list);
+        let named = reader.faults.len() == before;
+        if named && let Err(error) = formula_potential::<f64>(&potential.value, &coordinates, &parameters, &()) {
+            let help = "a potential is a smooth formula such as \"-1/sqrt(x^2 + y^2)\"";
+            reader.fault(&potential.place(&error.range()), error.to_string(), help);
+        }
+        let kinetic = match named {
+            true => self.kinetic_energy(reader, &momenta, &parameters),
+            false => None,
+        };
+        let masses = self.masses.as_ref().and_then(|list| masses(reader, list, coordinates.len()));
+        if let Some(initial) = &self.initial {
+            self.state.all_there(reader, initial);
+        }
+        let (q, p) = self.state.values(reader, coordinates.len(), masses.as_deref());
+        let potential = PotentialEnergy::Formula(potential.value.clone());
+        let kinetic = kinetic.unwrap_or(KineticEnergy::Masses(masses));
+        Some(System { potential, kinetic, parameters, coordinates, momenta, q: q?, p: p? })
+    }
+
+    /// T(p), where it is given by its formula.
+    pub(super) fn kinetic_energy(
+        &self,
+        reader: &mut Reader<'_>,
+        momenta: &[String],
+        parameters: &[(String, Exact)],
+    ) -> Option<KineticEnergy> {
+        self.place("kinetic")?;
+        self.refuse(reader, &["masses"], |_| {
+            let help = "keep one of the two: with `kinetic` the masses are numbers or parameters in its formula";
+            ("masses and kinetic are both given".to_owned(), help.to_owned())
+        });
+        self.state.refuse_velocities(reader);
+        let text = self.kinetic.as_ref()?;
+        if let Err(error) = formula_kinetic::<f64>(&text.value, momenta, parameters, &()) {
+            let known = momenta.iter().take(3).map(String::as_str).collect::<Vec<_>>().join(", ");
+            let more = if momenta.len() > 3 { ", …" } else { "" };
+            let help = format!("a kinetic energy is a smooth formula in the momenta {known}{more} and the parameters");
+            return reader.wrong(&text.place(&error.range()), error.to_string(), help);
+        }
+        Some(KineticEnergy::Formula(text.value.clone()))
+    }
+
+    /// Names and values, which become known to the reader.
+    pub(super) fn own_parameters(&self, reader: &mut Reader<'_>) -> Vec<(String, Exact)> {
+        let mut parameters = Vec::new();
+        for (name, text) in &self.parameters {
+            check_name(reader, name);
+            // a parameter without a value stands as 1, so that its users add no faults of their own
+            let value = reader.evaluate(text).unwrap_or(Exact { value: Rational::one(), rounded: false });
+            reader.known.insert(name.value.clone(), value.clone());
+            parameters.push((name.value.clone(), value));
+        }
+        parameters
+    }
+
+    /// The names of the coordinates and of their momenta, all of them new.
+    fn names(&self, reader: &mut Reader<'_>, list: &List) -> (Vec<String>, Vec<String>) {
+        let mut taken: Vec<(String, String)> =
+            COLUMNS.iter().map(|name| ((*name).to_owned(), "of a column of the output".to_owned())).collect();
+        taken.extend(self.parameters.iter().map(|(name, _)| (name.value.clone(), "of a parameter".to_owned())));
+        for name in &list.texts {
+            check_name(reader, name);
+            // without names of their own, momenta are named after the coordinates
+            let momentum = self.place("momenta").is_none().then(|| format!("p{}", name.value));
+            let is_its = |other: &String| *other == name.value || momentum.as_ref() == Some(other);
+            if let Some((other, whose)) = taken.iter().find(|(other, _)| is_its(other)) {
+                let message = match *other == name.value {
+                    true if whose == COORDINATE => format!("the coordinate `{other}` is named twice"),
+                    true => format!("the coordinate `{other}` has the name {whose}"),
+                    false => format!("the momentum `{other}` of `{}` has the name {whose}", name.value),
+                };
+                reader.fault(&name.at, message, "give it another name");
+            }
+            taken.push((name.value.clone(), COORDINATE.to_owned()));
+            taken.extend(momentum.map(|momentum| (momentum, format!("of the momentum of `{}`", name.value))));
+        }
+        let coordinates: Vec<String> = list.texts.iter().map(|name| name.value.clone()).collect();
+        let momenta = match &self.momenta {
+            Some(list) => own_momenta(reader, list, coordinates.len(), taken),
+            None => coordinates.iter().map(|name| format!("p{name}")).collect(),
+        };
+        (coordinates, momenta)
+    }
+}
+
+const COORDINATE: &str = "of a coordinate";
+
+/// The names of the momenta, as many as there are coordinates, none of them taken by something else.
+fn own_momenta(
+    reader: &mut Reader<'_>,
+    list: &List,
+    coordinates: usize,
+    mut taken: Vec<(String, String)>,
+) -> Vec<String> {
+    for name in &list.texts {
+        check_name(reader, name);
+        if let Some((other, whose)) = taken.iter().find(|(other, _)| *other == name.value) {
+            reader.fault(&name.at, format!("the momentum `{other}` has the name {whose}"), "give it another name");
+        }
+        taken.push((name.value.clone(), "of another momentum".to_owned()));
+    }
+    if list.texts.len() != coordinates {
+        let fault = reader.source.fault(&list.at, "this list needs a name for each coordinate");
+        reader.faults.push(fault.values(list.texts.len().to_string(), coordinates.to_string()));
+    }
+    list.texts.iter().map(|name| name.value.clone()).collect()
+}
+
+/// The masses, unless all are 1.
+pub(super) fn masses(reader: &mut Reader<'_>, list: &List, coordinates: usize) -> Option<Vec<Exact>> {
+    let values = reader.values(list, coordinates)?;
+    for (value, text) in values.iter().zip(&list.texts).filter(|(value, _)| !value.value.is_positive()) {
+        let message = format!("a mass of {} is not positive", reader.arithmetic.text(value));
+        reader.fault(&text.at, message, "masses are positive");
+    }
+    values.iter().any(|mass| !mass.value.is_one()).then_some(values)
+}
