@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`keys`] | every key with its meaning; [`explain`] prints them, [`template`] writes scenes with them |
 //! | [`reader`] | TOML values → texts, numbers and lists with their places |
-//! | [`read`], [`system`] | a scene's text → all that it asks for, or all its faults; what moves |
+//! | [`read`], [`system`], [`pairs`] | a scene's text → all that it asks for, or all its faults; what moves |
 //! | [`engine`], [`interrupt`] | the run |
 //! | [`write`], [`metadata`] | rows and the head of a file |
 //! | [`target`], [`resumable`], [`checkpoint`] | where rows go, and how a run goes on that was stopped |
@@ -15,6 +15,7 @@ mod explain;
 mod interrupt;
 mod keys;
 mod metadata;
+mod pairs;
 mod read;
 mod reader;
 mod resumable;
@@ -121,10 +122,12 @@ mod tests {
     use std::io::Write;
     use std::path::Path;
 
-    /// 20 steps at 30 digits with a checkpoint at each `interrupt`, and what else the output is.
-    fn scene(folder: &Path, output: &str) -> Scene {
+    const KEPLER: &str = "[problem]\nname = \"kepler\"";
+
+    /// What moves in 20 steps at 30 digits with a checkpoint at each `interrupt`, and what else the output is.
+    fn scene(folder: &Path, system: &str, output: &str) -> Scene {
         let text = format!(
-            "[problem]\nname = \"kepler\"\n[run]\nscheme = \"ruth3\"\nstep = \"1/20\"\nsteps = 20\ndigits = 30\n\
+            "{system}\n[run]\nscheme = \"ruth3\"\nstep = \"1/20\"\nsteps = 20\ndigits = 30\n\
              [output]\nfile = \"out.csv\"\ncheckpoint = \"1 h\"\n{output}\n"
         );
         let path = folder.join("scene.toml");
@@ -134,9 +137,9 @@ mod tests {
 
     /// Stops after so many states, then after twice as many of those that are made from there, and so on; gives the
     /// bytes of the file and the n of the stops.
-    fn with_stops(output: &str, each: usize) -> (String, Vec<i64>) {
+    fn with_stops(system: &str, output: &str, each: usize) -> (String, Vec<i64>) {
         let folder = tempfile::tempdir().unwrap();
-        let scene = scene(folder.path(), output);
+        let scene = scene(folder.path(), system, output);
         let mut stops = Vec::new();
         loop {
             let states = Cell::new(0);
@@ -166,10 +169,10 @@ mod tests {
             "modified_energy = { max_order = 6 }\ntrajectory = { every = 5 }",
             "modified_energy = { max_order = 30 }",
         ] {
-            let (whole, stops) = with_stops(output, 1000);
+            let (whole, stops) = with_stops(KEPLER, output, 1000);
             assert_eq!((stops.len(), whole.lines().last().unwrap().split(',').next()), (0, Some("20")), "{output}");
             for each in [5, 7, 8, 12, 13, 19, 20] {
-                let (bytes, stops) = with_stops(output, each);
+                let (bytes, stops) = with_stops(KEPLER, output, each);
                 assert!(!stops.is_empty() && stops.is_sorted(), "{output}: {stops:?}");
                 assert_eq!(bytes, whole, "{output}: {stops:?}");
             }
@@ -177,9 +180,27 @@ mod tests {
     }
 
     #[test]
+    fn so_has_that_of_pairs_of_bodies_and_of_a_general_kinetic_energy() {
+        let pairs = "[problem]\npair = \"-m_i*m_j/sqrt(r2)\"\ndimensions = 2\nbodies = { m = [1, 2, \"sqrt(3)\"] }\n\
+                     masses = \"m\"\n[initial]\nq = [0, 0, 1, 0, 0, 2]\nv = [0, \"1/3\", 1, 0, 0, 0]";
+        let kinetic = "[problem]\npotential = \"q^2/2\"\ncoordinates = [\"q\"]\nkinetic = \"sqrt(1 + pq^2)\"\n\
+                       [initial]\nq = [1]\np = [\"1/3\"]";
+        for system in [pairs, kinetic] {
+            for output in ["trajectory = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"] {
+                let (whole, _) = with_stops(system, output, 1000);
+                for each in [5, 8, 13] {
+                    let (bytes, stops) = with_stops(system, output, each);
+                    assert!(!stops.is_empty());
+                    assert_eq!(bytes, whole, "{output}: {stops:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn no_more_is_done_again_than_an_estimate_needs() {
         let folder = tempfile::tempdir().unwrap();
-        let scene = scene(folder.path(), "modified_energy = { order = 4 }");
+        let scene = scene(folder.path(), KEPLER, "modified_energy = { order = 4 }");
         // each fourth state is kept, and the estimates after n need one at or before n - 4; the run that goes on from 8
         // has its first estimate at 13, and so it keeps no state 12
         let mut first = 0;
@@ -201,7 +222,7 @@ mod tests {
     #[test]
     fn a_plain_run_evaluates_the_gradient_once_a_step_and_once_to_begin() {
         let folder = tempfile::tempdir().unwrap();
-        let mut scene = scene(folder.path(), "energy = true");
+        let mut scene = scene(folder.path(), KEPLER, "energy = true");
         scene.scheme = crate::library::scheme("stormer-verlet").unwrap();
         let End::Complete { evaluations } = perform(&scene, false, &|| false).unwrap() else {
             panic!("it is complete")

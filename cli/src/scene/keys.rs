@@ -21,7 +21,10 @@ pub(crate) struct Key {
 }
 
 pub(crate) const SECTIONS: [Section; 7] = [
-    section("problem", "What moves: H = T(p) + U(q), either a shipped problem or a potential of your own."),
+    section(
+        "problem",
+        "What moves: H = T(p) + U(q). U is a shipped problem's, or a formula in coordinates, or a sum over pairs of bodies.",
+    ),
     section("initial", "The state at t = 0."),
     section("run", "The steps, and the numbers they are made with."),
     section("output", "What is written down. What is not asked for is not computed."),
@@ -30,20 +33,55 @@ pub(crate) const SECTIONS: [Section; 7] = [
     section("output.trajectory", "When positions and momenta are, in place of `trajectory = true`."),
 ];
 
-pub(crate) const KEYS: [Key; 28] = [
+pub(crate) const KEYS: [Key; 32] = [
     key(
         "problem",
         "name",
         "A shipped problem; `shadowstep problems` lists them.",
         "\"kepler\"",
-        Some("none: there is a `potential`"),
+        Some("none: there is a `potential` or a `pair`"),
     ),
     key(
         "problem",
         "potential",
         "U(q), a smooth formula in the coordinates and parameters. Its gradient is derived.",
         "\"-1/sqrt(x^2 + y^2)\"",
-        Some("none: there is a `name`"),
+        Some("none: there is a `name` or a `pair`"),
+    ),
+    key(
+        "problem",
+        "pair",
+        "The energy of two bodies i and j, of which U is the sum over all pairs: a smooth formula in `r2`, the square of \
+         their distance, or on a line in `d`, which is q_j - q_i; in the parameters, and in properties of both bodies. \
+         Coordinates are called x1, y1, z1, x2, …, momenta px1, py1, …, and on a line q1, q2, …, p1, p2, ….",
+        "\"-g*m_i*m_j/sqrt(r2)\"",
+        Some("none: there is a `name` or a `potential`"),
+    ),
+    key(
+        "problem",
+        "bodies",
+        "For `pair`: how many bodies there are, as in `bodies = 32`, or a table of their properties, each with a list of \
+         one value for each body; the property m is `m_i` and `m_j` in the formula. A formula in quotes may stand for \
+         the list: its values are those at i = 1, 2, …, and it may use the properties before it. Where all are \
+         formulas, the number of bodies is said by `count`: { count = 32, m = \"1 + i/32\" }.",
+        "{ m = [1, \"1/1000\", 2] }",
+        Some("none; with `pair` it is needed"),
+    ),
+    key(
+        "problem",
+        "dimensions",
+        "For `pair`: 1, 2 or 3.",
+        "3",
+        Some("1 for a formula in `d`; for one in `r2` it is needed"),
+    ),
+    key(
+        "problem",
+        "neighbours",
+        "Makes the bodies a chain, in which each is paired with the next one only. Its ends are \"free\", \"fixed\" (the \
+         first and the last body are paired with walls at rest at 0, and bodies have no properties), or \"periodic\" (a \
+         ring: the last body is paired with the first).",
+        "\"fixed\"",
+        Some("none: all bodies are paired with one another"),
     ),
     key(
         "problem",
@@ -55,7 +93,7 @@ pub(crate) const KEYS: [Key; 28] = [
     key(
         "problem",
         "parameters",
-        "Values by name, for `potential` or of the shipped problem. Each may use those before it; masses, state, step \
+        "Values by name, for formulas or of the shipped problem. Each may use those before it; masses, state, step \
          and times may use them all.",
         "{ depth = 2, width = \"depth/3\" }",
         Some("those of the shipped problem, else none"),
@@ -63,7 +101,8 @@ pub(crate) const KEYS: [Key; 28] = [
     key(
         "problem",
         "masses",
-        "The m_i of T = p_1^2/(2 m_1) + p_2^2/(2 m_2) + …, one for each coordinate.",
+        "The m_i of T = p_1^2/(2 m_1) + p_2^2/(2 m_2) + …, one for each coordinate. With `pair` there is one \
+         for each body, or a formula for all, as among the `bodies`: masses = \"m\" takes the property m.",
         "[1, \"1/1000\"]",
         Some("all are 1"),
     ),
@@ -85,18 +124,25 @@ pub(crate) const KEYS: [Key; 28] = [
     key(
         "initial",
         "q",
-        "Positions, one for each coordinate.",
+        "Positions, one for each coordinate. With `pair` there may be a list for each body, [[0, 0, 0], [1, 0, 0]]; and \
+         on a line a formula for all bodies, \"sin(i*pi/33)\", in the number i of the body and its properties.",
         "[\"1 - 0.6\", 0]",
-        Some("those of the shipped problem; with a `potential` they are needed"),
+        Some("those of the shipped problem; else they are needed"),
     ),
     key(
         "initial",
         "p",
-        "Momenta, one for each coordinate.",
+        "Momenta, written as q is.",
         "[0, \"sqrt((1 + 0.6)/(1 - 0.6))\"]",
-        Some("those of the shipped problem; with a `potential` they or `v` are needed"),
+        Some("those of the shipped problem; else they or `v` are needed"),
     ),
-    key("initial", "v", "Velocities in place of momenta: p_i = m_i v_i.", "[0, 2]", Some("none: there are momenta")),
+    key(
+        "initial",
+        "v",
+        "Velocities in place of momenta, p_i = m_i v_i; not with `kinetic`.",
+        "[0, 2]",
+        Some("none: there are momenta"),
+    ),
     key(
         "run",
         "scheme",

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
+use shadowstep::pairs::Ends;
 use shadowstep_schemes::fault::Source;
 use shadowstep_schemes::table::{Table, Weights};
 use shadowstep_symbolic::Exact;
@@ -12,6 +13,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use crate::arithmetic::Arithmetic;
 use crate::library;
+use crate::scene::pairs::PairEnergy;
 use crate::scene::read::Scene;
 use crate::scene::system::{KineticEnergy, PotentialEnergy, System};
 
@@ -71,6 +73,7 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
             vec![("problem", json!(setup.problem.name)), ("hamiltonian", json!(setup.problem.hamiltonian))]
         }
         PotentialEnergy::Formula(formula) => vec![("potential", json!(formula))],
+        PotentialEnergy::Pairs(pairs) => pair_energy(pairs, texts),
     };
     let parameters: serde_json::Map<_, _> =
         system.parameters.iter().map(|(name, value)| (name.clone(), json!(arithmetic.text(value)))).collect();
@@ -83,6 +86,21 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
         .chain([("parameters", json!(parameters)), ("coordinates", json!(system.coordinates))])
         .chain(kinetic)
         .chain([("q", texts(&system.q)), ("p", texts(&system.p))])
+        .collect()
+}
+
+fn pair_energy(pairs: &PairEnergy, texts: impl Fn(&[Exact]) -> Value) -> Vec<(&'static str, Value)> {
+    let properties: serde_json::Map<_, _> =
+        pairs.properties.iter().map(|(name, values)| (name.clone(), texts(values))).collect();
+    let bodies = if properties.is_empty() { json!(pairs.bodies) } else { json!(properties) };
+    let neighbours = pairs.ends.map(|ends| match ends {
+        Ends::Free => "free",
+        Ends::Fixed => "fixed",
+        Ends::Periodic => "periodic",
+    });
+    [("pair", json!(pairs.formula)), ("dimensions", json!(pairs.dimensions)), ("bodies", bodies)]
+        .into_iter()
+        .chain(neighbours.map(|neighbours| ("neighbours", json!(neighbours))))
         .collect()
 }
 

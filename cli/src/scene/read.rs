@@ -2,7 +2,9 @@
 
 mod formula;
 mod initial;
+mod numbers;
 mod output;
+mod pair;
 mod problem;
 mod run;
 mod shipped;
@@ -96,8 +98,9 @@ fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>) {
         reader.fault(&key.span(), format!("unknown section `{word}`"), help);
     }
     // a shipped problem has a state of its own
-    let potential = root.get("problem").and_then(|problem| problem.get_ref().as_table()?.get("potential"));
-    let needed = ["problem", "run", "output"].into_iter().chain(potential.map(|_| "initial"));
+    let problem = root.get("problem").and_then(|problem| problem.get_ref().as_table());
+    let own = problem.and_then(|problem| problem.get("potential").or(problem.get("pair")));
+    let needed = ["problem", "run", "output"].into_iter().chain(own.map(|_| "initial"));
     for name in needed {
         let misspelt = |word: &str| !names.contains(&word) && nearest(word, names.iter().copied()) == Some(name);
         if root.get(name).is_none() && !root.keys().any(|word| misspelt(word.get_ref())) {

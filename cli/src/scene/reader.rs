@@ -119,12 +119,19 @@ impl<'a> Reader<'a> {
     /// A key that cannot be left out.
     pub(crate) fn missing(&mut self, section: &Section<'_, '_>, key: &str) {
         // a section that is missing is told of once, and so is a key that is misspelt
-        let misspelt =
-            |word: &str| keys::find(section.name, word).is_none() && keys::near(section.name, word) == Some(key);
-        let Some(table) = section.table else { return };
-        if !table.keys().any(|word| misspelt(word.get_ref())) {
+        if section.is_there() && !misspells(section, key) {
             let example = keys::find(section.name, key).map_or("…", |key| key.example);
             self.fault(&section.at, format!("the key `{key}` is missing"), format!("add `{key} = {example}`"));
+        }
+    }
+
+    /// Keys of which one cannot be left out.
+    pub(crate) fn all_missing(&mut self, section: &Section<'_, '_>, keys: &[&str]) {
+        if section.is_there() && !keys.iter().any(|key| misspells(section, key)) {
+            let example = |key: &&str| Some(format!("`{key} = {}`", keys::find(section.name, key)?.example));
+            let examples: Vec<String> = keys.iter().filter_map(example).collect();
+            let message = format!("one of the keys `{}` is needed", keys.join("`, `"));
+            self.fault(&section.at, message, format!("add one such as {}", examples.join(" or ")));
         }
     }
 
@@ -159,7 +166,12 @@ impl<'a> Reader<'a> {
     }
 
     /// A list of numbers or of texts.
-    fn list(&mut self, value: &Value<'_>, what: &str, read: fn(&mut Self, &Value<'_>) -> Option<Text>) -> Option<List> {
+    pub(crate) fn list(
+        &mut self,
+        value: &Value<'_>,
+        what: &str,
+        read: fn(&mut Self, &Value<'_>) -> Option<Text>,
+    ) -> Option<List> {
         let DeValue::Array(array) = value.get_ref() else { return self.wrong_kind(value, what) };
         if array.is_empty() {
             return self.wrong(&value.span(), "this list is empty", format!("write {what}"));
@@ -221,13 +233,13 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A list of values, one for each coordinate.
-    pub(crate) fn values(&mut self, list: &List, coordinates: usize) -> Option<Vec<Exact>> {
+    /// A list of so many values, one for `each` of what it is about.
+    pub(crate) fn values(&mut self, list: &List, count: usize, each: &str) -> Option<Vec<Exact>> {
         let found: Vec<_> = list.texts.iter().map(|text| self.evaluate(text)).collect();
-        if found.len() != coordinates {
+        if found.len() != count {
             let numbers = |n: usize| if n == 1 { "1 number".to_owned() } else { format!("{n} numbers") };
-            let fault = self.source.fault(&list.at, "this list needs a number for each coordinate");
-            self.faults.push(fault.values(numbers(found.len()), coordinates.to_string()));
+            let fault = self.source.fault(&list.at, format!("this list needs a number for each {each}"));
+            self.faults.push(fault.values(numbers(found.len()), count.to_string()));
             return None;
         }
         found.into_iter().collect()
@@ -246,6 +258,12 @@ impl<'a> Reader<'a> {
         self.faults.push(self.source.fault(&value.span(), "this value is of the wrong kind").values(found, needed));
         None
     }
+}
+
+/// Whether a key is there under a name that is none.
+fn misspells(section: &Section<'_, '_>, key: &str) -> bool {
+    let misspelt = |word: &str| keys::find(section.name, word).is_none() && keys::near(section.name, word) == Some(key);
+    section.table.is_some_and(|table| table.keys().any(|word| misspelt(word.get_ref())))
 }
 
 fn value(text: &str, known: &BTreeMap<String, Exact>, digits: u32) -> Result<Exact, Error> {

@@ -6,6 +6,8 @@ use shadowstep::problems::Setup;
 use shadowstep::{DiagonalMasses, Kinetic, Number, Potential, Rational, UnitMasses};
 use shadowstep_symbolic::Exact;
 
+use crate::scene::pairs::PairEnergy;
+
 /// H = T(p) + U(q) and the state at t = 0, all exact.
 #[derive(Debug)]
 pub(crate) struct System {
@@ -26,6 +28,7 @@ pub(crate) struct System {
 pub(crate) enum PotentialEnergy {
     Shipped(Setup),
     Formula(String),
+    Pairs(PairEnergy),
 }
 
 /// T(p)
@@ -57,6 +60,7 @@ impl System {
                 let potential = formula_potential::<N>(formula, &self.coordinates, &self.parameters, context);
                 Box::new(potential.expect("the formula was read with the scene"))
             }
+            PotentialEnergy::Pairs(pairs) => pairs.potential(&self.parameters, context),
         }
     }
 
@@ -112,6 +116,7 @@ fn borrowed(names: &[String]) -> Vec<&str> {
     names.iter().map(String::as_str).collect()
 }
 
-fn rounded<'a, N: Number>(parameters: &'a [(String, Exact)], context: &N::Context) -> Vec<(&'a str, N)> {
+/// Parameters, each rounded once.
+pub(crate) fn rounded<'a, N: Number>(parameters: &'a [(String, Exact)], context: &N::Context) -> Vec<(&'a str, N)> {
     parameters.iter().map(|(name, exact)| (name.as_str(), N::from_rational(&exact.value, context))).collect()
 }

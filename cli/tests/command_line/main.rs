@@ -6,6 +6,7 @@ mod problems;
 mod program;
 mod scene_faults;
 mod scene_kinetic;
+mod scene_pairs;
 mod scenes;
 mod schemes;
 mod trace;

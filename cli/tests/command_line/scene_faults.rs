@@ -31,7 +31,7 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ("[initial]\nq = [1, 0]\np = [0, 1]\n", "", "1:1: the section [initial] is missing", "shadowstep scene"),
     ("step = \"1/20\"\n", "", "9:1: the key `step` is missing", "add `step = \"1/20\"`"),
     ("until = 2\n", "", "9:1: the key `until` is missing", "add `until = 100`"),
-    ("potential = \"k/sqrt(x^2 + y^2)\"\n", "", "1:1: the key `potential` is missing", "add `potential"),
+    ("potential = \"k/sqrt(x^2 + y^2)\"\n", "", "1:1: one of the keys `name`, `potential`, `pair` is", "`potential ="),
     ("coordinates = [\"x\", \"y\"]\n", "", "1:1: the key `coordinates` is missing", "add `coordinates"),
     ("q = [1, 0]\n", "", "6:1: the key `q` is missing", "add `q = […]`"),
     ("scheme = \"yoshida4\"", "scheme = 4", "10:10: this value is of the wrong kind", "found a whole number"),
@@ -114,6 +114,10 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ("energy = true", "energy = yes", "15:10: string values must be quoted", ""),
     ("[output]", "[output", "14:", ""),
     ("[problem]", "[problem]\nname = \"kepler\"", "3:13: name and potential are both given", "keep one of the two"),
+    ("masses =", "bodies = 2\nmasses =", "5:10: bodies is for `pair`", "leave out `bodies`"),
+    ("q = [1, 0]", "q = \"i\"", "7:5: this value is of the wrong kind", "needed a list of numbers"),
+    ("q = [1, 0]", "q = [[1, 0]]", "7:6: this value is of the wrong kind", "needed an exact number"),
+    ("potential =", "pair = \"d^2\"\npotential =", "2:8: potential and pair are both given", "keep one of the two"),
     ("until = 2", "until = 2\nuntil = 3", "13:1: duplicate key", "keep one of the two"),
 ];
 
@@ -151,6 +155,93 @@ fn so_have_those_of_kinetic_energies() {
     assert_eq!(run(folder(&good).path(), "").code, 0);
 }
 
+const PAIRS: &str = r#"[problem]
+pair = "-g*m_i*m_j/sqrt(r2)"
+dimensions = 2
+bodies = { m = [1, 1, 1] }
+masses = "m"
+parameters = { g = 1 }
+[initial]
+q = [["0.97", "-0.24"], ["-0.97", "0.24"], [0, 0]]
+v = [0.46620368, 0.43236573, 0.46620368, 0.43236573, -0.93240737, -0.86473146]
+[run]
+scheme = "yoshida4"
+step = "1/100"
+steps = 2
+digits = 30
+[output]
+energy = true
+"#;
+
+/// What is replaced in that scene.
+const WRONG_PAIRS: &[(&str, &str, &str, &str)] = &[
+    ("pair = \"-g*m_i*m_j/sqrt(r2)\"\n", "", "1:1: one of the keys `name`, `potential`, `pair` is needed", "`pair ="),
+    ("pair =", "pairs =", "2:1: unknown key `pairs`", "did you mean `pair`?"),
+    ("(r2)", "(r)", "2:8: the energy of a pair is a formula in `r2` or in `d`, here is neither", "r2 is the square"),
+    ("(r2)", "(r2) + r2*d", "2:8: the energy of a pair is a formula in `r2` or in `d`, here are both", "r2 is the"),
+    ("sqrt(r2)", "d", "3:14: a formula in d is for bodies on a line, and here are 2 dimensions", "in `r2`"),
+    ("sqrt(r2)", "abs(r2)", "2:20: `abs` is not smooth", "a smooth formula"),
+    ("sqrt(r2)", "sqrt(r2", "2:24: unexpected end", "r2 is the square"),
+    ("m_i", "e_i", "2:12: unknown name `e_i`", "a smooth formula"),
+    ("m_i*m_j", "m^2", "2:12: unknown name `m`; of the bodies i and j it is `m_i` and `m_j`", "a smooth formula"),
+    ("dimensions = 2", "dimensions = 4", "3:14: 4 is out of range", "from 1 to 3"),
+    ("dimensions = 2\n", "", "1:1: the key `dimensions` is missing", "add `dimensions = 3`"),
+    ("dimensions = 2", "dimensions = 3", "8:6: this list needs a number for each coordinate of the body", "needed 3"),
+    ("bodies = { m = [1, 1, 1] }\n", "", "1:1: the key `bodies` is missing", "add `bodies ="),
+    ("{ m = [1, 1, 1] }", "[1, 1, 1]", "4:10: this value is of the wrong kind", "the number of bodies, or a table"),
+    ("{ m = [1, 1, 1] }", "0", "4:10: 0 is out of range", "from 1 to 100000"),
+    ("{ m = [1, 1, 1] }", "{ m = \"1\" }", "4:10: how many bodies there are is not said", "`count = 32`"),
+    (
+        "[1, 1, 1] }",
+        "[1, 1, 1], e = [1, 1] }",
+        "4:31: this list needs a number for each body",
+        "found 2 numbers, needed 3",
+    ),
+    ("{ m", "{ count = 4, m", "4:27: this list needs a number for each body", "needed 4"),
+    ("[1, 1, 1]", "[1, 1]", "8:5: this needs a list for each body", "found 3 lists, needed 2"),
+    ("[1, 1, 1]", "[1, 1]", "9:5: this list needs a number for each coordinate of each body", "needed 4"),
+    ("[1, 1, 1]", "[1, [2], 3]", "4:20: this value is of the wrong kind", "an exact number"),
+    ("[1, 1, 1]", "[1, 0, 1]", "5:10: a mass of 0 is not positive", "masses are positive"),
+    ("[1, 1, 1] }", "[1, 1, 1], d = [1, 2, 3] }", "4:27: with `pair`, `d` is the difference", "another name"),
+    ("[1, 1, 1] }", "[1, 1, 1], 2a = [1, 2, 3] }", "4:27: `2a` is no name", "begins with a letter"),
+    ("g = 1", "g = 1, r2 = 1", "6:23: with `pair`, `r2` is the square of the distance", "another name"),
+    ("g = 1", "g = 1, i = 1", "6:23: with `pair`, `i` is the number of a body", "another name"),
+    ("g = 1", "g = 1, m = 1", "6:23: the parameter `m` has the name of a property", "another name"),
+    ("g = 1", "g = 1, m_j = 1", "6:23: the parameter `m_j` has the name of a property", "another name"),
+    ("g = 1", "g = 1, x2 = 1", "6:23: the parameter `x2` has the name of a coordinate", "another name"),
+    ("g = 1", "g = 1, py3 = 1", "6:23: the parameter `py3` has the name of a momentum", "another name"),
+    ("masses = \"m\"", "masses = \"e\"", "5:11: unknown name `e`", ""),
+    ("masses = \"m\"", "masses = [1, 2]", "5:10: this list needs a number for each body", "found 2 numbers, needed 3"),
+    ("masses = \"m\"", "masses = \"1/(i - 2)\"", "5:13: division by zero, at i = 2", ""),
+    ("parameters", "coordinates = [\"x\"]\nparameters", "6:15: with `pair` coordinates have names", "leave out `coord"),
+    ("parameters", "momenta = [\"x\"]\nparameters", "6:11: with `pair` momenta have names", "leave out `momenta`"),
+    ("parameters", "neighbours = \"ring\"\nparameters", "6:14: `ring` is not known here", "\"free\" or \"fixed\""),
+    ("parameters", "neighbours = \"fixed\"\nparameters", "4:10: between fixed ends bodies have no properties", "free"),
+    ("parameters", "kinetic = \"px1^2\"\nparameters", "5:10: masses and kinetic are both given", "keep one"),
+    ("masses = \"m\"", "kinetic = \"px1^2 + x1\"", "5:20: unknown name `x1`", "the momenta px1, py1, px2, … and"),
+    ("masses = \"m\"", "kinetic = \"px1^4\"", "9:5: v is of masses", "the momenta `p`"),
+    (
+        "q = [[\"0.97\", \"-0.24\"], [\"-0.97\", \"0.24\"], [0, 0]]",
+        "q = \"i\"",
+        "8:5: a formula for all bodies is",
+        "line",
+    ),
+    ("q = [[\"0.97\", \"-0.24\"], [\"-0.97\", \"0.24\"], [0, 0]]\n", "", "7:1: the key `q` is missing", "add `q"),
+    ("[0, 0]]", "0]", "8:44: this value is of the wrong kind", "a list with the numbers of one body"),
+    ("[0, 0]]", "[0]]", "8:44: this list needs a number for each coordinate of the body", "found 1 number, needed 2"),
+];
+
+#[test]
+fn so_have_those_of_pairs() {
+    assert_eq!(run(folder(PAIRS).path(), "").code, 0);
+    for (part, replacement, sentence, help) in WRONG_PAIRS {
+        assert!(PAIRS.contains(part), "{part}");
+        complains(&PAIRS.replacen(part, replacement, 1), sentence, help);
+    }
+    let alone = PAIRS.replace("{ m = [1, 1, 1] }", "1").replace("\"m\"", "\"1\"").replace("*m_i*m_j", "");
+    complains(&alone, "4:10: one body makes no pair", "two bodies");
+}
+
 const NAMED: &str = "[problem]\nname = \"kepler\"\nparameters = { eccentricity = \"1/2\" }\n\
                      [run]\nscheme = \"ruth3\"\nsteps = 2\nstep = 0.1\n[output]\nenergy = true\n";
 
@@ -165,6 +256,11 @@ fn so_have_those_of_shipped_problems() {
         ("[run]", "masses = [1, 1]\n[run]", "4:10: kepler has masses of its own", "leave out `"),
         ("[run]", "kinetic = \"px^2\"\n[run]", "4:11: kepler has kinetic of its own", "leave out `kinetic`"),
         ("[run]", "momenta = [\"px\"]\n[run]", "4:11: kepler has momenta of its own", "leave out `momenta`"),
+        ("[run]", "bodies = 2\n[run]", "4:10: kepler has bodies of its own", "leave out `bodies`"),
+        ("[run]", "dimensions = 2\n[run]", "4:14: kepler has dimensions of its own", "leave out `dimensions`"),
+        ("[run]", "neighbours = \"free\"\n[run]", "4:14: kepler has neighbours of its own", "leave out `neigh"),
+        ("[run]", "pair = \"d^2\"\n[run]", "4:8: name and pair are both given", "keep one of the two"),
+        ("[run]", "pair = \"d\"\npotential = \"x\"\n[run]", "4:8: name, potential and pair are all given", "keep one"),
         ("[run]", "[initial]\nq = [1]\n[run]", "5:5: this list needs a number for each", "found 1 number, needed 2"),
         ("0.1", "1e-400\ndigits = \"double\"", "7:8: 1e-400 is beyond double precision", "digits = 16"),
         ("0.1", "0.1\ndigits = 6000\n[initial]\np = [0, \"sqrt(2)\"]", "10:9: this is irrational", "digits = 4980"),

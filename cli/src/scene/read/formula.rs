@@ -4,6 +4,7 @@ use num_traits::{One, Signed};
 use shadowstep::Rational;
 use shadowstep_symbolic::Exact;
 
+use super::numbers::Numbers;
 use super::problem::{Given, check_name};
 use crate::scene::reader::{List, Reader, Text};
 use crate::scene::system::{KineticEnergy, PotentialEnergy, System, formula_kinetic, formula_potential};
@@ -12,6 +13,9 @@ use crate::scene::write::COLUMNS;
 impl Given {
     /// The system with this potential.
     pub(super) fn formula(self, reader: &mut Reader<'_>, potential: &Text) -> Option<System> {
+        self.refuse(reader, &["bodies", "dimensions", "neighbours"], |key| {
+            (format!("{key} is for `pair`"), format!("leave out `{key}`, or write `pair` in place of `potential`"))
+        });
         let parameters = self.own_parameters(reader);
         let list = self.coordinates.as_ref()?;
         let before = reader.faults.len();
@@ -25,11 +29,15 @@ impl Given {
             true => self.kinetic_energy(reader, &momenta, &parameters),
             false => None,
         };
-        let masses = self.masses.as_ref().and_then(|list| masses(reader, list, coordinates.len()));
+        let values = |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values(reader, coordinates.len());
+        let masses = self.masses.as_ref().and_then(|numbers| {
+            let values = values(reader, numbers)?;
+            masses(reader, numbers, values)
+        });
         if let Some(initial) = &self.initial {
             self.state.all_there(reader, initial);
         }
-        let (q, p) = self.state.values(reader, coordinates.len(), masses.as_deref());
+        let (q, p) = self.state.values(reader, values, masses.as_deref());
         let potential = PotentialEnergy::Formula(potential.value.clone());
         let kinetic = kinetic.unwrap_or(KineticEnergy::Masses(masses));
         Some(System { potential, kinetic, parameters, coordinates, momenta, q: q?, p: p? })
@@ -125,11 +133,15 @@ fn own_momenta(
 }
 
 /// The masses, unless all are 1.
-pub(super) fn masses(reader: &mut Reader<'_>, list: &List, coordinates: usize) -> Option<Vec<Exact>> {
-    let values = reader.values(list, coordinates)?;
-    for (value, text) in values.iter().zip(&list.texts).filter(|(value, _)| !value.value.is_positive()) {
-        let message = format!("a mass of {} is not positive", reader.arithmetic.text(value));
-        reader.fault(&text.at, message, "masses are positive");
+pub(super) fn masses(reader: &mut Reader<'_>, numbers: &Numbers, values: Vec<Exact>) -> Option<Vec<Exact>> {
+    let mut told = None;
+    for (index, value) in values.iter().enumerate().filter(|(_, value)| !value.value.is_positive()) {
+        // all masses of a formula have one place
+        let at = numbers.place(index);
+        if told.replace(at) != Some(at) {
+            let message = format!("a mass of {} is not positive", reader.arithmetic.text(value));
+            reader.fault(at, message, "masses are positive");
+        }
     }
     values.iter().any(|mass| !mass.value.is_one()).then_some(values)
 }

@@ -4,12 +4,13 @@ use std::ops::Range;
 
 use shadowstep_symbolic::Exact;
 
-use crate::scene::reader::{List, Reader, Section};
+use super::numbers::Numbers;
+use crate::scene::reader::{Reader, Section};
 
 /// The state as the scene says it.
 pub(super) struct State {
-    q: Option<List>,
-    p: Option<List>,
+    q: Option<Numbers>,
+    p: Option<Numbers>,
     /// The place of `v`: then `p` is of velocities.
     velocities: Option<Range<usize>>,
     /// How many of the lists are there, right or wrong.
@@ -18,11 +19,10 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn read(reader: &mut Reader<'_>, initial: &Section<'_, '_>) -> State {
-        let what = "a list of numbers: [1, \"1/2\"]";
-        let q = reader.list_of(initial, "q", what, Reader::number);
-        let p = reader.list_of(initial, "p", what, Reader::number);
-        let v = reader.list_of(initial, "v", what, Reader::number);
+    /// Of bodies, or of coordinates.
+    pub(super) fn read(reader: &mut Reader<'_>, initial: &Section<'_, '_>, of_bodies: bool) -> State {
+        let read = if of_bodies { Numbers::of_bodies_in_space } else { Numbers::of_coordinates };
+        let [q, p, v] = ["q", "p", "v"].map(|key| reader.get(initial, key).and_then(|value| read(reader, value)));
         let has = |key| reader.get(initial, key).is_some();
         let (has_q, has_p) = (has("q"), has("p") || has("v"));
         let velocities = reader.get(initial, "v").map(|value| value.span());
@@ -49,15 +49,15 @@ impl State {
         }
     }
 
-    /// q and p, where they are given.
+    /// q and p, where they are given; `read` makes values of numbers, and there is a mass for each value.
     pub(super) fn values(
         &self,
         reader: &mut Reader<'_>,
-        coordinates: usize,
+        read: impl Fn(&mut Reader<'_>, &Numbers) -> Option<Vec<Exact>>,
         masses: Option<&[Exact]>,
     ) -> (Option<Vec<Exact>>, Option<Vec<Exact>>) {
-        let q = self.q.as_ref().and_then(|list| reader.values(list, coordinates));
-        let mut p = self.p.as_ref().and_then(|list| reader.values(list, coordinates));
+        let q = self.q.as_ref().and_then(|numbers| read(reader, numbers));
+        let mut p = self.p.as_ref().and_then(|numbers| read(reader, numbers));
         if let (Some(_), Some(p), Some(masses)) = (&self.velocities, &mut p, masses) {
             for (p, mass) in p.iter_mut().zip(masses) {
                 p.value *= &mass.value;

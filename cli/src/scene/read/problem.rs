@@ -3,56 +3,63 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use shadowstep::pairs::{Ends, Separation};
 use shadowstep_symbolic::{Expression, Kind, evaluate, parse};
 use toml::de::DeValue;
 
 use super::initial::State;
+use super::numbers::Numbers;
+use super::pair::{GivenBodies, PairFormula};
 use crate::scene::keys;
 use crate::scene::reader::{List, Reader, Section, Text};
 use crate::scene::system::System;
 
+/// The keys of which one says what moves.
+const WAYS: [&str; 3] = ["name", "potential", "pair"];
+
 /// What moves, and where from.
 pub(super) fn system(reader: &mut Reader<'_>, problem: &Section<'_, '_>, initial: &Section<'_, '_>) -> Option<System> {
-    let (name, potential) = (reader.get(problem, "name"), reader.get(problem, "potential"));
-    let both = name.zip(potential).map(|(_, potential)| potential.span());
-    let neither = name.is_none() && potential.is_none();
-    let name = name.and_then(|value| reader.text(value));
-    let potential = potential.and_then(|value| reader.text(value));
-    let given = Given {
-        coordinates: reader.list_of(problem, "coordinates", "a list of names: [\"x\", \"y\"]", Reader::text),
-        momenta: reader.list_of(problem, "momenta", "a list of names: [\"px\", \"py\"]", Reader::text),
-        masses: reader.list_of(problem, "masses", "a list of numbers: [1, 2]", Reader::number),
-        kinetic: reader.get(problem, "kinetic").and_then(|value| reader.text(value)),
-        parameters: parameters(reader, problem),
-        state: State::read(reader, initial),
-        places: keys::of("problem").filter_map(|key| Some((key.name, reader.get(problem, key.name)?.span()))).collect(),
-        problem: problem.at.clone(),
-        initial: initial.is_there().then(|| initial.at.clone()),
-    };
-    if let Some(at) = both {
-        return reader.wrong(&at, "name and potential are both given", "keep one of the two");
-    }
-    if neither {
-        reader.missing(problem, "potential");
-        return None;
-    }
-    if name.is_none() && reader.get(problem, "coordinates").is_none() {
-        reader.missing(problem, "coordinates");
-    }
-    match (name, potential) {
-        (Some(name), _) => given.shipped(reader, &name),
-        (_, Some(potential)) => given.formula(reader, &potential),
-        (None, None) => None,
+    let ways: Vec<_> = WAYS.into_iter().filter(|way| reader.get(problem, way).is_some()).collect();
+    let [name, potential, pair] = WAYS.map(|way| reader.get(problem, way).and_then(|value| reader.text(value)));
+    let pair = pair.and_then(|text| PairFormula::read(reader, text));
+    // where nothing says what moves, only that is a fault
+    let given = Given::read(reader, problem, initial, ways.is_empty() || ways.contains(&"pair"));
+    match ways[..] {
+        ["name"] => given.shipped(reader, &name?),
+        ["potential"] => {
+            given.needs(reader, problem, "coordinates");
+            given.formula(reader, &potential?)
+        }
+        ["pair"] => {
+            given.needs(reader, problem, "bodies");
+            // a formula in d is for a line
+            if pair.as_ref().is_some_and(|pair| pair.separation == Separation::SquaredDistance) {
+                given.needs(reader, problem, "dimensions");
+            }
+            given.pairs(reader, pair)
+        }
+        [] => {
+            reader.all_missing(problem, &WAYS);
+            None
+        }
+        [first, second] => {
+            let message = format!("{first} and {second} are both given");
+            reader.wrong(given.place(second)?, message, "keep one of the two")
+        }
+        _ => reader.wrong(given.place("pair")?, "name, potential and pair are all given", "keep one of the three"),
     }
 }
 
-/// What the scene says besides the problem's name or its potential.
+/// What the scene says besides the problem's name, its potential or its pairs.
 pub(super) struct Given {
     pub(super) coordinates: Option<List>,
     pub(super) momenta: Option<List>,
-    pub(super) masses: Option<List>,
+    pub(super) masses: Option<Numbers>,
     /// T(p)
     pub(super) kinetic: Option<Text>,
+    pub(super) bodies: Option<GivenBodies>,
+    pub(super) dimensions: Option<usize>,
+    pub(super) neighbours: Option<Ends>,
     /// Names and values in the order of the text.
     pub(super) parameters: Vec<(Text, Text)>,
     pub(super) state: State,
@@ -64,6 +71,37 @@ pub(super) struct Given {
 }
 
 impl Given {
+    fn read(reader: &mut Reader<'_>, problem: &Section<'_, '_>, initial: &Section<'_, '_>, of_bodies: bool) -> Given {
+        let ends = [("free", Ends::Free), ("fixed", Ends::Fixed), ("periodic", Ends::Periodic)];
+        let masses = if of_bodies { Numbers::of_bodies } else { Numbers::of_coordinates };
+        Given {
+            coordinates: reader.list_of(problem, "coordinates", "a list of names: [\"x\", \"y\"]", Reader::text),
+            momenta: reader.list_of(problem, "momenta", "a list of names: [\"px\", \"py\"]", Reader::text),
+            masses: reader.get(problem, "masses").and_then(|value| masses(reader, value)),
+            kinetic: reader.get(problem, "kinetic").and_then(|value| reader.text(value)),
+            bodies: reader.get(problem, "bodies").and_then(|value| GivenBodies::read(reader, value)),
+            dimensions: reader
+                .get(problem, "dimensions")
+                .and_then(|value| reader.whole(value, 1..=3))
+                .map(|dimensions| dimensions as usize),
+            neighbours: reader.get(problem, "neighbours").and_then(|value| reader.word(value, &ends)),
+            parameters: parameters(reader, problem),
+            state: State::read(reader, initial, of_bodies),
+            places: keys::of("problem")
+                .filter_map(|key| Some((key.name, reader.get(problem, key.name)?.span())))
+                .collect(),
+            problem: problem.at.clone(),
+            initial: initial.is_there().then(|| initial.at.clone()),
+        }
+    }
+
+    /// Refuses that a key is left out.
+    fn needs(&self, reader: &mut Reader<'_>, problem: &Section<'_, '_>, key: &str) {
+        if self.place(key).is_none() {
+            reader.missing(problem, key);
+        }
+    }
+
     /// Where the value of a key is, if the key is there.
     pub(super) fn place(&self, key: &str) -> Option<&Range<usize>> {
         self.places.iter().find(|(name, _)| *name == key).map(|(_, at)| at)

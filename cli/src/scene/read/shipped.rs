@@ -11,15 +11,20 @@ use crate::scene::system::{KineticEnergy, PotentialEnergy, System};
 impl Given {
     /// The problem of this name.
     pub(super) fn shipped(self, reader: &mut Reader<'_>, name: &Text) -> Option<System> {
-        self.refuse(reader, &["coordinates", "momenta", "masses", "kinetic"], |key| {
-            let help = format!("leave out `{key}`, or write the `potential` in place of the name");
-            (format!("{} has {key} of its own", name.value), help)
-        });
+        self.refuse(
+            reader,
+            &["coordinates", "momenta", "masses", "kinetic", "bodies", "dimensions", "neighbours"],
+            |key| {
+                let help = format!("leave out `{key}`, or write a `potential` or `pair` in place of the name");
+                (format!("{} has {key} of its own", name.value), help)
+            },
+        );
         let setup = self.setup(reader, name)?;
         let (coordinates, q): (Vec<_>, Vec<_>) = setup.positions().iter().cloned().unzip();
         let (momenta, p): (Vec<_>, Vec<_>) = setup.momenta().iter().cloned().unzip();
         let masses = setup.masses.clone();
-        let (own_q, own_p) = self.state.values(reader, coordinates.len(), masses.as_deref());
+        let (own_q, own_p) =
+            self.state.values(reader, |reader, numbers| numbers.values(reader, coordinates.len()), masses.as_deref());
         for (given, names, values) in [(&own_q, &coordinates, &q), (&own_p, &momenta, &p)] {
             let mut values = names.iter().zip(values);
             let short = values.find(|(_, value)| given.is_none() && !reader.arithmetic.has_digits_of(value));
