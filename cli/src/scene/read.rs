@@ -1,7 +1,9 @@
 //! A scene's text → all that it asks for, or all its faults. Each section has its file.
 
+mod bodies;
 mod formula;
 mod initial;
+mod kinetic;
 mod numbers;
 mod output;
 mod pair;

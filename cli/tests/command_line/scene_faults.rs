@@ -132,7 +132,7 @@ fn each_has_its_place_and_sentence() {
 /// What is replaced in the good scene, where T is given.
 const WRONG_KINETIC: &[(&str, &str, &str, &str)] = &[
     ("p = [0, 1]", "v = [0, 1]", "8:5: v is of masses, and here T is given by `kinetic`", "the momenta `p`"),
-    ("sqrt(k", "sqrt(x", "5:17: unknown name `x`", "in the momenta px, py and the parameters"),
+    ("sqrt(k", "sqrt(x", "5:17: unknown name `x`", "px, py and the parameters; `momenta`"),
     ("sqrt(k", "abs(k", "5:12: `abs` is not smooth", "a smooth formula in the momenta"),
     ("sqrt(k", "sqrt((k", "5:16: unexpected end: this `(` has no `)`", "a smooth formula"),
     ("[initial]", "masses = [1, 1]\n[initial]", "6:10: masses and kinetic are both given", "keep one of the two"),
@@ -240,6 +240,9 @@ fn so_have_those_of_pairs() {
     }
     let alone = PAIRS.replace("{ m = [1, 1, 1] }", "1").replace("\"m\"", "\"1\"").replace("*m_i*m_j", "");
     complains(&alone, "4:10: one body makes no pair", "two bodies");
+    let named =
+        PAIRS.replace("masses = \"m\"", "kinetic = \"px1^2\"").replace("v =", "p =").replace("g = 1", "g = 1, px1 = 1");
+    complains(&named, "6:23: the parameter `px1` has the name of a momentum", "another name");
 }
 
 const NAMED: &str = "[problem]\nname = \"kepler\"\nparameters = { eccentricity = \"1/2\" }\n\

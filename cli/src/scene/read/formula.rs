@@ -1,13 +1,10 @@
-//! A potential of one's own with coordinates, parameters and masses, or a kinetic energy of one's own.
+//! A potential of one's own, with its coordinates and momenta.
 
-use num_traits::{One, Signed};
-use shadowstep::Rational;
-use shadowstep_symbolic::Exact;
-
+use super::kinetic::masses;
 use super::numbers::Numbers;
 use super::problem::{Given, check_name};
 use crate::scene::reader::{List, Reader, Text};
-use crate::scene::system::{KineticEnergy, PotentialEnergy, System, formula_kinetic, formula_potential};
+use crate::scene::system::{KineticEnergy, PotentialEnergy, System, formula_potential};
 use crate::scene::write::COLUMNS;
 
 impl Given {
@@ -41,42 +38,6 @@ impl Given {
         let potential = PotentialEnergy::Formula(potential.value.clone());
         let kinetic = kinetic.unwrap_or(KineticEnergy::Masses(masses));
         Some(System { potential, kinetic, parameters, coordinates, momenta, q: q?, p: p? })
-    }
-
-    /// T(p), where it is given by its formula.
-    pub(super) fn kinetic_energy(
-        &self,
-        reader: &mut Reader<'_>,
-        momenta: &[String],
-        parameters: &[(String, Exact)],
-    ) -> Option<KineticEnergy> {
-        self.place("kinetic")?;
-        self.refuse(reader, &["masses"], |_| {
-            let help = "keep one of the two: with `kinetic` the masses are numbers or parameters in its formula";
-            ("masses and kinetic are both given".to_owned(), help.to_owned())
-        });
-        self.state.refuse_velocities(reader);
-        let text = self.kinetic.as_ref()?;
-        if let Err(error) = formula_kinetic::<f64>(&text.value, momenta, parameters, &()) {
-            let known = momenta.iter().take(3).map(String::as_str).collect::<Vec<_>>().join(", ");
-            let more = if momenta.len() > 3 { ", …" } else { "" };
-            let help = format!("a kinetic energy is a smooth formula in the momenta {known}{more} and the parameters");
-            return reader.wrong(&text.place(&error.range()), error.to_string(), help);
-        }
-        Some(KineticEnergy::Formula(text.value.clone()))
-    }
-
-    /// Names and values, which become known to the reader.
-    pub(super) fn own_parameters(&self, reader: &mut Reader<'_>) -> Vec<(String, Exact)> {
-        let mut parameters = Vec::new();
-        for (name, text) in &self.parameters {
-            check_name(reader, name);
-            // a parameter without a value stands as 1, so that its users add no faults of their own
-            let value = reader.evaluate(text).unwrap_or(Exact { value: Rational::one(), rounded: false });
-            reader.known.insert(name.value.clone(), value.clone());
-            parameters.push((name.value.clone(), value));
-        }
-        parameters
     }
 
     /// The names of the coordinates and of their momenta, all of them new.
@@ -130,18 +91,4 @@ fn own_momenta(
         reader.faults.push(fault.values(list.texts.len().to_string(), coordinates.to_string()));
     }
     list.texts.iter().map(|name| name.value.clone()).collect()
-}
-
-/// The masses, unless all are 1.
-pub(super) fn masses(reader: &mut Reader<'_>, numbers: &Numbers, values: Vec<Exact>) -> Option<Vec<Exact>> {
-    let mut told = None;
-    for (index, value) in values.iter().enumerate().filter(|(_, value)| !value.value.is_positive()) {
-        // all masses of a formula have one place
-        let at = numbers.place(index);
-        if told.replace(at) != Some(at) {
-            let message = format!("a mass of {} is not positive", reader.arithmetic.text(value));
-            reader.fault(at, message, "masses are positive");
-        }
-    }
-    values.iter().any(|mass| !mass.value.is_one()).then_some(values)
 }

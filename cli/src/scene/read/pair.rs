@@ -1,22 +1,16 @@
 //! Bodies and the energy of each pair of them.
 
 use shadowstep::pairs::{Ends, Separation};
-use shadowstep_symbolic::{Expression, Kind, parse};
-use toml::de::DeValue;
+use shadowstep_symbolic::{Exact, Expression, Kind, parse};
 
-use super::formula::masses;
-use super::numbers::{Bodies, NUMBER, Numbers};
-use super::problem::{Given, check_name};
+use super::bodies::{Bodies, refuse_reserved};
+use super::kinetic::masses;
+use super::numbers::Numbers;
+use super::problem::Given;
 use crate::complaint::remark;
 use crate::scene::pairs::PairEnergy;
-use crate::scene::reader::{Reader, Text, Value};
+use crate::scene::reader::{Reader, Text};
 use crate::scene::system::{KineticEnergy, PotentialEnergy, System};
-
-/// More bodies than anyone can wait for.
-const MOST_BODIES: u64 = 100_000;
-
-/// The key among the properties that says how many bodies there are.
-const COUNT: &str = "count";
 
 /// The energy of a pair, as the scene has it.
 pub(super) struct PairFormula {
@@ -53,40 +47,6 @@ fn separations(expression: &Expression, found: &mut Vec<Separation>) {
     }
 }
 
-/// The bodies, as the scene has them.
-pub(super) enum GivenBodies {
-    Count(u64),
-    Properties(Vec<(Text, Property)>),
-}
-
-/// What stands in the table of properties.
-pub(super) enum Property {
-    Count(u64),
-    Values(Numbers),
-}
-
-impl GivenBodies {
-    pub(super) fn read(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<GivenBodies> {
-        match value.get_ref() {
-            DeValue::Integer(_) => reader.whole(value, 1..=MOST_BODIES).map(GivenBodies::Count),
-            DeValue::Table(table) => {
-                let mut properties = Vec::new();
-                for (key, value) in table {
-                    let property = match key.get_ref().as_ref() == COUNT {
-                        true => reader.whole(value, 1..=MOST_BODIES).map(Property::Count),
-                        false => Numbers::of_bodies(reader, value).map(Property::Values),
-                    };
-                    properties.push(property.map(|property| (Text::of_key(key), property)));
-                }
-                let mut properties = properties.into_iter().collect::<Option<Vec<_>>>()?;
-                properties.sort_by_key(|(name, _)| name.at.start);
-                Some(GivenBodies::Properties(properties))
-            }
-            _ => reader.wrong_kind(value, "the number of bodies, or a table of their properties: { m = [1, 2] }"),
-        }
-    }
-}
-
 impl Given {
     /// The system of bodies with this energy of each pair.
     pub(super) fn pairs(self, reader: &mut Reader<'_>, pair: Option<PairFormula>) -> Option<System> {
@@ -97,40 +57,52 @@ impl Given {
         let parameters = self.own_parameters(reader);
         self.parameters.iter().for_each(|(name, _)| refuse_reserved(reader, name));
         let dimensions = self.dimensions(reader, pair.as_ref());
-        let bodies = self.bodies(reader, dimensions);
+        let bodies = self.bodies(reader);
         if let Some(initial) = &self.initial {
             self.state.all_there(reader, initial);
         }
-        let (pair, bodies) = (pair?, bodies?);
-        let dimensions = dimensions?;
-        let (coordinates, momenta) = names(&bodies);
-        self.refuse_names_of_bodies(reader, &coordinates, &momenta);
-        let energy = PairEnergy {
-            formula: pair.text.value.clone(),
-            separation: pair.separation,
-            dimensions,
-            bodies: bodies.count,
-            properties: bodies.properties.clone(),
-            ends: self.ends(reader, &bodies),
+        let (pair, bodies, dimensions) = (pair?, bodies?, dimensions?);
+        let (coordinates, momenta) = names(bodies.count, dimensions);
+        let kinetic = match self.has_names_of_bodies(reader, &coordinates, &momenta) {
+            true => None,
+            false => self.kinetic_energy(reader, &momenta, &parameters),
         };
-        if let Err(error) = energy.pair::<f64>(&parameters, &()) {
-            let help = "the energy of a pair is a smooth formula such as \"-g*m_i*m_j/sqrt(r2)\"";
-            reader.fault(&pair.text.place(&error.range()), error.to_string(), help);
-        }
-        let kinetic = self.kinetic_energy(reader, &momenta, &parameters);
         let masses = self.masses.as_ref().and_then(|numbers| {
             let values = bodies.values(reader, numbers)?;
             let masses = masses(reader, numbers, values)?;
             Some(masses.into_iter().flat_map(|mass| vec![mass; dimensions]).collect::<Vec<_>>())
         });
-        let (q, p) =
-            self.state.values(reader, |reader, numbers| bodies.values_in_space(reader, numbers), masses.as_deref());
         if self.place("masses").or(self.place("kinetic")).is_none() {
             remark_on_masses(&bodies);
         }
+        let values = |reader: &mut Reader<'_>, numbers: &Numbers| bodies.values_in_space(reader, numbers, dimensions);
+        let (q, p) = self.state.values(reader, values, masses.as_deref());
         let kinetic = kinetic.unwrap_or(KineticEnergy::Masses(masses));
-        let potential = PotentialEnergy::Pairs(energy);
+        let potential = PotentialEnergy::Pairs(self.pair_energy(reader, &pair, bodies, dimensions, &parameters));
         Some(System { potential, kinetic, parameters, coordinates, momenta, q: q?, p: p? })
+    }
+
+    fn pair_energy(
+        &self,
+        reader: &mut Reader<'_>,
+        pair: &PairFormula,
+        bodies: Bodies,
+        dimensions: usize,
+        parameters: &[(String, Exact)],
+    ) -> PairEnergy {
+        let energy = PairEnergy {
+            formula: pair.text.value.clone(),
+            separation: pair.separation,
+            dimensions,
+            ends: self.ends(reader, &bodies),
+            bodies: bodies.count,
+            properties: bodies.properties,
+        };
+        if let Err(error) = energy.pair::<f64>(parameters, &()) {
+            let help = "the energy of a pair is a smooth formula such as \"-g*m_i*m_j/sqrt(r2)\"";
+            reader.fault(&pair.text.place(&error.range()), error.to_string(), help);
+        }
+        energy
     }
 
     /// How many dimensions there are: on a line one.
@@ -146,52 +118,9 @@ impl Given {
         }
     }
 
-    /// The bodies with their properties.
-    fn bodies(&self, reader: &mut Reader<'_>, dimensions: Option<usize>) -> Option<Bodies> {
-        let at = self.place("bodies")?;
-        let given = match self.bodies.as_ref()? {
-            GivenBodies::Count(count) => {
-                return Some(Bodies { count: *count as usize, dimensions: dimensions?, properties: Vec::new() });
-            }
-            GivenBodies::Properties(given) => given,
-        };
-        let counted = given.iter().find_map(|(_, property)| match property {
-            Property::Count(count) => Some(*count as usize),
-            Property::Values(_) => None,
-        });
-        let listed = given.iter().find_map(|(_, property)| match property {
-            Property::Values(Numbers::List(list)) => Some(list.texts.len()),
-            _ => None,
-        });
-        let Some(count) = counted.or(listed) else {
-            let help = "write `bodies = 32`, or among the properties `count = 32`";
-            return reader.wrong(at, "how many bodies there are is not said", help);
-        };
+    /// Refuses parameters with the name of a coordinate or momentum; whether there are any.
+    fn has_names_of_bodies(&self, reader: &mut Reader<'_>, coordinates: &[String], momenta: &[String]) -> bool {
         let before = reader.faults.len();
-        let mut bodies = Bodies { count, dimensions: dimensions.unwrap_or(1), properties: Vec::new() };
-        for (name, property) in given {
-            let Property::Values(numbers) = property else { continue };
-            self.check_property(reader, name);
-            // each may use those before it
-            if let Some(values) = bodies.values(reader, numbers) {
-                bodies.properties.push((name.value.clone(), values));
-            }
-        }
-        (reader.faults.len() == before && dimensions.is_some()).then_some(bodies)
-    }
-
-    /// The name of a property is one, and in formulas it is none of a parameter.
-    fn check_property(&self, reader: &mut Reader<'_>, name: &Text) {
-        check_name(reader, name);
-        refuse_reserved(reader, name);
-        let own = [name.value.clone(), format!("{}_i", name.value), format!("{}_j", name.value)];
-        for (parameter, _) in self.parameters.iter().filter(|(parameter, _)| own.contains(&parameter.value)) {
-            let message = format!("the parameter `{}` has the name of a property of the bodies", parameter.value);
-            reader.fault(&parameter.at, message, "give it another name");
-        }
-    }
-
-    fn refuse_names_of_bodies(&self, reader: &mut Reader<'_>, coordinates: &[String], momenta: &[String]) {
         for (name, _) in &self.parameters {
             for (names, what) in [(coordinates, "coordinate"), (momenta, "momentum")] {
                 if names.contains(&name.value) {
@@ -200,6 +129,7 @@ impl Given {
                 }
             }
         }
+        reader.faults.len() > before
     }
 
     /// The ends of a chain, unless all pairs interact.
@@ -224,25 +154,13 @@ fn remark_on_masses(bodies: &Bodies) {
     }
 }
 
-/// Refuses the names that formulas have already.
-fn refuse_reserved(reader: &mut Reader<'_>, name: &Text) {
-    let meaning = match (Separation::named(&name.value), name.value.as_str()) {
-        (Some(Separation::Difference), _) => Some("the difference q_j - q_i"),
-        (Some(Separation::SquaredDistance), _) => Some("the square of the distance"),
-        (None, NUMBER) => Some("the number of a body"),
-        (None, _) => None,
-    };
-    if let Some(meaning) = meaning {
-        reader.fault(&name.at, format!("with `pair`, `{}` is {meaning}", name.value), "give it another name");
-    }
-}
-
 /// The names of the coordinates and momenta, body after body.
-fn names(bodies: &Bodies) -> (Vec<String>, Vec<String>) {
-    let axes: &[&str] = if bodies.dimensions == 1 { &["q"] } else { &["x", "y", "z"][..bodies.dimensions] };
-    let momentum = |axis: &str| if bodies.dimensions == 1 { "p".to_owned() } else { format!("p{axis}") };
-    let each = |name: &dyn Fn(&str) -> String| {
-        (1..=bodies.count).flat_map(|body| axes.iter().map(move |axis| format!("{}{body}", name(axis)))).collect()
+fn names(bodies: usize, dimensions: usize) -> (Vec<String>, Vec<String>) {
+    let axes: &[(&str, &str)] = match dimensions {
+        1 => &[("q", "p")],
+        more => &[("x", "px"), ("y", "py"), ("z", "pz")][..more],
     };
-    (each(&|axis| axis.to_owned()), each(&momentum))
+    let each =
+        (1..=bodies).flat_map(|body| axes.iter().map(move |(q, p)| (format!("{q}{body}"), format!("{p}{body}"))));
+    each.unzip()
 }

@@ -3,13 +3,16 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use num_traits::One;
+use shadowstep::Rational;
 use shadowstep::pairs::{Ends, Separation};
-use shadowstep_symbolic::{Expression, Kind, evaluate, parse};
+use shadowstep_symbolic::{Exact, Expression, Kind, evaluate, parse};
 use toml::de::DeValue;
 
+use super::bodies::GivenBodies;
 use super::initial::State;
 use super::numbers::Numbers;
-use super::pair::{GivenBodies, PairFormula};
+use super::pair::PairFormula;
 use crate::scene::keys;
 use crate::scene::reader::{List, Reader, Section, Text};
 use crate::scene::system::System;
@@ -100,6 +103,19 @@ impl Given {
         if self.place(key).is_none() {
             reader.missing(problem, key);
         }
+    }
+
+    /// Names and values, which become known to the reader.
+    pub(super) fn own_parameters(&self, reader: &mut Reader<'_>) -> Vec<(String, Exact)> {
+        let mut parameters = Vec::new();
+        for (name, text) in &self.parameters {
+            check_name(reader, name);
+            // a parameter without a value stands as 1, so that its users add no faults of their own
+            let value = reader.evaluate(text).unwrap_or(Exact { value: Rational::one(), rounded: false });
+            reader.known.insert(name.value.clone(), value.clone());
+            parameters.push((name.value.clone(), value));
+        }
+        parameters
     }
 
     /// Where the value of a key is, if the key is there.
