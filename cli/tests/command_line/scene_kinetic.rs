@@ -23,7 +23,7 @@ energy = true
 modified_energy = { order = 12 }
 "#;
 
-/// Tells whether it has order 4 for quadratic T, and order 3 for others.
+/// Of order 4 for quadratic T, and of order 3 for others.
 const NYSTROM: &str = r#"
 name = "nystrom"
 order = 4
@@ -50,8 +50,8 @@ fn the_modified_energy_of_a_relativistic_oscillator_is_conserved() {
     let (_, rows) = table(&csv);
     assert_eq!(rows.len(), 201);
     assert_eq!(rows[0][2], "1.5");
-    // with a β that had no part of the drifts it would be no better than the energy, whose error is of order h^4; what
-    // is left is the double precision in which the difference is taken
+    // without what drifts add to β it would vary by 0.08; what is left is the double precision in which differences are
+    // taken here
     assert!(spread(&rows, 2) > 1e-9, "{}", spread(&rows, 2));
     assert!(spread(&rows, 3) < 1e-15, "{}", spread(&rows, 3));
     assert!(csv.contains("# kinetic: sqrt(1 + px^2)\n# momenta: [\"px\"]\n"), "{csv}");
