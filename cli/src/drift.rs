@@ -158,9 +158,18 @@ fn row(run: Run<'_>, record: &Record) -> [String; 9] {
     ]
 }
 
+/// More parameters and initial values are not shown to people.
+const MOST_VALUES: usize = 16;
+
 fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String {
     let problem = selection.setup.problem;
-    let values = selection.setup.values.iter().map(|(name, exact)| format!("{name} = {}", shortened(&exact.value, 12)));
+    let all = selection.setup.values.iter();
+    let mut values: Vec<_> = all.map(|(name, exact)| format!("{name} = {}", shortened(&exact.value, 12))).collect();
+    if values.len() > MOST_VALUES {
+        let rest = values.len() - MOST_VALUES;
+        values.truncate(MOST_VALUES);
+        values.push(format!("… ({rest} more; --json has all)"));
+    }
     let digits = match selection.arithmetic {
         Arithmetic::Double => "double precision".to_owned(),
         Arithmetic::Digits(digits, _) => format!("{digits} digits"),
@@ -174,7 +183,7 @@ fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String {
         "{}: H = {}\n{}\nfrom t = 0 to {}, {digits}; modified energy by central differences, {order}\n{}\n",
         problem.title,
         problem.hamiltonian,
-        values.collect::<Vec<_>>().join(", "),
+        values.join(", "),
         shortened(&selection.until, 20),
         table(COLUMNS, rows, 1..9)
     )
