@@ -6,12 +6,13 @@
 //! | [`reader`] | TOML values → texts, numbers and lists with their places |
 //! | [`read`], [`system`], [`pairs`] | a scene's text → all that it asks for, or all its faults; what moves |
 //! | [`engine`], [`interrupt`] | the run |
-//! | [`write`], [`metadata`] | rows and the head of a file |
+//! | [`format`](mod@format), [`write`], [`metadata`] | columns, rows and the head of a file |
 //! | [`target`], [`resumable`], [`checkpoint`] | where rows go, and how a run goes on that was stopped |
 
 mod checkpoint;
 mod engine;
 mod explain;
+mod format;
 mod interrupt;
 mod keys;
 mod metadata;

@@ -5,28 +5,9 @@ use std::io::Write;
 use serde::Serialize;
 
 use crate::complaint::Complaint;
+use crate::scene::format::{COLUMNS, Format};
 use crate::scene::metadata::Metadata;
 use crate::scene::target::Target;
-
-/// The columns before those of the trajectory; no coordinate has such a name.
-pub(crate) const COLUMNS: [&str; 6] = ["n", "t", "energy", "modified_energy", "estimate", "order"];
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Format {
-    Csv,
-    JsonLines,
-}
-
-impl Format {
-    /// What a file's name says.
-    pub(crate) fn of(file: &str) -> Option<Format> {
-        match file.rsplit_once('.')?.1 {
-            "csv" => Some(Format::Csv),
-            "jsonl" => Some(Format::JsonLines),
-            _ => None,
-        }
-    }
-}
 
 /// A state of the run: what is due at its n. Numbers are texts that read back to the same numbers.
 #[derive(Serialize)]

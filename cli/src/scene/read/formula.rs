@@ -3,9 +3,9 @@
 use super::kinetic::masses;
 use super::numbers::Numbers;
 use super::problem::{Given, check_name};
+use crate::scene::format::COLUMNS;
 use crate::scene::reader::{List, Reader, Text};
 use crate::scene::system::{KineticEnergy, PotentialEnergy, System, formula_potential};
-use crate::scene::write::COLUMNS;
 
 impl Given {
     /// The system with this potential.

@@ -8,8 +8,8 @@ use shadowstep::shadow::Stop;
 use toml::de::DeValue;
 
 use crate::order::{DEFAULT_LARGEST_M, HIGHEST_M, Order};
+use crate::scene::format::Format;
 use crate::scene::reader::{Reader, Section, Value};
-use crate::scene::write::Format;
 use crate::steps::MOST_STEPS;
 
 /// What is to be written, and where.
