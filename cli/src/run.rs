@@ -29,6 +29,10 @@ impl Run<'_> {
     /// A state is not finite.
     pub(crate) fn failed(&self, error: &RunError) -> Complaint {
         match error {
+            RunError::NotFinite { step, what } if *step < 0 => {
+                let why = "states before t = 0 are made for the modified energies near it";
+                self.ended(&format!("the run ends at n = {step} with {what}; {why}"))
+            }
             RunError::NotFinite { step, what } => self.ended(&format!("the run ends at n = {step} with {what}")),
             RunError::ZeroStep => self.ended(&error.to_string()),
         }

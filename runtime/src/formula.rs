@@ -45,6 +45,9 @@ pub enum FormulaError {
     /// A coordinate or parameter has the name of another.
     #[error("`{0}` is there twice; the names of coordinates and parameters must differ")]
     RepeatedName(String),
+    /// A coordinate or parameter has the name of a constant.
+    #[error("`{0}` is a constant; give the coordinate or parameter another name")]
+    Constant(String),
 }
 
 impl FormulaError {
@@ -53,7 +56,7 @@ impl FormulaError {
         match self {
             FormulaError::Syntax(error) => error.range.clone(),
             FormulaError::Meaning(error) => error.range.clone(),
-            FormulaError::RepeatedName(_) => 0..0,
+            FormulaError::RepeatedName(_) | FormulaError::Constant(_) => 0..0,
         }
     }
 }
@@ -83,9 +86,13 @@ fn build<N>(formula: &str, coordinates: &[&str], parameters: &[(&str, N)]) -> Re
     Ok((graph, node))
 }
 
+/// Refuses names that are there twice, or mean something else.
 fn refuse_repeated<'a>(names: impl Iterator<Item = &'a String>) -> Result<(), FormulaError> {
     let mut seen = Vec::new();
     for name in names {
+        if name == "pi" {
+            return Err(FormulaError::Constant(name.clone()));
+        }
         if seen.contains(&name) {
             return Err(FormulaError::RepeatedName(name.clone()));
         }

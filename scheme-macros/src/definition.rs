@@ -1,7 +1,7 @@
 //! `/// … pub struct Well { depth, width } U(x, y) = …`: a struct with parameters, and a function by its formula.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Token, Visibility, braced, parenthesized};
@@ -14,7 +14,7 @@ pub(crate) struct Definition {
     attributes: Vec<Attribute>,
     visibility: Visibility,
     name: Ident,
-    parameters: Vec<Ident>,
+    parameters: Vec<Parameter>,
     /// `pair`, if it stands before the function.
     pub(crate) pair: Option<Ident>,
     /// U or T.
@@ -25,19 +25,36 @@ pub(crate) struct Definition {
     pub(crate) formula: Formula,
 }
 
+/// A parameter, with the documentation that the user gives it.
+struct Parameter {
+    documentation: Vec<Attribute>,
+    name: Ident,
+}
+
+impl Parse for Parameter {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Parameter> {
+        Ok(Parameter { documentation: input.call(Attribute::parse_outer)?, name: input.parse()? })
+    }
+}
+
 impl Parse for Definition {
     fn parse(input: ParseStream<'_>) -> syn::Result<Definition> {
         let attributes = input.call(Attribute::parse_outer)?;
         let visibility = input.parse()?;
         input.parse::<Token![struct]>()?;
-        let name = input.parse()?;
+        let name: Ident = input.parse()?;
+        if name == "N" {
+            return Err(syn::Error::new(name.span(), "N is the type of numbers here; give the struct another name"));
+        }
         let parameters = if input.peek(syn::token::Brace) {
             let fields;
             braced!(fields in input);
-            Punctuated::<Ident, Token![,]>::parse_terminated(&fields)?.into_iter().collect()
-        } else {
+            Punctuated::<Parameter, Token![,]>::parse_terminated(&fields)?.into_iter().collect()
+        } else if input.peek(Token![;]) {
             input.parse::<Token![;]>()?;
             Vec::new()
+        } else {
+            return Err(input.error("expected `;`, or parameters as in `{ depth, width }`: their type is added"));
         };
         let first: Ident = input.parse()?;
         let (pair, function) = if first == "pair" { (Some(first), input.parse()?) } else { (None, first) };
@@ -48,11 +65,24 @@ impl Parse for Definition {
         if !names.is_empty() {
             return Err(names.error("expected `,` or `)`"));
         }
-        refuse_repeated(arguments.iter().chain(&properties).chain(&parameters))?;
+        refuse_repeated(arguments.iter().chain(&properties).chain(parameters.iter().map(|p: &Parameter| &p.name)))?;
         let equals = input.parse::<Token![=]>()?;
         let formula = Formula::new(input.parse()?, equals.span);
         Ok(Definition { attributes, visibility, name, parameters, pair, function, arguments, properties, formula })
     }
+}
+
+/// Whether an attribute derives the trait of this name.
+fn derives(attribute: &Attribute, name: &str) -> bool {
+    let mut found = false;
+    let _ = attribute.path().is_ident("derive")
+        && attribute
+            .parse_nested_meta(|meta| {
+                found |= meta.path.segments.last().is_some_and(|last| last.ident == name);
+                Ok(())
+            })
+            .is_ok();
+    found
 }
 
 /// Names with commas between them, up to something else.
@@ -70,6 +100,14 @@ fn comma_separated(input: ParseStream<'_>) -> syn::Result<Vec<Ident>> {
 fn refuse_repeated<'a>(names: impl Iterator<Item = &'a Ident>) -> syn::Result<()> {
     let mut seen = Vec::new();
     for name in names {
+        let message = match name.to_string().as_str() {
+            "pi" => Some("`pi` is a constant; give this another name"),
+            raw if raw.starts_with("r#") => Some("formulas have no raw names; give this another name"),
+            _ => None,
+        };
+        if let Some(message) = message {
+            return Err(syn::Error::new(name.span(), message));
+        }
         if seen.contains(&name) {
             return Err(syn::Error::new(name.span(), format!("`{name}` is there twice; names must differ")));
         }
@@ -87,27 +125,35 @@ impl Definition {
     /// these properties the values of all bodies.
     pub(crate) fn structure(&self, documentation: &[String], properties: &[Ident]) -> (TokenStream, TokenStream) {
         let Definition { attributes, visibility, name, parameters, .. } = self;
+        // what the user derives, too, is derived once
+        let derived = |name: &str| attributes.iter().any(|attribute| derives(attribute, name));
+        let own = |names: &[&str]| {
+            let names = names.iter().filter(|name| !derived(name)).map(|name| format_ident!("{name}"));
+            quote! { #[derive(#(#names),*)] }
+        };
         let head = quote! { #(#attributes)* #(#[doc = #documentation])* };
         if parameters.is_empty() && properties.is_empty() {
-            let structure = quote! { #head #[derive(Clone, Copy, Debug, Default)] #visibility struct #name; };
+            let own = own(&["Clone", "Copy", "Debug", "Default"]);
+            let structure = quote! { #head #own #visibility struct #name; };
             return (structure, quote! { #name });
         }
-        let fields = parameters.iter().map(|p| {
-            let doc = format!(" The parameter {p} of the formula.");
-            quote! { #[doc = #doc] pub #p: N }
+        let fields = parameters.iter().map(|Parameter { documentation, name }| {
+            let doc = format!(" The parameter {name} of the formula.");
+            let doc = documentation.is_empty().then(|| quote! { #[doc = #doc] });
+            quote! { #(#documentation)* #doc pub #name: N }
         });
         let lists = properties.iter().map(|p| {
             let doc = format!(" The {p} of each body.");
             quote! { #[doc = #doc] pub #p: ::std::vec::Vec<N> }
         });
-        let structure =
-            quote! { #head #[derive(Clone, Debug)] #visibility struct #name<N> { #(#fields,)* #(#lists),* } };
+        let own = own(&["Clone", "Debug"]);
+        let structure = quote! { #head #own #visibility struct #name<N> { #(#fields,)* #(#lists),* } };
         (structure, quote! { #name<N> })
     }
 
     /// The names of the parameters, as formulas have them.
     pub(crate) fn parameters(&self) -> Vec<String> {
-        texts(&self.parameters)
+        self.parameters.iter().map(|parameter| parameter.name.to_string()).collect()
     }
 
     /// The arguments and properties are called as the user calls them.
@@ -115,7 +161,7 @@ impl Definition {
         let as_written = |names: &[Ident]| names.iter().map(|name| quote! { #name }).collect();
         Names {
             coordinates: as_written(&self.arguments),
-            parameters: self.parameters.iter().map(|name| quote! { &self.#name }).collect(),
+            parameters: self.parameters.iter().map(|Parameter { name, .. }| quote! { &self.#name }).collect(),
             properties: as_written(&self.properties),
         }
     }

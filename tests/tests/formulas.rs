@@ -104,5 +104,29 @@ fn names_differ() {
     let message = "`x` is there twice; the names of coordinates and parameters must differ";
     assert_eq!((repeated.to_string().as_str(), repeated.range()), (message, 0..0));
     assert!(FormulaPotential::new("x*y", &["x"], &[("y", 1.0), ("y", 2.0)]).is_err());
+    let constant = FormulaPotential::new("pi*x", &["x"], &[("pi", 3.0)]).unwrap_err();
+    assert_eq!(constant.to_string(), "`pi` is a constant; give the coordinate or parameter another name");
     assert!(FormulaPotential::new("x*y", &["x", "y"], &[("y", 2.0)]).is_err());
+}
+
+mod derived {
+    //! What a user derives and documents as well.
+    #![deny(missing_docs)]
+
+    shadowstep::potential! {
+        /// A spring.
+        #[derive(Clone, PartialEq, Debug)]
+        pub struct Spring {
+            /// Its strength.
+            k,
+        }
+        U(x) = k*x^2/2
+    }
+}
+
+#[test]
+fn traits_may_be_derived_beside_those_that_come_along() {
+    let spring = derived::Spring { k: 2.0 };
+    assert_eq!(spring.clone(), spring);
+    assert_eq!(format!("{spring:?}"), "Spring { k: 2.0 }");
 }

@@ -1,7 +1,7 @@
 //! Protects the initial data of the problems: against energies that are published or follow by hand, against orbits that
 //! are known, and against invariants that no wrong force would keep.
 
-use num_traits::One;
+use num_traits::{One, Zero};
 use rug::Float;
 use shadowstep::number::Precision;
 use shadowstep::problems::{PROBLEMS, ProblemMotion, Setup, problem};
@@ -106,6 +106,17 @@ fn planets_go_around_the_sun_at_their_distances() {
         farthest = farthest.max((3..18).map(|i| q[i].abs()).fold(0.0, f64::max))
     });
     assert!((30.0..50.0).contains(&farthest), "{farthest}");
+}
+
+#[test]
+fn the_centre_of_mass_of_three_bodies_and_of_the_crystal_is_at_rest() {
+    for name in ["figure-eight", "pythagorean", "argon-crystal"] {
+        let setup = setup(name);
+        for axis in 0..2 {
+            let momenta = setup.momenta().iter().skip(axis).step_by(2).map(|(_, p)| &p.value);
+            assert_eq!(momenta.sum::<Rational>(), Rational::zero(), "{name}");
+        }
+    }
 }
 
 #[test]

@@ -113,7 +113,10 @@ impl<N: Number + 'static> Recorder<'_, N> {
                 return Ok(End::Interrupted(n));
             }
         }
-        Ok(End::Complete { evaluations: trajectory.motion().evaluations() })
+        let motion = trajectory.motion();
+        let energy = motion.energy();
+        self.ends_in_the_domain(&energy)?;
+        Ok(End::Complete { evaluations: motion.evaluations() })
     }
 
     /// With β and an estimate at each state; taken up after the state `from`.
@@ -156,7 +159,18 @@ impl<N: Number + 'static> Recorder<'_, N> {
                 return Ok(End::Interrupted(n));
             }
         }
+        let energy = shadow.motion().energy_of(&q, &p);
+        self.ends_in_the_domain(&energy)?;
         Ok(End::Complete { evaluations: shadow.motion().evaluations() })
+    }
+
+    /// The gradient may have values where the potential has none, as that of log(x) for x < 0: a run that got there is
+    /// not complete, whether its energies are written or not.
+    fn ends_in_the_domain(&self, energy: &N) -> Result<(), Complaint> {
+        match energy.is_finite() {
+            true => Ok(()),
+            false => Err(self.run.not_finite(&format!("the energy at the end, n = {},", self.run.steps))),
+        }
     }
 
     /// Whether something with this period is to be written at n.

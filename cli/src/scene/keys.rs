@@ -167,7 +167,8 @@ pub(crate) const KEYS: [Key; 32] = [
         "file",
         "Where rows go, seen from the scene's folder: .csv, whose head is of lines with #, as in \
          pandas.read_csv(file, comment=\"#\"), or .jsonl, JSON lines of which the first is the head. The file has its \
-         name only when it is complete.",
+         name only when it is complete. One of that name is replaced if it is from this very scene, else by --restart \
+         only.",
         "\"kepler.csv\"",
         Some("none: rows go to stdout"),
     ),
@@ -182,7 +183,8 @@ pub(crate) const KEYS: [Key; 32] = [
     key(
         "output",
         "modified_energy",
-        "The modified energy by central differences, as columns `modified_energy`, `estimate` (of its error, no bound) \
+        "The modified energy by central differences, as columns `modified_energy`, `estimate` (the size of \
+         the last term: no bound of the error, which round-off or a close encounter makes larger by many orders) \
          and `order` (the m of D_m): true, or a table.",
         "{ order = \"auto\", max_order = 100 }",
         Some("false"),
@@ -198,7 +200,8 @@ pub(crate) const KEYS: [Key; 32] = [
         "output",
         "checkpoint",
         "How often the run saves all it needs to go on: a time in s, min or h, or a number of steps. A run that was \
-         stopped goes on from there when the scene is run again, and its file has the same bytes. It needs a `file`.",
+         stopped goes on from there when the scene is run again, and its file has the same bytes; a \
+         scene that was changed, were it a comment, is another one. It needs a `file`.",
         "\"1 min\"",
         Some("none: a run that is stopped leaves nothing"),
     ),

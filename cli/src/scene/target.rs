@@ -1,16 +1,31 @@
 //! Where rows go: stdout, a file that has its name when it is complete, or one that a later run can go on with.
 
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::path::Path;
 
 use crate::complaint::Complaint;
 use crate::output::Output;
 use crate::scene::checkpoint::{Checkpoint, Identity, Saved};
+use crate::scene::metadata::sha256;
 use crate::scene::read::Scene;
 use crate::scene::resumable::Resumable;
 
 pub(crate) enum Target {
     Output(Output),
     Resumable(Box<Resumable>),
+}
+
+/// More than the head of any file.
+const LONGEST_HEAD: u64 = 1 << 20;
+
+/// Whether there is a file that is not the result of this scene; that is replaced, by the same bytes.
+fn is_of_another(path: &Path, scene: &Scene) -> bool {
+    let Ok(file) = File::open(path) else { return false };
+    let mut head = Vec::new();
+    let read = file.take(LONGEST_HEAD).read_to_end(&mut head);
+    let hash = sha256(&scene.source.text);
+    path.is_file() && (read.is_err() || !head.windows(hash.len()).any(|part| part == hash.as_bytes()))
 }
 
 impl Target {
@@ -21,6 +36,11 @@ impl Target {
         };
         if same_file::is_same_file(path, &scene.source.path).unwrap_or(false) {
             let complaint = Complaint::usage("the file is the scene itself", "give it another name");
+            return Err(scene.at(place, complaint));
+        }
+        if !restart && is_of_another(path, scene) {
+            let sentence = format!("{} is there already, and not from this scene as it is now", path.display());
+            let complaint = Complaint::usage(sentence, "give another name, move it away, or replace it by --restart");
             return Err(scene.at(place, complaint));
         }
         if scene.output.checkpoint.is_none() {

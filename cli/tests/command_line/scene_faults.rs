@@ -30,7 +30,7 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ("[output]\nenergy = true\n", "", "1:1: the section [output] is missing", "shadowstep scene kepler"),
     ("[initial]\nq = [1, 0]\np = [0, 1]\n", "", "1:1: the section [initial] is missing", "shadowstep scene"),
     ("step = \"1/20\"\n", "", "9:1: the key `step` is missing", "add `step = \"1/20\"`"),
-    ("until = 2\n", "", "9:1: the key `until` is missing", "add `until = 100`"),
+    ("until = 2\n", "", "9:1: one of the keys `until`, `steps` is needed", "`until = 100` or `steps = 2000`"),
     ("potential = \"k/sqrt(x^2 + y^2)\"\n", "", "1:1: one of the keys `name`, `potential`, `pair` is", "`potential ="),
     ("coordinates = [\"x\", \"y\"]\n", "", "1:1: the key `coordinates` is missing", "add `coordinates"),
     ("q = [1, 0]\n", "", "6:1: the key `q` is missing", "add `q = […]`"),
@@ -163,7 +163,7 @@ masses = "m"
 parameters = { g = 1 }
 [initial]
 q = [["0.97", "-0.24"], ["-0.97", "0.24"], [0, 0]]
-v = [0.46620368, 0.43236573, 0.46620368, 0.43236573, -0.93240737, -0.86473146]
+v = [0.466203685, 0.43236573, 0.466203685, 0.43236573, -0.93240737, -0.86473146]
 [run]
 scheme = "yoshida4"
 step = "1/100"

@@ -210,11 +210,49 @@ fn a_run_that_fails_leaves_the_old_file() {
          digits = \"double\"\n[output]\ntrajectory = true\nfile = \"out.csv\"\n",
     );
     fs::write(folder.path().join("out.csv"), "old").unwrap();
-    let said = run(folder.path(), "");
+    let said = run(folder.path(), "--restart");
     assert_eq!(said.code, 3);
     assert!(said.err.contains("the run ends at n = "), "{}", said.err);
     assert_eq!(fs::read_to_string(folder.path().join("out.csv")).unwrap(), "old");
     assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+}
+
+#[test]
+fn the_file_of_another_scene_is_replaced_only_if_that_is_said() {
+    for output in ["energy = true\nfile = \"out.csv\"", "energy = true\nfile = \"out.csv\"\ncheckpoint = 2"] {
+        let folder = folder(&asking(output));
+        let read = || fs::read_to_string(folder.path().join("out.csv")).unwrap();
+        fs::write(folder.path().join("out.csv"), "precious").unwrap();
+        let said = run(folder.path(), "");
+        assert_eq!(said.code, 2, "{}", said.err);
+        assert!(said.err.contains("out.csv is there already, and not from this scene as it is now"), "{}", said.err);
+        assert!(said.err.contains("replace it by --restart"), "{}", said.err);
+        assert_eq!(read(), "precious");
+        assert_eq!(run(folder.path(), "--restart").code, 0);
+        let whole = read();
+        // its own it replaces by the same
+        assert_eq!(run(folder.path(), "").code, 0);
+        assert_eq!(read(), whole);
+        fs::write(folder.path().join("scene.toml"), asking(output).replace("steps = 4", "steps = 5")).unwrap();
+        assert_eq!(run(folder.path(), "").code, 2);
+        assert_eq!(read(), whole);
+    }
+}
+
+#[test]
+fn a_run_that_left_the_domain_of_the_potential_is_not_complete() {
+    // the gradient 1/x has values where log(x) has none
+    let scene = |output: &str| {
+        format!(
+            "[problem]\npotential = \"log(x)\"\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = [-1]\n\
+             [run]\nscheme = \"stormer-verlet\"\nstep = \"1/10\"\nsteps = 20\ndigits = 30\n[output]\n{output}\n"
+        )
+    };
+    for output in ["energy = true", "energy = { every = 100 }", "trajectory = true"] {
+        let said = run(folder(&scene(output)).path(), "");
+        assert_eq!(said.code, 3, "{output}: {}", said.err);
+        assert!(said.err.contains("the energy at "), "{}", said.err);
+    }
 }
 
 #[test]

@@ -96,7 +96,7 @@ fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<(Rational, Ra
         reader.missing(run, "step");
     }
     if reader.get(run, "until").is_none() && steps.is_none() {
-        reader.missing(run, "until");
+        reader.all_missing(run, &["until", "steps"]);
     }
     if let (Some(_), Some((at, _))) = (reader.get(run, "until"), &steps) {
         return reader.wrong(at, "until and steps are both given", "keep one of the two");
