@@ -114,6 +114,18 @@ impl Graph {
         Node(number)
     }
 
+    /// The exact numbers in the formula of a node, as it stands when it is simplified: constants and coefficients.
+    pub fn numbers(&self, node: Node) -> Vec<&Rational> {
+        let of = |part: Node| match self.form(part) {
+            Form::Number(value) => vec![value],
+            Form::Sum { constant, terms } => {
+                std::iter::once(constant).chain(terms.iter().map(|(_, coefficient)| coefficient)).collect()
+            }
+            _ => Vec::new(),
+        };
+        self.below(&[node]).into_iter().flat_map(of).collect()
+    }
+
     /// The nodes that a node is directly made of.
     pub(crate) fn children(&self, node: Node) -> impl Iterator<Item = Node> {
         let (parts, argument) = match self.form(node) {

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Instant;
 
-use shadowstep::run::{ShadowRun, Trajectory};
+use shadowstep::run::{RunError, ShadowRun, Trajectory};
 use shadowstep::{Kinetic, Motion, Moves, Number, Potential, Scheme};
 
 use crate::complaint::{Complaint, remark};
@@ -80,6 +80,21 @@ struct Recorder<'a, N: Number> {
     stop: &'a dyn Fn() -> bool,
 }
 
+/// The fault with the scene's names for the coordinates and momenta, which the runtime numbers.
+fn renamed(error: RunError, scene: &Scene) -> RunError {
+    let RunError::NotFinite { step, what } = &error else { return error };
+    let name = what.split_once(" = ").and_then(|(name, value)| {
+        let names = match name.get(..1)? {
+            "q" => &scene.system.coordinates,
+            "p" => &scene.system.momenta,
+            _ => return None,
+        };
+        let number: usize = name.get(1..)?.parse().ok()?;
+        Some(format!("{} = {value}", names.get(number.checked_sub(1)?)?))
+    });
+    RunError::NotFinite { step: *step, what: name.unwrap_or_else(|| what.clone()) }
+}
+
 /// What moves, with a kinetic energy of any class.
 type Moving<N, K> = Motion<N, Vec<N>, Box<dyn Potential<N>>, K>;
 
@@ -103,7 +118,8 @@ impl<N: Number + 'static> Recorder<'_, N> {
         S: Scheme + Moves<K::Class>,
     {
         let run = self.run;
-        let failed = |error| run.failed(&error);
+        let scene = self.scene;
+        let failed = |error| run.failed(&renamed(error, scene));
         let mut trajectory = Trajectory::plain(scheme, motion, run.h, from, run.steps).map_err(failed)?;
         while let Some(n) = trajectory.advance().map_err(failed)?.map(|state| state.n) {
             let motion = trajectory.motion();
@@ -132,7 +148,8 @@ impl<N: Number + 'static> Recorder<'_, N> {
         S: Scheme + Moves<K::Class>,
     {
         let run = self.run;
-        let failed = |error| run.failed(&error);
+        let scene = self.scene;
+        let failed = |error| run.failed(&renamed(error, scene));
         let (mut q, mut p) = (motion.q().to_vec(), motion.p().to_vec());
         let method = order.method(true);
         let mut shadow = match from {

@@ -7,7 +7,7 @@ use num_traits::Zero;
 use shadowstep::{Number, Rational};
 use shadowstep_schemes::fault::{Fault, Source};
 use shadowstep_symbolic::decimal::{from_text, to_significant};
-use shadowstep_symbolic::{Error, Exact, evaluate, parse};
+use shadowstep_symbolic::{Error, Exact, Graph, evaluate, parse};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
@@ -243,6 +243,18 @@ impl<'a> Reader<'a> {
             return None;
         }
         found.into_iter().collect()
+    }
+
+    /// Refuses a formula in these names with numbers that the run's would take for 0 or infinity.
+    pub(crate) fn refuse_constants<'n>(&mut self, text: &Text, names: impl Iterator<Item = &'n String>) {
+        let names: Vec<String> = names.cloned().collect();
+        let mut graph = Graph::new();
+        let (Arithmetic::Double, Ok(expression)) = (self.arithmetic, parse(&text.value)) else { return };
+        let Ok(node) = graph.build(&expression, &names, &[]) else { return };
+        if let Some(value) = graph.numbers(node).into_iter().find(|value| !fits_double(value)) {
+            let message = format!("the number {} in the formula is beyond double precision", to_significant(value, 12));
+            self.fault(&text.at, message, "write digits = 17, or scale it");
+        }
     }
 
     pub(crate) fn wrong_kind<T>(&mut self, value: &Value<'_>, needed: &str) -> Option<T> {

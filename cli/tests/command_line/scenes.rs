@@ -321,3 +321,39 @@ fn json_has_its_head_first() {
     assert_eq!((text(metadata, "problem"), &metadata["steps"]), ("pendulum", &Value::from(4)));
     assert_eq!(lines[1], serde_json::json!({ "n": 0, "t": "0.0", "energy": text(&lines[1], "energy") }));
 }
+
+#[test]
+fn numbers_of_a_formula_that_double_precision_has_not_are_refused() {
+    let scene = |potential: &str, digits: &str| {
+        format!(
+            "[problem]\npotential = \"{potential}\"\ncoordinates = [\"x\"]\nparameters = {{ k = 1e300 }}\n\
+             [initial]\nq = [1e100]\np = [0]\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/10\"\nsteps = 2\n\
+             digits = {digits}\n[output]\nenergy = true\n"
+        )
+    };
+    // each factor is a double, their product is none
+    for potential in ["k*1e-300*1e-100*x", "1e-400*x + x^2", "1e400*x"] {
+        let said = run(folder(&scene(potential, "\"double\"")).path(), "");
+        assert_eq!(said.code, 2, "{potential}: {}", said.err);
+        assert!(said.err.contains("scene.toml:2:13: the number 1e"), "{}", said.err);
+        assert!(said.err.contains("in the formula is beyond double precision"), "{}", said.err);
+        assert_eq!(run(folder(&scene(potential, "17")).path(), "").code, 0, "{potential}");
+    }
+}
+
+#[test]
+fn a_failure_has_the_names_of_the_scene() {
+    let scene = "[problem]\npotential = \"-x^4\"\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = [1]\n[run]\n\
+                 scheme = \"stormer-verlet\"\nstep = \"1/10\"\nsteps = 100\ndigits = \"double\"\n[output]\n\
+                 trajectory = true\n";
+    let said = run(folder(scene).path(), "");
+    assert_eq!(said.code, 3);
+    assert!(said.err.contains("with px = ") || said.err.contains("with x = "), "{}", said.err);
+}
+
+#[test]
+fn a_folder_is_no_file() {
+    let said = run(folder(&asking("energy = true\nfile = \"bad/\"\nformat = \"csv\"")).path(), "");
+    assert_eq!(said.code, 2);
+    assert!(said.err.contains("`bad/` is a folder"), "{}", said.err);
+}

@@ -22,6 +22,7 @@ impl Given {
             let help = "a potential is a smooth formula such as \"-1/sqrt(x^2 + y^2)\"";
             reader.fault(&potential.place(&error.range()), error.to_string(), help);
         }
+        reader.refuse_constants(potential, coordinates.iter().chain(parameters.iter().map(|(name, _)| name)));
         let kinetic = match named {
             true => self.kinetic_energy(reader, &momenta, &parameters),
             false => None,

@@ -30,6 +30,7 @@ impl Given {
             let help = format!("T is a smooth formula in the momenta {known}{more} and the parameters{renamed}");
             return reader.wrong(&text.place(&error.range()), error.to_string(), help);
         }
+        reader.refuse_constants(text, momenta.iter().chain(parameters.iter().map(|(name, _)| name)));
         Some(KineticEnergy::Formula(text.value.clone()))
     }
 }

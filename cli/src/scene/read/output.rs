@@ -51,6 +51,9 @@ impl Asked {
             let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
             reader.fault(&output.at, "nothing is asked for", help);
         }
+        if let Some(name) = file.as_ref().filter(|name| name.value.ends_with(['/', '\\'])) {
+            reader.fault(&name.at, format!("`{}` is a folder", name.value), "give the name of a file");
+        }
         let format = match (format, &file) {
             (Some(format), _) => format,
             (None, None) => Some(Format::Csv),

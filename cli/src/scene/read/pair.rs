@@ -102,6 +102,9 @@ impl Given {
             let help = "the energy of a pair is a smooth formula such as \"-g*m_i*m_j/sqrt(r2)\"";
             reader.fault(&pair.text.place(&error.range()), error.to_string(), help);
         }
+        let properties = energy.properties.iter().flat_map(|(name, _)| [format!("{name}_i"), format!("{name}_j")]);
+        let names: Vec<String> = properties.chain([pair.separation.name().to_owned()]).collect();
+        reader.refuse_constants(&pair.text, names.iter().chain(parameters.iter().map(|(name, _)| name)));
         energy
     }
 
