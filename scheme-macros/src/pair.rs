@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
-use shadowstep_symbolic::{Graph, PotentialPrograms, Program, Separation};
+use shadowstep_symbolic::{Graph, PotentialPrograms, Program, Separation, is_symmetric};
 
 use crate::definition::{Definition, texts};
 use crate::program::{own, prepare, scratch_names, size, statements};
@@ -127,7 +127,11 @@ fn documentation(definition: &Definition, separation: Separation, programs: &Pot
         Separation::Difference => ("U'(d)", "d U'(d) − 2U"),
         Separation::SquaredDistance => ("2U'(r²)", "2r²U'(r²) − 2U"),
     };
-    vec![
+    let parsed = definition.formula.parse();
+    let parameters = definition.parameters();
+    let symmetric = parsed.ok().and_then(|e| is_symmetric(&e, separation, &texts(&definition.properties), &parameters));
+    let directed = " - It changes when the bodies are exchanged: i is the one with the smaller number.".to_owned();
+    let mut lines = vec![
         String::new(),
         definition.equation(),
         String::new(),
@@ -136,5 +140,7 @@ fn documentation(definition: &Definition, separation: Separation, programs: &Pot
         String::new(),
         format!(" - A pair's {slope} costs {}.", programs.gradient.cost()),
         format!(" - {slope} and {rate} cost {}.", programs.gradient_and_rate.cost()),
-    ]
+    ];
+    lines.extend((symmetric == Some(false)).then_some(directed));
+    lines
 }

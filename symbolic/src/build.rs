@@ -11,6 +11,7 @@ use crate::fault::{HIGHEST_ROOT, NO_NAMES};
 use crate::function::{Function, NOT_SMOOTH, PI, ROOTS, hint_at_functions};
 use crate::graph::{Form, Graph, Node};
 use crate::nearest::hint;
+use crate::potential::Separation;
 use crate::simplify::exact_power;
 use crate::{Expression, Kind, Operation, Rational};
 
@@ -125,6 +126,33 @@ impl Graph {
     ) -> Result<Node, GraphError> {
         Builder { graph: self, coordinates: &[separation.to_owned()], parameters, properties }.node(expression)
     }
+}
+
+/// Whether the formula of a pair in r² stays what it is when the bodies i and j are exchanged, as far as its simplified
+/// form shows; `None` for a text that is no such formula, and for one in d, which has a direction.
+pub fn is_symmetric(
+    expression: &Expression,
+    separation: Separation,
+    properties: &[String],
+    parameters: &[String],
+) -> Option<bool> {
+    let exchanged = |name: &String| match (name.strip_suffix("_i"), name.strip_suffix("_j")) {
+        (Some(stem), _) => format!("{stem}_j"),
+        (_, Some(stem)) => format!("{stem}_i"),
+        _ => name.clone(),
+    };
+    // a property that the other body does not have in the list keeps an index of its own
+    let mut all = properties.to_vec();
+    for name in properties.iter().map(exchanged) {
+        if !all.contains(&name) {
+            all.push(name);
+        }
+    }
+    let mut graph = Graph::new();
+    let one = graph.build_pair(expression, separation.name(), &all, parameters).ok()?;
+    let others: Vec<String> = all.iter().map(exchanged).collect();
+    let other = graph.build_pair(expression, separation.name(), &others, parameters).ok()?;
+    (separation == Separation::SquaredDistance).then_some(one == other)
 }
 
 struct Builder<'a> {

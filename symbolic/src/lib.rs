@@ -60,7 +60,7 @@ mod token;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-pub use build::{GraphError, GraphFault};
+pub use build::{GraphError, GraphFault, is_symmetric};
 pub use cost::Cost;
 pub use exact::{Exact, evaluate};
 pub use fault::{EvaluationError, Fault};

@@ -175,3 +175,19 @@ fn masses_that_are_forgotten_are_remarked_on() {
     let remark = "remark: all masses of T are 1; `masses = \"m\"` takes them from the property m\n";
     assert_eq!((said.code, said.err.as_str()), (0, remark));
 }
+
+#[test]
+fn a_pair_that_is_not_symmetric_is_told_of() {
+    let scene = |pair: &str| {
+        format!(
+            "[problem]\npair = \"{pair}\"\ndimensions = 2\nbodies = {{ m = [1, 2] }}\nmasses = \"m\"\n[initial]\n\
+             q = [0, 0, 1, 0]\np = [0, 0, 0, 0]\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/10\"\nsteps = 2\n\
+             digits = \"double\"\n[output]\nenergy = true\n"
+        )
+    };
+    assert_eq!(run(folder(&scene("-m_i*m_j/sqrt(r2)")).path(), "").err, "");
+    let said = run(folder(&scene("-m_i*m_i/sqrt(r2)")).path(), "").err;
+    let expected =
+        "remark: -m_i*m_i/sqrt(r2) changes when bodies are exchanged; i is the one with the smaller number\n";
+    assert_eq!(said, expected);
+}

@@ -1,7 +1,7 @@
 //! Pairs of bodies: slope and rate of u(r²), u(d) against the derivatives of the same formula in coordinates.
 
 use num_traits::Zero;
-use shadowstep_symbolic::{Cost, Graph, PotentialPrograms, Rational, Separation, parse};
+use shadowstep_symbolic::{Cost, Graph, PotentialPrograms, Rational, Separation, is_symmetric, parse};
 
 use crate::support::{Point, names, of_node, of_program};
 
@@ -68,6 +68,23 @@ fn slope_and_rate_are_those_of_the_formula_in_coordinates() {
             assert_eq!(value(slopes[axis + 2]), Some(-expected), "{text}");
         }
     }
+}
+
+#[test]
+fn exchanged_bodies_have_the_same_energy_or_not() {
+    let symmetric =
+        |text: &str, separation| is_symmetric(&parse(text).unwrap(), separation, &names("m_i m_j e_i"), &names("a"));
+    for (text, expected) in [
+        ("-a*m_i*m_j/sqrt(r2)", true),
+        ("exp(-r2/(m_i + m_j)^2)", true),
+        ("r2", true),
+        ("-a*m_i*m_i/sqrt(r2)", false),
+        ("(m_i - m_j)*r2", false),
+        ("e_i*r2", false),
+    ] {
+        assert_eq!(symmetric(text, Separation::SquaredDistance), Some(expected), "{text}");
+    }
+    assert_eq!(symmetric("d^2", Separation::Difference), None);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Bodies and the energy of each pair of them.
 
 use shadowstep::pairs::{Ends, Separation};
-use shadowstep_symbolic::{Exact, Expression, Kind, parse};
+use shadowstep_symbolic::{Exact, Expression, Kind, is_symmetric, parse};
 
 use super::bodies::{Bodies, refuse_reserved};
 use super::kinetic::masses;
@@ -103,8 +103,16 @@ impl Given {
             reader.fault(&pair.text.place(&error.range()), error.to_string(), help);
         }
         let properties = energy.properties.iter().flat_map(|(name, _)| [format!("{name}_i"), format!("{name}_j")]);
-        let names: Vec<String> = properties.chain([pair.separation.name().to_owned()]).collect();
-        reader.refuse_constants(&pair.text, names.iter().chain(parameters.iter().map(|(name, _)| name)));
+        let properties: Vec<String> = properties.collect();
+        let parameters: Vec<String> = parameters.iter().map(|(name, _)| name.clone()).collect();
+        let separation = pair.separation.name().to_owned();
+        reader.refuse_constants(&pair.text, properties.iter().chain(&parameters).chain([&separation]));
+        let symmetric = parse(&pair.text.value).ok();
+        let symmetric = symmetric.and_then(|text| is_symmetric(&text, pair.separation, &properties, &parameters));
+        if energy.ends.is_none() && symmetric == Some(false) {
+            let formula = &pair.text.value;
+            remark(format_args!("{formula} changes when bodies are exchanged; i is the one with the smaller number"));
+        }
         energy
     }
 
