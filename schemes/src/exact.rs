@@ -43,6 +43,7 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
     let Some(table) = table else { return (None, faults) };
     let mut cells = Cells { source, known: BTreeMap::new(), rounded: false, faults: Vec::new() };
     cells.constants(&table.constants);
+    cells.free(&table);
     let weights = match &table.weights {
         None => None,
         Some(Weights::Stages { kick, drift }) => {
@@ -135,6 +136,22 @@ impl Cells<'_> {
             let one = Exact { value: Rational::from_integer(1.into()), rounded: false };
             let value = self.cell(cell).unwrap_or(one);
             self.known.insert(name.value.clone(), value);
+        }
+    }
+
+    /// Free parameters are numbers as published, and follow from nothing.
+    fn free(&mut self, table: &Table) {
+        for name in &table.free {
+            let Some((_, cell)) = table.constants.iter().find(|(constant, _)| constant.value == name.value) else {
+                continue;
+            };
+            let Ok(expression) = parse(&cell.value) else { continue };
+            let alone = evaluate(&expression, &BTreeMap::new(), DIGITS);
+            if !alone.is_ok_and(|value| !value.rounded) {
+                let message = format!("`{}` is no free parameter: its value is `{}`", name.value, cell.value);
+                let help = "a free parameter is a plain number, exactly as published";
+                self.faults.push(self.source.fault(&name.at, message).help(help));
+            }
         }
     }
 

@@ -7,7 +7,7 @@
 //! | [`table`] | TOML text → cells with their places |
 //! | [`exact`] | cells → exact rationals |
 //! | [`scheme`] | weights a_s, b_s → the sequence of kicks and drifts |
-//! | [`order`], [`nystrom`] | kicks and drifts → order conditions, general and for quadratic T |
+//! | [`order`], [`nystrom`], [`near_integrable`] | kicks and drifts → order conditions, for every T(p), for quadratic T, for H = A + εB |
 //! | [`proof`] | claims against conditions → a proved scheme, or faults |
 //! | [`stage`] | proved scheme → the plan of a step: maps, shared constants, cost |
 //!
@@ -22,9 +22,11 @@
 mod arithmetic;
 pub mod exact;
 pub mod fault;
+pub mod near_integrable;
 pub mod nystrom;
 pub mod order;
 pub mod proof;
+mod reader;
 pub mod scheme;
 mod shipped;
 pub mod stage;

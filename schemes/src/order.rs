@@ -29,11 +29,22 @@ struct Prefix {
     parent: Option<usize>,
 }
 
+/// A sequence of kicks and drifts, in the order in which they act.
+pub(crate) type Word = Vec<MapKind>;
+
 /// The conditions of orders 1..=`order` for every T(p) and their values for a sequence of maps.
 pub(crate) fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
+    conditions_of_words(lyndon_words(order as usize), maps, arithmetic)
+}
+
+/// The conditions of some words, of low orders first, and their values for a sequence of maps.
+pub(crate) fn conditions_of_words<A: Arithmetic>(
+    words: Vec<Word>,
+    maps: &[Map],
+    arithmetic: &A,
+) -> Vec<(Condition, A::Value)> {
     let mut prefixes = Vec::new();
-    let words: Vec<_> =
-        lyndon_words(order as usize).into_iter().map(|word| (insert(&mut prefixes, &word), word)).collect();
+    let words: Vec<_> = words.into_iter().map(|word| (insert(&mut prefixes, &word), word)).collect();
     let coefficients = coefficients(maps, &prefixes, arithmetic);
     let mut conditions: Vec<_> =
         words.into_iter().map(|(index, word)| (condition(&word), coefficients[index].clone())).collect();
@@ -59,7 +70,7 @@ pub(crate) fn letter(kind: MapKind) -> char {
 }
 
 /// The Lyndon words over K < D of at most `longest` letters (Duval's algorithm), in lexicographic order.
-fn lyndon_words(longest: usize) -> Vec<Vec<MapKind>> {
+pub(crate) fn lyndon_words(longest: usize) -> Vec<Word> {
     let mut words = Vec::new();
     let mut word = vec![MapKind::Kick];
     loop {
@@ -91,10 +102,10 @@ fn insert(prefixes: &mut Vec<Prefix>, word: &[MapKind]) -> usize {
 
 /// The coefficients of the prefixes in the product of the exponentials of the maps.
 fn coefficients<A: Arithmetic>(maps: &[Map], prefixes: &[Prefix], arithmetic: &A) -> Vec<A::Value> {
-    let longest_run = prefixes.len();
+    let longest_run = longest_run(prefixes);
     let mut values = vec![arithmetic.zero(); prefixes.len()];
     for map in maps {
-        let powers = divided_powers(&arithmetic.weight(&map.weight), longest_run.min(10), arithmetic);
+        let powers = divided_powers(&arithmetic.weight(&map.weight), longest_run, arithmetic);
         // children before parents: what is still to be read is not yet changed
         for index in (0..prefixes.len()).rev().filter(|&i| prefixes[i].last == map.kind) {
             let mut value = values[index].clone();
@@ -111,6 +122,18 @@ fn coefficients<A: Arithmetic>(maps: &[Map], prefixes: &[Prefix], arithmetic: &A
         }
     }
     values
+}
+
+/// The most letters of one kind that stand together.
+fn longest_run(prefixes: &[Prefix]) -> usize {
+    let run = |mut index: usize| {
+        let mut length = 1;
+        while let Some(parent) = prefixes[index].parent.filter(|&p| prefixes[p].last == prefixes[index].last) {
+            (index, length) = (parent, length + 1);
+        }
+        length
+    };
+    (0..prefixes.len()).map(run).max().unwrap_or(0)
 }
 
 /// w, w²/2!, w³/3!, …

@@ -14,23 +14,24 @@ use shadowstep_symbolic::{Rational, compare};
 use crate::arithmetic::{Arithmetic, ExactArithmetic, FixedPoint, Sensitivity};
 use crate::exact::{self, Library, digits_of};
 use crate::fault::{Fault, Faults, Source};
+use crate::near_integrable::{self, Power};
 use crate::order::Condition;
 use crate::scheme::{First, Held, Map, Scheme};
 use crate::stage::Plan;
-use crate::table::{Kinetic, Table, Weights};
+use crate::table::{Kinetic, Placed, Table, Weights};
 use crate::{nystrom, order};
 
 /// The highest order that is proved.
 pub const HIGHEST_ORDER: u32 = 10;
 
-/// The order that was proved for one class of kinetic energies.
+/// The order that was proved for one class of kinetic energies, or for one power of ε.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Order {
     /// All conditions up to this order hold.
     pub order: u32,
     /// To how many digits they hold: `None` for exactly.
     pub digits: Option<u32>,
-    /// The first condition that fails, and the value found; `None` if none does up to [`HIGHEST_ORDER`].
+    /// The first condition that fails, and the value found; `None` if none does up to the highest order that is proved.
     pub failed: Option<(Condition, Rational)>,
     /// Whether that condition is met as far as the digits of the weights go, which is not far enough to tell.
     pub undecided: bool,
@@ -43,8 +44,20 @@ pub struct Proof {
     pub general: Order,
     /// For T = ½pᵀM⁻¹p.
     pub quadratic: Order,
+    /// For the terms of ε, ε², … of a near-integrable H = A + εB: as many as the table claims orders for, the last one
+    /// for all higher powers too.
+    pub near_integrable: Vec<Order>,
     /// The step is a palindrome, exactly.
     pub symmetric: bool,
+}
+
+/// Conditions that are judged together.
+#[derive(Clone, Copy)]
+enum Family {
+    /// Those of a class of kinetic energies.
+    Kinetic(Kinetic),
+    /// Those of a power of ε.
+    Power(Power),
 }
 
 /// A scheme, what was proved of it, and remarks on claims that say less than the truth.
@@ -105,18 +118,27 @@ pub fn read_first(source: &Source, library: Library<'_>, first: First) -> Result
 /// Proves the orders of a scheme, whatever its table claims.
 pub fn prove(scheme: &Scheme) -> Proof {
     let maps = scheme.maps();
-    let proved = |kinetic| {
-        let first_try = prove_up_to(&maps, scheme.held, kinetic, (scheme.table.order.value + 1).min(HIGHEST_ORDER));
+    let proved = |family, claimed: u32, highest: u32| {
+        let first_try = prove_up_to(&maps, scheme.held, family, (claimed + 1).min(highest));
         match first_try.failed {
             Some(_) => first_try,
-            None => prove_up_to(&maps, scheme.held, kinetic, HIGHEST_ORDER),
+            None => prove_up_to(&maps, scheme.held, family, highest),
         }
     };
-    Proof { general: proved(Kinetic::Any), quadratic: proved(Kinetic::Quadratic), symmetric: scheme.is_symmetric() }
+    let for_kinetic = |kinetic| proved(Family::Kinetic(kinetic), scheme.table.order.value, HIGHEST_ORDER);
+    let powers = scheme.table.near_integrable.iter().flat_map(|claim| claim.powers());
+    let for_power =
+        |(claim, power): (&Placed<u32>, _)| proved(Family::Power(power), claim.value, near_integrable::HIGHEST_ORDER);
+    Proof {
+        general: for_kinetic(Kinetic::Any),
+        quadratic: for_kinetic(Kinetic::Quadratic),
+        near_integrable: powers.map(for_power).collect(),
+        symmetric: scheme.is_symmetric(),
+    }
 }
 
-fn prove_up_to(maps: &[Map], held: Held, kinetic: Kinetic, highest: u32) -> Order {
-    let mut judged = judged_conditions(maps, held, kinetic, highest);
+fn prove_up_to(maps: &[Map], held: Held, family: Family, highest: u32) -> Order {
+    let mut judged = judged_conditions(maps, held, family, highest);
     let failed = judged.iter().position(|c| !c.holds());
     let order = failed.map_or(highest, |first| judged[first].condition.order - 1);
     let holding = judged.iter().filter(|c| c.condition.order <= order);
@@ -160,17 +182,17 @@ fn at_most(a: &Rational, b: &Rational) -> bool {
     compare(a, b) != Ordering::Greater
 }
 
-fn judged_conditions(maps: &[Map], held: Held, kinetic: Kinetic, highest: u32) -> Vec<Judged> {
+fn judged_conditions(maps: &[Map], held: Held, family: Family, highest: u32) -> Vec<Judged> {
     match held {
-        Held::Exactly => conditions(maps, kinetic, worth_exactness(maps, kinetic, highest), &ExactArithmetic)
+        Held::Exactly => conditions(maps, family, worth_exactness(maps, family, highest), &ExactArithmetic)
             .into_iter()
             .map(|(condition, found)| Judged { condition, found, error: Rational::zero(), tolerance: Rational::zero() })
             .collect(),
         Held::Digits(digits) => {
             let arithmetic = FixedPoint::new(digits);
             let unit = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(digits - 1));
-            let slopes = conditions(maps, kinetic, highest, &Sensitivity);
-            conditions(maps, kinetic, highest, &arithmetic)
+            let slopes = conditions(maps, family, highest, &Sensitivity);
+            conditions(maps, family, highest, &arithmetic)
                 .into_iter()
                 .zip(slopes)
                 .map(|((condition, value), (_, sensitive))| {
@@ -184,24 +206,20 @@ fn judged_conditions(maps: &[Map], held: Held, kinetic: Kinetic, highest: u32) -
 }
 
 /// The first order that certainly fails, or the highest: exact arithmetic beyond would be long and tell nothing.
-fn worth_exactness(maps: &[Map], kinetic: Kinetic, highest: u32) -> u32 {
+fn worth_exactness(maps: &[Map], family: Family, highest: u32) -> u32 {
     let arithmetic = FixedPoint::new(60);
     let fails = |(condition, value): &(Condition, _)| {
         let (found, error) = arithmetic.read(value);
         !at_most(&(found - &condition.needed).abs(), &error)
     };
-    conditions(maps, kinetic, highest, &arithmetic).iter().find(|c| fails(c)).map_or(highest, |(c, _)| c.order)
+    conditions(maps, family, highest, &arithmetic).iter().find(|c| fails(c)).map_or(highest, |(c, _)| c.order)
 }
 
-fn conditions<A: Arithmetic>(
-    maps: &[Map],
-    kinetic: Kinetic,
-    highest: u32,
-    arithmetic: &A,
-) -> Vec<(Condition, A::Value)> {
-    match kinetic {
-        Kinetic::Any => order::conditions(maps, highest, arithmetic),
-        Kinetic::Quadratic => nystrom::conditions(maps, highest, arithmetic),
+fn conditions<A: Arithmetic>(maps: &[Map], family: Family, highest: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
+    match family {
+        Family::Kinetic(Kinetic::Any) => order::conditions(maps, highest, arithmetic),
+        Family::Kinetic(Kinetic::Quadratic) => nystrom::conditions(maps, highest, arithmetic),
+        Family::Power(power) => near_integrable::conditions(maps, power, highest, arithmetic),
     }
 }
 
@@ -210,6 +228,7 @@ fn judge((scheme, mut faults): (Option<Scheme>, Vec<Fault>)) -> Result<Proved, F
     let proof = prove(&scheme);
     let mut remarks = Vec::new();
     judge_order(&scheme, &proof, &mut faults, &mut remarks);
+    judge_near_integrable(&scheme, &proof, &mut faults, &mut remarks);
     judge_symmetry(&scheme, &proof, &mut faults, &mut remarks);
     match Faults::of(faults) {
         Some(faults) => Err(faults),
@@ -234,11 +253,8 @@ fn judge_order(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks:
         return;
     }
     let Some((failed, found)) = &order.failed else { return };
-    if let (true, Some(digits)) = (order.undecided, &table.digits) {
-        let message =
-            format!("{} digits are too few to tell whether order {} holds {class}", digits.value, failed.order);
-        faults.push(table.source.fault(&digits.at, message).help("take the weights from a source with more digits"));
-        return;
+    if let Some(fault) = too_few_digits(table, order, failed, class) {
+        return faults.push(fault);
     }
     if order.order == 0 {
         return judge_sums(scheme, faults);
@@ -255,10 +271,43 @@ fn judge_order(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks:
     });
 }
 
+/// Where a condition is met, but the weights have too few digits to tell.
+fn too_few_digits(table: &Table, order: &Order, failed: &Condition, class: &str) -> Option<Fault> {
+    let digits = table.digits.as_ref().filter(|_| order.undecided)?;
+    let message = format!("{} digits are too few to tell whether order {} holds {class}", digits.value, failed.order);
+    Some(table.source.fault(&digits.at, message).help("take the weights from a source with more digits"))
+}
+
+fn judge_near_integrable(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks: &mut Vec<Fault>) {
+    let table = &scheme.table;
+    let Some(claim) = table.near_integrable.as_ref().filter(|_| proof.general.order > 0) else { return };
+    // a term may be claimed to no higher order than those of lower powers of ε
+    let mut least = u32::MAX;
+    for ((claimed, power), order) in claim.powers().zip(&proof.near_integrable) {
+        let class = format!("for the terms of {}", power.name());
+        least = least.min(order.order);
+        if least > claimed.value {
+            let message = format!("order {} is claimed, order {least} holds {class}", claimed.value);
+            remarks.push(table.source.fault(&claimed.at, message).help(format!("write {least}")));
+        }
+        let Some((failed, found)) = order.failed.as_ref().filter(|_| order.order < claimed.value) else { continue };
+        faults.push(too_few_digits(table, order, failed, &class).unwrap_or_else(|| {
+            let message = format!(
+                "order {} is claimed, order {} holds {class}: the condition of {} fails",
+                claimed.value, order.order, failed.name
+            );
+            let fault = table.source.fault(&claimed.at, message).values(short(found), short(&failed.needed));
+            with_rounding_help(fault, table, &(found - &failed.needed))
+        }));
+    }
+}
+
 /// The conditions of order 1, each at the weights that it is about.
 fn judge_sums(scheme: &Scheme, faults: &mut Vec<Fault>) {
     let table = &scheme.table;
-    for sum in judged_conditions(&scheme.maps(), scheme.held, Kinetic::Any, 1).iter().filter(|c| !c.is_met()) {
+    for sum in
+        judged_conditions(&scheme.maps(), scheme.held, Family::Kinetic(Kinetic::Any), 1).iter().filter(|c| !c.is_met())
+    {
         let kicks = sum.condition.name.ends_with('K');
         let (weights, at) = match &table.weights {
             Some(Weights::Stages { kick, .. }) if kicks => ("kicks", &kick.at),

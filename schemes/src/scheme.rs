@@ -101,6 +101,9 @@ impl Scheme {
         let mut maps = self.maps();
         maps.iter_mut().for_each(|map| map.kind = map.kind.other());
         (self.kick, self.drift) = stages_of(&maps);
+        if let Some(claim) = &mut self.table.near_integrable {
+            claim.dominant = claim.dominant.other();
+        }
         self
     }
 

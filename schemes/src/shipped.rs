@@ -1,6 +1,10 @@
 //! The tables that come with the library: every file of `tables/`.
 
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
 use crate::fault::Source;
+use crate::table;
 
 const SHIPPED: &[(&str, &str)] = &include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 
@@ -12,18 +16,69 @@ pub fn shipped_names() -> Vec<&'static str> {
     SHIPPED.iter().map(|(name, _)| *name).collect()
 }
 
-/// A shipped table by its name, with or without `.toml`.
+/// A shipped table by its name or one of its aliases, with or without `.toml`: `pefrl`, `PEFRL`, `BM4`, `SofSpa10`.
+///
+/// Small and capital letters, hyphens, blanks and the like make no difference.
 pub fn shipped(name: &str) -> Option<Source> {
     let name = name.strip_suffix(".toml").unwrap_or(name);
-    SHIPPED
-        .iter()
-        .find(|(known, _)| *known == name)
-        .map(|(known, text)| Source { path: format!("{FOLDER}{known}.toml"), text: (*text).to_owned() })
+    let exact = SHIPPED.iter().position(|(known, _)| *known == name);
+    exact.or_else(|| NAMES.get(&spelling(name)).copied()).map(source)
+}
+
+fn source(index: usize) -> Source {
+    let (name, text) = SHIPPED[index];
+    Source { path: format!("{FOLDER}{name}.toml"), text: text.to_owned() }
+}
+
+/// The spellings of all names and aliases, with the index of their tables.
+static NAMES: LazyLock<BTreeMap<String, usize>> = LazyLock::new(|| {
+    let mut names = BTreeMap::new();
+    for (index, (name, _)) in SHIPPED.iter().enumerate() {
+        let aliases = table::parse(&source(index)).0.map_or_else(Vec::new, |table| table.aliases);
+        names.extend(aliases.iter().map(|alias| (spelling(&alias.value), index)));
+        names.insert(spelling(name), index);
+    }
+    names
+});
+
+/// A name without what makes no difference: its letters and digits, in small letters.
+pub(crate) fn spelling(name: &str) -> String {
+    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
 impl Source {
     /// Whether it is a shipped table. Its base is a shipped table too, whatever files of that name there may be.
     pub fn is_shipped(&self) -> bool {
         self.path.starts_with(FOLDER)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_tables_share_a_name() {
+        let mut names: BTreeMap<String, &str> = BTreeMap::new();
+        for (index, (name, _)) in SHIPPED.iter().enumerate() {
+            let table = table::parse(&source(index)).0.expect("shipped tables are TOML");
+            assert_eq!(table.name.value, *name, "a table is named as its file");
+            let aliases = table.aliases.iter().map(|alias| alias.value.as_str());
+            for word in aliases.chain([*name]) {
+                let other = names.insert(spelling(word), name);
+                assert_eq!(other, None, "`{word}` is a name of {name} too");
+                assert_eq!(shipped(word).expect("it is found").path, format!("{FOLDER}{name}.toml"));
+            }
+        }
+    }
+
+    #[test]
+    fn names_are_found_however_they_are_spelt() {
+        for word in ["stormer-verlet", "stormer-verlet.toml", "StormerVerlet", "stormer_verlet", "STORMER VERLET.toml"]
+        {
+            assert_eq!(shipped(word).expect(word).path, "<shipped>/stormer-verlet.toml");
+        }
+        assert_eq!(shipped("stormer-verle"), None);
+        assert_eq!(shipped("-"), None);
     }
 }

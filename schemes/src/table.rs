@@ -4,11 +4,15 @@
 
 use std::ops::Range;
 
+use shadowstep_symbolic::nearest;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::fault::{Fault, Source};
-use shadowstep_symbolic::nearest;
+use crate::near_integrable::{self, NearIntegrable};
+use crate::reader::Reader;
+use crate::scheme::MapKind;
+use crate::shipped::spelling;
 
 /// A value and its byte range in the table's text.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,10 +44,14 @@ pub struct Table {
     pub name: Placed<String>,
     /// A line for people.
     pub title: Option<String>,
+    /// Other names of the scheme, as people write them.
+    pub aliases: Vec<Placed<String>>,
     /// The order claimed for the kinetic energy `kinetic`.
     pub order: Placed<u32>,
     /// The kinetic energies the scheme is meant for.
     pub kinetic: Kinetic,
+    /// The orders claimed for H = A + εB.
+    pub near_integrable: Option<NearIntegrable>,
     /// Whether the scheme is claimed to be a palindrome.
     pub symmetric: Option<Placed<bool>>,
     /// How many digits of the cells are right, where they were rounded.
@@ -54,6 +62,8 @@ pub struct Table {
     pub doi: Option<String>,
     /// Named constants in the order of the text.
     pub constants: Vec<(Placed<String>, Cell)>,
+    /// The constants that are free parameters of a family, exactly as published; all others follow from them.
+    pub free: Vec<Placed<String>>,
     /// The weights; `None` where they cannot be read.
     pub weights: Option<Weights>,
 }
@@ -77,16 +87,20 @@ pub enum Weights {
     },
 }
 
-const KEYS: [&str; 11] = [
+const KEYS: [&str; 15] = [
     "name",
     "title",
+    "aliases",
     "order",
     "kinetic",
+    "near_integrable",
+    "dominant",
     "symmetric",
     "digits",
     "reference",
     "doi",
     "constants",
+    "free",
     "composition",
     "stages",
 ];
@@ -124,17 +138,7 @@ pub fn toml_fault(source: &Source, error: &toml::de::Error) -> Fault {
     }
 }
 
-/// Collects faults while it reads.
-struct Reader<'a> {
-    source: &'a Source,
-    faults: Vec<Fault>,
-}
-
 impl Reader<'_> {
-    fn fault(&mut self, at: &Range<usize>, message: impl Into<String>, help: impl Into<String>) {
-        self.faults.push(self.source.fault(at, message).help(help));
-    }
-
     fn table(&mut self, document: &Spanned<DeTable<'_>>) -> Table {
         let root = document.get_ref();
         self.refuse_unknown(root, &KEYS, "a table");
@@ -147,37 +151,30 @@ impl Reader<'_> {
         let kinetic = kinetic.and_then(|v| self.kinetic(v));
         let reference = reference.and_then(|v| self.text(v));
         let title = root.get("title").and_then(|v| self.text(v)).map(|t| t.value);
+        let aliases = self.aliases(root, name.as_ref());
+        let near_integrable = self.near_integrable(root);
         let doi = root.get("doi").and_then(|v| self.text(v)).filter(|d| self.is_doi(d));
         let symmetric = root.get("symmetric").and_then(|v| self.truth(v));
         let digits =
             root.get("digits").and_then(|v| self.whole(v, 1..=300, "digits from 1 to 300 make sense in a table"));
         let constants = self.constants(root);
+        let free = self.free(root, &constants);
         let weights = self.weights(root);
         Table {
             source: self.source.clone(),
             name: name.unwrap_or(Placed { value: "unnamed".to_owned(), at: 0..0 }),
             title,
+            aliases,
             order: order.unwrap_or(Placed { value: 1, at: 0..0 }),
             kinetic: kinetic.unwrap_or(Kinetic::Quadratic),
+            near_integrable,
             symmetric,
             digits,
             reference: reference.map_or(String::new(), |r| r.value),
             doi: doi.map(|d| d.value),
             constants,
+            free,
             weights,
-        }
-    }
-
-    fn refuse_unknown(&mut self, table: &DeTable<'_>, known: &[&str], whose: &str) {
-        for key in table.keys() {
-            let word: &str = key.get_ref();
-            if !known.contains(&word) {
-                let help = match nearest(word, known.iter().copied()) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => format!("the keys of {whose} are {}", known.join(", ")),
-                };
-                self.fault(&key.span(), format!("unknown key `{word}`"), help);
-            }
         }
     }
 
@@ -190,38 +187,6 @@ impl Reader<'_> {
         value
     }
 
-    fn text(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Placed<String>> {
-        match value.get_ref() {
-            DeValue::String(text) if !text.trim().is_empty() => {
-                Some(Placed { value: text.trim().to_owned(), at: value.span() })
-            }
-            DeValue::String(_) => self.wrong(value, "this text is empty", "write something between the quotes"),
-            _ => self.wrong_kind(value, "a text in quotes"),
-        }
-    }
-
-    fn truth(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Placed<bool>> {
-        match value.get_ref() {
-            DeValue::Boolean(truth) => Some(Placed { value: *truth, at: value.span() }),
-            _ => self.wrong_kind(value, "true or false"),
-        }
-    }
-
-    fn whole(
-        &mut self,
-        value: &Spanned<DeValue<'_>>,
-        range: std::ops::RangeInclusive<u32>,
-        help: &str,
-    ) -> Option<Placed<u32>> {
-        let DeValue::Integer(number) = value.get_ref() else {
-            return self.wrong_kind(value, "a whole number");
-        };
-        match u32::from_str_radix(number.as_str(), number.radix()) {
-            Ok(n) if range.contains(&n) => Some(Placed { value: n, at: value.span() }),
-            _ => self.wrong(value, format!("{} is out of range", number.as_str()), help),
-        }
-    }
-
     fn kinetic(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Kinetic> {
         let word = self.text(value)?;
         match word.value.as_str() {
@@ -231,6 +196,56 @@ impl Reader<'_> {
                 value,
                 format!("`{other}` is no kind of kinetic energy"),
                 "write \"any\" for every T(p), \"quadratic\" for T = ½pᵀM⁻¹p only",
+            ),
+        }
+    }
+
+    fn aliases(&mut self, root: &DeTable<'_>, name: Option<&Placed<String>>) -> Vec<Placed<String>> {
+        let Some(value) = root.get("aliases") else { return Vec::new() };
+        let aliases = self.list(value, "a list of names, such as [\"PEFRL\"]", |reader, v| reader.text(v));
+        let mut known: Vec<_> = name.map(|name| spelling(&name.value)).into_iter().collect();
+        for alias in &aliases {
+            let spelt = spelling(&alias.value);
+            if spelt.is_empty() {
+                self.fault(&alias.at, format!("`{}` is no name", alias.value), "a name has letters or digits");
+            } else if known.contains(&spelt) {
+                let help = "small and capital letters, hyphens, blanks and the like make no difference: leave it out";
+                self.fault(&alias.at, format!("`{}` is a name of this table already", alias.value), help);
+            }
+            known.push(spelt);
+        }
+        aliases
+    }
+
+    fn near_integrable(&mut self, root: &DeTable<'_>) -> Option<NearIntegrable> {
+        let dominant = root.get("dominant").and_then(|v| self.dominant(v));
+        let Some(value) = root.get("near_integrable") else {
+            if let Some(value) = root.get("dominant") {
+                let help = "add `near_integrable = [8, 2]`, the orders claimed, or leave it out";
+                self.fault(&value.span(), "`dominant` says nothing without near-integrable orders", help);
+            }
+            return None;
+        };
+        let range = 1..=near_integrable::HIGHEST_ORDER;
+        let help = format!("orders from 1 to {} can be proved", range.end());
+        let orders =
+            self.list(value, "a list of orders, such as [8, 2]", |reader, v| reader.whole(v, range.clone(), &help));
+        for pair in orders.windows(2).filter(|pair| pair[0].value < pair[1].value) {
+            let message = format!("order {} for a higher power of ε than order {}", pair[1].value, pair[0].value);
+            self.fault(&pair[1].at, message, "the orders for ε, ε², … do not increase");
+        }
+        Some(NearIntegrable { orders, dominant: dominant.unwrap_or(MapKind::Drift) })
+    }
+
+    fn dominant(&mut self, value: &Spanned<DeValue<'_>>) -> Option<MapKind> {
+        let word = self.text(value)?;
+        match word.value.as_str() {
+            "drift" => Some(MapKind::Drift),
+            "kick" => Some(MapKind::Kick),
+            other => self.wrong(
+                value,
+                format!("`{other}` is neither kick nor drift"),
+                "write \"drift\" if the drifts move by the dominant part A of H = A + εB, \"kick\" if the kicks do",
             ),
         }
     }
@@ -274,6 +289,20 @@ impl Reader<'_> {
         }
         constants.sort_by_key(|(name, _)| name.at.start);
         constants
+    }
+
+    fn free(&mut self, root: &DeTable<'_>, constants: &[(Placed<String>, Cell)]) -> Vec<Placed<String>> {
+        let Some(value) = root.get("free") else { return Vec::new() };
+        let free = self.list(value, "a list of constants, such as [\"g1\"]", |reader, v| reader.text(v));
+        let names = || constants.iter().map(|(name, _)| name.value.as_str());
+        for name in free.iter().filter(|name| !names().any(|known| known == name.value)) {
+            let help = match nearest(&name.value, names()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "free parameters are names of [constants]".to_owned(),
+            };
+            self.fault(&name.at, format!("there is no constant `{}`", name.value), help);
+        }
+        free
     }
 
     fn weights(&mut self, root: &DeTable<'_>) -> Option<Weights> {
@@ -321,71 +350,6 @@ impl Reader<'_> {
         let base = self.member(table, value, "base").and_then(|v| self.text(v));
         let gamma = self.member(table, value, "gamma").and_then(|v| self.cells(v));
         Some(Weights::Composition { base: base?, gamma: gamma? })
-    }
-
-    fn member<'t, 'i>(
-        &mut self,
-        table: &'t DeTable<'i>,
-        whole: &Spanned<DeValue<'_>>,
-        key: &str,
-    ) -> Option<&'t Spanned<DeValue<'i>>> {
-        let value = table.get(key);
-        if value.is_none() {
-            self.fault(&whole.span(), format!("the key `{key}` is missing"), format!("add `{key} = […]`"));
-        }
-        value
-    }
-
-    fn cells(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Placed<Vec<Cell>>> {
-        let DeValue::Array(array) = value.get_ref() else {
-            return self.wrong_kind(value, "a list of weights, such as [\"1/2\", \"1/2\"]");
-        };
-        if array.is_empty() {
-            return self.wrong(value, "this list of weights is empty", "a scheme has at least one stage");
-        }
-        let cells = array.iter().map(|v| self.cell(v)).collect::<Vec<_>>();
-        Some(Placed { value: cells.into_iter().collect::<Option<_>>()?, at: value.span() })
-    }
-
-    fn cell(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Cell> {
-        match value.get_ref() {
-            // the place of the expression is inside the quotes
-            DeValue::String(text) => {
-                let span = value.span();
-                let quotes = (span.len().saturating_sub(text.len())) / 2;
-                Some(Placed { value: text.to_string(), at: span.start + quotes..span.end - quotes })
-            }
-            DeValue::Integer(n) if n.radix() == 10 => Some(Placed { value: n.as_str().to_owned(), at: value.span() }),
-            DeValue::Float(x) if x.as_str().contains("inf") || x.as_str().contains("nan") => {
-                self.wrong(value, format!("a weight cannot be {}", x.as_str()), "weights are finite exact numbers")
-            }
-            DeValue::Float(x) => Some(Placed { value: x.as_str().to_owned(), at: value.span() }),
-            _ => self.wrong_kind(value, "an exact number: 1, 0.25 or an expression in quotes, \"1/(2 - 2^(1/3))\""),
-        }
-    }
-
-    fn wrong<T>(
-        &mut self,
-        value: &Spanned<DeValue<'_>>,
-        message: impl Into<String>,
-        help: impl Into<String>,
-    ) -> Option<T> {
-        self.fault(&value.span(), message, help);
-        None
-    }
-
-    fn wrong_kind<T>(&mut self, value: &Spanned<DeValue<'_>>, needed: &str) -> Option<T> {
-        let found = match value.get_ref() {
-            DeValue::String(_) => "a text",
-            DeValue::Integer(_) => "a whole number",
-            DeValue::Float(_) => "a decimal number",
-            DeValue::Boolean(_) => "a truth value",
-            DeValue::Datetime(_) => "a date",
-            DeValue::Array(_) => "a list",
-            DeValue::Table(_) => "a table",
-        };
-        self.faults.push(self.source.fault(&value.span(), "this value is of the wrong kind").values(found, needed));
-        None
     }
 }
 

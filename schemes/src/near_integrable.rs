@@ -1,0 +1,72 @@
+//! Order conditions for near-integrable systems H = A + εB, where the flow of A takes much the larger part.
+//!
+//! A letter of a word that stands for B brings a factor ε. A scheme has order (p, q, r, …) if its local error is
+//! O(ε h^{p+1} + ε² h^{q+1} + ε³ h^{r+1} + …), the last order standing for all higher powers of ε too (McLachlan, BIT 35
+//! (1995) 258; Blanes et al., Appl. Numer. Math. 68 (2013) 58). That is the case if and only if the conditions of the
+//! Lyndon words with one B hold up to order p, of those with two up to q, and so on: the shuffle products by which the
+//! Lyndon words generate the others keep the number of B's, and their factors have fewer B's and fewer letters, for which
+//! no lower orders are claimed. A may be any Hamiltonian, not just a kinetic energy.
+
+use crate::arithmetic::Arithmetic;
+use crate::order::{Condition, conditions_of_words, lyndon_words};
+use crate::scheme::{Map, MapKind};
+use crate::table::Placed;
+
+/// The highest order that is proved for a power of ε: the words with few B's are few.
+pub const HIGHEST_ORDER: u32 = 12;
+
+/// The orders claimed for H = A + εB.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NearIntegrable {
+    /// For the terms of ε, ε², …, the last one for all higher powers too; they do not increase.
+    pub orders: Vec<Placed<u32>>,
+    /// The map that moves by A.
+    pub dominant: MapKind,
+}
+
+/// The words that belong to a power of ε.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Power {
+    /// The letter of B.
+    pub(crate) perturbation: MapKind,
+    /// How many B's a word has.
+    pub(crate) count: usize,
+    /// Whether words with more B's belong to it too.
+    pub(crate) or_more: bool,
+}
+
+impl Power {
+    /// Its name in messages.
+    pub(crate) fn name(self) -> String {
+        let power = if self.count == 1 { "ε".to_owned() } else { format!("ε^{}", self.count) };
+        if self.or_more { format!("{power} and higher powers") } else { power }
+    }
+}
+
+impl NearIntegrable {
+    /// The powers of ε, one for each order claimed.
+    pub(crate) fn powers(&self) -> impl Iterator<Item = (&Placed<u32>, Power)> {
+        let perturbation = self.dominant.other();
+        let last = self.orders.len();
+        (1..)
+            .zip(&self.orders)
+            .map(move |(count, order)| (order, Power { perturbation, count, or_more: count == last }))
+    }
+}
+
+/// The conditions of the words of a power of ε, up to an order, and their values for a sequence of maps.
+///
+/// The sum of the dominant maps, a word without any B, belongs to every power.
+pub(crate) fn conditions<A: Arithmetic>(
+    maps: &[Map],
+    power: Power,
+    order: u32,
+    arithmetic: &A,
+) -> Vec<(Condition, A::Value)> {
+    let mut words = lyndon_words(order as usize);
+    words.retain(|word| {
+        let count = word.iter().filter(|kind| **kind == power.perturbation).count();
+        count == 0 || count == power.count || power.or_more && count > power.count
+    });
+    conditions_of_words(words, maps, arithmetic)
+}
