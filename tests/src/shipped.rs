@@ -1,5 +1,8 @@
 //! Every shipped table, as the attribute compiles it and as it is read at run time.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::tables::{self, TableScheme};
 use shadowstep::{Moves, Rational, Scheme, Summary, splitting_scheme};
@@ -77,9 +80,14 @@ pub fn all_for_every_kinetic<N: Bits>(h: &Rational, context: &N::Context) -> Vec
     collect.found
 }
 
-/// A shipped table, read at run time.
+/// A shipped table, read at run time; proved once for all tests of a program.
 pub fn twin(name: &str, first: Option<First>) -> TableScheme {
-    let Some(first) = first else { return tables::shipped(name).expect("it is listed") };
+    static PROVED: Mutex<BTreeMap<(String, bool), TableScheme>> = Mutex::new(BTreeMap::new());
+    let mut proved = PROVED.lock().unwrap_or_else(PoisonError::into_inner);
+    proved.entry((name.to_owned(), first.is_some())).or_insert_with(|| read_twin(name, first)).clone()
+}
+
+fn read_twin(name: &str, first: Option<First>) -> TableScheme {
     let source = shadowstep_schemes::shipped(name).expect("it is listed");
-    tables::read(&source, &|base, _| shadowstep_schemes::shipped(base), Some(first)).expect("it was compiled")
+    tables::read(&source, &|base, _| shadowstep_schemes::shipped(base), first).expect("it was compiled")
 }
