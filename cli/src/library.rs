@@ -79,7 +79,10 @@ fn unknown(word: &str) -> Complaint {
     let names = shipped_names();
     let hint = match nearest(word, names.iter().copied()) {
         Some(near) => format!("did you mean `{near}`? `shadowstep schemes` lists all"),
-        None => format!("shipped are {}; the name of a table of yours ends in .toml", names.join(", ")),
+        None => format!(
+            "{}; `shadowstep schemes` lists all; the name of a table of yours ends in .toml",
+            shadowstep_schemes::shipped_hint(word)
+        ),
     };
     Complaint::usage(format!("there is no scheme `{word}`"), hint)
 }

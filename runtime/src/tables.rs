@@ -42,11 +42,9 @@ pub struct QuadraticOnly {
     pub better_order: u32,
 }
 
-/// A shipped scheme by its name, such as `yoshida4`; `None` if there is none.
+/// A shipped scheme by its name or an alias, such as `yoshida4`, `PEFRL`, `BM4`; `None` if there is none.
 pub fn shipped(name: &str) -> Option<TableScheme> {
-    let source = shadowstep_schemes::shipped(name)?;
-    let library = |base: &str, _: &Source| shadowstep_schemes::shipped(base);
-    Some(read(&source, &library, None).expect("shipped tables are proved by the tests"))
+    shadowstep_schemes::shipped_proved(name).cloned().map(TableScheme::of)
 }
 
 /// Reads and proves a table; `library` finds the base tables of compositions, `first` exchanges the roles of kick and
@@ -63,10 +61,14 @@ pub fn read(
         Some(first) => shadowstep_schemes::read_first(source, library, first)?,
         None => shadowstep_schemes::read(source, library)?,
     };
-    Ok(TableScheme { plan: proved.plan(), proved, class: PhantomData })
+    Ok(TableScheme::of(proved))
 }
 
 impl TableScheme {
+    fn of(proved: Proved) -> TableScheme {
+        TableScheme { plan: proved.plan(), proved, class: PhantomData }
+    }
+
     /// The scheme for systems with any T(p).
     ///
     /// ```

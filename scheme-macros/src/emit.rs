@@ -222,8 +222,11 @@ mod tests {
     use shadowstep_schemes::{read, shipped};
 
     #[test]
-    fn generated_code_of_every_shipped_table() {
-        insta::glob!("../../schemes/tables", "*.toml", |path| {
+    fn generated_code_of_every_kind_of_table() {
+        // kick first and drift first, compositions and stages, exact and rounded, palindromes and others
+        let kinds =
+            "{blanes-moan-srkn6b,mclachlan-atela5,pefrl,ruth3,saba2,stormer-verlet,suzuki4,symplectic-euler,yoshida4}";
+        insta::glob!("../../schemes/tables", &format!("{kinds}.toml"), |path| {
             let name = path.file_stem().unwrap().to_str().unwrap();
             let proved = read(&shipped(name).unwrap(), &|base, _| shipped(base)).unwrap();
             let ident = quote::format_ident!("{}", name.split('-').map(capitalised).collect::<String>());

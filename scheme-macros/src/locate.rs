@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use shadowstep_schemes::{Source, nearest, shipped, shipped_names};
+use shadowstep_schemes::{Source, nearest, shipped, shipped_hint, shipped_names};
 
 /// Finds tables and remembers which files were read.
 pub(crate) struct Locator {
@@ -72,7 +72,7 @@ impl Locator {
             match self.nearest_file(name).or_else(|| nearest(stem, names.iter().copied()).map(|n| format!("{n}.toml")))
             {
                 Some(near) => format!("did you mean \"{near}\"?"),
-                None => format!("shipped are {}", names.join(", ")),
+                None => shipped_hint(stem),
             };
         let mut message = format!("there is no table \"{name}\"; looked\n");
         for folder in &self.folders {

@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 
 use num_traits::{Signed, ToPrimitive, Zero};
 use shadowstep_symbolic::decimal::to_significant;
-use shadowstep_symbolic::{Exact, Rational, evaluate, nearest, nearest_few, parse};
+use shadowstep_symbolic::{Exact, Rational, evaluate, parse};
 
 use crate::fault::{Fault, Source};
 use crate::scheme::{Held, Scheme, merged, stages_of};
-use crate::shipped::shipped_names;
+use crate::shipped::shipped_hint;
 use crate::table::{self, Cell, Placed, Table, Weights};
 
 /// Digits to which an irrational constant is rounded.
@@ -96,12 +96,7 @@ fn base_scheme(
     let source = &table.source;
     let fault = |message: String, help: String| (None, vec![source.fault(&base.at, message).help(help)]);
     let Some(found) = library(&base.value, source) else {
-        let names = shipped_names();
-        let help = match nearest(&base.value, names.iter().copied()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("shipped are {}", nearest_few(&base.value, names.iter().copied(), 3).join(", ")),
-        };
-        return fault(format!("there is no table `{}`", base.value), help);
+        return fault(format!("there is no table `{}`", base.value), shipped_hint(&base.value));
     };
     let mut chain = above.to_vec();
     chain.push(source.path.clone());

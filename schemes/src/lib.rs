@@ -37,6 +37,6 @@ pub use proof::{Proof, Proved, prove, read, read_first};
 pub use scheme::{First, Map, MapKind, Scheme};
 pub use shadowstep_symbolic::decimal::{to_significant, to_text};
 pub use shadowstep_symbolic::{Rational, nearest};
-pub use shipped::{shipped, shipped_names};
+pub use shipped::{shipped, shipped_hint, shipped_names, shipped_proved};
 pub use stage::{Cost, Plan};
 pub use table::Kinetic;

@@ -1,9 +1,12 @@
 //! The tables that come with the library: every file of `tables/`.
 
 use std::collections::BTreeMap;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
+
+use shadowstep_symbolic::{nearest, nearest_few};
 
 use crate::fault::Source;
+use crate::proof::{Proved, read};
 use crate::table;
 
 const SHIPPED: &[(&str, &str)] = &include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
@@ -20,9 +23,34 @@ pub fn shipped_names() -> Vec<&'static str> {
 ///
 /// Small and capital letters, hyphens, blanks and the like make no difference.
 pub fn shipped(name: &str) -> Option<Source> {
+    index(name).map(source)
+}
+
+/// A shipped table with what was proved of it, by the names that [`shipped`] knows. Each is proved once.
+///
+/// # Panics
+/// If the table's claims do not hold, which the tests of this crate exclude.
+pub fn shipped_proved(name: &str) -> Option<&'static Proved> {
+    static PROVED: [OnceLock<Proved>; SHIPPED.len()] = [const { OnceLock::new() }; SHIPPED.len()];
+    let index = index(name)?;
+    Some(PROVED[index].get_or_init(|| {
+        read(&source(index), &|base, _| shipped(base)).unwrap_or_else(|faults| panic!("a shipped table:\n{faults}"))
+    }))
+}
+
+fn index(name: &str) -> Option<usize> {
     let name = name.strip_suffix(".toml").unwrap_or(name);
     let exact = SHIPPED.iter().position(|(known, _)| *known == name);
-    exact.or_else(|| NAMES.get(&spelling(name)).copied()).map(source)
+    exact.or_else(|| NAMES.get(&spelling(name)).copied())
+}
+
+/// What to say to someone who asked for a table that is not there.
+pub fn shipped_hint(name: &str) -> String {
+    let names = shipped_names();
+    match nearest(name, names.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("{} tables are shipped, such as {}", names.len(), nearest_few(name, names, 3).join(", ")),
+    }
 }
 
 fn source(index: usize) -> Source {

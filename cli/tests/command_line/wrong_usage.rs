@@ -13,7 +13,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("--set eccentricity", "--set eccentricity has no `=`", "--set x=1/2"),
     ("--set x=1 --set x=2", "`x` is set twice", "keep one"),
     ("--scheme stormer-velet", "there is no scheme `stormer-velet`", "did you mean `stormer-verlet`?"),
-    ("--scheme zzzzzzzzzzzz", "there is no scheme `zzzzzzzzzzzz`", "shipped are"),
+    ("--scheme zzzzzzzzzzzz", "there is no scheme `zzzzzzzzzzzz`", "tables are shipped, such as "),
     ("--scheme yoshida4.toml", "there is no file yoshida4.toml", "is `yoshida4`, without `.toml`"),
     ("--scheme nowhere/mine.toml", "there is no file nowhere/mine.toml", "give the path of a table"),
     ("--step 0.1x", "--step `0.1x`, character 1: `0.1x`: an operator is missing", "1/10"),
