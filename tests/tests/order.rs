@@ -7,6 +7,8 @@
 use std::array;
 
 use rug::Float;
+use shadowstep::number::Number;
+use shadowstep_schemes::{MapKind, Proved, shipped_names, shipped_proved};
 use shadowstep_tests::precision;
 use shadowstep_tests::reference::{Separable, State};
 use shadowstep_tests::shipped::{Shipped, all};
@@ -85,6 +87,64 @@ fn the_order_measured_is_the_order_proved() {
             println!("{problem:?} {}: {order:.4} at h = 2^-{k}, error 2^{:.1}", scheme.name, table[k][i].1);
             // c h / ln 2 with c of size 1 to 10, h ≤ 1/64
             assert!((order - f64::from(proved)).abs() < 0.1, "{}: {order} measured, {proved} proved", scheme.name);
+        }
+    }
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// Near-integrable systems: H = p²/2 + εU(q), U = −cos q, with the drift the dominant part
+
+/// Digits for ε³h⁵ with ε = 1e-40.
+const NEAR_DIGITS: u32 = 220;
+
+/// The error of one step of size 2^−k for ε = 1e-40 times `times`; it vanishes with ε.
+fn near_error(scheme: &Proved, k: u32, times: i32) -> State {
+    let bits = precision(NEAR_DIGITS).in_bits();
+    let epsilon = Float::with_val(bits, Float::parse("1e-40").expect("a number")) * times;
+    let h = Float::with_val(bits, 1) >> k;
+    let start = vec![Float::with_val(bits, 0.7), Float::with_val(bits, 1.1)];
+    let [mut q, mut p] = [start[0].clone(), start[1].clone()];
+    for map in scheme.scheme.maps() {
+        let weight = Float::from_rational(&map.weight, &precision(NEAR_DIGITS)) * &h;
+        match map.kind {
+            MapKind::Kick => p -= q.clone().sin() * weight * &epsilon,
+            MapKind::Drift => q += weight * &p,
+        }
+    }
+    let system = Separable { velocity: &|p| p.to_vec(), gradient: &|q| vec![q[0].clone().sin() * &epsilon] };
+    let exact = system.flow(&start, &h, COLUMNS);
+    vec![q - &exact[0], p - &exact[1]]
+}
+
+/// log₂ of the terms of ε, ε², ε³ of the error, by differences in ε: what is left of higher powers is 1e-40 of them.
+fn near_terms(scheme: &Proved, k: u32) -> [f64; 3] {
+    let differences: [&[(i32, i32)]; 3] = [&[(1, 1)], &[(1, 1), (1, -1)], &[(1, 2), (-2, 1), (2, -1), (-1, -2)]];
+    let zero = precision(NEAR_DIGITS);
+    differences.map(|difference| {
+        let mut sum = vec![Float::new(zero.in_bits()), Float::new(zero.in_bits())];
+        for &(factor, times) in difference {
+            for (sum, error) in sum.iter_mut().zip(near_error(scheme, k, times)) {
+                *sum += error * factor;
+            }
+        }
+        let largest = sum.iter().map(Number::log10_abs).fold(f64::NEG_INFINITY, f64::max);
+        largest / std::f64::consts::LOG10_2
+    })
+}
+
+#[test]
+fn the_near_integrable_orders_measured_are_those_proved() {
+    for name in shipped_names() {
+        let scheme = shipped_proved(name).expect("it is listed");
+        let Some(claim) = &scheme.scheme.table.near_integrable else { continue };
+        let [coarse, fine] = [6, 7].map(|k| near_terms(scheme, k));
+        for (i, (coarse, fine)) in coarse.iter().zip(fine).enumerate() {
+            let order = coarse - fine - 1.0;
+            let proved = f64::from(claim.orders.get(i).or(claim.orders.last()).expect("there are orders").value);
+            println!("{name} ε^{}: {order:.4}", i + 1);
+            // c h / ln 2 as above, h = 1/128; ε³ comes with h⁵ at least: the shortest of its words is KKKD
+            let off = if i < claim.orders.len() { (order - proved).abs() } else { proved - order };
+            assert!(off < 0.1, "{name}, ε^{}: {order} measured, {proved} proved", i + 1);
         }
     }
 }

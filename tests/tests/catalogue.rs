@@ -1,0 +1,170 @@
+//! Protects the catalogue: what the publications claim of each shipped scheme is what is proved, no less and no more.
+
+use std::time::{Duration, Instant};
+
+use shadowstep_schemes::{First, Proved, read, read_first, shipped, shipped_names};
+
+/// From the publications, except for the order for every T(p) of schemes for quadratic T, where they say nothing.
+/// Columns: name; order for every T(p) and for quadratic T; evaluations per step; palindrome; first map;
+/// near-integrable orders.
+const CATALOGUE: &str = "
+aba104                    4  4   7  yes  drift  10,4
+aba1064                   4  4   8  yes  drift  10,6,4
+aba864                    4  4   7  yes  drift  8,6,4
+abah1064                  4  4   9  yes  drift  10,6,4
+abah844                   4  4   6  yes  drift  8,4
+abah864                   4  4   8  yes  drift  8,6,4
+bce-rkn8-17               4  8  17  yes  drift  -
+blanes-moan-s10           6  6  10  yes  kick   -
+blanes-moan-s6            4  4   6  yes  kick   -
+blanes-moan-srkn11b       4  6  11  yes  kick   -
+blanes-moan-srkn14a       4  6  14  yes  drift  -
+blanes-moan-srkn6b        4  4   6  yes  kick   -
+calvo-sanzserna4          3  4   4  no   kick   -
+efrl                      4  4   4  yes  drift  -
+hairer10-33              10 10  33  yes  kick   -
+kahan-li6-gni             6  6   9  yes  kick   -
+kahan-li6                 6  6   9  yes  kick   -
+kahan-li8                 8  8  17  yes  kick   -
+mclachlan-aba84           4  4   5  yes  drift  8,4
+mclachlan-atela2          2  2   2  no   kick   -
+mclachlan-atela3          3  3   3  no   kick   -
+mclachlan-atela4          3  4   4  no   kick   -
+mclachlan-atela5          3  5   6  no   kick   -
+mclachlan-s2              2  2   2  yes  kick   -
+mclachlan-s4              4  4   4  yes  kick   -
+mclachlan-s5              4  4   5  yes  kick   -
+mclachlan-sb3a4           4  4   4  yes  drift  -
+mclachlan-sb3a5           4  4   5  yes  drift  -
+mclachlan-ss17            8  8  17  yes  kick   -
+mclachlan-ss5             4  4   5  yes  kick   -
+mclachlan-ss9             6  6   9  yes  kick   -
+morales8-17               8  8  17  yes  kick   -
+okunbor-skeel6-13         4  6   7  yes  drift  -
+omelyan-4mn5fp            4  4   5  yes  drift  -
+omelyan-4mn5fv            4  4   5  yes  kick   -
+pefrl                     4  4   4  yes  drift  -
+ruth3                     3  3   3  no   kick   -
+saba2                     2  2   2  yes  drift  4,2
+saba3                     2  2   3  yes  drift  6,2
+saba4                     2  2   4  yes  drift  8,2
+sbab2                     2  2   2  yes  kick   4,2
+sbab3                     2  2   3  yes  kick   6,2
+sbab4                     2  2   4  yes  kick   8,2
+sofroniou-spaletta10-33  10 10  33  yes  kick   -
+sofroniou-spaletta10-35  10 10  35  yes  kick   -
+sofroniou-spaletta6-11    6  6  11  yes  kick   -
+sofroniou-spaletta6-13    6  6  13  yes  kick   -
+sofroniou-spaletta8-21    8  8  21  yes  kick   -
+stormer-verlet            2  2   1  yes  kick   -
+suzuki-umeno8             8  8  15  yes  kick   -
+suzuki4                   4  4   5  yes  kick   -
+suzuki6                   6  6  25  yes  kick   -
+symplectic-euler          1  1   1  no   kick   -
+triplejump6               6  6   9  yes  kick   -
+triplejump8               8  8  27  yes  kick   -
+vefrl                     4  4   4  yes  kick   -
+yoshida4                  4  4   3  yes  kick   -
+yoshida6-a                6  6   7  yes  kick   -
+yoshida6-b                6  6   7  yes  kick   -
+yoshida6-c                6  6   7  yes  kick   -
+yoshida8-a                8  8  15  yes  kick   -
+yoshida8-b                8  8  15  yes  kick   -
+yoshida8-c                8  8  15  yes  kick   -
+yoshida8-d                8  8  15  yes  kick   -
+yoshida8-e                8  8  15  yes  kick   -
+";
+
+fn proved(name: &str) -> Proved {
+    read(&shipped(name).expect(name), &|base, _| shipped(base)).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// A line as in [`CATALOGUE`], from the proof.
+fn line(name: &str, scheme: &Proved) -> String {
+    let proof = &scheme.proof;
+    let near: Vec<_> = proof.near_integrable.iter().map(|order| order.order.to_string()).collect();
+    let cells = [
+        name.to_owned(),
+        proof.general.order.to_string(),
+        proof.quadratic.order.to_string(),
+        scheme.plan().evaluations.to_string(),
+        if proof.symmetric { "yes" } else { "no" }.to_owned(),
+        if scheme.scheme.first() == First::Kick { "kick" } else { "drift" }.to_owned(),
+        if near.is_empty() { "-".to_owned() } else { near.join(",") },
+    ];
+    cells.join(" ")
+}
+
+#[test]
+fn what_is_claimed_is_what_is_proved() {
+    let begin = Instant::now();
+    let mut slowest = (Duration::ZERO, "");
+    let mut lines = Vec::new();
+    for name in shipped_names() {
+        let begin = Instant::now();
+        let scheme = proved(name);
+        slowest = slowest.max((begin.elapsed(), name));
+        assert!(scheme.remarks.is_empty(), "a claim below the truth: {}", scheme.remarks[0]);
+        lines.push(line(name, &scheme));
+    }
+    println!("{} tables proved in {:.1?}, the slowest {slowest:.1?}", lines.len(), begin.elapsed());
+    let expected = CATALOGUE.trim().lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
+    // name by name, so that a failure shows the line
+    for (found, expected) in lines.iter().zip(expected.clone()) {
+        assert_eq!(*found, expected);
+    }
+    assert_eq!(lines.len(), expected.count(), "tables");
+}
+
+/// A scheme for every T(p) keeps all its orders; of those for quadratic T, the table's order is left only where it
+/// holds in general.
+#[test]
+fn exchanging_kick_and_drift() {
+    let mut refused = Vec::new();
+    for name in shipped_names() {
+        let scheme = proved(name);
+        let other = if scheme.scheme.first() == First::Kick { First::Drift } else { First::Kick };
+        match read_first(&shipped(name).unwrap(), &|base, _| shipped(base), other) {
+            Ok(exchanged) => {
+                assert_eq!(exchanged.proof.general.order, scheme.proof.general.order, "{name}");
+                let near = |scheme: &Proved| scheme.proof.near_integrable.iter().map(|o| o.order).collect::<Vec<_>>();
+                assert_eq!(near(&exchanged), near(&scheme), "{name}: the dominant part is exchanged too");
+            }
+            Err(faults) => refused.push((name, faults.to_string())),
+        }
+    }
+    let orders = refused.iter().map(|(name, fault)| {
+        let left = fault.split(" is claimed, order ").nth(1).and_then(|rest| rest.split(' ').next());
+        (*name, left.unwrap_or_else(|| panic!("{name}: {fault}")))
+    });
+    assert_eq!(
+        orders.collect::<Vec<_>>(),
+        [
+            ("bce-rkn8-17", "4"),
+            ("blanes-moan-srkn11b", "4"),
+            ("blanes-moan-srkn14a", "4"),
+            ("calvo-sanzserna4", "3"),
+            ("mclachlan-atela4", "3"),
+            ("mclachlan-atela5", "3"),
+            ("okunbor-skeel6-13", "4"),
+        ]
+    );
+}
+
+#[test]
+fn schemes_are_found_by_the_names_that_people_use() {
+    for (word, name) in [
+        ("PEFRL", "pefrl"),
+        ("BM4", "blanes-moan-s6"),
+        ("McAte2", "mclachlan-atela2"),
+        ("SofSpa10", "sofroniou-spaletta10-35"),
+        ("LF4_2", "saba2"),
+        ("Forest-Ruth", "yoshida4"),
+        ("yoshida6a", "yoshida6-a"),
+        ("velocity Verlet", "stormer-verlet"),
+        ("SABA(10,6,4)", "aba1064"),
+        ("KahanLi8", "kahan-li8"),
+    ] {
+        assert_eq!(shipped(word).map(|source| source.path), shipped(name).map(|source| source.path), "{word}");
+    }
+}
