@@ -24,6 +24,9 @@ use crate::{nystrom, order};
 /// The highest order that is proved.
 pub const HIGHEST_ORDER: u32 = 10;
 
+/// Digits that sums of products of good weights lose without a remark; the worst of the shipped tables loses 3.
+const MOST_DIGITS_LOST: u32 = 5;
+
 /// The order that was proved for one class of kinetic energies, or for one power of ε.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Order {
@@ -230,6 +233,7 @@ fn judge((scheme, mut faults): (Option<Scheme>, Vec<Fault>)) -> Result<Proved, F
     judge_order(&scheme, &proof, &mut faults, &mut remarks);
     judge_near_integrable(&scheme, &proof, &mut faults, &mut remarks);
     judge_symmetry(&scheme, &proof, &mut faults, &mut remarks);
+    judge_digits(&scheme, &proof, &mut remarks);
     match Faults::of(faults) {
         Some(faults) => Err(faults),
         None => Ok(Proved { scheme, proof, remarks }),
@@ -341,6 +345,18 @@ fn judge_symmetry(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remar
             remarks.push(table.source.fault(&claim.at, "the scheme is a palindrome").help("write `symmetric = true`"))
         }
         _ => {}
+    }
+}
+
+/// Conditions that hold to far fewer digits than the weights have, though as closely as their sensitivity allows.
+fn judge_digits(scheme: &Scheme, proof: &Proof, remarks: &mut Vec<Fault>) {
+    let table = &scheme.table;
+    let (Some(digits), Some(held)) = (&table.digits, proof.for_kinetic(table.kinetic).digits) else { return };
+    if held + MOST_DIGITS_LOST < digits.value {
+        let message = format!("{} digits are claimed, the order conditions hold to {held}", digits.value);
+        let help =
+            format!("some digits of the weights may be wrong: write `digits = {held}`, or look for a better source");
+        remarks.push(table.source.fault(&digits.at, message).help(help));
     }
 }
 
