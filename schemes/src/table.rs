@@ -231,7 +231,8 @@ impl Reader<'_> {
         let orders =
             self.list(value, "a list of orders, such as [8, 2]", |reader, v| reader.whole(v, range.clone(), &help));
         for pair in orders.windows(2).filter(|pair| pair[0].value < pair[1].value) {
-            let message = format!("order {} for a higher power of ε than order {}", pair[1].value, pair[0].value);
+            let message =
+                format!("order {} is claimed for a higher power of ε than order {}", pair[1].value, pair[0].value);
             self.fault(&pair[1].at, message, "the orders for ε, ε², … do not increase");
         }
         Some(NearIntegrable { orders, dominant: dominant.unwrap_or(MapKind::Drift) })

@@ -1,8 +1,9 @@
-//! What the tests of the whole system share: numbers from texts, distances, every shipped scheme as generated code, a solution to
-//! compare with.
+//! What the tests of the whole system share: numbers from texts, distances, every shipped scheme as generated code, a
+//! solution to compare with, what the compiler says of a table.
 
 pub mod general;
 pub mod reference;
+pub mod refusals;
 pub mod shipped;
 pub mod steps;
 pub mod systems;
