@@ -119,9 +119,9 @@ fn near_error(scheme: &Proved, k: u32, times: i32) -> State {
 /// log₂ of the terms of ε, ε², ε³ of the error, by differences in ε: what is left of higher powers is 1e-40 of them.
 fn near_terms(scheme: &Proved, k: u32) -> [f64; 3] {
     let differences: [&[(i32, i32)]; 3] = [&[(1, 1)], &[(1, 1), (1, -1)], &[(1, 2), (-2, 1), (2, -1), (-1, -2)]];
-    let zero = precision(NEAR_DIGITS);
+    let bits = precision(NEAR_DIGITS).in_bits();
     differences.map(|difference| {
-        let mut sum = vec![Float::new(zero.in_bits()), Float::new(zero.in_bits())];
+        let mut sum = [Float::new(bits), Float::new(bits)];
         for &(factor, times) in difference {
             for (sum, error) in sum.iter_mut().zip(near_error(scheme, k, times)) {
                 *sum += error * factor;
