@@ -4,7 +4,7 @@
 //!
 //! | file | from → to |
 //! | --- | --- |
-//! | [`table`] | TOML text → cells with their places |
+//! | [`table`], `reader` | TOML text → cells with their places |
 //! | [`exact`] | cells → exact rationals |
 //! | [`scheme`] | weights a_s, b_s → the sequence of kicks and drifts |
 //! | [`order`], [`nystrom`], [`near_integrable`] | kicks and drifts → order conditions, for every T(p), for quadratic T, for H = A + εB |
