@@ -10,6 +10,7 @@
 //! | [`order`], [`nystrom`], [`near_integrable`] | kicks and drifts → order conditions, for every T(p), for quadratic T, for H = A + εB |
 //! | [`proof`] | claims against conditions → a proved scheme, or faults |
 //! | [`stage`] | proved scheme → the plan of a step: maps, shared constants, cost |
+//! | [`analysis`] | proved scheme → leading errors, stability, phase |
 //!
 //! ```
 //! use shadowstep_schemes::{read, shipped};
@@ -19,6 +20,7 @@
 //! assert_eq!(proved.plan().evaluations, 3);
 //! ```
 
+pub mod analysis;
 mod arithmetic;
 pub mod exact;
 pub mod fault;
@@ -32,6 +34,7 @@ mod shipped;
 pub mod stage;
 pub mod table;
 
+pub use analysis::Analysis;
 pub use fault::{Fault, Faults, Source};
 pub use proof::{Proof, Proved, prove, read, read_first};
 pub use scheme::{First, Map, MapKind, Scheme};

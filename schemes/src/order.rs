@@ -6,6 +6,8 @@
 //! words generate the shuffle algebra: Radford 1979; for splitting schemes Murua & Sanz-Serna, Phil. Trans. R. Soc.
 //! A 357 (1999) 957). The coefficient of a word of n letters in the exact flow is 1/n!.
 
+use std::collections::HashMap;
+
 use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
@@ -67,6 +69,25 @@ pub(crate) fn letter(kind: MapKind) -> char {
         MapKind::Kick => 'K',
         MapKind::Drift => 'D',
     }
+}
+
+/// The coefficients of words and of all their prefixes in the product of the exponentials of the maps.
+pub(crate) fn prefix_coefficients<A: Arithmetic>(
+    maps: &[Map],
+    words: &[Word],
+    arithmetic: &A,
+) -> HashMap<Word, A::Value> {
+    let mut prefixes = Vec::new();
+    for word in words {
+        insert(&mut prefixes, word);
+    }
+    let values = coefficients(maps, &prefixes, arithmetic);
+    let mut written: Vec<Word> = Vec::new();
+    for prefix in &prefixes {
+        let before = prefix.parent.map_or(&[][..], |parent| &written[parent]);
+        written.push([before, &[prefix.last]].concat());
+    }
+    written.into_iter().zip(values).collect()
 }
 
 /// The Lyndon words over K < D of at most `longest` letters (Duval's algorithm), in lexicographic order.
