@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use shadowstep_schemes::proof::HIGHEST_ORDER;
 
 use crate::arithmetic::{DEFAULT_DIGITS, MOST_DIGITS};
 use crate::order::HIGHEST_M;
@@ -22,6 +23,10 @@ Example:
 const TRACE_EXAMPLE: &str = "\
 Example:
   shadowstep trace --problem pendulum --scheme yoshida4 --step 1/10 --until 20 --digits 40 --csv > pendulum.csv";
+
+const LIST_EXAMPLE: &str = "\
+Example:
+  shadowstep schemes --order 4 --for quadratic --sort effective-error";
 
 const CHECK_EXAMPLE: &str = "\
 Example:
@@ -67,11 +72,10 @@ pub(crate) enum Command {
         explain: bool,
     },
     /// Lists the schemes that come along; shows one; checks a table of yours.
-    #[command(args_conflicts_with_subcommands = true)]
+    #[command(args_conflicts_with_subcommands = true, after_help = LIST_EXAMPLE)]
     Schemes {
-        /// One JSON object a line
-        #[arg(long)]
-        json: bool,
+        #[command(flatten)]
+        list: ListArguments,
         #[command(subcommand)]
         command: Option<SchemesCommand>,
     },
@@ -83,6 +87,45 @@ pub(crate) enum Command {
         #[arg(long)]
         json: bool,
     },
+}
+
+/// Which schemes are listed, and in which order.
+#[derive(Debug, Args)]
+pub(crate) struct ListArguments {
+    /// Only schemes of this order, such as 6
+    #[arg(long, value_name = "ORDER", value_parser = clap::value_parser!(u32).range(1..=i64::from(HIGHEST_ORDER)))]
+    pub(crate) order: Option<u32>,
+    /// The kinetic energies for which --order and --sort take orders and effective errors
+    #[arg(long = "for", value_name = "KINETIC", default_value = "any")]
+    pub(crate) kinetic: KineticChoice,
+    /// What comes first
+    #[arg(long, value_name = "KEY", default_value = "order")]
+    pub(crate) sort: SortKey,
+    /// One JSON object a line
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum KineticChoice {
+    /// Every T(p)
+    Any,
+    /// T = ½pᵀM⁻¹p
+    Quadratic,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SortKey {
+    /// The smallest effective error
+    EffectiveError,
+    /// The largest stability limit
+    Stability,
+    /// The fewest force evaluations a step
+    Evaluations,
+    /// The alphabet
+    Name,
+    /// The lowest order, then the fewest force evaluations
+    Order,
 }
 
 #[derive(Debug, Subcommand)]

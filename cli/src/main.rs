@@ -49,10 +49,8 @@ fn obey(command: &Command) -> Result<Ending, Complaint> {
         Command::Scene { explain: true, .. } => scene::explain(),
         Command::Scene { name, explain: false } => scene::template(name.as_deref()),
         Command::Problems { name, json } => problems::problems(name.as_deref(), *json),
-        Command::Schemes { json, command: None } => schemes::list(*json),
-        Command::Schemes { json, command: Some(SchemesCommand::Show { name, json: too }) } => {
-            schemes::show(name, *json || *too)
-        }
+        Command::Schemes { list, command: None } => schemes::list(list),
+        Command::Schemes { command: Some(SchemesCommand::Show { name, json }), .. } => schemes::show(name, *json),
         Command::Schemes { command: Some(SchemesCommand::Check { files }), .. } => schemes::check(files),
     }
 }

@@ -1,5 +1,6 @@
 //! Schemes: the shipped ones, all about one, and the proof of a person's own.
 
+mod analysis;
 mod check;
 mod list;
 mod show;
@@ -9,6 +10,7 @@ pub(crate) use list::list;
 pub(crate) use show::show;
 
 use shadowstep_schemes::scheme::Held;
+use shadowstep_schemes::table::Table;
 
 /// How many digits of the weights are right; `None` for all.
 fn digits(held: Held) -> Option<u32> {
@@ -21,4 +23,14 @@ fn digits(held: Held) -> Option<u32> {
 /// As people read it.
 fn digits_text(digits: Option<u32>) -> String {
     digits.map_or_else(|| "exact".to_owned(), |digits| digits.to_string())
+}
+
+/// Other names under which the scheme is known: none that a table could tell.
+fn aliases(_table: &Table) -> Vec<String> {
+    Vec::new()
+}
+
+/// The orders for near-integrable problems: none that a table could claim.
+fn near_integrable(_table: &Table) -> Vec<u32> {
+    Vec::new()
 }

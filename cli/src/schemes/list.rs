@@ -4,61 +4,127 @@ use std::io::Write;
 
 use serde::Serialize;
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
+use shadowstep_schemes::{Analysis, Kinetic};
 
-use crate::complaint::{Complaint, Ending};
-use crate::figures::table;
+use crate::arguments::{KineticChoice, ListArguments, SortKey};
+use crate::complaint::{Complaint, Ending, remark};
+use crate::figures::{rounded, table};
 use crate::output::Output;
-use crate::schemes::{digits, digits_text};
+use crate::schemes::{aliases, digits, digits_text};
 
 #[derive(Serialize)]
 struct Record {
     name: &'static str,
+    aliases: Vec<String>,
     order: u32,
     order_quadratic: u32,
     stages: usize,
     evaluations: usize,
+    effective_error: f64,
+    effective_error_quadratic: f64,
+    stability_limit: String,
     symmetric: bool,
     digits: Option<u32>,
     title: Option<String>,
 }
 
-const COLUMNS: [&str; 7] = ["order", "quadratic T", "stages", "forces a step", "symmetric", "digits", "name"];
+const COLUMNS: [&str; 10] = [
+    "order",
+    "quadratic T",
+    "stages",
+    "forces a step",
+    "effective error",
+    "for quadratic T",
+    "stable to hω",
+    "symmetric",
+    "digits",
+    "name",
+];
 
-/// All shipped schemes, the lowest orders and the cheapest first.
-pub(crate) fn list(json: bool) -> Result<Ending, Complaint> {
-    let named = |name| shipped(name).map(|scheme| record(name, &scheme));
-    let mut records: Vec<Record> = shipped_names().into_iter().filter_map(named).collect();
-    records.sort_by_key(|record| (record.order, record.order_quadratic, record.evaluations));
+/// The shipped schemes that are asked for.
+pub(crate) fn list(arguments: &ListArguments) -> Result<Ending, Complaint> {
+    let of_order = |scheme: &TableScheme| arguments.order.is_none_or(|order| order == order_for(scheme, arguments));
+    let all: Vec<_> = shipped_names().into_iter().filter_map(|name| Some((name, shipped(name)?))).collect();
+    let chosen = all.iter().filter(|(_, scheme)| of_order(scheme));
+    let mut records: Vec<Record> = chosen.map(|(name, scheme)| record(name, scheme)).collect();
+    sort(&mut records, arguments);
+    if let (true, Some(order)) = (records.is_empty(), arguments.order) {
+        let mut orders: Vec<u32> = all.iter().map(|(_, scheme)| order_for(scheme, arguments)).collect();
+        orders.sort_unstable();
+        orders.dedup();
+        let orders = orders.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+        remark(format_args!("no shipped scheme has order {order}; there are the orders {orders}"));
+    }
     let mut output = Output::open(None, "")?;
-    if json {
+    if arguments.json {
         records.iter().try_for_each(|record| output.json(record))?;
     } else {
-        writeln!(output, "{}", table(COLUMNS, records.iter().map(row).collect(), 0..6))?;
+        writeln!(output, "{}", table(COLUMNS, records.iter().map(row).collect(), 0..9))?;
     }
     output.finish()?;
     Ok(Ending::Done)
 }
 
+fn order_for(scheme: &TableScheme, arguments: &ListArguments) -> u32 {
+    let kinetic = match arguments.kinetic {
+        KineticChoice::Any => Kinetic::Any,
+        KineticChoice::Quadratic => Kinetic::Quadratic,
+    };
+    scheme.proved().proof.for_kinetic(kinetic).order
+}
+
+/// By name, then order and cost, then what is asked for: each sort keeps the order of equals.
+fn sort(records: &mut [Record], arguments: &ListArguments) {
+    let quadratic = arguments.kinetic == KineticChoice::Quadratic;
+    if arguments.sort == SortKey::Name {
+        return;
+    }
+    records.sort_by_key(|record| {
+        let orders = (record.order, record.order_quadratic);
+        (if quadratic { (orders.1, orders.0) } else { orders }, record.evaluations)
+    });
+    match arguments.sort {
+        SortKey::EffectiveError => {
+            let error = |r: &Record| if quadratic { r.effective_error_quadratic } else { r.effective_error };
+            records.sort_by(|a, b| error(a).total_cmp(&error(b)));
+        }
+        SortKey::Stability => {
+            let limit = |record: &Record| record.stability_limit.parse::<f64>().unwrap_or(f64::NAN);
+            records.sort_by(|a, b| limit(b).total_cmp(&limit(a)));
+        }
+        SortKey::Evaluations => records.sort_by_key(|record| record.evaluations),
+        SortKey::Order | SortKey::Name => {}
+    }
+}
+
 fn record(name: &'static str, scheme: &TableScheme) -> Record {
     let proved = scheme.proved();
+    let analysis = Analysis::of(proved);
     Record {
         name,
+        aliases: aliases(&proved.scheme.table),
         order: proved.proof.general.order,
         order_quadratic: proved.proof.quadratic.order,
         stages: proved.scheme.kick.len(),
-        evaluations: scheme.plan().evaluations,
+        evaluations: analysis.evaluations,
+        effective_error: analysis.effective_error(Kinetic::Any),
+        effective_error_quadratic: analysis.effective_error(Kinetic::Quadratic),
+        stability_limit: analysis.stability.limit,
         symmetric: proved.proof.symmetric,
         digits: digits(proved.scheme.held),
         title: proved.scheme.table.title.clone(),
     }
 }
 
-fn row(record: &Record) -> [String; 7] {
+fn row(record: &Record) -> [String; 10] {
     [
         record.order.to_string(),
         record.order_quadratic.to_string(),
         record.stages.to_string(),
         record.evaluations.to_string(),
+        format!("{:.4}", record.effective_error),
+        format!("{:.4}", record.effective_error_quadratic),
+        rounded(&record.stability_limit, 6),
         if record.symmetric { "yes" } else { "no" }.to_owned(),
         digits_text(record.digits),
         record.name.to_owned(),

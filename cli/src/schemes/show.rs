@@ -3,16 +3,19 @@
 use std::io::Write;
 
 use serde::Serialize;
+use sha2::{Digest, Sha256};
 use shadowstep::Rational;
 use shadowstep::tables::TableScheme;
 use shadowstep_schemes::proof::Order;
-use shadowstep_schemes::{First, Kinetic, to_text};
+use shadowstep_schemes::scheme::Held;
+use shadowstep_schemes::{Analysis, First, Kinetic, to_significant, to_text};
 
 use crate::complaint::{Complaint, Ending};
 use crate::figures::{shortened, table};
 use crate::library;
 use crate::output::Output;
-use crate::schemes::{digits, digits_text};
+use crate::schemes::analysis::{Error, Gap, Phase, Sizes};
+use crate::schemes::{aliases, analysis, digits, digits_text, near_integrable};
 
 /// Digits of a weight that a person reads.
 const SHOWN: usize = 40;
@@ -20,6 +23,7 @@ const SHOWN: usize = 40;
 #[derive(Serialize)]
 struct Record {
     name: String,
+    aliases: Vec<String>,
     title: Option<String>,
     order: u32,
     order_digits: Option<u32>,
@@ -27,6 +31,7 @@ struct Record {
     order_quadratic: u32,
     order_quadratic_digits: Option<u32>,
     fails_quadratic: Option<Failed>,
+    near_integrable: Vec<u32>,
     digits: Option<u32>,
     evaluations: usize,
     products_per_dimension: usize,
@@ -35,11 +40,22 @@ struct Record {
     symmetric: bool,
     first: &'static str,
     kinetic: &'static str,
+    effective_error: f64,
+    effective_error_quadratic: f64,
+    leading_error: Error,
+    leading_error_quadratic: Error,
+    stability_limit: String,
+    unstable_gaps: Vec<Gap>,
+    phase_error: Phase,
+    trace: Vec<String>,
+    kick_sizes: Sizes,
+    drift_sizes: Sizes,
     kick: Vec<String>,
     drift: Vec<String>,
     maps: Vec<Map>,
     reference: String,
     doi: Option<String>,
+    table_hash: String,
     remarks: Vec<String>,
 }
 
@@ -60,17 +76,18 @@ struct Map {
 
 pub(crate) fn show(word: &str, json: bool) -> Result<Ending, Complaint> {
     let scheme = library::scheme(word)?.scheme;
+    let analysis = Analysis::of(scheme.proved());
     let mut output = Output::open(None, "")?;
     if json {
-        output.json(&record(&scheme))?;
+        output.json(&record(&scheme, &analysis))?;
     } else {
-        write!(output, "{}", readable(&scheme))?;
+        write!(output, "{}", readable(&scheme, &analysis))?;
     }
     output.finish()?;
     Ok(Ending::Done)
 }
 
-fn record(scheme: &TableScheme) -> Record {
+fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
     let proved = scheme.proved();
     let (proof, weights, table) = (&proved.proof, &proved.scheme, &proved.scheme.table);
     let texts = |weights: &[Rational]| weights.iter().map(to_text).collect();
@@ -78,6 +95,7 @@ fn record(scheme: &TableScheme) -> Record {
     let cost = scheme.plan().cost();
     Record {
         name: table.name.value.clone(),
+        aliases: aliases(table),
         title: table.title.clone(),
         order: proof.general.order,
         order_digits: proof.general.digits,
@@ -85,6 +103,7 @@ fn record(scheme: &TableScheme) -> Record {
         order_quadratic: proof.quadratic.order,
         order_quadratic_digits: proof.quadratic.digits,
         fails_quadratic: failed(&proof.quadratic, to_text),
+        near_integrable: near_integrable(table),
         digits: digits(weights.held),
         evaluations: scheme.plan().evaluations,
         products_per_dimension: cost.products_per_dimension,
@@ -93,13 +112,35 @@ fn record(scheme: &TableScheme) -> Record {
         symmetric: proof.symmetric,
         first: first(weights.first()),
         kinetic: kinetic(table.kinetic),
+        effective_error: analysis.effective_error(Kinetic::Any),
+        effective_error_quadratic: analysis.effective_error(Kinetic::Quadratic),
+        leading_error: Error::of(&analysis.general),
+        leading_error_quadratic: Error::of(&analysis.quadratic),
+        trace: trace(analysis, weights.held),
+        kick_sizes: Sizes::of(&analysis.kicks),
+        drift_sizes: Sizes::of(&analysis.drifts),
+        phase_error: Phase::of(analysis.phase),
+        unstable_gaps: analysis.stability.gaps.iter().map(Gap::of).collect(),
+        stability_limit: analysis.stability.limit.clone(),
         kick: texts(&weights.kick),
         drift: texts(&weights.drift),
         maps: maps.map(|map| Map { map: map.kind.to_string(), weight: to_text(&map.weight) }).collect(),
         reference: table.reference.clone(),
         doi: table.doi.clone(),
+        table_hash: Sha256::digest(&table.source.text).iter().map(|byte| format!("{byte:02x}")).collect(),
         remarks: proved.remarks.iter().map(ToString::to_string).collect(),
     }
+}
+
+/// The coefficients of the trace polynomial: exact where the weights are, which else are hundreds of digits long; 30
+/// digits of the others.
+fn trace(analysis: &Analysis, held: Held) -> Vec<String> {
+    let trace = &analysis.trace;
+    let text = |k| match held {
+        Held::Exactly => to_text(&trace.coefficient(k)),
+        Held::Digits(_) => to_significant(&trace.unreduced_coefficient(k), 30),
+    };
+    (0..=trace.degree()).map(text).collect()
 }
 
 fn failed(order: &Order, text: impl Fn(&Rational) -> String) -> Option<Failed> {
@@ -125,9 +166,10 @@ fn kinetic(kinetic: Kinetic) -> &'static str {
     }
 }
 
-fn readable(scheme: &TableScheme) -> String {
+fn readable(scheme: &TableScheme, analysis: &Analysis) -> String {
     let proved = scheme.proved();
-    let Record { name, title, evaluations, stages, symmetric, first, reference, doi, remarks, .. } = record(scheme);
+    let Record { name, title, evaluations, stages, symmetric, first, reference, doi, remarks, .. } =
+        record(scheme, analysis);
     let cost = scheme.plan().cost();
     let lines = [
         format!("{name}{}", title.map_or_else(String::new, |title| format!(": {title}"))),
@@ -142,6 +184,7 @@ fn readable(scheme: &TableScheme) -> String {
             cost.products_per_dimension, cost.products_for_beta
         ),
         format!("maps:            {}", maps_text(scheme)),
+        analysis::lines(analysis).join("\n"),
         format!("reference:       {reference}"),
         format!("doi:             {}", doi.as_deref().unwrap_or("none")),
     ];

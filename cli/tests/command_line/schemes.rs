@@ -45,6 +45,99 @@ fn all_shipped_tables_are_listed() {
     assert_eq!((&verlet["symmetric"], &verlet["digits"]), (&true.into(), &serde_json::Value::Null));
 }
 
+fn listed(flags: &str) -> Vec<serde_json::Value> {
+    objects(&quietly(&format!("schemes --json {flags}")))
+}
+
+#[test]
+fn the_list_is_sorted_by_what_is_asked_for() {
+    let number = |record: &serde_json::Value, field: &str| record[field].as_f64().unwrap();
+    let rises = |flags: &str, value: &dyn Fn(&serde_json::Value) -> f64| {
+        let values: Vec<f64> = listed(flags).iter().map(value).collect();
+        assert!(values.len() == shipped_names().len() && values.is_sorted(), "{flags}: {values:?}");
+    };
+    rises("", &|r| number(r, "order"));
+    rises("--for quadratic", &|r| number(r, "order_quadratic"));
+    rises("--sort order", &|r| number(r, "order"));
+    rises("--sort evaluations", &|r| number(r, "evaluations"));
+    rises("--sort effective-error", &|r| number(r, "effective_error"));
+    rises("--sort effective-error --for quadratic", &|r| number(r, "effective_error_quadratic"));
+    rises("--sort stability", &|r| -text(r, "stability_limit").parse::<f64>().unwrap());
+    let names: Vec<String> = listed("--sort name").iter().map(|r| text(r, "name").to_owned()).collect();
+    assert!(names.is_sorted(), "{names:?}");
+}
+
+#[test]
+fn the_list_is_filtered_by_order_and_kinetic_energy() {
+    for (flags, field) in [("--order 4", "order"), ("--order 4 --for quadratic", "order_quadratic")] {
+        let all = listed("").into_iter().filter(|record| record[field] == 4).count();
+        let records = listed(flags);
+        assert!(records.len() == all && records.iter().all(|record| record[field] == 4), "{flags}");
+    }
+    let table = quietly("schemes --order 4 --sort name");
+    assert!(table.contains(" yoshida4") && !table.contains("stormer-verlet"), "{table}");
+}
+
+#[test]
+fn wrong_words_for_the_list_are_told() {
+    for (flags, sentence) in [
+        ("--order 11", "11 is not in 1..=10"),
+        ("--order four", "invalid value 'four' for '--order <ORDER>'"),
+        ("--sort speed", "[possible values: effective-error, stability, evaluations, name, order]"),
+        ("--for cubic", "[possible values: any, quadratic]"),
+        ("--order 4 show ruth3", "the subcommand 'show' cannot be used with '--order <ORDER>'"),
+    ] {
+        let said = shadowstep(&format!("schemes {flags}"));
+        assert_eq!((said.code, said.out.as_str()), (2, ""), "{flags}");
+        assert!(said.err.contains(sentence), "{flags}: {}", said.err);
+    }
+    let said = shadowstep("schemes --order 9 --json");
+    assert_eq!((said.code, said.out.as_str()), (0, ""));
+    assert!(said.err.starts_with("remark: no shipped scheme has order 9; there are the orders 1, 2"), "{}", said.err);
+}
+
+#[test]
+fn show_analyses_a_scheme() {
+    let verlet = &objects(&quietly("schemes show stormer-verlet --json"))[0];
+    let terms = serde_json::json!([
+        {"bracket": "[K,[K,D]]", "coefficient": -1.0 / 24.0},
+        {"bracket": "[D,[D,K]]", "coefficient": 1.0 / 12.0},
+    ]);
+    assert_eq!((&verlet["leading_error"]["power"], &verlet["leading_error"]["terms"]), (&3.into(), &terms));
+    assert_eq!(verlet["effective_error"], 0.3052367917903922);
+    assert_eq!((text(verlet, "stability_limit"), &verlet["unstable_gaps"]), ("2", &serde_json::json!([])));
+    assert_eq!(verlet["phase_error"], serde_json::json!({"coefficient": 1.0 / 24.0, "power": 2}));
+    assert_eq!(verlet["trace"], serde_json::json!(["2", "-1"]));
+    let kicks = serde_json::json!({"sum_of_sizes": "1", "smallest": "1/2", "largest": "1/2"});
+    assert_eq!(verlet["kick_sizes"], kicks);
+
+    let yoshida = &objects(&quietly("schemes show yoshida4 --json"))[0];
+    let gap = &yoshida["unstable_gaps"][0];
+    assert_eq!(gap["from"], yoshida["stability_limit"]);
+    assert!(text(yoshida, "stability_limit").starts_with("1.5734") && gap["to"].is_null(), "{gap}");
+    assert_eq!(text(yoshida, "stability_limit").len(), 31, "30 digits and a point");
+
+    let readable = quietly("schemes show ruth3");
+    for part in [
+        "effective error: 0.7366 for every T(p), 0.7339 for quadratic T",
+        "2.1701e-3 [K,[K,[K,D]]], 1.3889e-2 [K,[D,[K,D]]], -4.6296e-3 [D,[D,[D,K]]]",
+        "stable up to hω = 2.5074811709523554",
+        "phase error:     6.3657e-4 (hω)^4",
+        "from -1/24 to 3/4, sizes sum to 13/12",
+    ] {
+        assert!(readable.contains(part), "{part} is missing in\n{readable}");
+    }
+}
+
+#[test]
+fn the_hash_is_that_of_the_table_as_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = write(folder.path(), "mine.toml", GOOD);
+    let record = &objects(&quietly(&format!("schemes show {path} --json")))[0];
+    // sha256sum of the text of GOOD
+    assert_eq!(text(record, "table_hash"), "fb848e90951b9f630ec36b7a58ef7253c6edd423278397e74987e1b3cf71864a");
+}
+
 #[test]
 fn exact_weights_sum_to_one() {
     for name in shipped_names() {

@@ -94,8 +94,8 @@ fn root_text(x: &Rational) -> String {
     to_significant(&Rational::new(root, scale), DIGITS)
 }
 
-/// All x in 0 < x ≤ 2·`last` at which the trace passes ±2, in their order. Limits of schemes whose weights sum to
-/// 1 by rounding only may lie a little beyond `last`.
+/// All x in 0 < x ≤ 1.01·`last` at which the trace passes ±2, in their order. A scheme whose weights sum to 1 up to
+/// their digits only, which is to a thousandth at least, may have its limit a little beyond `last`.
 fn crossings(trace: &Trace, last: u64) -> Vec<Crossing> {
     // tr − 2 without its root at 0, and tr + 2
     let mut above = trace.integers.clone();
@@ -104,7 +104,9 @@ fn crossings(trace: &Trace, last: u64) -> Vec<Crossing> {
         [SignChanges::of(&trace.integers[1..], &trace.denominator), SignChanges::of(&above, &trace.denominator)];
     // another range bisects at other places, in case one of them is a root
     (1..)
-        .find_map(|attempt| crossings_within(&functions, 2 * last + attempt, 512 << (attempt - 1).min(20)).ok())
+        .find_map(|attempt| {
+            crossings_within(&functions, last + last / 100 + attempt, 512 << (attempt - 1).min(20)).ok()
+        })
         .expect("simple roots are told apart in the end")
 }
 
