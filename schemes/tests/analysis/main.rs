@@ -4,11 +4,23 @@ mod nonlinear;
 mod oscillator;
 mod published;
 
-use shadowstep_schemes::{Analysis, Proved, Source, read, shipped};
+use std::sync::LazyLock;
+
+use shadowstep_schemes::{Analysis, Proved, Source, read, shipped, shipped_names};
+
+/// All shipped schemes, each proved and analysed once for all tests.
+static SHIPPED: LazyLock<Vec<(&str, Proved, Analysis)>> = LazyLock::new(|| {
+    let analysed = |name| {
+        let proved = read(&shipped(name).unwrap(), &|name, _| shipped(name)).unwrap();
+        let analysis = Analysis::of(&proved);
+        (name, proved, analysis)
+    };
+    shipped_names().into_iter().map(analysed).collect()
+});
 
 /// A shipped scheme.
-fn scheme(name: &str) -> Proved {
-    read(&shipped(name).unwrap(), &|name, _| shipped(name)).unwrap()
+fn scheme(name: &str) -> &'static Proved {
+    &SHIPPED.iter().find(|(known, ..)| *known == name).unwrap().1
 }
 
 /// The scheme with these weights, written as in a table; `claims` are its lines before the stages.
@@ -19,6 +31,6 @@ fn with_weights(claims: &str, kick: &str, drift: &str) -> Proved {
         .unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-fn analysis(name: &str) -> Analysis {
-    Analysis::of(&scheme(name))
+fn analysis(name: &str) -> &'static Analysis {
+    &SHIPPED.iter().find(|(known, ..)| *known == name).unwrap().2
 }

@@ -139,16 +139,16 @@ fn nystrom() -> Proved {
 #[test]
 fn one_step_of_a_general_problem_is_off_by_the_leading_error() {
     let problem = Problem::new(Kinetic::Any);
-    for proved in [scheme("symplectic-euler"), scheme("stormer-verlet"), scheme("ruth3"), scheme("yoshida4"), nystrom()]
-    {
-        problem.assert_error(&proved, &Analysis::of(&proved).general);
+    let shipped = ["symplectic-euler", "stormer-verlet", "ruth3", "yoshida4"].map(scheme);
+    for proved in shipped.into_iter().chain([&nystrom()]) {
+        problem.assert_error(proved, &Analysis::of(proved).general);
     }
 }
 
 #[test]
 fn one_step_with_quadratic_kinetic_energy_is_off_by_what_does_not_vanish() {
     let problem = Problem::new(Kinetic::Quadratic);
-    for proved in [scheme("stormer-verlet"), scheme("ruth3"), scheme("suzuki4"), nystrom()] {
-        problem.assert_error(&proved, &Analysis::of(&proved).quadratic);
+    for proved in ["stormer-verlet", "ruth3", "suzuki4"].map(scheme).into_iter().chain([&nystrom()]) {
+        problem.assert_error(proved, &Analysis::of(proved).quadratic);
     }
 }
