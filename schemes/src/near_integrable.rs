@@ -8,7 +8,7 @@
 //! no lower orders are claimed. A may be any Hamiltonian, not just a kinetic energy.
 
 use crate::arithmetic::Arithmetic;
-use crate::order::{Condition, conditions_of_words, lyndon_words};
+use crate::order::{Condition, lyndon_words, weighed, word_conditions};
 use crate::scheme::{Map, MapKind};
 use crate::table::Placed;
 
@@ -68,5 +68,5 @@ pub(crate) fn conditions<A: Arithmetic>(
         let count = word.iter().filter(|kind| **kind == power.perturbation).count();
         count == 0 || count == power.count || power.or_more && count > power.count
     });
-    conditions_of_words(words, maps, arithmetic)
+    word_conditions(&words, &weighed(maps, arithmetic), arithmetic)
 }

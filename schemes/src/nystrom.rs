@@ -13,7 +13,7 @@
 use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
-use crate::order::Condition;
+use crate::order::{Condition, weighed};
 use crate::scheme::{Map, MapKind};
 
 /// A tree whose root is a kick: its children are drifts, each given by the kick below it.
@@ -27,20 +27,28 @@ struct KickTree {
 
 /// The conditions of orders 1..=`order` for quadratic T and their values for a sequence of maps.
 pub(crate) fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
+    tree_conditions(&weighed(maps, arithmetic), order, arithmetic)
+}
+
+/// The same for maps whose weights are values already.
+pub(crate) fn tree_conditions<A: Arithmetic>(
+    maps: &[(MapKind, A::Value)],
+    order: u32,
+    arithmetic: &A,
+) -> Vec<(Condition, A::Value)> {
     let trees = kick_trees(order);
-    let weights: Vec<_> = maps.iter().map(|map| arithmetic.weight(&map.weight)).collect();
     let bare = vec![arithmetic.one(); maps.len()];
-    let (bare_before, bare_value) = drift_sums(&bare, maps, &weights, arithmetic);
+    let (bare_before, bare_value) = sums(MapKind::Drift, &bare, maps, arithmetic);
     let mut conditions = vec![(condition("D", 1, 1), bare_value)];
 
     let mut before: Vec<Vec<A::Value>> = Vec::new();
     for (i, tree) in trees.iter().enumerate() {
         let at_kicks = product_of_children(tree, &bare_before, &before, maps, arithmetic);
-        let (kicked_before, value) = sums(MapKind::Kick, &at_kicks, maps, &weights, arithmetic);
+        let (kicked_before, value) = sums(MapKind::Kick, &at_kicks, maps, arithmetic);
         let name = name(&trees, i);
         conditions.push((condition(&name, tree.size, tree.density), value));
         if tree.size < order {
-            let (drifted_before, value) = drift_sums(&kicked_before, maps, &weights, arithmetic);
+            let (drifted_before, value) = sums(MapKind::Drift, &kicked_before, maps, arithmetic);
             let size = tree.size + 1;
             conditions.push((condition(&format!("D[{name}]"), size, tree.density * u64::from(size)), value));
             before.push(drifted_before);
@@ -54,29 +62,21 @@ fn condition(name: &str, size: u32, density: u64) -> Condition {
     Condition { order: size, name: format!("the tree {name}"), needed: Rational::new(1.into(), density.into()) }
 }
 
-fn drift_sums<A: Arithmetic>(
-    at_drifts: &[A::Value],
-    maps: &[Map],
-    weights: &[A::Value],
-    arithmetic: &A,
-) -> (Vec<A::Value>, A::Value) {
-    sums(MapKind::Drift, at_drifts, maps, weights, arithmetic)
-}
-
 /// Σ w_r·v_r over the maps r of one kind before each map, and over all of them.
 fn sums<A: Arithmetic>(
     kind: MapKind,
     values: &[A::Value],
-    maps: &[Map],
-    weights: &[A::Value],
+    maps: &[(MapKind, A::Value)],
     arithmetic: &A,
 ) -> (Vec<A::Value>, A::Value) {
     let mut sum = arithmetic.zero();
-    let before = (0..maps.len())
-        .map(|r| {
+    let before = maps
+        .iter()
+        .zip(values)
+        .map(|((map, weight), value)| {
             let before = sum.clone();
-            if maps[r].kind == kind {
-                arithmetic.add_product(&mut sum, &weights[r], &values[r]);
+            if *map == kind {
+                arithmetic.add_product(&mut sum, weight, value);
             }
             before
         })
@@ -88,13 +88,13 @@ fn product_of_children<A: Arithmetic>(
     tree: &KickTree,
     bare: &[A::Value],
     before: &[Vec<A::Value>],
-    maps: &[Map],
+    maps: &[(MapKind, A::Value)],
     arithmetic: &A,
 ) -> Vec<A::Value> {
     let mut product = vec![arithmetic.one(); maps.len()];
     for child in &tree.children {
         let factor = child.map_or(bare, |kick| &before[kick]);
-        for r in (0..maps.len()).filter(|&r| maps[r].kind == MapKind::Kick) {
+        for r in (0..maps.len()).filter(|&r| maps[r].0 == MapKind::Kick) {
             product[r] = arithmetic.product(&product[r], &factor[r]);
         }
     }

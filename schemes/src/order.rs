@@ -36,20 +36,20 @@ pub(crate) type Word = Vec<MapKind>;
 
 /// The conditions of orders 1..=`order` for every T(p) and their values for a sequence of maps.
 pub(crate) fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
-    conditions_of_words(lyndon_words(order as usize), maps, arithmetic)
+    word_conditions(&lyndon_words(order as usize), &weighed(maps, arithmetic), arithmetic)
 }
 
-/// The conditions of some words, of low orders first, and their values for a sequence of maps.
-pub(crate) fn conditions_of_words<A: Arithmetic>(
-    words: Vec<Word>,
-    maps: &[Map],
+/// The conditions of some words, of low orders first, and their values for maps whose weights are values already.
+pub(crate) fn word_conditions<A: Arithmetic>(
+    words: &[Word],
+    maps: &[(MapKind, A::Value)],
     arithmetic: &A,
 ) -> Vec<(Condition, A::Value)> {
     let mut prefixes = Vec::new();
-    let words: Vec<_> = words.into_iter().map(|word| (insert(&mut prefixes, &word), word)).collect();
+    let ends: Vec<_> = words.iter().map(|word| insert(&mut prefixes, word)).collect();
     let coefficients = coefficients(maps, &prefixes, arithmetic);
     let mut conditions: Vec<_> =
-        words.into_iter().map(|(index, word)| (condition(&word), coefficients[index].clone())).collect();
+        words.iter().zip(ends).map(|(word, end)| (condition(word), coefficients[end].clone())).collect();
     conditions.sort_by_key(|(condition, _)| condition.order);
     conditions
 }
@@ -81,7 +81,7 @@ pub(crate) fn prefix_coefficients<A: Arithmetic>(
     for word in words {
         insert(&mut prefixes, word);
     }
-    let values = coefficients(maps, &prefixes, arithmetic);
+    let values = coefficients(&weighed(maps, arithmetic), &prefixes, arithmetic);
     let mut written: Vec<Word> = Vec::new();
     for prefix in &prefixes {
         let before = prefix.parent.map_or(&[][..], |parent| &written[parent]);
@@ -121,18 +121,23 @@ fn insert(prefixes: &mut Vec<Prefix>, word: &[MapKind]) -> usize {
     parent.expect("a word has letters")
 }
 
+/// The maps with their weights as values.
+pub(crate) fn weighed<A: Arithmetic>(maps: &[Map], arithmetic: &A) -> Vec<(MapKind, A::Value)> {
+    maps.iter().map(|map| (map.kind, arithmetic.weight(&map.weight))).collect()
+}
+
 /// The coefficients of the prefixes in the product of the exponentials of the maps.
-fn coefficients<A: Arithmetic>(maps: &[Map], prefixes: &[Prefix], arithmetic: &A) -> Vec<A::Value> {
+fn coefficients<A: Arithmetic>(maps: &[(MapKind, A::Value)], prefixes: &[Prefix], arithmetic: &A) -> Vec<A::Value> {
     let longest_run = longest_run(prefixes);
     let mut values = vec![arithmetic.zero(); prefixes.len()];
-    for map in maps {
-        let powers = divided_powers(&arithmetic.weight(&map.weight), longest_run, arithmetic);
+    for (kind, weight) in maps {
+        let powers = divided_powers(weight, longest_run, arithmetic);
         // children before parents: what is still to be read is not yet changed
-        for index in (0..prefixes.len()).rev().filter(|&i| prefixes[i].last == map.kind) {
+        for index in (0..prefixes.len()).rev().filter(|&i| prefixes[i].last == *kind) {
             let mut value = values[index].clone();
             let mut ancestor = Some(index);
             for power in &powers {
-                let Some(i) = ancestor.filter(|&i| prefixes[i].last == map.kind) else { break };
+                let Some(i) = ancestor.filter(|&i| prefixes[i].last == *kind) else { break };
                 ancestor = prefixes[i].parent;
                 match ancestor {
                     Some(i) => arithmetic.add_product(&mut value, power, &values[i]),
