@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use shadowstep_schemes::polish::MOST_DIGITS as MOST_TABLE_DIGITS;
 use shadowstep_schemes::proof::HIGHEST_ORDER;
 
 use crate::arithmetic::{DEFAULT_DIGITS, MOST_DIGITS};
@@ -11,7 +12,7 @@ use crate::order::HIGHEST_M;
 const EXIT_CODES: &str = "\
 Exit codes:
   0  done
-  1  the answer is no: a checked table has faults
+  1  the answer is no: a checked table has faults, a table cannot be polished
   2  wrong usage: an unknown flag, name or file, a number out of range, a fault in a scene
   3  a run failed: a state or an energy was not finite, the output could not be written, or it was interrupted";
 
@@ -31,6 +32,13 @@ Example:
 const CHECK_EXAMPLE: &str = "\
 Example:
   shadowstep schemes check mine.toml";
+
+const POLISH_EXAMPLE: &str = "\
+Example:
+  shadowstep schemes polish printed.toml --digits 300 --output polished.toml
+
+Decimals that stand alone move, as constants or in the lists of weights; fractions and formulas stay as they are. If the
+conditions leave some decimals free, these stay as printed, and the report on stderr names them.";
 
 const RUN_EXAMPLE: &str = "\
 Example:
@@ -146,6 +154,28 @@ pub(crate) enum SchemesCommand {
         #[arg(required = true, value_name = "FILE")]
         files: Vec<String>,
     },
+    /// Solves a table's order conditions from its printed decimals, to many digits; exit code 1 if that cannot be.
+    #[command(after_help = POLISH_EXAMPLE)]
+    Polish(PolishArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PolishArguments {
+    /// The table
+    #[arg(value_name = "FILE")]
+    pub(crate) file: String,
+    /// Decimal digits to which the conditions shall hold
+    #[arg(long, default_value_t = MOST_TABLE_DIGITS, value_name = "DIGITS", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_TABLE_DIGITS)))]
+    pub(crate) digits: u32,
+    /// Decimals that stay as printed: constants, or places such as kick[2], drift[3], gamma[1]
+    #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
+    pub(crate) free: Vec<String>,
+    /// Near-integrable orders to be met too, such as 10,6,4: those of the errors ε, ε², ε³ with kicks of size ε
+    #[arg(long, value_name = "ORDER,…", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=i64::from(HIGHEST_ORDER)))]
+    pub(crate) near_integrable: Vec<u32>,
+    /// Writes to a file, such as polished.toml, under a temporary name until all is done
+    #[arg(long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

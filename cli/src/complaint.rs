@@ -67,6 +67,17 @@ pub(crate) fn remark(sentence: impl Display) {
     say(format_args!("remark: {sentence}"));
 }
 
+/// Tells that the answer is no, and why.
+pub(crate) fn no(sentence: impl Display, hint: impl Display) -> Ending {
+    say(format_args!("error: {sentence}\n  hint: {hint}"));
+    Ending::AnswerIsNo
+}
+
+/// Tells what was done, where stdout has the result itself.
+pub(crate) fn report(text: impl Display) {
+    say(text);
+}
+
 /// A closed stderr is no reason to end.
 fn say(text: impl Display) {
     let _ = writeln!(io::stderr(), "{text}");

@@ -52,5 +52,6 @@ fn obey(command: &Command) -> Result<Ending, Complaint> {
         Command::Schemes { list, command: None } => schemes::list(list),
         Command::Schemes { command: Some(SchemesCommand::Show { name, json }), .. } => schemes::show(name, *json),
         Command::Schemes { command: Some(SchemesCommand::Check { files }), .. } => schemes::check(files),
+        Command::Schemes { command: Some(SchemesCommand::Polish(arguments)), .. } => schemes::polish(arguments),
     }
 }

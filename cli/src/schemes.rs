@@ -1,12 +1,14 @@
-//! Schemes: the shipped ones, all about one, and the proof of a person's own.
+//! Schemes: the shipped ones, all about one, the proof of a person's own, and its digits.
 
 mod analysis;
 mod check;
 mod list;
+mod polish;
 mod show;
 
 pub(crate) use check::check;
 pub(crate) use list::list;
+pub(crate) use polish::polish;
 pub(crate) use show::show;
 
 use shadowstep_schemes::scheme::Held;

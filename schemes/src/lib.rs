@@ -27,6 +27,7 @@ pub mod fault;
 pub mod near_integrable;
 pub mod nystrom;
 pub mod order;
+pub mod polish;
 pub mod proof;
 mod reader;
 pub mod scheme;

@@ -1,0 +1,356 @@
+//! A table of printed decimals → one whose order conditions hold to as many digits as asked.
+//!
+//! Papers print 12 to 40 digits, and not all of them are right: where a solution is ill-conditioned, a residual near
+//! the rounding of f64 hides weights that are off by a thousand times as much. [`polish`] takes the printed decimals for
+//! the beginning of Newton's iteration on the order conditions themselves.
+//!
+//! | file | what it does |
+//! | --- | --- |
+//! | `unknowns` | table → its decimals as unknowns, and the weights as functions of them |
+//! | `equations`, `composition` | which conditions have to hold; those of compositions in the γ's alone |
+//! | `dual` | values with their derivatives, in fixed point |
+//! | `least_squares`, `newton` | linear algebra; the choice of what stays as printed; the iteration |
+//! | `write` | the table's text with the new decimals |
+//!
+//! The arithmetic is in integers, with twice the digits at each step of the iteration. The result is read and proved as
+//! any table is.
+
+mod composition;
+mod dual;
+mod equations;
+mod least_squares;
+mod newton;
+mod unknowns;
+mod write;
+
+use num_traits::{One, Signed, Zero};
+use shadowstep_symbolic::Rational;
+use shadowstep_symbolic::decimal::{round_significant, to_significant};
+use shadowstep_symbolic::{nearest, nearest_few};
+
+use crate::exact::{self, DIGITS, Library};
+use crate::fault::{Faults, Source};
+use crate::proof::{self, Proved};
+use crate::scheme::Held;
+use crate::table::{Table, Weights};
+use equations::Equations;
+use newton::{Failure, Problem, What, log10_of};
+use unknowns::Model;
+use write::Written;
+
+/// The most digits that can be asked for: as many as a table may claim.
+pub const MOST_DIGITS: u32 = DIGITS;
+
+/// Digits that are written beyond those asked for, so that the conditions, sums of many products, hold to these.
+const WRITTEN_BEYOND: u32 = 10;
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    /// Digits to which the conditions shall hold, from 1 to [`MOST_DIGITS`].
+    pub digits: u32,
+    /// Decimals that stay as printed: names of constants, or places such as `kick[2]`, `drift[3]`, `gamma[1]`.
+    pub free: &'a [String],
+    /// Near-integrable orders r₁ ≥ r₂ ≥ … to be met beside the order: with kicks of size ε, the conditions of words with k
+    /// kicks hold up to the order r_k. Empty where nothing of that kind is claimed.
+    pub near_integrable: &'a [u32],
+}
+
+/// A polished table.
+#[derive(Clone, Debug)]
+pub struct Polished {
+    /// Its text.
+    pub text: String,
+    /// What was proved of it.
+    pub proved: Proved,
+    /// Its decimals, in the order of the text.
+    pub weights: Vec<PolishedWeight>,
+    /// Whether the conditions are those of a composition in its γ's.
+    pub in_gamma: bool,
+    /// How many conditions were looked at.
+    pub conditions: usize,
+    /// The condition number of their derivatives (rows of length 1) along the decimals that were solved for.
+    pub condition_number: f64,
+    /// log10 of how far a condition is from what is needed, at most, with the printed decimals.
+    pub residual_printed: f64,
+    /// The same with the polished ones.
+    pub residual: f64,
+}
+
+/// A decimal before and after.
+#[derive(Clone, Debug)]
+pub struct PolishedWeight {
+    /// The constant's name, or the place such as `kick[2]`.
+    pub name: String,
+    /// Its name in the polished table.
+    pub constant: String,
+    /// The printed value.
+    pub printed: Rational,
+    /// Its significant digits.
+    pub printed_digits: u32,
+    /// The polished value.
+    pub polished: Rational,
+    /// How many of the printed digits are right.
+    pub right: u32,
+    /// How it was found.
+    pub role: Role,
+}
+
+/// How a decimal was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// The conditions determine it.
+    Solved,
+    /// The conditions determine it; it is written as a formula, so that a sum is exactly 1.
+    Formula,
+    /// It stays as printed, as was asked.
+    Held,
+    /// It stays as printed, because the conditions leave some decimals free.
+    Free,
+}
+
+/// Why a table was not polished.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum NotPolished {
+    /// The table has faults, or the polished one would have.
+    #[error(transparent)]
+    Faults(#[from] Faults),
+    /// A request that makes no sense for the table.
+    #[error("{sentence}")]
+    Request {
+        /// What is wrong.
+        sentence: String,
+        /// What would be right.
+        help: String,
+    },
+    /// No values near the printed ones meet the conditions, or they are not determined well enough.
+    #[error("{sentence}")]
+    Unsolved {
+        /// What happened, with numbers.
+        sentence: String,
+        /// What may be the reason.
+        help: String,
+    },
+}
+
+fn request(sentence: impl Into<String>, help: impl Into<String>) -> NotPolished {
+    NotPolished::Request { sentence: sentence.into(), help: help.into() }
+}
+
+/// Finds the values near the printed decimals with which the table's order conditions hold.
+///
+/// # Errors
+/// Faults of the table; names of decimals that it does not have; conditions that no values near the printed ones meet,
+/// or that do not determine them.
+pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Result<Polished, NotPolished> {
+    let (table, base) = readable(source, library)?;
+    let model = Model::of(&table, base).map_err(|fault| Faults(vec![fault]))?;
+    if model.unknowns.is_empty() {
+        return Err(request(
+            format!("{} has no printed decimals, its weights are exact", source.path),
+            "decimals that stand alone are polished, not those within formulas",
+        ));
+    }
+    let held = held(&model, wanted)?;
+    let equations = Equations::of(&model, table.kinetic, table.order.value, wanted.near_integrable);
+    let problem = Problem { model: &model, equations: &equations };
+    let residual_printed = problem.residual(&model.printed(), 2 * wanted.digits.min(50));
+    let solution =
+        problem.solve(&held, wanted.digits).map_err(|failure| unsolved(&problem, &failure, residual_printed, &held))?;
+    let names = write::names(&table, &model);
+    let (x, written) = written(&model, &names, &solution, wanted.digits);
+    let text = write::text(&table, &model, &names, &written, wanted.digits).map_err(|fault| Faults(vec![fault]))?;
+    let proved = proof::read(&Source { path: source.path.clone(), text: text.clone() }, library)?;
+    let residual = problem.residual(&x, wanted.digits);
+    enough(&proved, residual, wanted.digits)?;
+    let weights = (0..x.len()).map(|u| weight(&model, u, &names[u], &x[u], &written[u], &held)).collect();
+    let conditions = problem.rows(&x, 20).map_or(0, |(rows, _)| rows.len());
+    Ok(Polished {
+        text,
+        proved,
+        weights,
+        in_gamma: equations.are_in_gamma(),
+        conditions,
+        condition_number: solution.condition_number,
+        residual_printed,
+        residual,
+    })
+}
+
+/// The table and the base of a composition; its claims need not hold yet.
+fn readable(source: &Source, library: Library<'_>) -> Result<(Table, Option<crate::Scheme>), NotPolished> {
+    let (scheme, faults) = exact::scheme(source, library);
+    let Some(scheme) = scheme.filter(|_| faults.is_empty()) else {
+        return Err(NotPolished::Faults(Faults::of(faults).expect("what is no scheme has a fault")));
+    };
+    let base = match &scheme.table.weights {
+        Some(Weights::Composition { base, .. }) => {
+            library(&base.value, source).and_then(|base| exact::scheme(&base, library).0)
+        }
+        _ => None,
+    };
+    Ok((scheme.table, base))
+}
+
+fn held(model: &Model, wanted: &Request<'_>) -> Result<Vec<usize>, NotPolished> {
+    let named = |name: &String| {
+        model.unknown(name).ok_or_else(|| {
+            let names = || model.unknowns.iter().map(|u| u.name.as_str());
+            let help = match nearest(name, names()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("its decimals are {}, …", nearest_few(name, names(), 6).join(", ")),
+            };
+            request(format!("the table has no printed decimal `{name}`"), help)
+        })
+    };
+    wanted.free.iter().map(named).collect()
+}
+
+/// The values as they are written, rounded once, and how.
+fn written(model: &Model, names: &[String], solution: &newton::Solution, digits: u32) -> (Vec<Rational>, Vec<Written>) {
+    let mut x = solution.x.clone();
+    let mut written = vec![Written::AsPrinted; x.len()];
+    for &unknown in &solution.moving {
+        let digits = digits + WRITTEN_BEYOND;
+        x[unknown] = round_significant(&x[unknown], digits);
+        written[unknown] = Written::Decimal(to_significant(&x[unknown], digits as usize));
+    }
+    for list in 0..model.lists_of_weights() {
+        if let Some((unknown, value, formula)) = remainder(model, names, &x, list, &solution.moving) {
+            x[unknown] = value;
+            written[unknown] = Written::Formula(formula);
+        }
+    }
+    (x, written)
+}
+
+/// A decimal that can be what the others of a list leave of 1: it, its value and its formula.
+fn remainder(
+    model: &Model,
+    names: &[String],
+    x: &[Rational],
+    list: usize,
+    moving: &[usize],
+) -> Option<(usize, Rational, String)> {
+    let sums = |x: &[Rational]| -> Option<Vec<Rational>> {
+        let lists = model.weights(x, 2 * DIGITS).ok()?;
+        Some(lists.iter().map(|list| list.iter().sum()).collect())
+    };
+    let at_x = sums(x)?;
+    if at_x[list].is_one() {
+        return None;
+    }
+    let slopes = |unknown: usize| {
+        let mut moved = x.to_vec();
+        moved[unknown] += Rational::one();
+        Some(sums(&moved)?.iter().zip(&at_x).map(|(moved, fixed)| moved - fixed).collect::<Vec<_>>())
+    };
+    let slopes: Vec<_> = (0..x.len()).map(slopes).collect::<Option<_>>()?;
+    let alone = |u: &usize| slopes[*u].iter().enumerate().all(|(l, slope)| slope.is_zero() == (l != list));
+    let (unknown, others) = moving.iter().rev().copied().filter(alone).find_map(|unknown| {
+        let others: Vec<_> = (0..x.len()).filter(|&u| u != unknown && !slopes[u][list].is_zero()).collect();
+        // a formula uses what stands above it; new constants are written below all others
+        let below = |u: usize| {
+            let (this, other) = (&model.unknowns[unknown], &model.unknowns[u]);
+            this.is_constant && !(other.is_constant && other.at.start < this.at.start)
+        };
+        (!others.iter().any(|&u| below(u))).then_some((unknown, others))
+    })?;
+    let linear: Rational = others.iter().map(|&u| &slopes[u][list] * &x[u]).sum();
+    let divisor = &slopes[unknown][list];
+    let rest = &at_x[list] - &linear - divisor * &x[unknown];
+    let value = (Rational::one() - &rest - linear) / divisor;
+    let mut exact = x.to_vec();
+    exact[unknown] = value.clone();
+    // not so where a sum is no linear function of the decimals
+    sums(&exact).filter(|sums| sums[list].is_one())?;
+    let terms: Vec<_> = others.iter().map(|&u| (slopes[u][list].clone(), names[u].as_str())).collect();
+    Some((unknown, value, write::remainder(divisor, &rest, &terms)))
+}
+
+fn weight(
+    model: &Model,
+    unknown: usize,
+    constant: &str,
+    polished: &Rational,
+    written: &Written,
+    held: &[usize],
+) -> PolishedWeight {
+    let printed = &model.unknowns[unknown];
+    let distance = (&printed.printed - polished).abs();
+    // half a unit is rounding; a tenth of that more is a rounding of a rounding
+    let is_rounded = distance <= &printed.unit * Rational::new(11.into(), 20.into());
+    let agreeing = (log10_of(polished) - log10_of(&distance)).floor().max(0.0);
+    PolishedWeight {
+        name: printed.name.clone(),
+        constant: constant.to_owned(),
+        printed: printed.printed.clone(),
+        printed_digits: printed.digits,
+        polished: polished.clone(),
+        right: if is_rounded { printed.digits } else { printed.digits.min(agreeing as u32) },
+        role: match written {
+            Written::AsPrinted if held.contains(&unknown) => Role::Held,
+            Written::AsPrinted => Role::Free,
+            Written::Decimal(_) => Role::Solved,
+            Written::Formula(_) => Role::Formula,
+        },
+    }
+}
+
+/// Refuses a table whose conditions hold to fewer digits than asked, because of what was not polished.
+fn enough(proved: &Proved, residual: f64, digits: u32) -> Result<(), NotPolished> {
+    let holds = proved.order().digits.unwrap_or(u32::MAX).min((-residual).max(0.0) as u32);
+    if holds >= digits {
+        return Ok(());
+    }
+    let help = match proved.scheme.held {
+        Held::Digits(held) if held < digits => format!("the base has {held} digits: polish its table first"),
+        _ => format!("closed forms are held to {DIGITS} digits: ask for fewer, such as --digits {}", holds.max(1)),
+    };
+    Err(NotPolished::Unsolved { sentence: format!("the conditions hold to {holds} digits, not to {digits}"), help })
+}
+
+fn unsolved(problem: &Problem<'_>, failure: &Failure, residual_printed: f64, held: &[usize]) -> NotPolished {
+    let rows = problem.rows(&problem.model.printed(), 60).map_or_else(Vec::new, |(rows, _)| rows);
+    let worst = rows.iter().max_by_key(|row| row.off.magnitude()).map_or("", |row| row.condition.name.as_str());
+    let numbers = format!(
+        "{} conditions for {} decimals, {} of them solved for; as printed off by {}, most of all {worst}; at best by {}; \
+         condition number {:.1e}",
+        rows.len(),
+        problem.model.unknowns.len(),
+        failure.moving,
+        power_of_ten(residual_printed),
+        power_of_ten(failure.residual.min(residual_printed)),
+        failure.condition_number
+    );
+    let (what, help) = match failure.what {
+        What::Stuck if !held.is_empty() => {
+            ("no values near the printed ones meet the conditions", "let more decimals move")
+        }
+        What::Stuck => (
+            "no values near the printed ones meet the conditions",
+            "a weight may be misprinted, or the order or the kinetic energy claimed is not the scheme's",
+        ),
+        What::Slow => (
+            "the conditions do not determine the weights well: their derivatives are singular at the solution",
+            "hold some decimals as printed with --free",
+        ),
+        What::Leaves => (
+            "Newton's iteration leaves the neighbourhood of the printed values",
+            "a weight may be misprinted, or the order claimed is not the scheme's; else hold some decimals with --free",
+        ),
+        What::Singular => (
+            "the conditions do not determine the weights: their derivatives are singular",
+            "hold some decimals as printed with --free",
+        ),
+    };
+    NotPolished::Unsolved { sentence: format!("{what} ({numbers})"), help: help.to_owned() }
+}
+
+/// `1.6e-15`, beyond the range of f64 too.
+pub fn power_of_ten(log10: f64) -> String {
+    if log10 == f64::NEG_INFINITY {
+        return "0".to_owned();
+    }
+    format!("{:.1}e{}", 10_f64.powf(log10 - log10.floor()), log10.floor())
+}

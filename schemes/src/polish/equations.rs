@@ -1,0 +1,119 @@
+//! Which conditions a table's weights have to meet, and their values and derivatives.
+
+use num_bigint::BigInt;
+use num_traits::Zero;
+
+use crate::arithmetic::Arithmetic;
+use crate::order::{self, Condition};
+use crate::polish::composition::{self, Word};
+use crate::polish::dual::{Dual, Duals};
+use crate::polish::unknowns::Model;
+use crate::proof::prove;
+use crate::scheme::MapKind;
+use crate::table::Kinetic;
+use crate::{Scheme, nystrom};
+
+/// The conditions, as functions of the weights.
+pub(super) struct Equations {
+    family: Family,
+    /// A palindrome meets the conditions of even order if it meets those of odd order.
+    odd_only: bool,
+}
+
+enum Family {
+    /// Words in kicks and drifts, for every T(p).
+    Words(Vec<Vec<MapKind>>),
+    /// Trees of at most so many nodes, for quadratic T.
+    Trees(u32),
+    /// Words in the base's errors, for compositions of a symmetric base.
+    Composition(Vec<Word>),
+}
+
+/// A condition, how far it is from what is needed, and its derivatives along the unknowns.
+pub(super) struct Row {
+    pub(super) condition: Condition,
+    pub(super) off: BigInt,
+    pub(super) slopes: Vec<BigInt>,
+}
+
+impl Equations {
+    /// The conditions of an order for a class of kinetic energies, and of the near-integrable orders r₁ ≥ r₂ ≥ …: with
+    /// kicks of size ε, those with k kicks up to the order r_k.
+    pub(super) fn of(model: &Model, kinetic: Kinetic, order: u32, near: &[u32]) -> Equations {
+        let odd_only = model.symmetric;
+        let base_order = model.base.as_ref().and_then(symmetric_order);
+        let family = match (kinetic, base_order) {
+            (Kinetic::Any, Some(base_order)) if near.is_empty() => {
+                let mut words = composition::lyndon_words(base_order, order);
+                words.retain(|word| !odd_only || word.iter().sum::<u32>() % 2 == 1);
+                Family::Composition(words)
+            }
+            (Kinetic::Quadratic, _) if near.is_empty() => {
+                Family::Trees(if odd_only { order - (order + 1) % 2 } else { order })
+            }
+            _ => {
+                let longest = near.iter().copied().fold(order, u32::max);
+                let mut words = order::lyndon_words(longest as usize);
+                words.retain(|word| is_wanted(word, order, near) && (!odd_only || word.len() % 2 == 1));
+                Family::Words(words)
+            }
+        };
+        Equations { family, odd_only }
+    }
+
+    /// Whether the conditions are those of the γ's.
+    pub(super) fn are_in_gamma(&self) -> bool {
+        matches!(self.family, Family::Composition(_))
+    }
+
+    /// All conditions at weights that are functions of `unknowns` unknowns.
+    pub(super) fn rows(&self, model: &Model, weights: &[Vec<Dual>], unknowns: usize, arithmetic: Duals) -> Vec<Row> {
+        let mut found = match &self.family {
+            Family::Composition(words) => composition::conditions(words, &weights[0], &arithmetic),
+            Family::Words(words) => order::word_conditions(words, &maps(model, weights, arithmetic), &arithmetic),
+            Family::Trees(order) => nystrom::tree_conditions(&maps(model, weights, arithmetic), *order, &arithmetic),
+        };
+        found.retain(|(condition, _)| !self.odd_only || condition.order % 2 == 1);
+        let row = |(condition, mut dual): (Condition, Dual)| {
+            dual.slopes.resize(unknowns, BigInt::zero());
+            Row { off: dual.value - arithmetic.units(&condition.needed), condition, slopes: dual.slopes }
+        };
+        found.into_iter().map(row).collect()
+    }
+}
+
+/// The order of a base whose errors are of odd degree only.
+fn symmetric_order(base: &Scheme) -> Option<u32> {
+    base.is_symmetric().then(|| prove(base).general.order).filter(|order| *order >= 2)
+}
+
+fn is_wanted(word: &[MapKind], order: u32, near: &[u32]) -> bool {
+    let kicks = word.iter().filter(|kind| **kind == MapKind::Kick).count();
+    let enough = kicks.checked_sub(1).and_then(|k| near.get(k)).map_or(order, |near| order.max(*near));
+    word.len() as u32 <= enough
+}
+
+/// The maps of a step, a composition's written out, neighbours of one kind merged.
+fn maps(model: &Model, weights: &[Vec<Dual>], arithmetic: Duals) -> Vec<(MapKind, Dual)> {
+    let mut maps: Vec<(MapKind, Dual)> = Vec::new();
+    let mut append = |kind, weight: Dual| match maps.last_mut() {
+        _ if weight.value.is_zero() && weight.slopes.iter().all(BigInt::is_zero) => {}
+        Some((last, sum)) if *last == kind => arithmetic.add_product(sum, &arithmetic.one(), &weight),
+        _ => maps.push((kind, weight)),
+    };
+    match &model.base {
+        None => {
+            for (kick, drift) in weights[0].iter().zip(&weights[1]) {
+                append(MapKind::Kick, kick.clone());
+                append(MapKind::Drift, drift.clone());
+            }
+        }
+        Some(base) => {
+            let base = order::weighed(&base.maps(), &arithmetic);
+            for step in &weights[0] {
+                base.iter().for_each(|(kind, weight)| append(*kind, arithmetic.product(step, weight)));
+            }
+        }
+    }
+    maps
+}

@@ -1,0 +1,220 @@
+//! Newton's iteration on the printed decimals, and the choice of those that it leaves alone.
+//!
+//! Where there are more decimals than conditions, some stay as printed: those that a pivoted QR decomposition of the
+//! derivatives does not need, decimals with few digits (chosen by somebody, not computed) before the others. Where there
+//! are more conditions than decimals, as for Nyström trees and for weights with more structure than their conditions
+//! know, the steps are those of least squares (Gauss–Newton), and all conditions must come out met.
+
+use shadowstep_symbolic::Rational;
+
+use crate::polish::dual::Duals;
+use crate::polish::equations::{Equations, Row};
+use crate::polish::least_squares::{Factors, length, log10};
+use crate::polish::unknowns::Model;
+
+/// Digits beyond those needed, for rounding in the conditions and in the linear algebra.
+const GUARD_DIGITS: u32 = 60;
+
+/// Newton's iteration doubles the digits each time: it needs about ten steps from one digit to 300.
+const MOST_STEPS: u32 = 60;
+
+/// A rank is not taken from derivatives whose size is below so many times the residual (as a power of ten).
+const RANK_MARGIN: f64 = 4.0;
+
+/// A moved weight: farther away than this it is another scheme's (as a power of ten).
+const FARTHEST: f64 = -0.7;
+
+/// Values that meet the conditions.
+pub(super) struct Solution {
+    /// The values of all unknowns.
+    pub(super) x: Vec<Rational>,
+    /// The unknowns that were solved for.
+    pub(super) moving: Vec<usize>,
+    /// Of the derivatives at the solution.
+    pub(super) condition_number: f64,
+}
+
+/// An iteration that did not end.
+#[derive(Clone, Debug)]
+pub(super) struct Failure {
+    /// log10 of the least residual.
+    pub(super) residual: f64,
+    /// Of the derivatives where the iteration ended.
+    pub(super) condition_number: f64,
+    /// How many unknowns were solved for.
+    pub(super) moving: usize,
+    /// What happened.
+    pub(super) what: What,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum What {
+    /// The residual does not become smaller.
+    Stuck,
+    /// It does, but not as Newton's iteration should: the derivatives are singular where it ends.
+    Slow,
+    /// The values leave their neighbourhood.
+    Leaves,
+    /// A formula has no value, or the derivatives are singular.
+    Singular,
+}
+
+/// Conditions as functions of the unknowns.
+pub(super) struct Problem<'a> {
+    pub(super) model: &'a Model,
+    pub(super) equations: &'a Equations,
+}
+
+/// The conditions and their derivatives at a point, rows scaled to derivatives of length 1.
+struct Linear {
+    bits: u32,
+    off: Vec<num_bigint::BigInt>,
+    columns: Vec<Vec<num_bigint::BigInt>>,
+    residual: f64,
+}
+
+impl Problem<'_> {
+    /// Solves for the unknowns that need it, with those of `held` as printed.
+    pub(super) fn solve(&self, held: &[usize], digits: u32) -> Result<Solution, Failure> {
+        let printed = self.model.printed();
+        let most_digits = self.model.unknowns.iter().map(|u| u.digits).max().unwrap_or(1);
+        let first_digits = 2 * most_digits + GUARD_DIGITS;
+        let failure = |what| Failure { residual: f64::INFINITY, condition_number: f64::NAN, moving: 0, what };
+        let linear = self.linear(&printed, first_digits).ok_or(failure(What::Singular))?;
+        let free: Vec<usize> = (0..printed.len()).filter(|unknown| !held.contains(unknown)).collect();
+        let factors = linear.factors(&free);
+        let size = |d: &&f64| d.log10() > linear.residual + RANK_MARGIN;
+        let surely = factors.diagonal.iter().filter(size).count().max(1);
+        // the fewest that may suffice are tried first: with more of them than the solution's derivatives can tell apart,
+        // the iteration would wander along a family of solutions
+        let mut failed = None;
+        for rank in surely..=factors.order.len() {
+            let moving = self.choose(&linear, &free, &factors, rank);
+            match self.iterate(&printed, moving, first_digits, digits) {
+                Ok(solution) => return Ok(solution),
+                Err(failure) => failed = Some(better(failed, failure)),
+            }
+        }
+        Err(failed.unwrap_or(failure(What::Singular)))
+    }
+
+    /// How far the conditions are from what is needed, as log10 of the largest distance.
+    pub(super) fn residual(&self, x: &[Rational], digits: u32) -> f64 {
+        self.linear(x, digits + GUARD_DIGITS).map_or(f64::INFINITY, |linear| linear.residual)
+    }
+
+    /// The rows of all conditions, and the number of bits they have.
+    pub(super) fn rows(&self, x: &[Rational], digits: u32) -> Option<(Vec<Row>, u32)> {
+        let arithmetic = Duals::digits(digits);
+        let weights = self.model.duals(x, arithmetic).ok()?;
+        Some((self.equations.rows(self.model, &weights, x.len(), arithmetic), arithmetic.bits))
+    }
+
+    fn linear(&self, x: &[Rational], digits: u32) -> Option<Linear> {
+        let (rows, bits) = self.rows(x, digits)?;
+        let residual = rows.iter().map(|row| log10(&row.off, bits)).fold(f64::NEG_INFINITY, f64::max);
+        let mut linear = Linear { bits, off: Vec::new(), columns: vec![Vec::new(); x.len()], residual };
+        for row in rows {
+            let length = length(&row.slopes);
+            // a condition that nothing can change is what it is
+            let scaled = |x| if length.bits() * 2 > u64::from(bits) { (x << bits) / &length } else { x };
+            linear.off.push(scaled(row.off));
+            linear.columns.iter_mut().zip(row.slopes).for_each(|(column, slope)| column.push(scaled(slope)));
+        }
+        Some(linear)
+    }
+
+    /// The `rank` unknowns to solve for.
+    fn choose(&self, linear: &Linear, free: &[usize], factors: &Factors, rank: usize) -> Vec<usize> {
+        let digits = |unknown: usize| self.model.unknowns[unknown].digits;
+        let most = free.iter().map(|&u| digits(u)).max().unwrap_or(1);
+        let mut few_digits: Vec<usize> = free.iter().copied().filter(|&u| 2 * digits(u) <= most).collect();
+        few_digits.sort_by_key(|&u| digits(u));
+        let (mut free, mut order) = (free.to_vec(), factors.order.clone());
+        for unknown in few_digits {
+            if free.len() == rank {
+                break;
+            }
+            let without: Vec<usize> = free.iter().copied().filter(|&u| u != unknown).collect();
+            let tried = linear.factors(&without);
+            // a hundredth of the best choice is still well determined
+            if tried.order.len() >= rank && tried.diagonal[rank - 1] >= 0.01 * factors.diagonal[rank - 1] {
+                (free, order) = (without, tried.order);
+            }
+        }
+        let mut moving: Vec<usize> = order[..rank].iter().map(|&place| free[place]).collect();
+        moving.sort_unstable();
+        moving
+    }
+
+    fn iterate(
+        &self,
+        printed: &[Rational],
+        moving: Vec<usize>,
+        first_digits: u32,
+        digits: u32,
+    ) -> Result<Solution, Failure> {
+        let full = digits + GUARD_DIGITS;
+        let (mut x, mut precision) = (printed.to_vec(), first_digits.min(full));
+        let (mut least, mut condition_number, mut stuck) = (f64::INFINITY, f64::NAN, 0);
+        for _ in 0..MOST_STEPS {
+            let failure = |residual, what| Failure { residual, condition_number, moving: moving.len(), what };
+            let linear = self.linear(&x, precision).ok_or(failure(least, What::Singular))?;
+            let factors = linear.factors(&moving);
+            if factors.order.len() < moving.len() {
+                return Err(failure(least.min(linear.residual), What::Singular));
+            }
+            condition_number = factors.condition_number();
+            let failure = |residual, what| Failure { residual, condition_number, moving: moving.len(), what };
+            // a residual that does not fall to half is no progress; at the first step it may rise
+            stuck = if linear.residual > least - 0.3 { stuck + 1 } else { 0 };
+            least = least.min(linear.residual);
+            let done = linear.residual < -f64::from(digits + GUARD_DIGITS / 3);
+            if done && precision == full {
+                return Ok(Solution { x, moving, condition_number });
+            }
+            if stuck > 2 && !done {
+                return Err(failure(least, What::Stuck));
+            }
+            let size = linear.step(&factors, &moving, &mut x);
+            let away = x.iter().zip(printed).any(|(x, printed)| log10_of(&(x - printed)) > FARTHEST);
+            if away {
+                return Err(failure(least, What::Leaves));
+            }
+            // the next step is about as large as the square of this one, and is needed to as many digits again
+            precision = if size.is_finite() { (precision as f64).max(-4.0 * size) as u32 + GUARD_DIGITS } else { full };
+            precision = precision.min(full);
+        }
+        Err(Failure { residual: least, condition_number, moving: moving.len(), what: What::Slow })
+    }
+}
+
+impl Linear {
+    fn factors(&self, moving: &[usize]) -> Factors {
+        Factors::of(moving.iter().map(|&unknown| self.columns[unknown].clone()).collect(), self.bits)
+    }
+
+    /// x −= the step; returns log10 of its largest entry.
+    fn step(&self, factors: &Factors, moving: &[usize], x: &mut [Rational]) -> f64 {
+        let arithmetic = Duals { bits: self.bits };
+        let mut largest = f64::NEG_INFINITY;
+        for (place, step) in factors.order.iter().zip(factors.solve(&self.off)) {
+            largest = largest.max(log10(&step, self.bits));
+            x[moving[*place]] -= arithmetic.rational(step);
+        }
+        largest
+    }
+}
+
+/// The failure that came closest.
+fn better(first: Option<Failure>, second: Failure) -> Failure {
+    match first {
+        Some(first) if first.residual <= second.residual => first,
+        _ => second,
+    }
+}
+
+/// log10 |x|; −∞ for 0.
+pub(super) fn log10_of(x: &Rational) -> f64 {
+    log10(x.numer(), 0) - log10(x.denom(), 0)
+}

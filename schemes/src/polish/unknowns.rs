@@ -1,0 +1,287 @@
+//! Table → its printed decimals as unknowns, and the weights as functions of them.
+//!
+//! A decimal that stands alone, as a constant or in a list of weights, is an unknown; fractions, whole numbers and
+//! formulas stay what they are. In a palindrome two decimals that mirror each other are one unknown.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use num_bigint::BigInt;
+use num_traits::{Signed, Zero};
+use shadowstep_symbolic::decimal::{from_text, to_significant};
+use shadowstep_symbolic::{EvaluationError, Exact, Expression, Rational, evaluate, parse};
+
+use crate::Scheme;
+use crate::fault::Fault;
+use crate::polish::dual::{Dual, Duals};
+use crate::table::{self, Table, Weights};
+
+/// A printed decimal.
+#[derive(Clone, Debug)]
+pub(super) struct Unknown {
+    /// The constant's name, or the place in a list such as `kick[2]`.
+    pub(super) name: String,
+    /// Whether it is a constant with a name.
+    pub(super) is_constant: bool,
+    /// Where the decimal stands.
+    pub(super) at: Range<usize>,
+    /// Its value.
+    pub(super) printed: Rational,
+    /// One unit of its last digit.
+    pub(super) unit: Rational,
+    /// Its significant digits.
+    pub(super) digits: u32,
+}
+
+/// A constant or a weight as a function of the unknowns.
+#[derive(Clone, Debug)]
+enum Cell {
+    Unknown(usize),
+    Formula(Expression),
+}
+
+/// What is written in place of a decimal that mirrors another cell.
+#[derive(Clone, Debug)]
+pub(super) enum Mirrored {
+    /// The unknown that both are.
+    Unknown(usize),
+    /// The formula of the other cell.
+    Formula(String),
+}
+
+/// The weights of a table as functions of its unknowns.
+pub(super) struct Model {
+    pub(super) unknowns: Vec<Unknown>,
+    /// Decimals that follow from another cell by the palindrome.
+    pub(super) mirrored: Vec<(Range<usize>, Mirrored)>,
+    /// Whether the cells are a palindrome.
+    pub(super) symmetric: bool,
+    /// The base of a composition.
+    pub(super) base: Option<Scheme>,
+    /// Lists of weights: kicks and drifts, or γ's.
+    lists: Vec<Vec<Cell>>,
+    constants: Vec<(String, Cell)>,
+    /// Other names of unknowns, such as `kick[6]`.
+    names: BTreeMap<String, usize>,
+}
+
+impl Model {
+    /// The unknowns of a table whose cells can be evaluated.
+    pub(super) fn of(table: &Table, base: Option<Scheme>) -> Result<Model, Fault> {
+        let mut model = Model {
+            unknowns: Vec::new(),
+            mirrored: Vec::new(),
+            symmetric: false,
+            base,
+            lists: Vec::new(),
+            constants: Vec::new(),
+            names: BTreeMap::new(),
+        };
+        for (name, cell) in &table.constants {
+            let cell = model.cell(cell, &name.value, true);
+            model.constants.push((name.value.clone(), cell));
+        }
+        let lists = match table.weights.as_ref().expect("what has a scheme has weights") {
+            Weights::Stages { kick, drift } => vec![("kick", kick), ("drift", drift)],
+            Weights::Composition { gamma, .. } => vec![("gamma", gamma)],
+        };
+        for (list, cells) in &lists {
+            let named = |i: usize| format!("{list}[{}]", i + 1);
+            let cells = cells.value.iter().enumerate().map(|(i, cell)| model.cell(cell, &named(i), false)).collect();
+            model.lists.push(cells);
+        }
+        model.find_palindrome(table, &lists.iter().map(|(_, cells)| cells.value.as_slice()).collect::<Vec<_>>())?;
+        for (list, (name, _)) in lists.iter().enumerate() {
+            for (i, cell) in model.lists[list].iter().enumerate() {
+                if let Cell::Unknown(unknown) = cell {
+                    model.names.insert(format!("{name}[{}]", i + 1), *unknown);
+                }
+            }
+        }
+        Ok(model)
+    }
+
+    /// The unknown that a person names.
+    pub(super) fn unknown(&self, name: &str) -> Option<usize> {
+        self.unknowns.iter().position(|u| u.name == name).or_else(|| self.names.get(name).copied())
+    }
+
+    /// The printed decimals.
+    pub(super) fn printed(&self) -> Vec<Rational> {
+        self.unknowns.iter().map(|u| u.printed.clone()).collect()
+    }
+
+    /// How many lists of weights there are, each with the sum 1.
+    pub(super) fn lists_of_weights(&self) -> usize {
+        self.lists.len()
+    }
+
+    /// The lists of weights at values of the unknowns; closed forms to so many digits.
+    pub(super) fn weights(&self, x: &[Rational], digits: u32) -> Result<Vec<Vec<Rational>>, EvaluationError> {
+        let mut known = BTreeMap::new();
+        for (name, cell) in &self.constants {
+            let value = value(cell, x, &known, digits)?;
+            known.insert(name.clone(), value);
+        }
+        let list = |list: &Vec<Cell>| list.iter().map(|cell| Ok(value(cell, x, &known, digits)?.value)).collect();
+        self.lists.iter().map(list).collect()
+    }
+
+    /// The lists of weights with their derivatives.
+    ///
+    /// The derivatives are differences with a step of a few units of the arithmetic's square root: exact where the cells
+    /// are linear in the unknowns, as all but a few tables' are, and else with half of the digits, which Newton's
+    /// iteration cannot tell from exact ones.
+    pub(super) fn duals(&self, x: &[Rational], arithmetic: Duals) -> Result<Vec<Vec<Dual>>, EvaluationError> {
+        let digits = (f64::from(arithmetic.bits) * std::f64::consts::LOG10_2).ceil() as u32 + 5;
+        let at_x = self.weights(x, digits)?;
+        let shift = arithmetic.bits / 2;
+        let step = Rational::new(1.into(), BigInt::from(1) << shift);
+        let mut duals: Vec<Vec<Dual>> = at_x
+            .iter()
+            .map(|list| {
+                let dual = |w| Dual { value: arithmetic.units(w), slopes: vec![BigInt::zero(); x.len()] };
+                list.iter().map(dual).collect()
+            })
+            .collect();
+        for unknown in 0..x.len() {
+            let mut moved = x.to_vec();
+            moved[unknown] += &step;
+            let at_moved = self.weights(&moved, digits)?;
+            let changes = at_moved.iter().flatten().zip(at_x.iter().flatten()).map(|(moved, fixed)| moved - fixed);
+            for (dual, change) in duals.iter_mut().flatten().zip(changes) {
+                if !change.is_zero() {
+                    dual.slopes[unknown] = arithmetic.units(&change) << shift;
+                }
+            }
+        }
+        Ok(duals)
+    }
+
+    fn cell(&mut self, cell: &table::Cell, name: &str, is_constant: bool) -> Cell {
+        if let Some((printed, unit, digits)) = decimal(&cell.value) {
+            let at = cell.at.clone();
+            self.unknowns.push(Unknown { name: name.to_owned(), is_constant, at, printed, unit, digits });
+            return Cell::Unknown(self.unknowns.len() - 1);
+        }
+        match self.constants.iter().find(|(constant, _)| *constant == cell.value.trim()) {
+            Some((_, Cell::Unknown(unknown))) => Cell::Unknown(*unknown),
+            _ => Cell::Formula(parse(&cell.value).expect("the cells have been evaluated")),
+        }
+    }
+
+    /// Unites what mirrors each other, if everything does.
+    fn find_palindrome(&mut self, table: &Table, texts: &[&[table::Cell]]) -> Result<(), Fault> {
+        let claimed = table.symmetric.as_ref().map(|claim| claim.value);
+        if claimed == Some(false) {
+            return Ok(());
+        }
+        let digits = crate::exact::DIGITS;
+        let values = self.weights(&self.printed(), digits).expect("the cells have been evaluated");
+        let mut places = Vec::new();
+        for stage in 0..self.lists[0].len() {
+            for list in 0..self.lists.len() {
+                if matches!(self.lists[list][stage], Cell::Unknown(_)) || !values[list][stage].is_zero() {
+                    places.push((list, stage));
+                }
+            }
+        }
+        let pairs: Vec<_> = (0..places.len() / 2).map(|i| (places[i], places[places.len() - 1 - i])).collect();
+        for &((list, stage), (other_list, other)) in &pairs {
+            let (a, b) = (&values[list][stage], &values[other_list][other]);
+            let unit = self.unit((list, stage)).max(self.unit((other_list, other)));
+            if list == other_list && (a - b).abs() <= unit {
+                continue;
+            }
+            return match claimed {
+                Some(true) => Err(unlike(table, &texts[other_list][other], a, b)),
+                _ => Ok(()),
+            };
+        }
+        self.symmetric = true;
+        pairs.into_iter().for_each(|(a, b)| self.unite(a, b, texts));
+        Ok(())
+    }
+
+    /// One unit of a cell's last digit; for formulas one of 250 digits.
+    fn unit(&self, (list, stage): (usize, usize)) -> Rational {
+        match &self.lists[list][stage] {
+            Cell::Unknown(unknown) => self.unknowns[*unknown].unit.clone(),
+            Cell::Formula(_) => Rational::new(1.into(), BigInt::from(10).pow(250)),
+        }
+    }
+
+    fn unite(&mut self, first: (usize, usize), second: (usize, usize), texts: &[&[table::Cell]]) {
+        let cell = |(list, stage): (usize, usize)| self.lists[list][stage].clone();
+        match (cell(first), cell(second)) {
+            (Cell::Unknown(a), Cell::Unknown(b)) if a != b => {
+                // constants keep their names; of two alike the upper one stays
+                let stays = |u: usize| (!self.unknowns[u].is_constant, self.unknowns[u].at.start);
+                let (kept, gone) = if stays(a) <= stays(b) { (a, b) } else { (b, a) };
+                self.replace(gone, Cell::Unknown(kept), Mirrored::Unknown(kept));
+            }
+            (Cell::Unknown(unknown), formula @ Cell::Formula(_)) if !self.unknowns[unknown].is_constant => {
+                self.replace(unknown, formula, Mirrored::Formula(texts[second.0][second.1].value.clone()));
+            }
+            (formula @ Cell::Formula(_), Cell::Unknown(unknown)) if !self.unknowns[unknown].is_constant => {
+                self.replace(unknown, formula, Mirrored::Formula(texts[first.0][first.1].value.clone()));
+            }
+            _ => {}
+        }
+    }
+
+    /// Takes an unknown away that follows from another cell.
+    fn replace(&mut self, gone: usize, by: Cell, text: Mirrored) {
+        let removed = self.unknowns.remove(gone);
+        self.mirrored.push((removed.at, text));
+        let renumbered = |unknown: usize| if unknown > gone { unknown - 1 } else { unknown };
+        let renumber = |cell: &Cell| match cell {
+            Cell::Unknown(unknown) => Cell::Unknown(renumbered(*unknown)),
+            formula => formula.clone(),
+        };
+        let by = renumber(&by);
+        let cells = self.constants.iter_mut().map(|(_, cell)| cell).chain(self.lists.iter_mut().flatten());
+        for cell in cells {
+            *cell =
+                if matches!(cell, Cell::Unknown(unknown) if *unknown == gone) { by.clone() } else { renumber(cell) };
+        }
+        for (_, text) in &mut self.mirrored {
+            if let Mirrored::Unknown(unknown) = text {
+                *unknown = renumbered(*unknown);
+            }
+        }
+        if removed.is_constant
+            && let Cell::Unknown(unknown) = by
+        {
+            self.names.insert(removed.name, unknown);
+        }
+    }
+}
+
+fn value(cell: &Cell, x: &[Rational], known: &BTreeMap<String, Exact>, digits: u32) -> Result<Exact, EvaluationError> {
+    match cell {
+        Cell::Unknown(unknown) => Ok(Exact { value: x[*unknown].clone(), rounded: false }),
+        Cell::Formula(expression) => evaluate(expression, known, digits),
+    }
+}
+
+fn unlike(table: &Table, cell: &table::Cell, first: &Rational, second: &Rational) -> Fault {
+    table
+        .source
+        .fault(&cell.at, "a palindrome is claimed, this weight is not what it mirrors")
+        .values(to_significant(second, 25), to_significant(first, 25))
+        .help("correct the weights, or write `symmetric = false`")
+}
+
+/// The value, one unit of the last digit, and the significant digits of a decimal such as `-0.25` or `1.5e-3`.
+fn decimal(text: &str) -> Option<(Rational, Rational, u32)> {
+    let text = text.trim();
+    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let (whole, fraction) = mantissa.split_once('.')?;
+    let value = from_text(text).ok()?;
+    let places = fraction.len() as i32 - exponent.parse::<i32>().ok()?;
+    let power = Rational::from_integer(BigInt::from(10).pow(places.unsigned_abs()));
+    let unit = if places < 0 { power } else { power.recip() };
+    let digits = format!("{whole}{fraction}").trim_start_matches(['-', '+', '0']).len();
+    Some((value, unit, digits.max(1) as u32))
+}
