@@ -173,6 +173,9 @@ pub(crate) struct PolishArguments {
     /// Near-integrable orders to be met too, such as 10,6,4: those of the errors ε, ε², ε³ with kicks of size ε
     #[arg(long, value_name = "ORDER,…", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=i64::from(HIGHEST_ORDER)))]
     pub(crate) near_integrable: Vec<u32>,
+    /// The cubes of the kicks must sum to 0 too: kicks are themselves split, as in heliocentric coordinates
+    #[arg(long)]
+    pub(crate) split_kicks: bool,
     /// Writes to a file, such as polished.toml, under a temporary name until all is done
     #[arg(long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,

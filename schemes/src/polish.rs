@@ -44,6 +44,10 @@ pub const MOST_DIGITS: u32 = DIGITS;
 /// Digits that are written beyond those asked for, so that the conditions, sums of many products, hold to these.
 const WRITTEN_BEYOND: u32 = 10;
 
+/// The most bits of the denominator of what fractions and formulas add to a sum: longer ones are closed forms, which are
+/// no exact part of a formula.
+const LONGEST_REST: u64 = 64;
+
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
@@ -54,6 +58,9 @@ pub struct Request<'a> {
     /// Near-integrable orders r₁ ≥ r₂ ≥ … to be met beside the order: with kicks of size ε, the conditions of words with k
     /// kicks hold up to the order r_k. Empty where nothing of that kind is claimed.
     pub near_integrable: &'a [u32],
+    /// Whether Σ a_s³ = 0 is to hold too: where kicks are themselves split by a symmetric step of order 2, as in
+    /// heliocentric coordinates, each leaves an error (a_s h)³ (Farrés et al., Celest. Mech. Dyn. Astron. 116 (2013) 141).
+    pub split_kicks: bool,
 }
 
 /// A polished table.
@@ -152,7 +159,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
         ));
     }
     let held = held(&model, wanted)?;
-    let equations = Equations::of(&model, table.kinetic, table.order.value, wanted.near_integrable);
+    let equations = Equations::of(&model, &table, wanted);
     let problem = Problem { model: &model, equations: &equations };
     let residual_printed = problem.residual(&model.printed(), 2 * wanted.digits.min(50));
     let solution =
@@ -195,6 +202,10 @@ fn readable(source: &Source, library: Library<'_>) -> Result<(Table, Option<crat
 fn held(model: &Model, wanted: &Request<'_>) -> Result<Vec<usize>, NotPolished> {
     let named = |name: &String| {
         model.unknown(name).ok_or_else(|| {
+            if model.is_exact(name) {
+                let help = "leave it out of --free: fractions and formulas stay as they are";
+                return request(format!("`{name}` is no printed decimal"), help);
+            }
             let names = || model.unknowns.iter().map(|u| u.name.as_str());
             let help = match nearest(name, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
@@ -259,6 +270,9 @@ fn remainder(
     let linear: Rational = others.iter().map(|&u| &slopes[u][list] * &x[u]).sum();
     let divisor = &slopes[unknown][list];
     let rest = &at_x[list] - &linear - divisor * &x[unknown];
+    if rest.denom().bits() > LONGEST_REST {
+        return None;
+    }
     let value = (Rational::one() - &rest - linear) / divisor;
     let mut exact = x.to_vec();
     exact[unknown] = value.clone();
@@ -327,6 +341,10 @@ fn unsolved(problem: &Problem<'_>, failure: &Failure, residual_printed: f64, hel
         What::Stuck if !held.is_empty() => {
             ("no values near the printed ones meet the conditions", "let more decimals move")
         }
+        What::Stuck if failure.moving < problem.model.unknowns.len() => (
+            "no values near the printed ones of those decimals that the conditions determine meet them all",
+            "a weight may be misprinted, or the weights are a singular solution of the conditions",
+        ),
         What::Stuck => (
             "no values near the printed ones meet the conditions",
             "a weight may be misprinted, or the order or the kinetic energy claimed is not the scheme's",

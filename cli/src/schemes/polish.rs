@@ -2,12 +2,13 @@
 
 use std::io::Write;
 
+use num_traits::Signed;
 use shadowstep_schemes::Kinetic;
 use shadowstep_schemes::polish::{self, NotPolished, Polished, PolishedWeight, Request, Role, power_of_ten};
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::arguments::PolishArguments;
-use crate::complaint::{Complaint, Ending, no, report};
+use crate::complaint::{Complaint, Ending, no, remark, report};
 use crate::figures::table;
 use crate::library;
 use crate::output::Output;
@@ -15,8 +16,12 @@ use crate::output::Output;
 /// The polished table to stdout or a file, the report to stderr.
 pub(crate) fn polish(arguments: &PolishArguments) -> Result<Ending, Complaint> {
     let source = library::source(&arguments.file)?;
-    let wanted =
-        Request { digits: arguments.digits, free: &arguments.free, near_integrable: &arguments.near_integrable };
+    let wanted = Request {
+        digits: arguments.digits,
+        free: &arguments.free,
+        near_integrable: &arguments.near_integrable,
+        split_kicks: arguments.split_kicks,
+    };
     let polished = match polish::polish(&source, &library::beside_or_shipped, &wanted) {
         Ok(polished) => polished,
         Err(NotPolished::Request { sentence, help }) => return Err(Complaint::usage(sentence, help)),
@@ -27,6 +32,10 @@ pub(crate) fn polish(arguments: &PolishArguments) -> Result<Ending, Complaint> {
     write!(output, "{}", polished.text)?;
     output.finish()?;
     report(told(&polished));
+    for weight in misprints(&polished.weights) {
+        let PolishedWeight { name, right, printed_digits, .. } = weight;
+        remark(format_args!("{name} seems to be misprinted: {right} of its {printed_digits} digits are right"));
+    }
     Ok(Ending::Done)
 }
 
@@ -41,7 +50,7 @@ fn told(polished: &Polished) -> String {
     let header = ["decimal", "printed digits", "right", "off by", "now"];
     let rows: Vec<_> = polished.weights.iter().map(row).collect();
     format!(
-        "{}order {} for {class}{symmetric}: {} conditions{kind}, off by {} as printed, by {} now\ncondition number {}{}",
+        "{}\norder {} for {class}{symmetric}: {} conditions{kind}, off by {} as printed, by {} now\ncondition number {}{}",
         table(header, rows, 1..4),
         proved.order().order,
         polished.conditions,
@@ -71,14 +80,26 @@ fn row(weight: &PolishedWeight) -> [String; 5] {
     [name, weight.printed_digits.to_string(), right, off, now.to_owned()]
 }
 
-/// What the digits that were not right have to do with the condition number.
+/// How many of the printed digits were wrong; a small residual may have hidden it.
 fn judgement(polished: &Polished) -> String {
-    let lost = polished.weights.iter().map(|w| w.printed_digits.saturating_sub(w.right)).max().unwrap_or(0);
+    let solved = || polished.weights.iter().filter(|w| matches!(w.role, Role::Solved | Role::Formula));
+    let lost = solved().map(|w| w.printed_digits.saturating_sub(w.right)).max().unwrap_or(0);
+    let off = solved().map(|w| (&w.printed - &w.polished).abs()).max().unwrap_or_default();
     match lost {
         0 => ": every printed digit is right".to_owned(),
-        1 => ": the printed digits are right but the last".to_owned(),
-        lost => format!(": up to {lost} of the printed digits are wrong"),
+        1 => ": the printed digits are right but for the last".to_owned(),
+        lost => format!(
+            ": up to {lost} of the printed digits are wrong; conditions off by {} stood for weights off by {}",
+            power_of_ten(polished.residual_printed),
+            to_significant(&off, 2)
+        ),
     }
+}
+
+/// Decimals that are so much worse than the best ones that no rounding explains it.
+fn misprints(weights: &[PolishedWeight]) -> impl Iterator<Item = &PolishedWeight> {
+    let best = weights.iter().map(|w| w.right).max().unwrap_or(0);
+    weights.iter().filter(move |w| w.right < w.printed_digits && 2 * w.right <= best)
 }
 
 fn number(condition: f64) -> String {

@@ -2,15 +2,17 @@
 
 use num_bigint::BigInt;
 use num_traits::Zero;
+use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
 use crate::order::{self, Condition};
+use crate::polish::Request;
 use crate::polish::composition::{self, Word};
 use crate::polish::dual::{Dual, Duals};
 use crate::polish::unknowns::Model;
 use crate::proof::prove;
 use crate::scheme::MapKind;
-use crate::table::Kinetic;
+use crate::table::{Kinetic, Table};
 use crate::{Scheme, nystrom};
 
 /// The conditions, as functions of the weights.
@@ -18,6 +20,8 @@ pub(super) struct Equations {
     family: Family,
     /// A palindrome meets the conditions of even order if it meets those of odd order.
     odd_only: bool,
+    /// Whether the cubes of the kicks must sum to 0.
+    split_kicks: bool,
 }
 
 enum Family {
@@ -37,13 +41,14 @@ pub(super) struct Row {
 }
 
 impl Equations {
-    /// The conditions of an order for a class of kinetic energies, and of the near-integrable orders r₁ ≥ r₂ ≥ …: with
-    /// kicks of size ε, those with k kicks up to the order r_k.
-    pub(super) fn of(model: &Model, kinetic: Kinetic, order: u32, near: &[u32]) -> Equations {
+    /// The conditions of the order that the table claims for its class of kinetic energies, and those asked for beside.
+    pub(super) fn of(model: &Model, table: &Table, wanted: &Request<'_>) -> Equations {
+        let (kinetic, order, near) = (table.kinetic, table.order.value, wanted.near_integrable);
         let odd_only = model.symmetric;
-        let base_order = model.base.as_ref().and_then(symmetric_order);
+        let split_kicks = wanted.split_kicks;
+        let base_order = model.base.as_ref().and_then(symmetric_order).filter(|_| near.is_empty() && !split_kicks);
         let family = match (kinetic, base_order) {
-            (Kinetic::Any, Some(base_order)) if near.is_empty() => {
+            (Kinetic::Any, Some(base_order)) => {
                 let mut words = composition::lyndon_words(base_order, order);
                 words.retain(|word| !odd_only || word.iter().sum::<u32>() % 2 == 1);
                 Family::Composition(words)
@@ -58,7 +63,7 @@ impl Equations {
                 Family::Words(words)
             }
         };
-        Equations { family, odd_only }
+        Equations { family, odd_only, split_kicks }
     }
 
     /// Whether the conditions are those of the γ's.
@@ -68,11 +73,15 @@ impl Equations {
 
     /// All conditions at weights that are functions of `unknowns` unknowns.
     pub(super) fn rows(&self, model: &Model, weights: &[Vec<Dual>], unknowns: usize, arithmetic: Duals) -> Vec<Row> {
+        let maps = || maps(model, weights, arithmetic);
         let mut found = match &self.family {
             Family::Composition(words) => composition::conditions(words, &weights[0], &arithmetic),
-            Family::Words(words) => order::word_conditions(words, &maps(model, weights, arithmetic), &arithmetic),
-            Family::Trees(order) => nystrom::tree_conditions(&maps(model, weights, arithmetic), *order, &arithmetic),
+            Family::Words(words) => order::word_conditions(words, &maps(), &arithmetic),
+            Family::Trees(order) => nystrom::tree_conditions(&maps(), *order, &arithmetic),
         };
+        if self.split_kicks {
+            found.push(cubes_of_kicks(&maps(), arithmetic));
+        }
         found.retain(|(condition, _)| !self.odd_only || condition.order % 2 == 1);
         let row = |(condition, mut dual): (Condition, Dual)| {
             dual.slopes.resize(unknowns, BigInt::zero());
@@ -85,6 +94,15 @@ impl Equations {
 /// The order of a base whose errors are of odd degree only.
 fn symmetric_order(base: &Scheme) -> Option<u32> {
     base.is_symmetric().then(|| prove(base).general.order).filter(|order| *order >= 2)
+}
+
+/// Σ a_s³ = 0
+fn cubes_of_kicks(maps: &[(MapKind, Dual)], arithmetic: Duals) -> (Condition, Dual) {
+    let mut sum = arithmetic.zero();
+    for (_, weight) in maps.iter().filter(|(kind, _)| *kind == MapKind::Kick) {
+        arithmetic.add_product(&mut sum, &arithmetic.product(weight, weight), weight);
+    }
+    (Condition { order: 3, name: "the cubes of the kicks".to_owned(), needed: Rational::zero() }, sum)
 }
 
 fn is_wanted(word: &[MapKind], order: u32, near: &[u32]) -> bool {

@@ -87,15 +87,15 @@ impl Problem<'_> {
         let surely = factors.diagonal.iter().filter(size).count().max(1);
         // the fewest that may suffice are tried first: with more of them than the solution's derivatives can tell apart,
         // the iteration would wander along a family of solutions
-        let mut failed = None;
+        let mut failed = failure(What::Singular);
         for rank in surely..=factors.order.len() {
             let moving = self.choose(&linear, &free, &factors, rank);
             match self.iterate(&printed, moving, first_digits, digits) {
                 Ok(solution) => return Ok(solution),
-                Err(failure) => failed = Some(better(failed, failure)),
+                Err(failure) => failed = failure,
             }
         }
-        Err(failed.unwrap_or(failure(What::Singular)))
+        Err(failed)
     }
 
     /// How far the conditions are from what is needed, as log10 of the largest distance.
@@ -203,14 +203,6 @@ impl Linear {
             x[moving[*place]] -= arithmetic.rational(step);
         }
         largest
-    }
-}
-
-/// The failure that came closest.
-fn better(first: Option<Failure>, second: Failure) -> Failure {
-    match first {
-        Some(first) if first.residual <= second.residual => first,
-        _ => second,
     }
 }
 

@@ -63,6 +63,8 @@ pub(super) struct Model {
     constants: Vec<(String, Cell)>,
     /// Other names of unknowns, such as `kick[6]`.
     names: BTreeMap<String, usize>,
+    /// The places of weights that are fractions or formulas.
+    exact: Vec<String>,
 }
 
 impl Model {
@@ -76,6 +78,7 @@ impl Model {
             lists: Vec::new(),
             constants: Vec::new(),
             names: BTreeMap::new(),
+            exact: Vec::new(),
         };
         for (name, cell) in &table.constants {
             let cell = model.cell(cell, &name.value, true);
@@ -93,8 +96,10 @@ impl Model {
         model.find_palindrome(table, &lists.iter().map(|(_, cells)| cells.value.as_slice()).collect::<Vec<_>>())?;
         for (list, (name, _)) in lists.iter().enumerate() {
             for (i, cell) in model.lists[list].iter().enumerate() {
-                if let Cell::Unknown(unknown) = cell {
-                    model.names.insert(format!("{name}[{}]", i + 1), *unknown);
+                let place = format!("{name}[{}]", i + 1);
+                match cell {
+                    Cell::Unknown(unknown) => drop(model.names.insert(place, *unknown)),
+                    Cell::Formula(_) => model.exact.push(place),
                 }
             }
         }
@@ -104,6 +109,11 @@ impl Model {
     /// The unknown that a person names.
     pub(super) fn unknown(&self, name: &str) -> Option<usize> {
         self.unknowns.iter().position(|u| u.name == name).or_else(|| self.names.get(name).copied())
+    }
+
+    /// Whether a name is that of a constant or weight without a decimal of its own.
+    pub(super) fn is_exact(&self, name: &str) -> bool {
+        self.constants.iter().any(|(constant, _)| constant == name) || self.exact.iter().any(|place| place == name)
     }
 
     /// The printed decimals.
@@ -278,7 +288,8 @@ fn decimal(text: &str) -> Option<(Rational, Rational, u32)> {
     let text = text.trim();
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, fraction) = mantissa.split_once('.')?;
-    let value = from_text(text).ok()?;
+    // 0.0 is no rounded number
+    let value = from_text(text).ok().filter(|value| !value.is_zero())?;
     let places = fraction.len() as i32 - exponent.parse::<i32>().ok()?;
     let power = Rational::from_integer(BigInt::from(10).pow(places.unsigned_abs()));
     let unit = if places < 0 { power } else { power.recip() };

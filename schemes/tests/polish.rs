@@ -1,0 +1,235 @@
+//! Printed decimals become weights of many digits: published schemes, and tables that cannot be polished.
+
+use std::fs;
+
+use num_traits::{One, Signed};
+use shadowstep_schemes::polish::{NotPolished, Polished, Request, Role, polish};
+use shadowstep_schemes::{Rational, Source, shipped};
+use shadowstep_symbolic::exact;
+use toml::{Table, Value};
+
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");
+
+fn published(name: &str) -> Source {
+    let path = format!("{FOLDER}/published/{name}.toml");
+    Source { text: fs::read_to_string(&path).unwrap(), path }
+}
+
+fn polished(source: &Source, digits: u32, free: &[&str]) -> Result<Polished, NotPolished> {
+    let free: Vec<_> = free.iter().map(|name| (*name).to_owned()).collect();
+    let wanted = Request { digits, free: &free, near_integrable: &[], split_kicks: false };
+    polish(source, &|name, _| shipped(name), &wanted)
+}
+
+fn references() -> Table {
+    fs::read_to_string(format!("{FOLDER}/polished.toml")).unwrap().parse().unwrap()
+}
+
+fn texts(record: &Table, key: &str) -> Vec<String> {
+    record[key].as_array().unwrap().iter().map(|text| text.as_str().unwrap().to_owned()).collect()
+}
+
+fn power(exponent: u32) -> Rational {
+    Rational::new(1.into(), num_bigint::BigInt::from(10).pow(exponent))
+}
+
+fn distance(a: &Rational, b: &str) -> Rational {
+    (a - exact(b).unwrap()).abs()
+}
+
+fn reproduce(name: &str, record: &Table) {
+    let near: Vec<u32> =
+        record["near_integrable"].as_array().unwrap().iter().map(|r| r.as_integer().unwrap() as u32).collect();
+    let wanted = Request {
+        digits: 250,
+        free: &texts(record, "free"),
+        near_integrable: &near,
+        split_kicks: record["split_kicks"].as_bool().unwrap(),
+    };
+    let polished =
+        polish(&published(name), &|name, _| shipped(name), &wanted).unwrap_or_else(|e| panic!("{name}: {e}"));
+    assert!(polished.residual < -250.0, "{name}: {}", polished.residual);
+    let scheme = &polished.proved.scheme;
+    // the drifts of composed Störmer–Verlet steps are the γ's
+    for (list, weights) in [("kick", &scheme.kick), ("drift", &scheme.drift), ("gamma", &scheme.drift)] {
+        let Some(Value::Array(digits)) = record.get(list) else { continue };
+        for (i, (weight, digits)) in weights.iter().zip(digits).enumerate() {
+            // one unit of the reference's last decimal, which is rounded
+            assert!(distance(weight, digits.as_str().unwrap()) <= power(250), "{name}: {list}[{}]", i + 1);
+        }
+    }
+}
+
+/// A table of order 4 for every T(p) with these lines below its head.
+fn table(order: u32, lines: &str) -> Source {
+    let text = format!("name = \"t\"\norder = {order}\nkinetic = \"any\"\nreference = \"a test\"\n{lines}");
+    Source { path: "t.toml".to_owned(), text }
+}
+
+fn refusal(source: &Source, free: &[&str]) -> String {
+    match polished(source, 100, free) {
+        Ok(polished) => panic!("polished:\n{}", polished.text),
+        Err(NotPolished::Faults(faults)) => faults.to_string(),
+        Err(NotPolished::Request { sentence, help } | NotPolished::Unsolved { sentence, help }) => {
+            format!("{sentence}: {help}")
+        }
+    }
+}
+
+fn roles(polished: &Polished, role: Role) -> Vec<&str> {
+    polished.weights.iter().filter(|w| w.role == role).map(|w| w.name.as_str()).collect()
+}
+
+/// Schemes of all kinds: compositions up to 35 stages and order 10, for every T(p), for quadratic T, near-integrable.
+#[test]
+fn published_schemes_get_the_digits_computed_elsewhere() {
+    let references = references();
+    assert_eq!(references.len(), fs::read_dir(format!("{FOLDER}/published")).unwrap().count() - 1, "a README too");
+    for (name, record) in &references {
+        let start = std::time::Instant::now();
+        reproduce(name, record.as_table().unwrap());
+        println!("{name:24} {:6.2} s", start.elapsed().as_secs_f64());
+    }
+}
+
+#[test]
+fn a_small_residual_hides_wrong_digits_where_a_solution_is_ill_conditioned() {
+    let polished = polished(&published("yoshida8d"), 100, &[]).unwrap();
+    // of 20 and 21 printed digits; as f64 the residual is its rounding
+    assert!(polished.residual_printed < -14.0);
+    assert!(polished.weights.iter().all(|w| w.printed_digits >= 20 && (11..=12).contains(&w.right)));
+    assert!(
+        polished
+            .weights
+            .iter()
+            .any(|w| (&w.printed - &w.polished).abs() > power(13) * Rational::from_integer(6.into()))
+    );
+    // A of the same paper is as good as printed
+    let good = self::polished(&published("yoshida8a"), 100, &[]).unwrap();
+    assert!(good.weights.iter().all(|w| w.right == w.printed_digits));
+}
+
+#[test]
+fn fourteen_digits_become_three_hundred() {
+    let gammas = "0.78451361047756, 0.23557321335936, -1.1776799841789, 1.3151863206839";
+    let lines = format!(
+        "# as a library prints it\n[composition]\nbase = \"stormer-verlet\"\n\
+         gamma = [{gammas}, -1.1776799841789,   # and back\n  0.23557321335936, 0.78451361047756]\n"
+    );
+    let polished = polished(&table(6, &lines), 300, &[]).unwrap();
+    assert_eq!((polished.proved.proof.general.order, polished.proved.proof.symmetric), (6, true));
+    assert!(polished.proved.order().digits.unwrap() >= 300);
+    assert!(polished.proved.scheme.drift.iter().sum::<Rational>().is_one(), "exactly");
+    let text = &polished.text;
+    assert!(text.contains("# as a library prints it\n[constants]\ng1 = \"0.784513610477557263819497"), "{text}");
+    assert!(text.contains("\ng4 = \"1 - 2*(g1 + g2 + g3)\"\n\n[composition]"), "{text}");
+    assert!(text.contains("[\"g1\", \"g2\", \"g3\", \"g4\", \"g3\",   # and back\n  \"g2\", \"g1\"]"), "{text}");
+    assert!(text.contains("order = 6\ndigits = 300\n"), "{text}");
+}
+
+#[test]
+fn what_is_exact_stays_as_it_is() {
+    let source = published("mclachlan-ss17");
+    let polished = polished(&source, 50, &[]).unwrap();
+    assert!(polished.text.contains("g1 = \"25/194\"\n"));
+    assert!(polished.text.contains("g9 = \"72/97 - 2*(g2 + g3 + g4 + g5 + g6 + g7 + g8)\"\n"), "{}", polished.text);
+    assert!(roles(&polished, Role::Free).is_empty());
+    let verlet = table(2, "[stages]\nkick = [0.5, 0.5]\ndrift = [1.0, 0.0]\n");
+    let text = self::polished(&verlet, 50, &[]).unwrap().text;
+    assert!(text.contains("a1 = \"0.5\"\nb1 = \"1\"\n") && text.contains("drift = [\"b1\", 0.0]"), "{text}");
+}
+
+#[test]
+fn formulas_of_decimals_are_solved_for_these() {
+    let lines = "[constants]\nc = \"1.2599210498948732\"\ng1 = \"1/(2 - c)\"\n\n\
+                 [composition]\nbase = \"stormer-verlet\"\ngamma = [\"g1\", \"1 - 2*g1\", \"g1\"]\n";
+    let polished = polished(&table(4, lines), 200, &[]).unwrap();
+    assert!(distance(&polished.weights[0].polished, "2^(1/3)") < power(200));
+    assert!(polished.text.contains("g1 = \"1/(2 - c)\""));
+}
+
+#[test]
+fn weights_with_more_structure_than_their_conditions_know_are_polished() {
+    // Yoshida's A as stages: 10 conditions of a palindrome for 8 decimals
+    let gamma = polished(&published("yoshida6a"), 120, &[]).unwrap().proved.scheme;
+    let list = |weights: &[Rational]| {
+        let cells: Vec<_> = weights.iter().map(|w| shadowstep_schemes::to_significant(w, 17)).collect();
+        cells.join(", ")
+    };
+    let lines = format!("[stages]\nkick = [{}]\ndrift = [{}]\n", list(&gamma.kick), list(&gamma.drift));
+    let polished = polished(&table(6, &lines), 100, &[]).unwrap();
+    assert_eq!((polished.conditions, polished.weights.len()), (10, 8));
+    for (stages, gamma) in polished.proved.scheme.kick.iter().zip(&gamma.kick) {
+        assert!((stages - gamma).abs() < power(100));
+    }
+}
+
+#[test]
+fn decimals_that_the_conditions_leave_free_stay_as_printed() {
+    let source = published("blanes-moan-s6");
+    let chosen = polished(&source, 60, &[]).unwrap();
+    assert_eq!(roles(&chosen, Role::Free).len(), 3, "7 decimals, 4 conditions");
+    // the names of a decimal are its places in the list, from either end
+    let asked = polished(&source, 60, &["kick[1]", "kick[6]", "drift[1]"]).unwrap();
+    assert_eq!(roles(&asked, Role::Held), ["kick[1]", "kick[2]", "drift[1]"]);
+    assert!(roles(&asked, Role::Free).is_empty());
+    let held = asked.weights.iter().filter(|w| w.role == Role::Held);
+    assert!(held.clone().all(|w| w.printed == w.polished) && held.count() == 3);
+    // decimals with few digits were chosen by somebody: they are held before the others
+    let few = polished(&published("mclachlan-ss9"), 60, &[]).unwrap();
+    assert_eq!(roles(&few, Role::Free), ["g1"]);
+}
+
+#[test]
+fn names_that_are_no_decimals_are_refused() {
+    let source = published("mclachlan-ss17");
+    let unknown = refusal(&source, &["g22"]);
+    assert!(unknown.contains("no printed decimal `g22`") && unknown.contains("did you mean `g2`?"), "{unknown}");
+    assert!(refusal(&source, &["g1"]).contains("`g1` is no printed decimal"));
+    assert!(refusal(&source, &["gamma[1]"]).contains("fractions and formulas stay as they are"));
+    assert!(refusal(&Source { ..shipped("yoshida4").unwrap() }, &[]).contains("has no printed decimals"));
+}
+
+#[test]
+fn contradictions_are_told_with_numbers() {
+    let source = published("yoshida6a");
+    let order8 = Source { text: source.text.replace("order = 6", "order = 8"), ..source.clone() };
+    let said = refusal(&order8, &[]);
+    assert!(said.contains("8 conditions for 4 decimals, 4 of them solved for; as printed off by"), "{said}");
+    let held = refusal(&source, &["g2"]);
+    assert!(held.contains("no values near the printed ones") && held.contains("let more decimals move"), "{held}");
+    let unlike = table(2, "symmetric = true\n[stages]\nkick = [0.25, 0.75]\ndrift = [1, 0]\n");
+    let said = refusal(&unlike, &[]);
+    assert!(said.contains("a palindrome is claimed") && said.contains("found 0.75, needed 0.25"), "{said}");
+}
+
+#[test]
+fn singular_solutions_are_told_with_numbers() {
+    // for this g1 the two other γ's are equal, a double root of the condition of order 4
+    let with = |g2: &str, g3: &str| {
+        let g1 = "-cbrt(3/2)/(3 - 2*cbrt(3/2))";
+        let gamma = "[\"g1\", \"g2\", \"g3\", \"g2\", \"g1\"]";
+        let constants = format!("[constants]\ng1 = \"{g1}\"\ng2 = \"{g2}\"\ng3 = \"{g3}\"\n\n");
+        table(4, &format!("{constants}[composition]\nbase = \"stormer-verlet\"\ngamma = {gamma}\n"))
+    };
+    let near = refusal(&with("1.407318", "1.407321"), &[]);
+    assert!(near.contains("derivatives are singular at the solution") && near.contains("condition number"), "{near}");
+    let equal = refusal(&with("1.407318", "1.407318"), &[]);
+    assert!(equal.contains("1 of them solved for") && equal.contains("a singular solution"), "{equal}");
+}
+
+#[test]
+fn a_base_of_few_digits_is_named_as_the_reason() {
+    let base = "name = \"base\"\norder = 2\nkinetic = \"any\"\ndigits = 15\nreference = \"a test\"\n\
+                [stages]\nkick = [0.2113248654051871, 0.2886751345948129, 0.2886751345948129, 0.2113248654051871]\n\
+                drift = [0.25, 0.5, 0.25, 0]\n";
+    let lines =
+        "[composition]\nbase = \"base\"\ngamma = [1.3512071919596577, -1.7024143839193153, 1.3512071919596577]\n";
+    let base = Source { path: "base.toml".to_owned(), text: base.to_owned() };
+    let wanted = Request { digits: 50, free: &[], near_integrable: &[], split_kicks: false };
+    let Err(NotPolished::Unsolved { sentence, help }) = polish(&table(4, lines), &|_, _| Some(base.clone()), &wanted)
+    else {
+        panic!("15 digits cannot become 50")
+    };
+    assert!(sentence.contains("not to 50") && help.contains("the base has 15 digits"), "{sentence}: {help}");
+}
