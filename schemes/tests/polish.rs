@@ -181,6 +181,54 @@ fn decimals_that_the_conditions_leave_free_stay_as_printed() {
 }
 
 #[test]
+fn constants_that_mirror_each_other_become_one() {
+    let mirrored = polished(&published("blanes-moan-s6"), 60, &["kick[1]", "kick[2]", "drift[1]"]).unwrap();
+    let lists = published("blanes-moan-s6").text;
+    let cells = |list: &str| {
+        let line = lists.lines().find(|line| line.starts_with(list)).unwrap();
+        line[line.find('[').unwrap() + 1..line.len() - 1].split(", ").map(str::to_owned).collect::<Vec<_>>()
+    };
+    let constants = |letter: &str, cells: &[String]| -> String {
+        cells.iter().enumerate().map(|(i, cell)| format!("{letter}{i} = {cell}\n")).collect()
+    };
+    let names =
+        |letter: &str, count: usize| (0..count).map(|i| format!("\"{letter}{i}\"")).collect::<Vec<_>>().join(", ");
+    let (kicks, drifts) = (cells("kick"), cells("drift"));
+    let lines = format!(
+        "[constants]\n{}{}unused = 0.123\n[stages]\nkick = [{}]\ndrift = [{}, 0]\n",
+        constants("a", &kicks),
+        constants("b", &drifts[..6]),
+        names("a", 7),
+        names("b", 6)
+    );
+    // from the other end
+    let one = polished(&table(4, &lines), 60, &["a6", "kick[6]", "b5", "unused"]).unwrap();
+    assert_eq!(roles(&one, Role::Held), ["a0", "a1", "b0", "unused"]);
+    assert!(one.text.contains("\na6 = \"a0\"\n") && one.text.contains("\nb3 = \"b2\"\n"), "{}", one.text);
+    assert_eq!(
+        (&one.proved.scheme.kick, &one.proved.scheme.drift),
+        (&mirrored.proved.scheme.kick, &mirrored.proved.scheme.drift)
+    );
+}
+
+#[test]
+fn tables_are_written_however_they_are_laid_out() {
+    let gamma = "[1.3512071919596577, -1.7024143839193153, 1.3512071919596577]";
+    let layouts = [
+        format!("[composition]\r\nbase = \"stormer-verlet\"\r\ngamma = {gamma}"),
+        format!("[composition]\nbase = 'stormer-verlet'\ngamma = {gamma}\n\n[constants]"),
+        format!("[composition]\nbase = 'stormer-verlet'\ngamma = {gamma}\n[constants]\ng1 = \"1/3\""),
+    ];
+    for lines in layouts {
+        let polished = polished(&table(4, &lines), 80, &[]).unwrap();
+        assert!(polished.proved.order().digits.unwrap() >= 80, "{}", polished.text);
+    }
+    let dotted =
+        refusal(&table(4, &format!("composition.base = \"stormer-verlet\"\ncomposition.gamma = {gamma}\n")), &[]);
+    assert!(dotted.contains("write [constants] and [composition] on lines of their own"), "{dotted}");
+}
+
+#[test]
 fn names_that_are_no_decimals_are_refused() {
     let source = published("mclachlan-ss17");
     let unknown = refusal(&source, &["g22"]);

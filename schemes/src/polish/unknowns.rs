@@ -243,28 +243,37 @@ impl Model {
     /// Takes an unknown away that follows from another cell.
     fn replace(&mut self, gone: usize, by: Cell, text: Mirrored) {
         let removed = self.unknowns.remove(gone);
-        self.mirrored.push((removed.at, text));
         let renumbered = |unknown: usize| if unknown > gone { unknown - 1 } else { unknown };
-        let renumber = |cell: &Cell| match cell {
-            Cell::Unknown(unknown) => Cell::Unknown(renumbered(*unknown)),
-            formula => formula.clone(),
+        let by = match by {
+            Cell::Unknown(kept) => Cell::Unknown(renumbered(kept)),
+            formula => formula,
         };
-        let by = renumber(&by);
-        let cells = self.constants.iter_mut().map(|(_, cell)| cell).chain(self.lists.iter_mut().flatten());
-        for cell in cells {
-            *cell =
-                if matches!(cell, Cell::Unknown(unknown) if *unknown == gone) { by.clone() } else { renumber(cell) };
-        }
-        for (_, text) in &mut self.mirrored {
-            if let Mirrored::Unknown(unknown) = text {
-                *unknown = renumbered(*unknown);
+        let new = |unknown: usize| if unknown == gone { by.clone() } else { Cell::Unknown(renumbered(unknown)) };
+        for cell in self.constants.iter_mut().map(|(_, cell)| cell).chain(self.lists.iter_mut().flatten()) {
+            if let Cell::Unknown(unknown) = *cell {
+                *cell = new(unknown);
             }
         }
-        if removed.is_constant
-            && let Cell::Unknown(unknown) = by
-        {
-            self.names.insert(removed.name, unknown);
+        let text_then = text.clone();
+        self.mirrored.push((removed.at, text));
+        for (_, text) in &mut self.mirrored {
+            if let Mirrored::Unknown(unknown) = *text {
+                *text = match new(unknown) {
+                    Cell::Unknown(unknown) => Mirrored::Unknown(unknown),
+                    Cell::Formula(_) => text_then.clone(),
+                };
+            }
         }
+        if removed.is_constant {
+            self.names.insert(removed.name, gone);
+        }
+        self.names.retain(|_, unknown| match new(*unknown) {
+            Cell::Unknown(kept) => {
+                *unknown = kept;
+                true
+            }
+            Cell::Formula(_) => false,
+        });
     }
 }
 
