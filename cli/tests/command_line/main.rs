@@ -2,6 +2,7 @@
 
 mod checkpoints;
 mod drift;
+mod polish;
 mod problems;
 mod program;
 mod scene_faults;

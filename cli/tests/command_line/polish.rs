@@ -1,0 +1,103 @@
+//! `shadowstep schemes polish`.
+
+use std::fs;
+
+use tempfile::TempDir;
+
+use crate::program::{quietly, shadowstep};
+
+/// Yoshida's solution D of order 8 with his 20 digits.
+const PRINTED: &str = "\
+name = \"yoshida8d\"
+title = \"Yoshida's solution D\"   # table 2
+order = 8
+kinetic = \"any\"
+symmetric = true
+digits = 20
+reference = \"H. Yoshida, Phys. Lett. A 150 (1990) 262-268\"
+
+[constants]
+w7 = \"0.914844246229642658287\"
+w6 = \"0.253693336566286009974\"
+w5 = \"-1.44485223686030647660\"
+w4 = \"-0.158240635368502468458\"
+w3 = \"1.93813913762291232471\"
+w2 = \"-1.96061023297558163691\"
+w1 = \"0.102799849392219431139\"
+w0 = \"1 - 2*(w1 + w2 + w3 + w4 + w5 + w6 + w7)\"
+
+[composition]
+base = \"stormer-verlet\"
+gamma = [\"w7\", \"w6\", \"w5\", \"w4\", \"w3\", \"w2\", \"w1\", \"w0\", \"w1\", \"w2\", \"w3\", \"w4\", \"w5\", \"w6\", \"w7\"]
+";
+
+fn printed(text: &str) -> (TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("printed.toml").display().to_string();
+    fs::write(&path, text).unwrap();
+    (folder, path)
+}
+
+#[test]
+fn the_polished_table_is_proved_to_the_digits_asked_for() {
+    let (folder, path) = printed(PRINTED);
+    let output = folder.path().join("polished.toml").display().to_string();
+    let said = shadowstep(&format!("schemes polish {path} --output {output}"));
+    assert_eq!((said.code, said.out.as_str()), (0, ""));
+    // stderr: what was done, and what the printed digits were worth
+    assert!(said.err.contains("order 8 for every T(p), symmetric: 8 conditions in the γ's"), "{}", said.err);
+    assert!(said.err.contains("up to 10 of the printed digits are wrong; conditions off by"), "{}", said.err);
+
+    let proved = quietly(&format!("schemes check {output}"));
+    let digits = proved.split("to ").nth(1).unwrap().split(' ').next().unwrap();
+    assert!(proved.contains("order 8 for every T(p)") && digits.parse::<u32>().unwrap() >= 300, "{proved}");
+    let text = fs::read_to_string(&output).unwrap();
+    assert!(text.contains("# table 2\norder = 8\n") && text.contains("digits = 300\n"), "{text}");
+    assert!(text.contains("w0 = \"1 - 2*(w1 + w2 + w3 + w4 + w5 + w6 + w7)\""), "{text}");
+    assert!(text.contains("w7 = \"0.91484424622979156674"), "{text}");
+
+    // what is polished stays as it is, and is written to stdout too
+    let again = shadowstep(&format!("schemes polish {output}"));
+    assert_eq!((again.code, again.out), (0, text));
+    assert!(again.err.contains("every printed digit is right"), "{}", again.err);
+}
+
+#[test]
+fn what_cannot_be_polished_is_told_with_exit_code_1_and_no_table() {
+    let (folder, path) = printed(&PRINTED.replace("order = 8", "order = 10"));
+    let output = folder.path().join("polished.toml").display().to_string();
+    let said = shadowstep(&format!("schemes polish {path} --output {output}"));
+    assert_eq!((said.code, said.out.as_str()), (1, ""));
+    assert!(said.err.starts_with("error: ") && said.err.contains("16 conditions for 7 decimals"), "{}", said.err);
+    assert!(said.err.contains("condition number"), "{}", said.err);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the printed table only");
+}
+
+#[test]
+fn a_misprinted_weight_is_named() {
+    let (_folder, path) = printed(&PRINTED.replace("0.2536933365662", "0.2536933365262"));
+    assert!(
+        !shadowstep(&format!("schemes polish {path}")).err.contains("misprinted"),
+        "off by 4e-11: too near to tell"
+    );
+    let (_folder, path) = printed(&PRINTED.replace("0.25369333", "0.25639333"));
+    let said = shadowstep(&format!("schemes polish {path}"));
+    assert_eq!(said.code, 0, "{}", said.err);
+    assert!(said.err.contains("remark: w6 seems to be misprinted: 1 of its 21 digits are right"), "{}", said.err);
+}
+
+#[test]
+fn wrong_usage_is_told_in_a_sentence() {
+    let (_folder, path) = printed(PRINTED);
+    for (words, told) in [
+        ("--free w8", "the table has no printed decimal `w8`"),
+        ("--free w0", "`w0` is no printed decimal"),
+        ("--digits 301", "301 is not in 1..=300"),
+        ("--near-integrable 11", "11 is not in 1..=10"),
+    ] {
+        let said = shadowstep(&format!("schemes polish {path} {words}"));
+        assert_eq!(said.code, 2, "{}", said.err);
+        assert!(said.err.contains(told), "{words}: {}", said.err);
+    }
+    assert_eq!(shadowstep("schemes polish no-such.toml").code, 2);
+}
