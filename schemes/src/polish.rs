@@ -6,10 +6,11 @@
 //!
 //! | file | what it does |
 //! | --- | --- |
-//! | `unknowns` | table → its decimals as unknowns, and the weights as functions of them |
+//! | `unknowns`, `palindrome` | table → its decimals as unknowns, and the weights as functions of them |
 //! | `equations`, `composition` | which conditions have to hold; those of compositions in the γ's alone |
 //! | `dual` | values with their derivatives, in fixed point |
 //! | `least_squares`, `newton` | linear algebra; the choice of what stays as printed; the iteration |
+//! | `rounded` | the values as they are written, with sums of exactly 1 |
 //! | `write` | the table's text with the new decimals |
 //!
 //! The arithmetic is in integers, with twice the digits at each step of the iteration. The result is read and proved as
@@ -20,13 +21,13 @@ mod dual;
 mod equations;
 mod least_squares;
 mod newton;
+mod palindrome;
+mod rounded;
 mod unknowns;
 mod write;
 
-use num_traits::{One, Signed, Zero};
-use shadowstep_symbolic::Rational;
-use shadowstep_symbolic::decimal::{round_significant, to_significant};
-use shadowstep_symbolic::{nearest, nearest_few};
+use num_traits::Signed;
+use shadowstep_symbolic::{Rational, nearest, nearest_few};
 
 use crate::exact::{self, DIGITS, Library};
 use crate::fault::{Faults, Source};
@@ -40,13 +41,6 @@ use write::Written;
 
 /// The most digits that can be asked for: as many as a table may claim.
 pub const MOST_DIGITS: u32 = DIGITS;
-
-/// Digits that are written beyond those asked for, so that the conditions, sums of many products, hold to these.
-const WRITTEN_BEYOND: u32 = 10;
-
-/// The most bits of the denominator of what fractions and formulas add to a sum: longer ones are closed forms, which are
-/// no exact part of a formula.
-const LONGEST_REST: u64 = 64;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]
@@ -151,7 +145,7 @@ fn request(sentence: impl Into<String>, help: impl Into<String>) -> NotPolished 
 /// or that do not determine them.
 pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Result<Polished, NotPolished> {
     let (table, base) = readable(source, library)?;
-    let model = Model::of(&table, base).map_err(|fault| Faults(vec![fault]))?;
+    let model = Model::of(&table, base)?;
     if model.unknowns.is_empty() {
         return Err(request(
             format!("{} has no printed decimals, its weights are exact", source.path),
@@ -165,8 +159,8 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     let solution =
         problem.solve(&held, wanted.digits).map_err(|failure| unsolved(&problem, &failure, residual_printed, &held))?;
     let names = write::names(&table, &model);
-    let (x, written) = written(&model, &names, &solution, wanted.digits);
-    let text = write::text(&table, &model, &names, &written, wanted.digits).map_err(|fault| Faults(vec![fault]))?;
+    let (x, written) = rounded::rounded(&model, &names, &solution, wanted.digits);
+    let text = write::text(&table, &model, &names, &written, wanted.digits)?;
     let proved = proof::read(&Source { path: source.path.clone(), text: text.clone() }, library)?;
     let residual = problem.residual(&x, wanted.digits);
     enough(&proved, residual, wanted.digits)?;
@@ -215,71 +209,6 @@ fn held(model: &Model, wanted: &Request<'_>) -> Result<Vec<usize>, NotPolished> 
         })
     };
     wanted.free.iter().map(named).collect()
-}
-
-/// The values as they are written, rounded once, and how.
-fn written(model: &Model, names: &[String], solution: &newton::Solution, digits: u32) -> (Vec<Rational>, Vec<Written>) {
-    let mut x = solution.x.clone();
-    let mut written = vec![Written::AsPrinted; x.len()];
-    for &unknown in &solution.moving {
-        let digits = digits + WRITTEN_BEYOND;
-        x[unknown] = round_significant(&x[unknown], digits);
-        written[unknown] = Written::Decimal(to_significant(&x[unknown], digits as usize));
-    }
-    for list in 0..model.lists_of_weights() {
-        if let Some((unknown, value, formula)) = remainder(model, names, &x, list, &solution.moving) {
-            x[unknown] = value;
-            written[unknown] = Written::Formula(formula);
-        }
-    }
-    (x, written)
-}
-
-/// A decimal that can be what the others of a list leave of 1: it, its value and its formula.
-fn remainder(
-    model: &Model,
-    names: &[String],
-    x: &[Rational],
-    list: usize,
-    moving: &[usize],
-) -> Option<(usize, Rational, String)> {
-    let sums = |x: &[Rational]| -> Option<Vec<Rational>> {
-        let lists = model.weights(x, 2 * DIGITS).ok()?;
-        Some(lists.iter().map(|list| list.iter().sum()).collect())
-    };
-    let at_x = sums(x)?;
-    if at_x[list].is_one() {
-        return None;
-    }
-    let slopes = |unknown: usize| {
-        let mut moved = x.to_vec();
-        moved[unknown] += Rational::one();
-        Some(sums(&moved)?.iter().zip(&at_x).map(|(moved, fixed)| moved - fixed).collect::<Vec<_>>())
-    };
-    let slopes: Vec<_> = (0..x.len()).map(slopes).collect::<Option<_>>()?;
-    let alone = |u: &usize| slopes[*u].iter().enumerate().all(|(l, slope)| slope.is_zero() == (l != list));
-    let (unknown, others) = moving.iter().rev().copied().filter(alone).find_map(|unknown| {
-        let others: Vec<_> = (0..x.len()).filter(|&u| u != unknown && !slopes[u][list].is_zero()).collect();
-        // a formula uses what stands above it; new constants are written below all others
-        let below = |u: usize| {
-            let (this, other) = (&model.unknowns[unknown], &model.unknowns[u]);
-            this.is_constant && !(other.is_constant && other.at.start < this.at.start)
-        };
-        (!others.iter().any(|&u| below(u))).then_some((unknown, others))
-    })?;
-    let linear: Rational = others.iter().map(|&u| &slopes[u][list] * &x[u]).sum();
-    let divisor = &slopes[unknown][list];
-    let rest = &at_x[list] - &linear - divisor * &x[unknown];
-    if rest.denom().bits() > LONGEST_REST {
-        return None;
-    }
-    let value = (Rational::one() - &rest - linear) / divisor;
-    let mut exact = x.to_vec();
-    exact[unknown] = value.clone();
-    // not so where a sum is no linear function of the decimals
-    sums(&exact).filter(|sums| sums[list].is_one())?;
-    let terms: Vec<_> = others.iter().map(|&u| (slopes[u][list].clone(), names[u].as_str())).collect();
-    Some((unknown, value, write::remainder(divisor, &rest, &terms)))
 }
 
 fn weight(

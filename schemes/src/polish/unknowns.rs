@@ -7,12 +7,12 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use num_bigint::BigInt;
-use num_traits::{Signed, Zero};
-use shadowstep_symbolic::decimal::{from_text, to_significant};
+use num_traits::Zero;
+use shadowstep_symbolic::decimal::from_text;
 use shadowstep_symbolic::{EvaluationError, Exact, Expression, Rational, evaluate, parse};
 
 use crate::Scheme;
-use crate::fault::Fault;
+use crate::fault::Faults;
 use crate::polish::dual::{Dual, Duals};
 use crate::table::{self, Table, Weights};
 
@@ -35,7 +35,7 @@ pub(super) struct Unknown {
 
 /// A constant or a weight as a function of the unknowns.
 #[derive(Clone, Debug)]
-enum Cell {
+pub(super) enum Cell {
     Unknown(usize),
     Formula(Expression),
 }
@@ -59,17 +59,17 @@ pub(super) struct Model {
     /// The base of a composition.
     pub(super) base: Option<Scheme>,
     /// Lists of weights: kicks and drifts, or γ's.
-    lists: Vec<Vec<Cell>>,
-    constants: Vec<(String, Cell)>,
+    pub(super) lists: Vec<Vec<Cell>>,
+    pub(super) constants: Vec<(String, Cell)>,
     /// Other names of unknowns, such as `kick[6]`.
-    names: BTreeMap<String, usize>,
+    pub(super) names: BTreeMap<String, usize>,
     /// The places of weights that are fractions or formulas.
     exact: Vec<String>,
 }
 
 impl Model {
     /// The unknowns of a table whose cells can be evaluated.
-    pub(super) fn of(table: &Table, base: Option<Scheme>) -> Result<Model, Fault> {
+    pub(super) fn of(table: &Table, base: Option<Scheme>) -> Result<Model, Faults> {
         let mut model = Model {
             unknowns: Vec::new(),
             mirrored: Vec::new(),
@@ -179,102 +179,6 @@ impl Model {
             _ => Cell::Formula(parse(&cell.value).expect("the cells have been evaluated")),
         }
     }
-
-    /// Unites what mirrors each other, if everything does.
-    fn find_palindrome(&mut self, table: &Table, texts: &[&[table::Cell]]) -> Result<(), Fault> {
-        let claimed = table.symmetric.as_ref().map(|claim| claim.value);
-        if claimed == Some(false) {
-            return Ok(());
-        }
-        let digits = crate::exact::DIGITS;
-        let values = self.weights(&self.printed(), digits).expect("the cells have been evaluated");
-        let mut places = Vec::new();
-        for stage in 0..self.lists[0].len() {
-            for list in 0..self.lists.len() {
-                if matches!(self.lists[list][stage], Cell::Unknown(_)) || !values[list][stage].is_zero() {
-                    places.push((list, stage));
-                }
-            }
-        }
-        let pairs: Vec<_> = (0..places.len() / 2).map(|i| (places[i], places[places.len() - 1 - i])).collect();
-        for &((list, stage), (other_list, other)) in &pairs {
-            let (a, b) = (&values[list][stage], &values[other_list][other]);
-            let unit = self.unit((list, stage)).max(self.unit((other_list, other)));
-            if list == other_list && (a - b).abs() <= unit {
-                continue;
-            }
-            return match claimed {
-                Some(true) => Err(unlike(table, &texts[other_list][other], a, b)),
-                _ => Ok(()),
-            };
-        }
-        self.symmetric = true;
-        pairs.into_iter().for_each(|(a, b)| self.unite(a, b, texts));
-        Ok(())
-    }
-
-    /// One unit of a cell's last digit; for formulas one of 250 digits.
-    fn unit(&self, (list, stage): (usize, usize)) -> Rational {
-        match &self.lists[list][stage] {
-            Cell::Unknown(unknown) => self.unknowns[*unknown].unit.clone(),
-            Cell::Formula(_) => Rational::new(1.into(), BigInt::from(10).pow(250)),
-        }
-    }
-
-    fn unite(&mut self, first: (usize, usize), second: (usize, usize), texts: &[&[table::Cell]]) {
-        let cell = |(list, stage): (usize, usize)| self.lists[list][stage].clone();
-        match (cell(first), cell(second)) {
-            (Cell::Unknown(a), Cell::Unknown(b)) if a != b => {
-                // constants keep their names; of two alike the upper one stays
-                let stays = |u: usize| (!self.unknowns[u].is_constant, self.unknowns[u].at.start);
-                let (kept, gone) = if stays(a) <= stays(b) { (a, b) } else { (b, a) };
-                self.replace(gone, Cell::Unknown(kept), Mirrored::Unknown(kept));
-            }
-            (Cell::Unknown(unknown), formula @ Cell::Formula(_)) if !self.unknowns[unknown].is_constant => {
-                self.replace(unknown, formula, Mirrored::Formula(texts[second.0][second.1].value.clone()));
-            }
-            (formula @ Cell::Formula(_), Cell::Unknown(unknown)) if !self.unknowns[unknown].is_constant => {
-                self.replace(unknown, formula, Mirrored::Formula(texts[first.0][first.1].value.clone()));
-            }
-            _ => {}
-        }
-    }
-
-    /// Takes an unknown away that follows from another cell.
-    fn replace(&mut self, gone: usize, by: Cell, text: Mirrored) {
-        let removed = self.unknowns.remove(gone);
-        let renumbered = |unknown: usize| if unknown > gone { unknown - 1 } else { unknown };
-        let by = match by {
-            Cell::Unknown(kept) => Cell::Unknown(renumbered(kept)),
-            formula => formula,
-        };
-        let new = |unknown: usize| if unknown == gone { by.clone() } else { Cell::Unknown(renumbered(unknown)) };
-        for cell in self.constants.iter_mut().map(|(_, cell)| cell).chain(self.lists.iter_mut().flatten()) {
-            if let Cell::Unknown(unknown) = *cell {
-                *cell = new(unknown);
-            }
-        }
-        let text_then = text.clone();
-        self.mirrored.push((removed.at, text));
-        for (_, text) in &mut self.mirrored {
-            if let Mirrored::Unknown(unknown) = *text {
-                *text = match new(unknown) {
-                    Cell::Unknown(unknown) => Mirrored::Unknown(unknown),
-                    Cell::Formula(_) => text_then.clone(),
-                };
-            }
-        }
-        if removed.is_constant {
-            self.names.insert(removed.name, gone);
-        }
-        self.names.retain(|_, unknown| match new(*unknown) {
-            Cell::Unknown(kept) => {
-                *unknown = kept;
-                true
-            }
-            Cell::Formula(_) => false,
-        });
-    }
 }
 
 fn value(cell: &Cell, x: &[Rational], known: &BTreeMap<String, Exact>, digits: u32) -> Result<Exact, EvaluationError> {
@@ -282,14 +186,6 @@ fn value(cell: &Cell, x: &[Rational], known: &BTreeMap<String, Exact>, digits: u
         Cell::Unknown(unknown) => Ok(Exact { value: x[*unknown].clone(), rounded: false }),
         Cell::Formula(expression) => evaluate(expression, known, digits),
     }
-}
-
-fn unlike(table: &Table, cell: &table::Cell, first: &Rational, second: &Rational) -> Fault {
-    table
-        .source
-        .fault(&cell.at, "a palindrome is claimed, this weight is not what it mirrors")
-        .values(to_significant(second, 25), to_significant(first, 25))
-        .help("correct the weights, or write `symmetric = false`")
 }
 
 /// The value, one unit of the last digit, and the significant digits of a decimal such as `-0.25` or `1.5e-3`.

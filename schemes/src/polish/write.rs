@@ -6,7 +6,7 @@ use num_traits::{One, Signed, Zero};
 use shadowstep_symbolic::Rational;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::fault::Fault;
+use crate::fault::Faults;
 use crate::polish::unknowns::{Mirrored, Model};
 use crate::table::{Table, Weights};
 
@@ -68,7 +68,7 @@ pub(super) fn text(
     names: &[String],
     written: &[Written],
     digits: u32,
-) -> Result<String, Fault> {
+) -> Result<String, Faults> {
     let source = &table.source.text;
     let mut edits: Vec<(Range<usize>, String)> = Vec::new();
     let (mut decimals, mut formulas) = (String::new(), String::new());
@@ -111,7 +111,7 @@ fn quoted(source: &str, at: &Range<usize>, text: &str) -> (Range<usize>, String)
 }
 
 /// Where new constants go: after the last one, or as a section of their own before the weights.
-fn constants(table: &Table, lines: &str) -> Result<(Range<usize>, String), Fault> {
+fn constants(table: &Table, lines: &str) -> Result<(Range<usize>, String), Faults> {
     let source = &table.source.text;
     let header = |name: &str| {
         let mut start = 0;
@@ -132,7 +132,8 @@ fn constants(table: &Table, lines: &str) -> Result<(Range<usize>, String), Fault
                 Weights::Composition { gamma, .. } => &gamma.at,
             };
             let help = format!("write [constants] and {section} on lines of their own, the keys below them");
-            Err(table.source.fault(at, "there is no place for the polished constants").help(help))
+            let fault = table.source.fault(at, "there is no place for the polished constants");
+            Err(Faults(vec![fault.help(help)]))
         }
     }
 }
