@@ -42,6 +42,9 @@ use write::Written;
 /// The most digits that can be asked for: as many as a table may claim.
 pub const MOST_DIGITS: u32 = DIGITS;
 
+/// The most decimals that are solved for: the work grows with their square.
+const MOST_DECIMALS: usize = 200;
+
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
@@ -152,10 +155,18 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
             "decimals that stand alone are polished, not those within formulas",
         ));
     }
+    if model.unknowns.len() > MOST_DECIMALS {
+        let sentence = format!("{} decimals are too many to solve for", model.unknowns.len());
+        return Err(request(
+            sentence,
+            format!("at most {MOST_DECIMALS} are, those that mirror each other counted once"),
+        ));
+    }
     let held = held(&model, wanted)?;
     let equations = Equations::of(&model, &table, wanted);
     let problem = Problem { model: &model, equations: &equations };
-    let residual_printed = problem.residual(&model.printed(), 2 * wanted.digits.min(50));
+    let printed_digits = model.unknowns.iter().map(|u| u.digits).max().unwrap_or(1);
+    let residual_printed = problem.residual(&model.printed(), printed_digits);
     let solution =
         problem.solve(&held, wanted.digits).map_err(|failure| unsolved(&problem, &failure, residual_printed, &held))?;
     let names = write::names(&table, &model);

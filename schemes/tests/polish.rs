@@ -235,7 +235,10 @@ fn names_that_are_no_decimals_are_refused() {
     assert!(unknown.contains("no printed decimal `g22`") && unknown.contains("did you mean `g2`?"), "{unknown}");
     assert!(refusal(&source, &["g1"]).contains("`g1` is no printed decimal"));
     assert!(refusal(&source, &["gamma[1]"]).contains("fractions and formulas stay as they are"));
-    assert!(refusal(&Source { ..shipped("yoshida4").unwrap() }, &[]).contains("has no printed decimals"));
+    assert!(refusal(&shipped("yoshida4").unwrap(), &[]).contains("has no printed decimals"));
+    let many: Vec<_> = (100..301).map(|i| format!("0.0{i}")).collect();
+    let many = format!("[composition]\nbase = \"stormer-verlet\"\ngamma = [{}]\n", many.join(", "));
+    assert!(refusal(&table(2, &many), &[]).contains("201 decimals are too many"));
 }
 
 #[test]

@@ -25,13 +25,16 @@ pub(crate) fn polish(arguments: &PolishArguments) -> Result<Ending, Complaint> {
     let polished = match polish::polish(&source, &library::beside_or_shipped, &wanted) {
         Ok(polished) => polished,
         Err(NotPolished::Request { sentence, help }) => return Err(Complaint::usage(sentence, help)),
-        Err(NotPolished::Faults(faults)) => return Err(Complaint::Faults(faults)),
+        Err(NotPolished::Faults(faults)) => {
+            Complaint::Faults(faults).tell();
+            return Ok(Ending::AnswerIsNo);
+        }
         Err(NotPolished::Unsolved { sentence, help }) => return Ok(no(sentence, help)),
     };
     let mut output = Output::open(arguments.output.as_deref(), "--output")?;
     write!(output, "{}", polished.text)?;
     output.finish()?;
-    report(told(&polished));
+    report(told(&polished, arguments));
     for weight in misprints(&polished.weights) {
         let PolishedWeight { name, right, printed_digits, .. } = weight;
         remark(format_args!("{name} seems to be misprinted: {right} of its {printed_digits} digits are right"));
@@ -39,7 +42,7 @@ pub(crate) fn polish(arguments: &PolishArguments) -> Result<Ending, Complaint> {
     Ok(Ending::Done)
 }
 
-fn told(polished: &Polished) -> String {
+fn told(polished: &Polished, arguments: &PolishArguments) -> String {
     let proved = &polished.proved;
     let class = match proved.scheme.table.kinetic {
         Kinetic::Any => "every T(p)",
@@ -47,10 +50,14 @@ fn told(polished: &Polished) -> String {
     };
     let kind = if polished.in_gamma { " in the γ's" } else { "" };
     let symmetric = if proved.proof.symmetric { ", symmetric" } else { "" };
+    let near = match arguments.near_integrable.as_slice() {
+        [] => String::new(),
+        orders => format!(", near-integrable {orders:?}"),
+    };
     let header = ["decimal", "printed digits", "right", "off by", "now"];
     let rows: Vec<_> = polished.weights.iter().map(row).collect();
     format!(
-        "{}\norder {} for {class}{symmetric}: {} conditions{kind}, off by {} as printed, by {} now\ncondition number {}{}",
+        "{}\norder {} for {class}{near}{symmetric}: {} conditions{kind}, off by {} as printed, by {} now\ncondition number {}{}",
         table(header, rows, 1..4),
         proved.order().order,
         polished.conditions,

@@ -71,6 +71,31 @@ fn what_cannot_be_polished_is_told_with_exit_code_1_and_no_table() {
     assert!(said.err.starts_with("error: ") && said.err.contains("16 conditions for 7 decimals"), "{}", said.err);
     assert!(said.err.contains("condition number"), "{}", said.err);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the printed table only");
+
+    let (_folder, path) = printed(&PRINTED.replace("\"w6\", \"w7\"]", "\"w6\", \"w6\"]"));
+    let said = shadowstep(&format!("schemes polish {path}"));
+    assert_eq!(said.code, 1);
+    assert!(said.err.contains("a palindrome is claimed, this weight is not what it mirrors"), "{}", said.err);
+}
+
+#[test]
+fn near_integrable_orders_are_met_too() {
+    // McLachlan's (8, 4) method: order 4 alone leaves 2 of its 6 decimals free
+    let table = "name = \"aba84\"\norder = 4\nkinetic = \"any\"\nsymmetric = true\nreference = \"McLachlan 1995\"\n\
+                 [stages]\n\
+                 kick = [0, 0.1901, 0.8468, -1.0738, 0.8468, 0.1901]\n\
+                 drift = [0.0753, 0.5179, -0.0932, -0.0932, 0.5179, 0.0753]\n";
+    let (_folder, path) = printed(table);
+    let said = shadowstep(&format!("schemes polish {path} --digits 30 --near-integrable 8,4"));
+    assert_eq!(said.code, 0, "{}", said.err);
+    assert!(
+        said.err.contains("order 4 for every T(p), near-integrable [8, 4], symmetric: 6 conditions"),
+        "{}",
+        said.err
+    );
+    assert!(said.err.lines().all(|line| !line.contains("leave it free")), "{}", said.err);
+    let alone = shadowstep(&format!("schemes polish {path} --digits 30"));
+    assert_eq!(alone.err.lines().filter(|line| line.contains("leave it free")).count(), 2, "{}", alone.err);
 }
 
 #[test]
