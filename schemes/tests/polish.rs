@@ -94,7 +94,7 @@ fn published_schemes_get_the_digits_computed_elsewhere() {
 
 #[test]
 fn a_small_residual_hides_wrong_digits_where_a_solution_is_ill_conditioned() {
-    let polished = polished(&published("yoshida8d"), 100, &[]).unwrap();
+    let polished = polished(&published("yoshida8-d"), 100, &[]).unwrap();
     // of 20 and 21 printed digits; as f64 the residual is its rounding
     assert!(polished.residual_printed < -14.0);
     assert!(polished.weights.iter().all(|w| w.printed_digits >= 20 && (11..=12).contains(&w.right)));
@@ -105,7 +105,7 @@ fn a_small_residual_hides_wrong_digits_where_a_solution_is_ill_conditioned() {
             .any(|w| (&w.printed - &w.polished).abs() > power(13) * Rational::from_integer(6.into()))
     );
     // A of the same paper is as good as printed
-    let good = self::polished(&published("yoshida8a"), 100, &[]).unwrap();
+    let good = self::polished(&published("yoshida8-a"), 100, &[]).unwrap();
     assert!(good.weights.iter().all(|w| w.right == w.printed_digits));
 }
 
@@ -151,7 +151,7 @@ fn formulas_of_decimals_are_solved_for_these() {
 #[test]
 fn weights_with_more_structure_than_their_conditions_know_are_polished() {
     // Yoshida's A as stages: 10 conditions of a palindrome for 8 decimals
-    let gamma = polished(&published("yoshida6a"), 120, &[]).unwrap().proved.scheme;
+    let gamma = polished(&published("yoshida6-a"), 120, &[]).unwrap().proved.scheme;
     let list = |weights: &[Rational]| {
         let cells: Vec<_> = weights.iter().map(|w| shadowstep_schemes::to_significant(w, 17)).collect();
         cells.join(", ")
@@ -243,7 +243,7 @@ fn names_that_are_no_decimals_are_refused() {
 
 #[test]
 fn contradictions_are_told_with_numbers() {
-    let source = published("yoshida6a");
+    let source = published("yoshida6-a");
     let order8 = Source { text: source.text.replace("order = 6", "order = 8"), ..source.clone() };
     let said = refusal(&order8, &[]);
     assert!(said.contains("8 conditions for 4 decimals, 4 of them solved for; as printed off by"), "{said}");
