@@ -11,6 +11,7 @@ pub(crate) use list::list;
 pub(crate) use polish::polish;
 pub(crate) use show::show;
 
+use shadowstep_schemes::Proof;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
 
@@ -27,12 +28,20 @@ fn digits_text(digits: Option<u32>) -> String {
     digits.map_or_else(|| "exact".to_owned(), |digits| digits.to_string())
 }
 
-/// Other names under which the scheme is known: none that a table could tell.
-fn aliases(_table: &Table) -> Vec<String> {
-    Vec::new()
+/// Other names under which the scheme is known.
+fn aliases(table: &Table) -> Vec<String> {
+    table.aliases.iter().map(|alias| alias.value.clone()).collect()
 }
 
-/// The orders for near-integrable problems: none that a table could claim.
-fn near_integrable(_table: &Table) -> Vec<u32> {
-    Vec::new()
+/// The orders for H = A + εB, of the terms of ε, ε², ….
+fn near_integrable(proof: &Proof) -> Vec<u32> {
+    proof.near_integrable.iter().map(|order| order.order).collect()
+}
+
+/// As papers write them: (8,6,4).
+fn near_integrable_text(orders: &[u32]) -> String {
+    if orders.is_empty() {
+        return String::new();
+    }
+    format!("({})", orders.iter().map(u32::to_string).collect::<Vec<_>>().join(","))
 }

@@ -58,7 +58,7 @@ pub(crate) struct FixedPoint {
 /// The true value lies within `error` units of `units`.
 #[derive(Clone, Debug)]
 pub(crate) struct Fixed {
-    units: BigInt,
+    pub(crate) units: BigInt,
     error: u128,
 }
 
@@ -68,9 +68,14 @@ impl FixedPoint {
         FixedPoint { bits: (f64::from(digits) * std::f64::consts::LOG2_10) as u32 + 64 }
     }
 
+    /// The number 1 in units.
+    pub(crate) fn unit(&self) -> BigInt {
+        BigInt::one() << self.bits
+    }
+
     /// The middle and the bound of the error as rationals.
     pub(crate) fn read(&self, value: &Fixed) -> (Rational, Rational) {
-        let unit = BigInt::one() << self.bits;
+        let unit = self.unit();
         // a bound that ran over is none: then the value may be anything
         let error = if value.error == u128::MAX { BigInt::one() << (2 * self.bits) } else { value.error.into() };
         (Rational::new(value.units.clone(), unit.clone()), Rational::new(error, unit))
@@ -89,7 +94,7 @@ impl Arithmetic for FixedPoint {
         Fixed { units: BigInt::zero(), error: 0 }
     }
     fn one(&self) -> Fixed {
-        Fixed { units: BigInt::one() << self.bits, error: 0 }
+        Fixed { units: self.unit(), error: 0 }
     }
     fn weight(&self, weight: &Rational) -> Fixed {
         Fixed { units: (weight.numer() << self.bits) / weight.denom(), error: 1 }

@@ -76,37 +76,45 @@ impl Sizes {
     }
 }
 
-/// Lines for people, each with its margin.
-pub(crate) fn lines(analysis: &Analysis) -> Vec<String> {
-    let phase = analysis.phase;
-    let mut lines = vec![
-        format!(
-            "effective error: {:.4} for every T(p), {:.4} for quadratic T",
-            analysis.effective_error(Kinetic::Any),
-            analysis.effective_error(Kinetic::Quadratic)
+/// What is said of it to people, each with the name of what it is.
+pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {
+    let (phase, end) = (analysis.phase, 2 * analysis.evaluations);
+    let mut facts = vec![
+        (
+            "effective error",
+            format!(
+                "{:.4} for every T(p), {:.4} for quadratic T",
+                analysis.effective_error(Kinetic::Any),
+                analysis.effective_error(Kinetic::Quadratic)
+            ),
         ),
-        format!("leading error:   {}", error_text(&analysis.general)),
-        format!("quadratic T:     {}", error_text(&analysis.quadratic)),
-        format!("oscillator:      stable up to hω = {}", analysis.stability.limit),
+        ("leading error", error_text(&analysis.general)),
+        ("quadratic T", error_text(&analysis.quadratic)),
+        ("oscillator", format!("stable up to hω = {}", analysis.stability.limit)),
     ];
-    lines.extend(analysis.stability.gaps.iter().map(|gap| match &gap.to {
-        Some(to) => format!("unstable gap:    hω from {} to {to}, {:.3e} wide", gap.from, gap.width),
-        None => format!("unstable:        hω from {} to {} at least", gap.from, 2 * analysis.evaluations),
+    facts.extend(analysis.stability.gaps.iter().map(|gap| match &gap.to {
+        Some(to) => ("unstable gap", format!("hω from {} to {to}, {:.3e} wide", gap.from, gap.width)),
+        None => ("unstable", format!("hω from {} to {end} at least", gap.from)),
     }));
-    lines.push(format!("phase error:     {:.4e} (hω)^{}, relative", phase.coefficient, phase.power));
-    for (name, sizes) in [("kicks", &analysis.kicks), ("drifts", &analysis.drifts)] {
-        let [sum, smallest, largest] =
-            [&sizes.sum_of_sizes, &sizes.smallest, &sizes.largest].map(|size| shortened(size, 6));
-        lines.push(format!("{:17}from {smallest} to {largest}, sizes sum to {sum}", format!("{name}:")));
-    }
-    lines
+    facts.push(("phase error", format!("{:.4e} (hω)^{}, relative", phase.coefficient, phase.power)));
+    facts.push(("kicks", sizes_text(&analysis.kicks)));
+    facts.push(("drifts", sizes_text(&analysis.drifts)));
+    facts.into_iter().map(|(what, fact)| (what.to_owned(), fact)).collect()
 }
 
+fn sizes_text(sizes: &analysis::Sizes) -> String {
+    let [sum, smallest, largest] =
+        [&sizes.sum_of_sizes, &sizes.smallest, &sizes.largest].map(|size| shortened(size, 6));
+    format!("from {smallest} to {largest}, sizes sum to {sum}")
+}
+
+/// The coefficients that are not 0.
 fn error_text(error: &LeadingError) -> String {
     let norm = format!("h^{}, norm {:.4e}", error.power, error.norm());
-    if error.terms.len() > MOST_TERMS {
-        return format!("{norm}, {} brackets (--json writes them)", error.terms.len());
+    let terms: Vec<_> = error.terms.iter().filter(|(_, c)| *c != 0.0).collect();
+    if terms.len() > MOST_TERMS {
+        return format!("{norm}, {} brackets (--json writes them)", terms.len());
     }
-    let terms = error.terms.iter().map(|(bracket, c)| format!("{c:.4e} {bracket}")).collect::<Vec<_>>();
+    let terms = terms.into_iter().map(|(bracket, c)| format!("{c:.4e} {bracket}")).collect::<Vec<_>>();
     format!("{norm}: {}", terms.join(", "))
 }

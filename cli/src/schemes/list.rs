@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use rayon::prelude::*;
 use serde::Serialize;
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
 use shadowstep_schemes::{Analysis, Kinetic};
@@ -10,7 +11,7 @@ use crate::arguments::{KineticChoice, ListArguments, SortKey};
 use crate::complaint::{Complaint, Ending, remark};
 use crate::figures::{rounded, table};
 use crate::output::Output;
-use crate::schemes::{aliases, digits, digits_text};
+use crate::schemes::{aliases, digits, digits_text, near_integrable, near_integrable_text};
 
 #[derive(Serialize)]
 struct Record {
@@ -18,6 +19,7 @@ struct Record {
     aliases: Vec<String>,
     order: u32,
     order_quadratic: u32,
+    near_integrable: Vec<u32>,
     stages: usize,
     evaluations: usize,
     effective_error: f64,
@@ -28,14 +30,15 @@ struct Record {
     title: Option<String>,
 }
 
-const COLUMNS: [&str; 10] = [
-    "order",
-    "quadratic T",
+const COLUMNS: [&str; 11] = [
+    "order\nany T",
+    "order\nquadratic T",
+    "order\nA + εB",
     "stages",
-    "forces a step",
-    "effective error",
-    "for quadratic T",
-    "stable to hω",
+    "forces\na step",
+    "effective error\nany T",
+    "effective error\nquadratic T",
+    "stable\nto hω",
     "symmetric",
     "digits",
     "name",
@@ -44,8 +47,8 @@ const COLUMNS: [&str; 10] = [
 /// The shipped schemes that are asked for.
 pub(crate) fn list(arguments: &ListArguments) -> Result<Ending, Complaint> {
     let of_order = |scheme: &TableScheme| arguments.order.is_none_or(|order| order == order_for(scheme, arguments));
-    let all: Vec<_> = shipped_names().into_iter().filter_map(|name| Some((name, shipped(name)?))).collect();
-    let chosen = all.iter().filter(|(_, scheme)| of_order(scheme));
+    let all: Vec<_> = shipped_names().into_par_iter().filter_map(|name| Some((name, shipped(name)?))).collect();
+    let chosen = all.par_iter().filter(|(_, scheme)| of_order(scheme));
     let mut records: Vec<Record> = chosen.map(|(name, scheme)| record(name, scheme)).collect();
     sort(&mut records, arguments);
     if let (true, Some(order)) = (records.is_empty(), arguments.order) {
@@ -59,7 +62,7 @@ pub(crate) fn list(arguments: &ListArguments) -> Result<Ending, Complaint> {
     if arguments.json {
         records.iter().try_for_each(|record| output.json(record))?;
     } else {
-        writeln!(output, "{}", table(COLUMNS, records.iter().map(row).collect(), 0..9))?;
+        writeln!(output, "{}", table(COLUMNS, records.iter().map(row).collect(), 0..10))?;
     }
     output.finish()?;
     Ok(Ending::Done)
@@ -105,6 +108,7 @@ fn record(name: &'static str, scheme: &TableScheme) -> Record {
         aliases: aliases(&proved.scheme.table),
         order: proved.proof.general.order,
         order_quadratic: proved.proof.quadratic.order,
+        near_integrable: near_integrable(&proved.proof),
         stages: proved.scheme.kick.len(),
         evaluations: analysis.evaluations,
         effective_error: analysis.effective_error(Kinetic::Any),
@@ -116,10 +120,11 @@ fn record(name: &'static str, scheme: &TableScheme) -> Record {
     }
 }
 
-fn row(record: &Record) -> [String; 10] {
+fn row(record: &Record) -> [String; 11] {
     [
         record.order.to_string(),
         record.order_quadratic.to_string(),
+        near_integrable_text(&record.near_integrable),
         record.stages.to_string(),
         record.evaluations.to_string(),
         format!("{:.4}", record.effective_error),

@@ -6,8 +6,9 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 use shadowstep::Rational;
 use shadowstep::tables::TableScheme;
-use shadowstep_schemes::proof::Order;
+use shadowstep_schemes::proof::{Order, Proved};
 use shadowstep_schemes::scheme::Held;
+use shadowstep_schemes::table::Table;
 use shadowstep_schemes::{Analysis, First, Kinetic, to_significant, to_text};
 
 use crate::complaint::{Complaint, Ending};
@@ -15,7 +16,7 @@ use crate::figures::{shortened, table};
 use crate::library;
 use crate::output::Output;
 use crate::schemes::analysis::{Error, Gap, Phase, Sizes};
-use crate::schemes::{aliases, analysis, digits, digits_text, near_integrable};
+use crate::schemes::{aliases, analysis, digits, digits_text, near_integrable, near_integrable_text};
 
 /// Digits of a weight that a person reads.
 const SHOWN: usize = 40;
@@ -90,7 +91,7 @@ pub(crate) fn show(word: &str, json: bool) -> Result<Ending, Complaint> {
 fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
     let proved = scheme.proved();
     let (proof, weights, table) = (&proved.proof, &proved.scheme, &proved.scheme.table);
-    let texts = |weights: &[Rational]| weights.iter().map(to_text).collect();
+    let fractions = |weights: &[Rational]| weights.iter().map(Rational::to_string).collect();
     let maps = weights.maps().into_iter();
     let cost = scheme.plan().cost();
     Record {
@@ -103,7 +104,7 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         order_quadratic: proof.quadratic.order,
         order_quadratic_digits: proof.quadratic.digits,
         fails_quadratic: failed(&proof.quadratic, to_text),
-        near_integrable: near_integrable(table),
+        near_integrable: near_integrable(proof),
         digits: digits(weights.held),
         evaluations: scheme.plan().evaluations,
         products_per_dimension: cost.products_per_dimension,
@@ -122,8 +123,8 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         phase_error: Phase::of(analysis.phase),
         unstable_gaps: analysis.stability.gaps.iter().map(Gap::of).collect(),
         stability_limit: analysis.stability.limit.clone(),
-        kick: texts(&weights.kick),
-        drift: texts(&weights.drift),
+        kick: fractions(&weights.kick),
+        drift: fractions(&weights.drift),
         maps: maps.map(|map| Map { map: map.kind.to_string(), weight: to_text(&map.weight) }).collect(),
         reference: table.reference.clone(),
         doi: table.doi.clone(),
@@ -168,28 +169,62 @@ fn kinetic(kinetic: Kinetic) -> &'static str {
 
 fn readable(scheme: &TableScheme, analysis: &Analysis) -> String {
     let proved = scheme.proved();
-    let Record { name, title, evaluations, stages, symmetric, first, reference, doi, remarks, .. } =
-        record(scheme, analysis);
-    let cost = scheme.plan().cost();
-    let lines = [
-        format!("{name}{}", title.map_or_else(String::new, |title| format!(": {title}"))),
-        format!("for every T(p):  {}", order_text(&proved.proof.general)),
-        format!("for quadratic T: {}", order_text(&proved.proof.quadratic)),
-        format!("meant for:       {}", meant_for(proved.scheme.table.kinetic)),
-        format!("weights:         {}", weights_text(digits(proved.scheme.held))),
-        format!("symmetric:       {}", if symmetric { "yes" } else { "no" }),
-        format!("a step:          stages {stages}, force evaluations {evaluations}; it begins with a {first}"),
-        format!(
-            "beside forces:   {} products and additions per dimension, {} more for the modified energy",
-            cost.products_per_dimension, cost.products_for_beta
+    let table = &proved.scheme.table;
+    let facts = facts(scheme).into_iter().chain(analysis::facts(analysis)).chain(source(table));
+    let title = table.title.as_ref().map_or_else(String::new, |title| format!(": {title}"));
+    let mut text = format!("{}{title}\n", table.name.value);
+    text.extend(facts.map(|(what, fact)| format!("{:16} {fact}\n", format!("{what}:"))));
+    text += &format!("{}\n", weights_table(scheme));
+    text.extend(proved.remarks.iter().map(|remark| format!("remark: {remark}\n")));
+    text
+}
+
+/// What is said of the scheme itself, each with the name of what it is.
+fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
+    let proved = scheme.proved();
+    let (proof, table, plan) = (&proved.proof, &proved.scheme.table, scheme.plan());
+    let cost = plan.cost();
+    let mut facts = vec![
+        ("also named".to_owned(), aliases(table).join(", ")),
+        ("every T(p)".to_owned(), order_text(&proof.general)),
+        ("quadratic T".to_owned(), order_text(&proof.quadratic)),
+        ("H = A + εB".to_owned(), near_integrable_fact(proved)),
+        ("meant for".to_owned(), meant_for(table.kinetic).to_owned()),
+        ("weights".to_owned(), weights_text(digits(proved.scheme.held))),
+        ("symmetric".to_owned(), if proof.symmetric { "yes" } else { "no" }.to_owned()),
+        (
+            "a step".to_owned(),
+            format!(
+                "stages {}, force evaluations {}; it begins with a {}",
+                proved.scheme.kick.len(),
+                plan.evaluations,
+                first(proved.scheme.first())
+            ),
         ),
-        format!("maps:            {}", maps_text(scheme)),
-        analysis::lines(analysis).join("\n"),
-        format!("reference:       {reference}"),
-        format!("doi:             {}", doi.as_deref().unwrap_or("none")),
+        (
+            "beside forces".to_owned(),
+            format!(
+                "{} products and additions per dimension, {} more for the modified energy",
+                cost.products_per_dimension, cost.products_for_beta
+            ),
+        ),
+        ("maps".to_owned(), maps_text(scheme)),
     ];
-    let remarks: String = remarks.iter().map(|remark| format!("remark: {remark}\n")).collect();
-    format!("{}\n{}\n{remarks}", lines.join("\n"), weights_table(scheme))
+    facts.retain(|(_, fact)| !fact.is_empty());
+    facts
+}
+
+fn source(table: &Table) -> [(String, String); 2] {
+    let doi = table.doi.as_deref().unwrap_or("none");
+    [("reference".to_owned(), table.reference.clone()), ("doi".to_owned(), doi.to_owned())]
+}
+
+fn near_integrable_fact(proved: &Proved) -> String {
+    let orders = near_integrable(&proved.proof);
+    let claim = proved.scheme.table.near_integrable.as_ref().map(|claim| claim.dominant);
+    claim.map_or_else(String::new, |dominant| {
+        format!("orders {} in the powers of ε, where the {dominant}s move by A", near_integrable_text(&orders))
+    })
 }
 
 fn meant_for(kinetic: Kinetic) -> &'static str {

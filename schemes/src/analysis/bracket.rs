@@ -19,7 +19,7 @@ use num_traits::Zero;
 use shadowstep_symbolic::Rational;
 
 use super::prime::{PRIME, add_multiple, power};
-use crate::order::letter;
+use crate::order::{Word, letter};
 use crate::scheme::MapKind;
 use crate::table::Kinetic;
 
@@ -66,7 +66,7 @@ impl fmt::Display for Bracket {
 
 /// The coordinates of a Lie polynomial in the basis for a class of kinetic energies. The polynomial is given by its
 /// coefficients at all Lyndon words of one length, which determine it.
-pub(crate) fn coordinates(lyndon: &[(Vec<MapKind>, Rational)], kinetic: Kinetic) -> Vec<(Bracket, Rational)> {
+pub(crate) fn coordinates(lyndon: &[(Word, BigInt)], kinetic: Kinetic) -> Vec<(Bracket, Rational)> {
     let length = lyndon.first().map_or(0, |(word, _)| word.len());
     let kicks = |word: &[MapKind]| word.iter().filter(|kind| **kind == MapKind::Kick).count();
     let mut all = Vec::new();
@@ -76,7 +76,7 @@ pub(crate) fn coordinates(lyndon: &[(Vec<MapKind>, Rational)], kinetic: Kinetic)
             continue;
         }
         let brackets = basis(&words, k, length - k, kinetic);
-        let solved = solve(matrix(&brackets, &words), values);
+        let solved = solve(matrix(&brackets, &words), values.into_iter().map(Rational::from_integer).collect());
         let stays = |(bracket, _): &(Bracket, _)| kinetic == Kinetic::Any || !bracket.vanishes_for_quadratic();
         all.extend(brackets.into_iter().zip(solved).filter(stays));
     }
@@ -84,7 +84,7 @@ pub(crate) fn coordinates(lyndon: &[(Vec<MapKind>, Rational)], kinetic: Kinetic)
 }
 
 /// The basis of the brackets with k kicks and d drifts; for quadratic T with that of the ideal before it.
-fn basis(words: &[Vec<MapKind>], k: usize, d: usize, kinetic: Kinetic) -> Vec<Bracket> {
+fn basis(words: &[Word], k: usize, d: usize, kinetic: Kinetic) -> Vec<Bracket> {
     let mut candidates = candidates(k, d);
     if kinetic == Kinetic::Quadratic {
         candidates.sort_by_key(|bracket| !bracket.vanishes_for_quadratic());
@@ -144,7 +144,7 @@ impl Echelon {
 }
 
 /// A row for each word, a column for each bracket.
-fn matrix(brackets: &[Bracket], words: &[Vec<MapKind>]) -> Vec<Vec<Rational>> {
+fn matrix(brackets: &[Bracket], words: &[Word]) -> Vec<Vec<Rational>> {
     let integer = |n: i64| Rational::from_integer(BigInt::from(n));
     words.iter().map(|word| brackets.iter().map(|bracket| integer(bracket.coefficient(word))).collect()).collect()
 }
@@ -185,7 +185,7 @@ mod tests {
 
     fn size_of_basis(length: usize, kinetic: Kinetic) -> usize {
         let words = lyndon_words(length).into_iter().filter(|word| word.len() == length);
-        coordinates(&words.map(|word| (word, Rational::zero())).collect::<Vec<_>>(), kinetic).len()
+        coordinates(&words.map(|word| (word, BigInt::zero())).collect::<Vec<_>>(), kinetic).len()
     }
 
     #[test]
@@ -211,7 +211,7 @@ mod tests {
     fn exchanged_letters_give_the_same_basis_of_odd_length() {
         let exchanged = |bracket: Bracket| Bracket(bracket.0.iter().map(|kind| kind.other()).collect());
         let basis_of = |k: usize, d: usize| {
-            let count = |word: &Vec<MapKind>| word.iter().filter(|kind| **kind == MapKind::Kick).count();
+            let count = |word: &Word| word.iter().filter(|kind| **kind == MapKind::Kick).count();
             let words: Vec<_> = lyndon_words(7).into_iter().filter(|w| w.len() == 7 && count(w) == k).collect();
             basis(&words, k, d, Kinetic::Any)
         };
