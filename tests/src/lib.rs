@@ -1,7 +1,9 @@
 //! What the tests of the whole system share: numbers from texts, distances, every shipped scheme as generated code, a
 //! solution to compare with, what the compiler says of a table.
 
+pub mod catalogue_page;
 pub mod general;
+pub mod pages;
 pub mod reference;
 pub mod refusals;
 pub mod shipped;

@@ -1,0 +1,173 @@
+//! The page of the documentation on all shipped schemes, from their tables, proofs and analysis.
+
+use std::fmt::Write as _;
+
+use shadowstep_schemes::analysis::stability::Stability;
+use shadowstep_schemes::scheme::{First, Held};
+use shadowstep_schemes::table::{Cell, Table, Weights};
+use shadowstep_schemes::{Analysis, Kinetic, Proved, shipped_names, shipped_proved, to_significant, to_text};
+
+use crate::rational;
+
+/// Digits of a constant that a person reads.
+const SHOWN: usize = 25;
+
+const HEAD: &str = "\
+<!-- Generated from schemes/tables/*.toml; `UPDATE_DOCS=1 cargo test -p shadowstep-tests --test documentation` writes it. -->
+
+# The shipped schemes
+
+A step makes, for each stage s in turn, the kick p −= h a_s U_q(q) and the drift q += h b_s T_p(p); weights that are 0 are
+left out. A composition makes steps γ_1 h, γ_2 h, … of another scheme. Constants are rounded to 25 digits here; the tables
+have 250 of them or closed forms, and `shadowstep schemes show NAME --json` writes every weight as an exact fraction.
+
+Everything on this page is computed from the tables: the orders are proved, none is copied from a publication.
+
+- *order*: for every T(p), and for quadratic T = ½pᵀM⁻¹p. A scheme whose table says `kinetic = \"quadratic\"` is meant for
+  quadratic T.
+- *A + εB*: the orders in the powers of ε for near-integrable systems: (8,6,4) has the local error O(εh⁹ + ε²h⁷ + ε³h⁵).
+  The drifts move by A.
+- *forces*: evaluations of U_q a step, the first kick taking over what the last one of the step before evaluated.
+- *effective error*: forces · ‖E‖^{1/order}, where h^{order+1} E is the leading error of the step's logarithm in
+  right-nested brackets of kick and drift and ‖E‖ the Euclidean norm. At equal cost the smaller one is more accurate, if
+  the orders are the same; schemes of different orders are not compared by it.
+- *stable to hω*: up to there a step of the harmonic oscillator is stable; per force it is the second number. Beyond it
+  some schemes are stable again for a while; intervals narrower than 0.01 are not mentioned.
+- *phase error*: how much too fast the harmonic oscillator turns, to the leading power of hω.
+
+";
+
+/// The page, in Markdown.
+pub fn catalogue_page() -> String {
+    let mut schemes: Vec<_> = shipped_names()
+        .into_iter()
+        .map(|name| {
+            let proved = shipped_proved(name).expect("it is listed");
+            (name, proved, Analysis::of(proved))
+        })
+        .collect();
+    schemes.sort_by_key(|(_, proved, analysis)| {
+        (proved.proof.general.order, proved.proof.quadratic.order, analysis.evaluations)
+    });
+    let mut page = HEAD.to_owned();
+    page += "| name | order | quadratic T | A + εB | forces | symmetric | effective error | for quadratic T | stable to hω | per force |\n";
+    page += "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    for (name, proved, analysis) in &schemes {
+        page += &row(name, proved, analysis);
+    }
+    for (name, proved, analysis) in &schemes {
+        write!(page, "\n## {name}\n\n{}", section(proved, analysis)).expect("memory suffices");
+    }
+    page
+}
+
+fn row(name: &str, proved: &Proved, analysis: &Analysis) -> String {
+    let limit: f64 = analysis.stability.limit.parse().expect("it is a number");
+    let cells = [
+        format!("[{name}](#{name})"),
+        proved.proof.general.order.to_string(),
+        proved.proof.quadratic.order.to_string(),
+        near_integrable(proved),
+        analysis.evaluations.to_string(),
+        if proved.proof.symmetric { "yes" } else { "no" }.to_owned(),
+        format!("{:.4}", analysis.effective_error(Kinetic::Any)),
+        format!("{:.4}", analysis.effective_error(Kinetic::Quadratic)),
+        format!("{limit:.5}"),
+        format!("{:.3}", limit / analysis.evaluations as f64),
+    ];
+    format!("| {} |\n", cells.join(" | "))
+}
+
+fn near_integrable(proved: &Proved) -> String {
+    let orders: Vec<_> = proved.proof.near_integrable.iter().map(|order| order.order.to_string()).collect();
+    if orders.is_empty() { String::new() } else { format!("({})", orders.join(",")) }
+}
+
+fn section(proved: &Proved, analysis: &Analysis) -> String {
+    let (table, proof) = (&proved.scheme.table, &proved.proof);
+    let mut text = String::new();
+    let title = table.title.as_deref().unwrap_or(&table.name.value);
+    let aliases: Vec<_> = table.aliases.iter().map(|alias| format!("`{}`", alias.value)).collect();
+    let also = if aliases.is_empty() { String::new() } else { format!("; also found as {}", aliases.join(", ")) };
+    text += &format!("{title}{also}.\n\n```text\n{}```\n\n", weights(table));
+    let cost = proved.plan().cost();
+    let near = match near_integrable(proved) {
+        orders if orders.is_empty() => String::new(),
+        orders => format!(", {orders} for A + εB"),
+    };
+    let meant = if table.kinetic == Kinetic::Quadratic { "; meant for quadratic T" } else { "" };
+    let first = if proved.scheme.first() == First::Kick { "kick" } else { "drift" };
+    let symmetric = if proof.symmetric { "symmetric" } else { "not symmetric" };
+    let lines = [
+        format!("order {} for every T(p), {} for quadratic T{near}{meant}", proof.general.order, proof.quadratic.order),
+        format!(
+            "{} evaluations of U_q and {} products and additions per dimension a step, {} more for the modified energy; \
+             {symmetric}, begins with a {first}; {}",
+            analysis.evaluations,
+            cost.products_per_dimension,
+            cost.products_for_beta,
+            held(proved.scheme.held)
+        ),
+        format!(
+            "effective error {:.4} for every T(p), {:.4} for quadratic T",
+            analysis.effective_error(Kinetic::Any),
+            analysis.effective_error(Kinetic::Quadratic)
+        ),
+        format!(
+            "harmonic oscillator: {}; phase error {:.4e} (hω)^{}",
+            stable(&analysis.stability),
+            analysis.phase.coefficient,
+            analysis.phase.power
+        ),
+        reference(table),
+    ];
+    lines.iter().for_each(|line| text += &format!("- {line}\n"));
+    text
+}
+
+fn held(held: Held) -> String {
+    match held {
+        Held::Exactly => "exact weights".to_owned(),
+        Held::Digits(digits) => format!("weights of {digits} digits"),
+    }
+}
+
+fn stable(stability: &Stability) -> String {
+    let mut text = format!("stable to hω = {}", stability.limit);
+    let between = stability.gaps.windows(2).filter_map(|pair| Some((pair[0].to.as_ref()?, &pair[1].from)));
+    let wide = between.map(|ends| (rational(ends.0), rational(ends.1))).filter(|(a, b)| b - a > rational("0.01"));
+    let wide: Vec<_> = wide.map(|(a, b)| format!("{} to {}", to_significant(&a, 8), to_significant(&b, 8))).collect();
+    if !wide.is_empty() {
+        text += &format!(", again from {}", wide.join(", "));
+    }
+    text
+}
+
+fn reference(table: &Table) -> String {
+    let doi = table.doi.as_ref().map(|doi| format!(", [doi:{doi}](https://doi.org/{doi})"));
+    format!("{}{}", table.reference, doi.unwrap_or_default())
+}
+
+/// The weights as the table has them.
+fn weights(table: &Table) -> String {
+    let cells = |cells: &[Cell]| cells.iter().map(cell).collect::<Vec<_>>().join(", ");
+    let mut text = match table.weights.as_ref().expect("it was proved") {
+        Weights::Stages { kick, drift } => format!("a = {}\nb = {}\n", cells(&kick.value), cells(&drift.value)),
+        Weights::Composition { base, gamma } => format!("γ = {}, of {}\n", cells(&gamma.value), base.value),
+    };
+    for (name, value) in &table.constants {
+        let free = table.free.iter().any(|free| free.value == name.value);
+        text += &format!("{} = {}{}\n", name.value, cell(value), if free { "  (free parameter)" } else { "" });
+    }
+    text
+}
+
+/// A formula as it is; of a number a few digits.
+fn cell(cell: &Cell) -> String {
+    if !cell.value.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.' || byte == b'-') {
+        return cell.value.clone();
+    }
+    let value = rational(&cell.value);
+    let whole = to_text(&value);
+    if whole.len() <= SHOWN + 3 { whole } else { format!("{}…", to_significant(&value, SHOWN)) }
+}
