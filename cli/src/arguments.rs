@@ -170,9 +170,6 @@ pub(crate) struct PolishArguments {
     /// Decimals that stay as printed: constants, or places such as kick[2], drift[3], gamma[1]
     #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
     pub(crate) free: Vec<String>,
-    /// Near-integrable orders to be met too, such as 10,6,4: those of the errors ε, ε², ε³ with kicks of size ε
-    #[arg(long, value_name = "ORDER,…", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=i64::from(HIGHEST_ORDER)))]
-    pub(crate) near_integrable: Vec<u32>,
     /// The cubes of the kicks must sum to 0 too: kicks are themselves split, as in heliocentric coordinates
     #[arg(long)]
     pub(crate) split_kicks: bool,

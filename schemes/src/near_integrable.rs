@@ -8,7 +8,7 @@
 //! no lower orders are claimed. A may be any Hamiltonian, not just a kinetic energy.
 
 use crate::arithmetic::Arithmetic;
-use crate::order::{Condition, lyndon_words, weighed, word_conditions};
+use crate::order::{Condition, Word, lyndon_words, weighed, word_conditions};
 use crate::scheme::{Map, MapKind};
 use crate::table::Placed;
 
@@ -54,19 +54,23 @@ impl NearIntegrable {
     }
 }
 
-/// The conditions of the words of a power of ε, up to an order, and their values for a sequence of maps.
-///
-/// The sum of the dominant maps, a word without any B, belongs to every power.
+/// The words whose conditions belong to a power of ε, up to an order: the sum of the dominant maps, a word without any B,
+/// belongs to every power.
+pub(crate) fn words(power: Power, order: u32) -> Vec<Word> {
+    let mut words = lyndon_words(order as usize);
+    words.retain(|word| {
+        let count = word.iter().filter(|kind| **kind == power.perturbation).count();
+        count == 0 || count == power.count || power.or_more && count > power.count
+    });
+    words
+}
+
+/// The conditions of a power of ε, up to an order, and their values for a sequence of maps.
 pub(crate) fn conditions<A: Arithmetic>(
     maps: &[Map],
     power: Power,
     order: u32,
     arithmetic: &A,
 ) -> Vec<(Condition, A::Value)> {
-    let mut words = lyndon_words(order as usize);
-    words.retain(|word| {
-        let count = word.iter().filter(|kind| **kind == power.perturbation).count();
-        count == 0 || count == power.count || power.or_more && count > power.count
-    });
-    word_conditions(&words, &weighed(maps, arithmetic), arithmetic)
+    word_conditions(&words(power, order), &weighed(maps, arithmetic), arithmetic)
 }

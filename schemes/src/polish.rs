@@ -50,11 +50,9 @@ const MOST_DECIMALS: usize = 200;
 pub struct Request<'a> {
     /// Digits to which the conditions shall hold, from 1 to [`MOST_DIGITS`].
     pub digits: u32,
-    /// Decimals that stay as printed: names of constants, or places such as `kick[2]`, `drift[3]`, `gamma[1]`.
+    /// Decimals that stay as printed, beside those that the table calls free: names of constants, or places such as
+    /// `kick[2]`, `drift[3]`, `gamma[1]`.
     pub free: &'a [String],
-    /// Near-integrable orders r₁ ≥ r₂ ≥ … to be met beside the order: with kicks of size ε, the conditions of words with k
-    /// kicks hold up to the order r_k. Empty where nothing of that kind is claimed.
-    pub near_integrable: &'a [u32],
     /// Whether Σ a_s³ = 0 is to hold too: where kicks are themselves split by a symmetric step of order 2, as in
     /// heliocentric coordinates, each leaves an error (a_s h)³ (Farrés et al., Celest. Mech. Dyn. Astron. 116 (2013) 141).
     pub split_kicks: bool,
@@ -141,7 +139,8 @@ fn request(sentence: impl Into<String>, help: impl Into<String>) -> NotPolished 
     NotPolished::Request { sentence: sentence.into(), help: help.into() }
 }
 
-/// Finds the values near the printed decimals with which the table's order conditions hold.
+/// Finds the values near the printed decimals with which the conditions hold of the orders that the table claims, the
+/// near-integrable ones among them.
 ///
 /// # Errors
 /// Faults of the table; names of decimals that it does not have; conditions that no values near the printed ones meet,
@@ -162,8 +161,8 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
             format!("at most {MOST_DECIMALS} are, those that mirror each other counted once"),
         ));
     }
-    let held = held(&model, wanted)?;
-    let equations = Equations::of(&model, &table, wanted);
+    let held = held(&model, &table, wanted)?;
+    let equations = Equations::of(&model, &table, wanted.split_kicks);
     let problem = Problem { model: &model, equations: &equations };
     let printed_digits = model.unknowns.iter().map(|u| u.digits).max().unwrap_or(1);
     let residual_printed = problem.residual(&model.printed(), printed_digits);
@@ -204,7 +203,7 @@ fn readable(source: &Source, library: Library<'_>) -> Result<(Table, Option<crat
     Ok((scheme.table, base))
 }
 
-fn held(model: &Model, wanted: &Request<'_>) -> Result<Vec<usize>, NotPolished> {
+fn held(model: &Model, table: &Table, wanted: &Request<'_>) -> Result<Vec<usize>, NotPolished> {
     let named = |name: &String| {
         model.unknown(name).ok_or_else(|| {
             if model.is_exact(name) {
@@ -219,7 +218,9 @@ fn held(model: &Model, wanted: &Request<'_>) -> Result<Vec<usize>, NotPolished> 
             request(format!("the table has no printed decimal `{name}`"), help)
         })
     };
-    wanted.free.iter().map(named).collect()
+    // a free parameter of the table may be a fraction, which stays as it is
+    let free = table.free.iter().filter_map(|name| model.unknown(&name.value)).map(Ok);
+    free.chain(wanted.free.iter().map(named)).collect()
 }
 
 fn weight(

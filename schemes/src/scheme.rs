@@ -36,7 +36,7 @@ pub enum First {
 }
 
 /// A kick or a drift.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum MapKind {
     /// p −= h w U_q(q)
     Kick,

@@ -12,16 +12,12 @@ use crate::complaint::{Complaint, Ending, no, remark, report};
 use crate::figures::table;
 use crate::library;
 use crate::output::Output;
+use crate::schemes::{near_integrable, near_integrable_text};
 
 /// The polished table to stdout or a file, the report to stderr.
 pub(crate) fn polish(arguments: &PolishArguments) -> Result<Ending, Complaint> {
     let source = library::source(&arguments.file)?;
-    let wanted = Request {
-        digits: arguments.digits,
-        free: &arguments.free,
-        near_integrable: &arguments.near_integrable,
-        split_kicks: arguments.split_kicks,
-    };
+    let wanted = Request { digits: arguments.digits, free: &arguments.free, split_kicks: arguments.split_kicks };
     let polished = match polish::polish(&source, &library::beside_or_shipped, &wanted) {
         Ok(polished) => polished,
         Err(NotPolished::Request { sentence, help }) => return Err(Complaint::usage(sentence, help)),
@@ -34,7 +30,7 @@ pub(crate) fn polish(arguments: &PolishArguments) -> Result<Ending, Complaint> {
     let mut output = Output::open(arguments.output.as_deref(), "--output")?;
     write!(output, "{}", polished.text)?;
     output.finish()?;
-    report(told(&polished, arguments));
+    report(told(&polished));
     for weight in misprints(&polished.weights) {
         let PolishedWeight { name, right, printed_digits, .. } = weight;
         remark(format_args!("{name} seems to be misprinted: {right} of its {printed_digits} digits are right"));
@@ -42,7 +38,7 @@ pub(crate) fn polish(arguments: &PolishArguments) -> Result<Ending, Complaint> {
     Ok(Ending::Done)
 }
 
-fn told(polished: &Polished, arguments: &PolishArguments) -> String {
+fn told(polished: &Polished) -> String {
     let proved = &polished.proved;
     let class = match proved.scheme.table.kinetic {
         Kinetic::Any => "every T(p)",
@@ -50,9 +46,9 @@ fn told(polished: &Polished, arguments: &PolishArguments) -> String {
     };
     let kind = if polished.in_gamma { " in the γ's" } else { "" };
     let symmetric = if proved.proof.symmetric { ", symmetric" } else { "" };
-    let near = match arguments.near_integrable.as_slice() {
-        [] => String::new(),
-        orders => format!(", near-integrable {orders:?}"),
+    let near = match near_integrable_text(&near_integrable(&proved.proof)) {
+        orders if orders.is_empty() => orders,
+        orders => format!(", {orders} for A + εB"),
     };
     let header = ["decimal", "printed digits", "right", "off by", "now"];
     let rows: Vec<_> = polished.weights.iter().map(row).collect();

@@ -1,23 +1,26 @@
 //! Which conditions a table's weights have to meet, and their values and derivatives.
 
+use std::collections::BTreeSet;
+
 use num_bigint::BigInt;
 use num_traits::Zero;
 use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
 use crate::order::{self, Condition};
-use crate::polish::Request;
 use crate::polish::composition::{self, Word};
 use crate::polish::dual::{Dual, Duals};
 use crate::polish::unknowns::Model;
 use crate::proof::prove;
 use crate::scheme::MapKind;
 use crate::table::{Kinetic, Table};
-use crate::{Scheme, nystrom};
+use crate::{Scheme, near_integrable, nystrom};
 
 /// The conditions, as functions of the weights.
 pub(super) struct Equations {
     family: Family,
+    /// The words of near-integrable orders that are no conditions of the family.
+    near_integrable: Vec<order::Word>,
     /// A palindrome meets the conditions of even order if it meets those of odd order.
     odd_only: bool,
     /// Whether the cubes of the kicks must sum to 0.
@@ -26,7 +29,7 @@ pub(super) struct Equations {
 
 enum Family {
     /// Words in kicks and drifts, for every T(p).
-    Words(Vec<Vec<MapKind>>),
+    Words(Vec<order::Word>),
     /// Trees of at most so many nodes, for quadratic T.
     Trees(u32),
     /// Words in the base's errors, for compositions of a symmetric base.
@@ -41,34 +44,30 @@ pub(super) struct Row {
 }
 
 impl Equations {
-    /// The conditions of the order that the table claims for its class of kinetic energies, and those asked for beside.
-    pub(super) fn of(model: &Model, table: &Table, wanted: &Request<'_>) -> Equations {
-        let (kinetic, order, near) = (table.kinetic, table.order.value, wanted.near_integrable);
-        let odd_only = model.symmetric;
-        let split_kicks = wanted.split_kicks;
-        let base_order = model.base.as_ref().and_then(symmetric_order).filter(|_| near.is_empty() && !split_kicks);
+    /// The conditions of the orders that the table claims, and the one asked for beside.
+    pub(super) fn of(model: &Model, table: &Table, split_kicks: bool) -> Equations {
+        let (kinetic, order, odd_only) = (table.kinetic, table.order.value, model.symmetric);
+        let base_order = model.base.as_ref().and_then(symmetric_order);
         let family = match (kinetic, base_order) {
             (Kinetic::Any, Some(base_order)) => {
                 let mut words = composition::lyndon_words(base_order, order);
                 words.retain(|word| !odd_only || word.iter().sum::<u32>() % 2 == 1);
                 Family::Composition(words)
             }
-            (Kinetic::Quadratic, _) if near.is_empty() => {
-                Family::Trees(if odd_only { order - (order + 1) % 2 } else { order })
-            }
-            _ => {
-                let longest = near.iter().copied().fold(order, u32::max);
-                let mut words = order::lyndon_words(longest as usize);
-                words.retain(|word| is_wanted(word, order, near) && (!odd_only || word.len() % 2 == 1));
-                Family::Words(words)
-            }
+            (Kinetic::Quadratic, _) => Family::Trees(if odd_only { order - (order + 1) % 2 } else { order }),
+            (Kinetic::Any, None) => Family::Words(order::lyndon_words(order as usize)),
         };
-        Equations { family, odd_only, split_kicks }
+        let claims = table.near_integrable.iter().flat_map(|claim| claim.powers());
+        let words = claims.flat_map(|(order, power)| near_integrable::words(power, order.value));
+        // those up to the order are conditions of every T(p) already
+        let words = words.filter(|word| kinetic == Kinetic::Quadratic || word.len() > order as usize);
+        let near_integrable = words.collect::<BTreeSet<_>>().into_iter().collect();
+        Equations { family, near_integrable, odd_only, split_kicks }
     }
 
     /// Whether the conditions are those of the γ's.
     pub(super) fn are_in_gamma(&self) -> bool {
-        matches!(self.family, Family::Composition(_))
+        matches!(self.family, Family::Composition(_)) && self.near_integrable.is_empty()
     }
 
     /// All conditions at weights that are functions of `unknowns` unknowns.
@@ -79,6 +78,9 @@ impl Equations {
             Family::Words(words) => order::word_conditions(words, &maps(), &arithmetic),
             Family::Trees(order) => nystrom::tree_conditions(&maps(), *order, &arithmetic),
         };
+        if !self.near_integrable.is_empty() {
+            found.extend(order::word_conditions(&self.near_integrable, &maps(), &arithmetic));
+        }
         if self.split_kicks {
             found.push(cubes_of_kicks(&maps(), arithmetic));
         }
@@ -103,12 +105,6 @@ fn cubes_of_kicks(maps: &[(MapKind, Dual)], arithmetic: Duals) -> (Condition, Du
         arithmetic.add_product(&mut sum, &arithmetic.product(weight, weight), weight);
     }
     (Condition { order: 3, name: "the cubes of the kicks".to_owned(), needed: Rational::zero() }, sum)
-}
-
-fn is_wanted(word: &[MapKind], order: u32, near: &[u32]) -> bool {
-    let kicks = word.iter().filter(|kind| **kind == MapKind::Kick).count();
-    let enough = kicks.checked_sub(1).and_then(|k| near.get(k)).map_or(order, |near| order.max(*near));
-    word.len() as u32 <= enough
 }
 
 /// The maps of a step, a composition's written out, neighbours of one kind merged.

@@ -1,5 +1,6 @@
 //! The table's text with polished decimals: everything else stays as its author wrote it.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use num_traits::{One, Signed, Zero};
@@ -94,14 +95,34 @@ pub(super) fn text(
     if !decimals.is_empty() || !formulas.is_empty() {
         edits.push(constants(table, &(decimals + &formulas))?);
     }
+    let new_key = |line: String| below(source, table.order.at.end, &line);
     edits.push(match &table.digits {
         Some(old) => (old.at.clone(), digits.to_string()),
-        None => below(source, table.order.at.end, &format!("digits = {digits}\n")),
+        None => new_key(format!("digits = {digits}\n")),
     });
+    let as_printed = names.iter().zip(written).filter(|(_, written)| matches!(written, Written::AsPrinted));
+    edits.extend(free(table, as_printed.map(|(name, _)| name)).map(|(at, list)| match at {
+        Some(at) => (at, list),
+        None => new_key(format!("free = [{list}]\n")),
+    }));
     edits.sort_by_key(|(at, _)| at.start);
     let mut text = source.clone();
     edits.iter().rev().for_each(|(at, new)| text.replace_range(at.clone(), new));
     Ok(text)
+}
+
+/// The list of the free parameters and its place: those of the table, and the decimals that stay as printed.
+fn free<'a>(table: &'a Table, as_printed: impl Iterator<Item = &'a String>) -> Option<(Option<Range<usize>>, String)> {
+    let mut names: Vec<_> = table.free.iter().map(|name| &name.value).collect();
+    let known = names.len();
+    names.extend(as_printed);
+    let mut seen = BTreeSet::new();
+    names.retain(|name| seen.insert(*name));
+    if names.len() == known {
+        return None;
+    }
+    let at = table.free.first().zip(table.free.last()).map(|(first, last)| first.at.start..last.at.end);
+    Some((at, names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ")))
 }
 
 /// The cell's new text, in quotes if it has none.
