@@ -7,7 +7,15 @@ use shadowstep_schemes::{Faults, Proved, Source, read, shipped};
 /// # Errors
 /// All its faults.
 pub fn judge(text: &str) -> Result<Proved, Faults> {
-    let source = Source { path: "mine.toml".to_owned(), text: text.to_owned() };
+    judge_named("mine.toml", text)
+}
+
+/// The same for a table in a file of this name.
+///
+/// # Errors
+/// All its faults.
+pub fn judge_named(path: &str, text: &str) -> Result<Proved, Faults> {
+    let source = Source { path: path.to_owned(), text: text.to_owned() };
     read(&source, &|base, _| shipped(base))
 }
 
