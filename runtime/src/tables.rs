@@ -2,8 +2,9 @@
 
 use std::marker::PhantomData;
 
-pub use shadowstep_schemes::{Fault, Faults, Proved, Source, shipped_names};
-use shadowstep_schemes::{First, MapKind, Plan};
+use shadowstep_schemes::table::parse;
+pub use shadowstep_schemes::{Analysis, Fault, Faults, Proved, Source, analysis, polish, shipped_names};
+use shadowstep_schemes::{First, Kinetic, MapKind, Plan};
 use thiserror::Error;
 
 use crate::Rational;
@@ -36,7 +37,7 @@ pub struct QuadraticOnly {
     pub order: u32,
     /// The order proved for quadratic T.
     pub order_quadratic: u32,
-    /// A shipped scheme for every T(p), with the least evaluations of those whose order is nearest to the one claimed.
+    /// A shipped scheme for every T(p), with the fewest evaluations of those whose order is nearest to the one claimed.
     pub better: String,
     /// Its order.
     pub better_order: u32,
@@ -98,13 +99,7 @@ impl TableScheme {
 
 impl QuadraticOnly {
     fn of(proved: &Proved) -> Self {
-        let claimed = proved.scheme.table.order.value;
-        let all =
-            shipped_names().into_iter().filter_map(shipped).filter(|other| other.proved.holds_for_every_kinetic());
-        // the order needed, or the most there is; then the cheapest
-        let best =
-            all.max_by_key(|other| (other.summary().order.min(claimed), std::cmp::Reverse(other.plan.evaluations)));
-        let better = best.expect("there are shipped schemes for every T(p)");
+        let better = better(proved.scheme.table.order.value);
         QuadraticOnly {
             name: proved.scheme.table.name.value.clone(),
             order: proved.proof.general.order,
@@ -115,12 +110,39 @@ impl QuadraticOnly {
     }
 }
 
+/// The cheapest shipped scheme that is meant for every T(p) and has this order, or the nearest higher one, or else the
+/// highest that there is. Only those of one order are proved.
+fn better(order: u32) -> TableScheme {
+    let claim = |name: &'static str| {
+        let table = parse(&shadowstep_schemes::shipped(name)?).0?;
+        (table.kinetic == Kinetic::Any).then_some((table.order.value, name))
+    };
+    let claims: Vec<_> = shipped_names().into_iter().filter_map(claim).collect();
+    let orders = || claims.iter().map(|(order, _)| *order);
+    let nearest = orders().filter(|higher| *higher >= order).min().or_else(|| orders().max());
+    let candidates = claims.iter().filter(|(order, _)| Some(*order) == nearest);
+    let schemes = candidates.filter_map(|(_, name)| shipped(name));
+    schemes.min_by_key(|scheme| scheme.plan.evaluations).expect("there are shipped schemes for every T(p)")
+}
+
 impl Moves<General> for TableScheme<General> {}
 
 impl<Class> TableScheme<Class> {
     /// Everything that is known about the scheme.
     pub fn proved(&self) -> &Proved {
         &self.proved
+    }
+
+    /// How good the scheme is: leading errors, stability, phase error.
+    ///
+    /// ```
+    /// use shadowstep::tables::shipped;
+    ///
+    /// let verlet = shipped("leapfrog").unwrap().analysis();
+    /// assert_eq!(verlet.stability.limit, "2"); // a step of the harmonic oscillator is stable up to hω = 2
+    /// ```
+    pub fn analysis(&self) -> Analysis {
+        Analysis::of(&self.proved)
     }
 
     /// The plan of its step.

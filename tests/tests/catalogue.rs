@@ -108,12 +108,12 @@ fn what_is_claimed_is_what_is_proved() {
         lines.push(line(name, &scheme));
     }
     println!("{} tables proved in {:.1?}, the slowest {slowest:.1?}", lines.len(), begin.elapsed());
-    let expected = CATALOGUE.trim().lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
-    // name by name, so that a failure shows the line
-    for (found, expected) in lines.iter().zip(expected.clone()) {
-        assert_eq!(*found, expected);
+    let expected: Vec<_> =
+        CATALOGUE.trim().lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect();
+    for line in &lines {
+        assert!(expected.contains(line), "proved, but not in CATALOGUE: {line}");
     }
-    assert_eq!(lines.len(), expected.count(), "tables");
+    assert_eq!(lines.len(), expected.len(), "a table of CATALOGUE is missing");
 }
 
 /// A scheme for every T(p) keeps all its orders; of those for quadratic T, the table's order is left only where it

@@ -5,7 +5,7 @@ use std::io::Write;
 use rayon::prelude::*;
 use serde::Serialize;
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
-use shadowstep_schemes::{Analysis, Kinetic};
+use shadowstep_schemes::Kinetic;
 
 use crate::arguments::{KineticChoice, ListArguments, SortKey};
 use crate::complaint::{Complaint, Ending, remark};
@@ -102,7 +102,7 @@ fn sort(records: &mut [Record], arguments: &ListArguments) {
 
 fn record(name: &'static str, scheme: &TableScheme) -> Record {
     let proved = scheme.proved();
-    let analysis = Analysis::of(proved);
+    let analysis = scheme.analysis();
     Record {
         name,
         aliases: aliases(&proved.scheme.table),

@@ -77,7 +77,7 @@ struct Map {
 
 pub(crate) fn show(word: &str, json: bool) -> Result<Ending, Complaint> {
     let scheme = library::scheme(word)?.scheme;
-    let analysis = Analysis::of(scheme.proved());
+    let analysis = scheme.analysis();
     let mut output = Output::open(None, "")?;
     if json {
         output.json(&record(&scheme, &analysis))?;
