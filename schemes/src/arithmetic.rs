@@ -2,7 +2,7 @@
 //! sensitivity of a condition to the last digit of the weights.
 
 use num_bigint::BigInt;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, ToPrimitive, Zero};
 use shadowstep_symbolic::Rational;
 
 /// Sums of products, as order conditions need them.
@@ -73,18 +73,23 @@ impl FixedPoint {
         BigInt::one() << self.bits
     }
 
-    /// The middle and the bound of the error as rationals.
+    /// The middle and the bound of the error as rationals with the denominator of the unit, not reduced.
     pub(crate) fn read(&self, value: &Fixed) -> (Rational, Rational) {
         let unit = self.unit();
         // a bound that ran over is none: then the value may be anything
         let error = if value.error == u128::MAX { BigInt::one() << (2 * self.bits) } else { value.error.into() };
-        (Rational::new(value.units.clone(), unit.clone()), Rational::new(error, unit))
+        (Rational::new_raw(value.units.clone(), unit.clone()), Rational::new_raw(error, unit))
     }
 
-    /// An upper bound of |value|, rounded up to a whole number.
+    /// A power of two, at least 1, that |value| does not exceed.
     fn size(&self, value: &Fixed) -> u128 {
-        let units = value.units.abs() + BigInt::from(value.error);
-        (units >> self.bits).to_u128().unwrap_or(u128::MAX).saturating_add(1)
+        let bits = u64::from(self.bits);
+        if u64::from(u128::BITS - value.error.leading_zeros()) >= bits {
+            return u128::MAX;
+        }
+        // |units| < 2^b and error < 2^(bits − 1)
+        let above = (value.units.bits() + 1).saturating_sub(bits);
+        if above < 127 { 1 << above } else { u128::MAX }
     }
 }
 

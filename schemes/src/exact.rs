@@ -193,10 +193,11 @@ pub(crate) fn digits_of(uncertainty: &Rational) -> Option<u32> {
     // bit lengths first: f64 has no room for 1e-400
     let bits = uncertainty.denom().bits() as f64 - uncertainty.numer().bits() as f64;
     let shift = bits as i32;
+    let (numer, denom) = (uncertainty.numer(), uncertainty.denom());
     let scaled = if shift >= 0 {
-        uncertainty * Rational::from_integer(num_bigint::BigInt::from(1) << shift as usize)
+        Rational::new_raw(numer << shift as usize, denom.clone())
     } else {
-        uncertainty / Rational::from_integer(num_bigint::BigInt::from(1) << (-shift) as usize)
+        Rational::new_raw(numer.clone(), denom << (-shift) as usize)
     };
     let log10 = scaled.to_f64().unwrap_or(1.0).abs().log10() - f64::from(shift) * std::f64::consts::LOG10_2;
     Some((-log10).floor().max(0.0).to_u32().unwrap_or(u32::MAX))

@@ -7,6 +7,7 @@
 
 use std::cmp::Ordering;
 
+use num_bigint::BigInt;
 use num_traits::{FromPrimitive, Signed, Zero};
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 use shadowstep_symbolic::{Rational, compare};
@@ -148,10 +149,11 @@ fn prove_up_to(maps: &[Map], held: Held, family: Family, highest: u32) -> Order 
     let digits = holding.filter_map(|c| digits_of(&c.uncertainty())).min();
     let failed = failed.map(|first| judged.swap_remove(first));
     let undecided = failed.as_ref().is_some_and(Judged::is_met);
-    Order { order, digits, failed: failed.map(|c| (c.condition, c.found)), undecided }
+    Order { order, digits, failed: failed.map(|c| (c.condition, c.found.reduced())), undecided }
 }
 
-/// A condition with its value and what the digits of the weights allow.
+/// A condition with its value and what the digits of the weights allow. The rationals are not reduced: their common
+/// divisors cost more to find than they save.
 struct Judged {
     condition: Condition,
     found: Rational,
@@ -163,7 +165,10 @@ struct Judged {
 
 impl Judged {
     fn uncertainty(&self) -> Rational {
-        (&self.found - &self.condition.needed).abs() + &self.error
+        let (found, needed, error) = (&self.found, &self.condition.needed, &self.error);
+        debug_assert!(error.is_zero() || found.denom() == error.denom());
+        let distance = (found.numer() * needed.denom() - needed.numer() * found.denom()).abs();
+        Rational::new_raw(distance + error.numer() * needed.denom(), found.denom() * needed.denom())
     }
 
     fn holds(&self) -> bool {
@@ -176,7 +181,8 @@ impl Judged {
 
     /// Whether the weights have digits enough to tell a condition that is met from one that is not.
     fn is_decided(&self) -> bool {
-        at_most(&(&self.tolerance * Rational::from_integer(1000.into())), &self.condition.needed)
+        let thousandfold = Rational::new_raw(self.tolerance.numer() * 1000, self.tolerance.denom().clone());
+        at_most(&thousandfold, &self.condition.needed)
     }
 }
 
@@ -193,7 +199,7 @@ fn judged_conditions(maps: &[Map], held: Held, family: Family, highest: u32) -> 
             .collect(),
         Held::Digits(digits) => {
             let arithmetic = FixedPoint::new(digits);
-            let unit = Rational::new(1.into(), num_bigint::BigInt::from(10).pow(digits - 1));
+            let unit = BigInt::from(10).pow(digits - 1);
             let slopes = conditions(maps, family, highest, &Sensitivity);
             conditions(maps, family, highest, &arithmetic)
                 .into_iter()
@@ -201,7 +207,8 @@ fn judged_conditions(maps: &[Map], held: Held, family: Family, highest: u32) -> 
                 .map(|((condition, value), (_, sensitive))| {
                     let (found, error) = arithmetic.read(&value);
                     let slope = Rational::from_f64(sensitive.slope).unwrap_or_else(Rational::zero);
-                    Judged { condition, found, error, tolerance: slope * &unit }
+                    let tolerance = Rational::new_raw(slope.numer().clone(), slope.denom() * &unit);
+                    Judged { condition, found, error, tolerance }
                 })
                 .collect()
         }
@@ -213,7 +220,8 @@ fn worth_exactness(maps: &[Map], family: Family, highest: u32) -> u32 {
     let arithmetic = FixedPoint::new(60);
     let fails = |(condition, value): &(Condition, _)| {
         let (found, error) = arithmetic.read(value);
-        !at_most(&(found - &condition.needed).abs(), &error)
+        let judged = Judged { condition: condition.clone(), found, error: Rational::zero(), tolerance: error };
+        !judged.is_met()
     };
     conditions(maps, family, highest, &arithmetic).iter().find(|c| fails(c)).map_or(highest, |(c, _)| c.order)
 }

@@ -26,13 +26,13 @@ Everything on this page is computed from the tables: the orders are proved, none
 - *order*: for every T(p), and for quadratic T = ½pᵀM⁻¹p. A scheme whose table says `kinetic = \"quadratic\"` is meant for
   quadratic T.
 - *A + εB*: the orders in the powers of ε for near-integrable systems: (8,6,4) has the local error O(εh⁹ + ε²h⁷ + ε³h⁵).
-  The drifts move by A.
+  The drifts move by A. Blank where the table claims none.
 - *forces*: evaluations of U_q a step, the first kick taking over what the last one of the step before evaluated.
 - *effective error*: forces · ‖E‖^{1/order}, where h^{order+1} E is the leading error of the step's logarithm in
   right-nested brackets of kick and drift and ‖E‖ the Euclidean norm. At equal cost the smaller one is more accurate, if
   the orders are the same; schemes of different orders are not compared by it.
 - *stable to hω*: up to there a step of the harmonic oscillator is stable; per force it is the second number. Beyond it
-  some schemes are stable again for a while; intervals narrower than 0.01 are not mentioned.
+  some schemes are stable again for a while; what is narrower than 0.01 or beyond hω = 2·forces is not mentioned.
 - *phase error*: how much too fast the harmonic oscillator turns, to the leading power of hω.
 
 ";

@@ -20,6 +20,7 @@ struct Record {
     order: u32,
     order_quadratic: u32,
     near_integrable: Vec<u32>,
+    /// Rows of the table of weights, those with a 0 included.
     stages: usize,
     evaluations: usize,
     effective_error: f64,
@@ -30,11 +31,10 @@ struct Record {
     title: Option<String>,
 }
 
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 10] = [
     "order\nany T",
     "order\nquadratic T",
     "order\nA + εB",
-    "stages",
     "forces\na step",
     "effective error\nany T",
     "effective error\nquadratic T",
@@ -62,7 +62,7 @@ pub(crate) fn list(arguments: &ListArguments) -> Result<Ending, Complaint> {
     if arguments.json {
         records.iter().try_for_each(|record| output.json(record))?;
     } else {
-        writeln!(output, "{}", table(COLUMNS, records.iter().map(row).collect(), 0..10))?;
+        writeln!(output, "{}", table(COLUMNS, records.iter().map(row).collect(), 0..9))?;
     }
     output.finish()?;
     Ok(Ending::Done)
@@ -120,12 +120,11 @@ fn record(name: &'static str, scheme: &TableScheme) -> Record {
     }
 }
 
-fn row(record: &Record) -> [String; 11] {
+fn row(record: &Record) -> [String; 10] {
     [
         record.order.to_string(),
         record.order_quadratic.to_string(),
         near_integrable_text(&record.near_integrable),
-        record.stages.to_string(),
         record.evaluations.to_string(),
         format!("{:.4}", record.effective_error),
         format!("{:.4}", record.effective_error_quadratic),

@@ -6,7 +6,7 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 use shadowstep::Rational;
 use shadowstep::tables::TableScheme;
-use shadowstep_schemes::proof::{Order, Proved};
+use shadowstep_schemes::proof::{HIGHEST_ORDER, Order, Proved};
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
 use shadowstep_schemes::{Analysis, First, Kinetic, to_significant, to_text};
@@ -20,6 +20,9 @@ use crate::schemes::{aliases, analysis, digits, digits_text, near_integrable, ne
 
 /// Digits of a weight that a person reads.
 const SHOWN: usize = 40;
+
+/// Digits of what a condition of rounded weights was found to be.
+const CONDITION_DIGITS: usize = 30;
 
 #[derive(Serialize)]
 struct Record {
@@ -37,6 +40,7 @@ struct Record {
     evaluations: usize,
     products_per_dimension: usize,
     products_for_beta: usize,
+    /// Rows of the table of weights, those with a 0 included.
     stages: usize,
     symmetric: bool,
     first: &'static str,
@@ -93,6 +97,11 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
     let (proof, weights, table) = (&proved.proof, &proved.scheme, &proved.scheme.table);
     let fractions = |weights: &[Rational]| weights.iter().map(Rational::to_string).collect();
     let maps = weights.maps().into_iter();
+    // the value of a condition of rounded weights is known to so many digits only
+    let exact = |value: &Rational| match weights.held {
+        Held::Digits(_) if to_text(value).len() > CONDITION_DIGITS => to_significant(value, CONDITION_DIGITS),
+        _ => to_text(value),
+    };
     let cost = scheme.plan().cost();
     Record {
         name: table.name.value.clone(),
@@ -100,10 +109,10 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         title: table.title.clone(),
         order: proof.general.order,
         order_digits: proof.general.digits,
-        fails: failed(&proof.general, to_text),
+        fails: failed(&proof.general, exact),
         order_quadratic: proof.quadratic.order,
         order_quadratic_digits: proof.quadratic.digits,
-        fails_quadratic: failed(&proof.quadratic, to_text),
+        fails_quadratic: failed(&proof.quadratic, exact),
         near_integrable: near_integrable(proof),
         digits: digits(weights.held),
         evaluations: scheme.plan().evaluations,
@@ -195,9 +204,9 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
         (
             "a step".to_owned(),
             format!(
-                "stages {}, force evaluations {}; it begins with a {}",
-                proved.scheme.kick.len(),
+                "{} force evaluations, {} kicks and drifts; it begins with a {}",
                 plan.evaluations,
+                proved.scheme.maps().len(),
                 first(proved.scheme.first())
             ),
         ),
@@ -244,7 +253,7 @@ fn order_text(order: &Order) -> String {
         Some(digits) => format!("order {}, to {} digits", order.order, digits_text(Some(digits))),
     };
     match failed(order, |value| shortened(value, 16)) {
-        None => holds,
+        None => format!("{holds}; more than order {HIGHEST_ORDER} is not looked for"),
         Some(Failed { condition, order, found, needed }) => {
             format!("{holds}; of order {order}, the condition of {condition} fails: found {found}, needed {needed}")
         }

@@ -22,7 +22,8 @@ const DEPTH: u64 = 170;
 pub struct Stability {
     /// The least hω beyond which the trace leaves [−2, 2], to 30 digits.
     pub limit: String,
-    /// The intervals of instability between the limit and hω = 2·(evaluations), which no limit exceeds.
+    /// The intervals of instability between the limit and hω = 2·(evaluations), which no limit exceeds. Two between which
+    /// all 30 digits agree are one.
     pub gaps: Vec<Gap>,
 }
 
@@ -41,7 +42,7 @@ impl Stability {
     /// The stability of a step with this trace and so many evaluations.
     pub(crate) fn of(trace: &Trace, evaluations: usize) -> Stability {
         let last = 4 * (evaluations as u64).pow(2);
-        let crossings = crossings(trace, last);
+        let crossings = parted(crossings(trace, last));
         let limit = crossings.first().expect("a consistent scheme is unstable beyond 2·(evaluations)").text();
         let gaps = crossings.chunks(2).filter(|ends| ends[0].is_below(last)).map(|ends| {
             let to = ends.get(1).filter(|to| to.is_below(last));
@@ -53,6 +54,19 @@ impl Stability {
         });
         Stability { gaps: gaps.collect(), limit }
     }
+}
+
+/// The crossings without the ends of windows of stability that are too narrow for their digits.
+fn parted(crossings: Vec<Crossing>) -> Vec<Crossing> {
+    let mut parted: Vec<Crossing> = Vec::new();
+    for crossing in crossings {
+        let begins = parted.len().is_multiple_of(2);
+        match parted.last() {
+            Some(end) if begins && end.text == crossing.text => drop(parted.pop()),
+            _ => parted.push(crossing),
+        }
+    }
+    parted
 }
 
 /// An x at which the trace passes 2 or −2.
