@@ -103,9 +103,9 @@ pub(crate) struct ListArguments {
     /// Only schemes of this order, such as 6
     #[arg(long, value_name = "ORDER", value_parser = clap::value_parser!(u32).range(1..=i64::from(HIGHEST_ORDER)))]
     pub(crate) order: Option<u32>,
-    /// The kinetic energies for which --order and --sort take orders and effective errors
-    #[arg(long = "for", value_name = "KINETIC", default_value = "any")]
-    pub(crate) kinetic: KineticChoice,
+    /// Only schemes for these kinetic energies, with the orders and effective errors for them in --order and --sort
+    #[arg(long = "for", value_name = "KINETIC")]
+    pub(crate) kinetic: Option<KineticChoice>,
     /// What comes first
     #[arg(long, value_name = "KEY", default_value = "order")]
     pub(crate) sort: SortKey,
@@ -116,15 +116,15 @@ pub(crate) struct ListArguments {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum KineticChoice {
-    /// Every T(p)
+    /// Every T(p): schemes that need a quadratic one are left out
     Any,
-    /// T = ½pᵀM⁻¹p
+    /// T = ½pᵀM⁻¹p: all schemes
     Quadratic,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum SortKey {
-    /// The smallest effective error
+    /// The lowest order, then the smallest effective error: it compares schemes of one order only
     EffectiveError,
     /// The largest stability limit
     Stability,

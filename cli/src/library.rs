@@ -5,8 +5,7 @@ use std::io::ErrorKind;
 use std::path::{Component, Path};
 
 use shadowstep::tables::{self, Source, TableScheme, shipped_names};
-use shadowstep_schemes::First;
-use shadowstep_symbolic::nearest;
+use shadowstep_schemes::{First, shipped, shipped_hint};
 
 use crate::complaint::Complaint;
 
@@ -24,17 +23,22 @@ pub(crate) fn scheme(word: &str) -> Result<Named, Complaint> {
 
 /// The same, with files as seen from a folder and steps that may begin with the other map.
 pub(crate) fn scheme_from(word: &str, folder: &Path, first: Option<First>) -> Result<Named, Complaint> {
-    let source = if is_file(word) {
-        source(&folder.join(word).to_string_lossy())?
-    } else {
-        shadowstep_schemes::shipped(word).ok_or_else(|| unknown(word))?
-    };
+    let source = source_from(word, folder)?;
     let scheme = tables::read(&source, &beside_or_shipped, first).map_err(Complaint::Faults)?;
     Ok(Named { name: word.to_owned(), scheme })
 }
 
+/// The table that a word means: a shipped one, or a file.
+pub(crate) fn source(word: &str) -> Result<Source, Complaint> {
+    source_from(word, Path::new(""))
+}
+
+fn source_from(word: &str, folder: &Path) -> Result<Source, Complaint> {
+    if is_file(word) { file(&folder.join(word).to_string_lossy()) } else { shipped(word).ok_or_else(|| unknown(word)) }
+}
+
 /// The text of a table.
-pub(crate) fn source(path: &str) -> Result<Source, Complaint> {
+fn file(path: &str) -> Result<Source, Complaint> {
     match fs::read_to_string(path) {
         Ok(text) => Ok(Source { path: path.to_owned(), text }),
         Err(error) if error.kind() == ErrorKind::NotFound => {
@@ -54,7 +58,6 @@ pub(crate) fn source(path: &str) -> Result<Source, Complaint> {
 
 /// The base table of a composition: beside the table that names it, else shipped. What is shipped needs only that.
 pub(crate) fn beside_or_shipped(base: &str, from: &Source) -> Option<Source> {
-    let shipped = shadowstep_schemes::shipped;
     if from.is_shipped() {
         return shipped(base);
     }
@@ -76,13 +79,9 @@ fn is_file(word: &str) -> bool {
 }
 
 fn unknown(word: &str) -> Complaint {
-    let names = shipped_names();
-    let hint = match nearest(word, names.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`? `shadowstep schemes` lists all"),
-        None => format!(
-            "{}; `shadowstep schemes` lists all; the name of a table of yours ends in .toml",
-            shadowstep_schemes::shipped_hint(word)
-        ),
+    let hint = match shipped_hint(word) {
+        names if names.ends_with('?') => format!("{names} `shadowstep schemes` lists all"),
+        none => format!("{none}; `shadowstep schemes` lists all; the name of a table of yours ends in .toml"),
     };
     Complaint::usage(format!("there is no scheme `{word}`"), hint)
 }

@@ -11,9 +11,9 @@ pub(crate) use list::list;
 pub(crate) use polish::polish;
 pub(crate) use show::show;
 
-use shadowstep_schemes::Proof;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
+use shadowstep_schemes::{Kinetic, Proof};
 
 /// How many digits of the weights are right; `None` for all.
 fn digits(held: Held) -> Option<u32> {
@@ -44,4 +44,12 @@ fn near_integrable_text(orders: &[u32]) -> String {
         return String::new();
     }
     format!("({})", orders.iter().map(u32::to_string).collect::<Vec<_>>().join(","))
+}
+
+/// As tables write it.
+fn kinetic(kinetic: Kinetic) -> &'static str {
+    match kinetic {
+        Kinetic::Any => "any",
+        Kinetic::Quadratic => "quadratic",
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::marker::PhantomData;
 
+pub use shadowstep_schemes::shipped as shipped_source;
 use shadowstep_schemes::table::parse;
 pub use shadowstep_schemes::{Analysis, Fault, Faults, Proved, Source, analysis, polish, shipped_names};
 use shadowstep_schemes::{First, Kinetic, MapKind, Plan};
@@ -37,7 +38,7 @@ pub struct QuadraticOnly {
     pub order: u32,
     /// The order proved for quadratic T.
     pub order_quadratic: u32,
-    /// A shipped scheme for every T(p), with the fewest evaluations of those whose order is nearest to the one claimed.
+    /// A shipped scheme for every T(p), of least effective error among those whose order is nearest to the one claimed.
     pub better: String,
     /// Its order.
     pub better_order: u32,
@@ -50,6 +51,28 @@ pub fn shipped(name: &str) -> Option<TableScheme> {
 
 /// Reads and proves a table; `library` finds the base tables of compositions, `first` exchanges the roles of kick and
 /// drift.
+///
+/// ```
+/// use shadowstep::Scheme;
+/// use shadowstep::tables::{Source, read, shipped_source};
+///
+/// let text = r#"
+/// name = "mine"
+/// order = 4
+/// kinetic = "any"
+/// reference = "an exercise"
+///
+/// [constants]
+/// g = "1/(2 - 2^(1/3))"
+///
+/// [composition]
+/// base = "stormer-verlet"
+/// gamma = ["g", "1 - 2*g", "g"]
+/// "#;
+/// let source = Source { path: "mine.toml".to_owned(), text: text.to_owned() };
+/// let mine = read(&source, &|base, _| shipped_source(base), None).unwrap();
+/// assert_eq!(mine.summary().order, 4);
+/// ```
 ///
 /// # Errors
 /// All faults of the table.
@@ -110,7 +133,7 @@ impl QuadraticOnly {
     }
 }
 
-/// The cheapest shipped scheme that is meant for every T(p) and has this order, or the nearest higher one, or else the
+/// The shipped scheme of least effective error that is meant for every T(p) and has this order, or the nearest higher one, or else the
 /// highest that there is. Only those of one order are proved.
 fn better(order: u32) -> TableScheme {
     let claim = |name: &'static str| {
@@ -122,7 +145,9 @@ fn better(order: u32) -> TableScheme {
     let nearest = orders().filter(|higher| *higher >= order).min().or_else(|| orders().max());
     let candidates = claims.iter().filter(|(order, _)| Some(*order) == nearest);
     let schemes = candidates.filter_map(|(_, name)| shipped(name));
-    schemes.min_by_key(|scheme| scheme.plan.evaluations).expect("there are shipped schemes for every T(p)")
+    let error = |scheme: &TableScheme| scheme.analysis().effective_error(Kinetic::Any);
+    let best = schemes.map(|scheme| (error(&scheme), scheme)).min_by(|a, b| a.0.total_cmp(&b.0));
+    best.map(|(_, scheme)| scheme).expect("there are shipped schemes for every T(p)")
 }
 
 impl Moves<General> for TableScheme<General> {}

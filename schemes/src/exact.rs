@@ -4,6 +4,7 @@
 //! derived from it by `1 - 2*g1` is exact again, so that the weights sum to exactly 1.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use num_traits::{Signed, ToPrimitive, Zero};
 use shadowstep_symbolic::decimal::to_significant;
@@ -41,9 +42,9 @@ pub fn scheme(source: &Source, library: Library<'_>) -> (Option<Scheme>, Vec<Fau
 fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Option<Scheme>, Vec<Fault>) {
     let (table, mut faults) = table::parse(source);
     let Some(table) = table else { return (None, faults) };
-    let mut cells = Cells { source, known: BTreeMap::new(), rounded: false, faults: Vec::new() };
-    cells.constants(&table.constants);
-    cells.free(&table);
+    let mut cells = Cells { table: &table, known: BTreeMap::new(), rounded: false, faults: Vec::new() };
+    cells.constants();
+    cells.free();
     let weights = match &table.weights {
         None => None,
         Some(Weights::Stages { kick, drift }) => {
@@ -118,15 +119,15 @@ fn scaled(gamma: &[Rational], weights: &[Rational]) -> Vec<Rational> {
 
 /// Evaluates cells in the order of the text, collecting faults.
 struct Cells<'a> {
-    source: &'a Source,
+    table: &'a Table,
     known: BTreeMap<String, Exact>,
     rounded: bool,
     faults: Vec<Fault>,
 }
 
 impl Cells<'_> {
-    fn constants(&mut self, constants: &[(Placed<String>, Cell)]) {
-        for (name, cell) in constants {
+    fn constants(&mut self) {
+        for (name, cell) in &self.table.constants {
             // a constant that cannot be read stands as 1, so that its users do not add faults of their own
             let one = Exact { value: Rational::from_integer(1.into()), rounded: false };
             let value = self.cell(cell).unwrap_or(one);
@@ -135,9 +136,9 @@ impl Cells<'_> {
     }
 
     /// Free parameters are numbers as published, and follow from nothing.
-    fn free(&mut self, table: &Table) {
-        for name in &table.free {
-            let Some((_, cell)) = table.constants.iter().find(|(constant, _)| constant.value == name.value) else {
+    fn free(&mut self) {
+        for name in &self.table.free {
+            let Some((_, cell)) = self.table.constants.iter().find(|(constant, _)| constant.value == name.value) else {
                 continue;
             };
             let Ok(expression) = parse(&cell.value) else { continue };
@@ -145,9 +146,17 @@ impl Cells<'_> {
             if !alone.is_ok_and(|value| !value.rounded) {
                 let message = format!("`{}` is no free parameter: its value is `{}`", name.value, cell.value);
                 let help = "a free parameter is a plain number, exactly as published";
-                self.faults.push(self.source.fault(&name.at, message).help(help));
+                self.faults.push(self.table.source.fault(&name.at, message).help(help));
             }
         }
+    }
+
+    /// The fault of a name that is one of the constants, but is not known yet.
+    fn constant_below(&self, at: &Range<usize>) -> Option<Fault> {
+        let word = self.table.source.text.get(at.clone())?;
+        let defined = self.table.constants.iter().any(|(name, _)| name.value == word);
+        let fault = || self.table.source.fault(at, format!("`{word}` is not known yet"));
+        (defined && !self.known.contains_key(word)).then(|| fault().help("a constant may use those above it only"))
     }
 
     fn weights(&mut self, cells: &[Cell]) -> Vec<Rational> {
@@ -159,7 +168,7 @@ impl Cells<'_> {
             if value.abs() > Rational::from_integer(LARGEST_WEIGHT.into()) {
                 let message = format!("a weight of {} is an absurd size", to_significant(&value, 6));
                 let help = format!("weights are fractions of a step, at most {LARGEST_WEIGHT}");
-                self.faults.push(self.source.fault(&cell.at, message).help(help));
+                self.faults.push(self.table.source.fault(&cell.at, message).help(help));
             }
             value
         };
@@ -167,18 +176,22 @@ impl Cells<'_> {
     }
 
     fn cell(&mut self, cell: &Cell) -> Option<Exact> {
-        let place = |range: &std::ops::Range<usize>| cell.at.start + range.start..cell.at.start + range.end;
+        let place = |range: &Range<usize>| cell.at.start + range.start..cell.at.start + range.end;
         let expression = match parse(&cell.value) {
             Ok(expression) => expression,
             Err(error) => {
-                self.faults.push(self.source.fault(&place(&error.range), error.to_string()));
+                self.faults.push(self.table.source.fault(&place(&error.range), error.to_string()));
                 return None;
             }
         };
         match evaluate(&expression, &self.known, DIGITS) {
             Ok(value) => Some(value),
             Err(error) => {
-                self.faults.push(self.source.fault(&place(&error.range), error.to_string()));
+                let at = place(&error.range);
+                self.faults.push(self.constant_below(&at).unwrap_or_else(|| {
+                    let source = &self.table.source;
+                    source.fault(&at, error.to_string())
+                }));
                 None
             }
         }

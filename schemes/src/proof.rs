@@ -275,7 +275,7 @@ fn judge_order(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks:
         "order {claimed} is claimed, order {} holds {class}: the condition of {} fails",
         order.order, failed.name
     );
-    let fault = table.source.fault(at, message).values(short(found), short(&failed.needed));
+    let fault = table.source.fault(at, message).values(beside(found, &failed.needed), short(&failed.needed));
     faults.push(match table.kinetic {
         Kinetic::Any if proof.quadratic.order >= claimed => fault
             .help(format!("order {} holds for quadratic T: write `kinetic = \"quadratic\"`", proof.quadratic.order)),
@@ -308,7 +308,8 @@ fn judge_near_integrable(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>
                 "order {} is claimed, order {} holds {class}: the condition of {} fails",
                 claimed.value, order.order, failed.name
             );
-            let fault = table.source.fault(&claimed.at, message).values(short(found), short(&failed.needed));
+            let fault =
+                table.source.fault(&claimed.at, message).values(beside(found, &failed.needed), short(&failed.needed));
             with_rounding_help(fault, table, &(found - &failed.needed))
         }));
     }
@@ -328,7 +329,7 @@ fn judge_sums(scheme: &Scheme, faults: &mut Vec<Fault>) {
             None => continue,
         };
         let message = format!("the {weights} do not sum to 1, so not even order 1 holds");
-        let fault = table.source.fault(at, message).values(short(&sum.found), "1");
+        let fault = table.source.fault(at, message).values(beside(&sum.found, &sum.condition.needed), "1");
         faults.push(with_rounding_help(fault, table, &(&sum.found - &sum.condition.needed)));
     }
 }
@@ -381,6 +382,16 @@ fn not_a_palindrome(scheme: &Scheme, at: &std::ops::Range<usize>) -> Fault {
             .help("correct the weights, or leave `symmetric` out"),
         None => fault,
     }
+}
+
+/// A value as people write it, where its digits do not tell it from the one needed as that and what it is off by.
+fn beside(found: &Rational, needed: &Rational) -> String {
+    let off = found - needed;
+    if to_text(found).len() <= 20 || to_significant(found, 16) != to_significant(needed, 16) {
+        return short(found);
+    }
+    let sign = if off.is_negative() { '-' } else { '+' };
+    format!("{} {sign} {}", short(needed), to_significant(&off.abs(), 2))
 }
 
 /// A value as people write it: exact if short, else rounded.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, OnceLock};
 
-use shadowstep_symbolic::{nearest, nearest_few};
+use shadowstep_symbolic::nearest;
 
 use crate::fault::Source;
 use crate::proof::{Proved, read};
@@ -44,14 +44,23 @@ fn index(name: &str) -> Option<usize> {
     exact.or_else(|| NAMES.get(&spelling(name)).copied())
 }
 
-/// What to say to someone who asked for a table that is not there.
+/// What to say to someone who asked for a table that is not there: names that begin alike or are spelt most like it.
 pub fn shipped_hint(name: &str) -> String {
-    let names = shipped_names();
+    let (names, word) = (shipped_names(), spelling(name));
+    if index(name).is_some() {
+        return format!("`{name}` is a shipped table, which this library of base tables does not have");
+    }
+    let begins = |known: &&&str| word.len() >= LEAST_BEGINNING && spelling(known).starts_with(&word);
+    let beginning: Vec<_> = names.iter().filter(begins).map(|name| format!("`{name}`")).collect();
     match nearest(name, names.iter().copied()) {
+        _ if !beginning.is_empty() => format!("did you mean {}?", beginning.join(", ")),
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("{} tables are shipped, such as {}", names.len(), nearest_few(name, names, 3).join(", ")),
+        None => format!("{} tables are shipped, none with such a name", names.len()),
     }
 }
+
+/// From so many letters on names that begin with them are meant.
+const LEAST_BEGINNING: usize = 3;
 
 fn source(index: usize) -> Source {
     let (name, text) = SHIPPED[index];

@@ -101,9 +101,13 @@ fn section(proved: &Proved, analysis: &Analysis) -> String {
     let lines = [
         format!("order {} for every T(p), {} for quadratic T{near}{meant}", proof.general.order, proof.quadratic.order),
         format!(
-            "{} evaluations of U_q and {} products and additions per dimension a step, {} more for the modified energy; \
+            "{} of U_q and {} products and additions per dimension a step, {} more for the modified energy; \
              {symmetric}, begins with a {first}; {}",
-            analysis.evaluations,
+            if analysis.evaluations == 1 {
+                "1 evaluation".to_owned()
+            } else {
+                format!("{} evaluations", analysis.evaluations)
+            },
             cost.products_per_dimension,
             cost.products_for_beta,
             held(proved.scheme.held)

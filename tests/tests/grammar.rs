@@ -488,7 +488,14 @@ mine.toml:7:8: there is no table `stormer-verle`
     );
     let far = judge(&composition_of("rk4")).unwrap_err().to_string();
     assert!(far.starts_with("mine.toml:7:8: there is no table `rk4`\n"), "{far}");
-    assert!(far.contains(" tables are shipped, such as efrl, ruth3, "), "{far}");
+    assert!(far.contains(" tables are shipped, none with such a name"), "{far}");
+    // a library of base tables without the shipped ones
+    let source = Source { path: "mine.toml".to_owned(), text: composition_of("stormer-verlet") };
+    let alone = read(&source, &|_, _| None).unwrap_err().to_string();
+    assert!(
+        alone.contains("`stormer-verlet` is a shipped table, which this library of base tables does not"),
+        "{alone}"
+    );
 }
 
 /// The faults of a base are told with the base's own path.
@@ -569,4 +576,29 @@ fn a_composition_of_absurd_size() {
     let faults = read(&source("mine.toml", &table), &|_, _| Some(source("base.toml", &base))).unwrap_err().to_string();
     assert!(faults.starts_with("mine.toml:1:8: 40000000 stages are an absurd size"), "{faults}");
     assert!(faults.ends_with("help: at most 2000 are allowed"), "{faults}");
+}
+
+/// A constant that stands below, or is the one being defined, is no unknown name.
+#[test]
+fn constants_from_below() {
+    let table = |x: &str, y: &str| {
+        format!(
+            "name = \"mine\"\norder = 2\nkinetic = \"any\"\nreference = \"none\"\n\n[constants]\nx = \"{x}\"\ny = \"{y}\"\n\n\
+             [stages]\nkick = [\"y\", \"y\"]\ndrift = [1, 0]\n"
+        )
+    };
+    assert_eq!(
+        judge(&table("y + 1", "1/2")).unwrap_err().to_string(),
+        "mine.toml:7:6: `y` is not known yet\n  7 | x = \"y + 1\"\n    |      ^\n  help: a constant may use those above it only"
+    );
+    assert!(judge(&table("0", "1 - y")).unwrap_err().to_string().contains("`y` is not known yet"));
+}
+
+/// What is needed, where the digits shown would not tell the value found from it.
+#[test]
+fn sums_off_by_less_than_the_digits_shown() {
+    let table = "name = \"mine\"\norder = 2\nkinetic = \"any\"\nreference = \"none\"\n\n\
+                 [stages]\nkick = [\"1/2\", \"0.5000000000000000000000000003\"]\ndrift = [1, 0]\n";
+    let said = judge(table).unwrap_err().to_string();
+    assert!(said.contains("found 1 + 3e-28, needed 1"), "{said}");
 }

@@ -90,6 +90,10 @@ pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {
         ),
         ("leading error", error_text(&analysis.general)),
         ("quadratic T", error_text(&analysis.quadratic)),
+        (
+            "where",
+            "K and D are the Lie derivatives of the kick and the drift; words and trees of them likewise".to_owned(),
+        ),
         ("oscillator", format!("stable up to hω = {}", analysis.stability.limit)),
     ];
     facts.extend(analysis.stability.gaps.iter().map(|gap| match &gap.to {

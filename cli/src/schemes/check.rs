@@ -8,6 +8,7 @@ use shadowstep_schemes::Kinetic;
 use crate::complaint::{Complaint, Ending};
 use crate::library;
 use crate::output::Output;
+use crate::schemes::{near_integrable, near_integrable_text};
 
 /// Goes through all tables; the worst answer counts.
 pub(crate) fn check(files: &[String]) -> Result<Ending, Complaint> {
@@ -41,7 +42,11 @@ fn verdict(path: &str, proved: &Proved) -> String {
     };
     let digits = order.digits.map_or_else(|| "exactly".to_owned(), |digits| format!("to {digits} digits"));
     let symmetric = if proved.proof.symmetric { ", symmetric" } else { "" };
-    let mut text = format!("{path}: proved: order {} for {class}, {digits}{symmetric}\n", order.order);
+    let near = match near_integrable_text(&near_integrable(&proved.proof)) {
+        orders if orders.is_empty() => orders,
+        orders => format!(", {orders} for A + εB"),
+    };
+    let mut text = format!("{path}: proved: order {} for {class}{near}, {digits}{symmetric}\n", order.order);
     for remark in &proved.remarks {
         text += &format!("remark: {remark}\n");
     }

@@ -11,7 +11,7 @@ use crate::arguments::{KineticChoice, ListArguments, SortKey};
 use crate::complaint::{Complaint, Ending, remark};
 use crate::figures::{rounded, table};
 use crate::output::Output;
-use crate::schemes::{aliases, digits, digits_text, near_integrable, near_integrable_text};
+use crate::schemes::{aliases, digits, digits_text, kinetic, near_integrable, near_integrable_text};
 
 #[derive(Serialize)]
 struct Record {
@@ -27,11 +27,15 @@ struct Record {
     effective_error_quadratic: f64,
     stability_limit: String,
     symmetric: bool,
+    kinetic: &'static str,
+    /// Whether the order claimed holds for every T(p).
+    #[serde(skip)]
+    moves_any: bool,
     digits: Option<u32>,
     title: Option<String>,
 }
 
-const COLUMNS: [&str; 10] = [
+const COLUMNS: [&str; 11] = [
     "order\nany T",
     "order\nquadratic T",
     "order\nA + εB",
@@ -41,6 +45,7 @@ const COLUMNS: [&str; 10] = [
     "stable\nto hω",
     "symmetric",
     "digits",
+    "moves",
     "name",
 ];
 
@@ -48,7 +53,10 @@ const COLUMNS: [&str; 10] = [
 pub(crate) fn list(arguments: &ListArguments) -> Result<Ending, Complaint> {
     let of_order = |scheme: &TableScheme| arguments.order.is_none_or(|order| order == order_for(scheme, arguments));
     let all: Vec<_> = shipped_names().into_par_iter().filter_map(|name| Some((name, shipped(name)?))).collect();
-    let chosen = all.par_iter().filter(|(_, scheme)| of_order(scheme));
+    let moves = |scheme: &TableScheme| {
+        arguments.kinetic != Some(KineticChoice::Any) || scheme.proved().holds_for_every_kinetic()
+    };
+    let chosen = all.par_iter().filter(|(_, scheme)| of_order(scheme) && moves(scheme));
     let mut records: Vec<Record> = chosen.map(|(name, scheme)| record(name, scheme)).collect();
     sort(&mut records, arguments);
     if let (true, Some(order)) = (records.is_empty(), arguments.order) {
@@ -56,7 +64,7 @@ pub(crate) fn list(arguments: &ListArguments) -> Result<Ending, Complaint> {
         orders.sort_unstable();
         orders.dedup();
         let orders = orders.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
-        remark(format_args!("no shipped scheme has order {order}; there are the orders {orders}"));
+        remark(format_args!("no shipped scheme has order {order} {}; there are the orders {orders}", class(arguments)));
     }
     let mut output = Output::open(None, "")?;
     if arguments.json {
@@ -69,16 +77,21 @@ pub(crate) fn list(arguments: &ListArguments) -> Result<Ending, Complaint> {
 }
 
 fn order_for(scheme: &TableScheme, arguments: &ListArguments) -> u32 {
-    let kinetic = match arguments.kinetic {
-        KineticChoice::Any => Kinetic::Any,
-        KineticChoice::Quadratic => Kinetic::Quadratic,
-    };
+    let kinetic = if for_quadratic(arguments) { Kinetic::Quadratic } else { Kinetic::Any };
     scheme.proved().proof.for_kinetic(kinetic).order
+}
+
+fn for_quadratic(arguments: &ListArguments) -> bool {
+    arguments.kinetic == Some(KineticChoice::Quadratic)
+}
+
+fn class(arguments: &ListArguments) -> &'static str {
+    if for_quadratic(arguments) { "for quadratic T" } else { "for every T(p) (--for quadratic looks at quadratic T)" }
 }
 
 /// By name, then order and cost, then what is asked for: each sort keeps the order of equals.
 fn sort(records: &mut [Record], arguments: &ListArguments) {
-    let quadratic = arguments.kinetic == KineticChoice::Quadratic;
+    let quadratic = for_quadratic(arguments);
     if arguments.sort == SortKey::Name {
         return;
     }
@@ -89,7 +102,8 @@ fn sort(records: &mut [Record], arguments: &ListArguments) {
     match arguments.sort {
         SortKey::EffectiveError => {
             let error = |r: &Record| if quadratic { r.effective_error_quadratic } else { r.effective_error };
-            records.sort_by(|a, b| error(a).total_cmp(&error(b)));
+            let order = |r: &Record| if quadratic { r.order_quadratic } else { r.order };
+            records.sort_by(|a, b| order(a).cmp(&order(b)).then(error(a).total_cmp(&error(b))));
         }
         SortKey::Stability => {
             let limit = |record: &Record| record.stability_limit.parse::<f64>().unwrap_or(f64::NAN);
@@ -115,12 +129,14 @@ fn record(name: &'static str, scheme: &TableScheme) -> Record {
         effective_error_quadratic: analysis.effective_error(Kinetic::Quadratic),
         stability_limit: analysis.stability.limit,
         symmetric: proved.proof.symmetric,
+        kinetic: kinetic(proved.scheme.table.kinetic),
+        moves_any: proved.holds_for_every_kinetic(),
         digits: digits(proved.scheme.held),
         title: proved.scheme.table.title.clone(),
     }
 }
 
-fn row(record: &Record) -> [String; 10] {
+fn row(record: &Record) -> [String; 11] {
     [
         record.order.to_string(),
         record.order_quadratic.to_string(),
@@ -131,6 +147,7 @@ fn row(record: &Record) -> [String; 10] {
         rounded(&record.stability_limit, 6),
         if record.symmetric { "yes" } else { "no" }.to_owned(),
         digits_text(record.digits),
+        if record.moves_any { "any T" } else { "quadratic T" }.to_owned(),
         record.name.to_owned(),
     ]
 }

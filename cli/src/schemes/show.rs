@@ -12,14 +12,17 @@ use shadowstep_schemes::table::Table;
 use shadowstep_schemes::{Analysis, First, Kinetic, to_significant, to_text};
 
 use crate::complaint::{Complaint, Ending};
-use crate::figures::{shortened, table};
+use crate::figures::{shortened, table, wrapped};
 use crate::library;
 use crate::output::Output;
 use crate::schemes::analysis::{Error, Gap, Phase, Sizes};
-use crate::schemes::{aliases, analysis, digits, digits_text, near_integrable, near_integrable_text};
+use crate::schemes::{aliases, analysis, digits, digits_text, kinetic, near_integrable, near_integrable_text};
 
 /// Digits of a weight that a person reads.
 const SHOWN: usize = 40;
+
+/// The column of the facts.
+const MARGIN: usize = 17;
 
 /// Digits of what a condition of rounded weights was found to be.
 const CONDITION_DIGITS: usize = 30;
@@ -36,6 +39,9 @@ struct Record {
     order_quadratic_digits: Option<u32>,
     fails_quadratic: Option<Failed>,
     near_integrable: Vec<u32>,
+    /// The map that moves by A of A + εB.
+    dominant: Option<String>,
+    free: Vec<String>,
     digits: Option<u32>,
     evaluations: usize,
     products_per_dimension: usize,
@@ -114,6 +120,8 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         order_quadratic_digits: proof.quadratic.digits,
         fails_quadratic: failed(&proof.quadratic, exact),
         near_integrable: near_integrable(proof),
+        dominant: table.near_integrable.as_ref().map(|claim| claim.dominant.to_string()),
+        free: table.free.iter().map(|name| name.value.clone()).collect(),
         digits: digits(weights.held),
         evaluations: scheme.plan().evaluations,
         products_per_dimension: cost.products_per_dimension,
@@ -169,20 +177,17 @@ fn first(first: First) -> &'static str {
     }
 }
 
-fn kinetic(kinetic: Kinetic) -> &'static str {
-    match kinetic {
-        Kinetic::Any => "any",
-        Kinetic::Quadratic => "quadratic",
-    }
-}
-
 fn readable(scheme: &TableScheme, analysis: &Analysis) -> String {
     let proved = scheme.proved();
     let table = &proved.scheme.table;
     let facts = facts(scheme).into_iter().chain(analysis::facts(analysis)).chain(source(table));
     let title = table.title.as_ref().map_or_else(String::new, |title| format!(": {title}"));
     let mut text = format!("{}{title}\n", table.name.value);
-    text.extend(facts.map(|(what, fact)| format!("{:16} {fact}\n", format!("{what}:"))));
+    for (what, fact) in facts {
+        let lines = wrapped(&fact, &" ".repeat(MARGIN));
+        text += &format!("{:1$}", format!("{what}:"), MARGIN);
+        text += lines.get(MARGIN..).unwrap_or("\n");
+    }
     text += &format!("{}\n", weights_table(scheme));
     text.extend(proved.remarks.iter().map(|remark| format!("remark: {remark}\n")));
     text
