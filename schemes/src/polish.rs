@@ -26,7 +26,6 @@ mod rounded;
 mod unknowns;
 mod write;
 
-use num_traits::Signed;
 use shadowstep_symbolic::{Rational, nearest, nearest_few};
 
 use crate::exact::{self, DIGITS, Library};
@@ -35,7 +34,7 @@ use crate::proof::{self, Proved};
 use crate::scheme::Held;
 use crate::table::{Table, Weights};
 use equations::Equations;
-use newton::{Failure, Problem, What, log10_of};
+use newton::{Failure, Problem, What};
 use unknowns::Model;
 use write::Written;
 
@@ -92,7 +91,8 @@ pub struct PolishedWeight {
     pub printed_digits: u32,
     /// The polished value.
     pub polished: Rational,
-    /// How many of the printed digits are right.
+    /// How many of the printed digits are right: the most leading ones of which the last is off by half a unit at most,
+    /// as rounding leaves it (and a tenth of that more, as a rounding of a rounding does).
     pub right: u32,
     /// How it was found.
     pub role: Role,
@@ -232,17 +232,13 @@ fn weight(
     held: &[usize],
 ) -> PolishedWeight {
     let printed = &model.unknowns[unknown];
-    let distance = (&printed.printed - polished).abs();
-    // half a unit is rounding; a tenth of that more is a rounding of a rounding
-    let is_rounded = distance <= &printed.unit * Rational::new(11.into(), 20.into());
-    let agreeing = (log10_of(polished) - log10_of(&distance)).floor().max(0.0);
     PolishedWeight {
         name: printed.name.clone(),
         constant: constant.to_owned(),
         printed: printed.printed.clone(),
         printed_digits: printed.digits,
         polished: polished.clone(),
-        right: if is_rounded { printed.digits } else { printed.digits.min(agreeing as u32) },
+        right: printed.right_digits(polished),
         role: match written {
             Written::AsPrinted if held.contains(&unknown) => Role::Held,
             Written::AsPrinted => Role::Free,

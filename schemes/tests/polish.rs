@@ -95,7 +95,9 @@ fn a_small_residual_hides_wrong_digits_where_a_solution_is_ill_conditioned() {
     let polished = polished(&published("yoshida8-d"), 100, &[]).unwrap();
     // of 20 and 21 printed digits; as f64 the residual is its rounding
     assert!(polished.residual_printed < -14.0);
-    assert!(polished.weights.iter().all(|w| w.printed_digits >= 20 && (11..=12).contains(&w.right)));
+    assert!(polished.weights.iter().all(|w| w.printed_digits >= 20));
+    // g4 is -0.158240635368|50… as printed and -0.158240635368|05… : by less than half a unit of the 12th digit
+    assert_eq!(polished.weights.iter().map(|w| w.right).collect::<Vec<_>>(), [12, 12, 13, 12, 13, 13, 12, 12]);
     assert!(
         polished
             .weights

@@ -1,6 +1,7 @@
 //! Protects docs/errata-of-published-tables.md: its tables are judged, and what it quotes is what the compiler says of
 //! them. `UPDATE_DOCS=1 cargo test -p shadowstep-tests --test errata` writes its messages and its table of digits anew.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::sync::LazyLock;
 
@@ -396,11 +397,11 @@ mine.toml:22:9: the drifts do not sum to 1, so not even order 1 holds
 /// Yoshida's solutions C and D of order 8, whose equations are ill-conditioned: the residuals hide wrong digits.
 #[test]
 fn twenty_digits_of_which_twelve_are_right() {
-    let mut told = Vec::new();
+    let (mut told, mut right) = (Vec::new(), BTreeSet::new());
     for name in ["yoshida8-c", "yoshida8-d"] {
         let polished = polished(&printed(name), &[]);
         assert!(polished.weights.iter().all(|w| (20..=21).contains(&w.printed_digits)), "{name}");
-        assert!(polished.weights.iter().all(|w| (11..=13).contains(&w.right)), "{name}");
+        right.extend(polished.weights.iter().map(|w| w.right));
         let most = largest_distance(&polished);
         assert!(most > 1000.0 * f64::EPSILON, "{name}");
         told.push(format!(
@@ -409,18 +410,17 @@ fn twenty_digits_of_which_twelve_are_right() {
             polished.condition_number
         ));
         // with the polished digits, as many of them as were printed, nothing is left to remark
-        let mut right = printed_with_digits(name, 20);
+        let mut text = printed_with_digits(name, 20);
         for w in &polished.weights {
             let cell = |value: &Rational| shadowstep_schemes::to_significant(value, 21);
-            let line = right.lines().find(|line| line.starts_with(&format!("{} = ", w.name))).unwrap().to_owned();
-            right = right.replace(&line, &format!("{} = \"{}\"", w.name, cell(&w.polished)));
+            let line = text.lines().find(|line| line.starts_with(&format!("{} = ", w.name))).unwrap().to_owned();
+            text = text.replace(&line, &format!("{} = \"{}\"", w.name, cell(&w.polished)));
         }
-        let proved = judge(&right).unwrap();
-        assert!(proved.remarks.is_empty() && proved.proof.general.digits.unwrap() >= 19, "{right}");
+        let proved = judge(&text).unwrap();
+        assert!(proved.remarks.is_empty() && proved.proof.general.digits.unwrap() >= 19, "{text}");
     }
     says(&format!("the printed weights of C turn out wrong {}, those of D {}.", told[0], told[1]));
-    let digits = |name: &str| worst(&polished(&printed(name), &[])).right;
-    says(&format!("| {} or {} digits |", digits("yoshida8-d"), digits("yoshida8-c")));
+    says(&format!("| {} to {} digits |", right.first().unwrap(), right.last().unwrap()));
     let good = polished(&printed("yoshida8-a"), &[]);
     assert!(good.weights.iter().all(|w| w.right == w.printed_digits), "solution A");
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use num_bigint::BigInt;
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 use shadowstep_symbolic::decimal::from_text;
 use shadowstep_symbolic::{EvaluationError, Exact, Expression, Rational, evaluate, parse};
 
@@ -31,6 +31,21 @@ pub(super) struct Unknown {
     pub(super) unit: Rational,
     /// Its significant digits.
     pub(super) digits: u32,
+}
+
+impl Unknown {
+    /// The most leading digits k for which the printed value is within 0.55 units of the k-th digit: half a unit is
+    /// rounding, a tenth of that more a rounding of a rounding.
+    pub(super) fn right_digits(&self, value: &Rational) -> u32 {
+        let distance = (&self.printed - value).abs();
+        let mut allowed = &self.unit * Rational::new(11.into(), 20.into());
+        let mut right = self.digits;
+        while right > 0 && distance > allowed {
+            allowed *= Rational::from_integer(10.into());
+            right -= 1;
+        }
+        right
+    }
 }
 
 /// A constant or a weight as a function of the unknowns.
@@ -200,4 +215,28 @@ fn decimal(text: &str) -> Option<(Rational, Rational, u32)> {
     let unit = if places < 0 { power } else { power.recip() };
     let digits = format!("{whole}{fraction}").trim_start_matches(['-', '+', '0']).len();
     Some((value, unit, digits.max(1) as u32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn right_digits(printed: &str, value: &str) -> u32 {
+        let (value, (printed, unit, digits)) = (from_text(value).unwrap(), decimal(printed).unwrap());
+        Unknown { name: "w".to_owned(), is_constant: true, at: 0..0, printed, unit, digits }.right_digits(&value)
+    }
+
+    #[test]
+    fn right_digits_are_counted_by_their_units() {
+        // Yoshida's solution D, w4: log10 of the relative distance is -11.5
+        assert_eq!(right_digits("-0.158240635368502468458", "-0.158240635368052436"), 12);
+        // all digits, by rounding and by a rounding of a rounding
+        assert_eq!(right_digits("0.12345", "0.1234549"), 5);
+        assert_eq!(right_digits("0.12345", "0.1234555"), 5);
+        assert_eq!(right_digits("0.12345", "0.1234556"), 4);
+        // digits that differ but for half a unit: 1.000 is 0.9996, rounded
+        assert_eq!(right_digits("1.0000", "0.9996"), 4);
+        assert_eq!(right_digits("9.99e-5", "9.99e-5"), 3);
+        assert_eq!(right_digits("0.5", "-0.5"), 0);
+    }
 }
