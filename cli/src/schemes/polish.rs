@@ -3,8 +3,8 @@
 use std::io::Write;
 
 use num_traits::Signed;
-use shadowstep_schemes::Kinetic;
 use shadowstep_schemes::polish::{self, NotPolished, Polished, PolishedWeight, Request, Role, power_of_ten};
+use shadowstep_schemes::{Kinetic, Rational};
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::arguments::PolishArguments;
@@ -77,7 +77,7 @@ fn row(weight: &PolishedWeight) -> [String; 5] {
     } else {
         format!("{} = {}", weight.name, weight.constant)
     };
-    let solved = matches!(weight.role, Role::Solved | Role::Formula);
+    let solved = is_solved(weight);
     let right = if solved { weight.right.to_string() } else { String::new() };
     let off = if solved { off.trim_start_matches('-').to_owned() } else { String::new() };
     [name, weight.printed_digits.to_string(), right, off, now.to_owned()]
@@ -85,8 +85,18 @@ fn row(weight: &PolishedWeight) -> [String; 5] {
 
 /// How many of the printed digits were wrong; a small residual may have hidden it.
 fn judgement(polished: &Polished) -> String {
-    let solved = || polished.weights.iter().filter(|w| matches!(w.role, Role::Solved | Role::Formula));
-    let lost = solved().map(|w| w.printed_digits.saturating_sub(w.right)).max().unwrap_or(0);
+    let misprinted: Vec<_> = misprints(&polished.weights).map(|w| (w.name.as_str(), wrong(w))).collect();
+    let solved = || polished.weights.iter().filter(|w| is_solved(w));
+    let others = solved().filter(|w| misprinted.iter().all(|(name, _)| *name != w.name));
+    let lost = others.map(wrong).max().unwrap_or(0);
+    if let Some(most) = misprinted.iter().map(|(_, wrong)| wrong).max() {
+        let names = misprinted.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+        let have = if misprinted.len() == 1 { "has" } else { "have up to" };
+        return match lost {
+            0 => format!(": {names} alone {have} {most} wrong digits"),
+            _ => format!(": {names} {have} {most} wrong digits, the others up to {lost}"),
+        };
+    }
     let off = solved().map(|w| (&w.printed - &w.polished).abs()).max().unwrap_or_default();
     match lost {
         0 => ": every printed digit is right".to_owned(),
@@ -99,10 +109,35 @@ fn judgement(polished: &Polished) -> String {
     }
 }
 
-/// Decimals that are so much worse than the best ones that no rounding explains it.
+fn is_solved(weight: &PolishedWeight) -> bool {
+    matches!(weight.role, Role::Solved | Role::Formula)
+}
+
+fn wrong(weight: &PolishedWeight) -> u32 {
+    weight.printed_digits - weight.right
+}
+
+/// Decimals that are so much worse than the others that neither rounding nor their conditions explain it: with three
+/// wrong digits more than the others typically have, and off by a hundred times as much (a small weight has more wrong
+/// digits than a large one where both are as far off).
 fn misprints(weights: &[PolishedWeight]) -> impl Iterator<Item = &PolishedWeight> {
-    let best = weights.iter().map(|w| w.right).max().unwrap_or(0);
-    weights.iter().filter(move |w| w.right < w.printed_digits && 2 * w.right <= best)
+    let solved: Vec<_> = weights.iter().filter(|w| is_solved(w)).collect();
+    let off = |w: &PolishedWeight| (&w.printed - &w.polished).abs();
+    solved.clone().into_iter().filter(move |this| {
+        let others = || solved.iter().filter(|other| other.name != this.name);
+        let typical = median(others().map(|w| wrong(w))).zip(median(others().map(|w| off(w))));
+        typical.is_some_and(|(digits, distance)| {
+            wrong(this) >= digits + 3 && off(this) > distance * Rational::from_integer(100.into())
+        })
+    })
+}
+
+/// The middle of the values, of two the larger one.
+fn median<T: Ord>(values: impl Iterator<Item = T>) -> Option<T> {
+    let mut values: Vec<_> = values.collect();
+    values.sort();
+    let middle = values.len() / 2;
+    values.into_iter().nth(middle)
 }
 
 fn number(condition: f64) -> String {
