@@ -7,6 +7,7 @@
 //! | file | what it does |
 //! | --- | --- |
 //! | `unknowns`, `palindrome` | table → its decimals as unknowns, and the weights as functions of them |
+//! | `formulas` | what the cells name |
 //! | `equations`, `composition` | which conditions have to hold; those of compositions in the γ's alone |
 //! | `dual` | values with their derivatives, in fixed point |
 //! | `least_squares`, `newton` | linear algebra; the choice of what stays as printed; the iteration |
@@ -19,12 +20,15 @@
 mod composition;
 mod dual;
 mod equations;
+mod formulas;
 mod least_squares;
 mod newton;
 mod palindrome;
 mod rounded;
 mod unknowns;
 mod write;
+
+use std::collections::BTreeSet;
 
 use shadowstep_symbolic::{Rational, nearest, nearest_few};
 
@@ -76,6 +80,8 @@ pub struct Polished {
     pub residual_printed: f64,
     /// The same with the polished ones.
     pub residual: f64,
+    /// Sentences on what else is to be known of the table.
+    pub remarks: Vec<String>,
 }
 
 /// A decimal before and after.
@@ -162,6 +168,10 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
         ));
     }
     let held = held(&model, &table, wanted)?;
+    if held.iter().collect::<BTreeSet<_>>().len() == model.unknowns.len() {
+        let help = "leave some out of --free, and of `free` in the table: the conditions are solved for these";
+        return Err(request("every decimal is held as printed, so nothing can move", help));
+    }
     let equations = Equations::of(&model, &table, wanted.split_kicks);
     let problem = Problem { model: &model, equations: &equations };
     let printed_digits = model.unknowns.iter().map(|u| u.digits).max().unwrap_or(1);
@@ -185,6 +195,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
         condition_number: solution.condition_number,
         residual_printed,
         residual,
+        remarks: model.unused.iter().map(|name| format!("`{name}` is used by no weight")).collect(),
     })
 }
 
@@ -206,6 +217,9 @@ fn readable(source: &Source, library: Library<'_>) -> Result<(Table, Option<crat
 fn held(model: &Model, table: &Table, wanted: &Request<'_>) -> Result<Vec<usize>, NotPolished> {
     let named = |name: &String| {
         model.unknown(name).ok_or_else(|| {
+            if model.unused.contains(name) {
+                return request(format!("`{name}` is used by no weight"), "leave it out of --free: it stays as it is");
+            }
             if model.is_exact(name) {
                 let help = "leave it out of --free: fractions and formulas stay as they are";
                 return request(format!("`{name}` is no printed decimal"), help);

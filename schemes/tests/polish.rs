@@ -201,20 +201,33 @@ fn constants_that_mirror_each_other_become_one() {
         |letter: &str, count: usize| (0..count).map(|i| format!("\"{letter}{i}\"")).collect::<Vec<_>>().join(", ");
     let (kicks, drifts) = (cells("kick"), cells("drift"));
     let lines = format!(
-        "[constants]\n{}{}unused = 0.123\n[stages]\nkick = [{}]\ndrift = [{}, 0]\n",
+        "[constants]\n{}{}[stages]\nkick = [{}]\ndrift = [{}, 0]\n",
         constants("a", &kicks),
         constants("b", &drifts[..6]),
         names("a", 7),
         names("b", 6)
     );
     // from the other end
-    let one = polished(&table(4, &lines), 60, &["a6", "kick[6]", "b5", "unused"]).unwrap();
-    assert_eq!(roles(&one, Role::Held), ["a0", "a1", "b0", "unused"]);
+    let one = polished(&table(4, &lines), 60, &["a6", "kick[6]", "b5"]).unwrap();
+    assert_eq!(roles(&one, Role::Held), ["a0", "a1", "b0"]);
     assert!(one.text.contains("\na6 = \"a0\"\n") && one.text.contains("\nb3 = \"b2\"\n"), "{}", one.text);
     assert_eq!(
         (&one.proved.scheme.kick, &one.proved.scheme.drift),
         (&mirrored.proved.scheme.kick, &mirrored.proved.scheme.drift)
     );
+}
+
+#[test]
+fn constants_that_no_weight_uses_stay_out_of_it() {
+    let lines = "[constants]\nold = 0.3\nolder = \"1 - old\"\ng1 = 1.3512071919596577\n\
+                 [composition]\nbase = \"stormer-verlet\"\ngamma = [\"g1\", \"1 - 2*g1\", \"g1\"]\n";
+    let source = table(4, lines);
+    let polished = polished(&source, 60, &[]).unwrap();
+    assert_eq!(polished.weights.iter().map(|w| w.name.as_str()).collect::<Vec<_>>(), ["g1"]);
+    assert_eq!(polished.remarks, ["`old` is used by no weight", "`older` is used by no weight"]);
+    let text = &polished.text;
+    assert!(text.contains("\nold = 0.3\nolder = \"1 - old\"\n") && !text.contains("free = "), "{text}");
+    assert!(refusal(&source, &["old"]).contains("`old` is used by no weight"));
 }
 
 #[test]
@@ -255,6 +268,8 @@ fn contradictions_are_told_with_numbers() {
     assert!(said.contains("8 conditions for 4 decimals, 4 of them solved for; as printed off by"), "{said}");
     let held = refusal(&source, &["g2"]);
     assert!(held.contains("no values near the printed ones") && held.contains("let more decimals move"), "{held}");
+    let all = refusal(&source, &["g1", "gamma[2]", "g3", "gamma[5]", "g4"]);
+    assert!(all.contains("every decimal is held as printed, so nothing can move: leave some out of --free"), "{all}");
     let unlike = table(2, "symmetric = true\n[stages]\nkick = [0.25, 0.75]\ndrift = [1, 0]\n");
     let said = refusal(&unlike, &[]);
     assert!(said.contains("a palindrome is claimed") && said.contains("found 0.75, needed 0.25"), "{said}");

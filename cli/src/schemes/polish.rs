@@ -31,6 +31,7 @@ pub(crate) fn polish(arguments: &PolishArguments) -> Result<Ending, Complaint> {
     write!(output, "{}", polished.text)?;
     output.finish()?;
     report(told(&polished));
+    polished.remarks.iter().for_each(remark);
     for weight in misprints(&polished.weights) {
         let PolishedWeight { name, right, printed_digits, .. } = weight;
         remark(format_args!("{name} seems to be misprinted: {right} of its {printed_digits} digits are right"));

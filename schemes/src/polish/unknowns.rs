@@ -14,6 +14,7 @@ use shadowstep_symbolic::{EvaluationError, Exact, Expression, Rational, evaluate
 use crate::Scheme;
 use crate::fault::Faults;
 use crate::polish::dual::{Dual, Duals};
+use crate::polish::formulas;
 use crate::table::{self, Table, Weights};
 
 /// A printed decimal.
@@ -80,6 +81,8 @@ pub(super) struct Model {
     pub(super) names: BTreeMap<String, usize>,
     /// The places of weights that are fractions or formulas.
     exact: Vec<String>,
+    /// The constants on which no weight depends: their decimals are no unknowns.
+    pub(super) unused: Vec<String>,
 }
 
 impl Model {
@@ -94,9 +97,14 @@ impl Model {
             constants: Vec::new(),
             names: BTreeMap::new(),
             exact: Vec::new(),
+            unused: formulas::unused_constants(table).into_iter().map(str::to_owned).collect(),
         };
         for (name, cell) in &table.constants {
-            let cell = model.cell(cell, &name.value, true);
+            let cell = if model.unused.contains(&name.value) {
+                Cell::Formula(parse(&cell.value).expect("the cells have been evaluated"))
+            } else {
+                model.cell(cell, &name.value, true)
+            };
             model.constants.push((name.value.clone(), cell));
         }
         let lists = match table.weights.as_ref().expect("what has a scheme has weights") {

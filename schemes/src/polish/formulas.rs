@@ -1,0 +1,62 @@
+//! What the formulas of a table's cells name.
+
+use std::collections::BTreeSet;
+
+use shadowstep_symbolic::{Expression, Kind, parse};
+
+use crate::table::{Cell, Table, Weights};
+
+/// The constants on which no weight depends.
+pub(super) fn unused_constants(table: &Table) -> Vec<&str> {
+    let mut used = BTreeSet::new();
+    let use_names = |cell: &Cell, used: &mut BTreeSet<String>| {
+        if let Ok(expression) = parse(&cell.value) {
+            visit(&expression, &mut |part| {
+                if let Kind::Name(name) = &part.kind {
+                    used.insert(name.clone());
+                }
+            });
+        }
+    };
+    weights(table).iter().for_each(|(_, cell)| use_names(cell, &mut used));
+    let mut unused = Vec::new();
+    // a constant uses those above it only
+    for (name, cell) in table.constants.iter().rev() {
+        if used.contains(&name.value) {
+            use_names(cell, &mut used);
+        } else {
+            unused.push(name.value.as_str());
+        }
+    }
+    unused.reverse();
+    unused
+}
+
+/// The cells of the weights, with their places such as `kick[2]`.
+fn weights(table: &Table) -> Vec<(String, &Cell)> {
+    let lists = match &table.weights {
+        Some(Weights::Stages { kick, drift }) => vec![("kick", kick), ("drift", drift)],
+        Some(Weights::Composition { gamma, .. }) => vec![("gamma", gamma)],
+        None => Vec::new(),
+    };
+    lists
+        .into_iter()
+        .flat_map(|(list, cells)| {
+            cells.value.iter().enumerate().map(move |(i, cell)| (format!("{list}[{}]", i + 1), cell))
+        })
+        .collect()
+}
+
+/// Calls `look` with an expression and all that it consists of.
+fn visit(expression: &Expression, look: &mut impl FnMut(&Expression)) {
+    look(expression);
+    match &expression.kind {
+        Kind::Number(_) | Kind::Name(_) => {}
+        Kind::Negate(inner) => visit(inner, look),
+        Kind::Binary(_, left, right) => {
+            visit(left, look);
+            visit(right, look);
+        }
+        Kind::Call { arguments, .. } => arguments.iter().for_each(|argument| visit(argument, look)),
+    }
+}
