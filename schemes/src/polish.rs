@@ -8,6 +8,7 @@
 //! | --- | --- |
 //! | `unknowns`, `palindrome` | table → its decimals as unknowns, and the weights as functions of them |
 //! | `formulas` | what the cells name |
+//! | `printed` | what holds of the table as printed |
 //! | `equations`, `composition` | which conditions have to hold; those of compositions in the γ's alone |
 //! | `dual` | values with their derivatives, in fixed point |
 //! | `least_squares`, `newton` | linear algebra; the choice of what stays as printed; the iteration |
@@ -24,6 +25,7 @@ mod formulas;
 mod least_squares;
 mod newton;
 mod palindrome;
+mod printed;
 mod rounded;
 mod unknowns;
 mod write;
@@ -35,7 +37,7 @@ use shadowstep_symbolic::{Rational, nearest, nearest_few};
 use crate::exact::{self, DIGITS, Library};
 use crate::fault::{Faults, Source};
 use crate::proof::{self, Proved};
-use crate::scheme::Held;
+use crate::scheme::{Held, Scheme};
 use crate::table::{Table, Weights};
 use equations::Equations;
 use newton::{Failure, Problem, What};
@@ -152,8 +154,9 @@ fn request(sentence: impl Into<String>, help: impl Into<String>) -> NotPolished 
 /// Faults of the table; names of decimals that it does not have; conditions that no values near the printed ones meet,
 /// or that do not determine them.
 pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Result<Polished, NotPolished> {
-    let (table, base) = readable(source, library)?;
-    let model = Model::of(&table, base)?;
+    let (scheme, base) = readable(source, library)?;
+    let table = &scheme.table;
+    let model = Model::of(table, base)?;
     if model.unknowns.is_empty() {
         return Err(request(
             format!("{} has no printed decimals, its weights are exact", source.path),
@@ -167,25 +170,32 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
             format!("at most {MOST_DECIMALS} are, those that mirror each other counted once"),
         ));
     }
-    let held = held(&model, &table, wanted)?;
+    let held = held(&model, table, wanted)?;
     if held.iter().collect::<BTreeSet<_>>().len() == model.unknowns.len() {
         let help = "leave some out of --free, and of `free` in the table: the conditions are solved for these";
         return Err(request("every decimal is held as printed, so nothing can move", help));
     }
-    let equations = Equations::of(&model, &table, wanted.split_kicks);
+    let equations = Equations::of(&model, table, wanted.split_kicks);
     let problem = Problem { model: &model, equations: &equations };
     let printed_digits = model.unknowns.iter().map(|u| u.digits).max().unwrap_or(1);
     let residual_printed = problem.residual(&model.printed(), printed_digits);
-    let solution =
-        problem.solve(&held, wanted.digits).map_err(|failure| unsolved(&problem, &failure, residual_printed, &held))?;
-    let names = write::names(&table, &model);
+    let solution = problem.solve(&held, wanted.digits).map_err(|failure| {
+        let (sentence, help) = unsolved(&problem, &failure, residual_printed, &held);
+        NotPolished::Unsolved {
+            sentence,
+            help: printed::quadratic_only(table, &printed::proof(&scheme, &model)).unwrap_or(help),
+        }
+    })?;
+    let names = write::names(table, &model);
     let (x, written) = rounded::rounded(&model, &names, &solution, wanted.digits);
-    let text = write::text(&table, &model, &names, &written, wanted.digits)?;
+    let text = write::text(table, &model, &names, &written, wanted.digits)?;
     let proved = proof::read(&Source { path: source.path.clone(), text: text.clone() }, library)?;
     let residual = problem.residual(&x, wanted.digits);
     enough(&proved, residual, wanted.digits)?;
     let weights = (0..x.len()).map(|u| weight(&model, u, &names[u], &x[u], &written[u], &held)).collect();
     let conditions = problem.rows(&x, 20).map_or(0, |(rows, _)| rows.len());
+    let unused = model.unused.iter().map(|name| format!("`{name}` is used by no weight"));
+    let remarks = unused.chain(printed::higher_order(table, &printed::proof(&scheme, &model))).collect();
     Ok(Polished {
         text,
         proved,
@@ -195,12 +205,12 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
         condition_number: solution.condition_number,
         residual_printed,
         residual,
-        remarks: model.unused.iter().map(|name| format!("`{name}` is used by no weight")).collect(),
+        remarks,
     })
 }
 
-/// The table and the base of a composition; its claims need not hold yet.
-fn readable(source: &Source, library: Library<'_>) -> Result<(Table, Option<crate::Scheme>), NotPolished> {
+/// The scheme and the base of a composition; the claims need not hold yet.
+fn readable(source: &Source, library: Library<'_>) -> Result<(Scheme, Option<Scheme>), NotPolished> {
     let (scheme, faults) = exact::scheme(source, library);
     let Some(scheme) = scheme.filter(|_| faults.is_empty()) else {
         return Err(NotPolished::Faults(Faults::of(faults).expect("what is no scheme has a fault")));
@@ -211,7 +221,7 @@ fn readable(source: &Source, library: Library<'_>) -> Result<(Table, Option<crat
         }
         _ => None,
     };
-    Ok((scheme.table, base))
+    Ok((scheme, base))
 }
 
 fn held(model: &Model, table: &Table, wanted: &Request<'_>) -> Result<Vec<usize>, NotPolished> {
@@ -275,7 +285,8 @@ fn enough(proved: &Proved, residual: f64, digits: u32) -> Result<(), NotPolished
     Err(NotPolished::Unsolved { sentence: format!("the conditions hold to {holds} digits, not to {digits}"), help })
 }
 
-fn unsolved(problem: &Problem<'_>, failure: &Failure, residual_printed: f64, held: &[usize]) -> NotPolished {
+/// What happened, with numbers, and what may be the reason.
+fn unsolved(problem: &Problem<'_>, failure: &Failure, residual_printed: f64, held: &[usize]) -> (String, String) {
     let rows = problem.rows(&problem.model.printed(), 60).map_or_else(Vec::new, |(rows, _)| rows);
     let worst = rows.iter().max_by_key(|row| row.off.magnitude()).map_or("", |row| row.condition.name.as_str());
     let numbers = format!(
@@ -313,7 +324,7 @@ fn unsolved(problem: &Problem<'_>, failure: &Failure, residual_printed: f64, hel
             "hold some decimals as printed with --free",
         ),
     };
-    NotPolished::Unsolved { sentence: format!("{what} ({numbers})"), help: help.to_owned() }
+    (format!("{what} ({numbers})"), help.to_owned())
 }
 
 /// `1.6e-15`, beyond the range of f64 too.

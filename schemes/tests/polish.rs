@@ -275,6 +275,29 @@ fn contradictions_are_told_with_numbers() {
     assert!(said.contains("a palindrome is claimed") && said.contains("found 0.75, needed 0.25"), "{said}");
 }
 
+/// A claim of too low an order leaves decimals to themselves that the true one determines.
+#[test]
+fn the_order_that_holds_as_printed_is_told() {
+    let yoshida = published("yoshida6-a");
+    let low = Source { text: yoshida.text.replace("order = 6", "order = 4"), ..yoshida.clone() };
+    let said = polished(&low, 60, &[]).unwrap();
+    assert_eq!(said.remarks, ["order 6 holds as printed: claim it, and it will be polished too"]);
+    assert_eq!((said.proved.proof.general.order, roles(&said, Role::Free).len()), (4, 2));
+    assert!(polished(&yoshida, 60, &[]).unwrap().remarks.is_empty());
+    // five digits are no proof of order 6
+    let short = "[composition]\nbase = \"stormer-verlet\"\n\
+                 gamma = [0.78451, 0.23557, -1.1777, 1.3152, -1.1777, 0.23557, 0.78451]\n";
+    assert!(polished(&table(4, short), 60, &[]).unwrap().remarks.is_empty());
+}
+
+#[test]
+fn an_order_for_quadratic_kinetic_energies_only_is_told() {
+    let source = published("blanes-moan-srkn11b");
+    let any = source.text.replace("\"quadratic\"", "\"any\"");
+    let said = refusal(&Source { text: any, ..source }, &[]);
+    assert!(said.ends_with("order 6 holds for quadratic T as printed: write `kinetic = \"quadratic\"`"), "{said}");
+}
+
 #[test]
 fn singular_solutions_are_told_with_numbers() {
     // for this g1 the two other γ's are equal, a double root of the condition of order 4
