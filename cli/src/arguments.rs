@@ -164,9 +164,9 @@ pub(crate) struct PolishArguments {
     /// The table
     #[arg(value_name = "FILE")]
     pub(crate) file: String,
-    /// Decimal digits to which the conditions shall hold
-    #[arg(long, default_value_t = MOST_TABLE_DIGITS, value_name = "DIGITS", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_TABLE_DIGITS)))]
-    pub(crate) digits: u32,
+    /// Decimal digits to which the conditions shall hold [default: as many as can be, at most 300]
+    #[arg(long, value_name = "DIGITS", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_TABLE_DIGITS)))]
+    pub(crate) digits: Option<u32>,
     /// Decimals that stay as printed: constants, or places such as kick[2], drift[3], gamma[1]
     #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
     pub(crate) free: Vec<String>,

@@ -40,7 +40,7 @@ use crate::proof::{self, Proved};
 use crate::scheme::{Held, Scheme};
 use crate::table::{Table, Weights};
 use equations::Equations;
-use newton::{Failure, Problem, What};
+use newton::{Failure, Problem, Solution, What};
 use unknowns::Model;
 use write::Written;
 
@@ -50,11 +50,14 @@ pub const MOST_DIGITS: u32 = DIGITS;
 /// The most decimals that are solved for: the work grows with their square.
 const MOST_DECIMALS: usize = 200;
 
+/// With so many digits the proof can tell every condition up to the highest order from one that fails.
+const ENOUGH_TO_PROVE: u32 = 20;
+
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
-    /// Digits to which the conditions shall hold, from 1 to [`MOST_DIGITS`].
-    pub digits: u32,
+    /// Digits to which the conditions shall hold, from 1 to [`MOST_DIGITS`]; `None` for as many as can be.
+    pub digits: Option<u32>,
     /// Decimals that stay as printed, beside those that the table calls free: names of constants, or places such as
     /// `kick[2]`, `drift[3]`, `gamma[1]`.
     pub free: &'a [String],
@@ -122,7 +125,7 @@ pub enum Role {
 /// Why a table was not polished.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum NotPolished {
-    /// The table has faults, or the polished one would have.
+    /// The table has faults, or no place for what is to be written.
     #[error(transparent)]
     Faults(#[from] Faults),
     /// A request that makes no sense for the table.
@@ -179,7 +182,8 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     let problem = Problem { model: &model, equations: &equations };
     let printed_digits = model.unknowns.iter().map(|u| u.digits).max().unwrap_or(1);
     let residual_printed = problem.residual(&model.printed(), printed_digits);
-    let solution = problem.solve(&held, wanted.digits).map_err(|failure| {
+    let most_digits = wanted.digits.unwrap_or(MOST_DIGITS);
+    let solution = problem.solve(&held, most_digits).map_err(|failure| {
         let (sentence, help) = unsolved(&problem, &failure, residual_printed, &held);
         NotPolished::Unsolved {
             sentence,
@@ -187,11 +191,13 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
         }
     })?;
     let names = write::names(table, &model);
-    let (x, written) = rounded::rounded(&model, &names, &solution, wanted.digits);
-    let text = write::text(table, &model, &names, &written, wanted.digits)?;
-    let proved = proof::read(&Source { path: source.path.clone(), text: text.clone() }, library)?;
-    let residual = problem.residual(&x, wanted.digits);
-    enough(&proved, residual, wanted.digits)?;
+    let mut found = New::of(&problem, table, &names, &solution, most_digits, library)?;
+    // closed forms and bases have fewer digits than can be asked for: then as many as they have
+    while wanted.digits.is_none() && found.holds() < found.digits && found.holds() > printed_digits {
+        found = New::of(&problem, table, &names, &solution, found.holds(), library)?;
+    }
+    found.is_enough()?;
+    let New { x, written, text, proved, residual, .. } = found;
     let weights = (0..x.len()).map(|u| weight(&model, u, &names[u], &x[u], &written[u], &held)).collect();
     let conditions = problem.rows(&x, 20).map_or(0, |(rows, _)| rows.len());
     let unused = model.unused.iter().map(|name| format!("`{name}` is used by no weight"));
@@ -237,7 +243,10 @@ fn held(model: &Model, table: &Table, wanted: &Request<'_>) -> Result<Vec<usize>
             let names = || model.unknowns.iter().map(|u| u.name.as_str());
             let help = match nearest(name, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => format!("its decimals are {}, …", nearest_few(name, names(), 6).join(", ")),
+                None => {
+                    let (few, all) = (nearest_few(name, names(), 6), names().count());
+                    format!("its decimals: {}{}", few.join(", "), if few.len() < all { ", …" } else { "" })
+                }
             };
             request(format!("the table has no printed decimal `{name}`"), help)
         })
@@ -272,17 +281,76 @@ fn weight(
     }
 }
 
-/// Refuses a table whose conditions hold to fewer digits than asked, because of what was not polished.
-fn enough(proved: &Proved, residual: f64, digits: u32) -> Result<(), NotPolished> {
-    let holds = proved.order().digits.unwrap_or(u32::MAX).min((-residual).max(0.0) as u32);
-    if holds >= digits {
-        return Ok(());
+/// The new table, and what holds of it.
+struct New {
+    digits: u32,
+    x: Vec<Rational>,
+    written: Vec<Written>,
+    text: String,
+    proved: Proved,
+    /// log10 of how far a condition is off, at most.
+    residual: f64,
+}
+
+impl New {
+    fn of(
+        problem: &Problem<'_>,
+        table: &Table,
+        names: &[String],
+        solution: &Solution,
+        digits: u32,
+        library: Library<'_>,
+    ) -> Result<New, NotPolished> {
+        let (x, written) = rounded::rounded(problem.model, names, solution, digits);
+        let text = write::text(table, problem.model, names, &written, digits)?;
+        let source = Source { path: table.source.path.clone(), text: text.clone() };
+        let proved = proof::read(&source, library).map_err(|faults| not_proved(&faults, digits))?;
+        let residual = problem.residual(&x, digits);
+        Ok(New { digits, x, written, text, proved, residual })
     }
-    let help = match proved.scheme.held {
-        Held::Digits(held) if held < digits => format!("the base has {held} digits: polish its table first"),
-        _ => format!("closed forms are held to {DIGITS} digits: ask for fewer, such as --digits {}", holds.max(1)),
-    };
-    Err(NotPolished::Unsolved { sentence: format!("the conditions hold to {holds} digits, not to {digits}"), help })
+
+    /// To how many digits the conditions hold.
+    fn holds(&self) -> u32 {
+        self.proved.order().digits.unwrap_or(u32::MAX).min((-self.residual).max(0.0) as u32)
+    }
+
+    /// Refuses a table whose conditions hold to fewer digits than asked, because of what was not polished.
+    fn is_enough(&self) -> Result<(), NotPolished> {
+        let (holds, digits) = (self.holds(), self.digits);
+        if holds >= digits {
+            return Ok(());
+        }
+        let help = match self.proved.scheme.held {
+            Held::Digits(held) if held < digits => {
+                format!("the base has {}: polish its table first", many(held, "digit"))
+            }
+            _ => format!("closed forms are held to {DIGITS} digits: ask for fewer, such as --digits {}", holds.max(1)),
+        };
+        let sentence = format!("the conditions hold to {}, not to {digits}", many(holds, "digit"));
+        Err(NotPolished::Unsolved { sentence, help })
+    }
+}
+
+/// The faults are those of a text that nobody has seen.
+fn not_proved(faults: &Faults, digits: u32) -> NotPolished {
+    if digits < ENOUGH_TO_PROVE {
+        let verb = if digits == 1 { "is" } else { "are" };
+        return NotPolished::Unsolved {
+            sentence: format!("{} {verb} too few to prove that the conditions hold", many(digits, "digit")),
+            help: format!("ask for more, such as --digits {ENOUGH_TO_PROVE}"),
+        };
+    }
+    let message = faults.0.first().map_or("", |fault| fault.message.as_str());
+    NotPolished::Unsolved {
+        sentence: format!("the polished table would not be proved: {message}"),
+        help: "`shadowstep schemes check` may say more of the printed one".to_owned(),
+    }
+}
+
+/// `1 digit`, `2 digits`
+pub fn many(count: impl Into<u64>, what: &str) -> String {
+    let count = count.into();
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// What happened, with numbers, and what may be the reason.
@@ -290,10 +358,10 @@ fn unsolved(problem: &Problem<'_>, failure: &Failure, residual_printed: f64, hel
     let rows = problem.rows(&problem.model.printed(), 60).map_or_else(Vec::new, |(rows, _)| rows);
     let worst = rows.iter().max_by_key(|row| row.off.magnitude()).map_or("", |row| row.condition.name.as_str());
     let numbers = format!(
-        "{} conditions for {} decimals, {} of them solved for; as printed off by {}, most of all {worst}; at best by {}; \
+        "{} for {}, {} of them solved for; as printed off by {}, most of all {worst}; at best by {}; \
          condition number {:.1e}",
-        rows.len(),
-        problem.model.unknowns.len(),
+        many(rows.len() as u64, "condition"),
+        many(problem.model.unknowns.len() as u64, "decimal"),
         failure.moving,
         power_of_ten(residual_printed),
         power_of_ten(failure.residual.min(residual_printed)),

@@ -19,7 +19,7 @@ fn published(name: &str) -> Source {
 
 fn polished(source: &Source, digits: u32, free: &[&str]) -> Result<Polished, NotPolished> {
     let free: Vec<_> = free.iter().map(|name| (*name).to_owned()).collect();
-    let wanted = Request { digits, free: &free, split_kicks: false };
+    let wanted = Request { digits: Some(digits), free: &free, split_kicks: false };
     polish(source, &|name, _| shipped(name), &wanted)
 }
 
@@ -36,7 +36,7 @@ fn reproduce(name: &str, request: Option<&Table>) {
     let free = request.and_then(|request| request.get("free")?.as_array());
     let free: Vec<_> = free.into_iter().flatten().map(|name| name.as_str().unwrap().to_owned()).collect();
     let split_kicks = request.is_some_and(|request| request.get("split_kicks").is_some());
-    let wanted = Request { digits: 250, free: &free, split_kicks };
+    let wanted = Request { digits: Some(250), free: &free, split_kicks };
     let polished =
         polish(&published(name), &|name, _| shipped(name), &wanted).unwrap_or_else(|e| panic!("{name}: {e}"));
     assert!(polished.residual < -250.0, "{name}: {}", polished.residual);
@@ -242,6 +242,11 @@ fn tables_are_written_however_they_are_laid_out() {
         let polished = polished(&table(4, &lines), 80, &[]).unwrap();
         assert!(polished.proved.order().digits.unwrap() >= 80, "{}", polished.text);
     }
+    let windows = table(4, &format!("[composition]\nbase = \"stormer-verlet\"\ngamma = {gamma}\n"));
+    let windows = Source { text: windows.text.replace('\n', "\r\n"), ..windows };
+    let text = self::polished(&windows, 80, &[]).unwrap().text;
+    assert!(text.contains("digits = 80\r\n") && text.contains("[constants]\r\ng1 = "), "{text}");
+    assert_eq!(text.matches('\n').count(), text.matches("\r\n").count(), "{text:?}");
     let dotted =
         refusal(&table(4, &format!("composition.base = \"stormer-verlet\"\ncomposition.gamma = {gamma}\n")), &[]);
     assert!(dotted.contains("write [constants] and [composition] on lines of their own"), "{dotted}");
@@ -252,6 +257,8 @@ fn names_that_are_no_decimals_are_refused() {
     let source = published("mclachlan-ss17");
     let unknown = refusal(&source, &["g22"]);
     assert!(unknown.contains("no printed decimal `g22`") && unknown.contains("did you mean `g2`?"), "{unknown}");
+    assert!(refusal(&source, &["nothing"]).contains(": its decimals: g2, g3, g4, g5, g6, g7, …"));
+    assert!(refusal(&published("yoshida6-a"), &["nothing"]).ends_with(": its decimals: g1, g2, g3, g4"));
     assert!(refusal(&source, &["g1"]).contains("`g1` is no printed decimal"));
     assert!(refusal(&source, &["gamma[1]"]).contains("fractions and formulas stay as they are"));
     assert!(refusal(&shipped("yoshida4").unwrap(), &[]).contains("has no printed decimals"));
@@ -321,10 +328,40 @@ fn a_base_of_few_digits_is_named_as_the_reason() {
     let lines =
         "[composition]\nbase = \"base\"\ngamma = [1.3512071919596577, -1.7024143839193153, 1.3512071919596577]\n";
     let base = Source { path: "base.toml".to_owned(), text: base.to_owned() };
-    let wanted = Request { digits: 50, free: &[], split_kicks: false };
+    let wanted = Request { digits: Some(50), free: &[], split_kicks: false };
     let Err(NotPolished::Unsolved { sentence, help }) = polish(&table(4, lines), &|_, _| Some(base.clone()), &wanted)
     else {
         panic!("15 digits cannot become 50")
     };
     assert!(sentence.contains("not to 50") && help.contains("the base has 15 digits"), "{sentence}: {help}");
+}
+
+#[test]
+fn as_many_digits_as_can_be_where_none_are_asked_for() {
+    // the base has a closed form, rounded to 300 digits
+    let lines = "[composition]\nbase = \"yoshida4\"\ngamma = [1.17467175808, -1.34934351616, 1.17467175808]\n";
+    let as_many = Request { digits: None, free: &[], split_kicks: false };
+    let found = polish(&table(6, lines), &|name, _| shipped(name), &as_many).unwrap();
+    assert_eq!((found.proved.proof.general.order, found.proved.order().digits), (6, Some(299)));
+    assert!(found.text.contains("\ndigits = 299\n"), "{}", found.text);
+    let Err(said) = polished(&table(6, lines), 300, &[]) else { panic!("300 digits of a base that has 299") };
+    assert_eq!(said.to_string(), "the conditions hold to 299 digits, not to 300");
+    let all = polish(&published("yoshida6-a"), &|name, _| shipped(name), &as_many).unwrap();
+    assert!(all.proved.order().digits.unwrap() >= 300);
+}
+
+#[test]
+fn too_few_digits_are_told_without_a_text_that_nobody_has_seen() {
+    for digits in [1, 3] {
+        let Err(NotPolished::Unsolved { sentence, help }) = polished(&published("yoshida6-a"), digits, &[]) else {
+            panic!("{digits} digits prove nothing")
+        };
+        assert!(sentence.ends_with("too few to prove that the conditions hold"), "{sentence}");
+        assert!(help.contains("--digits 20"), "{help}");
+    }
+    // what is advised is enough, at the highest order too
+    for name in ["hairer10-33", "bce-rkn8-17"] {
+        let free = if name == "hairer10-33" { &["gamma[9]"][..] } else { &[] };
+        assert!(polished(&published(name), 20, free).is_ok(), "{name}");
+    }
 }

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use num_traits::Signed;
-use shadowstep_schemes::polish::{self, NotPolished, Polished, PolishedWeight, Request, Role, power_of_ten};
+use shadowstep_schemes::polish::{self, NotPolished, Polished, PolishedWeight, Request, Role, many, power_of_ten};
 use shadowstep_schemes::{Kinetic, Rational};
 use shadowstep_symbolic::decimal::to_significant;
 
@@ -34,7 +34,8 @@ pub(crate) fn polish(arguments: &PolishArguments) -> Result<Ending, Complaint> {
     polished.remarks.iter().for_each(remark);
     for weight in misprints(&polished.weights) {
         let PolishedWeight { name, right, printed_digits, .. } = weight;
-        remark(format_args!("{name} seems to be misprinted: {right} of its {printed_digits} digits are right"));
+        let are = if *right == 1 { "is" } else { "are" };
+        remark(format_args!("{name} seems to be misprinted: {right} of its {printed_digits} digits {are} right"));
     }
     Ok(Ending::Done)
 }
@@ -54,10 +55,10 @@ fn told(polished: &Polished) -> String {
     let header = ["decimal", "printed digits", "right", "off by", "now"];
     let rows: Vec<_> = polished.weights.iter().map(row).collect();
     format!(
-        "{}\norder {} for {class}{near}{symmetric}: {} conditions{kind}, off by {} as printed, by {} now\ncondition number {}{}",
+        "{}\norder {} for {class}{near}{symmetric}: {}{kind}, off by {} as printed, by {} now\ncondition number {}{}",
         table(header, rows, 1..4),
         proved.order().order,
-        polished.conditions,
+        many(polished.conditions as u64, "condition"),
         power_of_ten(polished.residual_printed),
         power_of_ten(polished.residual),
         number(polished.condition_number),
@@ -98,7 +99,9 @@ fn judgement(polished: &Polished) -> String {
             _ => format!(": {names} {have} {most} wrong digits, the others up to {lost}"),
         };
     }
-    let off = solved().map(|w| (&w.printed - &w.polished).abs()).max().unwrap_or_default();
+    let Some(off) = solved().map(|w| (&w.printed - &w.polished).abs()).max() else {
+        return ": formulas meet the conditions, whatever the decimals are".to_owned();
+    };
     match lost {
         0 => ": every printed digit is right".to_owned(),
         1 => ": the printed digits are right but for the last".to_owned(),

@@ -150,3 +150,23 @@ fn wrong_usage_is_told_in_a_sentence() {
     }
     assert_eq!(shadowstep("schemes polish no-such.toml").code, 2);
 }
+
+#[test]
+fn sentences_have_their_numbers_right() {
+    let verlet = "name = \"v\"\norder = 2\nkinetic = \"any\"\nreference = \"a test\"\n[constants]\na = 0.5\n\
+                  [stages]\nkick = [\"a\", \"a\"]\ndrift = [1, 0]\n";
+    let (_folder, path) = printed(verlet);
+    let few = shadowstep(&format!("schemes polish {path} --digits 1"));
+    assert_eq!(few.code, 1);
+    assert!(few.err.starts_with("error: 1 digit is too few to prove that the conditions hold"), "{}", few.err);
+    let said = shadowstep(&format!("schemes polish {path}"));
+    assert!(said.code == 0 && said.out.contains("digits = 300\n"), "{}", said.err);
+    let none = shadowstep(&format!("schemes polish {path} --free b"));
+    assert!(none.err.contains("the table has no printed decimal `b`"), "{}", none.err);
+    let composed = PRINTED.replace("\"stormer-verlet\"", "\"yoshida4\"").replace("order = 8", "order = 4");
+    let (_folder, path) = printed(&composed);
+    let said = shadowstep(&format!("schemes polish {path}"));
+    assert_eq!(said.code, 0, "as many digits as can be: {}", said.err);
+    assert!(said.err.contains("order 4 for every T(p), symmetric: 1 condition in the γ's"), "{}", said.err);
+    assert!(said.err.contains(": formulas meet the conditions, whatever the decimals are"), "{}", said.err);
+}

@@ -84,7 +84,8 @@ impl Problem<'_> {
         let free: Vec<usize> = (0..printed.len()).filter(|unknown| !held.contains(unknown)).collect();
         let factors = linear.factors(&free);
         let size = |d: &&f64| d.log10() > linear.residual + RANK_MARGIN;
-        let surely = factors.diagonal.iter().filter(size).count().max(1);
+        // without any there is nothing to solve, where formulas meet the conditions
+        let surely = factors.diagonal.iter().filter(size).count().max(factors.order.len().min(1));
         // the fewest that may suffice are tried first: with more of them than the solution's derivatives can tell apart,
         // the iteration would wander along a family of solutions
         let mut failed = failure(What::Singular);

@@ -71,6 +71,7 @@ pub(super) fn text(
     digits: u32,
 ) -> Result<String, Faults> {
     let source = &table.source.text;
+    let end = line_end(source);
     let mut edits: Vec<(Range<usize>, String)> = Vec::new();
     let (mut decimals, mut formulas) = (String::new(), String::new());
     for ((unknown, name), written) in model.unknowns.iter().zip(names).zip(written) {
@@ -83,7 +84,7 @@ pub(super) fn text(
         } else {
             edits.push(quoted(source, &unknown.at, name));
             let block = if matches!(written, Written::Formula(_)) { &mut formulas } else { &mut decimals };
-            *block += &format!("{name} = \"{value}\"\n");
+            *block += &format!("{name} = \"{value}\"{end}");
         }
     }
     for (at, mirrored) in &model.mirrored {
@@ -98,12 +99,12 @@ pub(super) fn text(
     let new_key = |line: String| below(source, table.order.at.end, &line);
     edits.push(match &table.digits {
         Some(old) => (old.at.clone(), digits.to_string()),
-        None => new_key(format!("digits = {digits}\n")),
+        None => new_key(format!("digits = {digits}{end}")),
     });
     let as_printed = names.iter().zip(written).filter(|(_, written)| matches!(written, Written::AsPrinted));
     edits.extend(free(table, as_printed.map(|(name, _)| name)).map(|(at, list)| match at {
         Some(at) => (at, list),
-        None => new_key(format!("free = [{list}]\n")),
+        None => new_key(format!("free = [{list}]{end}")),
     }));
     edits.sort_by_key(|(at, _)| at.start);
     let mut text = source.clone();
@@ -146,7 +147,10 @@ fn constants(table: &Table, lines: &str) -> Result<(Range<usize>, String), Fault
     match (header("[constants]"), table.constants.last(), header(section)) {
         (Some(_), Some((_, last)), _) => Ok(below(source, last.at.end, lines)),
         (Some(start), None, _) => Ok(below(source, start, lines)),
-        (None, None, Some(start)) => Ok((start..start, format!("[constants]\n{lines}\n"))),
+        (None, None, Some(start)) => {
+            let end = line_end(source);
+            Ok((start..start, format!("[constants]{end}{lines}{end}")))
+        }
         _ => {
             let at = match table.weights.as_ref().expect("what is polished has weights") {
                 Weights::Stages { kick, .. } => &kick.at,
@@ -163,8 +167,14 @@ fn constants(table: &Table, lines: &str) -> Result<(Range<usize>, String), Fault
 fn below(source: &str, place: usize, lines: &str) -> (Range<usize>, String) {
     match source[place..].find('\n') {
         Some(i) => (place + i + 1..place + i + 1, lines.to_owned()),
-        None => (source.len()..source.len(), format!("\n{lines}")),
+        None => (source.len()..source.len(), format!("{}{lines}", line_end(source))),
     }
+}
+
+/// How the text ends its lines.
+fn line_end(source: &str) -> &'static str {
+    let first = source.split_inclusive('\n').next().unwrap_or("");
+    if first.ends_with("\r\n") { "\r\n" } else { "\n" }
 }
 
 #[cfg(test)]
