@@ -1,4 +1,4 @@
-//! The palindrome of a table's cells: two decimals that mirror each other are one unknown.
+//! Decimals that are one unknown: two that mirror each other in a palindrome, and those that are printed alike.
 
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
@@ -6,10 +6,28 @@ use shadowstep_symbolic::Rational;
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::fault::Faults;
-use crate::polish::unknowns::{Cell, Mirrored, Model};
+use crate::polish::unknowns::{Cell, Mirrored, Model, Unknown};
 use crate::table::{self, Table};
 
+/// Decimals of so many digits that are printed alike are not so by chance.
+const DIGITS_OF_ONE_NUMBER: u32 = 6;
+
 impl Model {
+    /// Unites decimals with the same text, as Suzuki's four equal steps are; not the free parameters of a family.
+    pub(super) fn unite_alike(&mut self, table: &Table) {
+        let text = |unknown: &Unknown| table.source.text[unknown.at.clone()].trim().to_owned();
+        let is_free = |unknown: &Unknown| table.free.iter().any(|name| name.value == unknown.name);
+        let mut second = 1;
+        while let Some(unknown) = self.unknowns.get(second) {
+            let first = self.unknowns[..second].iter().position(|other| text(other) == text(unknown));
+            let is_one = unknown.digits >= DIGITS_OF_ONE_NUMBER && !is_free(unknown);
+            match first.filter(|&first| is_one && !is_free(&self.unknowns[first])) {
+                Some(first) => self.replace(second, Cell::Unknown(first), Mirrored::Unknown(first)),
+                None => second += 1,
+            }
+        }
+    }
+
     /// Unites what mirrors each other, if everything does.
     pub(super) fn find_palindrome(&mut self, table: &Table, texts: &[&[table::Cell]]) -> Result<(), Faults> {
         let claimed = table.symmetric.as_ref().map(|claim| claim.value);

@@ -1,7 +1,8 @@
 //! Table → its printed decimals as unknowns, and the weights as functions of them.
 //!
 //! A decimal that stands alone, as a constant or in a list of weights, is an unknown; fractions, whole numbers and
-//! formulas stay what they are. In a palindrome two decimals that mirror each other are one unknown.
+//! formulas stay what they are. In a palindrome two decimals that mirror each other are one unknown, and so are decimals
+//! that are printed alike.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -68,7 +69,7 @@ pub(super) enum Mirrored {
 /// The weights of a table as functions of its unknowns.
 pub(super) struct Model {
     pub(super) unknowns: Vec<Unknown>,
-    /// Decimals that follow from another cell by the palindrome.
+    /// Decimals that follow from another cell, by the palindrome or because they are printed alike.
     pub(super) mirrored: Vec<(Range<usize>, Mirrored)>,
     /// Whether the cells are a palindrome.
     pub(super) symmetric: bool,
@@ -117,6 +118,7 @@ impl Model {
             model.lists.push(cells);
         }
         model.find_palindrome(table, &lists.iter().map(|(_, cells)| cells.value.as_slice()).collect::<Vec<_>>())?;
+        model.unite_alike(table);
         for (list, (name, _)) in lists.iter().enumerate() {
             for (i, cell) in model.lists[list].iter().enumerate() {
                 let place = format!("{name}[{}]", i + 1);
