@@ -163,7 +163,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     if model.unknowns.is_empty() {
         return Err(request(
             format!("{} has no printed decimals, its weights are exact", source.path),
-            "decimals that stand alone are polished, not those within formulas",
+            fixed_decimals(table).unwrap_or("decimals that stand alone are polished".to_owned()),
         ));
     }
     if model.unknowns.len() > MOST_DECIMALS {
@@ -185,10 +185,8 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     let most_digits = wanted.digits.unwrap_or(MOST_DIGITS);
     let solution = problem.solve(&held, most_digits).map_err(|failure| {
         let (sentence, help) = unsolved(&problem, &failure, residual_printed, &held);
-        NotPolished::Unsolved {
-            sentence,
-            help: printed::quadratic_only(table, &printed::proof(&scheme, &model)).unwrap_or(help),
-        }
+        let reason = printed::quadratic_only(table, &printed::proof(&scheme, &model));
+        NotPolished::Unsolved { sentence, help: reason.or_else(|| fixed_decimals(table)).unwrap_or(help) }
     })?;
     let names = write::names(table, &model);
     let mut found = New::of(&problem, table, &names, &solution, most_digits, library)?;
@@ -351,6 +349,16 @@ fn not_proved(faults: &Faults, digits: u32) -> NotPolished {
 pub fn many(count: impl Into<u64>, what: &str) -> String {
     let count = count.into();
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// What would be right where decimals stand within formulas.
+fn fixed_decimals(table: &Table) -> Option<String> {
+    let cells = formulas::cells_with_decimals(table);
+    match cells.len() {
+        0 => None,
+        1 => Some(format!("the decimal in {} does not move: make it a constant", cells[0])),
+        _ => Some(format!("the decimals in {} do not move: make them constants", cells.join(", "))),
+    }
 }
 
 /// What happened, with numbers, and what may be the reason.

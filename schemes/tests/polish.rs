@@ -320,6 +320,23 @@ fn the_order_that_holds_as_printed_is_told() {
 }
 
 #[test]
+fn decimals_within_formulas_are_named_as_the_reason() {
+    let lines = "[composition]\nbase = \"stormer-verlet\"\n\
+                 gamma = [\"1.351207192\", \"1 - 2*1.351207192\", \"1.351207192\"]\n";
+    let said = refusal(&table(4, lines), &[]);
+    assert!(said.ends_with(": the decimal in gamma[2] does not move: make it a constant"), "{said}");
+    let lines = "[constants]\ng = \"2*0.675603596\"\nm = \"1 - 2.702414384\"\nold = \"2*0.1234567\"\n\
+                 [composition]\nbase = \"stormer-verlet\"\ngamma = [\"g\", \"m\", \"g\"]\n";
+    let said = refusal(&table(4, lines), &[]);
+    assert!(said.contains("has no printed decimals"), "{said}");
+    assert!(said.ends_with(": the decimals in g, m do not move: make them constants"), "{said}");
+    // short ones are meant exactly
+    let lines = "[composition]\nbase = \"stormer-verlet\"\ngamma = [\"0.5*0.5\", \"0.5\", \"1/4\"]\n";
+    let said = refusal(&table(4, lines), &[]);
+    assert!(!said.contains("does not move"), "{said}");
+}
+
+#[test]
 fn an_order_for_quadratic_kinetic_energies_only_is_told() {
     let source = published("blanes-moan-srkn11b");
     let any = source.text.replace("\"quadratic\"", "\"any\"");

@@ -1,4 +1,4 @@
-//! What the formulas of a table's cells name.
+//! What the formulas of a table's cells consist of: constants by name, and decimals that nothing moves.
 
 use std::collections::BTreeSet;
 
@@ -30,6 +30,31 @@ pub(super) fn unused_constants(table: &Table) -> Vec<&str> {
     }
     unused.reverse();
     unused
+}
+
+/// Shorter decimals within formulas are meant exactly, as in `0.25*a`.
+const SHORTEST_ROUNDED: usize = 4;
+
+/// The cells whose formulas have long decimals in them, such as `1 - 2*1.351207192`.
+pub(super) fn cells_with_decimals(table: &Table) -> Vec<String> {
+    let constants = table.constants.iter().map(|(name, cell)| (name.value.clone(), cell));
+    let has_decimal = |cell: &Cell| {
+        let mut found = false;
+        if let Ok(expression) = parse(&cell.value) {
+            let stands_alone = matches!(&expression.kind, Kind::Number(_))
+                || matches!(&expression.kind, Kind::Negate(inner) if matches!(inner.kind, Kind::Number(_)));
+            visit(&expression, &mut |part| {
+                let digits = |text: &str| text.bytes().filter(u8::is_ascii_digit).skip_while(|&c| c == b'0').count();
+                let text = &cell.value[part.range.clone()];
+                let is_long = text.contains('.') && digits(text) >= SHORTEST_ROUNDED;
+                found |= !stands_alone && is_long && matches!(part.kind, Kind::Number(_));
+            });
+        }
+        found
+    };
+    let unused = unused_constants(table);
+    let used = constants.filter(|(name, _)| !unused.contains(&name.as_str()));
+    used.chain(weights(table)).filter(|(_, cell)| has_decimal(cell)).map(|(name, _)| name).collect()
 }
 
 /// The cells of the weights, with their places such as `kick[2]`.
