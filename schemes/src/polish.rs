@@ -53,6 +53,9 @@ const MOST_DECIMALS: usize = 200;
 /// With so many digits the proof can tell every condition up to the highest order from one that fails.
 const ENOUGH_TO_PROVE: u32 = 20;
 
+/// A condition number beyond which two thirds of the digits of an f64 are lost and more.
+const NEARLY_SINGULAR: f64 = 1e12;
+
 /// What is asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
@@ -186,7 +189,8 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     let solution = problem.solve(&held, most_digits).map_err(|failure| {
         let (sentence, help) = unsolved(&problem, &failure, residual_printed, &held);
         let reason = printed::quadratic_only(table, &printed::proof(&scheme, &model));
-        NotPolished::Unsolved { sentence, help: reason.or_else(|| fixed_decimals(table)).unwrap_or(help) }
+        let reason = reason.or_else(|| printed::verlet_steps(&scheme, &model)).or_else(|| fixed_decimals(table));
+        NotPolished::Unsolved { sentence, help: reason.unwrap_or(help) }
     })?;
     let names = write::names(table, &model);
     let mut found = New::of(&problem, table, &names, &solution, most_digits, library)?;
@@ -199,7 +203,9 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     let weights = (0..x.len()).map(|u| weight(&model, u, &names[u], &x[u], &written[u], &held)).collect();
     let conditions = problem.rows(&x, 20).map_or(0, |(rows, _)| rows.len());
     let unused = model.unused.iter().map(|name| format!("`{name}` is used by no weight"));
-    let remarks = unused.chain(printed::higher_order(table, &printed::proof(&scheme, &model))).collect();
+    let higher = printed::higher_order(table, &printed::proof(&scheme, &model));
+    let is_singular = solution.condition_number > NEARLY_SINGULAR;
+    let steps = is_singular.then(|| printed::verlet_steps(&scheme, &model)).flatten();
     Ok(Polished {
         text,
         proved,
@@ -209,7 +215,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
         condition_number: solution.condition_number,
         residual_printed,
         residual,
-        remarks,
+        remarks: unused.chain(higher).chain(steps).collect(),
     })
 }
 

@@ -66,6 +66,15 @@ fn refusal(source: &Source, free: &[&str]) -> String {
     }
 }
 
+/// Weights of 17 digits.
+fn stages(kick: &[Rational], drift: &[Rational]) -> String {
+    let list = |weights: &[Rational]| {
+        let cells: Vec<_> = weights.iter().map(|w| shadowstep_schemes::to_significant(w, 17)).collect();
+        cells.join(", ")
+    };
+    format!("[stages]\nkick = [{}]\ndrift = [{}]\n", list(kick), list(drift))
+}
+
 fn roles(polished: &Polished, role: Role) -> Vec<&str> {
     polished.weights.iter().filter(|w| w.role == role).map(|w| w.name.as_str()).collect()
 }
@@ -152,11 +161,7 @@ fn formulas_of_decimals_are_solved_for_these() {
 fn weights_with_more_structure_than_their_conditions_know_are_polished() {
     // Yoshida's A as stages: 10 conditions of a palindrome for 8 decimals
     let gamma = polished(&published("yoshida6-a"), 120, &[]).unwrap().proved.scheme;
-    let list = |weights: &[Rational]| {
-        let cells: Vec<_> = weights.iter().map(|w| shadowstep_schemes::to_significant(w, 17)).collect();
-        cells.join(", ")
-    };
-    let lines = format!("[stages]\nkick = [{}]\ndrift = [{}]\n", list(&gamma.kick), list(&gamma.drift));
+    let lines = stages(&gamma.kick, &gamma.drift);
     let polished = polished(&table(6, &lines), 100, &[]).unwrap();
     assert_eq!((polished.conditions, polished.weights.len()), (10, 8));
     for (stages, gamma) in polished.proved.scheme.kick.iter().zip(&gamma.kick) {
@@ -317,6 +322,24 @@ fn the_order_that_holds_as_printed_is_told() {
     let short = "[composition]\nbase = \"stormer-verlet\"\n\
                  gamma = [0.78451, 0.23557, -1.1777, 1.3152, -1.1777, 0.23557, 0.78451]\n";
     assert!(polished(&table(4, short), 60, &[]).unwrap().remarks.is_empty());
+}
+
+#[test]
+fn verlet_steps_typed_as_stages_are_told() {
+    let steps =
+        "these are Störmer–Verlet steps: write them as [composition] with base = \"stormer-verlet\" and gamma = ";
+    let scheme = &shipped_proved("sofroniou-spaletta6-13").unwrap().scheme;
+    let said = refusal(&table(6, &stages(&scheme.kick, &scheme.drift)), &[]);
+    assert!(said.ends_with(&format!(": {steps}the drifts")), "{said}");
+    // a drift first: one more stage, without its kick
+    let mut exchanged = (scheme.drift.clone(), scheme.kick.clone());
+    exchanged.0.rotate_right(1);
+    let said = refusal(&table(6, &stages(&exchanged.0, &exchanged.1)), &[]);
+    assert!(said.ends_with(&format!(": {steps}the kicks")), "{said}");
+    // others are no such steps: here the claim is wrong
+    let other = &shipped_proved("blanes-moan-s6").unwrap().scheme;
+    let said = refusal(&table(6, &stages(&other.kick, &other.drift)), &[]);
+    assert!(!said.contains("Verlet"), "{said}");
 }
 
 #[test]
