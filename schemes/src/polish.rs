@@ -13,7 +13,8 @@
 //! | `dual` | values with their derivatives, in fixed point |
 //! | `least_squares`, `newton` | linear algebra; the choice of what stays as printed; the iteration |
 //! | `rounded` | the values as they are written, with sums of exactly 1 |
-//! | `write` | the table's text with the new decimals |
+//! | `write`, `new_table` | the table's text with the new decimals; its proof |
+//! | `refusal` | why a table was not polished, in sentences |
 //!
 //! The arithmetic is in integers, with twice the digits at each step of the iteration. The result is read and proved as
 //! any table is.
@@ -23,9 +24,11 @@ mod dual;
 mod equations;
 mod formulas;
 mod least_squares;
+mod new_table;
 mod newton;
 mod palindrome;
 mod printed;
+mod refusal;
 mod rounded;
 mod unknowns;
 mod write;
@@ -36,11 +39,12 @@ use shadowstep_symbolic::{Rational, nearest, nearest_few};
 
 use crate::exact::{self, DIGITS, Library};
 use crate::fault::{Faults, Source};
-use crate::proof::{self, Proved};
-use crate::scheme::{Held, Scheme};
+use crate::proof::Proved;
+use crate::scheme::Scheme;
 use crate::table::{Table, Weights};
 use equations::Equations;
-use newton::{Failure, Problem, Solution, What};
+use new_table::NewTable;
+use newton::Problem;
 use unknowns::Model;
 use write::Written;
 
@@ -49,9 +53,6 @@ pub const MOST_DIGITS: u32 = DIGITS;
 
 /// The most decimals that are solved for: the work grows with their square.
 const MOST_DECIMALS: usize = 200;
-
-/// With so many digits the proof can tell every condition up to the highest order from one that fails.
-const ENOUGH_TO_PROVE: u32 = 20;
 
 /// A condition number beyond which two thirds of the digits of an f64 are lost and more.
 const NEARLY_SINGULAR: f64 = 1e12;
@@ -166,7 +167,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     if model.unknowns.is_empty() {
         return Err(request(
             format!("{} has no printed decimals, its weights are exact", source.path),
-            fixed_decimals(table).unwrap_or("decimals that stand alone are polished".to_owned()),
+            refusal::fixed_decimals(table).unwrap_or("decimals that stand alone are polished".to_owned()),
         ));
     }
     if model.unknowns.len() > MOST_DECIMALS {
@@ -187,19 +188,17 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     let residual_printed = problem.residual(&model.printed(), printed_digits);
     let most_digits = wanted.digits.unwrap_or(MOST_DIGITS);
     let solution = problem.solve(&held, most_digits).map_err(|failure| {
-        let (sentence, help) = unsolved(&problem, &failure, residual_printed, &held);
-        let reason = printed::quadratic_only(table, &printed::proof(&scheme, &model));
-        let reason = reason.or_else(|| printed::verlet_steps(&scheme, &model)).or_else(|| fixed_decimals(table));
-        NotPolished::Unsolved { sentence, help: reason.unwrap_or(help) }
+        let (sentence, help) = refusal::unsolved(&problem, &failure, residual_printed, &held);
+        NotPolished::Unsolved { sentence, help: refusal::reason(&scheme, &model).unwrap_or(help) }
     })?;
     let names = write::names(table, &model);
-    let mut found = New::of(&problem, table, &names, &solution, most_digits, library)?;
+    let mut found = NewTable::of(&problem, table, &names, &solution, most_digits, library)?;
     // closed forms and bases have fewer digits than can be asked for: then as many as they have
     while wanted.digits.is_none() && found.holds() < found.digits && found.holds() > printed_digits {
-        found = New::of(&problem, table, &names, &solution, found.holds(), library)?;
+        found = NewTable::of(&problem, table, &names, &solution, found.holds(), library)?;
     }
     found.is_enough()?;
-    let New { x, written, text, proved, residual, .. } = found;
+    let NewTable { x, written, text, proved, residual, .. } = found;
     let weights = (0..x.len()).map(|u| weight(&model, u, &names[u], &x[u], &written[u], &held)).collect();
     let conditions = problem.rows(&x, 20).map_or(0, |(rows, _)| rows.len());
     let unused = model.unused.iter().map(|name| format!("`{name}` is used by no weight"));
@@ -285,128 +284,10 @@ fn weight(
     }
 }
 
-/// The new table, and what holds of it.
-struct New {
-    digits: u32,
-    x: Vec<Rational>,
-    written: Vec<Written>,
-    text: String,
-    proved: Proved,
-    /// log10 of how far a condition is off, at most.
-    residual: f64,
-}
-
-impl New {
-    fn of(
-        problem: &Problem<'_>,
-        table: &Table,
-        names: &[String],
-        solution: &Solution,
-        digits: u32,
-        library: Library<'_>,
-    ) -> Result<New, NotPolished> {
-        let (x, written) = rounded::rounded(problem.model, names, solution, digits);
-        let text = write::text(table, problem.model, names, &written, digits)?;
-        let source = Source { path: table.source.path.clone(), text: text.clone() };
-        let proved = proof::read(&source, library).map_err(|faults| not_proved(&faults, digits))?;
-        let residual = problem.residual(&x, digits);
-        Ok(New { digits, x, written, text, proved, residual })
-    }
-
-    /// To how many digits the conditions hold.
-    fn holds(&self) -> u32 {
-        self.proved.order().digits.unwrap_or(u32::MAX).min((-self.residual).max(0.0) as u32)
-    }
-
-    /// Refuses a table whose conditions hold to fewer digits than asked, because of what was not polished.
-    fn is_enough(&self) -> Result<(), NotPolished> {
-        let (holds, digits) = (self.holds(), self.digits);
-        if holds >= digits {
-            return Ok(());
-        }
-        let help = match self.proved.scheme.held {
-            Held::Digits(held) if held < digits => {
-                format!("the base has {}: polish its table first", many(held, "digit"))
-            }
-            _ => format!("closed forms are held to {DIGITS} digits: ask for fewer, such as --digits {}", holds.max(1)),
-        };
-        let sentence = format!("the conditions hold to {}, not to {digits}", many(holds, "digit"));
-        Err(NotPolished::Unsolved { sentence, help })
-    }
-}
-
-/// The faults are those of a text that nobody has seen.
-fn not_proved(faults: &Faults, digits: u32) -> NotPolished {
-    if digits < ENOUGH_TO_PROVE {
-        let verb = if digits == 1 { "is" } else { "are" };
-        return NotPolished::Unsolved {
-            sentence: format!("{} {verb} too few to prove that the conditions hold", many(digits, "digit")),
-            help: format!("ask for more, such as --digits {ENOUGH_TO_PROVE}"),
-        };
-    }
-    let message = faults.0.first().map_or("", |fault| fault.message.as_str());
-    NotPolished::Unsolved {
-        sentence: format!("the polished table would not be proved: {message}"),
-        help: "`shadowstep schemes check` may say more of the printed one".to_owned(),
-    }
-}
-
 /// `1 digit`, `2 digits`
 pub fn many(count: impl Into<u64>, what: &str) -> String {
     let count = count.into();
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
-/// What would be right where decimals stand within formulas.
-fn fixed_decimals(table: &Table) -> Option<String> {
-    let cells = formulas::cells_with_decimals(table);
-    match cells.len() {
-        0 => None,
-        1 => Some(format!("the decimal in {} does not move: make it a constant", cells[0])),
-        _ => Some(format!("the decimals in {} do not move: make them constants", cells.join(", "))),
-    }
-}
-
-/// What happened, with numbers, and what may be the reason.
-fn unsolved(problem: &Problem<'_>, failure: &Failure, residual_printed: f64, held: &[usize]) -> (String, String) {
-    let rows = problem.rows(&problem.model.printed(), 60).map_or_else(Vec::new, |(rows, _)| rows);
-    let worst = rows.iter().max_by_key(|row| row.off.magnitude()).map_or("", |row| row.condition.name.as_str());
-    let numbers = format!(
-        "{} for {}, {} of them solved for; as printed off by {}, most of all {worst}; at best by {}; \
-         condition number {:.1e}",
-        many(rows.len() as u64, "condition"),
-        many(problem.model.unknowns.len() as u64, "decimal"),
-        failure.moving,
-        power_of_ten(residual_printed),
-        power_of_ten(failure.residual.min(residual_printed)),
-        failure.condition_number
-    );
-    let (what, help) = match failure.what {
-        What::Stuck if !held.is_empty() => {
-            ("no values near the printed ones meet the conditions", "let more decimals move")
-        }
-        What::Stuck if failure.moving < problem.model.unknowns.len() => (
-            "no values near the printed ones of those decimals that the conditions determine meet them all",
-            "a weight may be misprinted, or the weights are a singular solution of the conditions",
-        ),
-        What::Stuck => (
-            "no values near the printed ones meet the conditions",
-            "a weight may be misprinted, or the order or the kinetic energy claimed is not the scheme's",
-        ),
-        What::Slow => (
-            "the conditions do not determine the weights well: their derivatives are singular at the solution",
-            "hold some decimals as printed with --free",
-        ),
-        What::Leaves => (
-            "Newton's iteration leaves the neighbourhood of the printed values",
-            "a weight may be misprinted, or the order claimed is not the scheme's; else hold some decimals with --free",
-        ),
-        What::Singular => (
-            "the conditions do not determine the weights: their derivatives are singular",
-            "hold some decimals as printed with --free",
-        ),
-    };
-    (format!("{what} ({numbers})"), help.to_owned())
 }
 
 /// `1.6e-15`, beyond the range of f64 too.
