@@ -202,7 +202,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     let weights = (0..x.len()).map(|u| weight(&model, u, &names[u], &x[u], &written[u], &held)).collect();
     let conditions = problem.rows(&x, 20).map_or(0, |(rows, _)| rows.len());
     let unused = model.unused.iter().map(|name| format!("`{name}` is used by no weight"));
-    let higher = printed::higher_order(table, &printed::proof(&scheme, &model));
+    let higher = printed::higher_orders(table, &printed::proof(&scheme, &model));
     let is_singular = solution.condition_number > NEARLY_SINGULAR;
     let steps = is_singular.then(|| printed::verlet_steps(&scheme, &model)).flatten();
     Ok(Polished {

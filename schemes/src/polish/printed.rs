@@ -19,11 +19,23 @@ pub(super) fn proof(scheme: &Scheme, model: &Model) -> Proof {
     prove(&Scheme { held: scheme.held.weaker(Held::Digits(fewest)), ..scheme.clone() })
 }
 
-/// What to say if a higher order holds than is claimed, for then the decimals are solved for too few conditions.
-pub(super) fn higher_order(table: &Table, proof: &Proof) -> Option<String> {
+/// What to say where higher orders hold than are claimed, for then the decimals are solved for too few conditions.
+pub(super) fn higher_orders(table: &Table, proof: &Proof) -> Vec<String> {
+    let say = |order: u32, terms: &str| {
+        format!("order {order} holds{terms} as printed: claim it, and it will be polished too")
+    };
     let order = proof.for_kinetic(table.kinetic).order;
-    let higher = order > table.order.value;
-    higher.then(|| format!("order {order} holds as printed: claim it, and it will be polished too"))
+    let mut higher = Vec::from_iter((order > table.order.value).then(|| say(order, "")));
+    // a term may be claimed to no higher order than those of lower powers of ε
+    let mut least = u32::MAX;
+    let claims = table.near_integrable.iter().flat_map(|claim| claim.powers());
+    for ((claimed, power), order) in claims.zip(&proof.near_integrable) {
+        least = least.min(order.order);
+        if least > claimed.value {
+            higher.push(say(least, &format!(" for the terms of {}", power.name())));
+        }
+    }
+    higher
 }
 
 /// What to say if the order claimed holds for quadratic T only.
