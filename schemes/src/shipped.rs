@@ -55,7 +55,7 @@ pub fn shipped_hint(name: &str) -> String {
     match nearest(name, names.iter().copied()) {
         _ if !beginning.is_empty() => format!("did you mean {}?", beginning.join(", ")),
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("{} tables are shipped, none with such a name", names.len()),
+        None => "no shipped table has a name like that".to_owned(),
     }
 }
 

@@ -14,7 +14,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("--set x=1 --set x=2", "`x` is set twice", "keep one"),
     ("--scheme stormer-velet", "there is no scheme `stormer-velet`", "did you mean `stormer-verlet`?"),
     ("--scheme yoshida8", "there is no scheme `yoshida8`", "did you mean `yoshida8-a`, `yoshida8-b`, "),
-    ("--scheme zzzzzzzzzzzz", "there is no scheme `zzzzzzzzzzzz`", "tables are shipped, none with such a name; "),
+    ("--scheme zzzzzzzzzzzz", "there is no scheme `zzzzzzzzzzzz`", "no shipped table has a name like that; "),
     ("--scheme yoshida4.toml", "there is no file yoshida4.toml", "is `yoshida4`, without `.toml`"),
     ("--scheme nowhere/mine.toml", "there is no file nowhere/mine.toml", "give the path of a table"),
     ("--step 0.1x", "--step `0.1x`, character 1: `0.1x`: an operator is missing", "1/10"),
