@@ -7,7 +7,7 @@ use shadowstep_schemes::polish::MOST_DIGITS as MOST_TABLE_DIGITS;
 use shadowstep_schemes::proof::HIGHEST_ORDER;
 
 use crate::arithmetic::{DEFAULT_DIGITS, MOST_DIGITS};
-use crate::order::HIGHEST_M;
+use crate::estimator::HIGHEST_ORDER as HIGHEST_ESTIMATOR_ORDER;
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -236,11 +236,14 @@ pub(crate) struct RunArguments {
     /// Double precision (f64) instead of --digits
     #[arg(long, conflicts_with = "digits")]
     pub(crate) double: bool,
-    /// The m of the central differences D_m, such as 40, or auto for the best m of each state
-    #[arg(long, default_value = "auto", value_name = "M|auto", value_parser = order)]
+    /// How the modified energy is estimated
+    #[arg(long, value_name = "NAME", default_value = "central")]
+    pub(crate) estimator: EstimatorChoice,
+    /// The m of the central differences D_m, such as 40, or auto for the best m of each state; the k of E_k
+    #[arg(long, default_value = "auto", value_name = "M|K|auto", value_parser = order)]
     pub(crate) order: OrderChoice,
     /// The largest m that --order auto tries, such as 100 [default: 200]
-    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(2..=i64::from(HIGHEST_M)))]
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(2..=i64::from(HIGHEST_ESTIMATOR_ORDER)))]
     pub(crate) max_order: Option<u32>,
     /// When --order auto stops trying: at the largest m, or early, where the errors rise [default: full]
     #[arg(long, value_name = "WHEN")]
@@ -257,6 +260,14 @@ pub(crate) enum OrderChoice {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EstimatorChoice {
+    /// Central differences D_m of the states: 2m + 1 of them, order 2m
+    Central,
+    /// Products of the states in pairs: E_k from k + 1 of them, order 2k; for an odd k between two states
+    Bilinear,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StopChoice {
     Full,
     Early,
@@ -265,7 +276,7 @@ pub(crate) enum StopChoice {
 fn order(text: &str) -> Result<OrderChoice, String> {
     match text.parse() {
         _ if text == "auto" => Ok(OrderChoice::Auto),
-        Ok(m) if (1..=HIGHEST_M).contains(&m) => Ok(OrderChoice::Fixed(m)),
-        _ => Err(format!("write a number from 1 to {HIGHEST_M}, or auto")),
+        Ok(m) if (1..=HIGHEST_ESTIMATOR_ORDER).contains(&m) => Ok(OrderChoice::Fixed(m)),
+        _ => Err(format!("write a number from 1 to {HIGHEST_ESTIMATOR_ORDER}, or auto")),
     }
 }

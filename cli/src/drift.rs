@@ -13,8 +13,8 @@ use shadowstep_symbolic::decimal::{to_significant, to_text};
 use crate::arguments::DriftArguments;
 use crate::arithmetic::Arithmetic;
 use crate::complaint::{Complaint, Ending};
+use crate::estimator::Chosen;
 use crate::figures::{rounded, shortened, table};
-use crate::order::Order;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::run::Run;
@@ -75,7 +75,7 @@ pub(crate) fn drift(arguments: &DriftArguments) -> Result<Ending, Complaint> {
                 output.json(&record)?;
                 output.flush()?;
             }
-            Ok(record) => rows.push(row(run, &record)),
+            Ok(record) => rows.push(row(run, selection.estimator, &record)),
             Err(complaint) => ending = ending.max(complaint.tell()),
         }
     }
@@ -95,9 +95,15 @@ fn measure<N: Number + 'static>(
     let progress = Progress::new(bar, run.name(), run.steps);
     let begin = Instant::now();
     let motion = selection.motion::<N>(context);
-    let found =
-        energy_drift(&run.scheme.scheme, motion, run.h, run.steps, &selection.order.method(false), progress.listener())
-            .map_err(|error| run.failed(&error))?;
+    let found = energy_drift(
+        &run.scheme.scheme,
+        motion,
+        run.h,
+        run.steps,
+        &selection.estimator.method(false),
+        progress.listener(),
+    )
+    .map_err(|error| run.failed(&error))?;
     // both extremes may be finite where their difference overflows
     if !found.drift.is_finite() {
         return Err(run.not_finite("the energy drift"));
@@ -116,10 +122,13 @@ fn record<N: Number>(selection: &Selection, run: Run<'_>, found: &EnergyDrift<N>
             Arithmetic::Double => NumberOrWord::Word("double"),
             Arithmetic::Digits(digits, _) => NumberOrWord::Number(digits),
         },
-        estimator: "central",
-        order: match selection.order {
-            Order::Fixed(m) => NumberOrWord::Number(m),
-            Order::Best(..) => NumberOrWord::Word("auto"),
+        estimator: match selection.estimator {
+            Chosen::Central(_) | Chosen::Best(..) => "central",
+            Chosen::Bilinear(_) => "bilinear",
+        },
+        order: match selection.estimator {
+            Chosen::Central(order) | Chosen::Bilinear(order) => NumberOrWord::Number(order),
+            Chosen::Best(..) => NumberOrWord::Word("auto"),
         },
         drift: found.drift.to_text(),
         minimum: found.minimum.to_text(),
@@ -136,11 +145,8 @@ fn record<N: Number>(selection: &Selection, run: Run<'_>, found: &EnergyDrift<N>
     }
 }
 
-const COLUMNS: [&str; 9] =
-    ["scheme", "step", "energy drift", "least at t", "largest at t", "m", "steps", "forces", "seconds"];
-
-fn row(run: Run<'_>, record: &Record) -> [String; 9] {
-    let time = |n: i64| to_significant(&run.time(n), 6);
+fn row(run: Run<'_>, estimator: Chosen, record: &Record) -> [String; 9] {
+    let time = |n: i64| to_significant(&run.time_of_value(n, estimator), 6);
     let orders = match (record.order_least, record.order_most) {
         (least, most) if least == most => least.to_string(),
         (least, most) => format!("{least}–{most}"),
@@ -174,17 +180,22 @@ fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String {
         Arithmetic::Double => "double precision".to_owned(),
         Arithmetic::Digits(digits, _) => format!("{digits} digits"),
     };
-    let order = match selection.order {
-        Order::Fixed(m) => format!("m = {m}"),
-        Order::Best(largest, Stop::Full) => format!("the best m of 2–{largest}"),
-        Order::Best(largest, Stop::Early) => format!("the best m of 2–{largest} before errors rise"),
+    let estimator = match selection.estimator {
+        Chosen::Central(m) => format!("central differences, m = {m}"),
+        Chosen::Best(largest, Stop::Full) => format!("central differences, the best m of 2–{largest}"),
+        Chosen::Best(largest, Stop::Early) => {
+            format!("central differences, the best m of 2–{largest} before errors rise")
+        }
+        Chosen::Bilinear(k) => format!("products of {} states, k = {k}", k + 1),
     };
+    let order = if matches!(selection.estimator, Chosen::Bilinear(_)) { "k" } else { "m" };
+    let columns = ["scheme", "step", "energy drift", "least at t", "largest at t", order, "steps", "forces", "seconds"];
     format!(
-        "{}: H = {}\n{}\nfrom t = 0 to {}, {digits}; modified energy by central differences, {order}\n{}\n",
+        "{}: H = {}\n{}\nfrom t = 0 to {}, {digits}; modified energy by {estimator}\n{}\n",
         problem.title,
         problem.hamiltonian,
         values.join(", "),
         shortened(&selection.until, 20),
-        table(COLUMNS, rows, 1..9)
+        table(columns, rows, 1..9)
     )
 }

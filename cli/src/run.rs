@@ -4,6 +4,7 @@ use shadowstep::Rational;
 use shadowstep::run::RunError;
 
 use crate::complaint::Complaint;
+use crate::estimator::Chosen;
 use crate::figures::shortened;
 use crate::library::Named;
 
@@ -19,6 +20,12 @@ impl Run<'_> {
     /// t = n h
     pub(crate) fn time(&self, n: i64) -> Rational {
         self.h * Rational::from_integer(n.into())
+    }
+
+    /// The time of the n-th value of an estimator: n h, or for one whose values belong to the middle between two states
+    /// (n + 1/2) h.
+    pub(crate) fn time_of_value(&self, n: i64, estimator: Chosen) -> Rational {
+        if estimator.is_between() { self.h * Rational::new((2 * n + 1).into(), 2.into()) } else { self.time(n) }
     }
 
     /// Which run it is, in messages.

@@ -6,11 +6,11 @@ use shadowstep::problems::{ProblemMotion, Setup, problem};
 use shadowstep::shadow::Stop;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::arguments::{OrderChoice, RunArguments, StopChoice};
+use crate::arguments::{EstimatorChoice, OrderChoice, RunArguments, StopChoice};
 use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
 use crate::complaint::{Complaint, remark};
+use crate::estimator::{Chosen, DEFAULT_LARGEST_M};
 use crate::library::{self, Named};
-use crate::order::{DEFAULT_LARGEST_M, Order};
 use crate::quantity;
 use crate::run::Run;
 use crate::steps;
@@ -21,7 +21,7 @@ pub(crate) struct Selection {
     pub(crate) setup: Setup,
     pub(crate) until: Rational,
     pub(crate) arithmetic: Arithmetic,
-    pub(crate) order: Order,
+    pub(crate) estimator: Chosen,
     schemes: Vec<Named>,
     steps: Vec<(Rational, u64)>,
 }
@@ -29,14 +29,14 @@ pub(crate) struct Selection {
 impl Selection {
     pub(crate) fn read(arguments: &RunArguments) -> Result<Self, Complaint> {
         let arithmetic = arithmetic(arguments)?;
-        let order = order(arguments)?;
+        let estimator = estimator(arguments)?;
         let setup = setup(arguments, arithmetic)?;
         let until = quantity::number("--until", &arguments.until)?;
         let mut steps: Vec<_> = arguments.steps.iter().map(|text| step(text, &until)).collect::<Result<_, _>>()?;
         let words = each_once(&arguments.schemes, |word| word.clone(), "scheme");
         let schemes = words.iter().map(|word| library::scheme(word)).collect::<Result<_, _>>()?;
         steps = each_once(&steps, |(h, _)| to_text(h), "step");
-        let selection = Selection { setup, until, arithmetic, order, schemes, steps };
+        let selection = Selection { setup, until, arithmetic, estimator, schemes, steps };
         for scheme in &selection.schemes {
             arithmetic.suits(scheme).map_err(|(sentence, most)| {
                 Complaint::usage(sentence, format!("use --digits {most}, or {OTHER_SCHEME}"))
@@ -82,20 +82,25 @@ fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Complaint> {
     Ok(Arithmetic::Digits(arguments.digits, precision))
 }
 
-fn order(arguments: &RunArguments) -> Result<Order, Complaint> {
-    match arguments.order {
-        OrderChoice::Auto => {
+fn estimator(arguments: &RunArguments) -> Result<Chosen, Complaint> {
+    let searches = arguments.max_order.is_some() || arguments.stop.is_some();
+    match (arguments.estimator, arguments.order) {
+        (EstimatorChoice::Central, OrderChoice::Auto) => {
             let stop = match arguments.stop {
                 Some(StopChoice::Early) => Stop::Early,
                 Some(StopChoice::Full) | None => Stop::Full,
             };
-            Ok(Order::Best(arguments.max_order.unwrap_or(DEFAULT_LARGEST_M), stop))
+            Ok(Chosen::Best(arguments.max_order.unwrap_or(DEFAULT_LARGEST_M), stop))
         }
-        OrderChoice::Fixed(m) if arguments.max_order.is_none() && arguments.stop.is_none() => Ok(Order::Fixed(m)),
-        OrderChoice::Fixed(m) => Err(Complaint::usage(
-            format!("--max-order and --stop are for --order auto, not for --order {m}"),
+        (EstimatorChoice::Bilinear, OrderChoice::Auto) => {
+            Err(Complaint::usage("--estimator bilinear needs its order", "write --order 16 or another K"))
+        }
+        (_, OrderChoice::Fixed(order)) if searches => Err(Complaint::usage(
+            format!("--max-order and --stop are for --order auto, not for --order {order}"),
             "leave them out, or write --order auto",
         )),
+        (EstimatorChoice::Central, OrderChoice::Fixed(m)) => Ok(Chosen::Central(m)),
+        (EstimatorChoice::Bilinear, OrderChoice::Fixed(k)) => Ok(Chosen::Bilinear(k)),
     }
 }
 

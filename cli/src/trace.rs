@@ -18,7 +18,8 @@ use crate::selection::Selection;
 struct Row {
     n: i64,
     t: String,
-    energy: String,
+    /// None for values between two states.
+    energy: Option<String>,
     modified_energy: String,
     estimate: Option<String>,
     order: u32,
@@ -33,6 +34,10 @@ pub(crate) fn trace(arguments: &TraceArguments) -> Result<Ending, Complaint> {
     let run = selection.single().ok_or_else(|| {
         Complaint::usage("a trace is of one run: one scheme and one step", "`shadowstep drift` makes many runs")
     })?;
+    if arguments.states && selection.estimator.is_between() {
+        let sentence = "with --estimator bilinear and an odd --order the values belong to times between the states";
+        return Err(Complaint::usage(sentence, "take an even order, or leave out --states"));
+    }
     let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
     let bar = arguments.run.output.is_some();
     let mut write = writer(&selection, arguments, &mut output)?;
@@ -66,8 +71,8 @@ fn writer<'a>(
     Ok(Box::new(move |row| {
         let (n, order) = (row.n.to_string(), row.order.to_string());
         let none = String::new();
-        let estimate = row.estimate.as_ref().unwrap_or(&none);
-        let fields = [&n, &row.t, &row.energy, &row.modified_energy, estimate, &order];
+        let [energy, estimate] = [&row.energy, &row.estimate].map(|text| text.as_ref().unwrap_or(&none));
+        let fields = [&n, &row.t, energy, &row.modified_energy, estimate, &order];
         let state = [&row.q, &row.p].into_iter().flatten().flatten();
         csv.write_record(fields.into_iter().chain(state))?;
         Ok(csv.flush()?)
@@ -86,19 +91,20 @@ fn follow<N: Number + 'static>(
     let heard = progress.listener();
     let motion = selection.motion::<N>(context);
     let (mut q, mut p) = (motion.q().to_vec(), motion.p().to_vec());
-    let mut shadow = ShadowRun::new(&run.scheme.scheme, motion, run.h, run.steps, &selection.order.method(true))
+    let mut shadow = ShadowRun::new(&run.scheme.scheme, motion, run.h, run.steps, &selection.estimator.method(true))
         .map_err(|error| run.failed(&error))?;
     while let Some((n, found)) = shadow.advance().map_err(|error| run.failed(&error))? {
         q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
         p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
         let (modified_energy, estimate, order) = (found.value.to_text(), found.error.map(N::to_text), found.order);
-        let energy = shadow.motion().energy_of(&q, &p);
-        if !energy.is_finite() {
+        let energy = (!shadow.is_between()).then(|| shadow.motion().energy_of(&q, &p));
+        if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
             return Err(run.not_finite(&format!("the energy at n = {n}")));
         }
+        let energy = energy.as_ref().map(N::to_text);
         let texts = |numbers: &[N]| states.then(|| numbers.iter().map(N::to_text).collect());
-        let t = N::from_rational(&run.time(n), context).to_text();
-        write(&Row { n, t, energy: energy.to_text(), modified_energy, estimate, order, q: texts(&q), p: texts(&p) })?;
+        let t = N::from_rational(&run.time_of_value(n, selection.estimator), context).to_text();
+        write(&Row { n, t, energy, modified_energy, estimate, order, q: texts(&q), p: texts(&p) })?;
         heard(n);
     }
     Ok(())

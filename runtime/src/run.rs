@@ -219,11 +219,13 @@ where
     Err(RunError::NotFinite { step, what })
 }
 
-/// A trajectory with the modified energies of its states n = 0, …, steps.
+/// A trajectory with the modified energies of its states n = 0, …, steps, or between them.
 pub struct ShadowRun<'s, S: Scheme, N: Number, V, P, K, E> {
     trajectory: Trajectory<'s, S, N, V, P, K>,
     estimator: E,
     reach: i64,
+    /// How many states after the n of an estimate it needs: as many, or one more where it belongs to n + 1/2.
+    after: i64,
     /// How many states are to come before the one that completes the first estimate.
     missing: usize,
 }
@@ -272,17 +274,23 @@ where
         // the reach is known only where h is known to be no 0
         let mut trajectory = Trajectory::after(scheme, motion, h, from)?;
         let estimator = method.estimator(h, trajectory.motion.q().len(), &trajectory.motion.context());
-        let reach = estimator.reach();
+        let missing = estimator.states() - 1;
+        let reach = missing / 2;
         trajectory.last = last(steps, reach);
-        Ok(ShadowRun { trajectory, estimator, reach: reach as i64, missing: 2 * reach })
+        Ok(ShadowRun { trajectory, estimator, reach: reach as i64, after: (missing - reach) as i64, missing })
     }
 
-    /// How many states the estimator needs on each side.
+    /// How many states before 0, and after the last one, the estimator needs.
     pub fn reach(&self) -> i64 {
         self.reach
     }
 
-    /// The next n with its estimate; `None` after n = steps.
+    /// Whether the estimates belong to the times between the states, (n + 1/2)h, n = 0, …, steps − 1.
+    pub fn is_between(&self) -> bool {
+        self.after > self.reach
+    }
+
+    /// The next n with its estimate, of the state n or of the middle between it and the next one; `None` after the last.
     ///
     /// # Errors
     /// A state that is not finite, up to the last one that the estimator needs, or a modified energy that is not.
@@ -295,7 +303,7 @@ where
                 continue;
             }
             let Some(estimate) = self.estimator.push(q, p, beta) else { return Ok(None) };
-            let n = n - self.reach;
+            let n = n - self.after;
             // states may be finite where their products overflow
             if !estimate.value.is_finite() {
                 let what = format!("a modified energy of {}", estimate.value.to_text());

@@ -4,9 +4,12 @@
 //! for which β' = q̄ᵀH̄_q + p̄ᵀH̄_p − 2H̄. So H̄ = ½(−q̄ᵀp̄' + p̄ᵀq̄' − β') (Moan & Niesen, eq. skModEn), and the
 //! derivatives can be had from neighbouring states.
 
+mod bilinear;
 mod central;
 mod differences;
+mod window;
 
+pub use bilinear::{Bilinear, BilinearEstimator};
 pub use central::{Central, CentralEstimator};
 pub use differences::Stop;
 
@@ -24,11 +27,12 @@ pub trait Method<N: Number> {
 
 /// Turns the states of a trajectory into modified energies.
 ///
-/// States come in the order of time, each with what the step that led to it added to β. Once `2·reach` states have
-/// come, every further one completes an estimate at the state `reach` places before it.
+/// States come in the order of time, each with what the step that led to it added to β. Once `states` of them have
+/// come, every one completes an estimate: of the middle of the newest `states`, which is a state if they are odd in number,
+/// and else half a step after one.
 pub trait Estimator<N: Number> {
-    /// How many states it needs on each side.
-    fn reach(&self) -> usize;
+    /// How many states an estimate needs: at least 2.
+    fn states(&self) -> usize;
 
     /// Takes the next state; gives the estimate that it completes.
     fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>>;
@@ -42,10 +46,10 @@ pub struct Estimate<'a, N> {
     /// Size of the last term, |T_{m,m} − T_{m−1,m−1}|, where it was asked for and m ≥ 2: an estimate of the error, no
     /// bound. Near a close encounter the error can be larger by many orders of magnitude.
     pub error: Option<&'a N>,
-    /// The m of D_m.
+    /// The m of D_m, the k of the bilinear estimator.
     pub order: u32,
-    /// Positions of the state.
+    /// Positions of the state in the middle, or just before it.
     pub q: &'a [N],
-    /// Momenta of the state.
+    /// Momenta of that state.
     pub p: &'a [N],
 }

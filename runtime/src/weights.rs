@@ -1,4 +1,4 @@
-//! The weights of central differences, exact rationals.
+//! The weights of the estimators, exact rationals: of central differences, and of the bilinear estimator.
 //!
 //! D_m y(0) = Σ_{j=1..m} d_{m,j} (y(jh) − y(−jh)) / h,  d_{m,j} = (−1)^{j+1} (m!)² / (j (m−j)! (m+j)!)
 //!
@@ -47,6 +47,37 @@ pub fn stirling(m: u32) -> Vec<Rational> {
             this
         })
         .collect()
+}
+
+/// P_ij of [`crate::shadow::Bilinear`], states counted back from the newest, i > j ≥ 0: row ℓ − 1, ℓ = i − j = 1..k, has
+/// P_{j+ℓ,j} for j = 0..=k−ℓ, which reads the same backwards.
+///
+/// P_ij = 2 (−1)^{i−j} C(k,i) C(k,j) / ((i−j) C(2k,k)), and P_ji = −P_ij.
+///
+/// ```
+/// use shadowstep::{exact, weights::bilinear};
+/// // k = 1: one pair
+/// assert_eq!(bilinear(1), [[exact("-1").unwrap()]]);
+/// ```
+pub fn bilinear(k: u32) -> Vec<Vec<Rational>> {
+    let binomials = binomials(k);
+    let of_2k: BigInt = binomials.iter().map(|c| c * c).sum();
+    let weight = |lag: usize, j: usize| {
+        let above = BigInt::from(if lag.is_multiple_of(2) { 2 } else { -2 }) * &binomials[j + lag] * &binomials[j];
+        Rational::new(above, BigInt::from(lag) * &of_2k)
+    };
+    (1..=k as usize).map(|lag| (0..=k as usize - lag).map(|j| weight(lag, j)).collect()).collect()
+}
+
+/// C(k,0), …, C(k,k)
+fn binomials(k: u32) -> Vec<BigInt> {
+    let mut binomial = BigInt::from(1);
+    let mut all = vec![binomial.clone()];
+    for i in 0..k {
+        binomial = binomial * (k - i) / (i + 1);
+        all.push(binomial.clone());
+    }
+    all
 }
 
 #[cfg(test)]

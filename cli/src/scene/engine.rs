@@ -7,7 +7,7 @@ use shadowstep::run::{RunError, ShadowRun, Trajectory};
 use shadowstep::{Kinetic, Motion, Moves, Number, Potential, Scheme};
 
 use crate::complaint::{Complaint, remark};
-use crate::order::Order;
+use crate::estimator::Chosen;
 use crate::progress::Progress;
 use crate::run::Run;
 use crate::scene::checkpoint::{Checkpoint, Saved};
@@ -107,7 +107,7 @@ impl<N: Number + 'static> Recorder<'_, N> {
     {
         match self.scene.output.modified {
             None => self.plain(scheme, motion, from.unwrap_or(0)),
-            Some((order, _)) => self.shadowed(scheme, motion, from, order),
+            Some((estimator, _)) => self.shadowed(scheme, motion, from, estimator),
         }
     }
 
@@ -141,7 +141,7 @@ impl<N: Number + 'static> Recorder<'_, N> {
         scheme: &S,
         motion: Moving<N, K>,
         from: Option<i64>,
-        order: Order,
+        estimator: Chosen,
     ) -> Result<End, Complaint>
     where
         K: Kinetic<N>,
@@ -151,7 +151,7 @@ impl<N: Number + 'static> Recorder<'_, N> {
         let scene = self.scene;
         let failed = |error| run.failed(&renamed(error, scene));
         let (mut q, mut p) = (motion.q().to_vec(), motion.p().to_vec());
-        let method = order.method(true);
+        let method = estimator.method(true);
         let mut shadow = match from {
             None => ShadowRun::new(scheme, motion, run.h, run.steps, &method),
             Some(from) => ShadowRun::resume(scheme, motion, run.h, from, run.steps, &method),

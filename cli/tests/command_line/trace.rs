@@ -95,3 +95,42 @@ fn a_reader_may_stop_reading() {
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), &b""[..]));
 }
+
+/// An even k has its values at the states, an odd one between them.
+#[test]
+fn the_bilinear_estimator_belongs_to_the_middle_of_its_states() {
+    let run = |k: &str| RUN.replace("--order 5", &format!("--estimator bilinear --order {k}"));
+    let [even, odd] = ["8", "7"].map(|k| objects(&quietly(&run(k))));
+    assert_eq!((even.len(), odd.len()), (17, 16));
+    let times = |lines: &[serde_json::Value]| -> Vec<f64> {
+        lines.iter().map(|line| text(line, "t").parse::<f64>().unwrap() * 32.0).collect()
+    };
+    assert_eq!(times(&even)[..3], [0.0, 1.0, 2.0]);
+    assert_eq!(times(&odd)[..3], [0.5, 1.5, 2.5]);
+    assert!(even[0]["energy"].is_string() && odd[0]["energy"].is_null());
+    let value = |line: &serde_json::Value| text(line, "modified_energy").parse::<f64>().unwrap();
+    assert!((value(&even[3]) - value(&odd[3])).abs() < 1e-9, "one modified energy, two orders");
+
+    let said = shadowstep(&format!("{} --states", run("7")));
+    assert_eq!((said.code, said.out.as_str()), (2, ""));
+    assert!(said.err.contains("belong to times between the states"), "{}", said.err);
+}
+
+#[test]
+fn the_bilinear_estimator_wants_its_order() {
+    let said = shadowstep(&RUN.replace("--order 5", "--estimator bilinear"));
+    assert_eq!(said.code, 2);
+    assert!(
+        said.err.starts_with("error: --estimator bilinear needs its order\n  hint: write --order 16"),
+        "{}",
+        said.err
+    );
+}
+
+#[test]
+fn drift_names_its_estimator() {
+    let run = RUN.replace("trace", "drift").replace("--order 5", "--estimator bilinear --order 8");
+    let record = &objects(&quietly(&format!("{run} --json")))[0];
+    assert_eq!((text(record, "estimator"), &record["order"]), ("bilinear", &8.into()));
+    assert!(quietly(&run).contains("modified energy by products of 9 states, k = 8"));
+}

@@ -5,6 +5,7 @@ use num_traits::Zero;
 use crate::Rational;
 use crate::number::Number;
 use crate::shadow::differences::AllOrders;
+use crate::shadow::window::Window;
 use crate::shadow::{Estimate, Estimator, Method, Stop};
 use crate::weights::central;
 
@@ -68,10 +69,10 @@ enum Kind<N> {
 }
 
 impl<N: Number> Estimator<N> for CentralEstimator<N> {
-    fn reach(&self) -> usize {
+    fn states(&self) -> usize {
         match &self.0 {
-            Kind::Fixed(fixed) => fixed.reach(),
-            Kind::Best(best) => best.reach(),
+            Kind::Fixed(fixed) => fixed.states(),
+            Kind::Best(best) => best.states(),
         }
     }
 
@@ -94,21 +95,17 @@ struct FixedOrder<N> {
     weights: Vec<N>,
     /// (d_{m,j} − d_{m−1,j})/(2h), for the last term alone; empty where no error is asked for
     last_term: Vec<N>,
-    /// The newest m + 1 states, the state k in place k mod (m + 1).
-    ring: Vec<Place<N>>,
-    pushed: usize,
-    pair: N,
+    /// The newest m + 1 states, and what their estimates are so far.
+    window: Window<N>,
+    sums: Vec<Sums<N>>,
+    /// B(n−j, n) for the newest state n
+    pairs: Vec<N>,
     product: N,
-    beta: N,
     error: N,
 }
 
 #[derive(Clone, Debug)]
-struct Place<N> {
-    q: Vec<N>,
-    p: Vec<N>,
-    /// What the step that led here added to β.
-    beta: N,
+struct Sums<N> {
     value: N,
     last_term: N,
 }
@@ -116,85 +113,57 @@ struct Place<N> {
 impl<N: Number> FixedOrder<N> {
     fn new(m: u32, with_error: bool, h: &Rational, dimension: usize, context: &N::Context) -> Self {
         assert!(m >= 1, "a central difference has m ≥ 1");
-        let this = central(m);
         let twice_h = h * Rational::from_integer(2.into());
         let zero = N::zero(context);
         let number = |weight: Rational| N::from_rational(&(weight / &twice_h), context);
-        let place = Place {
-            q: vec![zero.clone(); dimension],
-            p: vec![zero.clone(); dimension],
-            beta: zero.clone(),
-            value: zero.clone(),
-            last_term: zero.clone(),
-        };
+        let size = m as usize;
         FixedOrder {
-            m: m as usize,
-            weights: this.iter().map(|d| number(d.clone())).collect(),
+            m: size,
+            weights: central(m).iter().map(|d| number(d.clone())).collect(),
             last_term: last_term_weights(m, with_error).into_iter().map(number).collect(),
-            ring: vec![place; m as usize + 1],
-            pushed: 0,
-            pair: zero.clone(),
+            window: Window::new(size + 1, dimension, context),
+            sums: vec![Sums { value: zero.clone(), last_term: zero.clone() }; size + 1],
+            pairs: vec![zero.clone(); size],
             product: zero.clone(),
-            beta: zero.clone(),
             error: zero,
         }
     }
 
-    fn place(&mut self, q: &[N], p: &[N], beta: &N) -> usize {
-        let k = self.pushed % self.ring.len();
-        let place = &mut self.ring[k];
-        place.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
-        place.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
-        place.beta.assign(beta);
-        place.value.assign_zero();
-        place.last_term.assign_zero();
-        self.pushed += 1;
-        k
-    }
-
-    /// Adds the pair of the states in places i (older) and k to the estimates at both.
-    fn add_pair(&mut self, i: usize, k: usize, j: usize) {
-        let (older, newest) = two(&mut self.ring, i, k);
-        self.pair.assign(&self.beta);
-        for (((q_i, p_i), q_k), p_k) in older.q.iter().zip(&older.p).zip(&newest.q).zip(&newest.p) {
-            self.pair.add_product(q_i, p_k);
-            self.pair.subtract_product(p_i, q_k);
-        }
-        self.product.assign_product(&self.weights[j - 1], &self.pair);
-        older.value.subtract(&self.product);
-        newest.value.subtract(&self.product);
+    /// Adds the pair of the newest state and the one j places before it to the estimates at both.
+    fn add_pair(&mut self, j: usize) {
+        let places = [self.window.place(j), self.window.place(0)];
+        let pair = &self.pairs[j - 1];
+        self.product.assign_product(&self.weights[j - 1], pair);
+        places.iter().for_each(|&place| self.sums[place].value.subtract(&self.product));
         if let Some(weight) = self.last_term.get(j - 1) {
-            self.product.assign_product(weight, &self.pair);
-            older.last_term.subtract(&self.product);
-            newest.last_term.subtract(&self.product);
+            self.product.assign_product(weight, pair);
+            places.iter().for_each(|&place| self.sums[place].last_term.subtract(&self.product));
         }
     }
 }
 
 impl<N: Number> Estimator<N> for FixedOrder<N> {
-    fn reach(&self) -> usize {
-        self.m
+    fn states(&self) -> usize {
+        2 * self.m + 1
     }
 
     fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
-        let older = self.pushed.min(self.m);
-        let k = self.place(q, p, beta);
-        let size = self.ring.len();
-        self.beta.assign_zero();
-        for j in 1..=older {
-            // β_k − β_i is the sum of the increments after i
-            let after = (k + size - (j - 1)) % size;
-            self.beta.add(&self.ring[after].beta);
-            self.add_pair((k + size - j) % size, k, j);
+        self.window.push(q, p, beta);
+        let newest = &mut self.sums[self.window.place(0)];
+        newest.value.assign_zero();
+        newest.last_term.assign_zero();
+        for j in 1..=self.window.pairs(&mut self.pairs) {
+            self.add_pair(j);
         }
-        if self.pushed <= 2 * self.m {
+        if self.window.pushed() < self.states() {
             return None;
         }
-        let place = &self.ring[(k + 1) % size];
-        self.error.assign(&place.last_term);
+        let sums = &self.sums[self.window.place(self.m)];
+        self.error.assign(&sums.last_term);
         self.error.make_absolute();
         let error = (!self.last_term.is_empty()).then_some(&self.error);
-        Some(Estimate { value: &place.value, error, order: self.m as u32, q: &place.q, p: &place.p })
+        let (q, p) = self.window.state(self.m);
+        Some(Estimate { value: &sums.value, error, order: self.m as u32, q, p })
     }
 }
 
@@ -206,15 +175,4 @@ fn last_term_weights(m: u32, with_error: bool) -> Vec<Rational> {
     let (this, last) = (central(m), central(m - 1));
     let before = |j: usize| last.get(j).cloned().unwrap_or_else(Rational::zero);
     this.iter().enumerate().map(|(j, weight)| weight - before(j)).collect()
-}
-
-/// Two different elements, to be changed both.
-fn two<T>(all: &mut [T], i: usize, k: usize) -> (&mut T, &mut T) {
-    if i < k {
-        let (left, right) = all.split_at_mut(k);
-        (&mut left[i], &mut right[0])
-    } else {
-        let (left, right) = all.split_at_mut(i);
-        (&mut right[0], &mut left[k])
-    }
 }

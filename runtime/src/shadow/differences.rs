@@ -165,15 +165,15 @@ impl<N: Number> Place<N> {
 }
 
 impl<N: Number> Estimator<N> for AllOrders<N> {
-    fn reach(&self) -> usize {
-        self.largest
+    fn states(&self) -> usize {
+        2 * self.largest + 1
     }
 
     fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
         self.update_table(q, p, beta);
         let newest = self.place(q, p);
         self.add_terms(newest);
-        if self.pushed <= 2 * self.largest {
+        if self.pushed < self.states() {
             return None;
         }
         let centre = (newest + 1) % self.ring.len();

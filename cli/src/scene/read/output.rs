@@ -7,7 +7,7 @@ use std::time::Duration;
 use shadowstep::shadow::Stop;
 use toml::de::DeValue;
 
-use crate::order::{DEFAULT_LARGEST_M, HIGHEST_M, Order};
+use crate::estimator::{Chosen, DEFAULT_LARGEST_M, HIGHEST_ORDER};
 use crate::scene::format::Format;
 use crate::scene::reader::{Reader, Section, Value};
 use crate::steps::MOST_STEPS;
@@ -20,7 +20,7 @@ pub(crate) struct Asked {
     pub(crate) format: Format,
     /// At each n that is a multiple of this.
     pub(crate) energy: Option<u64>,
-    pub(crate) modified: Option<(Order, u64)>,
+    pub(crate) modified: Option<(Chosen, u64)>,
     pub(crate) trajectory: Option<u64>,
     pub(crate) checkpoint: Option<Cadence>,
 }
@@ -96,9 +96,9 @@ fn every(reader: &mut Reader<'_>, output: &Section<'_, '_>, key: &'static str, s
     when(reader, output, key, section).map(|(every, _)| every)
 }
 
-fn modified(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(Order, u64)> {
+fn modified(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(Chosen, u64)> {
     let (every, table) = when(reader, output, "modified_energy", "output.modified_energy")?;
-    let automatic = Order::Best(DEFAULT_LARGEST_M, Stop::Full);
+    let automatic = Chosen::Best(DEFAULT_LARGEST_M, Stop::Full);
     let Some(table) = table else { return Some((automatic, every)) };
     let largest = reader.get(&table, "max_order").map(|value| (value.span(), m(reader, value, 2)));
     let stop = reader.get(&table, "stop");
@@ -112,7 +112,7 @@ fn modified(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(Order,
         None => None,
     };
     match (fixed, largest, stop) {
-        (Some(m), None, None) => Some((Order::Fixed(m), every)),
+        (Some(m), None, None) => Some((Chosen::Central(m), every)),
         (Some(m), Some((at, _)), _) | (Some(m), None, Some((at, _))) => {
             let message = format!("max_order and stop are for order = \"auto\", not for order = {m}");
             reader.wrong(&at, message, "leave them out, or write order = \"auto\"")
@@ -120,14 +120,14 @@ fn modified(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(Order,
         (None, largest, stop) => {
             let largest = largest.map_or(Some(DEFAULT_LARGEST_M), |(_, m)| m)?;
             let stop = stop.map_or(Some(Stop::Full), |(_, stop)| stop)?;
-            Some((Order::Best(largest, stop), every))
+            Some((Chosen::Best(largest, stop), every))
         }
     }
 }
 
 /// The m of a central difference.
 fn m(reader: &mut Reader<'_>, value: &Value<'_>, least: u64) -> Option<u32> {
-    reader.whole(value, least..=HIGHEST_M.into()).and_then(|m| u32::try_from(m).ok())
+    reader.whole(value, least..=HIGHEST_ORDER.into()).and_then(|m| u32::try_from(m).ok())
 }
 
 /// A number of steps, or a time such as `1 min`.

@@ -1,0 +1,78 @@
+//! The estimator of the modified energy that is asked for.
+
+use shadowstep::Rational;
+use shadowstep::number::Number;
+use shadowstep::shadow::{Bilinear, BilinearEstimator, Central, CentralEstimator, Estimate, Estimator, Method, Stop};
+
+/// Beyond this order the exact weights take longer than any run.
+pub(crate) const HIGHEST_ORDER: u32 = 1000;
+
+/// The largest m that is tried where none is asked for.
+pub(crate) const DEFAULT_LARGEST_M: u32 = 200;
+
+/// An estimator with its order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Chosen {
+    /// D_m
+    Central(u32),
+    /// The best m of each state, at most this.
+    Best(u32, Stop),
+    /// E_k
+    Bilinear(u32),
+}
+
+/// What makes it; where a fixed m is to estimate its error, that costs more.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Made {
+    Central(Central),
+    Bilinear(Bilinear),
+}
+
+impl Chosen {
+    /// The method; a fixed m estimates its error only if asked to.
+    pub(crate) fn method(self, with_error: bool) -> Made {
+        match self {
+            Chosen::Central(m) => Made::Central(Central::Fixed { m, with_error }),
+            Chosen::Best(largest, stop) => Made::Central(Central::best(largest, stop)),
+            Chosen::Bilinear(k) => Made::Bilinear(Bilinear { k }),
+        }
+    }
+
+    /// Whether its values belong to the times between the states.
+    pub(crate) fn is_between(self) -> bool {
+        matches!(self, Chosen::Bilinear(k) if k % 2 == 1)
+    }
+}
+
+impl<N: Number> Method<N> for Made {
+    type Estimator = Either<N>;
+
+    fn estimator(&self, h: &Rational, dimension: usize, context: &N::Context) -> Either<N> {
+        match self {
+            Made::Central(method) => Either::Central(method.estimator(h, dimension, context)),
+            Made::Bilinear(method) => Either::Bilinear(method.estimator(h, dimension, context)),
+        }
+    }
+}
+
+/// One of the estimators.
+pub(crate) enum Either<N> {
+    Central(CentralEstimator<N>),
+    Bilinear(BilinearEstimator<N>),
+}
+
+impl<N: Number> Estimator<N> for Either<N> {
+    fn states(&self) -> usize {
+        match self {
+            Either::Central(estimator) => estimator.states(),
+            Either::Bilinear(estimator) => estimator.states(),
+        }
+    }
+
+    fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
+        match self {
+            Either::Central(estimator) => estimator.push(q, p, beta),
+            Either::Bilinear(estimator) => estimator.push(q, p, beta),
+        }
+    }
+}
