@@ -29,12 +29,12 @@ pub(crate) enum Made {
 }
 
 impl Chosen {
-    /// The method; a fixed m estimates its error only if asked to.
+    /// The method; a fixed order estimates its error only if asked to.
     pub(crate) fn method(self, with_error: bool) -> Made {
         match self {
             Chosen::Central(m) => Made::Central(Central::Fixed { m, with_error }),
             Chosen::Best(largest, stop) => Made::Central(Central::best(largest, stop)),
-            Chosen::Bilinear(k) => Made::Bilinear(Bilinear { k }),
+            Chosen::Bilinear(k) => Made::Bilinear(Bilinear { k, with_error }),
         }
     }
 

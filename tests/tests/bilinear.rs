@@ -145,7 +145,7 @@ fn values_are_the_formula_written_out() {
         for k in [1, 2, 3, 7, 12] {
             let start = [numbers(&["0", "0.1"], &context), numbers(&["0.3", "0"], &context)];
             let mut motion = Motion::new(HenonHeiles, UnitMasses, start[0].clone(), start[1].clone());
-            let mut estimator = Method::<Float>::estimator(&Bilinear { k }, &h, 2, &context);
+            let mut estimator = Method::<Float>::estimator(&Bilinear::new(k), &h, 2, &context);
             let weights = shadowstep::Scheme::weights::<Float>(&scheme, &h, &context);
             let (mut states, mut beta) = (Vec::new(), Float::new(context.in_bits()));
             for n in 0..=40 {
@@ -183,7 +183,7 @@ fn harmonic_oscillator_has_its_closed_form() {
         let expected = kinetic * (x.clone().asin() / (x * rest.sqrt())) / 2;
 
         let motion = Motion::new(potential, UnitMasses, vec![q], vec![p]);
-        let mut run = ShadowRun::new(&verlet, motion, &h, 50, &Bilinear { k }).unwrap();
+        let mut run = ShadowRun::new(&verlet, motion, &h, 50, &Bilinear::new(k)).unwrap();
         let mut count = 0;
         while let Some((n, estimate)) = run.advance().unwrap() {
             // the remainder is of the size (hω/2)^{2k}, below 1e-120; round-off leaves 118 digits
@@ -204,7 +204,7 @@ fn first_value<P: Potential<Float>>(
     k: u32,
 ) -> Float {
     let scheme = shipped(scheme).unwrap();
-    let mut run = ShadowRun::new(&scheme, motion, h, 1, &Bilinear { k }).unwrap();
+    let mut run = ShadowRun::new(&scheme, motion, h, 1, &Bilinear::new(k)).unwrap();
     let (_, estimate) = run.advance().unwrap().unwrap();
     estimate.value.clone()
 }
@@ -238,8 +238,78 @@ fn the_modified_energy_of_kepler_is_conserved() {
     let motion =
         || Motion::new(Kepler, UnitMasses, numbers::<Float>(&["0.4", "0"], &context), numbers(&["0", "2"], &context));
     let verlet = shipped("stormer-verlet").unwrap();
-    let drift = |k| energy_drift(&verlet, motion(), &h, 400, &Bilinear { k }, |_| ()).unwrap().drift.to_f64();
+    let drift = |k| energy_drift(&verlet, motion(), &h, 400, &Bilinear::new(k), |_| ()).unwrap().drift.to_f64();
     let [four, eight, sixteen] = [4, 8, 16].map(drift);
     println!("{four:e} {eight:e} {sixteen:e}");
     assert!(sixteen < eight / 10.0 && eight < four / 10.0 && eight < 1e-8, "{four:e} {eight:e} {sixteen:e}");
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// The error, on the exact flow of Kepler's problem, whose energy is −1/2
+
+/// q, p and what the step of size h to the time t adds to β = 3E; E − e sin E = t.
+fn kepler_state(e: &Float, t: &Float, h: &Float) -> (Vec<Float>, Vec<Float>, Float) {
+    let anomaly = |t: &Float| {
+        let mut anomaly = t.clone() + t.clone().sin() * e;
+        for _ in 0..40 {
+            let off = anomaly.clone() - anomaly.clone().sin() * e - t;
+            anomaly -= off / (1 - anomaly.clone().cos() * e);
+        }
+        anomaly
+    };
+    let now = anomaly(t);
+    let (sin, cos) = now.clone().sin_cos(Float::new(now.prec()));
+    let square: Float = 1 - e.clone().square();
+    let minor = square.sqrt();
+    let r = 1 - cos.clone() * e;
+    let q = vec![cos.clone() - e, sin.clone() * &minor];
+    let p = vec![-sin / &r, cos * minor / r];
+    (q, p, (now - anomaly(&(t.clone() - h))) * 3)
+}
+
+/// The true errors over an orbit from apocentre to apocentre, and the estimated ones.
+fn errors_on_the_exact_flow(e: &str, step: &str, k: u32) -> Vec<(f64, f64)> {
+    const DIGITS: u32 = 50;
+    let (context, h) = (precision(DIGITS), rational(step));
+    let [e, step] = [&rational(e), &h].map(|value| Float::from_rational(value, &context));
+    let mut estimator = Method::<Float>::estimator(&Bilinear::with_error(k), &h, 2, &context);
+    let half = (std::f64::consts::PI / step.to_f64()) as i64;
+    let reach = estimator.states() as i64 / 2;
+    let mut errors = Vec::new();
+    for n in -half - reach..=half + reach {
+        let (q, p, beta) = kepler_state(&e, &(step.clone() * n), &step);
+        if let Some(estimate) = estimator.push(&q, &p, &beta) {
+            errors.push(((estimate.value.to_f64() + 0.5).abs(), estimate.error.unwrap().to_f64()));
+            let off = estimate.value.clone() + 0.5_f64;
+            errors.last_mut().unwrap().0 = off.to_f64().abs();
+        }
+    }
+    errors
+}
+
+/// The largest error, and the median, the 95th hundredth and the largest of true error/estimate.
+fn reliability(e: &str, step: &str, k: u32) -> (f64, [f64; 3]) {
+    let errors = errors_on_the_exact_flow(e, step, k);
+    let mut ratios: Vec<f64> = errors.iter().map(|(error, estimate)| error / estimate).collect();
+    ratios.sort_by(f64::total_cmp);
+    let at = |part: f64| ratios[((ratios.len() - 1) as f64 * part) as usize];
+    (errors.iter().map(|(error, _)| *error).fold(0.0, f64::max), [at(0.5), at(0.95), at(1.0)])
+}
+
+#[test]
+fn the_spread_tells_the_error() {
+    for (e, step, ks) in [
+        ("0", "1/5", &[4, 8, 12][..]),
+        ("0.3", "1/10", &[4, 8, 12, 16]),
+        ("0.6", "1/10", &[4, 8, 12, 16, 24]),
+        ("0.6", "1/20", &[4, 8, 12, 16, 24, 32]),
+        ("0.9", "1/40", &[8, 12, 16]),
+    ] {
+        for &k in ks {
+            let (largest, [median, most, worst]) = reliability(e, step, k);
+            println!(
+                "e = {e}, h = {step}, k = {k:2}: error {largest:.1e}, over its estimate {median:.1e} {most:.2} {worst:.2}"
+            );
+        }
+    }
 }
