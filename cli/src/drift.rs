@@ -5,8 +5,9 @@ use std::time::Instant;
 
 use rug::Float;
 use serde::{Serialize, Serializer};
-use shadowstep::number::Number;
-use shadowstep::run::{EnergyDrift, energy_drift};
+use shadowstep::exact_flow::ExactFlow;
+use shadowstep::number::{Number, Rounded};
+use shadowstep::run::{EnergyDrift, ShadowRun, energy_drift};
 use shadowstep::shadow::Stop;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 
@@ -17,6 +18,7 @@ use crate::estimator::Chosen;
 use crate::figures::{rounded, shortened, table};
 use crate::output::Output;
 use crate::progress::Progress;
+use crate::propagator::Propagator;
 use crate::run::Run;
 use crate::selection::Selection;
 
@@ -65,10 +67,10 @@ pub(crate) fn drift(arguments: &DriftArguments) -> Result<Ending, Complaint> {
     let bar = !arguments.json || arguments.run.output.is_some() || !std::io::stdout().is_terminal();
     let mut ending = Ending::Done;
     let mut rows = Vec::new();
-    for run in selection.runs() {
+    for (propagator, run) in selection.runs() {
         let found = match selection.arithmetic {
-            Arithmetic::Double => measure::<f64>(&selection, run, &(), bar),
-            Arithmetic::Digits(_, precision) => measure::<Float>(&selection, run, &precision, bar),
+            Arithmetic::Double => measure::<f64>(&selection, propagator, run, &(), bar),
+            Arithmetic::Digits(_, precision) => measure::<Float>(&selection, propagator, run, &precision, bar),
         };
         match found {
             Ok(record) if arguments.json => {
@@ -86,23 +88,26 @@ pub(crate) fn drift(arguments: &DriftArguments) -> Result<Ending, Complaint> {
     Ok(ending)
 }
 
-fn measure<N: Number + 'static>(
+fn measure<N: Rounded + 'static>(
     selection: &Selection,
+    propagator: &Propagator,
     run: Run<'_>,
     context: &N::Context,
     bar: bool,
 ) -> Result<Record, Complaint> {
     let progress = Progress::new(bar, run.name(), run.steps);
     let begin = Instant::now();
-    let motion = selection.motion::<N>(context);
-    let found = energy_drift(
-        &run.scheme.scheme,
-        motion,
-        run.h,
-        run.steps,
-        &selection.estimator.method(false),
-        progress.listener(),
-    )
+    let (method, heard) = (selection.estimator.method(false), progress.listener());
+    let found = match propagator {
+        Propagator::Scheme(named) => {
+            energy_drift(&named.scheme, selection.motion::<N>(context), run.h, run.steps, &method, heard)
+        }
+        Propagator::ExactFlow => {
+            ShadowRun::<ExactFlow<N>, _>::of_exact_flow(&selection.setup, run.h, run.steps, &method, context)
+                .map_err(|error| run.not_followed(&error))?
+                .drift(heard)
+        }
+    }
     .map_err(|error| run.failed(&error))?;
     // both extremes may be finite where their difference overflows
     if !found.drift.is_finite() {
@@ -115,7 +120,7 @@ fn record<N: Number>(selection: &Selection, run: Run<'_>, found: &EnergyDrift<N>
     Record {
         problem: selection.setup.problem.name,
         parameters: selection.values(),
-        scheme: run.scheme.name.clone(),
+        scheme: run.propagator.to_owned(),
         step: to_text(run.h),
         until: to_text(&selection.until),
         digits: match selection.arithmetic {

@@ -4,10 +4,14 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Component, Path};
 
+use shadowstep::exact_flow::WITH_EXACT_FLOW;
 use shadowstep::tables::{self, Source, TableScheme, shipped_names};
 use shadowstep_schemes::{First, shipped, shipped_hint};
 
 use crate::complaint::Complaint;
+
+/// The word that stands in place of a scheme for the exact flow.
+pub(crate) const EXACT_FLOW: &str = "exact-flow";
 
 /// A scheme under the name by which it was asked for.
 #[derive(Debug)]
@@ -79,6 +83,12 @@ fn is_file(word: &str) -> bool {
 }
 
 fn unknown(word: &str) -> Complaint {
+    if word == EXACT_FLOW {
+        return Complaint::usage(
+            "exact-flow is no scheme, but the solution itself, on which an estimator shows its own error",
+            format!("`shadowstep drift` and `trace` take it as --scheme, for {}", WITH_EXACT_FLOW.join(", ")),
+        );
+    }
     let hint = match shipped_hint(word) {
         names if names.ends_with('?') => format!("{names} `shadowstep schemes` lists all"),
         none => format!("{none}; `shadowstep schemes` lists all; the name of a table of yours ends in .toml"),

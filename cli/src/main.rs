@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`arguments`] | the flags and their help |
 //! | [`quantity`], [`library`] | exact numbers and schemes, as a person names them |
-//! | [`selection`], [`run`] | arguments → problem, schemes and steps: the runs to make |
+//! | [`selection`], [`propagator`], [`run`] | arguments → problem, schemes and steps: the runs to make |
 //! | [`arithmetic`], [`steps`], [`order`] | digits, the number of steps, and the m of the estimator |
 //! | [`drift`], [`trace`] | the runs: one line a run, or one line a step |
 //! | [`scene`] | runs that a file describes |
@@ -21,6 +21,7 @@ mod library;
 mod output;
 mod problems;
 mod progress;
+mod propagator;
 mod quantity;
 mod run;
 mod scene;

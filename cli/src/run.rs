@@ -1,17 +1,18 @@
-//! One run: a scheme and a step size.
+//! One run: a scheme, or the exact flow, and a step size.
 
 use shadowstep::Rational;
+use shadowstep::exact_flow::ExactFlowError;
 use shadowstep::run::RunError;
 
 use crate::complaint::Complaint;
 use crate::estimator::Chosen;
 use crate::figures::shortened;
-use crate::library::Named;
 
 /// n = 0, …, steps at the times n h.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Run<'a> {
-    pub(crate) scheme: &'a Named,
+    /// The name of a scheme, or exact-flow.
+    pub(crate) propagator: &'a str,
     pub(crate) h: &'a Rational,
     pub(crate) steps: u64,
 }
@@ -30,7 +31,7 @@ impl Run<'_> {
 
     /// Which run it is, in messages.
     pub(crate) fn name(&self) -> String {
-        format!("{}, step {}", self.scheme.name, shortened(self.h, 20))
+        format!("{}, step {}", self.propagator, shortened(self.h, 20))
     }
 
     /// A state is not finite.
@@ -43,6 +44,11 @@ impl Run<'_> {
             RunError::NotFinite { step, what } => self.ended(&format!("the run ends at n = {step} with {what}")),
             RunError::ZeroStep => self.ended(&error.to_string()),
         }
+    }
+
+    /// The exact flow cannot be followed.
+    pub(crate) fn not_followed(&self, error: &ExactFlowError) -> Complaint {
+        Complaint::run(format!("{}: {error}", self.name()), "an earlier --until or another initial state may go")
     }
 
     /// All states are finite, an energy is not.

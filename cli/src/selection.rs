@@ -10,7 +10,7 @@ use crate::arguments::{EstimatorChoice, OrderChoice, RunArguments, StopChoice};
 use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
 use crate::complaint::{Complaint, remark};
 use crate::estimator::{Chosen, DEFAULT_LARGEST_M};
-use crate::library::{self, Named};
+use crate::propagator::Propagator;
 use crate::quantity;
 use crate::run::Run;
 use crate::steps;
@@ -22,7 +22,7 @@ pub(crate) struct Selection {
     pub(crate) until: Rational,
     pub(crate) arithmetic: Arithmetic,
     pub(crate) estimator: Chosen,
-    schemes: Vec<Named>,
+    propagators: Vec<Propagator>,
     steps: Vec<(Rational, u64)>,
 }
 
@@ -34,10 +34,10 @@ impl Selection {
         let until = quantity::number("--until", &arguments.until)?;
         let mut steps: Vec<_> = arguments.steps.iter().map(|text| step(text, &until)).collect::<Result<_, _>>()?;
         let words = each_once(&arguments.schemes, |word| word.clone(), "scheme");
-        let schemes = words.iter().map(|word| library::scheme(word)).collect::<Result<_, _>>()?;
+        let propagators = words.iter().map(|word| Propagator::read(word, &setup)).collect::<Result<_, _>>()?;
         steps = each_once(&steps, |(h, _)| to_text(h), "step");
-        let selection = Selection { setup, until, arithmetic, estimator, schemes, steps };
-        for scheme in &selection.schemes {
+        let selection = Selection { setup, until, arithmetic, estimator, propagators, steps };
+        for scheme in selection.propagators.iter().filter_map(Propagator::scheme) {
             arithmetic.suits(scheme).map_err(|(sentence, most)| {
                 Complaint::usage(sentence, format!("use --digits {most}, or {OTHER_SCHEME}"))
             })?;
@@ -47,13 +47,15 @@ impl Selection {
     }
 
     /// The runs, all steps of a scheme together.
-    pub(crate) fn runs(&self) -> impl Iterator<Item = Run<'_>> {
-        let steps = |scheme| self.steps.iter().map(move |(h, steps)| Run { scheme, h, steps: *steps });
-        self.schemes.iter().flat_map(steps)
+    pub(crate) fn runs(&self) -> impl Iterator<Item = (&Propagator, Run<'_>)> {
+        self.propagators.iter().flat_map(|propagator| {
+            let name = propagator.name();
+            self.steps.iter().map(move |(h, steps)| (propagator, Run { propagator: name, h, steps: *steps }))
+        })
     }
 
     /// The one run, where there is one only.
-    pub(crate) fn single(&self) -> Option<Run<'_>> {
+    pub(crate) fn single(&self) -> Option<(&Propagator, Run<'_>)> {
         let mut runs = self.runs();
         runs.next().filter(|_| runs.next().is_none())
     }

@@ -2,14 +2,17 @@
 
 use rug::Float;
 use serde::Serialize;
-use shadowstep::number::Number;
-use shadowstep::run::ShadowRun;
+use shadowstep::exact_flow::ExactFlow;
+use shadowstep::number::Rounded;
+use shadowstep::run::{ShadowRun, States};
+use shadowstep::shadow::Estimator;
 
 use crate::arguments::TraceArguments;
 use crate::arithmetic::Arithmetic;
 use crate::complaint::{Complaint, Ending};
 use crate::output::Output;
 use crate::progress::Progress;
+use crate::propagator::Propagator;
 use crate::run::Run;
 use crate::selection::Selection;
 
@@ -31,7 +34,7 @@ struct Row {
 
 pub(crate) fn trace(arguments: &TraceArguments) -> Result<Ending, Complaint> {
     let selection = Selection::read(&arguments.run)?;
-    let run = selection.single().ok_or_else(|| {
+    let (propagator, run) = selection.single().ok_or_else(|| {
         Complaint::usage("a trace is of one run: one scheme and one step", "`shadowstep drift` makes many runs")
     })?;
     if arguments.states && selection.estimator.is_between() {
@@ -42,9 +45,9 @@ pub(crate) fn trace(arguments: &TraceArguments) -> Result<Ending, Complaint> {
     let bar = arguments.run.output.is_some();
     let mut write = writer(&selection, arguments, &mut output)?;
     match selection.arithmetic {
-        Arithmetic::Double => follow::<f64>(&selection, run, &(), arguments.states, bar, &mut write)?,
+        Arithmetic::Double => follow::<f64>(&selection, propagator, run, &(), arguments.states, bar, &mut write)?,
         Arithmetic::Digits(_, precision) => {
-            follow::<Float>(&selection, run, &precision, arguments.states, bar, &mut write)?
+            follow::<Float>(&selection, propagator, run, &precision, arguments.states, bar, &mut write)?
         }
     }
     drop(write);
@@ -79,9 +82,35 @@ fn writer<'a>(
     }))
 }
 
-fn follow<N: Number + 'static>(
+/// Makes the run and writes its rows.
+fn follow<N: Rounded + 'static>(
+    selection: &Selection,
+    propagator: &Propagator,
+    run: Run<'_>,
+    context: &N::Context,
+    states: bool,
+    bar: bool,
+    write: &mut Writer<'_>,
+) -> Result<(), Complaint> {
+    let method = selection.estimator.method(true);
+    match propagator {
+        Propagator::Scheme(named) => {
+            let motion = selection.motion::<N>(context);
+            let shadow = ShadowRun::new(&named.scheme, motion, run.h, run.steps, &method);
+            write_rows(selection, run, shadow.map_err(|error| run.failed(&error))?, context, states, bar, write)
+        }
+        Propagator::ExactFlow => {
+            let shadow =
+                ShadowRun::<ExactFlow<N>, _>::of_exact_flow(&selection.setup, run.h, run.steps, &method, context);
+            write_rows(selection, run, shadow.map_err(|error| run.not_followed(&error))?, context, states, bar, write)
+        }
+    }
+}
+
+fn write_rows<N: Rounded + 'static, T: States<Number = N>, E: Estimator<N>>(
     selection: &Selection,
     run: Run<'_>,
+    mut shadow: ShadowRun<T, E>,
     context: &N::Context,
     states: bool,
     bar: bool,
@@ -89,15 +118,13 @@ fn follow<N: Number + 'static>(
 ) -> Result<(), Complaint> {
     let progress = Progress::new(bar, run.name(), run.steps);
     let heard = progress.listener();
-    let motion = selection.motion::<N>(context);
-    let (mut q, mut p) = (motion.q().to_vec(), motion.p().to_vec());
-    let mut shadow = ShadowRun::new(&run.scheme.scheme, motion, run.h, run.steps, &selection.estimator.method(true))
-        .map_err(|error| run.failed(&error))?;
+    let mut system = selection.motion::<N>(context);
+    let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
     while let Some((n, found)) = shadow.advance().map_err(|error| run.failed(&error))? {
         q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
         p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
         let (modified_energy, estimate, order) = (found.value.to_text(), found.error.map(N::to_text), found.order);
-        let energy = (!shadow.is_between()).then(|| shadow.motion().energy_of(&q, &p));
+        let energy = (!shadow.is_between()).then(|| system.energy_of(&q, &p));
         if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
             return Err(run.not_finite(&format!("the energy at n = {n}")));
         }

@@ -62,10 +62,13 @@
 //! | [`weights`] | the exact central-difference weights D_m |
 //! | [`shadow`] | estimators of the modified energy |
 //! | [`run`] | trajectories with the states that an estimator needs on both sides, and the energy drift |
+//! | `exact_flow` | states of the exact flow of a few problems, to see an estimator's own error (feature `mpfr`) |
 
 // generated code speaks of `::shadowstep`, in this crate too
 extern crate self as shadowstep;
 
+#[cfg(feature = "mpfr")]
+pub mod exact_flow;
 pub mod formula;
 mod interpreter;
 pub mod kinetic;

@@ -4,9 +4,13 @@ pub mod counting;
 mod double;
 #[cfg(feature = "mpfr")]
 mod multiprecision;
+#[cfg(feature = "mpfr")]
+mod rounded;
 
 #[cfg(feature = "mpfr")]
 pub use multiprecision::{Precision, PrecisionError};
+#[cfg(feature = "mpfr")]
+pub use rounded::Rounded;
 
 /// MPFR's numbers, of the version that implements [`Number`].
 #[cfg(feature = "mpfr")]

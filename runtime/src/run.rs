@@ -40,6 +40,18 @@ pub struct State<'a, N> {
     pub beta: &'a N,
 }
 
+/// Where the states come from that an estimator takes: a [`Trajectory`], or the exact flow.
+pub trait States {
+    /// The kind of their numbers.
+    type Number: Number;
+
+    /// Goes to the next state in the order of time; `None` at the end.
+    ///
+    /// # Errors
+    /// A state that is not finite.
+    fn advance(&mut self) -> Result<Option<State<'_, Self::Number>>, RunError>;
+}
+
 /// A state made before it is its turn.
 #[derive(Clone)]
 struct Stored<N> {
@@ -155,11 +167,23 @@ where
         Ok(())
     }
 
-    /// Goes to the next state; `None` at the end.
-    ///
-    /// # Errors
-    /// A state that is not finite.
-    pub fn advance(&mut self) -> Result<Option<State<'_, N>>, RunError> {
+    /// The system, for energies and counts.
+    pub fn motion(&mut self) -> &mut Motion<N, V, P, K> {
+        &mut self.motion
+    }
+}
+
+impl<S, N, V, P, K> States for Trajectory<'_, S, N, V, P, K>
+where
+    S: Scheme + Moves<K::Class>,
+    N: Number,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
+{
+    type Number = N;
+
+    fn advance(&mut self) -> Result<Option<State<'_, N>>, RunError> {
         if self.n >= self.last {
             return Ok(None);
         }
@@ -178,14 +202,10 @@ where
         let motion = &self.motion;
         Ok(Some(State { n, q: motion.q(), p: motion.p(), beta: motion.beta() }))
     }
-
-    /// The system, for energies and counts.
-    pub fn motion(&mut self) -> &mut Motion<N, V, P, K> {
-        &mut self.motion
-    }
 }
 
-fn last(steps: u64, reach: usize) -> i64 {
+/// The number of the last state that the estimate of the state `steps` needs.
+pub(crate) fn last(steps: u64, reach: usize) -> i64 {
     i64::try_from(steps).unwrap_or(i64::MAX).saturating_add(reach as i64)
 }
 
@@ -199,29 +219,33 @@ where
     Stored { q: motion.q().to_vec(), p: motion.p().to_vec(), beta: motion.beta().clone() }
 }
 
-fn check<N, V, P, K>(motion: &Motion<N, V, P, K>, step: i64) -> Result<(), RunError>
+fn check<N, V, P, K>(motion: &Motion<N, V, P, K>, n: i64) -> Result<(), RunError>
 where
     N: Number,
     V: Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N>,
 {
-    if motion.is_finite() {
+    check_finite(&State { n, q: motion.q(), p: motion.p(), beta: motion.beta() })
+}
+
+/// Refuses a state in which something is not a finite number.
+pub(crate) fn check_finite<N: Number>(state: &State<'_, N>) -> Result<(), RunError> {
+    let State { n, q, p, beta } = *state;
+    if beta.is_finite() && q.iter().chain(p).all(Number::is_finite) {
         return Ok(());
     }
     let named = |name: &'static str, values: &[N]| {
         let index = values.iter().position(|x| !x.is_finite())?;
         Some(format!("{name}{} = {}", index + 1, values[index].to_text()))
     };
-    let what = named("q", motion.q())
-        .or_else(|| named("p", motion.p()))
-        .unwrap_or_else(|| format!("beta = {}", motion.beta().to_text()));
-    Err(RunError::NotFinite { step, what })
+    let what = named("q", q).or_else(|| named("p", p)).unwrap_or_else(|| format!("beta = {}", beta.to_text()));
+    Err(RunError::NotFinite { step: n, what })
 }
 
-/// A trajectory with the modified energies of its states n = 0, …, steps, or between them.
-pub struct ShadowRun<'s, S: Scheme, N: Number, V, P, K, E> {
-    trajectory: Trajectory<'s, S, N, V, P, K>,
+/// States with the modified energies of n = 0, …, steps, or between them.
+pub struct ShadowRun<T, E> {
+    states: T,
     estimator: E,
     reach: i64,
     /// How many states after the n of an estimate it needs: as many, or one more where it belongs to n + 1/2.
@@ -230,7 +254,7 @@ pub struct ShadowRun<'s, S: Scheme, N: Number, V, P, K, E> {
     missing: usize,
 }
 
-impl<'s, S, N, V, P, K, E> ShadowRun<'s, S, N, V, P, K, E>
+impl<'s, S, N, V, P, K, E> ShadowRun<Trajectory<'s, S, N, V, P, K>, E>
 where
     S: Scheme + Moves<K::Class>,
     N: Number,
@@ -251,7 +275,7 @@ where
         method: &impl Method<N, Estimator = E>,
     ) -> Result<Self, RunError> {
         let mut run = Self::resume(scheme, motion, h, 0, steps, method)?;
-        run.trajectory.step_back(run.reach as usize)?;
+        run.states.step_back(run.reach as usize)?;
         Ok(run)
     }
 
@@ -272,12 +296,25 @@ where
         method: &impl Method<N, Estimator = E>,
     ) -> Result<Self, RunError> {
         // the reach is known only where h is known to be no 0
-        let mut trajectory = Trajectory::after(scheme, motion, h, from)?;
+        let trajectory = Trajectory::after(scheme, motion, h, from)?;
         let estimator = method.estimator(h, trajectory.motion.q().len(), &trajectory.motion.context());
+        let mut run = ShadowRun::of(trajectory, estimator);
+        run.states.last = last(steps, run.reach as usize);
+        Ok(run)
+    }
+
+    /// The system, for energies and counts.
+    pub fn motion(&mut self) -> &mut Motion<N, V, P, K> {
+        self.states.motion()
+    }
+}
+
+impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
+    /// The states begin as many before the first estimate as the estimator needs.
+    pub(crate) fn of(states: T, estimator: E) -> Self {
         let missing = estimator.states() - 1;
         let reach = missing / 2;
-        trajectory.last = last(steps, reach);
-        Ok(ShadowRun { trajectory, estimator, reach: reach as i64, after: (missing - reach) as i64, missing })
+        ShadowRun { states, estimator, reach: reach as i64, after: (missing - reach) as i64, missing }
     }
 
     /// How many states before 0, and after the last one, the estimator needs.
@@ -294,9 +331,9 @@ where
     ///
     /// # Errors
     /// A state that is not finite, up to the last one that the estimator needs, or a modified energy that is not.
-    pub fn advance(&mut self) -> Result<Option<(i64, Estimate<'_, N>)>, RunError> {
+    pub fn advance(&mut self) -> Result<Option<(i64, Estimate<'_, T::Number>)>, RunError> {
         loop {
-            let Some(State { n, q, p, beta }) = self.trajectory.advance()? else { return Ok(None) };
+            let Some(State { n, q, p, beta }) = self.states.advance()? else { return Ok(None) };
             if self.missing > 0 {
                 self.missing -= 1;
                 self.estimator.push(q, p, beta);
@@ -313,9 +350,26 @@ where
         }
     }
 
-    /// The system, for energies and counts.
-    pub fn motion(&mut self) -> &mut Motion<N, V, P, K> {
-        self.trajectory.motion()
+    /// Runs to the end and keeps the extremes of the modified energy; `progress` hears of each n. Evaluations are not counted
+    /// here: [`energy_drift`] does.
+    ///
+    /// # Errors
+    /// As [`advance`](ShadowRun::advance).
+    ///
+    /// # Panics
+    /// If there is no estimate, as after the last one.
+    pub fn drift(&mut self, mut progress: impl FnMut(i64)) -> Result<EnergyDrift<T::Number>, RunError> {
+        let mut found: Option<EnergyDrift<T::Number>> = None;
+        while let Some((n, estimate)) = self.advance()? {
+            match &mut found {
+                None => found = Some(EnergyDrift::begin(&estimate)),
+                Some(found) => found.include(n, &estimate),
+            }
+            progress(n);
+        }
+        let mut found = found.expect("a run has the state 0");
+        found.drift.assign_difference(&found.maximum, &found.minimum);
+        Ok(found)
     }
 }
 
@@ -352,7 +406,7 @@ pub fn energy_drift<S, N, V, P, K>(
     h: &Rational,
     steps: u64,
     method: &impl Method<N>,
-    mut progress: impl FnMut(i64),
+    progress: impl FnMut(i64),
 ) -> Result<EnergyDrift<N>, RunError>
 where
     S: Scheme + Moves<K::Class>,
@@ -362,16 +416,7 @@ where
     K: Kinetic<N>,
 {
     let mut run = ShadowRun::new(scheme, motion, h, steps, method)?;
-    let mut found: Option<EnergyDrift<N>> = None;
-    while let Some((n, estimate)) = run.advance()? {
-        match &mut found {
-            None => found = Some(EnergyDrift::begin(&estimate)),
-            Some(found) => found.include(n, &estimate),
-        }
-        progress(n);
-    }
-    let mut found = found.expect("a run has the state 0");
-    found.drift.assign_difference(&found.maximum, &found.minimum);
+    let mut found = run.drift(progress)?;
     found.evaluations = run.motion().evaluations();
     Ok(found)
 }
@@ -480,7 +525,7 @@ mod tests {
     type Estimated = (i64, f64, Option<f64>, u32);
 
     fn estimates<E: Estimator<f64>>(
-        mut run: ShadowRun<'_, TableScheme, f64, Vec<f64>, Kepler, UnitMasses, E>,
+        mut run: ShadowRun<Trajectory<'_, TableScheme, f64, Vec<f64>, Kepler, UnitMasses>, E>,
     ) -> Vec<Estimated> {
         let mut all = Vec::new();
         while let Some((n, found)) = run.advance().unwrap() {

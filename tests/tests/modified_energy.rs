@@ -4,7 +4,7 @@
 use rug::Float;
 use shadowstep::kinetic::{DiagonalMasses, FullMasses, Quadratic};
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
-use shadowstep::run::{EnergyDrift, ShadowRun, Trajectory, energy_drift};
+use shadowstep::run::{EnergyDrift, ShadowRun, States, Trajectory, energy_drift};
 use shadowstep::shadow::{Central, Estimator, Method, Stop};
 use shadowstep::tables::shipped;
 use shadowstep::weights::central;

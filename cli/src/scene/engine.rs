@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Instant;
 
-use shadowstep::run::{RunError, ShadowRun, Trajectory};
+use shadowstep::run::{RunError, ShadowRun, States, Trajectory};
 use shadowstep::{Kinetic, Motion, Moves, Number, Potential, Scheme};
 
 use crate::complaint::{Complaint, remark};
@@ -34,7 +34,7 @@ pub(crate) fn follow<N: Number + 'static>(
     checkpoint: Option<&Checkpoint>,
     stop: &dyn Fn() -> bool,
 ) -> Result<End, Complaint> {
-    let run = Run { scheme: &scene.scheme, h: &scene.h, steps: scene.steps };
+    let run = Run { propagator: &scene.scheme.name, h: &scene.h, steps: scene.steps };
     let progress = Progress::new(scene.output.file.is_some(), run.name(), run.steps);
     let (mut q, mut p) = scene.system.start::<N>(context);
     let saved = checkpoint.and_then(|checkpoint| checkpoint.state.as_ref());

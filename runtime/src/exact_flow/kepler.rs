@@ -1,0 +1,139 @@
+//! Kepler's problem H = |p|²/2 − 1/|q|: the ellipse through any bound start, by the difference x = E − E₀ of eccentric
+//! anomalies from it.
+//!
+//! With r = |q|, 1/a = 2/r₀ − |p₀|², ω = a^{−3/2}, σ = e cos E₀ = 1 − r₀/a and τ = e sin E₀ = q₀·p₀/√a, Kepler's equation is
+//!
+//! ωt = x − σ sin x + τ(1 − cos x),
+//!
+//! and the state is q = f q₀ + g p₀, p = f' q₀ + g' p₀ with Lagrange's coefficients
+//!
+//! f = 1 − (a/r₀)(1 − cos x), g = ((1 − σ) sin x + τ(1 − cos x))/ω, f' = −√a sin x/(r r₀), g' = 1 − (a/r)(1 − cos x),
+//! r = a(1 − σ cos x + τ sin x)
+//!
+//! (J. M. A. Danby, *Fundamentals of Celestial Mechanics*, 2nd ed., sections 6.3 and 6.7). So neither the pericentre nor E₀ is
+//! needed, which a circle does not have. U is homogeneous of degree −1: β' = qᵀU_q − 2U = 3/r, and as dt = √a r dx, β = 3√a x.
+
+use num_traits::Zero;
+use rug::Float;
+
+use super::{Asked, ExactFlowError, Point, Solution, log2};
+use crate::Rational;
+use crate::number::{Number, Precision};
+use crate::problems::Setup;
+
+/// An ellipse and the time on it.
+#[derive(Debug)]
+pub(super) struct Ellipse {
+    h: Rational,
+    precision: Precision,
+    q: Vec<Float>,
+    p: Vec<Float>,
+    /// |q₀|
+    r: Float,
+    a: Float,
+    root_a: Float,
+    omega: Float,
+    sigma: Float,
+    tau: Float,
+}
+
+/// Refuses what has H ≥ 0, or goes through the centre.
+pub(super) fn is_ellipse(setup: &Setup) -> Result<(), ExactFlowError> {
+    let [x, y, px, py] = ["x", "y", "px", "py"].map(|name| setup.value(name));
+    if (x * py - y * px).is_zero() {
+        return Err(ExactFlowError::Radial);
+    }
+    // |p|²|q| < 2, in squares, which are exact
+    let (squared_r, squared_p) = (x * x + y * y, px * px + py * py);
+    if &squared_p * &squared_p * squared_r >= Rational::from_integer(4.into()) {
+        return Err(ExactFlowError::Unbound);
+    }
+    Ok(())
+}
+
+impl Ellipse {
+    pub(super) fn new(asked: &Asked<'_>) -> Result<Self, ExactFlowError> {
+        let rough = Ellipse::with(asked, asked.rough()?);
+        // a start as near to a parabola as this has no digits left
+        if !rough.a.is_finite() || rough.a.is_below_zero() {
+            return Err(ExactFlowError::Unbound);
+        }
+        // 1/a is a difference of numbers of size 2/r₀
+        let parabolic = log2(&rough.a) - log2(&rough.r);
+        let angle = log2(&rough.omega) + asked.longest.log2();
+        // 1 − e is at least this; r, the slope of Kepler's equation, gets as small, and errors grow as 1/r² in the forces
+        let [x, y] = &rough.q[..] else { unreachable!("two coordinates") };
+        let [px, py] = &rough.p[..] else { unreachable!("two coordinates") };
+        let momentum = x.clone() * py - y.clone() * px;
+        let flatness = log2(&rough.a) + 1.0 - 2.0 * log2(&momentum);
+        let growth = 2.0 * parabolic.max(0.0) + angle.max(0.0) + 4.0 * flatness.max(0.0);
+        Ok(Ellipse::with(asked, asked.precision(growth, u32::MAX)?))
+    }
+
+    fn with(asked: &Asked<'_>, precision: Precision) -> Self {
+        let (q, p) = (asked.setup.q::<Float>(&precision), asked.setup.p::<Float>(&precision));
+        let product = |a: &[Float], b: &[Float]| a[0].clone() * &b[0] + a[1].clone() * &b[1];
+        let r = product(&q, &q).sqrt();
+        let a = (2u32 / r.clone() - product(&p, &p)).recip();
+        let root_a = a.clone().sqrt();
+        let omega = (a.clone() * &root_a).recip();
+        let sigma = 1u32 - r.clone() / &a;
+        let tau = product(&q, &p) / &root_a;
+        Ellipse { h: asked.h.clone(), precision, q, p, r, a, root_a, omega, sigma, tau }
+    }
+
+    /// sin x and 1 − cos x.
+    fn sine_and_versine(&self, x: &Float) -> (Float, Float) {
+        let (sin, cos) = x.clone().sin_cos(Float::zero(&self.precision));
+        (sin, 1u32 - cos)
+    }
+
+    /// How far x is off Kepler's equation, and r/a, the slope of that.
+    fn off(&self, x: &Float, mean: &Float) -> (Float, Float) {
+        let (sin, versine) = self.sine_and_versine(x);
+        let off = x.clone() - self.sigma.clone() * &sin + self.tau.clone() * &versine - mean;
+        (off, self.slope(&sin, versine))
+    }
+
+    /// r/a = 1 − σ cos x + τ sin x
+    fn slope(&self, sin: &Float, versine: Float) -> Float {
+        1u32 - self.sigma.clone() * (1u32 - versine) + self.tau.clone() * sin
+    }
+
+    /// The x of ωt = `mean`, by Newton's method within bounds.
+    fn anomaly(&self, mean: &Float) -> Float {
+        // |x − ωt| = |e sin E − e sin E₀| ≤ 2
+        let (mut low, mut high) = (mean.clone() - 2u32, mean.clone() + 2u32);
+        let half = -f64::from(self.precision.in_bits()) / 2.0;
+        let mut x = mean.clone();
+        loop {
+            let (off, slope) = self.off(&x, mean);
+            *(if off.is_below_zero() { &mut low } else { &mut high }) = x.clone();
+            let change = off / slope;
+            let next = x.clone() - &change;
+            // the error becomes its square: two steps after half of the digits all are right
+            if log2(&change) < half {
+                let (off, slope) = self.off(&next, mean);
+                return next - off / slope;
+            }
+            x = if low < next && next < high { next } else { (low.clone() + &high) / 2u32 };
+        }
+    }
+}
+
+impl Solution for Ellipse {
+    fn at(&mut self, n: i64) -> Point {
+        let t = Float::from_rational(&(&self.h * Rational::from_integer(n.into())), &self.precision);
+        let x = self.anomaly(&(t * &self.omega));
+        let (sin, versine) = self.sine_and_versine(&x);
+        let r = self.slope(&sin, versine.clone()) * &self.a;
+        let f = 1u32 - self.a.clone() / &self.r * &versine;
+        let g = ((1u32 - self.sigma.clone()) * &sin + self.tau.clone() * &versine) / &self.omega;
+        let f_rate = -(self.root_a.clone() * &sin / &r / &self.r);
+        let g_rate = 1u32 - self.a.clone() / &r * &versine;
+        let combined = |f: &Float, g: &Float| {
+            self.q.iter().zip(&self.p).map(|(q, p)| f.clone() * q + g.clone() * p).collect::<Vec<_>>()
+        };
+        Point { q: combined(&f, &g), p: combined(&f_rate, &g_rate), beta: x * &self.root_a * 3u32 }
+    }
+}

@@ -1,0 +1,43 @@
+//! The harmonic oscillator: q = q₀ cos ωt + (p₀/ω) sin ωt, p = p₀ cos ωt − ω q₀ sin ωt. U is homogeneous of degree 2: β is 0.
+
+use rug::Float;
+
+use super::{Asked, ExactFlowError, Point, Solution, log2};
+use crate::Rational;
+use crate::number::{Number, Precision};
+
+/// A rotation of (ωq, p).
+#[derive(Debug)]
+pub(super) struct Rotation {
+    h: Rational,
+    precision: Precision,
+    omega: Float,
+    q: Float,
+    p: Float,
+}
+
+impl Rotation {
+    pub(super) fn new(asked: &Asked<'_>) -> Result<Self, ExactFlowError> {
+        let omega = Float::from_rational(asked.setup.value("omega"), &asked.rough()?);
+        // an angle of so many bits before the point
+        let precision = asked.precision(log2(&omega) + asked.longest.log2(), u32::MAX)?;
+        Ok(Rotation {
+            h: asked.h.clone(),
+            precision,
+            omega: Float::from_rational(asked.setup.value("omega"), &precision),
+            q: asked.setup.q(&precision).remove(0),
+            p: asked.setup.p(&precision).remove(0),
+        })
+    }
+}
+
+impl Solution for Rotation {
+    fn at(&mut self, n: i64) -> Point {
+        let t = Float::from_rational(&(&self.h * Rational::from_integer(n.into())), &self.precision);
+        let zero = Float::zero(&self.precision);
+        let (sin, cos) = (t * &self.omega).sin_cos(zero.clone());
+        let q = self.q.clone() * &cos + self.p.clone() / &self.omega * &sin;
+        let p = self.p.clone() * &cos - self.q.clone() * &self.omega * &sin;
+        Point { q: vec![q], p: vec![p], beta: zero }
+    }
+}
