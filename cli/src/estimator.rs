@@ -1,8 +1,8 @@
 //! The estimator of the modified energy that is asked for.
 
-use shadowstep::Rational;
 use shadowstep::number::Number;
 use shadowstep::shadow::{Bilinear, BilinearEstimator, Central, CentralEstimator, Estimate, Estimator, Method, Stop};
+use shadowstep::{Increments, Rational};
 
 /// Beyond this order the exact weights take longer than any run.
 pub(crate) const HIGHEST_ORDER: u32 = 1000;
@@ -69,10 +69,10 @@ impl<N: Number> Estimator<N> for Either<N> {
         }
     }
 
-    fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
+    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
         match self {
-            Either::Central(estimator) => estimator.push(q, p, beta),
-            Either::Bilinear(estimator) => estimator.push(q, p, beta),
+            Either::Central(estimator) => estimator.push(q, p, increments),
+            Either::Bilinear(estimator) => estimator.push(q, p, increments),
         }
     }
 }

@@ -165,7 +165,7 @@ fn estimates<'a>(name: &'static str, method: Central) -> Contestant<'a> {
     let run = move |repetitions| {
         for _ in 0..repetitions {
             StormerVerlet.step_augmented(&h, &mut motion);
-            black_box(estimator.push(motion.q(), motion.p(), motion.beta()));
+            black_box(estimator.push(motion.q(), motion.p(), motion.increments()));
         }
     };
     (name, Box::new(run))

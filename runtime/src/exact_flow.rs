@@ -9,14 +9,14 @@
 //!
 //! let kepler = problem("kepler").unwrap().setup(&[], 80).unwrap(); // H = −1/2
 //! let (h, digits) = (exact("1/20").unwrap(), Precision::digits(60).unwrap());
-//! let method = Bilinear { k: 16 };
+//! let method = Bilinear::new(16);
 //! let mut control = ShadowRun::<ExactFlow<Float>, _>::of_exact_flow(&kepler, &h, 126, &method, &digits).unwrap();
 //! let found = control.drift(|_| {}).unwrap();
 //! assert!(found.drift.to_f64() < 1e-11); // of E_16 itself
 //! ```
 //!
 //! States are computed with MPFR, with 20 digits more than those of the run and as many as its length and its start take
-//! beyond these, and rounded once: `f64` states, too, are right to the last bit.
+//! beyond these, and rounded once: `f64` states, too, are the nearest ones.
 
 mod kepler;
 mod oscillator;
@@ -29,6 +29,7 @@ use rug::Float;
 use thiserror::Error;
 
 use crate::Rational;
+use crate::motion::Increments;
 use crate::number::{Number, Precision, Rounded};
 use crate::problems::Setup;
 use crate::run::{RunError, ShadowRun, State, States, check_finite, last};
@@ -129,9 +130,9 @@ pub struct ExactFlow<N> {
     last: i64,
     q: Vec<N>,
     p: Vec<N>,
-    beta: N,
-    /// β at the state n since t = 0; none before the first.
-    total: Option<Float>,
+    increments: Increments<N>,
+    /// The state n; none before the first.
+    present: Option<Point>,
 }
 
 impl<N: Rounded> ExactFlow<N> {
@@ -159,9 +160,23 @@ impl<N: Rounded> ExactFlow<N> {
             "pendulum" => Box::new(pendulum::Series::new(&asked)?),
             _ => Box::new(oscillator::Rotation::new(&asked)?),
         };
-        let zeros = || vec![N::zero(context); setup.positions().len()];
-        let (q, p, beta) = (zeros(), zeros(), N::zero(context));
-        Ok(ExactFlow { solution, n: -(reach as i64) - 1, last, q, p, beta, total: None })
+        let dimension = setup.positions().len();
+        let zeros = || vec![N::zero(context); dimension];
+        let (q, p, increments) = (zeros(), zeros(), Increments::zero(dimension, context));
+        Ok(ExactFlow { solution, n: -(reach as i64) - 1, last, q, p, increments, present: None })
+    }
+}
+
+fn assign_rounded<N: Rounded>(numbers: &mut [N], values: &[Float]) {
+    numbers.iter_mut().zip(values).for_each(|(own, value)| own.assign_rounded(value));
+}
+
+impl<N: Rounded> Increments<N> {
+    /// What leads from one point to the next, each rounded once.
+    fn assign_differences(&mut self, next: &Point, last: &Point) {
+        let vectors = self.q.iter_mut().zip(&next.q).zip(&last.q).chain(self.p.iter_mut().zip(&next.p).zip(&last.p));
+        vectors.for_each(|((own, next), last)| own.assign_rounded(&(next.clone() - last)));
+        self.beta.assign_rounded(&(next.beta.clone() - &last.beta));
     }
 }
 
@@ -176,15 +191,14 @@ impl<N: Rounded> States for ExactFlow<N> {
         if self.n >= self.last {
             return Ok(None);
         }
-        let before = self.total.take().unwrap_or_else(|| self.solution.at(self.n).beta);
+        let before = self.present.take().unwrap_or_else(|| self.solution.at(self.n));
         self.n += 1;
-        let Point { q, p, beta } = self.solution.at(self.n);
-        self.q.iter_mut().zip(&q).for_each(|(own, q)| own.assign_rounded(q));
-        self.p.iter_mut().zip(&p).for_each(|(own, p)| own.assign_rounded(p));
-        self.beta.assign_rounded(&(before - &beta));
-        self.beta.negate();
-        self.total = Some(beta);
-        let state = State { n: self.n, q: &self.q, p: &self.p, beta: &self.beta };
+        let present = self.solution.at(self.n);
+        assign_rounded(&mut self.q, &present.q);
+        assign_rounded(&mut self.p, &present.p);
+        self.increments.assign_differences(&present, &before);
+        self.present = Some(present);
+        let state = State { n: self.n, q: &self.q, p: &self.p, increments: &self.increments };
         check_finite(&state)?;
         Ok(Some(state))
     }

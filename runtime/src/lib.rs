@@ -84,7 +84,7 @@ pub mod tables;
 pub mod weights;
 
 pub use kinetic::{DiagonalMasses, FullMasses, Kinetic, UnitMasses};
-pub use motion::{Coordinates, Maps, Motion};
+pub use motion::{Coordinates, Increments, Maps, Motion};
 pub use number::Number;
 pub use potential::Potential;
 pub use scheme::{Moves, Scheme, Summary, Weights};

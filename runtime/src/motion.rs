@@ -1,4 +1,4 @@
-//! A state q, p, β and the maps that move it.
+//! A state q, p, β, the maps that move it, and what a step adds to it.
 
 use crate::kinetic::Kinetic;
 use crate::number::Number;
@@ -26,8 +26,66 @@ pub trait Maps<N> {
     /// The drift, and β ← β + weight·(pᵀT_p − 2T), which is nothing for quadratic T.
     fn drift_augmented(&mut self, weight: &N);
 
-    /// β ← 0: β counts from the beginning of the step, so that it keeps its digits in long runs.
+    /// β ← 0: β, and what else a system says of a step, counts from its beginning, so that it keeps its digits in long runs.
     fn restart_beta(&mut self);
+}
+
+/// What a step added to q, p and β.
+///
+/// A number type that does not [keep increments](Number::KEEPS_INCREMENTS) has that of β only; q and p are empty.
+#[derive(Clone, Debug)]
+pub struct Increments<N> {
+    /// To q: the sum of the drifts, without the round-off of q itself.
+    pub q: Vec<N>,
+    /// To p: the sum of the kicks.
+    pub p: Vec<N>,
+    /// To β.
+    pub beta: N,
+}
+
+impl<N: Number> Increments<N> {
+    /// Zeros for states of `dimension` coordinates, as many as the number type keeps.
+    pub fn zero(dimension: usize, context: &N::Context) -> Self {
+        let kept = if N::KEEPS_INCREMENTS { dimension } else { 0 };
+        let zeros = || vec![N::zero(context); kept];
+        Increments { q: zeros(), p: zeros(), beta: N::zero(context) }
+    }
+
+    /// That of β alone: what is known of states that come from elsewhere.
+    pub fn of_beta(beta: N) -> Self {
+        Increments { q: Vec::new(), p: Vec::new(), beta }
+    }
+
+    /// Whether those of q and p are known.
+    pub fn has_vectors(&self) -> bool {
+        !self.q.is_empty()
+    }
+
+    pub(crate) fn assign_zero(&mut self) {
+        self.each(N::assign_zero);
+    }
+
+    pub(crate) fn negate(&mut self) {
+        self.each(N::negate);
+    }
+
+    pub(crate) fn assign(&mut self, other: &Self) {
+        self.q.clone_from(&other.q);
+        self.p.clone_from(&other.p);
+        self.beta.assign(&other.beta);
+    }
+
+    /// Adds what both know.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.q.iter_mut().zip(&other.q).for_each(|(own, other)| own.add(other));
+        self.p.iter_mut().zip(&other.p).for_each(|(own, other)| own.add(other));
+        self.beta.add(&other.beta);
+    }
+
+    fn each(&mut self, change: impl Fn(&mut N)) {
+        self.q.iter_mut().chain(&mut self.p).for_each(&change);
+        change(&mut self.beta);
+    }
 }
 
 /// Holds the coordinates of a state: an array `[N; D]`, or a `Vec<N>` or `Box<[N]>` where the dimension is known at run
@@ -53,7 +111,7 @@ pub struct Motion<N, V, P, K> {
     kinetic: K,
     q: V,
     p: V,
-    beta: N,
+    increments: Increments<N>,
     gradient: V,
     /// qᵀU_q − 2U
     rate: N,
@@ -96,8 +154,8 @@ where
             scratch,
             kinetic_scratch,
             gradient: p.clone(),
-            rate: zero.clone(),
-            beta: zero,
+            rate: zero,
+            increments: Increments::zero(dimension, &context),
             kept: Kept::Nothing,
             evaluations: 0,
             potential,
@@ -119,7 +177,12 @@ where
 
     /// What the last augmented step added to β.
     pub fn beta(&self) -> &N {
-        &self.beta
+        &self.increments.beta
+    }
+
+    /// What the last augmented step added to q, p and β.
+    pub fn increments(&self) -> &Increments<N> {
+        &self.increments
     }
 
     /// Positions, to be changed; the kept gradient is dropped.
@@ -154,24 +217,24 @@ where
 
     /// The context of the numbers.
     pub fn context(&self) -> N::Context {
-        self.beta.context()
+        self.increments.beta.context()
     }
 
     /// H = T(p) + U(q) at the present state.
     pub fn energy(&mut self) -> N {
-        let Motion { potential, kinetic, q, p, scratch, kinetic_scratch, beta, .. } = self;
-        energy_at(potential, kinetic, (q.as_ref(), p.as_ref()), (scratch, kinetic_scratch), beta.clone())
+        let Motion { potential, kinetic, q, p, scratch, kinetic_scratch, increments, .. } = self;
+        energy_at(potential, kinetic, (q.as_ref(), p.as_ref()), (scratch, kinetic_scratch), increments.beta.clone())
     }
 
     /// H = T(p) + U(q) at another state of the same system.
     pub fn energy_of(&mut self, q: &[N], p: &[N]) -> N {
-        let Motion { potential, kinetic, scratch, kinetic_scratch, beta, .. } = self;
-        energy_at(potential, kinetic, (q, p), (scratch, kinetic_scratch), beta.clone())
+        let Motion { potential, kinetic, scratch, kinetic_scratch, increments, .. } = self;
+        energy_at(potential, kinetic, (q, p), (scratch, kinetic_scratch), increments.beta.clone())
     }
 
     /// Whether every q, p and β is a finite number.
     pub fn is_finite(&self) -> bool {
-        self.beta.is_finite() && self.q().iter().chain(self.p()).all(Number::is_finite)
+        self.increments.beta.is_finite() && self.q().iter().chain(self.p()).all(Number::is_finite)
     }
 
     #[inline]
@@ -224,7 +287,10 @@ where
             self.evaluations += 1;
         }
         self.kick_with_kept_gradient(weight);
-        self.beta.add_product(weight, &self.rate);
+        self.increments.beta.add_product(weight, &self.rate);
+        for (increment, gradient) in self.increments.p.iter_mut().zip(self.gradient.as_ref()) {
+            increment.subtract_product(weight, gradient);
+        }
     }
 
     #[inline]
@@ -235,13 +301,16 @@ where
 
     #[inline]
     fn drift_augmented(&mut self, weight: &N) {
-        let (p, q) = (self.p.as_ref(), self.q.as_mut());
-        self.kinetic.drift_augmented(weight, p, q, &mut self.beta, &mut self.kinetic_scratch);
+        let (p, q, increments) = (self.p.as_ref(), self.q.as_mut(), &mut self.increments);
+        self.kinetic.drift_augmented(weight, p, q, &mut increments.beta, &mut self.kinetic_scratch);
+        if increments.has_vectors() {
+            self.kinetic.drift(weight, p, &mut increments.q, &mut self.kinetic_scratch);
+        }
         self.kept = Kept::Nothing;
     }
 
     #[inline]
     fn restart_beta(&mut self) {
-        self.beta.assign_zero();
+        self.increments.assign_zero();
     }
 }

@@ -57,6 +57,11 @@ pub trait Number: Clone + PartialOrd + fmt::Debug + fmt::Display {
     /// What a new number has to know: `()` for `f64`, the precision for MPFR.
     type Context: Clone + PartialEq + fmt::Debug;
 
+    /// Whether a motion keeps what a step adds to q and p, and estimators take differences of states from that.
+    ///
+    /// It keeps the round-off of the states out of these differences. More digits do that, too; an `f64` has no more.
+    const KEEPS_INCREMENTS: bool = false;
+
     /// Holds an intermediate result: for a big number, `&mut Self`; for one of a few bytes a copy, which can stay in the
     /// processor's registers.
     type Register<'a>: DerefMut<Target = Self>

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use crate::Rational;
 use crate::kinetic::Kinetic;
-use crate::motion::{Coordinates, Motion};
+use crate::motion::{Coordinates, Increments, Motion};
 use crate::number::Number;
 use crate::potential::Potential;
 use crate::scheme::{Moves, Scheme, Weights};
@@ -36,8 +36,8 @@ pub struct State<'a, N> {
     pub q: &'a [N],
     /// Momenta.
     pub p: &'a [N],
-    /// What the step to it added to β.
-    pub beta: &'a N,
+    /// What the step to it added to q, p and β.
+    pub increments: &'a Increments<N>,
 }
 
 /// Where the states come from that an estimator takes: a [`Trajectory`], or the exact flow.
@@ -57,7 +57,7 @@ pub trait States {
 struct Stored<N> {
     q: Vec<N>,
     p: Vec<N>,
-    beta: N,
+    increments: Increments<N>,
 }
 
 /// The states of a trajectory in the order of time: for an estimator n = −reach, …, steps + reach with the β of each
@@ -101,7 +101,7 @@ where
         Ok(trajectory)
     }
 
-    /// The states n = `from`, …, steps without β, which is 0 in all of them; the motion is at the state `from`.
+    /// The states n = `from`, …, steps without β and increments, which are 0 in all of them; the motion is at the state `from`.
     ///
     /// They have the bits of the states with β, and the bits of a trajectory from 0 where `from` is one of its states.
     ///
@@ -154,12 +154,12 @@ where
             scheme.step_back_augmented(weights, motion);
             check(motion, -n)?;
             // the step from −n to −n + 1 adds what the step back took
-            later.beta.assign(motion.beta());
-            later.beta.negate();
+            later.increments.assign(motion.increments());
+            later.increments.negate();
             let earlier = stored(motion);
             before.push(std::mem::replace(&mut later, earlier));
         }
-        later.beta.assign_zero();
+        later.increments.assign_zero();
         before.push(later);
         motion.q_mut().iter_mut().zip(&start.q).for_each(|(own, q)| own.assign(q));
         motion.p_mut().iter_mut().zip(&start.p).for_each(|(own, p)| own.assign(p));
@@ -190,8 +190,8 @@ where
         self.n += 1;
         let n = self.n;
         self.present = self.before.pop();
-        if let Some(Stored { q, p, beta }) = &self.present {
-            return Ok(Some(State { n, q, p, beta }));
+        if let Some(Stored { q, p, increments }) = &self.present {
+            return Ok(Some(State { n, q, p, increments }));
         }
         if self.augmented {
             self.scheme.step_augmented(&self.weights, &mut self.motion);
@@ -200,7 +200,7 @@ where
         }
         check(&self.motion, n)?;
         let motion = &self.motion;
-        Ok(Some(State { n, q: motion.q(), p: motion.p(), beta: motion.beta() }))
+        Ok(Some(State { n, q: motion.q(), p: motion.p(), increments: motion.increments() }))
     }
 }
 
@@ -216,7 +216,7 @@ where
     P: Potential<N>,
     K: Kinetic<N>,
 {
-    Stored { q: motion.q().to_vec(), p: motion.p().to_vec(), beta: motion.beta().clone() }
+    Stored { q: motion.q().to_vec(), p: motion.p().to_vec(), increments: motion.increments().clone() }
 }
 
 fn check<N, V, P, K>(motion: &Motion<N, V, P, K>, n: i64) -> Result<(), RunError>
@@ -226,12 +226,13 @@ where
     P: Potential<N>,
     K: Kinetic<N>,
 {
-    check_finite(&State { n, q: motion.q(), p: motion.p(), beta: motion.beta() })
+    check_finite(&State { n, q: motion.q(), p: motion.p(), increments: motion.increments() })
 }
 
 /// Refuses a state in which something is not a finite number.
 pub(crate) fn check_finite<N: Number>(state: &State<'_, N>) -> Result<(), RunError> {
-    let State { n, q, p, beta } = *state;
+    let State { n, q, p, increments } = *state;
+    let beta = &increments.beta;
     if beta.is_finite() && q.iter().chain(p).all(Number::is_finite) {
         return Ok(());
     }
@@ -242,6 +243,9 @@ pub(crate) fn check_finite<N: Number>(state: &State<'_, N>) -> Result<(), RunErr
     let what = named("q", q).or_else(|| named("p", p)).unwrap_or_else(|| format!("beta = {}", beta.to_text()));
     Err(RunError::NotFinite { step: n, what })
 }
+
+/// An estimate and its n: the state n, or the middle between it and the next one.
+pub type Estimated<'a, N> = (i64, Estimate<'a, N>);
 
 /// States with the modified energies of n = 0, …, steps, or between them.
 pub struct ShadowRun<T, E> {
@@ -282,7 +286,7 @@ where
     /// Takes a run up again: the estimates of n = `from` + reach + 1, …, steps, with the bits of the run from 0.
     ///
     /// The motion is at the state `from` of that run. An estimate depends on the states n − reach, …, n + reach and
-    /// the β of the steps between them only. States after 0 are all made by steps forward; those before 0 are not, and
+    /// what the steps between them added only. States after 0 are all made by steps forward; those before 0 are not, and
     /// so the estimates of n ≤ reach cannot be had this way.
     ///
     /// # Errors
@@ -331,15 +335,15 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     ///
     /// # Errors
     /// A state that is not finite, up to the last one that the estimator needs, or a modified energy that is not.
-    pub fn advance(&mut self) -> Result<Option<(i64, Estimate<'_, T::Number>)>, RunError> {
+    pub fn advance(&mut self) -> Result<Option<Estimated<'_, T::Number>>, RunError> {
         loop {
-            let Some(State { n, q, p, beta }) = self.states.advance()? else { return Ok(None) };
+            let Some(State { n, q, p, increments }) = self.states.advance()? else { return Ok(None) };
             if self.missing > 0 {
                 self.missing -= 1;
-                self.estimator.push(q, p, beta);
+                self.estimator.push(q, p, increments);
                 continue;
             }
-            let Some(estimate) = self.estimator.push(q, p, beta) else { return Ok(None) };
+            let Some(estimate) = self.estimator.push(q, p, increments) else { return Ok(None) };
             let n = n - self.after;
             // states may be finite where their products overflow
             if !estimate.value.is_finite() {
@@ -522,11 +526,11 @@ mod tests {
     }
 
     /// n, value, error and m.
-    type Estimated = (i64, f64, Option<f64>, u32);
+    type Owned = (i64, f64, Option<f64>, u32);
 
     fn estimates<E: Estimator<f64>>(
         mut run: ShadowRun<Trajectory<'_, TableScheme, f64, Vec<f64>, Kepler, UnitMasses>, E>,
-    ) -> Vec<Estimated> {
+    ) -> Vec<Owned> {
         let mut all = Vec::new();
         while let Some((n, found)) = run.advance().unwrap() {
             all.push((n, *found.value, found.error.copied(), found.order));

@@ -193,7 +193,7 @@ fn estimators_do_not_allocate(digits: &Precision) {
             Motion::new(HenonHeiles, UnitMasses, numbers(["0.1", "0.2"], digits), numbers(["0.1", "0"], digits));
         let mut advance = || {
             scheme.step_augmented(&weights, &mut motion);
-            estimator.push(motion.q(), motion.p(), motion.beta()).is_some()
+            estimator.push(motion.q(), motion.p(), motion.increments()).is_some()
         };
         while !advance() {}
         assert_eq!(allocations(|| assert!(advance())), (0, 0));

@@ -154,7 +154,7 @@ fn values_are_the_formula_written_out() {
                     beta += motion.beta();
                 }
                 states.push((motion.q().to_vec(), motion.p().to_vec(), beta.clone()));
-                let found = estimator.push(motion.q(), motion.p(), motion.beta()).map(|e| e.value.clone());
+                let found = estimator.push(motion.q(), motion.p(), motion.increments()).map(|e| e.value.clone());
                 assert_eq!(found.is_some(), n >= k as usize, "{name}, k = {k}, n = {n}");
                 if let Some(found) = found {
                     let expected = written_out(&states[n - k as usize..], &h, DIGITS);
@@ -244,72 +244,33 @@ fn the_modified_energy_of_kepler_is_conserved() {
     assert!(sixteen < eight / 10.0 && eight < four / 10.0 && eight < 1e-8, "{four:e} {eight:e} {sixteen:e}");
 }
 
-// ---------------------------------------------------------------------------------------------------------------
-// The error, on the exact flow of Kepler's problem, whose energy is −1/2
-
-/// q, p and what the step of size h to the time t adds to β = 3E; E − e sin E = t.
-fn kepler_state(e: &Float, t: &Float, h: &Float) -> (Vec<Float>, Vec<Float>, Float) {
-    let anomaly = |t: &Float| {
-        let mut anomaly = t.clone() + t.clone().sin() * e;
-        for _ in 0..40 {
-            let off = anomaly.clone() - anomaly.clone().sin() * e - t;
-            anomaly -= off / (1 - anomaly.clone().cos() * e);
-        }
-        anomaly
-    };
-    let now = anomaly(t);
-    let (sin, cos) = now.clone().sin_cos(Float::new(now.prec()));
-    let square: Float = 1 - e.clone().square();
-    let minor = square.sqrt();
-    let r = 1 - cos.clone() * e;
-    let q = vec![cos.clone() - e, sin.clone() * &minor];
-    let p = vec![-sin / &r, cos * minor / r];
-    (q, p, (now - anomaly(&(t.clone() - h))) * 3)
-}
-
-/// The true errors over an orbit from apocentre to apocentre, and the estimated ones.
-fn errors_on_the_exact_flow(e: &str, step: &str, k: u32) -> Vec<(f64, f64)> {
-    const DIGITS: u32 = 50;
-    let (context, h) = (precision(DIGITS), rational(step));
-    let [e, step] = [&rational(e), &h].map(|value| Float::from_rational(value, &context));
-    let mut estimator = Method::<Float>::estimator(&Bilinear::with_error(k), &h, 2, &context);
-    let half = (std::f64::consts::PI / step.to_f64()) as i64;
-    let reach = estimator.states() as i64 / 2;
-    let mut errors = Vec::new();
-    for n in -half - reach..=half + reach {
-        let (q, p, beta) = kepler_state(&e, &(step.clone() * n), &step);
-        if let Some(estimate) = estimator.push(&q, &p, &beta) {
-            errors.push(((estimate.value.to_f64() + 0.5).abs(), estimate.error.unwrap().to_f64()));
-            let off = estimate.value.clone() + 0.5_f64;
-            errors.last_mut().unwrap().0 = off.to_f64().abs();
-        }
-    }
-    errors
-}
-
-/// The largest error, and the median, the 95th hundredth and the largest of true error/estimate.
-fn reliability(e: &str, step: &str, k: u32) -> (f64, [f64; 3]) {
-    let errors = errors_on_the_exact_flow(e, step, k);
-    let mut ratios: Vec<f64> = errors.iter().map(|(error, estimate)| error / estimate).collect();
-    ratios.sort_by(f64::total_cmp);
-    let at = |part: f64| ratios[((ratios.len() - 1) as f64 * part) as usize];
-    (errors.iter().map(|(error, _)| *error).fold(0.0, f64::max), [at(0.5), at(0.95), at(1.0)])
-}
-
+/// max − min of E_k over ⌈k/2⌉ windows on either side, or |E_k − the mean of the two E_{k−1} within|.
 #[test]
-fn the_spread_tells_the_error() {
-    for (e, step, ks) in [
-        ("0", "1/5", &[4, 8, 12][..]),
-        ("0.3", "1/10", &[4, 8, 12, 16]),
-        ("0.6", "1/10", &[4, 8, 12, 16, 24]),
-        ("0.6", "1/20", &[4, 8, 12, 16, 24, 32]),
-        ("0.9", "1/40", &[8, 12, 16]),
-    ] {
-        for &k in ks {
-            let (largest, [median, most, worst]) = reliability(e, step, k);
-            println!(
-                "e = {e}, h = {step}, k = {k:2}: error {largest:.1e}, over its estimate {median:.1e} {most:.2} {worst:.2}"
-            );
+fn the_error_is_its_rule_written_out() {
+    for k in [1, 2, 3, 6] {
+        let run = |method: Bilinear| {
+            let motion = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]);
+            let verlet = shipped("stormer-verlet").unwrap();
+            let mut run = ShadowRun::new(&verlet, motion, &rational("1/20"), 60, &method).unwrap();
+            let mut all = BTreeMap::new();
+            while let Some((n, found)) = run.advance().unwrap() {
+                all.insert(n, (*found.value, found.error.copied()));
+            }
+            all
+        };
+        let (values, last) = (run(Bilinear::new(k)), run(Bilinear::new(k.max(2) - 1)));
+        let around = i64::from(k.div_ceil(2));
+        for (n, (value, error)) in run(Bilinear::with_error(k)) {
+            let near: Option<Vec<f64>> = (n - around..=n + around).map(|n| Some(values.get(&n)?.0)).collect();
+            let Some(near) = near else { continue };
+            let spread = near.iter().fold(f64::MIN, |a, b| a.max(*b)) - near.iter().fold(f64::MAX, |a, b| a.min(*b));
+            // E_k is about n or n + 1/2, and the two windows of E_{k−1} are half a step before and after that
+            let within = if k % 2 == 0 { [n - 1, n] } else { [n, n + 1] };
+            let term = if k == 1 { 0.0 } else { (value - (last[&within[0]].0 + last[&within[1]].0) / 2.0).abs() };
+            let right = spread.max(term);
+            assert_eq!(value, values[&n].0);
+            // sums of at most seven numbers of size 1/h and smaller, in another order
+            assert!((error.unwrap() - right).abs() < 200.0 * f64::EPSILON, "k = {k}, n = {n}: {error:?}, {right}");
         }
     }
 }

@@ -8,7 +8,7 @@ use shadowstep::run::{EnergyDrift, ShadowRun, States, Trajectory, energy_drift};
 use shadowstep::shadow::{Central, Estimator, Method, Stop};
 use shadowstep::tables::shipped;
 use shadowstep::weights::central;
-use shadowstep::{Kinetic, Motion, Moves, Number, Potential, Rational, Scheme, UnitMasses};
+use shadowstep::{Increments, Kinetic, Motion, Moves, Number, Potential, Rational, Scheme, UnitMasses};
 use shadowstep_tests::{log10_distance, number, numbers, precision, rational};
 
 type Vector<P, K, N> = Motion<N, Vec<N>, P, K>;
@@ -177,7 +177,7 @@ fn states<S: Scheme + Moves<K::Class>, P: Potential<Float>, K: Kinetic<Float>>(
     let mut trajectory = Trajectory::new(scheme, motion, h, steps, reach).unwrap();
     let mut all = Vec::new();
     while let Some(state) = trajectory.advance().unwrap() {
-        all.push((state.q.to_vec(), state.p.to_vec(), state.beta.clone()));
+        all.push((state.q.to_vec(), state.p.to_vec(), state.increments.beta.clone()));
     }
     all
 }
@@ -397,7 +397,7 @@ fn both_rules_hold_for_terms_of_any_size() {
         for (rule, last) in [(Stop::Full, LARGEST), (Stop::Early, stop)] {
             let mut estimator = Central::best(LARGEST as u32, rule).estimator(&h, 1, &context);
             for (q, p, beta) in &states {
-                if let Some(e) = estimator.push(q, p, beta) {
+                if let Some(e) = estimator.push(q, p, &Increments::of_beta(beta.clone())) {
                     let found = (window, e.value.clone(), e.error.cloned(), e.order);
                     // β grows to 4^20 = 1e12, which costs as many digits
                     assert_chosen("made", &diagonal, last, &found, -90.0);

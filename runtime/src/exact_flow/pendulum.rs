@@ -104,7 +104,7 @@ struct Terms {
 
 impl Terms {
     fn new(Point { q, p, beta }: &Point) -> Self {
-        let zero = beta.clone() * 0u32;
+        let zero = Float::new(beta.prec());
         let (sin, cos) = q[0].clone().sin_cos(zero.clone());
         Terms {
             q: q.clone(),
@@ -163,7 +163,7 @@ impl Terms {
 
 /// Σ_j a_j b_{k−j}
 fn product(a: &[Float], b: &[Float]) -> Float {
-    let mut sum = a[0].clone() * 0u32;
+    let mut sum = Float::new(a[0].prec());
     a.iter().zip(b.iter().rev()).for_each(|(a, b)| sum += a * b);
     sum
 }

@@ -29,6 +29,7 @@ impl DerefMut for Copied {
 
 impl Number for f64 {
     type Context = ();
+    const KEEPS_INCREMENTS: bool = true;
     type Register<'a> = Copied;
 
     #[inline]

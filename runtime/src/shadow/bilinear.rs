@@ -29,6 +29,7 @@
 use std::collections::VecDeque;
 
 use crate::Rational;
+use crate::motion::Increments;
 use crate::number::Number;
 use crate::shadow::window::Window;
 use crate::shadow::{Estimate, Estimator, Method};
@@ -195,8 +196,8 @@ impl<N: Number> Estimator<N> for BilinearEstimator<N> {
         self.weights.len() + 1 + 2 * self.around
     }
 
-    fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
-        self.window.push(q, p, beta);
+    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
+        self.window.push(q, p, increments);
         let newest = self.window.place(0);
         self.window.pairs(&mut self.pairs[newest]);
         let k = self.weights.len();

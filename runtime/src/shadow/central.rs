@@ -3,6 +3,7 @@
 use num_traits::Zero;
 
 use crate::Rational;
+use crate::motion::Increments;
 use crate::number::Number;
 use crate::shadow::differences::AllOrders;
 use crate::shadow::window::Window;
@@ -76,10 +77,10 @@ impl<N: Number> Estimator<N> for CentralEstimator<N> {
         }
     }
 
-    fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
+    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
         match &mut self.0 {
-            Kind::Fixed(fixed) => fixed.push(q, p, beta),
-            Kind::Best(best) => best.push(q, p, beta),
+            Kind::Fixed(fixed) => fixed.push(q, p, increments),
+            Kind::Best(best) => best.push(q, p, increments),
         }
     }
 }
@@ -147,8 +148,8 @@ impl<N: Number> Estimator<N> for FixedOrder<N> {
         2 * self.m + 1
     }
 
-    fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
-        self.window.push(q, p, beta);
+    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
+        self.window.push(q, p, increments);
         let newest = &mut self.sums[self.window.place(0)];
         newest.value.assign_zero();
         newest.last_term.assign_zero();

@@ -5,6 +5,7 @@
 //! subtractions a step; with that of the state before it completes one term of each of M states.
 
 use crate::Rational;
+use crate::motion::Increments;
 use crate::number::Number;
 use crate::shadow::{Estimate, Estimator};
 use crate::weights::stirling;
@@ -78,21 +79,18 @@ impl<N: Number> AllOrders<N> {
         }
     }
 
-    /// ∇^0, ∇^1, … of the newest state. β comes as its increment, which is its first difference.
-    fn update_table(&mut self, q: &[N], p: &[N], beta: &N) {
+    /// ∇^0, ∇^1, … of the newest state. The increments are first differences, of q and p too where they are known.
+    fn update_table(&mut self, q: &[N], p: &[N], increments: &Increments<N>) {
         std::mem::swap(&mut self.table, &mut self.previous);
-        let dimension = q.len();
         for (entry, value) in self.table[0].iter_mut().zip(q.iter().chain(p)) {
             entry.assign(value);
         }
         for r in 1..self.table.len() {
             let (lower, upper) = self.table.split_at_mut(r);
-            let components = if r == 1 { 2 * dimension } else { 2 * dimension + 1 };
-            for c in 0..components {
-                upper[0][c].assign_difference(&lower[r - 1][c], &self.previous[r - 1][c]);
-            }
+            let below = lower[r - 1].iter().zip(&self.previous[r - 1]);
+            upper[0].iter_mut().zip(below).for_each(|(own, (this, last))| own.assign_difference(this, last));
             if r == 1 {
-                upper[0][2 * dimension].assign(beta);
+                set_first_differences(&mut upper[0], increments);
             }
         }
     }
@@ -146,6 +144,13 @@ impl<N: Number> AllOrders<N> {
     }
 }
 
+/// β's is always its increment; those of q and p are where these are known.
+fn set_first_differences<N: Number>(differences: &mut [N], Increments { q, p, beta }: &Increments<N>) {
+    let (last, others) = differences.split_last_mut().expect("β is there");
+    others.iter_mut().zip(q.iter().chain(p)).for_each(|(own, increment)| own.assign(increment));
+    last.assign(beta);
+}
+
 fn largest<N: PartialOrd>(numbers: &[N]) -> &N {
     numbers.iter().reduce(|a, b| if a < b { b } else { a }).expect("the window is not empty")
 }
@@ -169,8 +174,8 @@ impl<N: Number> Estimator<N> for AllOrders<N> {
         2 * self.largest + 1
     }
 
-    fn push(&mut self, q: &[N], p: &[N], beta: &N) -> Option<Estimate<'_, N>> {
-        self.update_table(q, p, beta);
+    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
+        self.update_table(q, p, increments);
         let newest = self.place(q, p);
         self.add_terms(newest);
         if self.pushed < self.states() {
