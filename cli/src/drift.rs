@@ -15,10 +15,10 @@ use crate::arguments::DriftArguments;
 use crate::arithmetic::Arithmetic;
 use crate::complaint::{Complaint, Ending};
 use crate::estimator::Chosen;
-use crate::figures::{rounded, shortened, table};
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::propagator::Propagator;
+use crate::readable::{rounded, shortened, table};
 use crate::run::Run;
 use crate::selection::Selection;
 

@@ -9,20 +9,20 @@
 //! | [`drift`], [`trace`] | the runs: one line a run, or one line a step |
 //! | [`scene`] | runs that a file describes |
 //! | [`schemes`], [`problems`] | what can be run |
-//! | [`figures`], [`output`], [`progress`], [`complaint`] | how it is told |
+//! | [`readable`], [`output`], [`progress`], [`complaint`] | how it is told |
 
 mod arguments;
 mod arithmetic;
 mod complaint;
 mod drift;
 mod estimator;
-mod figures;
 mod library;
 mod output;
 mod problems;
 mod progress;
 mod propagator;
 mod quantity;
+mod readable;
 mod run;
 mod scene;
 mod schemes;

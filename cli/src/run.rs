@@ -6,7 +6,7 @@ use shadowstep::run::RunError;
 
 use crate::complaint::Complaint;
 use crate::estimator::Chosen;
-use crate::figures::shortened;
+use crate::readable::shortened;
 
 /// n = 0, …, steps at the times n h.
 #[derive(Clone, Copy, Debug)]

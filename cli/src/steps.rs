@@ -5,7 +5,7 @@ use shadowstep::Rational;
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::complaint::remark;
-use crate::figures::shortened;
+use crate::readable::shortened;
 
 /// More steps than anyone can wait for.
 pub(crate) const MOST_STEPS: u64 = 10_000_000_000;

@@ -1,8 +1,8 @@
 //! What every key of a scene means.
 
 use crate::complaint::{Complaint, Ending};
-use crate::figures::wrapped;
 use crate::output::Output;
+use crate::readable::wrapped;
 use crate::scene::keys::{self, SECTIONS};
 use std::io::Write;
 

@@ -5,8 +5,8 @@ use std::io::Write;
 use shadowstep::problems::{PROBLEMS, Problem, problem};
 
 use crate::complaint::{Complaint, Ending};
-use crate::figures::wrapped;
 use crate::output::Output;
+use crate::readable::wrapped;
 use crate::scene::keys;
 
 /// Prints the scene of a problem, or the names of all.

@@ -5,7 +5,7 @@ use shadowstep_schemes::analysis::error::LeadingError;
 use shadowstep_schemes::analysis::{self, stability, trace};
 use shadowstep_schemes::{Analysis, Kinetic, to_text};
 
-use crate::figures::shortened;
+use crate::readable::shortened;
 
 /// More terms than these are too many to read.
 const MOST_TERMS: usize = 6;

@@ -9,8 +9,8 @@ use shadowstep_schemes::Kinetic;
 
 use crate::arguments::{KineticChoice, ListArguments, SortKey};
 use crate::complaint::{Complaint, Ending, remark};
-use crate::figures::{rounded, table};
 use crate::output::Output;
+use crate::readable::{rounded, table};
 use crate::schemes::{aliases, digits, digits_text, kinetic, near_integrable, near_integrable_text};
 
 #[derive(Serialize)]

@@ -9,9 +9,9 @@ use shadowstep_symbolic::decimal::to_significant;
 
 use crate::arguments::PolishArguments;
 use crate::complaint::{Complaint, Ending, no, remark, report};
-use crate::figures::table;
 use crate::library;
 use crate::output::Output;
+use crate::readable::table;
 use crate::schemes::{near_integrable, near_integrable_text};
 
 /// The polished table to stdout or a file, the report to stderr.

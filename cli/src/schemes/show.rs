@@ -12,9 +12,9 @@ use shadowstep_schemes::table::Table;
 use shadowstep_schemes::{Analysis, First, Kinetic, to_significant, to_text};
 
 use crate::complaint::{Complaint, Ending};
-use crate::figures::{shortened, table, wrapped};
 use crate::library;
 use crate::output::Output;
+use crate::readable::{shortened, table, wrapped};
 use crate::schemes::analysis::{Error, Gap, Phase, Sizes};
 use crate::schemes::{aliases, analysis, digits, digits_text, kinetic, near_integrable, near_integrable_text};
 
