@@ -5,9 +5,10 @@
 //! | [`arguments`] | the flags and their help |
 //! | [`quantity`], [`library`] | exact numbers and schemes, as a person names them |
 //! | [`selection`], [`propagator`], [`run`] | arguments → problem, schemes and steps: the runs to make |
-//! | [`arithmetic`], [`steps`], [`order`] | digits, the number of steps, and the m of the estimator |
+//! | [`arithmetic`], [`steps`], [`estimator`] | digits, the number of steps, and the m of the estimator |
 //! | [`drift`], [`trace`] | the runs: one line a run, or one line a step |
 //! | [`scene`] | runs that a file describes |
+//! | [`figures`] | the figures of a paper: charts and a report |
 //! | [`schemes`], [`problems`] | what can be run |
 //! | [`readable`], [`output`], [`progress`], [`complaint`] | how it is told |
 
@@ -16,6 +17,7 @@ mod arithmetic;
 mod complaint;
 mod drift;
 mod estimator;
+mod figures;
 mod library;
 mod output;
 mod problems;

@@ -1,0 +1,9 @@
+//! The figures of a paper: computed, drawn, and told.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | [`fit`] | a line through points, and how well it is known |
+
+#![cfg_attr(not(test), expect(dead_code, reason = "no command uses them yet"))]
+
+mod fit;
