@@ -3,7 +3,9 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | [`fit`] | a line through points, and how well it is known |
+//! | [`chart`] | curves → SVG |
 
 #![cfg_attr(not(test), expect(dead_code, reason = "no command uses them yet"))]
 
+mod chart;
 mod fit;

@@ -1,0 +1,103 @@
+//! Lines that are broken where points are missing, and cut where they leave the chart.
+
+/// A rectangle in the values of the axes.
+#[derive(Clone, Copy)]
+pub(super) struct Frame {
+    pub(super) x: (f64, f64),
+    pub(super) y: (f64, f64),
+}
+
+type Point = (f64, f64);
+
+impl Frame {
+    pub(super) fn contains(&self, (x, y): Point) -> bool {
+        (self.x.0..=self.x.1).contains(&x) && (self.y.0..=self.y.1).contains(&y)
+    }
+
+    /// The visible pieces of the line through the points; NaN and infinite values are missing points.
+    pub(super) fn pieces(&self, points: &[Point]) -> Vec<Vec<Point>> {
+        let mut pieces: Vec<Vec<Point>> = Vec::new();
+        let mut last = None;
+        for pair in points.windows(2) {
+            let Some((from, to)) = self.cut(pair[0], pair[1]) else {
+                last = None;
+                continue;
+            };
+            match pieces.last_mut() {
+                Some(piece) if last == Some(from) => piece.push(to),
+                _ => pieces.push(vec![from, to]),
+            }
+            // a line that was cut goes on elsewhere, if at all
+            last = (to == pair[1]).then_some(to);
+        }
+        pieces
+    }
+
+    /// The points that no line could show, as those before and after them are missing.
+    pub(super) fn alone(&self, points: &[Point]) -> Vec<Point> {
+        let is_there = |i: usize| points.get(i).is_some_and(|(x, y)| x.is_finite() && y.is_finite());
+        let alone = |i: &usize| !is_there(i + 1) && (*i == 0 || !is_there(i - 1));
+        (0..points.len()).filter(alone).map(|i| points[i]).filter(|point| self.contains(*point)).collect()
+    }
+
+    /// The part of a line within the frame (Liang and Barsky 1984).
+    fn cut(&self, from: Point, to: Point) -> Option<(Point, Point)> {
+        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+        // neither are they if an end is not
+        if !dx.is_finite() || !dy.is_finite() {
+            return None;
+        }
+        let (mut enter, mut leave) = (0.0f64, 1.0f64);
+        let sides =
+            [(-dx, from.0 - self.x.0), (dx, self.x.1 - from.0), (-dy, from.1 - self.y.0), (dy, self.y.1 - from.1)];
+        for (outward, room) in sides {
+            if outward == 0.0 {
+                if room < 0.0 {
+                    return None;
+                }
+            } else if outward < 0.0 {
+                enter = enter.max(room / outward);
+            } else {
+                leave = leave.min(room / outward);
+            }
+        }
+        let at = |t: f64| ((from.0 + t * dx).clamp(self.x.0, self.x.1), (from.1 + t * dy).clamp(self.y.0, self.y.1));
+        let start = if enter == 0.0 { from } else { at(enter) };
+        let end = if leave == 1.0 { to } else { at(leave) };
+        (enter <= leave).then_some((start, end))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME: Frame = Frame { x: (0.0, 10.0), y: (0.0, 10.0) };
+
+    #[test]
+    fn missing_points_break_the_line() {
+        let points = [(0.0, 1.0), (1.0, 1.0), (2.0, f64::NAN), (3.0, 1.0), (4.0, 1.0), (5.0, 2.0)];
+        let expected = [vec![(0.0, 1.0), (1.0, 1.0)], vec![(3.0, 1.0), (4.0, 1.0), (5.0, 2.0)]];
+        assert_eq!(FRAME.pieces(&points), expected);
+    }
+
+    #[test]
+    fn points_between_missing_ones_are_not_lost() {
+        let missing = (2.0, f64::NAN);
+        let points = [(0.0, 1.0), missing, (3.0, 1.0), (4.0, 1.0), missing, (6.0, 2.0), missing, (7.0, 99.0)];
+        assert_eq!(FRAME.alone(&points), [(0.0, 1.0), (6.0, 2.0)]);
+        assert_eq!(FRAME.alone(&[(1.0, 1.0)]), [(1.0, 1.0)]);
+    }
+
+    #[test]
+    fn lines_are_cut_at_the_frame_without_a_bend() {
+        // out at the top and in again: two pieces, each ending where the line crosses y = 10
+        let points = [(0.0, 0.0), (4.0, 20.0), (8.0, 0.0)];
+        let expected = [vec![(0.0, 0.0), (2.0, 10.0)], vec![(6.0, 10.0), (8.0, 0.0)]];
+        assert_eq!(FRAME.pieces(&points), expected);
+        // through, from outside to outside
+        assert_eq!(FRAME.pieces(&[(-10.0, 5.0), (20.0, 5.0)]), [vec![(0.0, 5.0), (10.0, 5.0)]]);
+        assert!(FRAME.pieces(&[(-10.0, 11.0), (20.0, 12.0)]).is_empty());
+        assert!(FRAME.pieces(&[(-10.0, 5.0), (5.0, 25.0)]).is_empty());
+    }
+}

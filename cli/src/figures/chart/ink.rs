@@ -1,0 +1,154 @@
+//! What a style sheet can change.
+//!
+//! plotters writes plain colours, and knows no dashes and no classes. So each part of a picture is drawn in a colour of
+//! its own that stands for what it is, and is then replaced by what is meant.
+
+use maud::{PreEscaped, html};
+use plotters::style::RGBColor;
+
+use super::looks;
+
+/// What a stroke, a filled shape, or a text is.
+#[derive(Clone, Copy)]
+pub(super) enum Ink {
+    /// Frame and texts.
+    Text,
+    /// Lines of the grid.
+    Grid,
+    /// From a curve to its label.
+    Leader,
+    /// A continuous line, or a marker, of a colour.
+    Curve(usize),
+    /// A dashed line of a colour.
+    Dashed(usize),
+}
+
+/// Lengths in the picture are in tenths, as plotters has whole numbers only.
+pub(super) const FINE: f64 = 10.0;
+
+impl Ink {
+    fn all() -> impl Iterator<Item = Ink> {
+        let curves = (0..looks::COUNT).flat_map(|index| [Ink::Curve(index), Ink::Dashed(index)]);
+        [Ink::Text, Ink::Grid, Ink::Leader].into_iter().chain(curves)
+    }
+
+    /// The colour that stands for it until the picture is finished.
+    pub(super) fn placeholder(self) -> RGBColor {
+        match self {
+            Ink::Text => RGBColor(1, 0, 0),
+            Ink::Grid => RGBColor(1, 0, 1),
+            Ink::Leader => RGBColor(1, 0, 2),
+            Ink::Curve(index) => RGBColor(2, 0, (index % looks::COUNT) as u8),
+            Ink::Dashed(index) => RGBColor(2, 1, (index % looks::COUNT) as u8),
+        }
+    }
+
+    fn colour(self) -> &'static str {
+        match self {
+            Ink::Text => "#000000",
+            Ink::Grid => "#DDDDDD",
+            Ink::Leader => "#888888",
+            Ink::Curve(index) | Ink::Dashed(index) => looks::colour(index),
+        }
+    }
+
+    /// What the style sheet calls it; other colours can be seen on white and on black.
+    fn class(self) -> Option<&'static str> {
+        match self {
+            Ink::Text | Ink::Curve(looks::BLACK) | Ink::Dashed(looks::BLACK) => Some("ink"),
+            Ink::Curve(looks::BLUE) | Ink::Dashed(looks::BLUE) => Some("blue"),
+            Ink::Grid => Some("grid"),
+            _ => None,
+        }
+    }
+
+    fn attributes(self, paint: &str) -> String {
+        let mut text = format!("{paint}=\"{}\"", self.colour());
+        if let Some(class) = self.class() {
+            text += &format!(" class=\"{class}-{paint}\"");
+        }
+        if let Ink::Dashed(index) = self {
+            let lengths: Vec<_> =
+                looks::dashes(index).iter().map(|&length| (f64::from(length) * FINE).to_string()).collect();
+            text += &format!(" stroke-dasharray=\"{}\"", lengths.join(" "));
+        }
+        text
+    }
+}
+
+/// Exponents as raised small digits: many fonts lack some of the raised characters, or have them in two styles.
+fn raised(text: &str) -> String {
+    const RAISED: [(char, char); 11] = [
+        ('⁰', '0'),
+        ('¹', '1'),
+        ('²', '2'),
+        ('³', '3'),
+        ('⁴', '4'),
+        ('⁵', '5'),
+        ('⁶', '6'),
+        ('⁷', '7'),
+        ('⁸', '8'),
+        ('⁹', '9'),
+        ('⁻', '−'),
+    ];
+    let mut plain = String::with_capacity(text.len());
+    let mut within = false;
+    for character in text.chars() {
+        let lowered = RAISED.iter().find(|(raised, _)| *raised == character).map(|(_, lowered)| *lowered);
+        if lowered.is_some() != within {
+            // the line goes back down where the exponent ends: by 0.4 em of the smaller font
+            plain += match within {
+                false => "<tspan dy=\"-0.4em\" font-size=\"0.75em\">",
+                true if character == '<' => "</tspan>",
+                true => "</tspan><tspan dy=\"0.3em\">\u{200b}</tspan>",
+            };
+            within = !within;
+        }
+        plain.push(lowered.unwrap_or(character));
+    }
+    plain
+}
+
+/// The style of all charts; it is the same in each, so that pictures within one page do not disturb each other.
+const STYLE: &str = "
+svg.chart text { font-family: Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif; }
+svg.chart polyline { stroke-linejoin: round; }
+@media screen and (prefers-color-scheme: dark) {
+  svg.chart .paper { fill: #16191d; }
+  svg.chart .ink-fill { fill: #e8e8e8; }
+  svg.chart .ink-stroke { stroke: #e8e8e8; }
+  svg.chart .blue-fill { fill: #3c97d6; }
+  svg.chart .blue-stroke { stroke: #3c97d6; }
+  svg.chart .grid-stroke { stroke: #3a3f45; }
+}
+";
+
+/// The picture that plotters drew, of a size in pixels, with a name, a style and a ground.
+///
+/// It has no `id`s, so that many such pictures can be parts of one page.
+pub(super) fn finished(drawn: &str, (width, height): (u32, u32), title: &str) -> String {
+    let mut content = drawn.split_once(">\n").map_or("", |(_, content)| content).trim_end().to_owned();
+    if let Some(end) = content.rfind("</svg>") {
+        content.truncate(end);
+    }
+    content = content.replace(" opacity=\"1\"", "").replace("\">\n", "\">").replace("\n</text>", "</text>");
+    for ink in Ink::all() {
+        let RGBColor(r, g, b) = ink.placeholder();
+        for paint in ["stroke", "fill"] {
+            // texts cannot be mistaken for it: their quotation marks are escaped
+            content = content.replace(&format!("{paint}=\"#{r:02X}{g:02X}{b:02X}\""), &ink.attributes(paint));
+        }
+    }
+    let content = raised(&content);
+    let fine = |length: u32| f64::from(length) * FINE;
+    let view = format!("0 0 {} {}", fine(width), fine(height));
+    let svg = html! {
+        svg xmlns="http://www.w3.org/2000/svg" class="chart" role="img" width=(width) height=(height) viewBox=(view) {
+            title { (title) }
+            style { (PreEscaped(STYLE)) }
+            rect class="paper" width="100%" height="100%" fill="#FFFFFF" {}
+            (PreEscaped(content))
+        }
+    };
+    svg.into_string()
+}

@@ -1,0 +1,87 @@
+//! Texts beside a chart: how wide they are about, and how they are kept apart.
+
+/// The width of a text in em of its font: about that of a sans-serif face, rather too wide than too narrow.
+const CHARACTER: f64 = 0.56;
+
+/// About how wide a text is at a size of font.
+pub(super) fn width(text: &str, size: f64) -> f64 {
+    // small raised digits and signs are narrower
+    let characters = text.chars().map(|character| match character {
+        '⁰'..='⁹' | '¹' | '²' | '³' | '⁻' => 0.7,
+        'i' | 'j' | 'l' | '.' | ',' | ' ' | 'I' | '(' | ')' | '\'' => 0.6,
+        'm' | 'w' | 'M' | 'W' | '–' | '—' => 1.5,
+        _ => 1.0,
+    });
+    characters.sum::<f64>() * CHARACTER * size
+}
+
+/// The lines of a text that is at most so wide; a single word may be wider.
+pub(super) fn lines(text: &str, most: f64, size: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width(&format!("{line} {word}"), size) <= most => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// Places within `range` that are as near to those wanted as they can be, and at least `gap` apart.
+///
+/// The sum of squared shifts is least. Where the range is too short for all, the gap is what it has room for.
+pub(super) fn spread(wanted: &[f64], gap: f64, range: (f64, f64)) -> Vec<f64> {
+    let (low, high) = range;
+    let gap = gap.min((high - low) / wanted.len().saturating_sub(1).max(1) as f64);
+    let mut order: Vec<usize> = (0..wanted.len()).collect();
+    order.sort_by(|&i, &j| wanted[i].total_cmp(&wanted[j]));
+    // less their gaps, the places only have to rise: neighbours that do not are pooled at their mean
+    let mut pools: Vec<(f64, usize)> = Vec::new();
+    for (rank, &i) in order.iter().enumerate() {
+        pools.push((wanted[i] - rank as f64 * gap, 1));
+        while let [.., (before, m), (after, n)] = pools[..]
+            && before > after
+        {
+            pools.truncate(pools.len() - 2);
+            pools.push(((before * m as f64 + after * n as f64) / (m + n) as f64, m + n));
+        }
+    }
+    let highest = high - gap * wanted.len().saturating_sub(1) as f64;
+    let risen = pools.iter().flat_map(|&(mean, n)| std::iter::repeat_n(mean.min(highest).max(low), n));
+    let mut places = vec![0.0; wanted.len()];
+    for ((rank, &i), place) in order.iter().enumerate().zip(risen) {
+        places[i] = place + rank as f64 * gap;
+    }
+    places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_that_do_not_touch_stay() {
+        assert_eq!(spread(&[50.0, 10.0, 90.0], 15.0, (0.0, 100.0)), [50.0, 10.0, 90.0]);
+    }
+
+    #[test]
+    fn labels_at_one_place_go_apart_evenly() {
+        assert_eq!(spread(&[50.0, 50.0, 50.0], 10.0, (0.0, 100.0)), [40.0, 50.0, 60.0]);
+    }
+
+    #[test]
+    fn labels_stay_within_the_range() {
+        assert_eq!(spread(&[99.0, 98.0, -5.0], 10.0, (0.0, 100.0)), [100.0, 90.0, 0.0]);
+        assert_eq!(spread(&[7.0, 7.0, 7.0], 80.0, (0.0, 100.0)), [0.0, 50.0, 100.0]);
+        assert!(spread(&[], 10.0, (0.0, 100.0)).is_empty());
+    }
+
+    #[test]
+    fn long_texts_are_broken_between_words() {
+        assert_eq!(lines("one two three", width("one two", 10.0), 10.0), ["one two", "three"]);
+        assert_eq!(lines("unbreakable", 1.0, 10.0), ["unbreakable"]);
+    }
+}

@@ -1,0 +1,191 @@
+use super::*;
+
+fn axis(label: &str, scale: Scale) -> Axis {
+    Axis { label: label.to_owned(), scale, range: None }
+}
+
+fn curve(label: &str, colour: usize, look: Look, points: Vec<(f64, f64)>) -> Curve {
+    Curve { label: label.to_owned(), points, look, side: Side::First, colour }
+}
+
+/// Nine curves over a hundred decades, against h.
+fn drifts() -> Chart {
+    let curves = (0..9).map(|n| {
+        let h = |i: i32| f64::from(i) / 200.0;
+        let c = 0.2 + 0.11 * n as f64;
+        let points = (1..=40).map(|i| (h(i), -1.0 - 0.3 * n as f64 - (c / h(i)).min(115.0 - n as f64)));
+        curve(&format!("scheme of order {}", n + 2), n, Look::Line, points.collect())
+    });
+    Chart {
+        title: "Drift of the modified energy, Kepler's problem & e = 0.6".to_owned(),
+        x: axis("step size h", Scale::Linear),
+        y: axis("max − min of H̃ / |H|, h² units", Scale::Log10),
+        second_y: None,
+        curves: curves.collect(),
+        notes: vec!["120 digits; t = 0 to 100; estimator of the best order m.".to_owned()],
+    }
+}
+
+/// Four curves of bumps in turn, about as small as each other between them.
+fn bumps() -> Chart {
+    let bump = |t: f64, centre: f64| -60.0 + 45.0 * (-(t - centre).powi(2) / 3.0).exp();
+    let looks = [Look::Thick, Look::Line, Look::Dashed, Look::Dashed];
+    let curves = looks.into_iter().enumerate().map(|(n, look)| {
+        let points = (0..600).map(|i| f64::from(i) / 10.0).map(|t| {
+            let of_turn = (0..4).map(|k| bump(t, 6.0 + 4.0 * n as f64 + 16.0 * f64::from(k)));
+            (t, of_turn.fold(-60.0 - n as f64, f64::max))
+        });
+        curve(["h = 1/10", "h = 1/20", "h = 1/40, shifted", "h = 1/80"][n], n, look, points.collect())
+    });
+    Chart {
+        title: "Energy error along the orbit".to_owned(),
+        x: axis("time t (periods of 2π)", Scale::Linear),
+        y: axis("|H̃(t) − H̃(0)|", Scale::Log10),
+        second_y: None,
+        curves: curves.collect(),
+        notes: Vec::new(),
+    }
+}
+
+/// The estimate and its order m, which has an axis of its own.
+fn orders() -> Chart {
+    let h = |i: i32| f64::from(i) / 100.0;
+    let estimate = (1..=30).map(|i| (h(i), -0.9 / h(i))).collect();
+    let bound = (1..=30).map(|i| (h(i), if i == 12 { f64::NAN } else { 4.0 - 0.8 / h(i) })).collect();
+    let order = (1..=30).map(|i| (h(i), (1.5 / h(i)).round().min(60.0))).collect();
+    Chart {
+        title: "The best order of the estimator".to_owned(),
+        x: axis("step size h", Scale::Linear),
+        y: axis("estimated error", Scale::Log10),
+        second_y: Some(axis("order m", Scale::Linear)),
+        curves: vec![
+            curve("estimate", 0, Look::Line, estimate),
+            curve("bound of the theory", 1, Look::Dashed, bound),
+            Curve { side: Side::Second, ..curve("m", 2, Look::Points(Marker::Cross), order) },
+        ],
+        notes: Vec::new(),
+    }
+}
+
+/// Samples with their names.
+fn samples() -> [(&'static str, Chart); 3] {
+    [("drifts", drifts()), ("bumps", bumps()), ("orders", orders())]
+}
+
+/// `SHADOWSTEP_LOOK=DIR` keeps the pictures, for eyes.
+#[test]
+fn samples_are_drawn_whole() {
+    for (name, chart) in samples() {
+        let svg = chart.svg().unwrap();
+        if let Some(folder) = std::env::var_os("SHADOWSTEP_LOOK") {
+            std::fs::write(std::path::Path::new(&folder).join(format!("{name}.svg")), &svg).unwrap();
+        }
+        for label in chart.curves.iter().map(|curve| &curve.label).chain([&chart.x.label]) {
+            assert!(svg.contains(label), "{name} lacks {label}");
+        }
+        // many are parts of one page, where ids would clash; placeholders are all replaced
+        let ticks = ["drifts", "orders"]
+            .contains(&name)
+            .then_some(">10<tspan dy=\"-0.4em\" font-size=\"0.75em\">−20</tspan></text>");
+        assert!(ticks.is_none_or(|tick| svg.contains(tick)), "{name} lacks 10⁻²⁰");
+        for wrong in [" id=", "<script", "NaN", "inf", "=\"#0100", "=\"#0200", "=\"#0201"] {
+            assert!(!svg.contains(wrong), "{name} has {wrong}");
+        }
+        assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>"), "{name}");
+        assert_eq!(svg.matches("<text").count(), svg.matches("</text>").count(), "{name}");
+    }
+}
+
+/// The numbers of all `points` attributes.
+fn polylines(svg: &str) -> Vec<Vec<(f64, f64)>> {
+    let point = |pair: &str| pair.split_once(',').map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap())).unwrap();
+    let lists = svg.split(" points=\"").skip(1).map(|rest| rest.split('"').next().unwrap());
+    lists.map(|list| list.split_whitespace().map(point).collect()).collect()
+}
+
+#[test]
+fn curves_stay_within_the_plot() {
+    let wave = (0..200).map(|i| f64::from(i) / 10.0).map(|x| (x, 30.0 * x.sin())).collect();
+    let mut chart = Chart { curves: vec![curve("wave", 3, Look::Line, wave)], notes: Vec::new(), ..bumps() };
+    chart.x.range = Some((2.0, 15.0));
+    chart.y = Axis { range: Some((-10.0, 20.0)), ..axis("y", Scale::Linear) };
+    let svg = chart.svg().unwrap();
+    let lines = polylines(&svg);
+    // the sides of the frame at top and right, drawn after the curve, tell where the plot is
+    let frame = lines.iter().find(|line| line.len() == 3 && line[0].1 == line[1].1).unwrap();
+    let ((left, top), (right, bottom)) = (frame[0], frame[2]);
+    let of_curve: Vec<_> = lines.iter().filter(|line| line.len() > 3).collect();
+    assert!(of_curve.len() >= 4, "cut at y = −10 and 20 in each period");
+    for &(x, y) in of_curve.iter().copied().flatten() {
+        assert!((left..=right).contains(&x) && (top..=bottom).contains(&y), "{x} {y} in {frame:?}");
+    }
+    assert!(of_curve.iter().filter(|line| line.iter().any(|point| point.1 == top)).count() >= 2, "no bend before");
+}
+
+#[test]
+fn labels_do_not_overlap_with_many_curves_of_one_end() {
+    let curves = (0..25).map(|n| curve(&format!("curve {n}"), n, Look::Line, vec![(0.0, 0.0), (1.0, 1.0)]));
+    let svg = Chart { curves: curves.collect(), ..drifts() }.svg().unwrap();
+    let mut rows: Vec<f64> = svg
+        .split("<text ")
+        .filter(|text| text.contains(">curve "))
+        .map(|text| text.split(" y=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap())
+        .collect();
+    rows.sort_by(f64::total_cmp);
+    assert_eq!(rows.len(), 25);
+    assert!(rows.windows(2).all(|pair| pair[1] - pair[0] >= 190.0), "{rows:?}");
+}
+
+/// What a computation may give where something went wrong; nothing of it may panic or hang.
+#[test]
+fn strange_values_are_drawn_or_left_out() {
+    let lists = [
+        vec![],
+        vec![(1.0, f64::NAN)],
+        vec![(1.0, 2.0)],
+        vec![(1.0, 2.0), (1.0, 2.0)],
+        vec![(0.0, f64::NEG_INFINITY), (1.0, f64::INFINITY), (2.0, 1.0)],
+        vec![(0.0, -1e308), (1.0, 1e308), (f64::MAX, 0.0)],
+        vec![(0.0, 5e-324), (1.0, 1e-310)],
+        vec![(1e9, 1.0), (1e9 + 1e-7, 1.0 + 1e-15)],
+    ];
+    for points in lists {
+        for scale in [Scale::Linear, Scale::Log10] {
+            for look in [Look::Line, Look::Dashed, Look::Thick, Look::Points(Marker::Star)] {
+                for second_y in [None, Some(axis("y", scale))] {
+                    let curves = vec![
+                        curve("a", 0, look, points.clone()),
+                        Curve { side: Side::Second, ..curve("b", 100, look, points.clone()) },
+                    ];
+                    let [x, y] = ["x", "y"].map(|name| axis(name, scale));
+                    let chart = Chart { x, y, second_y, curves, title: String::new(), notes: Vec::new() };
+                    let svg = chart.svg().unwrap();
+                    assert!(svg.len() < 20_000 && !svg.contains("NaN"), "{points:?} {scale:?} {look:?}");
+                }
+            }
+        }
+    }
+    let none = Chart { curves: Vec::new(), ..bumps() };
+    assert!(none.svg().unwrap().contains("Energy error"));
+}
+
+#[test]
+fn texts_are_escaped() {
+    let chart = Chart { title: "a < b & \"c\"".to_owned(), notes: vec!["</svg>".to_owned()], ..orders() };
+    let svg = chart.svg().unwrap();
+    assert_eq!(svg.matches("a &lt; b &amp; &quot;c&quot;").count(), 2, "the name and the heading");
+    assert_eq!((svg.matches("</svg>").count(), svg.matches("&lt;/svg&gt;").count()), (1, 1));
+}
+
+/// Steps are often given from large to small; labels are at the right nevertheless.
+#[test]
+fn labels_are_where_curves_end_at_the_right() {
+    let falling = [(0.0, 0.0), (1.0, 3.0), (2.0, 9.0)];
+    let of = |points: Vec<(f64, f64)>| {
+        let other = curve("other", 1, Look::Line, vec![(0.0, 9.0), (2.0, 0.0)]);
+        let chart = Chart { curves: vec![curve("this one", 0, Look::Thick, points), other], ..bumps() };
+        let svg = chart.svg().unwrap();
+        svg.split("<text ").find(|text| text.contains(">this one<")).unwrap().to_owned()
+    };
+    assert_eq!(of(falling.to_vec()), of(falling.into_iter().rev().collect()));
+}

@@ -1,0 +1,205 @@
+//! Where an axis has its ticks, and what is written there.
+
+use super::Scale;
+
+/// Labelled and minor ticks, in the values of the axis.
+pub(super) struct Ticks {
+    pub(super) labelled: Vec<(f64, String)>,
+    pub(super) minor: Vec<f64>,
+}
+
+/// About so many steps between labels fit on an axis.
+const MOST_STEPS: f64 = 7.0;
+
+impl Ticks {
+    /// For least < most; on a logarithmic axis both are log₁₀.
+    pub(super) fn new(scale: Scale, (least, most): (f64, f64)) -> Ticks {
+        match scale {
+            Scale::Linear => linear(least, most),
+            Scale::Log10 => logarithmic(least, most),
+        }
+    }
+
+    pub(super) fn label(&self, value: f64) -> String {
+        // ticks are asked for as they were given
+        self.labelled.iter().find(|(tick, _)| *tick == value).map(|(_, label)| label.clone()).unwrap_or_default()
+    }
+
+    pub(super) fn values(&self) -> Vec<f64> {
+        self.labelled.iter().map(|(value, _)| *value).collect()
+    }
+}
+
+/// Multiples of 1, 2 or 5 times a power of ten.
+fn linear(least: f64, most: f64) -> Ticks {
+    let raw = (most - least) / MOST_STEPS;
+    let mut exponent = raw.log10().floor() as i32;
+    let power = 10f64.powi(exponent);
+    let mut digit = [1, 2, 5, 10].into_iter().find(|digit| f64::from(*digit) * power >= raw).unwrap_or(10);
+    if digit == 10 {
+        (digit, exponent) = (1, exponent + 1);
+    }
+    let values = |parts: i64| {
+        let step = f64::from(digit) / parts as f64;
+        let unit = move |n: i64| scaled(n as f64 * step, exponent);
+        // a tick on the end of the range is one, whatever the last bit says
+        let nudge = (most - least) * 1e-9;
+        let end = |value: f64| value / scaled(step, exponent);
+        let (first, last) = (end(least - nudge).ceil() as i64, end(most + nudge).floor() as i64);
+        (first..=last).map(move |n| (n, unit(n)))
+    };
+    let labelled = values(1).map(|(n, value)| (value, decimal(n * i64::from(digit), exponent))).collect();
+    let parts = if digit == 2 { 4 } else { 5 };
+    let minor = values(parts).filter(|(n, _)| n % parts != 0).map(|(_, value)| value).collect();
+    Ticks { labelled, minor }
+}
+
+/// n · 10^exponent with one rounding, so that 3 · 10⁻¹ is 0.3.
+fn scaled(n: f64, exponent: i32) -> f64 {
+    if exponent < 0 { n / 10f64.powi(-exponent) } else { n * 10f64.powi(exponent) }
+}
+
+/// n · 10^exponent as text, without an exponent where that is short.
+fn decimal(n: i64, exponent: i32) -> String {
+    let sign = if n < 0 { "−" } else { "" };
+    let n = n.unsigned_abs();
+    match exponent {
+        _ if n == 0 => "0".to_owned(),
+        0..=4 => format!("{sign}{n}{}", "0".repeat(exponent as usize)),
+        -4..=-1 => {
+            let unit = 10u64.pow(exponent.unsigned_abs());
+            format!("{sign}{}.{:0width$}", n / unit, n % unit, width = exponent.unsigned_abs() as usize)
+        }
+        _ => format!("{sign}{n}×10{}", superscript(exponent.into())),
+    }
+}
+
+/// Whole decades; 1, 2 and 5 times them, or round numbers, where there is not more than one.
+fn logarithmic(least: f64, most: f64) -> Ticks {
+    let span = most - least;
+    let within = |value: &f64| (least..=most).contains(value);
+    let multiples = |step: i64| {
+        let (first, last) = ((least / step as f64).ceil() as i64, (most / step as f64).floor() as i64);
+        (first..=last).map(move |n| n * step)
+    };
+    if most.floor() - least.ceil() < 1.0 {
+        return few_decades(least, most);
+    }
+    // steps that are parts of their followers, beside the minor steps that go with them
+    const STEPS: [(i64, i64); 10] =
+        [(1, 1), (2, 1), (5, 1), (10, 2), (20, 5), (50, 10), (100, 20), (200, 50), (500, 100), (1000, 200)];
+    let (step, minor) = STEPS.into_iter().find(|(step, _)| span <= *step as f64 * MOST_STEPS).unwrap_or_else(|| {
+        let step = (span / MOST_STEPS).ceil() as i64;
+        (step, step)
+    });
+    let labelled = multiples(step).map(|n| (n as f64, power_of_ten(n))).collect();
+    let minor = if step > 1 {
+        multiples(minor).filter(|n| n % step != 0).map(|n| n as f64).collect()
+    } else {
+        let decades = least.floor() as i64..=most.floor() as i64;
+        decades.flat_map(|n| (2..10).map(move |digit| n as f64 + f64::from(digit).log10())).filter(within).collect()
+    };
+    Ticks { labelled, minor }
+}
+
+fn few_decades(least: f64, most: f64) -> Ticks {
+    let decades = least.floor() as i64..=most.floor() as i64;
+    let labelled: Vec<_> = decades
+        .flat_map(|n| [1u8, 2, 5].map(|digit| (n, digit)))
+        .map(|(n, digit)| (n as f64 + f64::from(digit).log10(), times_power(&digit.to_string(), n)))
+        .filter(|(value, _)| (least..=most).contains(value))
+        .collect();
+    if labelled.len() >= 2 {
+        return Ticks { labelled, minor: Vec::new() };
+    }
+    // less than half a decade: round numbers between its ends
+    let decade = least.floor();
+    let round = linear(10f64.powf(least - decade), 10f64.powf(most - decade));
+    let labelled =
+        round.labelled.into_iter().map(|(digits, text)| (decade + digits.log10(), times_power(&text, decade as i64)));
+    Ticks { labelled: labelled.collect(), minor: Vec::new() }
+}
+
+fn power_of_ten(n: i64) -> String {
+    match n {
+        0 => "1".to_owned(),
+        1 => "10".to_owned(),
+        _ => format!("10{}", superscript(n)),
+    }
+}
+
+fn times_power(digits: &str, n: i64) -> String {
+    match n {
+        0 => digits.to_owned(),
+        _ if digits == "1" => power_of_ten(n),
+        1 => format!("{digits}×10"),
+        _ => format!("{digits}×10{}", superscript(n)),
+    }
+}
+
+/// −20 as ⁻²⁰.
+fn superscript(n: i64) -> String {
+    let raised = |character| match character {
+        '-' => '⁻',
+        digit => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize - '0' as usize],
+    };
+    n.to_string().chars().map(raised).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(scale: Scale, least: f64, most: f64) -> Vec<String> {
+        Ticks::new(scale, (least, most)).labelled.into_iter().map(|(_, label)| label).collect()
+    }
+
+    #[test]
+    fn decades_far_below_double_precision() {
+        let expected = ["10⁻⁴⁰⁰", "10⁻³⁰⁰", "10⁻²⁰⁰", "10⁻¹⁰⁰", "1"];
+        assert_eq!(labels(Scale::Log10, -400.5, 3.0), expected);
+        assert_eq!(labels(Scale::Log10, -121.0, -19.5), ["10⁻¹²⁰", "10⁻¹⁰⁰", "10⁻⁸⁰", "10⁻⁶⁰", "10⁻⁴⁰", "10⁻²⁰"]);
+        assert_eq!(labels(Scale::Log10, -2.5, 2.5), ["10⁻²", "10⁻¹", "1", "10", "10²"]);
+    }
+
+    #[test]
+    fn few_decades_have_numbers_between() {
+        assert_eq!(labels(Scale::Log10, -3.1, -2.2), ["10⁻³", "2×10⁻³", "5×10⁻³"]);
+        assert_eq!(labels(Scale::Log10, 0.05, 0.2), ["1.2", "1.3", "1.4", "1.5"][..].to_vec());
+        let minor = Ticks::new(Scale::Log10, (-2.0, 0.0)).minor;
+        assert_eq!(minor.len(), 16);
+    }
+
+    #[test]
+    fn round_numbers_of_linear_axes() {
+        assert_eq!(
+            labels(Scale::Linear, 0.0, 0.3),
+            ["0.00", "0.05", "0.10", "0.15", "0.20", "0.25", "0.30"].map(|label| if label == "0.00" {
+                "0"
+            } else {
+                label
+            })
+        );
+        assert_eq!(labels(Scale::Linear, -1.0, 1.0), ["−1.0", "−0.5", "0", "0.5", "1.0"]);
+        assert_eq!(labels(Scale::Linear, 3.0, 2100.0), ["500", "1000", "1500", "2000"]);
+        assert_eq!(labels(Scale::Linear, 0.0, 4e-7), ["0", "1×10⁻⁷", "2×10⁻⁷", "3×10⁻⁷", "4×10⁻⁷"]);
+    }
+
+    /// Between 2 and 9 labels, within the range, from the smallest spans to the largest.
+    #[test]
+    fn every_span_has_some_labels_and_not_too_many() {
+        for scale in [Scale::Linear, Scale::Log10] {
+            for least in [-1000.0, -120.3, -0.7, 0.0, 5.0] {
+                for exponent in -30..=35 {
+                    let span = 10f64.powf(f64::from(exponent) / 10.0);
+                    let ticks = Ticks::new(scale, (least, least + span));
+                    let count = ticks.labelled.len();
+                    assert!((2..=9).contains(&count), "{scale:?} {least} + {span}: {count}");
+                    let slack = span * 1e-6;
+                    let inside = |value: f64| (least - slack..=least + span + slack).contains(&value);
+                    assert!(ticks.values().into_iter().chain(ticks.minor).all(inside), "{scale:?} {least} + {span}");
+                }
+            }
+        }
+    }
+}
