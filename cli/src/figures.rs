@@ -4,8 +4,10 @@
 //! | --- | --- |
 //! | [`fit`] | a line through points, and how well it is known |
 //! | [`chart`] | curves → SVG |
+//! | [`report`] | figures → one page of HTML |
 
 #![cfg_attr(not(test), expect(dead_code, reason = "no command uses them yet"))]
 
 mod chart;
 mod fit;
+mod report;

@@ -103,3 +103,5 @@ pub(crate) enum Side {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+pub(crate) use tests::samples;

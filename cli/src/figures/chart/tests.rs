@@ -68,13 +68,13 @@ fn orders() -> Chart {
 }
 
 /// Samples with their names.
-fn samples() -> [(&'static str, Chart); 3] {
+pub(crate) fn samples() -> [(&'static str, Chart); 3] {
     [("drifts", drifts()), ("bumps", bumps()), ("orders", orders())]
 }
 
 /// `SHADOWSTEP_LOOK=DIR` keeps the pictures, for eyes.
 #[test]
-fn samples_are_drawn_whole() {
+pub(crate) fn samples_are_drawn_whole() {
     for (name, chart) in samples() {
         let svg = chart.svg().unwrap();
         if let Some(folder) = std::env::var_os("SHADOWSTEP_LOOK") {

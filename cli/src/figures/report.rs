@@ -1,0 +1,263 @@
+//! A report of figures as one page of HTML: pictures are parts of it, and it needs no script and no network.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// The whole page; all texts are plain, and are escaped where they are written.
+#[derive(Clone, Debug)]
+pub(crate) struct Report {
+    pub(crate) title: String,
+    /// Paragraphs.
+    pub(crate) introduction: Vec<String>,
+    /// What made it, as pairs of a name and a value: version, digits, command.
+    pub(crate) made_with: Vec<(String, String)>,
+    pub(crate) figures: Vec<Figure>,
+}
+
+/// One figure of the paper, and what came out here.
+#[derive(Clone, Debug)]
+pub(crate) struct Figure {
+    pub(crate) title: String,
+    /// What the paper states, in paragraphs; none where the figure is ours alone.
+    pub(crate) stated: Vec<String>,
+    pub(crate) pictures: Vec<Picture>,
+    /// What came out, in paragraphs.
+    pub(crate) found: Vec<String>,
+    pub(crate) tables: Vec<Table>,
+    pub(crate) verdict: Verdict,
+    /// Files beside the page, by the names that links have: SVG, CSV.
+    pub(crate) files: Vec<String>,
+}
+
+/// A picture and what is said below it.
+#[derive(Clone, Debug)]
+pub(crate) struct Picture {
+    /// An `<svg>` element without `id`s, as [`Chart::svg`](super::chart::Chart::svg) gives it. It is not escaped.
+    pub(crate) svg: String,
+    pub(crate) caption: String,
+}
+
+/// Numbers, or other short texts. Each row has as many cells as the header.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    pub(crate) caption: String,
+    pub(crate) header: Vec<String>,
+    pub(crate) rows: Vec<Vec<String>>,
+}
+
+/// Whether what came out is what the paper states.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    Agrees,
+    Differs,
+    /// It was not, or could not be, computed here.
+    NotReproduced,
+    /// The paper has no such figure.
+    Ours,
+}
+
+impl Verdict {
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Verdict::Agrees => "agrees",
+            Verdict::Differs => "differs",
+            Verdict::NotReproduced => "not reproduced",
+            Verdict::Ours => "ours",
+        }
+    }
+
+    fn sentence(self) -> &'static str {
+        match self {
+            Verdict::Agrees => "What came out agrees with what the paper states.",
+            Verdict::Differs => "What came out differs from what the paper states.",
+            Verdict::NotReproduced => "What the paper states was not reproduced here.",
+            Verdict::Ours => "The paper has no such figure.",
+        }
+    }
+
+    fn badge(self) -> Markup {
+        let class = format!("verdict {}", self.word().replace(' ', "-"));
+        html! { span class=(class) { (self.word()) } }
+    }
+}
+
+const STYLE: &str = include_str!("report.css");
+
+impl Report {
+    /// The text of the page.
+    pub(crate) fn html(&self) -> String {
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    title { (self.title) }
+                    style { (PreEscaped(STYLE)) }
+                }
+                body {
+                    h1 { (self.title) }
+                    (paragraphs(&self.introduction))
+                    dl { @for (name, value) in &self.made_with { dt { (name) } dd { (value) } } }
+                    nav aria-label="Figures" { (self.contents()) }
+                    main { @for (n, figure) in self.figures.iter().enumerate() { (figure.section(n + 1)) } }
+                }
+            }
+        };
+        page.into_string()
+    }
+
+    fn contents(&self) -> Markup {
+        html! {
+            ol {
+                @for (n, figure) in self.figures.iter().enumerate() {
+                    li { a href={ "#figure-" (n + 1) } { (figure.title) } " " (figure.verdict.badge()) }
+                }
+            }
+        }
+    }
+}
+
+impl Figure {
+    fn section(&self, n: usize) -> Markup {
+        let pictures = if self.pictures.len() == 1 { "pictures one" } else { "pictures" };
+        html! {
+            section id={ "figure-" (n) } {
+                h2 { (self.title) }
+                p class="verdict-line" { (self.verdict.badge()) " " (self.verdict.sentence()) }
+                @if !self.stated.is_empty() { h3 { "The paper states" } (paragraphs(&self.stated)) }
+                @if !self.pictures.is_empty() {
+                    div class=(pictures) { @for picture in &self.pictures { (picture.figure()) } }
+                }
+                @if !self.found.is_empty() { h3 { "What came out" } (paragraphs(&self.found)) }
+                @for table in &self.tables { (table.markup()) }
+                @if !self.files.is_empty() {
+                    p { "Files: " @for (i, file) in self.files.iter().enumerate() {
+                        @if i > 0 { ", " }
+                        a href={ "./" (file) } { (file) }
+                    } }
+                }
+            }
+        }
+    }
+}
+
+impl Picture {
+    fn figure(&self) -> Markup {
+        html! { figure { (PreEscaped(&self.svg)) figcaption { (self.caption) } } }
+    }
+}
+
+impl Table {
+    fn markup(&self) -> Markup {
+        html! {
+            // a focus, so that a wide table can be moved by keys
+            div class="wide" tabindex="0" {
+                table {
+                    caption { (self.caption) }
+                    thead { tr { @for name in &self.header { th scope="col" { (name) } } } }
+                    tbody { @for row in &self.rows { tr { @for cell in row { td { (cell) } } } } }
+                }
+            }
+        }
+    }
+}
+
+fn paragraphs(texts: &[String]) -> Markup {
+    html! { @for text in texts { p { (text) } } }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::chart::samples;
+    use super::*;
+
+    fn texts<const N: usize>(texts: [&str; N]) -> Vec<String> {
+        texts.map(str::to_owned).to_vec()
+    }
+
+    fn figure(title: &str, verdict: Verdict, charts: usize) -> Figure {
+        let pictures = samples().into_iter().take(charts).map(|(_, chart)| Picture {
+            svg: chart.svg().unwrap(),
+            caption: format!("{} (computed at 120 digits)", chart.title),
+        });
+        let row = |n: i32| vec![format!("1/{}", 10 << n), format!("{}.31e-{}", n + 1, 20 * n), (n + 2).to_string()];
+        Figure {
+            title: title.to_owned(),
+            stated: texts(["The drift is exponentially small: log₁₀ is about −c/h, with c ≈ 4.2."]),
+            pictures: pictures.collect(),
+            found: texts(["c = 4.19 ± 0.03 for h from 1/80 to 1/10.", "A second paragraph."]),
+            tables: vec![Table {
+                caption: "Drift by step".to_owned(),
+                header: texts(["h", "drift", "m"]),
+                rows: (0..4).map(row).collect(),
+            }],
+            verdict,
+            files: texts(["drifts.svg", "drifts.csv"]),
+        }
+    }
+
+    fn report() -> Report {
+        Report {
+            title: "Figures of a paper, computed again".to_owned(),
+            introduction: texts(["Each figure is computed from nothing but the equations."]),
+            made_with: vec![("digits".to_owned(), "120".to_owned())],
+            figures: vec![
+                figure("Figure 1: drifts", Verdict::Agrees, 2),
+                figure("Figure 2", Verdict::Differs, 1),
+                figure("Figure 3", Verdict::NotReproduced, 0),
+                figure("Beyond the paper", Verdict::Ours, 3),
+            ],
+        }
+    }
+
+    /// `SHADOWSTEP_LOOK=DIR` keeps the page, for eyes.
+    #[test]
+    fn page_stands_alone() {
+        let page = report().html();
+        if let Some(folder) = std::env::var_os("SHADOWSTEP_LOOK") {
+            std::fs::write(std::path::Path::new(&folder).join("report.html"), &page).unwrap();
+        }
+        for wrong in ["<script", "@import", "url(", "src=", "<link"] {
+            assert!(!page.contains(wrong), "{wrong}");
+        }
+        // the name of the SVG language is no address that is fetched
+        assert_eq!(page.matches("http").count(), page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
+        let mut ids: Vec<_> = page.split(" id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+        assert_eq!(ids, ["figure-1", "figure-2", "figure-3", "figure-4"]);
+        ids.retain(|id| !page.contains(&format!("href=\"#{id}\"")));
+        assert!(ids.is_empty(), "no link to {ids:?}");
+        assert_eq!(page.matches("<svg ").count(), 6);
+    }
+
+    #[test]
+    fn texts_are_escaped_everywhere() {
+        let nasty = "<b> & \"it\"";
+        let mut page = report();
+        let figure = &mut page.figures[0];
+        page.made_with[0] = (nasty.to_owned(), nasty.to_owned());
+        for text in [&mut page.title, &mut page.introduction[0]] {
+            *text = nasty.to_owned();
+        }
+        let table = &mut figure.tables[0];
+        for text in [&mut figure.title, &mut figure.stated[0], &mut figure.found[0], &mut figure.files[0]] {
+            *text = nasty.to_owned();
+        }
+        for text in [&mut table.caption, &mut table.header[0], &mut table.rows[0][0], &mut figure.pictures[0].caption] {
+            *text = nasty.to_owned();
+        }
+        let html = page.html();
+        assert!(!html.contains("<b>") && !html.contains("\"it\""));
+        // title and heading, introduction, name, value; contents, heading, stated, found, link twice; caption,
+        // header, cell, picture
+        assert_eq!(html.matches("&lt;b&gt; &amp; &quot;it&quot;").count(), 15);
+    }
+
+    #[test]
+    fn verdicts_are_words_and_not_only_colours() {
+        let page = report().html();
+        for verdict in [Verdict::Agrees, Verdict::Differs, Verdict::NotReproduced, Verdict::Ours] {
+            assert_eq!(page.matches(&format!(">{}</span>", verdict.word())).count(), 2, "contents and section");
+            assert_eq!(page.matches(verdict.sentence()).count(), 1);
+        }
+    }
+}
