@@ -2,6 +2,7 @@
 //!
 //! | file | what it is |
 //! | --- | --- |
+//! | [`work`] | tasks over all cores; what is done stays in a file |
 //! | [`fit`] | a line through points, and how well it is known |
 //! | [`chart`] | curves → SVG |
 //! | [`report`] | figures → one page of HTML |
@@ -11,3 +12,4 @@
 mod chart;
 mod fit;
 mod report;
+mod work;

@@ -1,0 +1,132 @@
+//! Tasks over all cores, whose outcomes are kept as they come: what was interrupted goes on where it stopped.
+
+mod progress;
+mod store;
+
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::complaint::Complaint;
+use progress::Progress;
+pub(crate) use store::Store;
+
+/// Something to compute, which is known by its JSON: equal JSON is an equal task, and is computed once.
+///
+/// Tasks of different types may share a store only if their JSON differs, as that of an `enum` does. Numbers of more than
+/// 64 bits belong into texts.
+pub(crate) trait Task: Serialize + Sync {
+    /// Floating-point numbers in it must be finite, as JSON has no others.
+    type Outcome: Serialize + DeserializeOwned;
+
+    /// About how long it takes, in any unit that all tasks share.
+    fn cost(&self) -> f64;
+
+    /// Computes it, in one thread.
+    fn compute(&self) -> Result<Self::Outcome, Complaint>;
+}
+
+/// What came of some tasks.
+#[derive(Debug)]
+pub(crate) struct Outcomes<O> {
+    /// In the order in which they were asked for; `None` where the task failed.
+    pub(crate) outcomes: Vec<Option<O>>,
+    /// The failures, with the first of the tasks (by its place) that failed so.
+    pub(crate) failures: Vec<(usize, Complaint)>,
+}
+
+/// Does what the store does not have yet, the costliest first, and gives all outcomes.
+///
+/// It uses all threads of the present rayon pool: as many as there are cores, or as `RAYON_NUM_THREADS` or the caller's
+/// pool says. Outcomes are read back from their JSON in any case, so that they depend neither on the threads nor on
+/// what was done before. The failure of a task stops no other; only a store that cannot be written stops all.
+pub(crate) fn run<T: Task>(tasks: &[T], store: &mut Store) -> Result<Outcomes<T::Outcome>, Complaint> {
+    let keys = tasks.iter().map(key).collect::<Result<Vec<_>, _>>()?;
+    let mut places: HashMap<&str, usize> = HashMap::new();
+    let mut due = Vec::new();
+    for (place, key) in keys.iter().enumerate() {
+        if places.contains_key(key.as_str()) {
+            continue;
+        }
+        places.insert(key, place);
+        // what another form of outcome left there is computed again
+        if store.outcome(key).is_none_or(|json| serde_json::from_str::<T::Outcome>(json).is_err()) {
+            due.push(place);
+        }
+    }
+    due.sort_by(|&a, &b| tasks[b].cost().total_cmp(&tasks[a].cost()));
+    let failures = compute(tasks, &keys, &due, store)?;
+    let outcome = |key: &String| {
+        let failed = failures.iter().any(|(place, _)| *place == places[key.as_str()]);
+        if failed { Ok(None) } else { store.outcome(key).map(serde_json::from_str).transpose() }
+    };
+    let outcomes = keys.iter().map(outcome).collect::<Result<_, _>>()?;
+    Ok(Outcomes { outcomes, failures })
+}
+
+/// The JSON of a task; a `Value` has one way to write it.
+fn key<T: Serialize>(task: &T) -> Result<String, Complaint> {
+    Ok(serde_json::to_value(task)?.to_string())
+}
+
+/// Computes the tasks that are due in their order: each thread takes the next one when it is done with another.
+fn compute<T: Task>(
+    tasks: &[T],
+    keys: &[String],
+    due: &[usize],
+    store: &mut Store,
+) -> Result<Vec<(usize, Complaint)>, Complaint> {
+    let cost = |place: usize| tasks[place].cost().max(0.0);
+    let progress = Mutex::new(Progress::new(due.len(), due.iter().map(|&place| cost(place)).sum()));
+    let next = AtomicUsize::new(0);
+    let stop = AtomicBool::new(false);
+    let store = Mutex::new(store);
+    let failures = Mutex::new(Vec::new());
+    let broken = Mutex::new(None);
+    rayon::broadcast(|_| {
+        while let Some(&place) = due.get(next.fetch_add(1, Ordering::Relaxed)).filter(|_| !stop.load(Ordering::Relaxed))
+        {
+            let begin = Instant::now();
+            match tasks[place].compute().and_then(|outcome| json::<T>(&outcome)) {
+                Ok(outcome) => {
+                    if let Err(error) = locked(&store).keep(&keys[place], outcome, begin.elapsed()) {
+                        stop.store(true, Ordering::Relaxed);
+                        *locked(&broken) = Some(error);
+                    }
+                }
+                Err(complaint) => locked(&failures).push((place, complaint)),
+            }
+            locked(&progress).done(cost(place));
+        }
+    });
+    if let Some(error) = broken.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        return Err(error);
+    }
+    let mut failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
+    failures.sort_by_key(|(place, _)| *place);
+    Ok(failures)
+}
+
+/// The JSON of an outcome, if it can be read back.
+fn json<T: Task>(outcome: &T::Outcome) -> Result<String, Complaint> {
+    let json = serde_json::to_string(outcome)?;
+    match serde_json::from_str::<T::Outcome>(&json) {
+        Ok(_) => Ok(json),
+        Err(error) => Err(Complaint::run(
+            format!("an outcome cannot be read back from its JSON ({error}): {json}"),
+            "a number in it may be infinite or not a number",
+        )),
+    }
+}
+
+/// A thread that panicked left nothing half done.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,150 @@
+//! The file of outcomes: a head, and a line for each task that is done.
+//!
+//! A line is written at once when its task is done, so that whatever ends the program, all lines but the last are
+//! whole. A process holds a lock on the file, which the system takes off when the process ends in whatever way.
+
+use std::collections::HashMap;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use same_file::Handle;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::complaint::{Complaint, remark};
+
+/// The name of the file in its folder.
+const NAME: &str = "results.jsonl";
+
+/// Outcomes by the JSON of their tasks.
+#[derive(Debug)]
+pub(crate) struct Store {
+    file: File,
+    outcomes: HashMap<String, String>,
+}
+
+/// The first line: what made the outcomes.
+#[derive(Deserialize)]
+struct Head {
+    shadowstep: String,
+}
+
+#[derive(Deserialize)]
+struct Line {
+    task: Value,
+    outcome: Value,
+}
+
+impl Store {
+    /// Opens `results.jsonl` in a folder, which is made if it is not there.
+    ///
+    /// Outcomes of another version of the program are set aside under another name. A last line that is not whole was
+    /// being written when the program was ended, and is dropped. It is an error if another process has the file, or a
+    /// line is none of ours.
+    pub(crate) fn open(folder: &Path) -> Result<Store, Complaint> {
+        Store::open_as(folder, env!("CARGO_PKG_VERSION"))
+    }
+
+    pub(super) fn open_as(folder: &Path, version: &str) -> Result<Store, Complaint> {
+        fs::create_dir_all(folder).map_err(|error| cannot(folder, &error))?;
+        let path = folder.join(NAME);
+        let mut file = locked(&path)?;
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes)?;
+        let head = format!("{}\n", json!({ "shadowstep": version }));
+        // a file that ended within its first line
+        if head.as_bytes().starts_with(&bytes) && bytes.len() < head.len() {
+            file.set_len(0)?;
+            file.write_all(head.as_bytes())?;
+            return Ok(Store { file, outcomes: HashMap::new() });
+        }
+        let whole = bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+        let text = std::str::from_utf8(&bytes[..whole]).map_err(|_| foreign(&path, "it is no text"))?;
+        let (first, lines) = text.split_once('\n').unwrap_or(("", ""));
+        let found: Head =
+            serde_json::from_str(first).map_err(|_| foreign(&path, "its first line is not the program's"))?;
+        if found.shadowstep != version {
+            let aside = unused(folder, &found.shadowstep);
+            fs::rename(&path, &aside).map_err(|error| cannot(&path, &error))?;
+            remark(format_args!(
+                "{} is of version {} and not {version}: it is now {}, and all is computed again",
+                path.display(),
+                found.shadowstep,
+                aside.display()
+            ));
+            drop(file);
+            return Store::open_as(folder, version);
+        }
+        let mut outcomes = HashMap::new();
+        for (n, line) in lines.lines().enumerate() {
+            let Line { task, outcome } = serde_json::from_str(line).map_err(|error| damaged(&path, n + 2, &error))?;
+            outcomes.insert(task.to_string(), outcome.to_string());
+        }
+        file.set_len(whole as u64)?;
+        Ok(Store { file, outcomes })
+    }
+
+    /// The JSON of what came of a task.
+    pub(super) fn outcome(&self, task: &str) -> Option<&str> {
+        self.outcomes.get(task).map(String::as_str)
+    }
+
+    /// Adds an outcome, also to the file. After an error, the last line of the file may be torn.
+    pub(super) fn keep(&mut self, task: &str, outcome: String, took: Duration) -> Result<(), Complaint> {
+        let seconds = (took.as_secs_f64() * 1e3).round() / 1e3;
+        // one write, so that only the system can tear it
+        let line = format!("{{\"task\":{task},\"outcome\":{outcome},\"seconds\":{seconds}}}\n");
+        self.file.write_all(line.as_bytes())?;
+        self.file.sync_data()?;
+        self.outcomes.insert(task.to_owned(), outcome);
+        Ok(())
+    }
+}
+
+/// The file, for this process alone; writes go to its end.
+fn locked(path: &Path) -> Result<File, Complaint> {
+    let taken = || {
+        let sentence = format!("another process is at work in {}", path.display());
+        Complaint::usage(sentence, "wait until it ends, or give another folder")
+    };
+    let file =
+        OpenOptions::new().read(true).append(true).create(true).open(path).map_err(|error| cannot(path, &error))?;
+    match file.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => return Err(taken()),
+        Err(TryLockError::Error(error)) => return Err(cannot(path, &error)),
+    }
+    // the process that held the lock may have set the file aside just now
+    let still_there = Handle::from_path(path).ok() == Some(Handle::from_file(file.try_clone()?)?);
+    if still_there { Ok(file) } else { Err(taken()) }
+}
+
+/// A name that no file has yet: `results-0.1.0.jsonl`, `results-0.1.0-2.jsonl`, …
+fn unused(folder: &Path, version: &str) -> PathBuf {
+    let plain: String =
+        version.chars().map(|c| if c.is_ascii_alphanumeric() || "._-+".contains(c) { c } else { '_' }).collect();
+    let mut path = folder.join(format!("results-{plain}.jsonl"));
+    let mut n = 1;
+    while path.exists() {
+        n += 1;
+        path = folder.join(format!("results-{plain}-{n}.jsonl"));
+    }
+    path
+}
+
+fn cannot(path: &Path, error: &std::io::Error) -> Complaint {
+    let sentence = format!("{} cannot be written: {error}", path.display());
+    Complaint::usage(sentence, "give a folder that is yours")
+}
+
+fn foreign(path: &Path, why: &str) -> Complaint {
+    let sentence = format!("{} is no file of outcomes: {why}", path.display());
+    Complaint::usage(sentence, "give another folder, or take the file away")
+}
+
+fn damaged(path: &Path, line: usize, error: &serde_json::Error) -> Complaint {
+    let sentence = format!("{}:{line}: no outcome of a task: {error}", path.display());
+    Complaint::usage(sentence, "delete the line, and its task is computed again")
+}

@@ -1,0 +1,153 @@
+use std::fs;
+use std::path::Path;
+
+use rayon::ThreadPoolBuilder;
+use tempfile::TempDir;
+
+use super::*;
+
+/// Sums 1/k² up to n: the last bits depend on every term. Odd numbers above 1000 fail.
+#[derive(Serialize)]
+struct Sum<'a> {
+    n: u32,
+    #[serde(skip)]
+    begun: &'a Mutex<Vec<u32>>,
+}
+
+impl Task for Sum<'_> {
+    type Outcome = f64;
+
+    fn cost(&self) -> f64 {
+        f64::from(self.n)
+    }
+
+    fn compute(&self) -> Result<f64, Complaint> {
+        self.begun.lock().unwrap().push(self.n);
+        match self.n {
+            13 => Ok(f64::NAN),
+            n if n > 1000 && n % 2 == 1 => Err(Complaint::run(format!("{n} is odd"), "take another")),
+            n => Ok((1..=n).map(|k| f64::from(k).powi(-2)).sum()),
+        }
+    }
+}
+
+/// Runs the sums in a folder; gives what came out and which were computed, in the order in which they began.
+fn sums(folder: &Path, threads: usize, numbers: &[u32]) -> (Outcomes<f64>, Vec<u32>) {
+    let begun = Mutex::new(Vec::new());
+    let tasks: Vec<_> = numbers.iter().map(|&n| Sum { n, begun: &begun }).collect();
+    let mut store = Store::open(folder).unwrap();
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let outcomes = pool.install(|| run(&tasks, &mut store)).unwrap();
+    drop(tasks);
+    (outcomes, begun.into_inner().unwrap())
+}
+
+fn file(folder: &Path) -> String {
+    fs::read_to_string(folder.join("results.jsonl")).unwrap()
+}
+
+const NUMBERS: [u32; 7] = [30, 1, 500, 77, 30, 2000, 400];
+
+#[test]
+fn outcomes_do_not_depend_on_the_number_of_threads() {
+    let expected = NUMBERS.map(|n| Some((1..=n).map(|k| f64::from(k).powi(-2)).sum::<f64>().to_bits()));
+    for threads in [1, 2, 3] {
+        let folder = TempDir::new().unwrap();
+        let (found, mut begun) = sums(folder.path(), threads, &NUMBERS);
+        assert_eq!(found.outcomes.iter().map(|sum| sum.map(f64::to_bits)).collect::<Vec<_>>(), expected);
+        assert!(found.failures.is_empty());
+        begun.sort_unstable();
+        assert_eq!(begun, [1, 30, 77, 400, 500, 2000], "equal tasks are computed once");
+    }
+}
+
+#[test]
+fn costliest_tasks_begin_first() {
+    let folder = TempDir::new().unwrap();
+    assert_eq!(sums(folder.path(), 1, &NUMBERS).1, [2000, 500, 400, 77, 30, 1]);
+}
+
+/// After each possible byte at which the program was ended, all that is whole is kept, and the rest computed.
+#[test]
+fn interrupted_anywhere_it_goes_on() {
+    let folder = TempDir::new().unwrap();
+    let (all, _) = sums(folder.path(), 1, &NUMBERS);
+    let whole = file(folder.path());
+    for length in 0..=whole.len() {
+        fs::write(folder.path().join("results.jsonl"), &whole[..length]).unwrap();
+        let (again, begun) = sums(folder.path(), 1, &NUMBERS);
+        assert_eq!(again.outcomes, all.outcomes);
+        let kept = whole[..length].matches('\n').count().saturating_sub(1);
+        assert_eq!(begun, [2000, 500, 400, 77, 30, 1][kept..], "after {length} bytes");
+        let without_times = |text: &str| -> Vec<String> {
+            text.lines().map(|line| line.split(",\"seconds\"").next().unwrap().to_owned()).collect()
+        };
+        assert_eq!(without_times(&file(folder.path())), without_times(&whole));
+    }
+}
+
+#[test]
+fn failures_are_told_and_the_others_are_done() {
+    let folder = TempDir::new().unwrap();
+    let (found, _) = sums(folder.path(), 2, &[10, 1001, 13, 20, 1001]);
+    assert_eq!(found.outcomes.iter().map(Option::is_some).collect::<Vec<_>>(), [true, false, false, true, false]);
+    let places: Vec<_> = found.failures.iter().map(|(place, _)| *place).collect();
+    assert_eq!(places, [1, 2]);
+    let told: Vec<_> = found.failures.iter().map(|(_, complaint)| format!("{complaint:?}")).collect();
+    assert!(told[0].contains("1001 is odd") && told[1].contains("cannot be read back"), "{told:?}");
+    // they are tried again, and only they
+    let (_, mut begun) = sums(folder.path(), 2, &[10, 1001, 13, 20]);
+    begun.sort_unstable();
+    assert_eq!(begun, [13, 1001]);
+}
+
+#[test]
+fn outcomes_of_another_version_are_set_aside() {
+    let folder = TempDir::new().unwrap();
+    let old = "{\"shadowstep\":\"0.0.1\"}\n{\"task\":{\"n\":30},\"outcome\":1.0,\"seconds\":1}\n";
+    for aside in ["results-0.0.1.jsonl", "results-0.0.1-2.jsonl"] {
+        fs::write(folder.path().join("results.jsonl"), old).unwrap();
+        assert_eq!(sums(folder.path(), 1, &[30]).1, [30]);
+        assert_eq!(fs::read_to_string(folder.path().join(aside)).unwrap(), old);
+    }
+}
+
+#[test]
+fn two_stores_cannot_have_one_folder() {
+    let folder = TempDir::new().unwrap();
+    let store = Store::open(folder.path()).unwrap();
+    let refused = format!("{:?}", Store::open(folder.path()).unwrap_err());
+    assert!(refused.contains("another process is at work in"), "{refused}");
+    drop(store);
+    Store::open(folder.path()).unwrap();
+}
+
+#[test]
+fn files_that_are_not_ours_are_left_alone() {
+    let head = format!("{{\"shadowstep\":\"{}\"}}\n", env!("CARGO_PKG_VERSION"));
+    for (text, told) in [
+        ("a list of mine".to_owned(), "is no file of outcomes"),
+        ("a list\nof mine\n".to_owned(), "is no file of outcomes"),
+        (format!("{head}{{\"task\":1,\"outcome\":2}}\nnonsense\n"), "results.jsonl:3: no outcome of a task"),
+    ] {
+        let folder = TempDir::new().unwrap();
+        fs::write(folder.path().join("results.jsonl"), &text).unwrap();
+        let refused = format!("{:?}", Store::open(folder.path()).unwrap_err());
+        assert!(refused.contains(told), "{refused}");
+        assert_eq!(file(folder.path()), text);
+    }
+}
+
+/// 0.1 + 0.2 has 17 digits; without exact reading, some such numbers change their last bit in a file.
+#[test]
+fn numbers_come_back_to_the_last_bit() {
+    let folder = TempDir::new().unwrap();
+    let numbers: Vec<u32> = (14..200).collect();
+    let (first, _) = sums(folder.path(), 1, &numbers);
+    let (again, begun) = sums(folder.path(), 1, &numbers);
+    assert!(begun.is_empty());
+    for (n, (first, again)) in numbers.iter().zip(first.outcomes.iter().zip(again.outcomes)) {
+        let exact: f64 = (1..=*n).map(|k| f64::from(k).powi(-2)).sum();
+        assert_eq!((first.unwrap().to_bits(), again.unwrap().to_bits()), (exact.to_bits(), exact.to_bits()));
+    }
+}
