@@ -1,0 +1,137 @@
+//! By how much the modified energy changed for good.
+//!
+//! Where a motion is fast, as in a close encounter, an estimate is off by a bump that goes again. The modified energy itself
+//! changes there, too, for good and by far less. Between encounters the estimate is right to many more digits: a change is seen from one such
+//! *quiet* state to another. Quiet are those whose estimated error is at most the geometric mean of the least and the largest
+//! error of the run; so turning points need not be known, and where all errors are alike about half of the states are quiet.
+
+use std::collections::BTreeMap;
+
+use crate::number::Number;
+use crate::shadow::Estimate;
+
+/// The change of the modified energy between quiet states.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PermanentChange<N> {
+    /// maximum − minimum over the quiet states.
+    pub change: N,
+    /// From the first quiet state to the last one.
+    pub first_to_last: N,
+    /// The largest estimated error of a quiet state, twice: what a change has to exceed to be seen.
+    pub resolution: N,
+    /// The n of the first quiet state and of the last.
+    pub between: (i64, i64),
+    /// How many states are quiet.
+    pub states: u64,
+}
+
+impl<N: Number> PermanentChange<N> {
+    /// Whether the change is more than what estimates of this accuracy can feign.
+    pub fn is_resolved(&self) -> bool {
+        self.change > self.resolution
+    }
+}
+
+/// The estimates of a run by the sizes of their errors.
+///
+/// Its memory does not grow with the run: of each power of two the extremes are kept.
+#[derive(Clone, Debug)]
+pub struct Quiet<N> {
+    /// By ⌊log₂ error⌋; an error of 0, where nothing changes from state to state, comes first.
+    by_error: BTreeMap<i32, Extremes<N>>,
+}
+
+#[derive(Clone, Debug)]
+struct Extremes<N> {
+    minimum: N,
+    maximum: N,
+    first: (i64, N),
+    last: (i64, N),
+    error: N,
+    states: u64,
+}
+
+impl<N> Default for Quiet<N> {
+    fn default() -> Self {
+        Quiet { by_error: BTreeMap::new() }
+    }
+}
+
+impl<N: Number> Quiet<N> {
+    /// Takes the estimate of the state n; one without an error is left out.
+    pub fn include(&mut self, n: i64, estimate: &Estimate<'_, N>) {
+        let Some(error) = estimate.error.filter(|error| error.is_finite()) else { return };
+        let size = (error.log10_abs() * std::f64::consts::LOG2_10).floor() as i32;
+        let one = || Extremes::of(n, estimate.value, error);
+        self.by_error.entry(size).and_modify(|known| known.include(n, estimate.value, error)).or_insert_with(one);
+    }
+
+    /// The change between the quiet ones of them; none if there is no estimate with an error.
+    pub fn change(&self) -> Option<PermanentChange<N>> {
+        let mut sizes = self.by_error.keys().filter(|size| **size > i32::MIN);
+        let least = sizes.next().unwrap_or(&i32::MIN);
+        let largest = sizes.next_back().unwrap_or(least);
+        let quiet = i32::midpoint(*least, *largest);
+        let mut groups = self.by_error.range(..=quiet).map(|(_, extremes)| extremes);
+        let mut all = groups.next()?.clone();
+        groups.for_each(|other| all.merge(other));
+        let difference = |a: &N, b: &N| {
+            let mut difference = a.clone();
+            difference.subtract(b);
+            difference
+        };
+        all.error.multiply_integer(2);
+        Some(PermanentChange {
+            change: difference(&all.maximum, &all.minimum),
+            first_to_last: difference(&all.last.1, &all.first.1),
+            resolution: all.error,
+            between: (all.first.0, all.last.0),
+            states: all.states,
+        })
+    }
+}
+
+impl<N: Number> Extremes<N> {
+    fn of(n: i64, value: &N, error: &N) -> Self {
+        let value = || value.clone();
+        Extremes {
+            minimum: value(),
+            maximum: value(),
+            first: (n, value()),
+            last: (n, value()),
+            error: error.clone(),
+            states: 1,
+        }
+    }
+
+    /// A later state.
+    fn include(&mut self, n: i64, value: &N, error: &N) {
+        self.widen(value, value, error);
+        self.last.0 = n;
+        self.last.1.assign(value);
+        self.states += 1;
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.widen(&other.minimum, &other.maximum, &other.error);
+        if other.first.0 < self.first.0 {
+            self.first.clone_from(&other.first);
+        }
+        if other.last.0 > self.last.0 {
+            self.last.clone_from(&other.last);
+        }
+        self.states += other.states;
+    }
+
+    fn widen(&mut self, minimum: &N, maximum: &N, error: &N) {
+        if *minimum < self.minimum {
+            self.minimum.assign(minimum);
+        }
+        if *maximum > self.maximum {
+            self.maximum.assign(maximum);
+        }
+        if *error > self.error {
+            self.error.assign(error);
+        }
+    }
+}
