@@ -1,0 +1,82 @@
+//! Protects the permanent change of the modified energy: nothing on the exact flow, the same by every estimator on schemes.
+
+use rug::Float;
+use shadowstep::exact_flow::ExactFlow;
+use shadowstep::problems::{Setup, problem};
+use shadowstep::run::{EnergyDrift, PermanentChange, ShadowRun, energy_drift};
+use shadowstep::shadow::{Bilinear, Central, Method, Stop};
+use shadowstep::tables::shipped;
+use shadowstep::{Number, Rational};
+use shadowstep_tests::{precision, rational};
+
+const DIGITS: u32 = 80;
+
+fn setup(name: &str, set: &[(&str, &str)]) -> Setup {
+    let set: Vec<_> = set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    problem(name).unwrap().setup(&set, 120).unwrap()
+}
+
+/// How many steps of size h fit into [0, 100].
+fn steps(h: &Rational) -> u64 {
+    (100.0 / f64::from_rational(h, &())) as u64
+}
+
+fn on_the_exact_flow(setup: &Setup, h: &str, method: &impl Method<Float>) -> EnergyDrift<Float> {
+    let h = rational(h);
+    let mut run =
+        ShadowRun::<ExactFlow<Float>, _>::of_exact_flow(setup, &h, steps(&h), method, &precision(DIGITS)).unwrap();
+    run.drift(|_| ()).unwrap()
+}
+
+fn of(scheme: &str, setup: &Setup, h: &str, method: &impl Method<Float>) -> EnergyDrift<Float> {
+    let (h, motion) = (rational(h), setup.motion(&precision(DIGITS)).unwrap());
+    energy_drift(&shipped(scheme).unwrap(), motion, &h, steps(&h), method, |_| ()).unwrap()
+}
+
+fn change(found: &EnergyDrift<Float>) -> (f64, f64) {
+    let PermanentChange { change, resolution, .. } = found.permanent.as_ref().unwrap();
+    (change.log10_abs(), resolution.log10_abs())
+}
+
+#[test]
+fn the_exact_flow_has_none() {
+    for (name, set, h) in [
+        ("kepler", ("eccentricity", "3/10"), "1/10"),
+        ("kepler", ("eccentricity", "6/10"), "1/10"),
+        ("kepler", ("eccentricity", "6/10"), "1/20"),
+        ("kepler", ("eccentricity", "9/10"), "1/20"),
+        ("pendulum", ("p", "1"), "1/4"),
+        ("harmonic-oscillator", ("omega", "2"), "1/10"),
+    ] {
+        let setup = setup(name, &[set]);
+        for k in [8, 16, 50] {
+            let found = on_the_exact_flow(&setup, h, &Bilinear::with_error(k));
+            let (change, resolution) = change(&found);
+            println!(
+                "{name}, {set:?}, h = {h}, k = {k}: drift 1e{:.1}, change 1e{change:.1} of 1e{resolution:.1}",
+                found.drift.log10_abs()
+            );
+            assert!(!found.permanent.unwrap().is_resolved(), "{name}, h = {h}, k = {k}: 1e{change} of 1e{resolution}");
+        }
+    }
+}
+
+/// The drift is the estimator's, the permanent change is the method's: it does not depend on the estimator.
+#[test]
+fn every_estimator_finds_the_same() {
+    let kepler = setup("kepler", &[]);
+    for scheme in ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b"] {
+        let mut found: Vec<f64> = Vec::new();
+        for k in [16, 24, 50] {
+            let drift = of(scheme, &kepler, "1/20", &Bilinear::with_error(k));
+            println!("{scheme}, k = {k}: drift 1e{:.2}, change 1e{:.4}", drift.drift.log10_abs(), change(&drift).0);
+            assert!(drift.permanent.as_ref().unwrap().is_resolved());
+            found.push(change(&drift).0);
+        }
+        let drift = of(scheme, &kepler, "1/20", &Central::best(100, Stop::Full));
+        println!("{scheme}, central: drift 1e{:.2}, change 1e{:.4}", drift.drift.log10_abs(), change(&drift).0);
+        found.push(change(&drift).0);
+        // three digits: the drifts themselves are nine decades apart
+        assert!(found.iter().all(|one| (one - found[0]).abs() < 4e-4), "{scheme}: {found:?}");
+    }
+}
