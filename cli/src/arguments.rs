@@ -182,6 +182,9 @@ pub(crate) struct PolishArguments {
 pub(crate) struct DriftArguments {
     #[command(flatten)]
     pub(crate) run: RunArguments,
+    /// Leaves out what the estimator shows on the exact flow, where that is known: it takes longer than a run in double precision
+    #[arg(long)]
+    pub(crate) no_control: bool,
     /// One JSON object per run, a line each, in place of the table
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,6 +1,6 @@
 //! What a person is told when something is wrong, and how the program ends then.
 
-use std::fmt::Display;
+use std::fmt::{self, Display};
 use std::io::{self, ErrorKind, Write};
 
 use shadowstep::problems::ProblemError;
@@ -40,24 +40,25 @@ impl Complaint {
     /// Tells it on stderr.
     pub(crate) fn tell(&self) -> Ending {
         match self {
-            Complaint::Usage { sentence, hint } => {
-                say(format_args!("error: {sentence}\n  hint: {hint}"));
-                Ending::WrongUsage
-            }
-            Complaint::Faults(faults) => {
-                say(format_args!("error: {faults}"));
-                Ending::WrongUsage
-            }
-            Complaint::Run { sentence, hint } => {
-                say(format_args!("error: {sentence}\n  hint: {hint}"));
-                Ending::RunFailed
-            }
             // who reads has read enough, as `head` does
-            Complaint::Output(error) if error.kind() == ErrorKind::BrokenPipe => Ending::Done,
-            Complaint::Output(error) => {
-                say(format_args!("error: the output cannot be written: {error}"));
-                Ending::RunFailed
+            Complaint::Output(error) if error.kind() == ErrorKind::BrokenPipe => return Ending::Done,
+            _ => say(format_args!("error: {self}")),
+        }
+        match self {
+            Complaint::Usage { .. } | Complaint::Faults(_) => Ending::WrongUsage,
+            Complaint::Run { .. } | Complaint::Output(_) => Ending::RunFailed,
+        }
+    }
+}
+
+impl Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Complaint::Usage { sentence, hint } | Complaint::Run { sentence, hint } => {
+                write!(f, "{sentence}\n  hint: {hint}")
             }
+            Complaint::Faults(faults) => write!(f, "{faults}"),
+            Complaint::Output(error) => write!(f, "the output cannot be written: {error}"),
         }
     }
 }

@@ -1,20 +1,23 @@
-//! The drift of the modified energy: one run per scheme and step.
+//! The drift of the modified energy: one run per scheme and step, and the estimator's own on the exact flow.
 
+use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
 use std::time::Instant;
 
 use rug::Float;
 use serde::{Serialize, Serializer};
-use shadowstep::exact_flow::ExactFlow;
+use shadowstep::Rational;
+use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
 use shadowstep::number::{Number, Rounded};
 use shadowstep::run::{EnergyDrift, ShadowRun, energy_drift};
 use shadowstep::shadow::Stop;
-use shadowstep_symbolic::decimal::{to_significant, to_text};
+use shadowstep_symbolic::decimal::to_text;
 
 use crate::arguments::DriftArguments;
 use crate::arithmetic::Arithmetic;
-use crate::complaint::{Complaint, Ending};
+use crate::complaint::{Complaint, Ending, remark};
 use crate::estimator::Chosen;
+use crate::library::EXACT_FLOW;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::propagator::Propagator;
@@ -41,11 +44,52 @@ struct Record {
     at_maximum: i64,
     first: String,
     last: String,
+    permanent_change: Option<Permanent>,
+    control: Option<Control>,
     order_least: u32,
     order_most: u32,
     steps: u64,
     force_evaluations: u64,
     seconds: f64,
+}
+
+/// The change between quiet states, which the estimator's error hardly reaches.
+#[derive(Clone, Serialize)]
+struct Permanent {
+    change: String,
+    first_to_last: String,
+    resolution: String,
+    resolved: bool,
+    from: i64,
+    to: i64,
+    states: u64,
+}
+
+/// What the same estimator shows at the same times on the exact flow, whose energy does not change: its own error.
+#[derive(Clone, Serialize)]
+struct Control {
+    drift: String,
+    permanent_change: Option<Permanent>,
+}
+
+impl Permanent {
+    fn of<N: Number>(found: &EnergyDrift<N>) -> Option<Self> {
+        let permanent = found.permanent.as_ref()?;
+        Some(Permanent {
+            change: permanent.change.to_text(),
+            first_to_last: permanent.first_to_last.to_text(),
+            resolution: permanent.resolution.to_text(),
+            resolved: permanent.is_resolved(),
+            from: permanent.between.0,
+            to: permanent.between.1,
+            states: permanent.states,
+        })
+    }
+
+    /// The change, or what it is below.
+    fn shown(&self) -> String {
+        if self.resolved { rounded(&self.change, 4) } else { format!("< {}", rounded(&self.resolution, 2)) }
+    }
 }
 
 #[derive(Serialize)]
@@ -67,17 +111,18 @@ pub(crate) fn drift(arguments: &DriftArguments) -> Result<Ending, Complaint> {
     let bar = !arguments.json || arguments.run.output.is_some() || !std::io::stdout().is_terminal();
     let mut ending = Ending::Done;
     let mut rows = Vec::new();
+    let mut controls = Controls { wanted: !arguments.no_control, bar, known: BTreeMap::new() };
     for (propagator, run) in selection.runs() {
         let found = match selection.arithmetic {
-            Arithmetic::Double => measure::<f64>(&selection, propagator, run, &(), bar),
-            Arithmetic::Digits(_, precision) => measure::<Float>(&selection, propagator, run, &precision, bar),
+            Arithmetic::Double => record::<f64>(&selection, propagator, run, &(), &mut controls),
+            Arithmetic::Digits(_, precision) => record::<Float>(&selection, propagator, run, &precision, &mut controls),
         };
         match found {
             Ok(record) if arguments.json => {
                 output.json(&record)?;
                 output.flush()?;
             }
-            Ok(record) => rows.push(row(run, selection.estimator, &record)),
+            Ok(record) => rows.push(row(run, &record)),
             Err(complaint) => ending = ending.max(complaint.tell()),
         }
     }
@@ -88,16 +133,48 @@ pub(crate) fn drift(arguments: &DriftArguments) -> Result<Ending, Complaint> {
     Ok(ending)
 }
 
+/// What the estimator shows on the exact flow, by the step; none where the flow is not known.
+struct Controls {
+    wanted: bool,
+    bar: bool,
+    known: BTreeMap<Rational, Option<Control>>,
+}
+
+impl Controls {
+    fn of<N: Rounded + 'static>(
+        &mut self,
+        selection: &Selection,
+        run: Run<'_>,
+        context: &N::Context,
+    ) -> Option<Control> {
+        if !self.wanted || has_exact_flow(&selection.setup).is_err() {
+            return None;
+        }
+        if let Some(known) = self.known.get(run.h) {
+            return known.clone();
+        }
+        let run = Run { propagator: EXACT_FLOW, ..run };
+        let found = match measure::<N>(selection, &Propagator::ExactFlow, run, context, self.bar) {
+            Ok(found) => Some(Control { drift: found.drift.to_text(), permanent_change: Permanent::of(&found) }),
+            Err(complaint) => {
+                remark(format_args!("there is no control: {complaint}"));
+                None
+            }
+        };
+        self.known.insert(run.h.clone(), found.clone());
+        found
+    }
+}
+
 fn measure<N: Rounded + 'static>(
     selection: &Selection,
     propagator: &Propagator,
     run: Run<'_>,
     context: &N::Context,
     bar: bool,
-) -> Result<Record, Complaint> {
+) -> Result<EnergyDrift<N>, Complaint> {
     let progress = Progress::new(bar, run.name(), run.steps);
-    let begin = Instant::now();
-    let (method, heard) = (selection.estimator.method(false), progress.listener());
+    let (method, heard) = (selection.estimator.method(true), progress.listener());
     let found = match propagator {
         Propagator::Scheme(named) => {
             energy_drift(&named.scheme, selection.motion::<N>(context), run.h, run.steps, &method, heard)
@@ -113,11 +190,21 @@ fn measure<N: Rounded + 'static>(
     if !found.drift.is_finite() {
         return Err(run.not_finite("the energy drift"));
     }
-    Ok(record(selection, run, &found, begin.elapsed().as_secs_f64()))
+    Ok(found)
 }
 
-fn record<N: Number>(selection: &Selection, run: Run<'_>, found: &EnergyDrift<N>, seconds: f64) -> Record {
-    Record {
+fn record<N: Rounded + 'static>(
+    selection: &Selection,
+    propagator: &Propagator,
+    run: Run<'_>,
+    context: &N::Context,
+    controls: &mut Controls,
+) -> Result<Record, Complaint> {
+    let begin = Instant::now();
+    let found = measure::<N>(selection, propagator, run, context, controls.bar)?;
+    let seconds = begin.elapsed().as_secs_f64();
+    let control = propagator.scheme().and_then(|_| controls.of::<N>(selection, run, context));
+    Ok(Record {
         problem: selection.setup.problem.name,
         parameters: selection.values(),
         scheme: run.propagator.to_owned(),
@@ -142,26 +229,28 @@ fn record<N: Number>(selection: &Selection, run: Run<'_>, found: &EnergyDrift<N>
         at_maximum: found.at_maximum,
         first: found.first.to_text(),
         last: found.last.to_text(),
+        permanent_change: Permanent::of(&found),
+        control,
         order_least: found.orders.0,
         order_most: found.orders.1,
         steps: run.steps,
         force_evaluations: found.evaluations,
         seconds,
-    }
+    })
 }
 
-fn row(run: Run<'_>, estimator: Chosen, record: &Record) -> [String; 9] {
-    let time = |n: i64| to_significant(&run.time_of_value(n, estimator), 6);
+fn row(run: Run<'_>, record: &Record) -> [String; 9] {
     let orders = match (record.order_least, record.order_most) {
         (least, most) if least == most => least.to_string(),
         (least, most) => format!("{least}–{most}"),
     };
+    let control = record.control.as_ref().map(|control| rounded(&control.drift, 4));
     [
         record.scheme.clone(),
         shortened(run.h, 12),
         rounded(&record.drift, 4),
-        time(record.at_minimum),
-        time(record.at_maximum),
+        control.unwrap_or_default(),
+        record.permanent_change.as_ref().map(Permanent::shown).unwrap_or_default(),
         orders,
         record.steps.to_string(),
         record.force_evaluations.to_string(),
@@ -194,7 +283,8 @@ fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String {
         Chosen::Bilinear(k) => format!("products of {} states, k = {k}", k + 1),
     };
     let order = if matches!(selection.estimator, Chosen::Bilinear(_)) { "k" } else { "m" };
-    let columns = ["scheme", "step", "energy drift", "least at t", "largest at t", order, "steps", "forces", "seconds"];
+    let columns =
+        ["scheme", "step", "energy drift", "estimator's own", "permanent change", order, "steps", "forces", "seconds"];
     format!(
         "{}: H = {}\n{}\nfrom t = 0 to {}, {digits}; modified energy by {estimator}\n{}\n",
         problem.title,

@@ -7,7 +7,7 @@ use shadowstep::exact;
 
 const FAST: &str = "drift --problem kepler --scheme stormer-verlet --double --order 4 --until 2";
 
-const FIELDS: [&str; 20] = [
+const FIELDS: [&str; 22] = [
     "problem",
     "parameters",
     "scheme",
@@ -23,6 +23,8 @@ const FIELDS: [&str; 20] = [
     "at_maximum",
     "first",
     "last",
+    "permanent_change",
+    "control",
     "order_least",
     "order_most",
     "steps",
@@ -132,7 +134,8 @@ fn people_get_a_table() {
     assert!(how.contains("30 digits") && how.contains("m = 4"), "{how}");
     let row = table.lines().find(|line| line.trim_start().starts_with("yoshida4")).expect("a row for each run");
     let cells: Vec<&str> = row.split_whitespace().collect();
-    assert_eq!((cells[1], cells[5], cells[6]), ("1/10", "4", "20"));
+    let [.., order, steps, _, _] = cells[..] else { panic!("{row}") };
+    assert_eq!((cells[1], order, steps), ("1/10", "4", "20"));
     // the same drift as JSON has, to 4 digits
     let record = &objects(&quietly(&format!("{words} --json")))[1];
     let (shown, full): (f64, f64) = (cells[2].parse().unwrap(), text(record, "drift").parse().unwrap());
@@ -218,4 +221,50 @@ fn what_is_named_twice_is_run_once() {
     assert_eq!((said.code, objects(&said.out).len()), (0, 2));
     assert!(said.err.contains("the scheme ruth3 is named twice"), "{}", said.err);
     assert!(said.err.contains("the step 1/10 is named twice"), "{}", said.err);
+}
+
+/// What the paper calls drift is the estimator's own on Kepler's problem; the permanent change is far below it.
+#[test]
+fn the_drift_stands_beside_the_estimators_own_and_the_permanent_change() {
+    let words = "drift --problem kepler --scheme blanes-moan-srkn6b,exact-flow --step 1/20 --until 30 --digits 50 \
+                 --estimator bilinear --order 12 --json";
+    let records = objects(&quietly(words));
+    let value = |text: &Value| text.as_str().unwrap().parse::<f64>().unwrap();
+    let [scheme, flow] = &records[..] else { panic!("{records:?}") };
+    assert_eq!(
+        (text(flow, "scheme"), &flow["control"], &flow["force_evaluations"]),
+        ("exact-flow", &Value::Null, &0.into())
+    );
+    // the control of the scheme is the other run
+    assert_eq!(scheme["control"]["drift"], flow["drift"]);
+    assert_eq!(scheme["control"]["permanent_change"], flow["permanent_change"]);
+    let (drift, own) = (value(&scheme["drift"]), value(&flow["drift"]));
+    assert!((drift / own - 1.0).abs() < 0.01, "{drift:e} {own:e}");
+    assert!(value(&scheme["permanent_change"]["change"]) < 1e-15);
+    assert_eq!(
+        (&scheme["permanent_change"]["resolved"], &flow["permanent_change"]["resolved"]),
+        (&true.into(), &false.into())
+    );
+    assert_eq!(objects(&quietly(&format!("{words} --no-control")))[0]["control"], Value::Null);
+    let table = quietly(&words.replace(" --json", ""));
+    assert!(table.contains("estimator's own") && table.contains("permanent change"), "{table}");
+}
+
+#[test]
+fn exact_flows_that_are_not_known_are_refused() {
+    let refused = |words: &str| {
+        let found = shadowstep(words);
+        assert_eq!(found.code, 2, "{words}");
+        found.err
+    };
+    let words = "drift --scheme exact-flow --step 1/10 --until 1 --problem";
+    let other = refused(&format!("{words} henon-heiles"));
+    assert!(other.contains("known are those of harmonic-oscillator, pendulum, kepler"), "{other}");
+    let unbound = refused(&format!("{words} kepler --set py=5"));
+    assert!(unbound.contains("bound orbits"), "{unbound}");
+    // without a control the scheme runs all the same
+    let record = &objects(&quietly(
+        "drift --scheme stormer-verlet --step 1/100 --until 1 --problem kepler --set py=5 --order 4 --json",
+    ))[0];
+    assert_eq!(record["control"], Value::Null);
 }
