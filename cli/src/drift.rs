@@ -7,9 +7,9 @@ use std::time::Instant;
 use rug::Float;
 use serde::{Serialize, Serializer};
 use shadowstep::Rational;
-use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
+use shadowstep::exact_flow::has_exact_flow;
 use shadowstep::number::{Number, Rounded};
-use shadowstep::run::{EnergyDrift, ShadowRun, energy_drift};
+use shadowstep::run::EnergyDrift;
 use shadowstep::shadow::Stop;
 use shadowstep_symbolic::decimal::to_text;
 
@@ -175,17 +175,7 @@ fn measure<N: Rounded + 'static>(
 ) -> Result<EnergyDrift<N>, Complaint> {
     let progress = Progress::new(bar, run.name(), run.steps);
     let (method, heard) = (selection.estimator.method(true), progress.listener());
-    let found = match propagator {
-        Propagator::Scheme(named) => {
-            energy_drift(&named.scheme, selection.motion::<N>(context), run.h, run.steps, &method, heard)
-        }
-        Propagator::ExactFlow => {
-            ShadowRun::<ExactFlow<N>, _>::of_exact_flow(&selection.setup, run.h, run.steps, &method, context)
-                .map_err(|error| run.not_followed(&error))?
-                .drift(heard)
-        }
-    }
-    .map_err(|error| run.failed(&error))?;
+    let found = propagator.energy_drift::<N>(&selection.setup, run, &method, context, heard)?;
     // both extremes may be finite where their difference overflows
     if !found.drift.is_finite() {
         return Err(run.not_finite("the energy drift"));

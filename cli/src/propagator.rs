@@ -1,10 +1,14 @@
 //! What takes a state on in time: a scheme, or the exact flow.
 
-use shadowstep::exact_flow::ExactFlowError;
-use shadowstep::problems::Setup;
+use shadowstep::exact_flow::{ExactFlow, ExactFlowError};
+use shadowstep::number::{Number, Rounded};
+use shadowstep::problems::{ProblemMotion, Setup};
+use shadowstep::run::{EnergyDrift, RunError, ShadowRun, States, energy_drift};
+use shadowstep::shadow::{Estimate, Estimator, Method};
 
 use crate::complaint::Complaint;
 use crate::library::{self, EXACT_FLOW, Named};
+use crate::run::Run;
 
 /// A scheme, or the exact flow as the control of an estimator.
 #[derive(Debug)]
@@ -43,4 +47,65 @@ impl Propagator {
             Propagator::ExactFlow => None,
         }
     }
+
+    /// The drift of the modified energy over a run from the problem's initial state.
+    pub(crate) fn energy_drift<N: Rounded + 'static>(
+        &self,
+        setup: &Setup,
+        run: Run<'_>,
+        method: &impl Method<N>,
+        context: &N::Context,
+        heard: impl FnMut(i64),
+    ) -> Result<EnergyDrift<N>, Complaint> {
+        match self {
+            Propagator::Scheme(named) => {
+                energy_drift(&named.scheme, motion(setup, context), run.h, run.steps, method, heard)
+            }
+            Propagator::ExactFlow => {
+                ShadowRun::<ExactFlow<N>, _>::of_exact_flow(setup, run.h, run.steps, method, context)
+                    .map_err(|error| run.not_followed(&error))?
+                    .drift(heard)
+            }
+        }
+        .map_err(|error| run.failed(&error))
+    }
+
+    /// Gives each estimate of a run to `take`.
+    pub(crate) fn estimates<N: Rounded + 'static>(
+        &self,
+        setup: &Setup,
+        run: Run<'_>,
+        method: &impl Method<N>,
+        context: &N::Context,
+        take: impl FnMut(i64, Estimate<'_, N>) -> Result<(), Complaint>,
+    ) -> Result<(), Complaint> {
+        let failed = |error: RunError| run.failed(&error);
+        match self {
+            Propagator::Scheme(named) => {
+                let motion = motion(setup, context);
+                let shadow = ShadowRun::new(&named.scheme, motion, run.h, run.steps, method).map_err(failed)?;
+                take_all(shadow, run, take)
+            }
+            Propagator::ExactFlow => {
+                let shadow = ShadowRun::<ExactFlow<N>, _>::of_exact_flow(setup, run.h, run.steps, method, context);
+                take_all(shadow.map_err(|error| run.not_followed(&error))?, run, take)
+            }
+        }
+    }
+}
+
+/// The problem at its initial state.
+pub(crate) fn motion<N: Number + 'static>(setup: &Setup, context: &N::Context) -> ProblemMotion<N> {
+    setup.motion(context).expect("problems allow positive masses only")
+}
+
+fn take_all<T: States, E: Estimator<T::Number>>(
+    mut shadow: ShadowRun<T, E>,
+    run: Run<'_>,
+    mut take: impl FnMut(i64, Estimate<'_, T::Number>) -> Result<(), Complaint>,
+) -> Result<(), Complaint> {
+    while let Some((n, estimate)) = shadow.advance().map_err(|error| run.failed(&error))? {
+        take(n, estimate)?;
+    }
+    Ok(())
 }

@@ -1,8 +1,8 @@
 //! Arguments → problem, schemes and steps: the runs to make.
 
 use shadowstep::Rational;
-use shadowstep::number::{Number, Precision};
-use shadowstep::problems::{ProblemMotion, Setup, problem};
+use shadowstep::number::Precision;
+use shadowstep::problems::{Setup, problem};
 use shadowstep::shadow::Stop;
 use shadowstep_symbolic::decimal::to_text;
 
@@ -58,11 +58,6 @@ impl Selection {
     pub(crate) fn single(&self) -> Option<(&Propagator, Run<'_>)> {
         let mut runs = self.runs();
         runs.next().filter(|_| runs.next().is_none())
-    }
-
-    /// The problem at its initial state.
-    pub(crate) fn motion<N: Number + 'static>(&self, context: &N::Context) -> ProblemMotion<N> {
-        self.setup.motion(context).expect("problems allow positive masses only")
     }
 
     /// Every parameter and initial value with its exact text, or the digits of what is irrational.

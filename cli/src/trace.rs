@@ -2,17 +2,14 @@
 
 use rug::Float;
 use serde::Serialize;
-use shadowstep::exact_flow::ExactFlow;
 use shadowstep::number::Rounded;
-use shadowstep::run::{ShadowRun, States};
-use shadowstep::shadow::Estimator;
 
 use crate::arguments::TraceArguments;
 use crate::arithmetic::Arithmetic;
 use crate::complaint::{Complaint, Ending};
 use crate::output::Output;
 use crate::progress::Progress;
-use crate::propagator::Propagator;
+use crate::propagator::{Propagator, motion};
 use crate::run::Run;
 use crate::selection::Selection;
 
@@ -92,47 +89,27 @@ fn follow<N: Rounded + 'static>(
     bar: bool,
     write: &mut Writer<'_>,
 ) -> Result<(), Complaint> {
-    let method = selection.estimator.method(true);
-    match propagator {
-        Propagator::Scheme(named) => {
-            let motion = selection.motion::<N>(context);
-            let shadow = ShadowRun::new(&named.scheme, motion, run.h, run.steps, &method);
-            write_rows(selection, run, shadow.map_err(|error| run.failed(&error))?, context, states, bar, write)
-        }
-        Propagator::ExactFlow => {
-            let shadow =
-                ShadowRun::<ExactFlow<N>, _>::of_exact_flow(&selection.setup, run.h, run.steps, &method, context);
-            write_rows(selection, run, shadow.map_err(|error| run.not_followed(&error))?, context, states, bar, write)
-        }
-    }
-}
-
-fn write_rows<N: Rounded + 'static, T: States<Number = N>, E: Estimator<N>>(
-    selection: &Selection,
-    run: Run<'_>,
-    mut shadow: ShadowRun<T, E>,
-    context: &N::Context,
-    states: bool,
-    bar: bool,
-    write: &mut Writer<'_>,
-) -> Result<(), Complaint> {
+    let (method, between) = (selection.estimator.method(true), selection.estimator.is_between());
     let progress = Progress::new(bar, run.name(), run.steps);
     let heard = progress.listener();
-    let mut system = selection.motion::<N>(context);
-    let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
-    while let Some((n, found)) = shadow.advance().map_err(|error| run.failed(&error))? {
-        q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
-        p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
-        let (modified_energy, estimate, order) = (found.value.to_text(), found.error.map(N::to_text), found.order);
-        let energy = (!shadow.is_between()).then(|| system.energy_of(&q, &p));
+    let mut system = motion::<N>(&selection.setup, context);
+    propagator.estimates(&selection.setup, run, &method, context, |n, found| {
+        let energy = (!between).then(|| system.energy_of(found.q, found.p));
         if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
             return Err(run.not_finite(&format!("the energy at n = {n}")));
         }
-        let energy = energy.as_ref().map(N::to_text);
         let texts = |numbers: &[N]| states.then(|| numbers.iter().map(N::to_text).collect());
-        let t = N::from_rational(&run.time_of_value(n, selection.estimator), context).to_text();
-        write(&Row { n, t, energy, modified_energy, estimate, order, q: texts(&q), p: texts(&p) })?;
+        write(&Row {
+            n,
+            t: N::from_rational(&run.time_of_value(n, selection.estimator), context).to_text(),
+            energy: energy.as_ref().map(N::to_text),
+            modified_energy: found.value.to_text(),
+            estimate: found.error.map(N::to_text),
+            order: found.order,
+            q: texts(found.q),
+            p: texts(found.p),
+        })?;
         heard(n);
-    }
-    Ok(())
+        Ok(())
+    })
 }
