@@ -21,6 +21,13 @@ Example:
   shadowstep drift --problem kepler --set eccentricity=0.3 --scheme stormer-verlet,yoshida4 \\
       --step 1/10,1/20 --until 100 --digits 60 --order auto";
 
+const FIGURES_EXAMPLE: &str = "\
+Examples:
+  shadowstep figures --quick --out figures
+  shadowstep figures kepler-schemes kepler-orders --out figures
+What is computed stays in DIR/results.jsonl: an interrupted run goes on where it stopped. All cores are used, or as many
+as RAYON_NUM_THREADS says; results do not depend on that.";
+
 const TRACE_EXAMPLE: &str = "\
 Example:
   shadowstep trace --problem pendulum --scheme yoshida4 --step 1/10 --until 20 --digits 40 --csv > pendulum.csv";
@@ -87,6 +94,9 @@ pub(crate) enum Command {
         #[command(subcommand)]
         command: Option<SchemesCommand>,
     },
+    /// Computes the figures of Moan and Niesen's paper, and ours: pictures, data, and a report.
+    #[command(after_help = FIGURES_EXAMPLE)]
+    Figures(FiguresArguments),
     /// Lists the problems with their parameters and initial states.
     Problems {
         /// One problem only, such as kepler
@@ -188,6 +198,19 @@ pub(crate) struct DriftArguments {
     /// One JSON object per run, a line each, in place of the table
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FiguresArguments {
+    /// Only these figures, such as kepler-schemes; all, if none is named
+    #[arg(value_name = "NAME")]
+    pub(crate) names: Vec<String>,
+    /// The folder for report.html, SVG and CSV files, and for what is already computed
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// A thinned grid: every figure in less than a minute in all, on two cores
+    #[arg(long)]
+    pub(crate) quick: bool,
 }
 
 #[derive(Debug, Args)]

@@ -8,6 +8,7 @@
 //! | [`arithmetic`], [`steps`], [`estimator`] | digits, the number of steps, and the m of the estimator |
 //! | [`drift`], [`trace`] | the runs: one line a run, or one line a step |
 //! | [`scene`] | runs that a file describes |
+//! | [`figures`] | the figures of the paper, and ours |
 //! | [`figures`] | the figures of a paper: charts and a report |
 //! | [`schemes`], [`problems`] | what can be run |
 //! | [`readable`], [`output`], [`progress`], [`complaint`] | how it is told |
@@ -51,6 +52,7 @@ fn obey(command: &Command) -> Result<Ending, Complaint> {
         Command::Run(arguments) => scene::run(arguments),
         Command::Scene { explain: true, .. } => scene::explain(),
         Command::Scene { name, explain: false } => scene::template(name.as_deref()),
+        Command::Figures(arguments) => figures::figures(arguments),
         Command::Problems { name, json } => problems::problems(name.as_deref(), *json),
         Command::Schemes { list, command: None } => schemes::list(list),
         Command::Schemes { command: Some(SchemesCommand::Show { name, json }), .. } => schemes::show(name, *json),

@@ -1,0 +1,71 @@
+//! Results as CSV: every run that a figure shows, with all digits.
+
+use super::calculation::{By, Setting};
+use super::results::Used;
+use crate::complaint::Complaint;
+
+const RUN: [&str; 8] = ["problem", "set", "scheme", "step", "until", "digits", "estimator", "order"];
+
+/// The files of a figure: what is put behind its name, and the text.
+pub(crate) fn csv(used: &[Used]) -> Result<Vec<(&'static str, String)>, Complaint> {
+    let mut drifts = vec![header(&["drift", "permanent_change", "resolution", "order_least", "order_most"])];
+    let mut energies = vec![header(&["t", "modified_energy", "order_used"])];
+    let mut numbers = vec![header(&["quantity", "value"])];
+    let mut blocks = vec![["differences", "steps", "scatter", "wander"].map(str::to_owned).to_vec()];
+    for used in used {
+        match used {
+            Used::Drift(run, by, drift) => {
+                let (change, resolution) = drift.permanent.clone().unwrap_or_default();
+                let [least, most] = [drift.orders.0, drift.orders.1].map(|order| order.to_string());
+                drifts.push(row(run, Some(*by), [drift.drift.clone(), change, resolution, least, most]));
+            }
+            Used::Energies(run, by, found) => {
+                let states = found.times.iter().zip(&found.values).zip(&found.orders);
+                energies.extend(
+                    states.map(|((t, value), order)| {
+                        row(run, Some(*by), [t.to_string(), value.clone(), order.to_string()])
+                    }),
+                );
+            }
+            Used::Number(run, what, value) => numbers.push(row(run, None, [(*what).to_owned(), value.clone()])),
+            Used::Blocks(differences, found) => blocks.extend(found.iter().map(|block| {
+                let name = serde_json::to_value(differences)
+                    .map_or(String::new(), |name| name.as_str().unwrap_or("").to_owned());
+                vec![name, block.steps.to_string(), format!("{:e}", block.scatter), format!("{:e}", block.wander)]
+            })),
+        }
+    }
+    let files = [("", drifts), ("-energies", energies), ("-values", numbers), ("-blocks", blocks)];
+    let files = files.into_iter().filter(|(_, rows)| rows.len() > 1);
+    files.map(|(kind, rows)| Ok((kind, text(&rows)?))).collect()
+}
+
+fn header(last: &[&str]) -> Vec<String> {
+    RUN.iter().chain(last).map(|&name| name.to_owned()).collect()
+}
+
+fn row<const N: usize>(run: &Setting, by: Option<By>, last: [String; N]) -> Vec<String> {
+    let set: Vec<_> = run.set.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    let (estimator, order) = match by {
+        None => ("", String::new()),
+        Some(By::Central { m }) => ("central", m.to_string()),
+        Some(By::Best { largest, early: false }) => ("central", format!("best of 2-{largest}")),
+        Some(By::Best { largest, early: true }) => ("central", format!("best of 2-{largest}, early stop")),
+        Some(By::Bilinear { k }) => ("bilinear", k.to_string()),
+    };
+    let first =
+        [run.problem.to_owned(), set.join(" "), run.propagator.to_owned(), run.step.clone(), run.until.to_owned()];
+    let how = [run.digits.to_string(), estimator.to_owned(), order];
+    first.into_iter().chain(how).chain(last).collect()
+}
+
+/// Equal rows, of results that a figure uses twice, are written once.
+fn text(rows: &[Vec<String>]) -> Result<String, Complaint> {
+    let mut written = std::collections::HashSet::new();
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    for row in rows.iter().filter(|row| written.insert(*row)) {
+        csv.write_record(row)?;
+    }
+    let bytes = csv.into_inner().map_err(|error| error.into_error())?;
+    Ok(String::from_utf8(bytes).expect("texts were written"))
+}

@@ -1,0 +1,163 @@
+//! The noise floor of double precision against the length of the run, by what differences of states are taken from.
+
+use std::collections::VecDeque;
+
+use serde::{Deserialize, Serialize};
+use shadowstep::problems::Kepler;
+use shadowstep::run::{States, Trajectory};
+use shadowstep::shadow::{Bilinear, Estimator, Method};
+use shadowstep::tables::shipped;
+use shadowstep::{Increments, Motion, UnitMasses, exact};
+
+use super::charts::{line, log10_axis};
+use super::drawn::{Drawn, scientific};
+use super::results::Results;
+use crate::complaint::Complaint;
+
+/// What an estimator is given beside the states.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Differences {
+    /// β as a running sum; differences of q and p are those of the states.
+    Sums,
+    /// What each step added to β; q and p as before.
+    OfBeta,
+    /// What each step added to q, p and β.
+    Increments,
+}
+
+/// The estimates near the apocentres of a part of a run.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Block {
+    /// The number of the last step.
+    pub(crate) steps: u64,
+    /// The largest max − min over ten steps on either side of an apocentre.
+    pub(crate) scatter: f64,
+    /// The mean at the apocentres less that of the first block.
+    pub(crate) wander: f64,
+}
+
+/// Steps on either side of an apocentre.
+const REACH: usize = 10;
+
+/// A part of a run while it is made.
+#[derive(Default)]
+struct Part {
+    scatter: f64,
+    sum: f64,
+    apocentres: u32,
+}
+
+/// Störmer–Verlet on Kepler's problem, e = 0.6, h = 1/20, by E_8: blocks that end at 10³, 10^3.5, … steps.
+pub(crate) fn scatter(steps: u64, differences: Differences) -> Result<Vec<Block>, Complaint> {
+    let (scheme, h) = (shipped("stormer-verlet").expect("it is shipped"), exact("1/20").expect("it is a number"));
+    let start = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]);
+    let mut estimator = Method::<f64>::estimator(&Bilinear::new(8), &h, 2, &());
+    let failed = |error: shadowstep::run::RunError| Complaint::run(error.to_string(), "this run has no other");
+    let mut trajectory = Trajectory::new(&scheme, start, &h, steps, estimator.states() / 2).map_err(failed)?;
+    let mut near: VecDeque<(f64, f64)> = VecDeque::new();
+    let (mut blocks, mut part, mut first, mut end, mut sum) = (Vec::new(), Part::default(), None, 1000.0, 0.0);
+    while let Some(state) = trajectory.advance().map_err(failed)? {
+        let given = given(differences, state.increments, &mut sum);
+        let Some(estimate) = estimator.push(state.q, state.p, &given) else { continue };
+        near.push_back((estimate.q[0].hypot(estimate.q[1]), *estimate.value));
+        if near.len() > 2 * REACH + 1 {
+            near.pop_front();
+        }
+        part.include(&near);
+        if state.n as f64 >= end && part.apocentres > 0 {
+            let mean = part.sum / f64::from(part.apocentres);
+            let wander = mean - *first.get_or_insert(mean);
+            blocks.push(Block { steps: state.n.unsigned_abs(), scatter: part.scatter, wander });
+            part = Part::default();
+            end *= 10_f64.sqrt();
+        }
+    }
+    Ok(blocks)
+}
+
+/// What is told of a step; a running sum loses the digits that it has before the point.
+fn given(differences: Differences, increments: &Increments<f64>, sum: &mut f64) -> Increments<f64> {
+    match differences {
+        Differences::Increments => increments.clone(),
+        Differences::OfBeta => Increments::of_beta(increments.beta),
+        Differences::Sums => {
+            let before = *sum;
+            *sum += increments.beta;
+            Increments::of_beta(*sum - before)
+        }
+    }
+}
+
+impl Part {
+    /// The middle of the newest estimates may be an apocentre.
+    fn include(&mut self, near: &VecDeque<(f64, f64)>) {
+        let r = |i: usize| near[i].0;
+        if near.len() <= 2 * REACH || !(r(REACH) > 1.0 && r(REACH - 1) < r(REACH) && r(REACH) >= r(REACH + 1)) {
+            return;
+        }
+        let values = near.iter().map(|(_, value)| *value);
+        let spread = values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min);
+        self.scatter = self.scatter.max(spread);
+        self.sum += near[REACH].1 + 0.5;
+        self.apocentres += 1;
+    }
+}
+
+pub(crate) fn draw(results: &Results) -> Drawn {
+    let steps = if results.quick { 100_000 } else { 10_000_000 };
+    let kinds = [
+        (Differences::Sums, "β as a running sum"),
+        (Differences::OfBeta, "β by increments"),
+        (Differences::Increments, "q, p and β by increments"),
+    ];
+    let blocks = kinds.map(|(kind, label)| (label, results.scatter(steps, kind).unwrap_or_default()));
+    let curve = |n: usize, of: &dyn Fn(&Block) -> f64| {
+        let (label, blocks) = &blocks[n];
+        line(*label, blocks.iter().map(|block| ((block.steps as f64).log10(), of(block))).collect(), n)
+    };
+    let mut drawn =
+        Drawn::ours("Störmer–Verlet on Kepler's problem, e = 0.6, h = 1/20, in double precision (f64), by E_8");
+    drawn.chart(
+        "Scatter of the modified energy near apocentres",
+        log10_axis("steps"),
+        log10_axis("max − min within ± 10 steps"),
+        (0..3).map(|n| curve(n, &|block| block.scatter.log10())).collect(),
+        "The largest of all apocentres of a part of the run that ends there.",
+    );
+    drawn.chart(
+        "Wander of its mean",
+        log10_axis("steps"),
+        log10_axis("|mean − mean of the first 1000 steps|"),
+        (1..3).map(|n| curve(n, &|block| block.wander.abs().log10())).collect(),
+        "What the round-off of the steps themselves does: no estimator can help it.",
+    );
+    let last = |n: usize| blocks[n].1.last().cloned();
+    if let (Some(sums), Some(beta), Some(increments)) = (last(0), last(1), last(2)) {
+        drawn.check(
+            "Increments keep the scatter at apocentre below 2e-15 to the end of the run.",
+            format!("{} after {} steps", scientific(increments.scatter), increments.steps),
+            increments.scatter < 2e-15,
+        );
+        drawn.check(
+            "A running sum of β loses digits like the length of the run.",
+            format!(
+                "{}, {:.0} times as much as with increments of β",
+                scientific(sums.scatter),
+                sums.scatter / beta.scatter
+            ),
+            sums.scatter > 100.0 * beta.scatter,
+        );
+        drawn.check(
+            "Differences of q and p from increments gain a little more.",
+            format!("{} against {}", scientific(increments.scatter), scientific(beta.scatter)),
+            increments.scatter < beta.scatter,
+        );
+        drawn.found(format!(
+            "The mean wanders by {} in {} steps: the round-off of the states, which is the same however differences are taken.",
+            scientific(increments.wander.abs()),
+            increments.steps
+        ));
+    }
+    drawn
+}

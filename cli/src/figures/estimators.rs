@@ -1,0 +1,140 @@
+//! Ours: what estimators show against the states that they store, on the exact flow and on schemes; and what is left of the schemes' own.
+
+use super::calculation::{By, Setting};
+use super::chart::Curve;
+use super::charts::{dashed, line, linear, log10_axis};
+use super::drawn::{Drawn, power};
+use super::kepler::{EXACT, SCHEMES, run};
+use super::results::Results;
+
+const ORDERS: [u32; 14] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 50, 80, 130, 200];
+
+/// (log₁₀ of the states, log₁₀ of the drift)
+fn against_states(results: &Results, run: &Setting, by: &dyn Fn(u32) -> By, orders: &[u32]) -> Vec<(f64, f64)> {
+    let point = |&order: &u32| (f64::from(by(order).states()).log10(), results.log10_drift(run, by(order)));
+    orders.iter().map(point).collect()
+}
+
+/// Even ones, whose values belong to states.
+fn even(orders: &[u32]) -> Vec<u32> {
+    orders.iter().map(|order| 2 * order).filter(|order| *order <= 200).collect()
+}
+
+const STATES: &str = "states that an estimate needs";
+
+pub(crate) fn on_the_exact_flow(results: &Results) -> Drawn {
+    let mut drawn = Drawn::ours(
+        "The states of Kepler's exact flow (e = 0.6) at t = n h, with β along it: the modified energy of this trajectory is −1/2 at every state, so \
+         everything that an estimator shows is its own error.",
+    );
+    let orders = results.grid(&ORDERS, 4);
+    for n in [10, 20, 40] {
+        let exact = run(EXACT, n);
+        let central = against_states(results, &exact, &|m| By::Central { m }, &orders);
+        let best = against_states(results, &exact, &|largest| By::Best { largest, early: false }, &orders[1..]);
+        let bilinear = against_states(results, &exact, &|k| By::Bilinear { k }, &even(&orders));
+        let least = |points: &[(f64, f64)]| points.iter().map(|(_, y)| *y).fold(f64::INFINITY, f64::min);
+        drawn.found(format!(
+            "h = 1/{n}: with up to 401 states the best m shows {}, any fixed m at least {}; the bilinear estimator shows {} with up to 201.",
+            power(best.last().map_or(f64::NAN, |(_, y)| *y)),
+            power(least(&central)),
+            power(least(&bilinear)),
+        ));
+        drawn.chart(
+            &format!("Exact flow, Kepler, e = 0.6, h = 1/{n}"),
+            log10_axis(STATES),
+            log10_axis("max − min of the estimates"),
+            vec![
+                line("T_{m,m}, every state the same m", central, 0),
+                line("best m up to a cap", best, 1),
+                line("bilinear E_k", bilinear, 2),
+            ],
+            "2m + 1 or k + 1 states.",
+        );
+    }
+    drawn
+}
+
+pub(crate) fn on_schemes(results: &Results) -> Drawn {
+    let mut drawn = Drawn::ours(
+        "The same on the schemes, Kepler, e = 0.6, h = 1/20, beside the permanent change between quiet states.",
+    );
+    let orders = results.grid(&ORDERS, 4);
+    let best = |largest| By::Best { largest, early: false };
+    let bilinear = |k| By::Bilinear { k };
+    let mut chart = |title: &str, by: &dyn Fn(u32) -> By, orders: &[u32]| {
+        let mut curves: Vec<Curve> = Vec::new();
+        for (i, (scheme, label)) in SCHEMES.into_iter().enumerate() {
+            curves.push(line(label, against_states(results, &run(scheme, 20), by, orders), i));
+        }
+        curves.push(dashed("exact flow", against_states(results, &run(EXACT, 20), by, orders), 8));
+        drawn.chart(
+            &format!("{title}, h = 1/20"),
+            log10_axis(STATES),
+            log10_axis("drift of the modified energy over [0, 100]"),
+            curves,
+            "Where a curve leaves that of the exact flow, it shows the scheme.",
+        );
+    };
+    chart("Best m up to a cap", &best, &orders[1..]);
+    chart("Bilinear E_k", &bilinear, &even(&orders));
+    let mut rows = Vec::new();
+    for (scheme, label) in SCHEMES.into_iter().chain([(EXACT, "exact flow")]) {
+        let [best, bilinear] =
+            [super::kepler::BEST, By::Bilinear { k: 50 }].map(|by| results.sizes(&run(scheme, 20), by));
+        let (Some(best), Some(bilinear)) = (best, bilinear) else { continue };
+        let permanent = bilinear.permanent.map_or("not resolved".to_owned(), power);
+        rows.push(vec![label.to_owned(), power(best.drift), power(bilinear.drift), permanent]);
+    }
+    drawn.table("h = 1/20", &["", "drift by the best m ≤ 200", "drift by E_50", "permanent change"], rows);
+    drawn
+}
+
+/// Evaluations of the gradient a step.
+const COSTS: [f64; 4] = [1.0, 3.0, 6.0, 6.0];
+
+pub(crate) fn permanent(results: &Results) -> Drawn {
+    let mut drawn = Drawn::ours(
+        "By how much the modified energy changes for good over [0, 100], Kepler, e = 0.6: max − min over the states whose estimated error is small, \
+         which are those near the apocentres; by E_24.",
+    );
+    let steps = results.grid(&[5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 23, 26, 30, 35, 40], 4);
+    let by = By::Bilinear { k: 24 };
+    let change = |scheme: &'static str, n: u32| results.sizes(&run(scheme, n), by).and_then(|sizes| sizes.permanent);
+    let of = |x: &dyn Fn(f64, f64) -> f64| -> Vec<Curve> {
+        let curves = SCHEMES.into_iter().zip(COSTS).enumerate().map(|(i, ((scheme, label), cost))| {
+            let points = steps.iter().map(|&n| (x(f64::from(n), cost), change(scheme, n).unwrap_or(f64::NAN)));
+            line(label, points.collect(), i)
+        });
+        curves.collect()
+    };
+    drawn.chart(
+        "At equal steps",
+        linear("1/h"),
+        log10_axis("permanent change over [0, 100]"),
+        of(&|n, _| n),
+        "Lower is better: at equal steps the schemes of higher order win.",
+    );
+    drawn.chart(
+        "At equal cost",
+        linear("force evaluations per unit of time"),
+        log10_axis("permanent change over [0, 100]"),
+        of(&|n, cost| n * cost),
+        "Lower is better: at equal cost Störmer–Verlet wins.",
+    );
+    let mut rows = Vec::new();
+    for n in steps.iter().filter(|n| [5, 10, 20, 40].contains(*n)) {
+        let cells = SCHEMES.map(|(scheme, _)| change(scheme, *n).map_or("not resolved".to_owned(), power));
+        rows.push([format!("1/{n}")].into_iter().chain(cells).collect());
+    }
+    let header: Vec<&str> = ["h"].into_iter().chain(SCHEMES.map(|(_, label)| label)).collect();
+    drawn.table("Permanent change", &header, rows);
+    let order = |n: u32| SCHEMES.map(|(scheme, _)| change(scheme, n).unwrap_or(f64::NAN));
+    let [verlet, yoshida, s6, srkn] = order(20);
+    drawn.check(
+        "At equal steps the ranking by the permanent change is the reverse of that by the paper's drift (h = 1/20).",
+        format!("{}, {}, {}, {}", power(verlet), power(yoshida), power(s6), power(srkn)),
+        verlet > yoshida && yoshida > s6 && s6 > srkn,
+    );
+    drawn
+}

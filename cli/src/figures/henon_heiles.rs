@@ -1,0 +1,148 @@
+//! The Hénon–Heiles system: the drift against the step, and against the initial momentum.
+
+use super::calculation::{By, Setting};
+use super::charts::{line, linear, log10_axis, thick};
+use super::drawn::{DECAY_HEADER, Drawn, decay, decay_row, power};
+use super::results::Results;
+
+const BEST: By = By::Best { largest: 200, early: false };
+
+const SCHEMES: [(&str, &str); 4] = [
+    ("stormer-verlet", "Störmer–Verlet"),
+    ("yoshida4", "Yoshida 4"),
+    ("blanes-moan-s6", "Blanes–Moan S6"),
+    ("blanes-moan-srkn6b", "Blanes–Moan SRKN6b"),
+];
+
+/// 1/h
+const STEPS: [u32; 15] = [2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28];
+
+fn run(scheme: &'static str, n: u32) -> Setting {
+    Setting::of("henon-heiles", scheme, format!("1/{n}"))
+}
+
+/// (1/h, log₁₀ drift) and (h, log₁₀ drift)
+fn drifts(results: &Results, scheme: &'static str, steps: &[u32], by: By) -> [Vec<(f64, f64)>; 2] {
+    let drift = |n: u32| results.log10_drift(&run(scheme, n), by);
+    let of = |x: &dyn Fn(f64) -> f64| steps.iter().map(|&n| (x(f64::from(n)), drift(n))).collect();
+    [of(&|n| n), of(&|n| 1.0 / n)]
+}
+
+pub(crate) fn step(results: &Results) -> Drawn {
+    let mut drawn = Drawn::of_paper(&[
+        "The drift against the step with p₁(0) = 0.1. The expected exponential smallness is indeed present, and there is no problem \
+         in using the algorithm other than allowing for large values of m (capped at 200). The effect of round-off error becomes \
+         visible when 1/h exceeds 20.",
+        "The fourth-order methods of Yoshida and of Blanes and Moan show the same as for Kepler's problem: Störmer–Verlet preserves the \
+         energy slightly better, and the value of c is the same.",
+    ]);
+    let steps = results.grid(&STEPS, 4);
+    let mut curves = Vec::new();
+    let mut rows = Vec::new();
+    let mut rates = Vec::new();
+    let mut verlet = Vec::new();
+    for (i, (scheme, label)) in SCHEMES.into_iter().enumerate() {
+        let [points, by_step] = drifts(results, scheme, &steps, BEST);
+        let fit = decay(&by_step, 0.25);
+        rows.push(decay_row(label, fit.as_ref()));
+        if let Some(fit) = &fit {
+            rates.push((fit.c, fit.spread));
+        }
+        if i == 0 {
+            verlet = points.clone();
+        }
+        let more = points.iter().zip(&verlet).map(|((_, y), (_, verlet))| y - verlet).filter(|ratio| ratio.is_finite());
+        let more: Vec<f64> = more.collect();
+        if i > 0 && !more.is_empty() {
+            let mean = more.iter().sum::<f64>() / more.len() as f64;
+            drawn.check(
+                &format!("Störmer–Verlet preserves it slightly better than {label}."),
+                format!("{label}'s drift is {:.2} times as large (geometric mean over the steps)", 10_f64.powf(mean)),
+                mean > 0.0,
+            );
+        }
+        curves.push(line(label, points, i));
+    }
+    drawn.chart(
+        "Hénon–Heiles, p₁(0) = 0.1, the best m up to 200",
+        linear("1/h"),
+        log10_axis("drift of the modified energy over [0, 100]"),
+        curves,
+        "At 120 digits.",
+    );
+    if let [first, others @ ..] = &rates[..] {
+        drawn.check(
+            "The drift is exponentially small.",
+            format!("c = {:.2}, a line to within {:.2} decades", first.0, first.1),
+            first.1 < 1.5,
+        );
+        let off = others.iter().map(|(c, _)| (c / first.0 - 1.0).abs()).fold(0.0, f64::max);
+        drawn.check("The value of c is the same.", format!("to within {:.1} %", 100.0 * off), off < 0.05);
+    }
+    drawn.table("Rates", &DECAY_HEADER, rows);
+    drawn.digits_held("the drift at h = 1/10", results.digits_held(&run("stormer-verlet", 10), BEST, 200));
+    drawn
+}
+
+pub(crate) fn momentum(results: &Results) -> Drawn {
+    let mut drawn = Drawn::of_paper(&[
+        "The drift as p₁(0) is varied, q₁ = q₂ = p₂ = 0, for h = 0.25, 0.1, 0.05: there is no abrupt change in energy preservation when \
+         moving from the regular motions (H < 1/12, p₁ < 1/√6 ≈ 0.4) to the chaotic regime.",
+    ]);
+    let hundredths = results.grid(&(1..=28).map(|n| 2 * n).collect::<Vec<u32>>(), 5);
+    let mut curves = Vec::new();
+    for (i, n) in [4, 10, 20].into_iter().enumerate() {
+        let of = |p: u32| run("stormer-verlet", n).with("px", format!("{p}/100"));
+        let points: Vec<_> =
+            hundredths.iter().map(|&p| (f64::from(p) / 100.0, results.log10_drift(&of(p), BEST))).collect();
+        let change = |from: f64, to: f64| {
+            let within = points.windows(2).filter(|pair| pair[0].0 >= from && pair[1].0 <= to);
+            within.map(|pair| (pair[1].1 - pair[0].1).abs() / (pair[1].0 - pair[0].0)).fold(0.0, f64::max)
+        };
+        let (across, before) = (change(0.34, 0.50), change(0.02, 0.34));
+        drawn.check(
+            &format!("h = 1/{n}: no abrupt change about p₁ = 0.408."),
+            format!("the steepest change there is {across:.0} decades per unit of p₁, below it up to {before:.0}"),
+            across > 0.0 && across <= before.max(60.0),
+        );
+        curves.push(line(format!("h = 1/{n}"), points, i));
+    }
+    drawn.chart(
+        "Störmer–Verlet, Hénon–Heiles, q₁ = q₂ = p₂ = 0",
+        linear("p₁(0)"),
+        log10_axis("drift of the modified energy over [0, 100]"),
+        curves,
+        "Chaos begins at p₁ = 1/√6 ≈ 0.408 (H = 1/12), escape at 1/√3 ≈ 0.577 (H = 1/6).",
+    );
+    drawn
+}
+
+/// Again with the bilinear estimator.
+pub(crate) fn bilinear(results: &Results) -> Drawn {
+    let mut drawn = Drawn::ours(
+        "Hénon–Heiles again, p₁(0) = 0.1, by the bilinear estimator E_k of k + 1 states beside central differences with the best m \
+         up to 200 (401 states).",
+    );
+    let steps = results.grid(&STEPS, 4);
+    let [best, _] = drifts(results, "stormer-verlet", &steps, BEST);
+    let mut curves = vec![thick("best m ≤ 200", best, 0)];
+    let mut rows = Vec::new();
+    for (i, k) in [8, 16, 40, 100].into_iter().enumerate() {
+        let [points, by_step] = drifts(results, "stormer-verlet", &steps, By::Bilinear { k });
+        rows.push(decay_row(&format!("E_{k}"), decay(&by_step, 0.25).as_ref()));
+        let sixth = points.iter().find(|(n, _)| *n == 6.0);
+        if let (Some((_, y)), true) = (sixth, k >= 40) {
+            drawn.found(format!("At h = 1/6 the drift by E_{k} is {}.", power(*y)));
+        }
+        curves.push(line(format!("E_{k}"), points, i + 1));
+    }
+    drawn.chart(
+        "Störmer–Verlet, Hénon–Heiles, p₁(0) = 0.1",
+        linear("1/h"),
+        log10_axis("drift of the modified energy over [0, 100]"),
+        curves,
+        "The exact flow is not known here: there is no control.",
+    );
+    drawn.table("Rates", &DECAY_HEADER, rows);
+    drawn
+}

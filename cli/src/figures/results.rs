@@ -1,0 +1,154 @@
+//! What figures ask for, and what came of it.
+//!
+//! A figure is a function that asks for results and draws them. What it asks for and is not known yet is noted and computed,
+//! and the figure is drawn again, until nothing is missing: so what it needs and what it shows stand in one place, and it may
+//! ask for more after what it has seen.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+use super::calculation::{By, Calculation, Drift, Energies, Outcome, Setting, What, log10, number};
+use super::double_precision::{Block, Differences};
+use super::work::Store;
+use crate::complaint::{Complaint, Ending};
+
+/// The results of all figures.
+pub(crate) struct Results {
+    /// On a thinned grid.
+    pub(crate) quick: bool,
+    /// By the JSON of the calculation; none where it failed.
+    known: HashMap<String, Option<Outcome>>,
+    missing: RefCell<Vec<Calculation>>,
+    /// What the present figure uses, for its data.
+    used: RefCell<Vec<Used>>,
+}
+
+/// A run and what came of it, as the data beside a figure have it.
+#[derive(Clone, Debug)]
+pub(crate) enum Used {
+    Drift(Setting, By, Drift),
+    Energies(Setting, By, Energies),
+    Number(Setting, &'static str, String),
+    Blocks(Differences, Vec<Block>),
+}
+
+/// log₁₀ of a drift and of the permanent change, where this is more than the estimator can feign.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sizes {
+    pub(crate) drift: f64,
+    pub(crate) permanent: Option<f64>,
+}
+
+impl Results {
+    pub(crate) fn new(quick: bool) -> Self {
+        Results { quick, known: HashMap::new(), missing: RefCell::default(), used: RefCell::default() }
+    }
+
+    /// Computes what was asked for; whether there was anything.
+    pub(crate) fn compute(&mut self, store: &mut Store, ending: &mut Ending) -> Result<bool, Complaint> {
+        let missing = self.missing.take();
+        let found = super::work::run(&missing, store)?;
+        for (_, complaint) in &found.failures {
+            *ending = (*ending).max(complaint.tell());
+        }
+        let keys = missing.iter().map(key);
+        self.known.extend(keys.zip(found.outcomes));
+        Ok(!missing.is_empty())
+    }
+
+    /// What has been used since the last call.
+    pub(crate) fn take_used(&self) -> Vec<Used> {
+        self.used.take()
+    }
+
+    fn ask(&self, what: What) -> Option<Outcome> {
+        let calculation = what.calculation();
+        match self.known.get(&key(&calculation)) {
+            Some(known) => known.clone(),
+            None => {
+                self.missing.borrow_mut().push(calculation);
+                None
+            }
+        }
+    }
+
+    fn using(&self, used: Used) {
+        self.used.borrow_mut().push(used);
+    }
+
+    /// The drift of a run.
+    pub(crate) fn drift(&self, run: &Setting, by: By) -> Option<Drift> {
+        let outcome = self.ask(What::Drift { run: run.clone(), by })?;
+        let Outcome::Drift(drift) = outcome else { unreachable!("a drift was asked for") };
+        self.using(Used::Drift(run.clone(), by, drift.clone()));
+        Some(drift)
+    }
+
+    /// The sizes of the drift of a run.
+    pub(crate) fn sizes(&self, run: &Setting, by: By) -> Option<Sizes> {
+        let drift = self.drift(run, by)?;
+        let resolved = |(change, resolution): &(String, String)| {
+            let change = log10(change);
+            Some(change).filter(|change| *change > log10(resolution))
+        };
+        let permanent = drift.permanent.as_ref().and_then(resolved);
+        Some(Sizes { drift: log10(&drift.drift), permanent })
+    }
+
+    /// log₁₀ of the drift of a run; NaN where there is none, which breaks a line.
+    pub(crate) fn log10_drift(&self, run: &Setting, by: By) -> f64 {
+        self.sizes(run, by).map_or(f64::NAN, |sizes| sizes.drift)
+    }
+
+    /// To how many digits the drift of a run is that of the same run with more digits: −log₁₀ of the difference.
+    pub(crate) fn digits_held(&self, run: &Setting, by: By, digits: u32) -> Option<f64> {
+        let [this, more] = [run.clone(), run.clone().digits(digits)].map(|run| self.drift(&run, by));
+        Some(-shadowstep::Number::log10_abs(&(number(&this?.drift) - number(&more?.drift))))
+    }
+
+    /// The modified energies of a run.
+    pub(crate) fn energies(&self, run: &Setting, by: By) -> Option<Energies> {
+        let outcome = self.ask(What::Energies { run: run.clone(), by })?;
+        let Outcome::Energies(energies) = outcome else { unreachable!("energies were asked for") };
+        self.using(Used::Energies(run.clone(), by, energies.clone()));
+        Some(energies)
+    }
+
+    /// The largest |q| of a run.
+    pub(crate) fn farthest(&self, run: &Setting) -> Option<f64> {
+        let farthest = self.number(What::Farthest { run: run.clone() })?;
+        self.using(Used::Number(run.clone(), "largest |q|", farthest.clone()));
+        Some(number(&farthest).to_f64())
+    }
+
+    /// H at the end of a run less H at its start.
+    pub(crate) fn transit(&self, run: &Setting) -> Option<rug::Float> {
+        let change = self.number(What::Transit { run: run.clone() })?;
+        self.using(Used::Number(run.clone(), "change of H", change.clone()));
+        Some(number(&change))
+    }
+
+    fn number(&self, what: What) -> Option<String> {
+        let Outcome::Number(number) = self.ask(what)? else { unreachable!("a number was asked for") };
+        Some(number)
+    }
+
+    /// Scatter and wander in double precision.
+    pub(crate) fn scatter(&self, steps: u64, differences: Differences) -> Option<Vec<Block>> {
+        let outcome = self.ask(What::Scatter { steps, differences })?;
+        let Outcome::Blocks(blocks) = outcome else { unreachable!("blocks were asked for") };
+        self.using(Used::Blocks(differences, blocks.clone()));
+        Some(blocks)
+    }
+
+    /// The values of a grid: all, or in a hurry every `nth` from the first and the last.
+    pub(crate) fn grid<T: Clone>(&self, values: &[T], nth: usize) -> Vec<T> {
+        let last = values.len() - 1;
+        let kept = values.iter().enumerate().filter(|(i, _)| !self.quick || i % nth == 0 || *i == last);
+        kept.map(|(_, value)| value.clone()).collect()
+    }
+}
+
+fn key(calculation: &Calculation) -> String {
+    serde_json::to_string(calculation).expect("a calculation is plain")
+}
