@@ -17,7 +17,7 @@ use crate::propagator::{Propagator, motion};
 use crate::run::Run;
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
-const REVISION: u32 = 1;
+const REVISION: u32 = 2;
 
 /// A problem, what moves it on, and in which steps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -86,6 +86,8 @@ pub(crate) struct Drift {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Energies {
     pub(crate) times: Vec<f64>,
+    /// |q|
+    pub(crate) distances: Vec<f64>,
     pub(crate) values: Vec<String>,
     pub(crate) orders: Vec<u32>,
 }
@@ -226,10 +228,11 @@ fn drift(run: &Setting, by: By) -> Result<Outcome, Complaint> {
 fn energies(run: &Setting, by: By) -> Result<Outcome, Complaint> {
     let method = by.chosen().method(by.has_errors());
     let context = run.precision();
-    let mut all = Energies { times: Vec::new(), values: Vec::new(), orders: Vec::new() };
+    let mut all = Energies { times: Vec::new(), distances: Vec::new(), values: Vec::new(), orders: Vec::new() };
     run.run(|propagator, setup, of| {
         propagator.estimates::<Float>(setup, of, &method, &context, |n, estimate| {
             all.times.push(f64::from_rational(&of.time_of_value(n, by.chosen()), &()));
+            all.distances.push(estimate.q.iter().map(|q| q.to_f64().powi(2)).sum::<f64>().sqrt());
             all.values.push(estimate.value.to_text());
             all.orders.push(estimate.order);
             Ok(())

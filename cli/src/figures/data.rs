@@ -9,7 +9,7 @@ const RUN: [&str; 8] = ["problem", "set", "scheme", "step", "until", "digits", "
 /// The files of a figure: what is put behind its name, and the text.
 pub(crate) fn csv(used: &[Used]) -> Result<Vec<(&'static str, String)>, Complaint> {
     let mut drifts = vec![header(&["drift", "permanent_change", "resolution", "order_least", "order_most"])];
-    let mut energies = vec![header(&["t", "modified_energy", "order_used"])];
+    let mut energies = vec![header(&["t", "distance", "modified_energy", "order_used"])];
     let mut numbers = vec![header(&["quantity", "value"])];
     let mut blocks = vec![["differences", "steps", "scatter", "wander"].map(str::to_owned).to_vec()];
     for used in used {
@@ -20,12 +20,10 @@ pub(crate) fn csv(used: &[Used]) -> Result<Vec<(&'static str, String)>, Complain
                 drifts.push(row(run, Some(*by), [drift.drift.clone(), change, resolution, least, most]));
             }
             Used::Energies(run, by, found) => {
-                let states = found.times.iter().zip(&found.values).zip(&found.orders);
-                energies.extend(
-                    states.map(|((t, value), order)| {
-                        row(run, Some(*by), [t.to_string(), value.clone(), order.to_string()])
-                    }),
-                );
+                energies.extend((0..found.times.len()).map(|n| {
+                    let [t, distance] = [found.times[n], found.distances[n]].map(|number| number.to_string());
+                    row(run, Some(*by), [t, distance, found.values[n].clone(), found.orders[n].to_string()])
+                }));
             }
             Used::Number(run, what, value) => numbers.push(row(run, None, [(*what).to_owned(), value.clone()])),
             Used::Blocks(differences, found) => blocks.extend(found.iter().map(|block| {

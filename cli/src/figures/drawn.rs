@@ -139,8 +139,8 @@ pub(crate) const DECAY_HEADER: [&str; 4] = ["", "c in exp(−c/h)", "spread (dec
 
 /// 1.2e-34 from its log₁₀.
 pub(crate) fn power(log10: f64) -> String {
-    if log10 == f64::NEG_INFINITY {
-        return "0".to_owned();
+    if !log10.is_finite() {
+        return if log10 == f64::NEG_INFINITY { "0" } else { "–" }.to_owned();
     }
     let exponent = log10.floor();
     let digits = format!("{:.2}", 10_f64.powf(log10 - exponent));

@@ -27,12 +27,12 @@ pub(crate) fn on_the_exact_flow(results: &Results) -> Drawn {
         "The states of Kepler's exact flow (e = 0.6) at t = n h, with β along it: the modified energy of this trajectory is −1/2 at every state, so \
          everything that an estimator shows is its own error.",
     );
-    let orders = results.grid(&ORDERS, 4);
+    let orders = results.grid(&ORDERS, &[1, 3, 8, 24, 50, 200]);
     for n in [10, 20, 40] {
         let exact = run(EXACT, n);
-        let central = against_states(results, &exact, &|m| By::Central { m }, &orders);
+        let central = against_states(results, &exact, &|m| By::Central { m }, orders);
         let best = against_states(results, &exact, &|largest| By::Best { largest, early: false }, &orders[1..]);
-        let bilinear = against_states(results, &exact, &|k| By::Bilinear { k }, &even(&orders));
+        let bilinear = against_states(results, &exact, &|k| By::Bilinear { k }, &even(orders));
         let least = |points: &[(f64, f64)]| points.iter().map(|(_, y)| *y).fold(f64::INFINITY, f64::min);
         drawn.found(format!(
             "h = 1/{n}: with up to 401 states the best m shows {}, any fixed m at least {}; the bilinear estimator shows {} with up to 201.",
@@ -59,7 +59,7 @@ pub(crate) fn on_schemes(results: &Results) -> Drawn {
     let mut drawn = Drawn::ours(
         "The same on the schemes, Kepler, e = 0.6, h = 1/20, beside the permanent change between quiet states.",
     );
-    let orders = results.grid(&ORDERS, 4);
+    let orders = results.grid(&ORDERS, &[1, 3, 8, 24, 50, 200]);
     let best = |largest| By::Best { largest, early: false };
     let bilinear = |k| By::Bilinear { k };
     let mut chart = |title: &str, by: &dyn Fn(u32) -> By, orders: &[u32]| {
@@ -77,7 +77,7 @@ pub(crate) fn on_schemes(results: &Results) -> Drawn {
         );
     };
     chart("Best m up to a cap", &best, &orders[1..]);
-    chart("Bilinear E_k", &bilinear, &even(&orders));
+    chart("Bilinear E_k", &bilinear, &even(orders));
     let mut rows = Vec::new();
     for (scheme, label) in SCHEMES.into_iter().chain([(EXACT, "exact flow")]) {
         let [best, bilinear] =
@@ -98,7 +98,7 @@ pub(crate) fn permanent(results: &Results) -> Drawn {
         "By how much the modified energy changes for good over [0, 100], Kepler, e = 0.6: max − min over the states whose estimated error is small, \
          which are those near the apocentres; by E_24.",
     );
-    let steps = results.grid(&[5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 23, 26, 30, 35, 40], 4);
+    let steps = results.grid(&[5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 23, 26, 30, 35, 40], &[5, 7, 10, 14, 20, 28, 40]);
     let by = By::Bilinear { k: 24 };
     let change = |scheme: &'static str, n: u32| results.sizes(&run(scheme, n), by).and_then(|sizes| sizes.permanent);
     let of = |x: &dyn Fn(f64, f64) -> f64| -> Vec<Curve> {

@@ -36,13 +36,13 @@ pub(crate) fn step(results: &Results) -> Drawn {
         "The fourth-order methods of Yoshida and of Blanes and Moan show the same as for Kepler's problem: Störmer–Verlet preserves the \
          energy slightly better, and the value of c is the same.",
     ]);
-    let steps = results.grid(&STEPS, 4);
+    let steps = results.grid(&STEPS, &[2, 4, 6, 10, 14, 20, 25]);
     let mut curves = Vec::new();
     let mut rows = Vec::new();
     let mut rates = Vec::new();
     let mut verlet = Vec::new();
     for (i, (scheme, label)) in SCHEMES.into_iter().enumerate() {
-        let [points, by_step] = drifts(results, scheme, &steps, BEST);
+        let [points, by_step] = drifts(results, scheme, steps, BEST);
         let fit = decay(&by_step, 0.25);
         rows.push(decay_row(label, fit.as_ref()));
         if let Some(fit) = &fit {
@@ -89,7 +89,8 @@ pub(crate) fn momentum(results: &Results) -> Drawn {
         "The drift as p₁(0) is varied, q₁ = q₂ = p₂ = 0, for h = 0.25, 0.1, 0.05: there is no abrupt change in energy preservation when \
          moving from the regular motions (H < 1/12, p₁ < 1/√6 ≈ 0.4) to the chaotic regime.",
     ]);
-    let hundredths = results.grid(&(1..=28).map(|n| 2 * n).collect::<Vec<u32>>(), 5);
+    let all: Vec<u32> = (1..=28).map(|n| 2 * n).collect();
+    let hundredths = results.grid(&all, &[2, 12, 24, 34, 42, 50, 56]);
     let mut curves = Vec::new();
     for (i, n) in [4, 10, 20].into_iter().enumerate() {
         let of = |p: u32| run("stormer-verlet", n).with("px", format!("{p}/100"));
@@ -123,12 +124,12 @@ pub(crate) fn bilinear(results: &Results) -> Drawn {
         "Hénon–Heiles again, p₁(0) = 0.1, by the bilinear estimator E_k of k + 1 states beside central differences with the best m \
          up to 200 (401 states).",
     );
-    let steps = results.grid(&STEPS, 4);
-    let [best, _] = drifts(results, "stormer-verlet", &steps, BEST);
+    let steps = results.grid(&STEPS, &[2, 4, 6, 10, 14, 20, 25]);
+    let [best, _] = drifts(results, "stormer-verlet", steps, BEST);
     let mut curves = vec![thick("best m ≤ 200", best, 0)];
     let mut rows = Vec::new();
     for (i, k) in [8, 16, 40, 100].into_iter().enumerate() {
-        let [points, by_step] = drifts(results, "stormer-verlet", &steps, By::Bilinear { k });
+        let [points, by_step] = drifts(results, "stormer-verlet", steps, By::Bilinear { k });
         rows.push(decay_row(&format!("E_{k}"), decay(&by_step, 0.25).as_ref()));
         let sixth = points.iter().find(|(n, _)| *n == 6.0);
         if let (Some((_, y)), true) = (sixth, k >= 40) {

@@ -1,15 +1,18 @@
-//! Kepler's problem: the drift against the step, the eccentricity and the scheme; the modified energy in time.
+//! Kepler's problem: the drift against the step, the eccentricity and the scheme.
+
+mod in_time;
 
 use std::f64::consts::PI;
 
 use shadowstep::Number;
 
-use super::calculation::{By, Energies, Setting, number};
-use super::chart::Marker;
-use super::charts::{dashed, dots, line, linear, log10_axis, right, thick};
+use super::calculation::{By, Setting, number};
+use super::charts::{dashed, line, linear, log10_axis, thick};
 use super::drawn::{DECAY_HEADER, Drawn, decay, decay_row, power};
 use super::fit::ExponentialDecay;
 use super::results::Results;
+use in_time::apocentre;
+pub(crate) use in_time::{energies, orders};
 
 pub(crate) const BEST: By = By::Best { largest: 200, early: false };
 
@@ -50,9 +53,9 @@ pub(crate) fn step(results: &Results) -> Drawn {
         "The drift against the step, e = 0.6: the theoretical exp(−c/h) behaviour.",
         "In contrast with the pendulum, the T_{m,m} do not converge as m → ∞: the m of 2 … 200 with the least |T_{m,m} − T_{m−1,m−1}| is taken.",
     ]);
-    let steps = results.grid(&STEPS, 5);
-    let best = drifts(results, "stormer-verlet", &steps, BEST);
-    let fixed = [5, 20, 60, 200].map(|m| (m, drifts(results, "stormer-verlet", &steps, By::Central { m })));
+    let steps = results.grid(&STEPS, &[4, 6, 10, 15, 20, 30, 45]);
+    let best = drifts(results, "stormer-verlet", steps, BEST);
+    let fixed = [5, 20, 60, 200].map(|m| (m, drifts(results, "stormer-verlet", steps, By::Central { m })));
     let mut curves = vec![thick("best m ≤ 200", best.clone(), 0)];
     curves.extend(fixed.iter().enumerate().map(|(i, (m, points))| line(format!("m = {m}"), points.clone(), i + 1)));
     drawn.chart(
@@ -70,18 +73,7 @@ pub(crate) fn step(results: &Results) -> Drawn {
             fit.spread < 0.5 && fit.c > 0.0,
         );
     }
-    let at = |points: &[(f64, f64)], n: f64| points.iter().find(|(x, _)| *x == n).map_or(f64::NAN, |(_, y)| *y);
-    let [twenty, _, many] = [1, 2, 3].map(|i| at(&fixed[i].1, 10.0));
-    drawn.check(
-        "T_{m,m} do not converge as m → ∞.",
-        format!(
-            "at h = 1/10: {} by m = 20, {} by m = 200, {} by the best m",
-            power(twenty),
-            power(many),
-            power(at(&best, 10.0))
-        ),
-        many > twenty - 1.0,
-    );
+    errors_against_m(results, &mut drawn);
     drawn.table(
         "The rate",
         &DECAY_HEADER,
@@ -102,6 +94,39 @@ pub(crate) fn step(results: &Results) -> Drawn {
         results.digits_held(&run("stormer-verlet", 20), By::Central { m: 20 }, 200),
     );
     drawn
+}
+
+/// What T_{m,m} is off by at a pericentre and at an apocentre of the exact flow, whose energy is known.
+fn errors_against_m(results: &Results, drawn: &mut Drawn) {
+    let orders =
+        results.grid(&[2, 5, 10, 15, 20, 25, 30, 35, 40, 50, 60, 80, 100, 130, 160, 200], &[5, 20, 35, 50, 200]);
+    let off = |m: u32| {
+        let energies = results.energies(&run(EXACT, 20).until("4"), By::Central { m })?;
+        let at = |n: usize| (number(&energies.values[n]) + 0.5_f64).log10_abs();
+        Some((f64::from(m), at(0), at(apocentre(&energies))))
+    };
+    let found: Vec<_> = orders.iter().filter_map(|&m| off(m)).collect();
+    let apocentre: Vec<(f64, f64)> = found.iter().map(|(m, _, y)| (*m, *y)).collect();
+    let pericentre = found.iter().map(|(m, y, _)| (*m, *y)).collect();
+    let least = apocentre.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));
+    if let (Some((m, least)), Some((last, at_last))) = (least, apocentre.last()) {
+        drawn.check(
+            "T_{m,m} do not converge as m → ∞.",
+            format!(
+                "at an apocentre of the exact flow the error falls to {} at m = {m} and is {} at m = {last}",
+                power(least),
+                power(*at_last)
+            ),
+            *at_last > least + 3.0,
+        );
+    }
+    drawn.chart(
+        "Exact flow, Kepler, e = 0.6, h = 1/20",
+        linear("m"),
+        log10_axis("|T_{m,m} + 1/2|"),
+        vec![line("at a pericentre", pericentre, 0), line("at an apocentre", apocentre, 1)],
+        "With m > 60 the states about an apocentre reach into the close encounters.",
+    );
 }
 
 /// Thousandths of e, to which the instability is located.
@@ -132,7 +157,7 @@ pub(crate) fn eccentricity(results: &Results) -> Drawn {
          energy changes, which leads to unbounded trajectories.",
     ]);
     let grid: Vec<u32> = (1..=19).map(|n| 50 * n).collect();
-    let thousandths = results.grid(&grid, 4);
+    let thousandths = results.grid(&grid, &[50, 200, 400, 600, 700, 800, 900]);
     let fine: Vec<u32> = grid.iter().copied().chain([970, 990]).collect();
     let (mut curves, mut rows) = (Vec::new(), Vec::new());
     for (i, n) in [5, 10, 20, 40].into_iter().enumerate() {
@@ -173,9 +198,9 @@ pub(crate) fn schemes(results: &Results) -> Drawn {
         "The drift of Störmer–Verlet is about a factor of three smaller than that of Yoshida's method and a factor of four smaller than that of \
          Blanes and Moan.",
     ]);
-    let steps = results.grid(&STEPS, 5);
-    let of = SCHEMES.map(|(scheme, label)| (label, drifts(results, scheme, &steps, BEST)));
-    let control = drifts(results, EXACT, &steps, BEST);
+    let steps = results.grid(&STEPS, &[4, 6, 10, 15, 20, 30, 45]);
+    let of = SCHEMES.map(|(scheme, label)| (label, drifts(results, scheme, steps, BEST)));
+    let control = drifts(results, EXACT, steps, BEST);
     let mut curves: Vec<_> =
         of.iter().enumerate().map(|(i, (label, points))| line(*label, points.clone(), i)).collect();
     curves.push(dashed("exact flow", control.clone(), 8));
@@ -213,175 +238,5 @@ pub(crate) fn schemes(results: &Results) -> Drawn {
         "The control shows {:.3} times the drift of Blanes and Moan's SRKN6b: that drift is the estimator's, not the scheme's.",
         ratio(&control, &of[3].1)
     ));
-    drawn
-}
-
-/// (t, log₁₀|value − reference|)
-fn off(energies: &Energies, reference: usize) -> Vec<(f64, f64)> {
-    let reference = number(&energies.values[reference]);
-    let sizes = energies.values.iter().map(|value| (number(value) - &reference).log10_abs());
-    energies.times.iter().copied().zip(sizes).collect()
-}
-
-/// The state nearest to the first apocentre, t = π.
-fn apocentre(energies: &Energies) -> usize {
-    let nearest = energies.times.iter().map(|t| (t - PI).abs()).enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
-    nearest.map_or(0, |(place, _)| place)
-}
-
-pub(crate) fn energies(results: &Results) -> Drawn {
-    let mut drawn = Drawn::of_paper(&[
-        "The modified energy less the initial one, for several steps (Störmer–Verlet) and for the methods at h = 0.1. There are peaks when the \
-         particle is near the singularity, and the energy essentially recovers its value after this point before another close encounter.",
-        "The methods give rather different results, even though the maximal variation is almost the same. The Blanes–Moan method seems to \
-         preserve the modified energy better after the close encounter.",
-    ]);
-    let steps: &[u32] = if results.quick { &[10, 20] } else { &[10, 20, 30] };
-    let of_steps: Vec<_> =
-        steps.iter().map(|&n| (format!("h = 1/{n}"), results.energies(&run("stormer-verlet", n), BEST))).collect();
-    let of_schemes: Vec<_> = SCHEMES
-        .into_iter()
-        .chain([(EXACT, "exact flow")])
-        .map(|(scheme, label)| (label.to_owned(), results.energies(&run(scheme, 10), BEST)))
-        .collect();
-    let y = "|modified energy − its first value|";
-    let from_apocentre = "|modified energy − its value at the first apocentre|";
-    let charts = [
-        ("Störmer–Verlet, several steps", y, false, &of_steps),
-        ("h = 1/10, several schemes", y, false, &of_schemes),
-        ("Störmer–Verlet, several steps, from the apocentre", from_apocentre, true, &of_steps),
-        ("h = 1/10, several schemes, from the apocentre", from_apocentre, true, &of_schemes),
-    ];
-    for (title, y, from_apocentre, of) in charts {
-        let curves = of.iter().enumerate().filter_map(|(i, (label, energies))| {
-            let energies = energies.as_ref()?;
-            let points = off(energies, if from_apocentre { apocentre(energies) } else { 0 });
-            let curve = points.into_iter().filter(|(t, _)| *t <= 40.0).collect();
-            Some(if i == 4 { dashed(label.clone(), curve, 8) } else { line(label.clone(), curve, i) })
-        });
-        let caption = if from_apocentre {
-            "The start is a pericentre, where the estimate is worst; from an apocentre the changes between encounters can be seen."
-        } else {
-            "t ≤ 40 of [0, 100]; the start is a pericentre."
-        };
-        drawn.chart(title, linear("time t"), log10_axis(y), curves.collect(), caption);
-    }
-    let verlet = of_steps.iter().find(|(label, _)| label == "h = 1/20").and_then(|(_, energies)| energies.as_ref());
-    if let Some(verlet) = verlet {
-        let points = off(verlet, apocentre(verlet));
-        let largest = |near: bool| {
-            let of_t = |t: f64| (t / (2.0 * PI)).fract();
-            let chosen = points
-                .iter()
-                .filter(|(t, _)| near == (of_t(*t) < 0.1 || of_t(*t) > 0.9) && (near || (of_t(*t) - 0.5).abs() < 0.1));
-            chosen.map(|(_, y)| *y).filter(|y| y.is_finite()).fold(f64::NEG_INFINITY, f64::max)
-        };
-        let (encounter, between) = (largest(true), largest(false));
-        drawn.check(
-            "It essentially recovers its value after a close encounter (Störmer–Verlet, h = 1/20).",
-            format!(
-                "off by up to {} near the pericentres, by {} near the apocentres",
-                power(encounter),
-                power(between)
-            ),
-            between < encounter - 2.0,
-        );
-    }
-    let changes: Vec<(String, f64, f64)> = of_schemes
-        .iter()
-        .filter_map(|(label, energies)| {
-            let energies = energies.as_ref()?;
-            let points = off(energies, apocentre(energies));
-            let largest = |quiet: bool| {
-                let chosen = points.iter().filter(|(t, _)| !quiet || ((t / (2.0 * PI)).fract() - 0.5).abs() < 0.05);
-                chosen.map(|(_, y)| *y).fold(f64::NEG_INFINITY, f64::max)
-            };
-            Some((label.clone(), largest(false), largest(true)))
-        })
-        .collect();
-    if let [verlet, .., s6, srkn, _] = &changes[..] {
-        let most = changes.iter().map(|(_, peak, _)| *peak);
-        let (least, largest) = (most.clone().fold(f64::INFINITY, f64::min), most.fold(f64::NEG_INFINITY, f64::max));
-        drawn.check(
-            "The maximal variation is almost the same.",
-            format!("from {} to {} at h = 1/10", power(least), power(largest)),
-            largest - least < 1.0,
-        );
-        drawn.check(
-            "Blanes and Moan's methods preserve it better after the encounter.",
-            format!(
-                "near apocentres {} for S6 and {} for SRKN6b, {} for Störmer–Verlet",
-                power(s6.2),
-                power(srkn.2),
-                power(verlet.2)
-            ),
-            s6.2 < verlet.2 && srkn.2 < verlet.2,
-        );
-    }
-    let rows = changes.iter().map(|(label, peak, quiet)| vec![label.clone(), power(*peak), power(*quiet)]).collect();
-    drawn.table(
-        "Largest difference from the first apocentre, h = 1/10, t ≤ 100",
-        &["", "at all times", "near apocentres"],
-        rows,
-    );
-    drawn
-}
-
-pub(crate) fn orders(results: &Results) -> Drawn {
-    let mut drawn = Drawn::of_paper(&[
-        "The change per step, the accumulated change, and the optimal m, capped at 200, for Störmer–Verlet with h = 1/20 and e = 0.6. Near \
-         the singularity quite a high m is used; away from it a lower one suffices.",
-        "The ad-hoc criterion, which stops where the errors rise, gives plots that are nearly indistinguishable from those of the full search.",
-    ]);
-    let searches = [("full search", false), ("early stop", true)]
-        .map(|(label, early)| (label, results.energies(&run("stormer-verlet", 20), By::Best { largest: 200, early })));
-    for (label, found) in &searches {
-        let Some(found) = found else { continue };
-        let values: Vec<_> = found.values.iter().map(|value| number(value)).collect();
-        let steps = values.windows(2).map(|pair| (pair[1].clone() - &pair[0]).log10_abs());
-        let shown = |points: Vec<(f64, f64)>| points.into_iter().filter(|(t, _)| *t <= 20.0).collect::<Vec<_>>();
-        let per_step = found.times[1..].iter().copied().zip(steps).collect();
-        let orders = found.times.iter().zip(&found.orders).map(|(t, m)| (*t, f64::from(*m))).collect();
-        drawn.chart_with_right_axis(
-            &format!("Störmer–Verlet, h = 1/20, e = 0.6, {label}"),
-            linear("time t"),
-            log10_axis("change of the modified energy"),
-            Some(linear("m")),
-            vec![
-                line("accumulated", shown(off(found, 0)), 0),
-                dashed("per step", shown(per_step), 1),
-                right(dots("m", shown(orders), 2, Marker::Cross)),
-            ],
-            "t ≤ 20 of [0, 100].",
-        );
-    }
-    if let [(_, Some(full)), (_, Some(early))] = &searches {
-        let mean = |near: bool| {
-            let of = full
-                .times
-                .iter()
-                .zip(&full.orders)
-                .filter(|(t, _)| near == (((**t + 0.3) / (2.0 * PI)).fract() < 0.6 / (2.0 * PI)));
-            let all: Vec<f64> = of.map(|(_, m)| f64::from(*m)).collect();
-            all.iter().sum::<f64>() / all.len() as f64
-        };
-        drawn.check(
-            "Near the singularity a higher m is used.",
-            format!("on average {:.0} within 0.3 of a pericentre, {:.0} elsewhere", mean(true), mean(false)),
-            mean(true) > mean(false),
-        );
-        let drift = |energies: &Energies| {
-            let values: Vec<_> = energies.values.iter().map(|value| number(value)).collect();
-            let most = values.iter().max_by(|a, b| a.total_cmp(b)).expect("there are values");
-            let least = values.iter().min_by(|a, b| a.total_cmp(b)).expect("there are values");
-            (most.clone() - least).log10_abs()
-        };
-        let (full, early) = (drift(full), drift(early));
-        drawn.check(
-            "The early stop gives nearly the same.",
-            format!("drift {} by the early stop, {} by the full search", power(early), power(full)),
-            (early - full).abs() < 0.3,
-        );
-    }
     drawn
 }

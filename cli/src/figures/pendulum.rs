@@ -36,7 +36,7 @@ pub(crate) fn step(results: &Results) -> Drawn {
          approximations T_{m,m} converge for this problem.",
         "The limit, the thick line, follows the exp(−c/h) behaviour that the theory predicts.",
     ]);
-    let steps = results.grid(&STEPS, 4);
+    let steps = results.grid(&STEPS, &[2, 4, 6, 10, 14, 20]);
     let run = |n: u32| Setting::of("pendulum", SCHEME, format!("1/{n}"));
     let drifts = |by: &dyn Fn(u32) -> By| -> Vec<(f64, f64)> {
         steps.iter().map(|&n| (1.0 / f64::from(n), results.log10_drift(&run(n), by(n)))).collect()
@@ -103,7 +103,7 @@ pub(crate) fn momentum(results: &Results) -> Drawn {
          exp(−c/(h ‖f‖)), in which ‖f‖ decreases as p → 0.",
     ]);
     let all: Vec<u32> = (1..=19).chain([21]).chain((22..=30).step_by(2)).collect();
-    let tenths = results.grid(&all, 4);
+    let tenths = results.grid(&all, &[1, 5, 10, 15, 19, 21, 30]);
     let mut curves = Vec::new();
     for (i, n) in [2_u32, 4, 10].into_iter().enumerate() {
         let by = By::Best { largest: 200, early: false };
@@ -141,7 +141,7 @@ pub(crate) fn bilinear(results: &Results) -> Drawn {
         "The pendulum again, by the bilinear estimator E_k of k + 1 states, beside central differences with the best m up to 200 \
          (401 states), and what both show on the exact flow, whose energy does not change.",
     );
-    let steps = results.grid(&[2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20], 4);
+    let steps = results.grid(&[2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20], &[2, 4, 7, 10, 14]);
     let drifts = |propagator: &'static str, by: By| -> Vec<(f64, f64)> {
         let run = |n: u32| Setting::of("pendulum", propagator, format!("1/{n}"));
         steps.iter().map(|&n| (f64::from(n), results.log10_drift(&run(n), by))).collect()

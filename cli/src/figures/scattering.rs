@@ -26,7 +26,7 @@ pub(crate) fn draw(results: &Results) -> Drawn {
          |H(y₀) − H(y_T)| can be observed; it is of the order exp(−C/h).",
         "Repeated with the authors' method, the experiment had zero error: a matter that warrants further investigation.",
     ]);
-    let steps = results.grid(&STEPS, 3);
+    let steps = results.grid(&STEPS, &[2, 4, 6, 8, 12, 16]);
     let change = |n: u32, phase: u32| results.transit(&run(n, phase));
     let size = |n: u32, phase: u32| change(n, phase).map_or(f64::NAN, |change| shadowstep::Number::log10_abs(&change));
     let phases: Vec<u32> = (0..PHASES).collect();
