@@ -36,7 +36,7 @@ pub(crate) fn step(results: &Results) -> Drawn {
         "The fourth-order methods of Yoshida and of Blanes and Moan show the same as for Kepler's problem: Störmer–Verlet preserves the \
          energy slightly better, and the value of c is the same.",
     ]);
-    let steps = results.grid(&STEPS, &[2, 4, 6, 10, 14, 20, 25]);
+    let steps = results.grid(&STEPS, &[2, 4, 6, 12, 25]);
     let mut curves = Vec::new();
     let mut rows = Vec::new();
     let mut rates = Vec::new();
@@ -99,7 +99,7 @@ pub(crate) fn momentum(results: &Results) -> Drawn {
          moving from the regular motions (H < 1/12, p₁ < 1/√6 ≈ 0.4) to the chaotic regime.",
     ]);
     let all: Vec<u32> = (1..=28).map(|n| 2 * n).collect();
-    let hundredths = results.grid(&all, &[2, 12, 24, 34, 42, 50, 56]);
+    let hundredths = results.grid(&all, &[2, 12, 30, 42, 56]);
     let mut curves = Vec::new();
     for (i, n) in [4, 10, 20].into_iter().enumerate() {
         let of = |p: u32| run("stormer-verlet", n).with("px", format!("{p}/100"));
@@ -133,10 +133,10 @@ pub(crate) fn bilinear(results: &Results) -> Drawn {
         "Hénon–Heiles again, p₁(0) = 0.1, by the bilinear estimator E_k of k + 1 states beside central differences with the best m \
          up to 200 (401 states).",
     );
-    let steps = results.grid(&STEPS, &[2, 4, 6, 10, 14, 20, 25]);
+    let steps = results.grid(&STEPS, &[2, 4, 6, 12, 25]);
     let [best, _] = drifts(results, "stormer-verlet", steps, BEST);
     let mut curves = vec![thick("best m ≤ 200", best, 0)];
-    for (i, k) in [8, 16, 40, 100].into_iter().enumerate() {
+    for (i, &k) in results.grid(&[8, 16, 40, 100], &[8, 16, 40]).iter().enumerate() {
         let [points, _] = drifts(results, "stormer-verlet", steps, By::Bilinear { k });
         if let Some((_, y)) = points.iter().find(|(n, _)| *n == 6.0) {
             drawn.found(format!("At h = 1/6 the drift by E_{k} is {}.", power(*y)));

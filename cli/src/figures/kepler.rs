@@ -53,7 +53,7 @@ pub(crate) fn step(results: &Results) -> Drawn {
         "The drift against the step, e = 0.6: the theoretical exp(−c/h) behaviour.",
         "In contrast with the pendulum, the T_{m,m} do not converge as m → ∞: the m of 2 … 200 with the least |T_{m,m} − T_{m−1,m−1}| is taken.",
     ]);
-    let steps = results.grid(&STEPS, &[4, 6, 10, 15, 20, 30, 45]);
+    let steps = results.grid(&STEPS, &[4, 6, 10, 14, 20, 30]);
     let best = drifts(results, "stormer-verlet", steps, BEST);
     let fixed = [5, 20, 60, 200].map(|m| (m, drifts(results, "stormer-verlet", steps, By::Central { m })));
     let mut curves = vec![thick("best m ≤ 200", best.clone(), 0)];
@@ -157,7 +157,7 @@ pub(crate) fn eccentricity(results: &Results) -> Drawn {
          energy changes, which leads to unbounded trajectories.",
     ]);
     let grid: Vec<u32> = (1..=19).map(|n| 50 * n).collect();
-    let thousandths = results.grid(&grid, &[50, 200, 400, 600, 700, 800, 900]);
+    let thousandths = results.grid(&grid, &[50, 300, 600, 750, 900]);
     let fine: Vec<u32> = grid.iter().copied().chain([970, 990]).collect();
     let (mut curves, mut rows) = (Vec::new(), Vec::new());
     for (i, n) in [5, 10, 20, 40].into_iter().enumerate() {
@@ -208,7 +208,7 @@ pub(crate) fn schemes(results: &Results) -> Drawn {
         "The drift of Störmer–Verlet is about a factor of three smaller than that of Yoshida's method and a factor of four smaller than that of \
          Blanes and Moan.",
     ]);
-    let steps = results.grid(&STEPS, &[4, 6, 10, 15, 20, 30, 45]);
+    let steps = results.grid(&STEPS, &[4, 6, 10, 14, 20, 30]);
     let of = SCHEMES.map(|(scheme, label)| (label, drifts(results, scheme, steps, BEST)));
     let control = drifts(results, EXACT, steps, BEST);
     let mut curves: Vec<_> =

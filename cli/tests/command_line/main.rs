@@ -2,6 +2,7 @@
 
 mod checkpoints;
 mod drift;
+mod figures;
 mod polish;
 mod problems;
 mod program;

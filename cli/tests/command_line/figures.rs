@@ -1,0 +1,111 @@
+//! `shadowstep figures`.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+use crate::program::shadowstep;
+
+/// Two figures, of which one asks for results after it has seen others.
+const FAST: [&str; 2] = ["double-precision", "scattering"];
+
+fn figures(folder: &Path, names: &[&str], threads: &str) {
+    let mut program = Command::cargo_bin("shadowstep").unwrap();
+    let program = program.arg("figures").args(names).args(["--quick", "--out"]).arg(folder);
+    program.env("RAYON_NUM_THREADS", threads).assert().success().stdout("").stderr("");
+}
+
+/// Names and contents, but for the results, whose order is that of the threads.
+fn files(folder: &Path) -> Vec<(String, String)> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<_> = entries.filter(|name| name != "results.jsonl").collect();
+    names.sort();
+    names.into_iter().map(|name| (name.clone(), fs::read_to_string(folder.join(name)).unwrap())).collect()
+}
+
+#[test]
+fn a_figure_is_pictures_data_and_a_section_of_the_report() {
+    let folder = TempDir::new().unwrap();
+    figures(folder.path(), &FAST, "2");
+    let files = files(folder.path());
+    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "double-precision-1.svg",
+            "double-precision-2.svg",
+            "double-precision-blocks.csv",
+            "report.html",
+            "scattering-1.svg",
+            "scattering-2.svg",
+            "scattering-values.csv",
+            "scattering.csv",
+        ]
+    );
+    let of = |wanted: &str| &files.iter().find(|(name, _)| name == wanted).unwrap().1;
+    let report = of("report.html");
+    assert_eq!(report.matches("<svg").count(), 4);
+    for part in ["The paper states", "zero error", "increments of β", "scattering.csv", "--quick"] {
+        assert!(report.contains(part), "{part}");
+    }
+    let drifts = of("scattering.csv");
+    let header = drifts.lines().next().unwrap();
+    assert_eq!(
+        header,
+        "problem,set,scheme,step,until,digits,estimator,order,drift,permanent_change,resolution,order_least,order_most"
+    );
+    // every digit: the change of H of each start
+    let values = of("scattering-values.csv");
+    assert!(values.lines().skip(1).all(|line| line.rsplit(',').next().unwrap().len() > 40), "{values}");
+}
+
+#[test]
+fn results_do_not_depend_on_threads_or_interruptions() {
+    let [one, two] = [(), ()].map(|()| TempDir::new().unwrap());
+    figures(one.path(), &FAST, "1");
+    figures(two.path(), &FAST, "2");
+    assert_eq!(
+        files(one.path()),
+        files(two.path())
+            .into_iter()
+            .map(|(name, text)| {
+                (name, text.replace(&two.path().display().to_string(), &one.path().display().to_string()))
+            })
+            .collect::<Vec<_>>()
+    );
+    // half of what is computed is lost, with a torn line
+    let store = two.path().join("results.jsonl");
+    let text = fs::read_to_string(&store).unwrap();
+    let half = text.char_indices().nth(text.chars().count() / 2).unwrap().0;
+    fs::write(&store, &text[..half]).unwrap();
+    let before = files(two.path());
+    figures(two.path(), &FAST, "2");
+    assert_eq!(before, files(two.path()));
+    let mut lines: [Vec<String>; 2] = [&text, &fs::read_to_string(&store).unwrap()]
+        .map(|text| text.lines().map(|line| line.split(",\"seconds\"").next().unwrap().to_owned()).collect());
+    lines.iter_mut().for_each(|lines| lines.sort());
+    assert_eq!(lines[0], lines[1]);
+}
+
+#[test]
+fn an_unknown_figure_is_refused_with_the_nearest() {
+    let folder = TempDir::new().unwrap();
+    let said = shadowstep(&format!("figures kepler-step kepler-shcemes --out {}", folder.path().display()));
+    assert_eq!(said.code, 2);
+    assert_eq!(said.err, "error: there is no figure `kepler-shcemes`\n  hint: did you mean `kepler-schemes`?\n");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    let said = shadowstep(&format!("figures fourier --out {}", folder.path().display()));
+    assert!(said.err.contains("known are pendulum-step, pendulum-momentum, kepler-step"), "{}", said.err);
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_refused() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "").unwrap();
+    let said = shadowstep(&format!("figures double-precision --quick --out {}", file.display()));
+    assert_eq!(said.code, 2, "{}", said.err);
+    assert!(said.err.contains(&file.display().to_string()), "{}", said.err);
+}
