@@ -10,7 +10,7 @@ use shadowstep::Rational;
 use shadowstep::exact_flow::has_exact_flow;
 use shadowstep::number::{Number, Rounded};
 use shadowstep::run::EnergyDrift;
-use shadowstep::shadow::Stop;
+use shadowstep::shadow::{Rule, Stop};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::arguments::DriftArguments;
@@ -266,9 +266,10 @@ fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String {
     };
     let estimator = match selection.estimator {
         Chosen::Central(m) => format!("central differences, m = {m}"),
-        Chosen::Best(largest, Stop::Full) => format!("central differences, the best m of 2–{largest}"),
-        Chosen::Best(largest, Stop::Early) => {
-            format!("central differences, the best m of 2–{largest} before errors rise")
+        Chosen::Best(largest, stop, rule) => {
+            let by = if rule == Rule::Robust { " by the robust rule" } else { "" };
+            let end = if stop == Stop::Early { " before errors rise" } else { "" };
+            format!("central differences, the best m of 2–{largest}{by}{end}")
         }
         Chosen::Bilinear(k) => format!("products of {} states, k = {k}", k + 1),
     };

@@ -1,7 +1,9 @@
 //! The estimator of the modified energy that is asked for.
 
 use shadowstep::number::Number;
-use shadowstep::shadow::{Bilinear, BilinearEstimator, Central, CentralEstimator, Estimate, Estimator, Method, Stop};
+use shadowstep::shadow::{
+    Bilinear, BilinearEstimator, Central, CentralEstimator, Estimate, Estimator, Method, Rule, Stop,
+};
 use shadowstep::{Increments, Rational};
 
 /// Beyond this order the exact weights take longer than any run.
@@ -16,12 +18,12 @@ pub(crate) enum Chosen {
     /// D_m
     Central(u32),
     /// The best m of each state, at most this.
-    Best(u32, Stop),
+    Best(u32, Stop, Rule),
     /// E_k
     Bilinear(u32),
 }
 
-/// What makes it; where a fixed m is to estimate its error, that costs more.
+/// What makes it; an estimate of the error costs more.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Made {
     Central(Central),
@@ -29,13 +31,18 @@ pub(crate) enum Made {
 }
 
 impl Chosen {
-    /// The method; a fixed order estimates its error only if asked to.
+    /// The method, which estimates its error only if asked to.
     pub(crate) fn method(self, with_error: bool) -> Made {
         match self {
             Chosen::Central(m) => Made::Central(Central::Fixed { m, with_error }),
-            Chosen::Best(largest, stop) => Made::Central(Central::best(largest, stop)),
+            Chosen::Best(largest, stop, rule) => Made::Central(Central::Best { largest, stop, rule, with_error }),
             Chosen::Bilinear(k) => Made::Bilinear(Bilinear { k, with_error }),
         }
+    }
+
+    /// Whether it can estimate its error; a series of one term cannot.
+    pub(crate) fn tells_error(self) -> bool {
+        !matches!(self, Chosen::Central(1) | Chosen::Bilinear(1))
     }
 
     /// Whether its values belong to the times between the states.

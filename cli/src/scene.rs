@@ -201,11 +201,11 @@ mod tests {
     #[test]
     fn no_more_is_done_again_than_an_estimate_needs() {
         let folder = tempfile::tempdir().unwrap();
-        let scene = scene(folder.path(), KEPLER, "modified_energy = { order = 4 }");
-        // each fourth state is kept, and the estimates after n need one at or before n - 4; the run that goes on from 8
-        // has its first estimate at 13, and so it keeps no state 12
+        let scene = scene(folder.path(), KEPLER, "modified_energy = { order = 2 }");
+        // each fifth state is kept, and the estimates after n need one at or before n - 5: D_2, and three states for its
+        // error; the run that goes on from 10 has its first estimate at 16, and so it keeps no state 15
         let mut first = 0;
-        for (n, kept) in [(3, None), (5, Some(0)), (14, Some(8)), (15, Some(8)), (19, Some(8)), (20, Some(16))] {
+        for (n, kept) in [(4, None), (6, Some(0)), (16, Some(10)), (17, Some(10)), (19, Some(10)), (20, Some(10))] {
             let states = Cell::new(first - 1);
             let stop = || {
                 states.set(states.get() + 1);
@@ -216,7 +216,7 @@ mod tests {
             let state = serde_json::from_str::<serde_json::Value>(&text).unwrap()["checkpoint"]["state"]["n"].as_i64();
             assert_eq!(state, kept, "at n = {n}");
             // the first estimate of the run that goes on from there
-            first = kept.map_or(0, |kept| kept + 5);
+            first = kept.map_or(0, |kept| kept + 6);
         }
     }
 

@@ -3,10 +3,10 @@
 use shadowstep::Rational;
 use shadowstep::number::Precision;
 use shadowstep::problems::{Setup, problem};
-use shadowstep::shadow::Stop;
+use shadowstep::shadow::{Rule, Stop};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::arguments::{EstimatorChoice, OrderChoice, RunArguments, StopChoice};
+use crate::arguments::{EstimatorChoice, OrderChoice, RuleChoice, RunArguments, StopChoice};
 use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
 use crate::complaint::{Complaint, remark};
 use crate::estimator::{Chosen, DEFAULT_LARGEST_M};
@@ -80,20 +80,24 @@ fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Complaint> {
 }
 
 fn estimator(arguments: &RunArguments) -> Result<Chosen, Complaint> {
-    let searches = arguments.max_order.is_some() || arguments.stop.is_some();
+    let searches = arguments.max_order.is_some() || arguments.stop.is_some() || arguments.rule.is_some();
     match (arguments.estimator, arguments.order) {
         (EstimatorChoice::Central, OrderChoice::Auto) => {
             let stop = match arguments.stop {
                 Some(StopChoice::Early) => Stop::Early,
                 Some(StopChoice::Full) | None => Stop::Full,
             };
-            Ok(Chosen::Best(arguments.max_order.unwrap_or(DEFAULT_LARGEST_M), stop))
+            let rule = match arguments.rule {
+                Some(RuleChoice::Robust) => Rule::Robust,
+                Some(RuleChoice::Least) | None => Rule::Least,
+            };
+            Ok(Chosen::Best(arguments.max_order.unwrap_or(DEFAULT_LARGEST_M), stop, rule))
         }
         (EstimatorChoice::Bilinear, OrderChoice::Auto) => {
             Err(Complaint::usage("--estimator bilinear needs its order", "write --order 16 or another K"))
         }
         (_, OrderChoice::Fixed(order)) if searches => Err(Complaint::usage(
-            format!("--max-order and --stop are for --order auto, not for --order {order}"),
+            format!("--max-order, --stop and --rule are for --order auto, not for --order {order}"),
             "leave them out, or write --order auto",
         )),
         (EstimatorChoice::Central, OrderChoice::Fixed(m)) => Ok(Chosen::Central(m)),

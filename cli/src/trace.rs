@@ -6,7 +6,7 @@ use shadowstep::number::Rounded;
 
 use crate::arguments::TraceArguments;
 use crate::arithmetic::Arithmetic;
-use crate::complaint::{Complaint, Ending};
+use crate::complaint::{Complaint, Ending, remark};
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::propagator::{Propagator, motion};
@@ -21,6 +21,7 @@ struct Row {
     /// None for values between two states.
     energy: Option<String>,
     modified_energy: String,
+    /// Of the error; none where none can be relied on.
     estimate: Option<String>,
     order: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -37,6 +38,9 @@ pub(crate) fn trace(arguments: &TraceArguments) -> Result<Ending, Complaint> {
     if arguments.states && selection.estimator.is_between() {
         let sentence = "with --estimator bilinear and an odd --order the values belong to times between the states";
         return Err(Complaint::usage(sentence, "take an even order, or leave out --states"));
+    }
+    if !selection.estimator.tells_error() {
+        remark("with --order 1 no estimate of the error can be relied on; the estimates are left empty");
     }
     let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
     let bar = arguments.run.output.is_some();

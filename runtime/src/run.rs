@@ -366,7 +366,7 @@ mod tests {
     use super::*;
     use crate::kinetic::UnitMasses;
     use crate::problems::Kepler;
-    use crate::shadow::{Central, Stop};
+    use crate::shadow::{Central, Rule, Stop};
     use crate::tables::{TableScheme, shipped};
 
     const SCHEMES: [&str; 3] = ["stormer-verlet", "yoshida4", "ruth3"];
@@ -451,6 +451,7 @@ mod tests {
             Central::fixed(1),
             Central::best(9, Stop::Full),
             Central::best(20, Stop::Early),
+            Central::best_with_error(9, Stop::Full, Rule::Robust),
         ];
         for name in SCHEMES {
             let scheme = shipped(name).unwrap();

@@ -20,14 +20,38 @@
 //! The modified energy of the states is another matter: the round-off of the steps moves it, in these 10⁶ steps by 3e-13. Exact
 //! products and sums in place of rounded ones were tried as well; they lessen the scatter by a quarter at most.
 
+//!
+//! # Errors
+//!
+//! The last term of a series, |T_{m,m} − T_{m−1,m−1}| or |E_k − E_{k−1}|, is no estimate of its error: near a close encounter the
+//! differences alias, and a term may be small by chance. With the values at a few states on either side it is one: the largest of
+//! their spread max − min, of their last terms, and of the last place of the value. The true error divided by this estimate, and for
+//! comparison by the last term alone, on the exact flow of Kepler's problem, where the modified energy is −1/2 (orbits of
+//! eccentricity 0, 0.3, 0.6 and 0.9, h = 1/10, 3/31, 2/21, 1/20 and 1/40, 160 digits, all states of an orbit):
+//!
+//! | | m = 5 | m = 10 | m = 20 | m = 40 | best m ≤ 100, least | robust | k = 4 | k = 8 | k = 16 | k = 32 |
+//! | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
+//! | median | 0.005 | 0.007 | 0.009 | 0.01 | 0.01 | 0.008 | 0.002 | 0.002 | 0.0009 | 0.0002 |
+//! | 95 in 100 | 0.06 | 0.13 | 0.24 | 0.37 | 0.56 | 0.54 | 0.01 | 0.02 | 0.04 | 0.22 |
+//! | largest | 0.71 | 0.65 | 0.65 | 0.62 | 1.75 | 1.75 | 1.00 | 1.00 | 1.00 | 1.00 |
+//! | last term, largest | 1e3 | 2e3 | 8e3 | 3e4 | 5e7 | 5e6 | 4e2 | 6e1 | 8e3 | 2e4 |
+//!
+//! 1.75 is round-off, which may be alike at some states one after the other; in double precision 3.5 was met, and 6.5 for
+//! k = 128 with 40 digits. So an estimate is no bound, but of the right size; where errors change fast it is too large.
+//!
+//! None can be relied on with few states a period: with 6 (h = 1, e = 0 to 0.99) errors were up to 4.6 times as large as estimated,
+//! with 3 (h = 2) up to 35 times, and a motion with fewer than 2 looks like a slower one.
+
 mod bilinear;
 mod central;
 mod differences;
+mod form;
+mod spread;
 mod window;
 
 pub use bilinear::{Bilinear, BilinearEstimator};
 pub use central::{Central, CentralEstimator};
-pub use differences::Stop;
+pub use differences::{Rule, Stop};
 
 use crate::Rational;
 use crate::motion::Increments;
@@ -62,8 +86,11 @@ pub trait Estimator<N: Number> {
 pub struct Estimate<'a, N> {
     /// The modified energy.
     pub value: &'a N,
-    /// Size of the last term, |T_{m,m} − T_{m−1,m−1}|, where it was asked for and m ≥ 2: an estimate of the error, no
-    /// bound. Near a close encounter the error can be larger by many orders of magnitude.
+    /// Size of the last term, |T_{m,m} − T_{m−1,m−1}| or |E_k − E_{k−1}|, where it is known: by this the best m is chosen. It is
+    /// no estimate of the error, which can be larger by many orders of magnitude.
+    pub last_term: Option<&'a N>,
+    /// An estimate of the error, see [Errors](crate::shadow#errors); none where none was asked for, and where none can be relied
+    /// on: for m = 1 and k = 1.
     pub error: Option<&'a N>,
     /// The m of D_m, the k of the bilinear estimator.
     pub order: u32,

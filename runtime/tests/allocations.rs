@@ -15,7 +15,7 @@ use shadowstep::formula::{FormulaKinetic, FormulaPair, FormulaPotential};
 use shadowstep::number::{Number, Precision};
 use shadowstep::pairs::{Ends, Pairs, Separation};
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::shadow::{Central, Estimator, Method, Stop};
+use shadowstep::shadow::{Central, Estimator, Method, Rule, Stop};
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
 use shadowstep::{
     DiagonalMasses, FullMasses, Kinetic, Motion, Moves, Potential, Scheme, UnitMasses, exact, kinetic, potential,
@@ -186,7 +186,12 @@ fn estimators_do_not_allocate(digits: &Precision) {
     let h = exact("1/50").unwrap();
     let scheme = shipped("stormer-verlet").unwrap();
     let weights = scheme.weights::<Float>(&h, digits);
-    let methods = [Central::fixed(5), Central::best(20, Stop::Full), Central::best(20, Stop::Early)];
+    let methods = [
+        Central::fixed(5),
+        Central::fixed_with_error(5),
+        Central::best(20, Stop::Full),
+        Central::best_with_error(20, Stop::Early, Rule::Robust),
+    ];
     for method in methods {
         let mut estimator = method.estimator(&h, 2, digits);
         let mut motion =

@@ -8,7 +8,7 @@ use num_traits::Zero;
 use rug::Float;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
 use shadowstep::run::{ShadowRun, energy_drift};
-use shadowstep::shadow::{Bilinear, Estimator, Method};
+use shadowstep::shadow::{Bilinear, Central, Estimator, Method};
 use shadowstep::tables::shipped;
 use shadowstep::weights::{bilinear, central};
 use shadowstep::{Motion, Number, Potential, Rational, UnitMasses};
@@ -244,33 +244,52 @@ fn the_modified_energy_of_kepler_is_conserved() {
     assert!(sixteen < eight / 10.0 && eight < four / 10.0 && eight < 1e-8, "{four:e} {eight:e} {sixteen:e}");
 }
 
-/// max − min of E_k over ⌈k/2⌉ windows on either side, or |E_k − the mean of the two E_{k−1} within|.
+/// max − min of E_k over 1 + ⌈√k⌉ windows on either side, or the largest |E_k − the mean of the two E_{k−1} within| of these.
 #[test]
 fn the_error_is_its_rule_written_out() {
-    for k in [1, 2, 3, 6] {
+    for (k, around) in [(2, 3), (3, 3), (6, 4), (9, 4)] {
         let run = |method: Bilinear| {
             let motion = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]);
             let verlet = shipped("stormer-verlet").unwrap();
             let mut run = ShadowRun::new(&verlet, motion, &rational("1/20"), 60, &method).unwrap();
             let mut all = BTreeMap::new();
             while let Some((n, found)) = run.advance().unwrap() {
-                all.insert(n, (*found.value, found.error.copied()));
+                all.insert(n, (*found.value, found.last_term.copied(), found.error.copied()));
             }
             all
         };
-        let (values, last) = (run(Bilinear::new(k)), run(Bilinear::new(k.max(2) - 1)));
-        let around = i64::from(k.div_ceil(2));
-        for (n, (value, error)) in run(Bilinear::with_error(k)) {
-            let near: Option<Vec<f64>> = (n - around..=n + around).map(|n| Some(values.get(&n)?.0)).collect();
-            let Some(near) = near else { continue };
-            let spread = near.iter().fold(f64::MIN, |a, b| a.max(*b)) - near.iter().fold(f64::MAX, |a, b| a.min(*b));
-            // E_k is about n or n + 1/2, and the two windows of E_{k−1} are half a step before and after that
+        let (values, last) = (run(Bilinear::new(k)), run(Bilinear::new(k - 1)));
+        // E_k is about n or n + 1/2, and the two windows of E_{k−1} are half a step before and after that
+        let term = |n: i64| {
             let within = if k % 2 == 0 { [n - 1, n] } else { [n, n + 1] };
-            let term = if k == 1 { 0.0 } else { (value - (last[&within[0]].0 + last[&within[1]].0) / 2.0).abs() };
-            let right = spread.max(term);
+            Some((values.get(&n)?.0 - (last.get(&within[0])?.0 + last.get(&within[1])?.0) / 2.0).abs())
+        };
+        // sums of at most ten numbers of size 1/h and smaller, in another order
+        let same = |a: f64, b: f64| (a - b).abs() < 200.0 * f64::EPSILON;
+        let mut compared = 0;
+        for (n, (value, last_term, error)) in run(Bilinear::with_error(k)) {
             assert_eq!(value, values[&n].0);
-            // sums of at most seven numbers of size 1/h and smaller, in another order
-            assert!((error.unwrap() - right).abs() < 200.0 * f64::EPSILON, "k = {k}, n = {n}: {error:?}, {right}");
+            let near = n - around..=n + around;
+            let Some(terms) = near.clone().map(term).collect::<Option<Vec<f64>>>() else { continue };
+            assert!(same(last_term.unwrap(), term(n).unwrap()));
+            let near: Vec<f64> = near.map(|n| values[&n].0).collect();
+            let [most, least] = [f64::max, f64::min].map(|of| near.iter().copied().reduce(of).unwrap());
+            let right = terms.into_iter().fold(most - least, f64::max);
+            assert!(same(error.unwrap(), right), "k = {k}, n = {n}: {error:?}, {right}");
+            compared += 1;
         }
+        assert!(compared > 40);
     }
+}
+
+/// The error of E_1 on a circle is the same at all states, and it has no term before its last.
+#[test]
+fn the_first_orders_tell_no_error() {
+    let motion = || Motion::new(Kepler, UnitMasses, vec![1.0, 0.0], vec![0.0, 1.0]);
+    let verlet = shipped("stormer-verlet").unwrap();
+    let h = rational("1/20");
+    let mut run = ShadowRun::new(&verlet, motion(), &h, 10, &Bilinear::with_error(1)).unwrap();
+    assert!(run.advance().unwrap().unwrap().1.error.is_none());
+    let mut run = ShadowRun::new(&verlet, motion(), &h, 10, &Central::fixed_with_error(1)).unwrap();
+    assert!(run.advance().unwrap().unwrap().1.error.is_none());
 }

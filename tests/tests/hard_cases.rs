@@ -5,7 +5,7 @@ use rug::Float;
 use shadowstep::kinetic::Quadratic;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
 use shadowstep::run::{EnergyDrift, RunError, ShadowRun, energy_drift};
-use shadowstep::shadow::{Central, Stop};
+use shadowstep::shadow::{Central, Rule, Stop};
 use shadowstep::tables::shipped;
 use shadowstep::{Kinetic, Motion, Number, Potential, Scheme, UnitMasses};
 use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, rational};
@@ -203,7 +203,7 @@ where
 {
     let values = || -> Vec<(N, N, u32)> {
         let (scheme, h) = (shipped("blanes-moan-s6").unwrap(), rational("1/20"));
-        let best = Central::best(20, Stop::Early);
+        let best = Central::best_with_error(20, Stop::Early, Rule::Least);
         let mut run = ShadowRun::new(&scheme, kepler::<N>("0.4", context), &h, 100, &best).unwrap();
         let mut values = Vec::new();
         while let Some((_, estimate)) = run.advance().unwrap() {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::number::{Number, Precision};
 use shadowstep::problems::{Setup, problem};
 use shadowstep::run::{States, Trajectory};
-use shadowstep::shadow::Stop;
+use shadowstep::shadow::{Rule, Stop};
 use shadowstep::{Rational, exact};
 
 use super::double_precision::{self, Block, Differences};
@@ -17,7 +17,7 @@ use crate::propagator::{Propagator, motion};
 use crate::run::Run;
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
-const REVISION: u32 = 2;
+const REVISION: u32 = 3;
 
 /// A problem, what moves it on, and in which steps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -153,7 +153,9 @@ impl By {
     fn chosen(self) -> Chosen {
         match self {
             By::Central { m } => Chosen::Central(m),
-            By::Best { largest, early } => Chosen::Best(largest, if early { Stop::Early } else { Stop::Full }),
+            By::Best { largest, early } => {
+                Chosen::Best(largest, if early { Stop::Early } else { Stop::Full }, Rule::Least)
+            }
             By::Bilinear { k } => Chosen::Bilinear(k),
         }
     }

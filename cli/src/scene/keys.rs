@@ -183,8 +183,8 @@ pub(crate) const KEYS: [Key; 32] = [
     key(
         "output",
         "modified_energy",
-        "The modified energy by central differences, as columns `modified_energy`, `estimate` (the size of \
-         the last term: no bound of the error, which round-off or a close encounter makes larger by many orders) \
+        "The modified energy by central differences, as columns `modified_energy`, `estimate` (of its \
+         error, also near close encounters; empty for order = 1, where none can be relied on) \
          and `order` (the m of D_m): true, or a table.",
         "{ order = \"auto\", max_order = 100 }",
         Some("false"),

@@ -52,8 +52,8 @@ fn a_record_says_what_was_run() {
     assert_eq!((&record["order_least"], &record["order_most"]), (&Value::from(3), &Value::from(3)));
     assert_eq!(text(record, "estimator"), "central");
     assert_eq!(record["steps"], 40);
-    // 40 steps, 3 beyond each end, 3 forces each: ruth3 begins with a kick and ends with a drift
-    assert_eq!(record["force_evaluations"], (40 + 3 + 3) * 3);
+    // 40 steps, 3 beyond each end and 3 more for the errors there, 3 forces each: ruth3 begins with a kick and ends with a drift
+    assert_eq!(record["force_evaluations"], (40 + 6 + 6) * 3);
     let parameters = &record["parameters"];
     assert_eq!(text(parameters, "eccentricity"), "1/3");
     assert_eq!(text(parameters, "x"), "2/3");
@@ -110,6 +110,16 @@ fn the_early_stop_is_content_with_lower_orders_and_hardly_worse() {
     let drift = |record| text(record, "drift").parse::<f64>().unwrap();
     let ratio = drift(&early) / drift(&full);
     assert!((0.5..2.0).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn the_robust_rule_is_another_one() {
+    let words = "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 7 --digits 60 --max-order 60";
+    let drift = |rule: &str| objects(&quietly(&format!("{words} --json {rule}"))).remove(0);
+    let [least, paper, robust] = ["", "--rule least", "--rule robust"].map(drift);
+    assert_eq!((text(&least, "minimum"), text(&least, "drift")), (text(&paper, "minimum"), text(&paper, "drift")));
+    assert_ne!(text(&robust, "drift"), text(&paper, "drift"));
+    assert!(quietly(&format!("{words} --rule robust")).contains("the best m of 2–60 by the robust rule\n"));
 }
 
 #[test]

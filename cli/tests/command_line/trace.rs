@@ -134,3 +134,31 @@ fn drift_names_its_estimator() {
     assert_eq!((text(record, "estimator"), &record["order"]), ("bilinear", &8.into()));
     assert!(quietly(&run).contains("modified energy by products of 9 states, k = 8"));
 }
+
+/// On the exact flow the modified energy is −1/2.
+#[test]
+fn estimates_are_of_the_error() {
+    let run = "trace --problem kepler --scheme exact-flow --step 1/20 --until 6 --digits 40";
+    for flags in ["--order 8", "--max-order 30", "--max-order 30 --rule robust", "--estimator bilinear --order 6"] {
+        for line in objects(&quietly(&format!("{run} {flags}"))) {
+            let number = |field| text(&line, field).parse::<f64>().unwrap();
+            let error = (number("modified_energy") + 0.5).abs();
+            // the round-off of a text read as f64
+            assert!(error < 1.1 * number("estimate") + 1e-16, "{flags}: {line}");
+        }
+    }
+}
+
+#[test]
+fn where_no_estimate_can_be_relied_on_there_is_none() {
+    for order in ["1", "1 --estimator bilinear"] {
+        let said = shadowstep(&RUN.replace("--order 5", &format!("--order {order}")));
+        assert_eq!(said.code, 0);
+        assert!(
+            said.err.starts_with("remark: with --order 1 no estimate of the error can be relied on"),
+            "{}",
+            said.err
+        );
+        assert!(objects(&said.out).iter().all(|line| line["estimate"].is_null() && line["order"] == 1));
+    }
+}

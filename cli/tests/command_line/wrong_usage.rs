@@ -31,8 +31,21 @@ const WRONG: &[(&str, &str, &str)] = &[
         "--digits 300",
     ),
     ("--digits 6000 --set py=sqrt(2)", "py is irrational and computed to 5000 digits", "--digits 4980"),
-    ("--order 4 --max-order 8", "--max-order and --stop are for --order auto, not for --order 4", "leave them out"),
-    ("--order 4 --stop early", "--max-order and --stop are for --order auto, not for --order 4", "leave them out"),
+    (
+        "--order 4 --max-order 8",
+        "--max-order, --stop and --rule are for --order auto, not for --order 4",
+        "leave them out",
+    ),
+    (
+        "--order 4 --stop early",
+        "--max-order, --stop and --rule are for --order auto, not for --order 4",
+        "leave them out",
+    ),
+    (
+        "--order 4 --rule robust",
+        "--max-order, --stop and --rule are for --order auto, not for --order 4",
+        "leave them out",
+    ),
     ("--output nowhere/out.json", "--output nowhere/out.json cannot be written", "folder that exists"),
     ("--output /", "--output / is no file", "name of a file"),
 ];
@@ -59,6 +72,7 @@ fn flags_are_judged_by_their_own_rules() {
         ("--order best", "write a number from 1 to 1000, or auto"),
         ("--max-order 1", "1 is not in 2..=1000"),
         ("--stop soon", "invalid value 'soon'"),
+        ("--rule best", "invalid value 'best'"),
         ("--frobnicate", "unexpected argument '--frobnicate'"),
     ] {
         let said = shadowstep(&completed(flags));

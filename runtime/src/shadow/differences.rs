@@ -7,6 +7,7 @@
 use crate::Rational;
 use crate::motion::Increments;
 use crate::number::Number;
+use crate::shadow::spread::{Point, Spread};
 use crate::shadow::{Estimate, Estimator};
 use crate::weights::stirling;
 
@@ -28,11 +29,30 @@ pub enum Stop {
 /// How many successive terms the early stop looks at.
 const STOP_WINDOW: usize = 11;
 
+/// Which m is the best, by the sizes e_j = |T_{j,j} − T_{j−1,j−1}| of the terms. Of equal ones it is the first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// That with the least e_m (Moan & Niesen), with which their results are found again. A term may be small by chance, far from
+    /// the m where the series is at its best.
+    Least,
+    /// That with the least largest of the ten terms e_{m−5}, …, e_{m+4}, as far as there are such among those tried.
+    ///
+    /// On the exact flow of Kepler's problem, whose energy is known, e = 0.3, 0.6 and 0.9, h = 1/10, 3/31, 2/21, 1/20 and 1/40,
+    /// m ≤ 100, the largest error of an orbit is on none of the 15 more than by the other rule; it is less by a factor of 1.6 in
+    /// the mean, 6.4 at most. From state to state errors are smaller as often as larger. With the terms e_{m−9}, …, e_m the largest
+    /// error is the same and the others three times as large in the mean; with e_m, …, e_{m+9} twice.
+    Robust,
+}
+
+/// The terms before e_m, and after it, that the robust rule looks at.
+const ROBUST: (usize, usize) = (5, 4);
+
 /// The best m of each state.
 #[derive(Clone, Debug)]
 pub(super) struct AllOrders<N> {
     largest: usize,
     stop: Stop,
+    rule: Rule,
     /// c_k/(4h): the halves of μ and of H̄ are in it.
     coefficients: Vec<N>,
     /// ∇^r of (q, p, β) at the newest state, r = 0..2M−1, and at the one before.
@@ -40,12 +60,14 @@ pub(super) struct AllOrders<N> {
     previous: Vec<Vec<N>>,
     /// 2 μδ^{2k−1} of (q, p, β)
     mean: Vec<N>,
-    /// The newest M + 1 states, the state k in place k mod (M + 1).
+    /// The newest states, the state k in place k mod their number: M + 1, and those whose values are there already.
     ring: Vec<Place<N>>,
     pushed: usize,
-    errors: Vec<N>,
-    sum: N,
-    value: N,
+    /// e_1, …, e_M and T_{1,1}, …, T_{M,M} of a state, up to where the search ended.
+    sizes: Vec<N>,
+    sums: Vec<N>,
+    spread: Spread<N>,
+    with_error: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -57,25 +79,36 @@ struct Place<N> {
 }
 
 impl<N: Number> AllOrders<N> {
-    pub(super) fn new(largest: u32, stop: Stop, h: &Rational, dimension: usize, context: &N::Context) -> Self {
+    /// With the error from this many values on either side, or without.
+    pub(super) fn new(
+        (largest, stop, rule): (u32, Stop, Rule),
+        around: Option<usize>,
+        h: &Rational,
+        dimension: usize,
+        context: &N::Context,
+    ) -> Self {
         assert!(largest >= 2, "the best m is looked for among 2, 3, …");
+        let spread = Spread::new(around.unwrap_or(0), context);
         let size = largest as usize;
         let zero = N::zero(context);
         let numbers = |count| vec![zero.clone(); count];
         let four_h = h * Rational::from_integer(4.into());
         let table = vec![numbers(2 * dimension + 1); 2 * size];
+        let place = Place { q: numbers(dimension), p: numbers(dimension), terms: numbers(size) };
         AllOrders {
             largest: size,
             stop,
+            rule,
             coefficients: stirling(largest).iter().map(|c| N::from_rational(&(c / &four_h), context)).collect(),
             previous: table.clone(),
             mean: numbers(2 * dimension + 1),
             table,
-            ring: vec![Place { q: numbers(dimension), p: numbers(dimension), terms: numbers(size) }; size + 1],
+            ring: vec![place; size + 1 + spread.around()],
             pushed: 0,
-            errors: numbers(size),
-            sum: zero.clone(),
-            value: zero,
+            sizes: numbers(size),
+            sums: numbers(size),
+            spread,
+            with_error: around.is_some(),
         }
     }
 
@@ -116,31 +149,53 @@ impl<N: Number> AllOrders<N> {
         }
     }
 
-    /// Sums the series at a state; returns the best m.
+    /// Sums the series at a state up to the end of the search; returns where that is.
     fn sum_up(&mut self, place: usize) -> usize {
-        self.sum.assign_zero();
-        let mut best = 0;
         for m in 1..=self.largest {
-            let term = &self.ring[place].terms[m - 1];
-            let error = &mut self.errors[m - 1];
-            error.assign_product(&self.coefficients[m - 1], term);
-            self.sum.add(error);
-            error.make_absolute();
-            if m >= 2 && (best == 0 || self.errors[m - 1] < self.errors[best - 1]) {
-                best = m;
-                self.value.assign(&self.sum);
+            let size = &mut self.sizes[m - 1];
+            size.assign_product(&self.coefficients[m - 1], &self.ring[place].terms[m - 1]);
+            let (before, sum) = self.sums.split_at_mut(m - 1);
+            match before.last() {
+                Some(before) => sum[0].assign_sum(before, size),
+                None => sum[0].assign(size),
             }
+            size.make_absolute();
             if self.stop == Stop::Early && self.stops_at(m) {
-                break;
+                return m;
             }
         }
-        best
+        self.largest
     }
 
     fn stops_at(&self, m: usize) -> bool {
-        // errors[j − 1] is e_j, and e_2 is the first one that is a difference
+        // sizes[j − 1] is e_j, and e_2 is the first one that is a difference
         m >= STOP_WINDOW + 2
-            && largest(&self.errors[m - STOP_WINDOW - 1..m - 1]) < largest(&self.errors[m - STOP_WINDOW..m])
+            && largest(&self.sizes[m - STOP_WINDOW - 1..m - 1]) < largest(&self.sizes[m - STOP_WINDOW..m])
+    }
+
+    /// The value of the state whose last term has just come.
+    fn add_value(&mut self, place: usize) {
+        let last = self.sum_up(place);
+        let best = self.rule.best(&self.sizes[..last]);
+        let Point { value, last_term, order } = self.spread.next();
+        value.assign(&self.sums[best - 1]);
+        last_term.assign(&self.sizes[best - 1]);
+        *order = best as u32;
+    }
+}
+
+impl Rule {
+    /// The best m for e_1, e_2, …
+    fn best<N: PartialOrd>(self, sizes: &[N]) -> usize {
+        let (before, after) = if self == Rule::Robust { ROBUST } else { (0, 0) };
+        let terms = |m: usize| &sizes[(m - 1).saturating_sub(before).max(1)..(m + after).min(sizes.len())];
+        let (mut best, mut least) = (2, largest(terms(2)));
+        for m in 3..=sizes.len() {
+            if terms(m).iter().all(|size| size < least) {
+                (best, least) = (m, largest(terms(m)));
+            }
+        }
+        best
     }
 }
 
@@ -171,19 +226,24 @@ impl<N: Number> Place<N> {
 
 impl<N: Number> Estimator<N> for AllOrders<N> {
     fn states(&self) -> usize {
-        2 * self.largest + 1
+        2 * (self.largest + self.spread.around()) + 1
     }
 
     fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
         self.update_table(q, p, increments);
         let newest = self.place(q, p);
         self.add_terms(newest);
-        if self.pushed < self.states() {
+        if self.pushed <= 2 * self.largest {
             return None;
         }
-        let centre = (newest + 1) % self.ring.len();
-        let best = self.sum_up(centre);
-        let Place { q, p, .. } = &self.ring[centre];
-        Some(Estimate { value: &self.value, error: Some(&self.errors[best - 1]), order: best as u32, q, p })
+        let size = self.ring.len();
+        self.add_value((newest + size - self.largest) % size);
+        if !self.spread.estimate() {
+            return None;
+        }
+        let Point { value, last_term, order } = self.spread.middle();
+        let Place { q, p, .. } = &self.ring[(newest + 1) % size];
+        let error = self.with_error.then(|| self.spread.error());
+        Some(Estimate { value, last_term: Some(last_term), error, order: *order, q, p })
     }
 }

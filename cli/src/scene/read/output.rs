@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use shadowstep::shadow::Stop;
+use shadowstep::shadow::{Rule, Stop};
 use toml::de::DeValue;
 
 use crate::estimator::{Chosen, DEFAULT_LARGEST_M, HIGHEST_ORDER};
@@ -98,7 +98,7 @@ fn every(reader: &mut Reader<'_>, output: &Section<'_, '_>, key: &'static str, s
 
 fn modified(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(Chosen, u64)> {
     let (every, table) = when(reader, output, "modified_energy", "output.modified_energy")?;
-    let automatic = Chosen::Best(DEFAULT_LARGEST_M, Stop::Full);
+    let automatic = Chosen::Best(DEFAULT_LARGEST_M, Stop::Full, Rule::Least);
     let Some(table) = table else { return Some((automatic, every)) };
     let largest = reader.get(&table, "max_order").map(|value| (value.span(), m(reader, value, 2)));
     let stop = reader.get(&table, "stop");
@@ -120,7 +120,7 @@ fn modified(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(Chosen
         (None, largest, stop) => {
             let largest = largest.map_or(Some(DEFAULT_LARGEST_M), |(_, m)| m)?;
             let stop = stop.map_or(Some(Stop::Full), |(_, stop)| stop)?;
-            Some((Chosen::Best(largest, stop), every))
+            Some((Chosen::Best(largest, stop, Rule::Least), every))
         }
     }
 }

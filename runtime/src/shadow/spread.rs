@@ -1,0 +1,117 @@
+//! The error of an estimate, from the estimates beside it.
+//!
+//! The modified energy is constant along a trajectory, so what changes from one estimate to the next is the estimator's error, or
+//! round-off. What is the same in all of them, as on a circular orbit, only the last term of the series shows. Neither is enough:
+//! the spread has no size on a circle, and the last term is far too small where the differences alias, near a close encounter.
+
+use std::collections::VecDeque;
+
+use crate::Rational;
+use crate::number::Number;
+
+/// The newest 2·`around` + 1 values of an estimator. The one in the middle has an error: the largest of max − min of them all, of
+/// their last terms, and of the last place of the value, as on a circle all values may agree by chance in all their digits.
+#[derive(Clone, Debug)]
+pub(super) struct Spread<N> {
+    around: usize,
+    /// The newest last.
+    points: VecDeque<Point<N>>,
+    /// The last place of 1.
+    epsilon: N,
+    last_place: N,
+    error: N,
+}
+
+/// What an estimator says of a state.
+#[derive(Clone, Debug)]
+pub(super) struct Point<N> {
+    pub(super) value: N,
+    /// Its size; 0 where it is not known.
+    pub(super) last_term: N,
+    pub(super) order: u32,
+}
+
+impl<N: Number> Spread<N> {
+    /// With so many values on either side.
+    pub(super) fn new(around: usize, context: &N::Context) -> Self {
+        Spread {
+            around,
+            points: VecDeque::with_capacity(2 * around + 1),
+            epsilon: epsilon(context),
+            last_place: N::zero(context),
+            error: N::zero(context),
+        }
+    }
+
+    pub(super) fn around(&self) -> usize {
+        self.around
+    }
+
+    /// The place for the next value, that of the oldest one.
+    pub(super) fn next(&mut self) -> &mut Point<N> {
+        let oldest = if self.is_complete() { self.points.pop_front() } else { None };
+        let zero = || N::zero(&self.error.context());
+        self.points.push_back(oldest.unwrap_or_else(|| Point { value: zero(), last_term: zero(), order: 0 }));
+        self.points.back_mut().expect("one was put there")
+    }
+
+    /// Finds the error of the value in the middle; `false` as long as there are too few values.
+    pub(super) fn estimate(&mut self) -> bool {
+        if !self.is_complete() {
+            return false;
+        }
+        let values = || self.points.iter().map(|point| &point.value);
+        let least = values().reduce(|a, b| if b < a { b } else { a }).expect("there is a newest one");
+        let most = values().reduce(|a, b| if b > a { b } else { a }).expect("there is a newest one");
+        self.error.assign_difference(most, least);
+        self.last_place.assign_product(&self.points[self.around].value, &self.epsilon);
+        self.last_place.make_absolute();
+        for other in self.points.iter().map(|point| &point.last_term).chain([&self.last_place]) {
+            if *other > self.error {
+                self.error.assign(other);
+            }
+        }
+        true
+    }
+
+    /// The value that [`estimate`](Self::estimate) was about.
+    pub(super) fn middle(&self) -> &Point<N> {
+        &self.points[self.around]
+    }
+
+    pub(super) fn error(&self) -> &N {
+        &self.error
+    }
+
+    fn is_complete(&self) -> bool {
+        self.points.len() > 2 * self.around
+    }
+}
+
+/// |3 (4/3 − 1) − 1|: of 4/3 = 1.0101…₂ a third of the last place is rounded away, and nothing after that.
+fn epsilon<N: Number>(context: &N::Context) -> N {
+    let rational = |above: u32, below: u32| N::from_rational(&Rational::new(above.into(), below.into()), context);
+    let (mut epsilon, one) = (rational(4, 3), rational(1, 1));
+    epsilon.subtract(&one);
+    epsilon.multiply_integer(3);
+    epsilon.subtract(&one);
+    epsilon.make_absolute();
+    epsilon
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_place_of_1() {
+        assert_eq!(epsilon::<f64>(&()), f64::EPSILON);
+        #[cfg(feature = "mpfr")]
+        for bits in [2_u32, 3, 53, 100, 101, 400] {
+            use crate::number::{Float, Precision};
+            let Ok(precision) = Precision::bits(bits) else { continue };
+            let expected = Float::with_val(precision.in_bits(), 1) >> (precision.in_bits() - 1);
+            assert_eq!(epsilon::<Float>(&precision), expected, "{bits} bits");
+        }
+    }
+}
