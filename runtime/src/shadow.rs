@@ -42,6 +42,7 @@
 //! None can be relied on with few states a period: with 6 (h = 1, e = 0 to 0.99) errors were up to 4.6 times as large as estimated,
 //! with 3 (h = 2) up to 35 times, and a motion with fewer than 2 looks like a slower one.
 
+mod best_bilinear;
 mod bilinear;
 mod central;
 mod differences;
@@ -49,6 +50,7 @@ mod form;
 mod spread;
 mod window;
 
+pub use best_bilinear::{BestBilinear, BestBilinearEstimator};
 pub use bilinear::{Bilinear, BilinearEstimator};
 pub use central::{Central, CentralEstimator};
 pub use differences::{Rule, Stop};

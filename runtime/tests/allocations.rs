@@ -15,7 +15,7 @@ use shadowstep::formula::{FormulaKinetic, FormulaPair, FormulaPotential};
 use shadowstep::number::{Number, Precision};
 use shadowstep::pairs::{Ends, Pairs, Separation};
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::shadow::{Central, Estimator, Method, Rule, Stop};
+use shadowstep::shadow::{BestBilinear, Bilinear, Central, Estimator, Method, Rule, Stop};
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
 use shadowstep::{
     DiagonalMasses, FullMasses, Kinetic, Motion, Moves, Potential, Scheme, UnitMasses, exact, kinetic, potential,
@@ -183,24 +183,25 @@ fn steps_and_estimators_do_not_allocate() {
 }
 
 fn estimators_do_not_allocate(digits: &Precision) {
+    does_not_allocate(&Central::fixed(5), digits);
+    does_not_allocate(&Central::fixed_with_error(5), digits);
+    does_not_allocate(&Central::best(20, Stop::Full), digits);
+    does_not_allocate(&Central::best_with_error(20, Stop::Early, Rule::Robust), digits);
+    does_not_allocate(&Bilinear::with_error(5), digits);
+    does_not_allocate(&BestBilinear::new(12), digits);
+}
+
+fn does_not_allocate(method: &impl Method<Float>, digits: &Precision) {
     let h = exact("1/50").unwrap();
     let scheme = shipped("stormer-verlet").unwrap();
     let weights = scheme.weights::<Float>(&h, digits);
-    let methods = [
-        Central::fixed(5),
-        Central::fixed_with_error(5),
-        Central::best(20, Stop::Full),
-        Central::best_with_error(20, Stop::Early, Rule::Robust),
-    ];
-    for method in methods {
-        let mut estimator = method.estimator(&h, 2, digits);
-        let mut motion =
-            Motion::new(HenonHeiles, UnitMasses, numbers(["0.1", "0.2"], digits), numbers(["0.1", "0"], digits));
-        let mut advance = || {
-            scheme.step_augmented(&weights, &mut motion);
-            estimator.push(motion.q(), motion.p(), motion.increments()).is_some()
-        };
-        while !advance() {}
-        assert_eq!(allocations(|| assert!(advance())), (0, 0));
-    }
+    let mut estimator = method.estimator(&h, 2, digits);
+    let mut motion =
+        Motion::new(HenonHeiles, UnitMasses, numbers(["0.1", "0.2"], digits), numbers(["0.1", "0"], digits));
+    let mut advance = || {
+        scheme.step_augmented(&weights, &mut motion);
+        estimator.push(motion.q(), motion.p(), motion.increments()).is_some()
+    };
+    while !advance() {}
+    assert_eq!(allocations(|| assert!(advance())), (0, 0));
 }
