@@ -269,18 +269,22 @@ pub(crate) struct RunArguments {
     /// How the modified energy is estimated
     #[arg(long, value_name = "NAME", default_value = "central")]
     pub(crate) estimator: EstimatorChoice,
-    /// The m of the central differences D_m, such as 40, or auto for the best m of each state; the k of E_k
+    /// The m of the central differences D_m or the k of E_k, such as 40, or auto for the best one of each state
     #[arg(long, default_value = "auto", value_name = "M|K|auto", value_parser = order)]
     pub(crate) order: OrderChoice,
-    /// The largest m that --order auto tries, such as 100 [default: 200]
-    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(2..=i64::from(HIGHEST_ESTIMATOR_ORDER)))]
+    /// The largest m or k that --order auto tries, such as 100 [default: 200 of m, 64 of k]
+    #[arg(long, value_name = "M|K", value_parser = clap::value_parser!(u32).range(2..=i64::from(HIGHEST_ESTIMATOR_ORDER)))]
     pub(crate) max_order: Option<u32>,
-    /// When --order auto stops trying: at the largest m, or early, where the errors rise [default: full]
+    /// When --order auto stops trying m: at the largest, or early, where the errors rise [default: full]
     #[arg(long, value_name = "WHEN")]
     pub(crate) stop: Option<StopChoice>,
-    /// Which m is the best to --order auto [default: least, by which the results of Moan & Niesen are found again]
+    /// Which m is the best for --order auto [default: least, by which the results of Moan & Niesen are found again]
     #[arg(long, value_name = "RULE")]
     pub(crate) rule: Option<RuleChoice>,
+    /// The largest error wanted of --estimator bilinear --order auto, which takes the least k for it, such as 1e-20; the
+    /// estimates tell where it is missed [default: the best that can be had]
+    #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
+    pub(crate) accuracy: Option<String>,
     /// Writes to a file, such as out.json, under a temporary name until all is done
     #[arg(long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,

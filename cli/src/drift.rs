@@ -10,13 +10,11 @@ use shadowstep::Rational;
 use shadowstep::exact_flow::has_exact_flow;
 use shadowstep::number::{Number, Rounded};
 use shadowstep::run::EnergyDrift;
-use shadowstep::shadow::{Rule, Stop};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::arguments::DriftArguments;
 use crate::arithmetic::Arithmetic;
 use crate::complaint::{Complaint, Ending, remark};
-use crate::estimator::Chosen;
 use crate::library::EXACT_FLOW;
 use crate::output::Output;
 use crate::progress::Progress;
@@ -204,14 +202,8 @@ fn record<N: Rounded + 'static>(
             Arithmetic::Double => NumberOrWord::Word("double"),
             Arithmetic::Digits(digits, _) => NumberOrWord::Number(digits),
         },
-        estimator: match selection.estimator {
-            Chosen::Central(_) | Chosen::Best(..) => "central",
-            Chosen::Bilinear(_) => "bilinear",
-        },
-        order: match selection.estimator {
-            Chosen::Central(order) | Chosen::Bilinear(order) => NumberOrWord::Number(order),
-            Chosen::Best(..) => NumberOrWord::Word("auto"),
-        },
+        estimator: selection.estimator.name(),
+        order: selection.estimator.order().map_or(NumberOrWord::Word("auto"), NumberOrWord::Number),
         drift: found.drift.to_text(),
         minimum: found.minimum.to_text(),
         maximum: found.maximum.to_text(),
@@ -264,24 +256,16 @@ fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String {
         Arithmetic::Double => "double precision".to_owned(),
         Arithmetic::Digits(digits, _) => format!("{digits} digits"),
     };
-    let estimator = match selection.estimator {
-        Chosen::Central(m) => format!("central differences, m = {m}"),
-        Chosen::Best(largest, stop, rule) => {
-            let by = if rule == Rule::Robust { " by the robust rule" } else { "" };
-            let end = if stop == Stop::Early { " before errors rise" } else { "" };
-            format!("central differences, the best m of 2–{largest}{by}{end}")
-        }
-        Chosen::Bilinear(k) => format!("products of {} states, k = {k}", k + 1),
-    };
-    let order = if matches!(selection.estimator, Chosen::Bilinear(_)) { "k" } else { "m" };
+    let order = selection.estimator.letter();
     let columns =
         ["scheme", "step", "energy drift", "estimator's own", "permanent change", order, "steps", "forces", "seconds"];
     format!(
-        "{}: H = {}\n{}\nfrom t = 0 to {}, {digits}; modified energy by {estimator}\n{}\n",
+        "{}: H = {}\n{}\nfrom t = 0 to {}, {digits}; modified energy by {}\n{}\n",
         problem.title,
         problem.hamiltonian,
         values.join(", "),
         shortened(&selection.until, 20),
+        selection.estimator.described(),
         table(columns, rows, 1..9)
     )
 }

@@ -1,10 +1,12 @@
-//! The estimator of the modified energy that is asked for.
+//! The estimator of the modified energy that is asked for, by flags or by the keys of a scene.
 
 use shadowstep::number::Number;
 use shadowstep::shadow::{
-    Bilinear, BilinearEstimator, Central, CentralEstimator, Estimate, Estimator, Method, Rule, Stop,
+    BestBilinear, BestBilinearEstimator, Bilinear, BilinearEstimator, Central, CentralEstimator, Estimate, Estimator,
+    Method, Rule, Stop,
 };
 use shadowstep::{Increments, Rational};
+use shadowstep_symbolic::decimal::to_significant;
 
 /// Beyond this order the exact weights take longer than any run.
 pub(crate) const HIGHEST_ORDER: u32 = 1000;
@@ -12,8 +14,15 @@ pub(crate) const HIGHEST_ORDER: u32 = 1000;
 /// The largest m that is tried where none is asked for.
 pub(crate) const DEFAULT_LARGEST_M: u32 = 200;
 
+/// The largest k that is tried where none is asked for.
+pub(crate) const DEFAULT_LARGEST_K: u32 = 64;
+
+/// What is to be done about an accuracy that is none.
+pub(crate) const NO_ACCURACY: &str =
+    "write the largest error wanted, such as 1e-20, or leave it out for the best that can be had";
+
 /// An estimator with its order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Chosen {
     /// D_m
     Central(u32),
@@ -21,32 +30,153 @@ pub(crate) enum Chosen {
     Best(u32, Stop, Rule),
     /// E_k
     Bilinear(u32),
+    /// The best k of each state.
+    BestBilinear(BestBilinear),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Central,
+    Bilinear,
+}
+
+/// What is said of an estimator; what is not said has its default.
+#[derive(Debug)]
+pub(crate) struct Wish {
+    pub(crate) kind: Kind,
+    /// m or k; none for the best.
+    pub(crate) order: Option<u32>,
+    pub(crate) largest: Option<u32>,
+    pub(crate) stop: Option<Stop>,
+    pub(crate) rule: Option<Rule>,
+    pub(crate) accuracy: Option<Rational>,
+}
+
+/// A setting that does not go with another one.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Misfit {
+    /// Its name: `max_order`, `stop`, `rule` or `accuracy`.
+    pub(crate) name: &'static str,
+    /// The setting it is for, with a value, and the value that this has.
+    setting: &'static str,
+    needed: &'static str,
+    found: String,
+}
+
+impl Wish {
+    /// The estimator, if all that is said goes together.
+    pub(crate) fn chosen(self) -> Result<Chosen, Misfit> {
+        let given = [
+            ("max_order", self.largest.is_some()),
+            ("stop", self.stop.is_some()),
+            ("rule", self.rule.is_some()),
+            ("accuracy", self.accuracy.is_some()),
+        ];
+        let first_of = |names: &[&str]| given.iter().find(|(name, given)| *given && names.contains(name));
+        let (names, setting, needed, found): (&[&str], _, _, _) = match (self.order, self.kind) {
+            (Some(order), _) => (&["max_order", "stop", "rule", "accuracy"], "order", "auto", order.to_string()),
+            (None, Kind::Central) => (&["accuracy"], "estimator", "bilinear", "central".to_owned()),
+            (None, Kind::Bilinear) => (&["stop", "rule"], "estimator", "central", "bilinear".to_owned()),
+        };
+        let misfit = first_of(names).map(|(name, _)| Misfit { name, setting, needed, found });
+        match (misfit, self.order, self.kind) {
+            (Some(misfit), ..) => Err(misfit),
+            (None, Some(m), Kind::Central) => Ok(Chosen::Central(m)),
+            (None, Some(k), Kind::Bilinear) => Ok(Chosen::Bilinear(k)),
+            (None, None, Kind::Central) => Ok(Chosen::Best(
+                self.largest.unwrap_or(DEFAULT_LARGEST_M),
+                self.stop.unwrap_or(Stop::Full),
+                self.rule.unwrap_or(Rule::Least),
+            )),
+            (None, None, Kind::Bilinear) => {
+                let largest = self.largest.unwrap_or(DEFAULT_LARGEST_K);
+                Ok(Chosen::BestBilinear(BestBilinear { largest, accuracy: self.accuracy }))
+            }
+        }
+    }
+}
+
+impl Misfit {
+    /// What is wrong and what to do, with settings spelt as they are where they are written.
+    pub(crate) fn told(&self, name: &str, spelt: impl Fn(&str, &str) -> String) -> (String, String) {
+        let needed = spelt(self.setting, self.needed);
+        let found = spelt(self.setting, &self.found);
+        (format!("{name} is for {needed}, not for {found}"), format!("leave it out, or write {needed}"))
+    }
 }
 
 /// What makes it; an estimate of the error costs more.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Made {
     Central(Central),
     Bilinear(Bilinear),
+    BestBilinear(BestBilinear),
 }
 
 impl Chosen {
-    /// The method, which estimates its error only if asked to.
-    pub(crate) fn method(self, with_error: bool) -> Made {
-        match self {
+    /// The method, which estimates its error only if asked to, or where the best k is chosen by it.
+    pub(crate) fn method(&self, with_error: bool) -> Made {
+        match *self {
             Chosen::Central(m) => Made::Central(Central::Fixed { m, with_error }),
             Chosen::Best(largest, stop, rule) => Made::Central(Central::Best { largest, stop, rule, with_error }),
             Chosen::Bilinear(k) => Made::Bilinear(Bilinear { k, with_error }),
+            Chosen::BestBilinear(ref best) => Made::BestBilinear(best.clone()),
+        }
+    }
+
+    /// As it is named where it is asked for.
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Chosen::Central(_) | Chosen::Best(..) => "central",
+            Chosen::Bilinear(_) | Chosen::BestBilinear(_) => "bilinear",
+        }
+    }
+
+    /// Its m or k, if this is fixed.
+    pub(crate) fn order(&self) -> Option<u32> {
+        match self {
+            Chosen::Central(order) | Chosen::Bilinear(order) => Some(*order),
+            Chosen::Best(..) | Chosen::BestBilinear(_) => None,
+        }
+    }
+
+    /// What its order is called.
+    pub(crate) fn letter(&self) -> &'static str {
+        match self {
+            Chosen::Central(_) | Chosen::Best(..) => "m",
+            Chosen::Bilinear(_) | Chosen::BestBilinear(_) => "k",
+        }
+    }
+
+    /// As people call it: `central differences, m = 4`.
+    pub(crate) fn described(&self) -> String {
+        match self {
+            Chosen::Central(m) => format!("central differences, m = {m}"),
+            Chosen::Best(largest, stop, rule) => {
+                let by = if *rule == Rule::Robust { " by the robust rule" } else { "" };
+                let end = if *stop == Stop::Early { " before errors rise" } else { "" };
+                format!("central differences, the best m of 2–{largest}{by}{end}")
+            }
+            Chosen::Bilinear(k) => format!("products of {} states, k = {k}", k + 1),
+            Chosen::BestBilinear(BestBilinear { largest, accuracy: None }) => {
+                format!("products of states, the best k of 2–{largest}")
+            }
+            Chosen::BestBilinear(BestBilinear { largest, accuracy: Some(accuracy) }) => {
+                format!(
+                    "products of states, the best k of 2–{largest} for an accuracy of {}",
+                    to_significant(accuracy, 6)
+                )
+            }
         }
     }
 
     /// Whether it can estimate its error; a series of one term cannot.
-    pub(crate) fn tells_error(self) -> bool {
-        !matches!(self, Chosen::Central(1) | Chosen::Bilinear(1))
+    pub(crate) fn tells_error(&self) -> bool {
+        self.order() != Some(1)
     }
 
     /// Whether its values belong to the times between the states.
-    pub(crate) fn is_between(self) -> bool {
+    pub(crate) fn is_between(&self) -> bool {
         matches!(self, Chosen::Bilinear(k) if k % 2 == 1)
     }
 }
@@ -58,6 +188,7 @@ impl<N: Number> Method<N> for Made {
         match self {
             Made::Central(method) => Either::Central(method.estimator(h, dimension, context)),
             Made::Bilinear(method) => Either::Bilinear(method.estimator(h, dimension, context)),
+            Made::BestBilinear(method) => Either::BestBilinear(method.estimator(h, dimension, context)),
         }
     }
 }
@@ -66,6 +197,7 @@ impl<N: Number> Method<N> for Made {
 pub(crate) enum Either<N> {
     Central(CentralEstimator<N>),
     Bilinear(BilinearEstimator<N>),
+    BestBilinear(BestBilinearEstimator<N>),
 }
 
 impl<N: Number> Estimator<N> for Either<N> {
@@ -73,6 +205,7 @@ impl<N: Number> Estimator<N> for Either<N> {
         match self {
             Either::Central(estimator) => estimator.states(),
             Either::Bilinear(estimator) => estimator.states(),
+            Either::BestBilinear(estimator) => estimator.states(),
         }
     }
 
@@ -80,6 +213,7 @@ impl<N: Number> Estimator<N> for Either<N> {
         match self {
             Either::Central(estimator) => estimator.push(q, p, increments),
             Either::Bilinear(estimator) => estimator.push(q, p, increments),
+            Either::BestBilinear(estimator) => estimator.push(q, p, increments),
         }
     }
 }

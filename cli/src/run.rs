@@ -25,7 +25,7 @@ impl Run<'_> {
 
     /// The time of the n-th value of an estimator: n h, or for one whose values belong to the middle between two states
     /// (n + 1/2) h.
-    pub(crate) fn time_of_value(&self, n: i64, estimator: Chosen) -> Rational {
+    pub(crate) fn time_of_value(&self, n: i64, estimator: &Chosen) -> Rational {
         if estimator.is_between() { self.h * Rational::new((2 * n + 1).into(), 2.into()) } else { self.time(n) }
     }
 

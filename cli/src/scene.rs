@@ -169,6 +169,9 @@ mod tests {
             "modified_energy = { order = 4, every = 3 }\nenergy = true",
             "modified_energy = { max_order = 6 }\ntrajectory = { every = 5 }",
             "modified_energy = { max_order = 30 }",
+            "modified_energy = { max_order = 6, rule = \"robust\" }\nenergy = { every = 4 }",
+            "modified_energy = { estimator = \"bilinear\", order = 6 }",
+            "modified_energy = { estimator = \"bilinear\", max_order = 8, accuracy = \"1e-9\", every = 2 }",
         ] {
             let (whole, stops) = with_stops(KEPLER, output, 1000);
             assert_eq!((stops.len(), whole.lines().last().unwrap().split(',').next()), (0, Some("20")), "{output}");

@@ -1,5 +1,6 @@
 //! Arguments → problem, schemes and steps: the runs to make.
 
+use num_traits::Signed;
 use shadowstep::Rational;
 use shadowstep::number::Precision;
 use shadowstep::problems::{Setup, problem};
@@ -9,7 +10,7 @@ use shadowstep_symbolic::decimal::to_text;
 use crate::arguments::{EstimatorChoice, OrderChoice, RuleChoice, RunArguments, StopChoice};
 use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
 use crate::complaint::{Complaint, remark};
-use crate::estimator::{Chosen, DEFAULT_LARGEST_M};
+use crate::estimator::{Chosen, Kind, NO_ACCURACY, Wish};
 use crate::propagator::Propagator;
 use crate::quantity;
 use crate::run::Run;
@@ -80,28 +81,38 @@ fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Complaint> {
 }
 
 fn estimator(arguments: &RunArguments) -> Result<Chosen, Complaint> {
-    let searches = arguments.max_order.is_some() || arguments.stop.is_some() || arguments.rule.is_some();
-    match (arguments.estimator, arguments.order) {
-        (EstimatorChoice::Central, OrderChoice::Auto) => {
-            let stop = match arguments.stop {
-                Some(StopChoice::Early) => Stop::Early,
-                Some(StopChoice::Full) | None => Stop::Full,
-            };
-            let rule = match arguments.rule {
-                Some(RuleChoice::Robust) => Rule::Robust,
-                Some(RuleChoice::Least) | None => Rule::Least,
-            };
-            Ok(Chosen::Best(arguments.max_order.unwrap_or(DEFAULT_LARGEST_M), stop, rule))
-        }
-        (EstimatorChoice::Bilinear, OrderChoice::Auto) => {
-            Err(Complaint::usage("--estimator bilinear needs its order", "write --order 16 or another K"))
-        }
-        (_, OrderChoice::Fixed(order)) if searches => Err(Complaint::usage(
-            format!("--max-order, --stop and --rule are for --order auto, not for --order {order}"),
-            "leave them out, or write --order auto",
-        )),
-        (EstimatorChoice::Central, OrderChoice::Fixed(m)) => Ok(Chosen::Central(m)),
-        (EstimatorChoice::Bilinear, OrderChoice::Fixed(k)) => Ok(Chosen::Bilinear(k)),
+    let wish = Wish {
+        kind: match arguments.estimator {
+            EstimatorChoice::Central => Kind::Central,
+            EstimatorChoice::Bilinear => Kind::Bilinear,
+        },
+        order: match arguments.order {
+            OrderChoice::Auto => None,
+            OrderChoice::Fixed(order) => Some(order),
+        },
+        largest: arguments.max_order,
+        stop: arguments.stop.map(|stop| match stop {
+            StopChoice::Full => Stop::Full,
+            StopChoice::Early => Stop::Early,
+        }),
+        rule: arguments.rule.map(|rule| match rule {
+            RuleChoice::Least => Rule::Least,
+            RuleChoice::Robust => Rule::Robust,
+        }),
+        accuracy: arguments.accuracy.as_deref().map(accuracy).transpose()?,
+    };
+    wish.chosen().map_err(|misfit| {
+        let flag = |name: &str| format!("--{}", name.replace('_', "-"));
+        let (sentence, hint) = misfit.told(&flag(misfit.name), |name, value| format!("{} {value}", flag(name)));
+        Complaint::usage(sentence, hint)
+    })
+}
+
+fn accuracy(text: &str) -> Result<Rational, Complaint> {
+    let accuracy = quantity::number("--accuracy", text)?;
+    match accuracy.is_positive() {
+        true => Ok(accuracy),
+        false => Err(Complaint::usage(format!("--accuracy {text} is no size of an error"), NO_ACCURACY)),
     }
 }
 

@@ -105,7 +105,7 @@ fn follow<N: Rounded + 'static>(
         let texts = |numbers: &[N]| states.then(|| numbers.iter().map(N::to_text).collect());
         write(&Row {
             n,
-            t: N::from_rational(&run.time_of_value(n, selection.estimator), context).to_text(),
+            t: N::from_rational(&run.time_of_value(n, &selection.estimator), context).to_text(),
             energy: energy.as_ref().map(N::to_text),
             modified_energy: found.value.to_text(),
             estimate: found.error.map(N::to_text),

@@ -233,7 +233,7 @@ fn energies(run: &Setting, by: By) -> Result<Outcome, Complaint> {
     let mut all = Energies { times: Vec::new(), distances: Vec::new(), values: Vec::new(), orders: Vec::new() };
     run.run(|propagator, setup, of| {
         propagator.estimates::<Float>(setup, of, &method, &context, |n, estimate| {
-            all.times.push(f64::from_rational(&of.time_of_value(n, by.chosen()), &()));
+            all.times.push(f64::from_rational(&of.time_of_value(n, &by.chosen()), &()));
             all.distances.push(estimate.q.iter().map(|q| q.to_f64().powi(2)).sum::<f64>().sqrt());
             all.values.push(estimate.value.to_text());
             all.orders.push(estimate.order);

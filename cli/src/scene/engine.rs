@@ -105,7 +105,7 @@ impl<N: Number + 'static> Recorder<'_, N> {
         K: Kinetic<N>,
         S: Scheme + Moves<K::Class>,
     {
-        match self.scene.output.modified {
+        match &self.scene.output.modified {
             None => self.plain(scheme, motion, from.unwrap_or(0)),
             Some((estimator, _)) => self.shadowed(scheme, motion, from, estimator),
         }
@@ -141,7 +141,7 @@ impl<N: Number + 'static> Recorder<'_, N> {
         scheme: &S,
         motion: Moving<N, K>,
         from: Option<i64>,
-        estimator: Chosen,
+        estimator: &Chosen,
     ) -> Result<End, Complaint>
     where
         K: Kinetic<N>,
@@ -164,7 +164,8 @@ impl<N: Number + 'static> Recorder<'_, N> {
         while let Some((n, found)) = shadow.advance().map_err(failed)? {
             q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
             p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
-            let modified = self.is_due(self.scene.output.modified.map(|(_, every)| every), n).then(|| Modified {
+            let every = self.scene.output.modified.as_ref().map(|(_, every)| *every);
+            let modified = self.is_due(every, n).then(|| Modified {
                 modified_energy: found.value.to_text(),
                 estimate: found.error.map(N::to_text),
                 order: found.order,

@@ -33,7 +33,7 @@ pub(crate) const SECTIONS: [Section; 7] = [
     section("output.trajectory", "When positions and momenta are, in place of `trajectory = true`."),
 ];
 
-pub(crate) const KEYS: [Key; 32] = [
+pub(crate) const KEYS: [Key; 35] = [
     key(
         "problem",
         "name",
@@ -183,9 +183,8 @@ pub(crate) const KEYS: [Key; 32] = [
     key(
         "output",
         "modified_energy",
-        "The modified energy by central differences, as columns `modified_energy`, `estimate` (of its \
-         error, also near close encounters; empty for order = 1, where none can be relied on) \
-         and `order` (the m of D_m): true, or a table.",
+        "The modified energy, as columns `modified_energy`, `estimate` (of its error, also near close encounters; \
+         empty for order = 1, where none can be relied on) and `order` (the m or k used): true, or a table.",
         "{ order = \"auto\", max_order = 100 }",
         Some("false"),
     ),
@@ -209,18 +208,48 @@ pub(crate) const KEYS: [Key; 32] = [
     key("output.modified_energy", "every", "It is written at each n that is a multiple of this.", "10", Some("1")),
     key(
         "output.modified_energy",
+        "estimator",
+        "\"central\" for central differences D_m of 2m + 1 states, or \"bilinear\" for products of k + 1 states in pairs, \
+         which finds more from fewer states.",
+        "\"bilinear\"",
+        Some("\"central\""),
+    ),
+    key(
+        "output.modified_energy",
         "order",
-        "The m of D_m, or \"auto\" for the best m of each state.",
+        "The m of D_m or the k of the bilinear estimator, which is even; or \"auto\" for the best one of each state.",
         "40",
         Some("\"auto\""),
     ),
-    key("output.modified_energy", "max_order", "The largest m that \"auto\" tries.", "100", Some("200")),
+    key(
+        "output.modified_energy",
+        "max_order",
+        "The largest m or k that \"auto\" tries.",
+        "100",
+        Some("200 for central differences, 64 for the bilinear estimator"),
+    ),
     key(
         "output.modified_energy",
         "stop",
-        "When \"auto\" stops trying: \"full\" at the largest m, \"early\" where the errors rise.",
+        "When \"auto\" stops trying m: \"full\" at the largest, \"early\" where the errors rise.",
         "\"early\"",
         Some("\"full\""),
+    ),
+    key(
+        "output.modified_energy",
+        "rule",
+        "Which m \"auto\" takes: \"least\" that with the least term |T_m - T_(m-1)|, \"robust\" that with the least largest of \
+         ten terms about it, which none makes small by chance.",
+        "\"robust\"",
+        Some("\"least\""),
+    ),
+    key(
+        "output.modified_energy",
+        "accuracy",
+        "For estimator = \"bilinear\": the largest error wanted; \"auto\" takes the least k for it, and where there is none the \
+         best. The column `estimate` tells.",
+        "1e-20",
+        Some("none: the best that can be had"),
     ),
     key("output.trajectory", "every", "They are written at each n that is a multiple of this.", "100", Some("1")),
 ];

@@ -54,6 +54,7 @@ impl Metadata {
             ("until", json!(to_text(&scene.until))),
             ("steps", json!(scene.steps)),
         ]);
+        all.extend(scene.output.modified.iter().map(|(chosen, _)| ("modified_energy_by", json!(chosen.described()))));
         Metadata(all)
     }
 

@@ -109,6 +109,12 @@ fn a_killed_run_with_modified_energies_goes_on_with_the_same_bytes() {
     survives_kills(SHADOWED, "out.jsonl");
 }
 
+#[test]
+fn a_killed_run_with_the_best_k_goes_on_with_the_same_bytes() {
+    let keys = "estimator = \"bilinear\", max_order = 12, accuracy = 1e-15";
+    survives_kills(&SHADOWED.replace("order = \"auto\", max_order = 12", keys), "out.jsonl");
+}
+
 /// A folder where a run was killed.
 fn stopped(scene: &str, file: &str) -> TempDir {
     let folder = folder(scene);

@@ -92,9 +92,36 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     (
         "energy = true",
         "modified_energy = { order = 4, stop = \"early\" }",
-        "15:39: max_order and stop are for",
-        "leave",
+        "15:39: stop is for order = \"auto\", not for order = 4",
+        "leave it out",
     ),
+    ("energy = true", "modified_energy = { order = 4, rule = \"robust\" }", "15:39: rule is for order", "leave it out"),
+    (
+        "energy = true",
+        "modified_energy = { accuracy = 1e-9 }",
+        "15:32: accuracy is for estimator = \"bilinear\", not for estimator = \"central\"",
+        "write estimator = \"bilinear\"",
+    ),
+    (
+        "energy = true",
+        "modified_energy = { estimator = \"bilinear\", rule = \"least\" }",
+        "15:52: rule is for estimator = \"central\"",
+        "leave it out",
+    ),
+    (
+        "energy = true",
+        "modified_energy = { estimator = \"bilinear\", accuracy = 0 }",
+        "15:56: accuracy 0 is no size of an error",
+        "such as 1e-20",
+    ),
+    (
+        "energy = true",
+        "modified_energy = { estimator = \"bilinear\", order = 7 }",
+        "15:53: with estimator = \"bilinear\" and an odd order the values belong to times between the states",
+        "an even order",
+    ),
+    ("energy = true", "modified_energy = { estimator = \"linear\" }", "15:33: `linear` is not known", "\"bilinear\""),
+    ("energy = true", "modified_energy = { rule = \"best\" }", "15:28: `best` is not known here", "\"robust\""),
     ("energy = true", "energy = true\nfile = \"x.txt\"", "16:8: `x.txt` says no format by its name", ".csv or .jsonl"),
     ("energy = true", "energy = true\nfile = \"no/x.csv\"", "16:8: file ", "a folder that exists"),
     (

@@ -85,10 +85,27 @@ fn the_numbers_are_those_of_trace() {
     let scene = "[problem]\nname = \"kepler\"\nparameters = { eccentricity = \"1/3\" }\n[run]\nscheme = \"ruth3\"\n\
                  step = 0.05\nuntil = 1\ndigits = 30\n\
                  [output]\nformat = \"jsonl\"\nenergy = true\nmodified_energy = { order = 5 }\ntrajectory = true\n";
-    let lines = objects(&printed(scene));
-    let trace = "trace --problem kepler --set eccentricity=1/3 --scheme ruth3 --step 1/20 --until 1 --digits 30 \
-                 --order 5 --states";
-    assert_eq!(lines[1..], objects(&quietly(trace)));
+    let trace =
+        "trace --problem kepler --set eccentricity=1/3 --scheme ruth3 --step 1/20 --until 1 --digits 30 --states";
+    for (keys, flags, described) in [
+        ("order = 5", "--order 5", "central differences, m = 5"),
+        ("order = 1", "--order 1", "central differences, m = 1"),
+        (
+            "max_order = 30, rule = \"robust\", stop = \"early\"",
+            "--max-order 30 --rule robust --stop early",
+            "central differences, the best m of 2–30 by the robust rule before errors rise",
+        ),
+        ("estimator = \"bilinear\", order = 6", "--estimator bilinear --order 6", "products of 7 states, k = 6"),
+        (
+            "estimator = \"bilinear\", max_order = 16, accuracy = 1e-12",
+            "--estimator bilinear --max-order 16 --accuracy 1e-12",
+            "products of states, the best k of 2–16 for an accuracy of 1e-12",
+        ),
+    ] {
+        let lines = objects(&printed(&scene.replace("order = 5", keys)));
+        assert_eq!(lines[1..], objects(&shadowstep(&format!("{trace} {flags}")).out), "{keys}");
+        assert_eq!(text(&lines[0]["metadata"], "modified_energy_by"), described);
+    }
 }
 
 #[test]

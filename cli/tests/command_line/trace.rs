@@ -116,15 +116,26 @@ fn the_bilinear_estimator_belongs_to_the_middle_of_its_states() {
     assert!(said.err.contains("belong to times between the states"), "{}", said.err);
 }
 
+/// On the exact flow the modified energy is −1/2, and the accuracy wanted is met wherever the estimate says so.
 #[test]
-fn the_bilinear_estimator_wants_its_order() {
-    let said = shadowstep(&RUN.replace("--order 5", "--estimator bilinear"));
-    assert_eq!(said.code, 2);
-    assert!(
-        said.err.starts_with("error: --estimator bilinear needs its order\n  hint: write --order 16"),
-        "{}",
-        said.err
-    );
+fn the_best_k_is_the_least_one_for_an_accuracy() {
+    let run = "trace --problem kepler --scheme exact-flow --step 1/20 --until 3.15 --digits 40 --estimator bilinear";
+    let lines = |flags: &str| objects(&quietly(&format!("{run} {flags}")));
+    let orders = |lines: &[serde_json::Value]| -> Vec<u64> {
+        lines.iter().map(|line| line["order"].as_u64().unwrap()).collect()
+    };
+    let some = lines("--accuracy 1e-10 --max-order 32");
+    assert_eq!(some.len(), 64);
+    for line in &some {
+        let number = |field| text(line, field).parse::<f64>().unwrap();
+        assert!(number("estimate") <= 1e-10 && (number("modified_energy") + 0.5).abs() <= 1e-10, "{line}");
+    }
+    // from the pericentre to the apocentre
+    let some = orders(&some);
+    assert!(some[0] > some[63] && some.iter().all(|k| [2, 4, 8, 16, 32].contains(k)), "{some:?}");
+    // as good as it can be
+    let all = orders(&lines("--order auto --max-order 22"));
+    assert!(some.iter().zip(&all).any(|(some, all)| some < all) && all.iter().max() == Some(&22), "{all:?}");
 }
 
 #[test]
@@ -133,6 +144,11 @@ fn drift_names_its_estimator() {
     let record = &objects(&quietly(&format!("{run} --json")))[0];
     assert_eq!((text(record, "estimator"), &record["order"]), ("bilinear", &8.into()));
     assert!(quietly(&run).contains("modified energy by products of 9 states, k = 8"));
+    let run = run.replace("--order 8", "--max-order 16 --accuracy 1e-9");
+    let record = &objects(&quietly(&format!("{run} --json")))[0];
+    assert_eq!((text(record, "estimator"), text(record, "order")), ("bilinear", "auto"));
+    let readable = quietly(&run);
+    assert!(readable.contains("by products of states, the best k of 2–16 for an accuracy of 1e-9"), "{readable}");
 }
 
 /// On the exact flow the modified energy is −1/2.

@@ -4,10 +4,12 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use num_traits::Signed;
+use shadowstep::Rational;
 use shadowstep::shadow::{Rule, Stop};
 use toml::de::DeValue;
 
-use crate::estimator::{Chosen, DEFAULT_LARGEST_M, HIGHEST_ORDER};
+use crate::estimator::{Chosen, HIGHEST_ORDER, Kind, NO_ACCURACY, Wish};
 use crate::scene::format::Format;
 use crate::scene::reader::{Reader, Section, Value};
 use crate::steps::MOST_STEPS;
@@ -98,36 +100,61 @@ fn every(reader: &mut Reader<'_>, output: &Section<'_, '_>, key: &'static str, s
 
 fn modified(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(Chosen, u64)> {
     let (every, table) = when(reader, output, "modified_energy", "output.modified_energy")?;
-    let automatic = Chosen::Best(DEFAULT_LARGEST_M, Stop::Full, Rule::Least);
-    let Some(table) = table else { return Some((automatic, every)) };
-    let largest = reader.get(&table, "max_order").map(|value| (value.span(), m(reader, value, 2)));
-    let stop = reader.get(&table, "stop");
-    let stop = stop.map(|value| (value.span(), reader.word(value, &[("full", Stop::Full), ("early", Stop::Early)])));
-    let fixed = match reader.get(&table, "order") {
-        Some(value) if matches!(value.get_ref(), DeValue::Integer(_)) => Some(m(reader, value, 1)?),
-        Some(value) => {
-            reader.word(value, &[("auto", ())])?;
-            None
-        }
-        None => None,
-    };
-    match (fixed, largest, stop) {
-        (Some(m), None, None) => Some((Chosen::Central(m), every)),
-        (Some(m), Some((at, _)), _) | (Some(m), None, Some((at, _))) => {
-            let message = format!("max_order and stop are for order = \"auto\", not for order = {m}");
-            reader.wrong(&at, message, "leave them out, or write order = \"auto\"")
-        }
-        (None, largest, stop) => {
-            let largest = largest.map_or(Some(DEFAULT_LARGEST_M), |(_, m)| m)?;
-            let stop = stop.map_or(Some(Stop::Full), |(_, stop)| stop)?;
-            Some((Chosen::Best(largest, stop, Rule::Least), every))
+    let mut wish = Wish { kind: Kind::Central, order: None, largest: None, stop: None, rule: None, accuracy: None };
+    let Some(table) = table else { return Some((wish.chosen().ok()?, every)) };
+    let before = reader.faults.len();
+    let kinds = [("central", Kind::Central), ("bilinear", Kind::Bilinear)];
+    wish.kind = reader.get(&table, "estimator").map_or(Some(Kind::Central), |value| reader.word(value, &kinds))?;
+    wish.order = reader.get(&table, "order").and_then(|value| order(reader, value, wish.kind));
+    wish.largest = reader.get(&table, "max_order").and_then(|value| up_to(reader, value, 2));
+    let stops = [("full", Stop::Full), ("early", Stop::Early)];
+    wish.stop = reader.get(&table, "stop").and_then(|value| reader.word(value, &stops));
+    let rules = [("least", Rule::Least), ("robust", Rule::Robust)];
+    wish.rule = reader.get(&table, "rule").and_then(|value| reader.word(value, &rules));
+    wish.accuracy = reader.get(&table, "accuracy").and_then(|value| accuracy(reader, value));
+    if reader.faults.len() > before {
+        return None;
+    }
+    match wish.chosen() {
+        Ok(chosen) => Some((chosen, every)),
+        Err(misfit) => {
+            let spelt = |name: &str, value: &str| match value.parse::<u32>() {
+                Ok(number) => format!("{name} = {number}"),
+                Err(_) => format!("{name} = \"{value}\""),
+            };
+            let (message, help) = misfit.told(misfit.name, spelt);
+            let at = reader.get(&table, misfit.name).map_or(table.at.clone(), |value| value.span());
+            reader.wrong(&at, message, help)
         }
     }
 }
 
-/// The m of a central difference.
-fn m(reader: &mut Reader<'_>, value: &Value<'_>, least: u64) -> Option<u32> {
+/// A fixed order; none for "auto".
+fn order(reader: &mut Reader<'_>, value: &Value<'_>, kind: Kind) -> Option<u32> {
+    if !matches!(value.get_ref(), DeValue::Integer(_)) {
+        reader.word(value, &[("auto", ())]);
+        return None;
+    }
+    let order = up_to(reader, value, 1)?;
+    if kind == Kind::Bilinear && order % 2 == 1 {
+        let message = "with estimator = \"bilinear\" and an odd order the values belong to times between the states";
+        return reader.wrong(&value.span(), message, "write an even order");
+    }
+    Some(order)
+}
+
+/// The m of a central difference, or the k of E_k.
+fn up_to(reader: &mut Reader<'_>, value: &Value<'_>, least: u64) -> Option<u32> {
     reader.whole(value, least..=HIGHEST_ORDER.into()).and_then(|m| u32::try_from(m).ok())
+}
+
+fn accuracy(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Rational> {
+    let text = reader.number(value)?;
+    let accuracy = reader.evaluate(&text)?.value;
+    if !accuracy.is_positive() {
+        return reader.wrong(&text.at, format!("accuracy {} is no size of an error", text.value), NO_ACCURACY);
+    }
+    Some(accuracy)
 }
 
 /// A number of steps, or a time such as `1 min`.
