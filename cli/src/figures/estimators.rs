@@ -2,9 +2,9 @@
 
 use super::calculation::{By, Setting};
 use super::chart::Curve;
-use super::charts::{dashed, line, linear, log10_axis};
-use super::drawn::{Drawn, power};
-use super::kepler::{EXACT, SCHEMES, run};
+use super::charts::{dashed, line, linear, log10_axis, thick};
+use super::drawn::{DECAY_HEADER, Drawn, decay_row, power};
+use super::kepler::{self, BEST, EXACT, SCHEMES, run};
 use super::results::Results;
 
 const ORDERS: [u32; 14] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 50, 80, 130, 200];
@@ -90,6 +90,34 @@ pub(crate) fn on_schemes(results: &Results) -> Drawn {
     drawn
 }
 
+/// The paper's drift above, the permanent change below, and their rates.
+fn drift_and_change(results: &Results, drawn: &mut Drawn, steps: &[u32], changes: &[Curve]) {
+    let drifts = SCHEMES.map(|(scheme, _)| kepler::drifts(results, scheme, steps, BEST));
+    let control = kepler::drifts(results, EXACT, steps, BEST);
+    let row = |what: &str, points: &[(f64, f64)]| decay_row(what, kepler::rate(points).as_ref());
+    let mut rows: Vec<_> =
+        changes.iter().map(|curve| row(&format!("change, {}", curve.label), &curve.points)).collect();
+    rows.extend(SCHEMES.iter().zip(&drifts).map(|((_, label), points)| row(&format!("drift, {label}"), points)));
+    rows.push(row("drift, exact flow", &control));
+    let rho = kepler::singularity(0.6) * std::f64::consts::PI;
+    rows.push(vec!["π ρ and 2π ρ".to_owned(), format!("{rho:.3} and {:.3}", 2.0 * rho), String::new(), String::new()]);
+    drawn.table("Rates over h ≤ 1/10", &DECAY_HEADER, rows);
+    let mut curves: Vec<_> = drifts
+        .into_iter()
+        .enumerate()
+        .map(|(i, points)| dashed(format!("drift, {}", SCHEMES[i].1), points, i))
+        .collect();
+    curves.push(thick("drift, exact flow", control, 8));
+    curves.extend(changes.iter().cloned().map(|curve| Curve { label: format!("change, {}", curve.label), ..curve }));
+    drawn.chart(
+        "The paper's drift, and the permanent change",
+        linear("1/h"),
+        log10_axis("modified energy over [0, 100]"),
+        curves,
+        "Above, the drift by the best m: that of every scheme is that of the exact flow, whose energy does not change. Below, what changes for good.",
+    );
+}
+
 /// Evaluations of the gradient a step.
 const COSTS: [f64; 4] = [1.0, 3.0, 6.0, 6.0];
 
@@ -122,6 +150,7 @@ pub(crate) fn permanent(results: &Results) -> Drawn {
         of(&|n, cost| n * cost),
         "Lower is better: at equal cost Störmer–Verlet wins.",
     );
+    drift_and_change(results, &mut drawn, steps, &of(&|n, _| n));
     let mut rows = Vec::new();
     for n in steps.iter().filter(|n| [5, 10, 20, 40].contains(*n)) {
         let cells = SCHEMES.map(|(scheme, _)| change(scheme, *n).map_or("not resolved".to_owned(), power));
