@@ -2,7 +2,7 @@
 
 use super::chart::{Axis, Chart, Curve};
 use super::fit::ExponentialDecay;
-use super::report::{Figure, Picture, Table, Verdict};
+use super::report::{Figure, Picture, Statement, Table, Verdict};
 use crate::complaint::Complaint;
 
 /// A figure in the making.
@@ -12,16 +12,8 @@ pub(crate) struct Drawn {
     ours: bool,
     pub(crate) charts: Vec<(Chart, String)>,
     found: Vec<String>,
-    checks: Vec<Check>,
+    statements: Vec<Statement>,
     tables: Vec<Table>,
-}
-
-/// A statement, what was found, and whether that agrees.
-#[derive(Clone, Debug)]
-struct Check {
-    statement: String,
-    found: String,
-    holds: bool,
 }
 
 impl Drawn {
@@ -32,7 +24,7 @@ impl Drawn {
             ours: false,
             charts: Vec::new(),
             found: Vec::new(),
-            checks: Vec::new(),
+            statements: Vec::new(),
             tables: Vec::new(),
         }
     }
@@ -65,7 +57,7 @@ impl Drawn {
 
     /// What is stated, what was found, and whether that agrees.
     pub(crate) fn check(&mut self, statement: &str, found: impl Into<String>, holds: bool) {
-        self.checks.push(Check { statement: statement.to_owned(), found: found.into(), holds });
+        self.statements.push(Statement { statement: statement.to_owned(), found: found.into(), holds });
     }
 
     pub(crate) fn table(&mut self, caption: &str, header: &[&str], rows: Vec<Vec<String>>) {
@@ -82,10 +74,10 @@ impl Drawn {
     }
 
     fn verdict(&self) -> Verdict {
-        match &self.checks[..] {
+        match &self.statements[..] {
             _ if self.ours => Verdict::Ours,
             [] => Verdict::NotReproduced,
-            checks if checks.iter().all(|check| check.holds) => Verdict::Agrees,
+            all if all.iter().all(|one| one.holds) => Verdict::Agrees,
             _ => Verdict::Differs,
         }
     }
@@ -93,17 +85,10 @@ impl Drawn {
     /// The section of the report; `files` are those beside it.
     pub(crate) fn section(self, title: &str, svgs: Vec<String>, files: Vec<String>) -> Figure {
         let verdict = self.verdict();
-        let mut tables = self.tables;
-        if !self.checks.is_empty() {
-            let row =
-                |check: Check| vec![check.statement, check.found, if check.holds { "yes" } else { "no" }.to_owned()];
-            let header = ["statement", "found", "holds"].map(str::to_owned).to_vec();
-            let rows = self.checks.into_iter().map(row).collect();
-            tables.insert(0, Table { caption: "Statements and numbers".to_owned(), header, rows });
-        }
-        let captions = self.charts.into_iter().map(|(_, caption)| caption);
+        let captions = self.charts.iter().map(|(_, caption)| caption.clone());
         let pictures = svgs.into_iter().zip(captions).map(|(svg, caption)| Picture { svg, caption }).collect();
-        Figure { title: title.to_owned(), stated: self.stated, pictures, found: self.found, tables, verdict, files }
+        let Drawn { stated, found, statements, tables, .. } = self;
+        Figure { title: title.to_owned(), stated, pictures, found, statements, tables, verdict, files }
     }
 
     /// The pictures as SVG.

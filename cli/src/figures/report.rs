@@ -22,6 +22,7 @@ pub(crate) struct Figure {
     pub(crate) pictures: Vec<Picture>,
     /// What came out, in paragraphs.
     pub(crate) found: Vec<String>,
+    pub(crate) statements: Vec<Statement>,
     pub(crate) tables: Vec<Table>,
     pub(crate) verdict: Verdict,
     /// Files beside the page, by the names that links have: SVG, CSV.
@@ -34,6 +35,14 @@ pub(crate) struct Picture {
     /// An `<svg>` element without `id`s, as [`Chart::svg`](super::chart::Chart::svg) gives it. It is not escaped.
     pub(crate) svg: String,
     pub(crate) caption: String,
+}
+
+/// A statement, what was found, and whether that agrees.
+#[derive(Clone, Debug)]
+pub(crate) struct Statement {
+    pub(crate) statement: String,
+    pub(crate) found: String,
+    pub(crate) holds: bool,
 }
 
 /// Numbers, or other short texts. Each row has as many cells as the header.
@@ -129,6 +138,7 @@ impl Figure {
                     div class=(pictures) { @for picture in &self.pictures { (picture.figure()) } }
                 }
                 @if !self.found.is_empty() { h3 { "What came out" } (paragraphs(&self.found)) }
+                @if !self.statements.is_empty() { (statements(&self.statements)) }
                 @for table in &self.tables { (table.markup()) }
                 @if !self.files.is_empty() {
                     p { "Files: " @for (i, file) in self.files.iter().enumerate() {
@@ -162,6 +172,19 @@ impl Table {
     }
 }
 
+fn statements(statements: &[Statement]) -> Markup {
+    html! {
+        table class="statements" {
+            thead { tr { th scope="col" { "statement" } th scope="col" { "found" } th scope="col" { "holds" } } }
+            tbody {
+                @for Statement { statement, found, holds } in statements {
+                    tr { td { (statement) } td { (found) } td { @if *holds { "yes" } @else { "no" } } }
+                }
+            }
+        }
+    }
+}
+
 fn paragraphs(texts: &[String]) -> Markup {
     html! { @for text in texts { p { (text) } } }
 }
@@ -186,6 +209,11 @@ mod tests {
             stated: texts(["The drift is exponentially small: log₁₀ is about −c/h, with c ≈ 4.2."]),
             pictures: pictures.collect(),
             found: texts(["c = 4.19 ± 0.03 for h from 1/80 to 1/10.", "A second paragraph."]),
+            statements: vec![Statement {
+                statement: "The drift falls with h.".to_owned(),
+                found: "at every step".to_owned(),
+                holds: true,
+            }],
             tables: vec![Table {
                 caption: "Drift by step".to_owned(),
                 header: texts(["h", "drift", "m"]),
@@ -238,6 +266,10 @@ mod tests {
         for text in [&mut page.title, &mut page.introduction[0]] {
             *text = nasty.to_owned();
         }
+        let Statement { statement, found, .. } = &mut figure.statements[0];
+        for text in [statement, found] {
+            *text = nasty.to_owned();
+        }
         let table = &mut figure.tables[0];
         for text in [&mut figure.title, &mut figure.stated[0], &mut figure.found[0], &mut figure.files[0]] {
             *text = nasty.to_owned();
@@ -248,8 +280,8 @@ mod tests {
         let html = page.html();
         assert!(!html.contains("<b>") && !html.contains("\"it\""));
         // title and heading, introduction, name, value; contents, heading, stated, found, link twice; caption,
-        // header, cell, picture
-        assert_eq!(html.matches("&lt;b&gt; &amp; &quot;it&quot;").count(), 15);
+        // header, cell, picture; statement, found
+        assert_eq!(html.matches("&lt;b&gt; &amp; &quot;it&quot;").count(), 17);
     }
 
     #[test]
