@@ -232,13 +232,16 @@ fn row(run: Run<'_>, record: &Record) -> [String; 9] {
         shortened(run.h, 12),
         rounded(&record.drift, 4),
         control.unwrap_or_default(),
-        record.permanent_change.as_ref().map(Permanent::shown).unwrap_or_default(),
+        record.permanent_change.as_ref().map_or(NOT_RELIABLE.to_owned(), Permanent::shown),
         orders,
         record.steps.to_string(),
         record.force_evaluations.to_string(),
         format!("{:.3}", record.seconds),
     ]
 }
+
+/// Where the estimator tells no errors, no state is known to be quiet.
+const NOT_RELIABLE: &str = "not reliable here";
 
 /// More parameters and initial values are not shown to people.
 const MOST_VALUES: usize = 16;

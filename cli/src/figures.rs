@@ -3,7 +3,7 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | [`pendulum`], [`kepler`], [`henon_heiles`], [`scattering`] | the paper's figures |
-//! | [`estimators`], [`double_precision`] | ours |
+//! | [`estimators`], [`reliability`], [`double_precision`] | ours |
 //! | [`calculation`], [`results`], [`work`] | runs as tasks, over all cores; what is done stays in a file |
 //! | [`drawn`], [`charts`], [`fit`] | a figure, its charts and statements; a line through points |
 //! | [`chart`] | curves → SVG |
@@ -20,6 +20,7 @@ mod fit;
 mod henon_heiles;
 mod kepler;
 mod pendulum;
+mod reliability;
 mod report;
 mod results;
 mod scattering;
@@ -46,7 +47,7 @@ struct Entry {
 }
 
 /// In the order of the paper, then ours.
-const FIGURES: [Entry; 16] = [
+const FIGURES: [Entry; 17] = [
     Entry { name: "pendulum-step", title: "The pendulum: drift against the step", draw: pendulum::step },
     Entry {
         name: "pendulum-momentum",
@@ -75,6 +76,7 @@ const FIGURES: [Entry; 16] = [
         draw: henon_heiles::bilinear,
     },
     Entry { name: "double-precision", title: "The noise floor of double precision", draw: double_precision::draw },
+    Entry { name: "reliability", title: "What estimators say of their errors", draw: reliability::draw },
 ];
 
 /// Computes what is missing, and writes pictures, data and the report.

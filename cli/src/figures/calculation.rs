@@ -17,7 +17,7 @@ use crate::propagator::{Propagator, motion};
 use crate::run::Run;
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
-const REVISION: u32 = 3;
+const REVISION: u32 = 4;
 
 /// A problem, what moves it on, and in which steps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -83,13 +83,16 @@ pub(crate) struct Drift {
 }
 
 /// One value a step, or between the steps.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Energies {
     pub(crate) times: Vec<f64>,
     /// |q|
     pub(crate) distances: Vec<f64>,
     pub(crate) values: Vec<String>,
     pub(crate) orders: Vec<u32>,
+    /// log₁₀ of the estimated errors and of the last terms; none of 0, and where none is known.
+    pub(crate) errors: Vec<Option<f64>>,
+    pub(crate) last_terms: Vec<Option<f64>>,
 }
 
 /// log₁₀ of the size of a number that is a text; −∞ of 0.
@@ -168,7 +171,7 @@ impl By {
         }
     }
 
-    /// Only the bilinear estimator's own errors are needed here, for the permanent change.
+    /// Of a drift only the bilinear estimator's own errors are needed, for the permanent change.
     fn has_errors(self) -> bool {
         matches!(self, By::Bilinear { .. })
     }
@@ -228,15 +231,18 @@ fn drift(run: &Setting, by: By) -> Result<Outcome, Complaint> {
 }
 
 fn energies(run: &Setting, by: By) -> Result<Outcome, Complaint> {
-    let method = by.chosen().method(by.has_errors());
+    let method = by.chosen().method(true);
     let context = run.precision();
-    let mut all = Energies { times: Vec::new(), distances: Vec::new(), values: Vec::new(), orders: Vec::new() };
+    let mut all = Energies::default();
+    let size = |number: Option<&Float>| number.map(Number::log10_abs).filter(|size| size.is_finite());
     run.run(|propagator, setup, of| {
         propagator.estimates::<Float>(setup, of, &method, &context, |n, estimate| {
             all.times.push(f64::from_rational(&of.time_of_value(n, &by.chosen()), &()));
             all.distances.push(estimate.q.iter().map(|q| q.to_f64().powi(2)).sum::<f64>().sqrt());
             all.values.push(estimate.value.to_text());
             all.orders.push(estimate.order);
+            all.errors.push(size(estimate.error));
+            all.last_terms.push(size(estimate.last_term));
             Ok(())
         })
     })?;

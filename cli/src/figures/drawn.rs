@@ -100,6 +100,9 @@ impl Drawn {
 /// Below this the round-off of 120 digits may be seen.
 pub(crate) const ROUND_OFF: f64 = -108.0;
 
+/// Rates that differ by less are called the same: what is to be told apart differs by a factor of two.
+pub(crate) const SAME_RATE: f64 = 0.1;
+
 /// The rate of a drift over the steps from `coarsest` on, as far as it is above the round-off.
 pub(crate) fn decay(drifts: &[(f64, f64)], coarsest: f64) -> Option<ExponentialDecay> {
     let used: Vec<_> = drifts.iter().copied().filter(|(h, y)| *h <= coarsest && *y > ROUND_OFF).collect();

@@ -2,7 +2,7 @@
 
 use super::calculation::{By, Setting};
 use super::charts::{line, linear, log10_axis, thick};
-use super::drawn::{DECAY_HEADER, Drawn, decay, decay_row, power};
+use super::drawn::{DECAY_HEADER, Drawn, SAME_RATE, decay, decay_row, power};
 use super::results::Results;
 
 const BEST: By = By::Best { largest: 200, early: false };
@@ -78,7 +78,7 @@ pub(crate) fn step(results: &Results) -> Drawn {
             first.1 < 1.5,
         );
         let off = others.iter().map(|(c, _)| (c / first.0 - 1.0).abs()).fold(0.0, f64::max);
-        drawn.check("The value of c is the same.", format!("to within {:.1} %", 100.0 * off), off < 0.05);
+        drawn.check("The value of c is the same.", format!("to within {:.1} %", 100.0 * off), off < SAME_RATE);
     }
     if let (Some(fit), Some((n, y))) = (&verlet_fit, verlet.last()) {
         let line = fit.a - fit.c * std::f64::consts::LOG10_E * n;
@@ -105,15 +105,16 @@ pub(crate) fn momentum(results: &Results) -> Drawn {
         let of = |p: u32| run("stormer-verlet", n).with("px", format!("{p}/100"));
         let points: Vec<_> =
             hundredths.iter().map(|&p| (f64::from(p) / 100.0, results.log10_drift(&of(p), BEST))).collect();
-        let change = |from: f64, to: f64| {
-            let within = points.windows(2).filter(|pair| pair[0].0 >= from && pair[1].0 <= to);
+        let steepest = |of: &dyn Fn(f64, f64) -> bool| {
+            let within = points.windows(2).filter(|pair| of(pair[0].0, pair[1].0));
             within.map(|pair| (pair[1].1 - pair[0].1).abs() / (pair[1].0 - pair[0].0)).fold(0.0, f64::max)
         };
-        let (across, before) = (change(0.34, 0.50), change(0.02, 0.34));
+        let across = steepest(&|from, to| to > 0.36 && from < 0.46);
+        let before = steepest(&|_, to| to <= 0.36);
         drawn.check(
             &format!("h = 1/{n}: no abrupt change about p₁ = 0.408."),
             format!("the steepest change there is {across:.0} decades per unit of p₁, below it up to {before:.0}"),
-            across > 0.0 && across <= before.max(60.0),
+            across > 0.0 && across <= before,
         );
         curves.push(line(format!("h = 1/{n}"), points, i));
     }

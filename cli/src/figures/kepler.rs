@@ -8,7 +8,7 @@ use shadowstep::Number;
 
 use super::calculation::{By, Setting, number};
 use super::charts::{dashed, line, linear, log10_axis, thick};
-use super::drawn::{DECAY_HEADER, Drawn, decay, decay_row, power};
+use super::drawn::{DECAY_HEADER, Drawn, SAME_RATE, decay, decay_row, power};
 use super::fit::ExponentialDecay;
 use super::results::Results;
 use in_time::apocentre;
@@ -234,7 +234,7 @@ pub(crate) fn schemes(results: &Results) -> Drawn {
     let rates: Vec<f64> = fits.iter().filter_map(|(_, fit)| Some(fit.as_ref()?.c)).collect();
     if let [first, others @ ..] = &rates[..] {
         let off = others.iter().map(|c| (c / first - 1.0).abs()).fold(0.0, f64::max);
-        drawn.check("The constant c is the same.", format!("to within {:.2} %", 100.0 * off), off < 0.05);
+        drawn.check("The constant c is the same.", format!("to within {:.2} %", 100.0 * off), off < SAME_RATE);
     }
     let mut rows: Vec<_> = fits.iter().map(|(label, fit)| decay_row(label, fit.as_ref())).collect();
     rows.push(decay_row("exact flow", rate(&control).as_ref()));

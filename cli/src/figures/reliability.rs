@@ -1,0 +1,108 @@
+//! Ours: what estimators say of their errors, against their errors on the exact flow.
+
+use shadowstep::Number;
+
+use super::calculation::{By, Energies, Setting, number};
+use super::charts::{dashed, line, linear, log10_axis, thick};
+use super::drawn::Drawn;
+use super::kepler::EXACT;
+use super::results::Results;
+
+const ESTIMATORS: [(&str, By); 6] = [
+    ("T_{m,m}, m = 10", By::Central { m: 10 }),
+    ("T_{m,m}, m = 40", By::Central { m: 40 }),
+    ("best m ≤ 100", By::Best { largest: 100, early: false }),
+    ("E_8", By::Bilinear { k: 8 }),
+    ("E_16", By::Bilinear { k: 16 }),
+    ("E_32", By::Bilinear { k: 32 }),
+];
+
+/// Beyond this an estimate of the error is none.
+const RELIABLE: f64 = 2.0;
+
+fn run(e: &str, h: &str, until: &'static str) -> Setting {
+    Setting::of("kepler", EXACT, h).with("eccentricity", e).until(until)
+}
+
+/// log₁₀ of the true errors: the energy is −1/2.
+fn true_errors(found: &Energies) -> Vec<f64> {
+    found.values.iter().map(|value| (number(value) + 0.5_f64).log10_abs()).collect()
+}
+
+/// log₁₀ of true error/estimate; where both are nothing there is nothing to compare.
+fn ratios(found: &Energies, estimates: &[Option<f64>]) -> Vec<f64> {
+    let pairs = true_errors(found).into_iter().zip(estimates);
+    pairs.filter_map(|(error, estimate)| Some(error - (*estimate)?)).filter(|ratio| ratio.is_finite()).collect()
+}
+
+/// The median, the 95th hundredth, and the largest.
+fn parts(mut ratios: Vec<f64>) -> [f64; 3] {
+    ratios.sort_by(f64::total_cmp);
+    let at = |part: f64| {
+        ratios.get(((ratios.len().max(1) - 1) as f64 * part) as usize).map_or(f64::NAN, |y| 10_f64.powf(*y))
+    };
+    [at(0.5), at(0.95), at(1.0)]
+}
+
+fn shown(ratio: f64) -> String {
+    if (0.01..1000.0).contains(&ratio) { format!("{ratio:.2}") } else { format!("{ratio:.0e}") }
+}
+
+pub(crate) fn draw(results: &Results) -> Drawn {
+    let mut drawn = Drawn::ours(
+        "On the exact flow of Kepler's problem the error of an estimate is known. The paper takes |T_{m,m} − T_{m−1,m−1}| for it. Ours is the \
+         largest of the differences of the estimates at a few states on either side, of their last terms, and of the last digit.",
+    );
+    for (label, by) in [ESTIMATORS[2], ESTIMATORS[4]] {
+        along_an_orbit(results, &mut drawn, label, by);
+    }
+    let orbits = results.grid(&["0", "3/10", "6/10", "9/10"], &["0", "6/10", "9/10"]);
+    let steps = results.grid(&["1/10", "3/31", "1/20", "1/40"], &["1/10", "1/20"]);
+    let mut rows = Vec::new();
+    let mut worst_of_all = 0.0_f64;
+    for (label, by) in ESTIMATORS {
+        let all = || orbits.iter().flat_map(|e| steps.iter().map(move |h| run(e, h, "7")));
+        let of = |pick: fn(&Energies) -> &Vec<Option<f64>>| {
+            parts(
+                all()
+                    .filter_map(|run| results.energies(&run, by))
+                    .flat_map(|found| ratios(&found, pick(&found)))
+                    .collect(),
+            )
+        };
+        let (ours, papers) = (of(|found| &found.errors), of(|found| &found.last_terms));
+        let coarse = results.energies(&run("6/10", "2", "100"), by);
+        let coarse = coarse.map_or(f64::NAN, |found| parts(ratios(&found, &found.errors))[2]);
+        let few = if coarse > RELIABLE { "not reliable here".to_owned() } else { shown(coarse) };
+        worst_of_all = worst_of_all.max(ours[2]);
+        rows.push([label.to_owned()].into_iter().chain(ours.map(shown)).chain([shown(papers[2]), few]).collect());
+    }
+    drawn.table(
+        "True error / estimated error over orbits of e = 0 to 0.9, h = 1/10 to 1/40",
+        &["", "median", "95 %", "largest", "largest, by the last term", "largest, h = 2: three states a period"],
+        rows,
+    );
+    drawn.check(
+        "The estimated errors are hardly ever less than the true ones, close encounters included.",
+        format!("true/estimated is at most {worst_of_all:.2}"),
+        worst_of_all < RELIABLE,
+    );
+    drawn
+}
+
+fn along_an_orbit(results: &Results, drawn: &mut Drawn, label: &str, by: By) {
+    let Some(found) = results.energies(&run("6/10", "1/20", "7"), by) else { return };
+    let against = |sizes: Vec<f64>| found.times.iter().copied().zip(sizes).collect::<Vec<_>>();
+    let known = |sizes: &[Option<f64>]| against(sizes.iter().map(|size| size.unwrap_or(f64::NAN)).collect());
+    drawn.chart(
+        &format!("Exact flow, Kepler, e = 0.6, h = 1/20, {label}"),
+        linear("time t"),
+        log10_axis("error"),
+        vec![
+            thick("true", against(true_errors(&found)), 0),
+            line("estimated", known(&found.errors), 1),
+            dashed("last term", known(&found.last_terms), 2),
+        ],
+        "One orbit from pericentre to pericentre.",
+    );
+}
