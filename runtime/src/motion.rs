@@ -75,13 +75,6 @@ impl<N: Number> Increments<N> {
         self.beta.assign(&other.beta);
     }
 
-    /// Adds what both know.
-    pub(crate) fn add(&mut self, other: &Self) {
-        self.q.iter_mut().zip(&other.q).for_each(|(own, other)| own.add(other));
-        self.p.iter_mut().zip(&other.p).for_each(|(own, other)| own.add(other));
-        self.beta.add(&other.beta);
-    }
-
     fn each(&mut self, change: impl Fn(&mut N)) {
         self.q.iter_mut().chain(&mut self.p).for_each(&change);
         change(&mut self.beta);

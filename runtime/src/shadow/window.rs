@@ -63,19 +63,53 @@ impl<N: Number> Window<N> {
     pub(super) fn pairs(&mut self, pairs: &mut [N]) -> usize {
         let count = (self.pushed - 1).min(self.ring.len() - 1).min(pairs.len());
         self.sum.assign_zero();
-        let newest = &self.ring[self.place(0)];
-        for (i, pair) in (1..=count).zip(pairs) {
-            // β − β_i is the sum of the increments after i
-            self.sum.add(&self.ring[self.place(i - 1)].increments);
-            pair.assign(&self.sum.beta);
-            let (q, p) =
-                if newest.increments.has_vectors() { (&self.sum.q, &self.sum.p) } else { (&newest.q, &newest.p) };
-            let older = &self.ring[self.place(i)];
-            for (((q_i, p_i), q), p) in older.q.iter().zip(&older.p).zip(q).zip(p) {
-                pair.add_product(q_i, p);
-                pair.subtract_product(p_i, q);
-            }
+        // four at a time: four sums that do not wait for one another
+        let (fours, rest) = pairs[..count].as_chunks_mut::<4>();
+        for (group, four) in fours.iter_mut().enumerate() {
+            self.add_pairs(1 + 4 * group, four);
+        }
+        let first = 1 + 4 * fours.len();
+        for (i, one) in (first..).zip(rest) {
+            self.add_pairs(i, std::array::from_mut(one));
         }
         count
+    }
+
+    /// The pairs with the states `first`, `first` + 1, … before the newest; the increments after these are in the sum.
+    fn add_pairs<const L: usize>(&mut self, first: usize, pairs: &mut [N; L]) {
+        let places: [usize; L] = std::array::from_fn(|l| self.place(first + l));
+        let after: [usize; L] = std::array::from_fn(|l| self.place(first + l - 1));
+        let Window { ring, pushed, sum } = self;
+        let newest = &ring[(*pushed - 1) % ring.len()];
+        let older = places.map(|place| &ring[place]);
+        let increments = after.map(|place| &ring[place].increments);
+        for (pair, increments) in pairs.iter_mut().zip(increments) {
+            // β − β_i is the sum of the increments after i
+            sum.beta.add(&increments.beta);
+            pair.assign(&sum.beta);
+        }
+        let dimension = newest.q.len();
+        let q_of = older.map(|stored| &stored.q[..dimension]);
+        let p_of = older.map(|stored| &stored.p[..dimension]);
+        if newest.increments.has_vectors() {
+            let dq_of = increments.map(|increments| &increments.q[..dimension]);
+            let dp_of = increments.map(|increments| &increments.p[..dimension]);
+            let (q, p) = (&mut sum.q[..dimension], &mut sum.p[..dimension]);
+            for c in 0..dimension {
+                for l in 0..L {
+                    q[c].add(&dq_of[l][c]);
+                    p[c].add(&dp_of[l][c]);
+                    pairs[l].add_product(&q_of[l][c], &p[c]);
+                    pairs[l].subtract_product(&p_of[l][c], &q[c]);
+                }
+            }
+        } else {
+            for (c, (q, p)) in newest.q.iter().zip(&newest.p).enumerate() {
+                for l in 0..L {
+                    pairs[l].add_product(&q_of[l][c], p);
+                    pairs[l].subtract_product(&p_of[l][c], q);
+                }
+            }
+        }
     }
 }
