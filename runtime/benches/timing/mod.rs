@@ -1,4 +1,4 @@
-//! Medians over rounds in which all contestants take turns, and ratios within one run.
+//! Medians over rounds in which all contestants take turns, and ratios within one round.
 
 use std::time::Instant;
 
@@ -7,8 +7,16 @@ const ROUNDS: usize = 21;
 /// A contestant: its name and a run of so many repetitions.
 pub(crate) type Contestant<'a> = (&'static str, Box<dyn FnMut(u32) + 'a>);
 
-/// Nanoseconds per repetition, the median over the rounds, for each contestant.
-pub(crate) fn medians(contestants: &mut [Contestant<'_>], repetitions: u32) -> Vec<f64> {
+/// Medians over the rounds.
+pub(crate) struct Measured {
+    /// Of the time of a repetition.
+    pub(crate) nanoseconds: f64,
+    /// Of its ratio to that of the first contestant in the same round.
+    pub(crate) ratio: f64,
+}
+
+/// Lets the contestants run in turn.
+pub(crate) fn measure(contestants: &mut [Contestant<'_>], repetitions: u32) -> Vec<Measured> {
     let mut times = vec![Vec::new(); contestants.len()];
     for _ in 0..ROUNDS {
         for ((_, run), times) in contestants.iter_mut().zip(&mut times) {
@@ -17,20 +25,21 @@ pub(crate) fn medians(contestants: &mut [Contestant<'_>], repetitions: u32) -> V
             times.push(start.elapsed().as_secs_f64() * 1e9 / f64::from(repetitions));
         }
     }
-    times
-        .into_iter()
-        .map(|mut times| {
-            times.sort_by(f64::total_cmp);
-            times[ROUNDS / 2]
-        })
-        .collect()
+    let ratio = |own: &[f64]| median(own.iter().zip(&times[0]).map(|(own, first)| own / first));
+    times.iter().map(|own| Measured { nanoseconds: median(own.iter().copied()), ratio: ratio(own) }).collect()
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
 }
 
 /// Prints the contestants' times and their ratios to the first one.
 pub(crate) fn compare(title: &str, mut contestants: Vec<Contestant<'_>>, repetitions: u32) {
-    let times = medians(&mut contestants, repetitions);
+    let measured = measure(&mut contestants, repetitions);
     println!("\n{title}");
-    for ((name, _), time) in contestants.iter().zip(&times) {
-        println!("  {name:<48} {time:>10.1} ns {:>8.3}", time / times[0]);
+    for ((name, _), Measured { nanoseconds, ratio }) in contestants.iter().zip(&measured) {
+        println!("  {name:<48} {nanoseconds:>10.1} ns {ratio:>8.3}");
     }
 }
