@@ -60,7 +60,7 @@
 //! | [`motion`] | a state q, p, β and the maps that move it: kicks and drifts |
 //! | [`scheme`], [`tables`] | steps, written out by the compiler or read from a table at run time |
 //! | [`weights`] | the exact central-difference weights D_m |
-//! | [`shadow`] | estimators of the modified energy |
+//! | [`shadow`] | estimators of the modified energy, and [a monitor](shadow::ShadowEnergy) for loops of your own |
 //! | [`run`] | trajectories with the states that an estimator needs on both sides, and the energy drift |
 //! | `exact_flow` | states of the exact flow of a few problems, to see an estimator's own error (feature `mpfr`) |
 

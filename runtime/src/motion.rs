@@ -109,6 +109,8 @@ pub struct Motion<N, V, P, K> {
     /// qᵀU_q − 2U
     rate: N,
     kept: Kept,
+    /// Whether every evaluation is to find the rate, too.
+    wants_rate: bool,
     /// The potential's, with what it keeps there.
     scratch: Vec<N>,
     /// The kinetic energy's, likewise.
@@ -150,6 +152,7 @@ where
             rate: zero,
             increments: Increments::zero(dimension, &context),
             kept: Kept::Nothing,
+            wants_rate: false,
             evaluations: 0,
             potential,
             kinetic,
@@ -225,6 +228,33 @@ where
         energy_at(potential, kinetic, (q, p), (scratch, kinetic_scratch), increments.beta.clone())
     }
 
+    /// H, and T(p) alone, at another state of the same system, in numbers that exist.
+    pub(crate) fn assign_energies_of(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic_energy: &mut N) {
+        let Motion { potential, kinetic, scratch, kinetic_scratch, .. } = self;
+        kinetic.energy(p, kinetic_energy, kinetic_scratch);
+        potential.energy(q, energy, scratch);
+        energy.add(kinetic_energy);
+    }
+
+    /// Whether plain kicks that evaluate the gradient find and keep the rate as well: the last step before one that carries β
+    /// does so, as that would have to evaluate its first gradient again.
+    pub(crate) fn keep_rate(&mut self, wanted: bool) {
+        self.wants_rate = wanted;
+    }
+
+    #[inline]
+    fn evaluate(&mut self, with_rate: bool) {
+        let (q, gradient) = (self.q.as_ref(), self.gradient.as_mut());
+        self.kept = if with_rate {
+            self.potential.gradient_and_rate(q, gradient, &mut self.rate, &mut self.scratch);
+            Kept::GradientAndRate
+        } else {
+            self.potential.gradient(q, gradient, &mut self.scratch);
+            Kept::Gradient
+        };
+        self.evaluations += 1;
+    }
+
     /// Whether every q, p and β is a finite number.
     pub fn is_finite(&self) -> bool {
         self.increments.beta.is_finite() && self.q().iter().chain(self.p()).all(Number::is_finite)
@@ -264,9 +294,7 @@ where
     #[inline]
     fn kick(&mut self, weight: &N) {
         if self.kept == Kept::Nothing {
-            self.potential.gradient(self.q.as_ref(), self.gradient.as_mut(), &mut self.scratch);
-            self.kept = Kept::Gradient;
-            self.evaluations += 1;
+            self.evaluate(self.wants_rate);
         }
         self.kick_with_kept_gradient(weight);
     }
@@ -274,10 +302,7 @@ where
     #[inline]
     fn kick_augmented(&mut self, weight: &N) {
         if self.kept != Kept::GradientAndRate {
-            let gradient = self.gradient.as_mut();
-            self.potential.gradient_and_rate(self.q.as_ref(), gradient, &mut self.rate, &mut self.scratch);
-            self.kept = Kept::GradientAndRate;
-            self.evaluations += 1;
+            self.evaluate(true);
         }
         self.kick_with_kept_gradient(weight);
         self.increments.beta.add_product(weight, &self.rate);

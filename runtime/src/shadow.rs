@@ -47,6 +47,7 @@ mod bilinear;
 mod central;
 mod differences;
 mod form;
+mod monitor;
 mod spread;
 mod window;
 
@@ -54,6 +55,7 @@ pub use best_bilinear::{BestBilinear, BestBilinearEstimator};
 pub use bilinear::{Bilinear, BilinearEstimator};
 pub use central::{Central, CentralEstimator};
 pub use differences::{Rule, Stop};
+pub use monitor::{Course, Report, Sample, ShadowEnergy, Sign, Verdict};
 
 use crate::Rational;
 use crate::motion::Increments;

@@ -15,7 +15,7 @@ use shadowstep::formula::{FormulaKinetic, FormulaPair, FormulaPotential};
 use shadowstep::number::{Number, Precision};
 use shadowstep::pairs::{Ends, Pairs, Separation};
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::shadow::{BestBilinear, Bilinear, Central, Estimator, Method, Rule, Stop};
+use shadowstep::shadow::{BestBilinear, Bilinear, Central, Estimator, Method, Rule, ShadowEnergy, Stop};
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
 use shadowstep::{
     DiagonalMasses, FullMasses, Kinetic, Motion, Moves, Potential, Scheme, UnitMasses, exact, kinetic, potential,
@@ -180,6 +180,7 @@ fn steps_and_estimators_do_not_allocate() {
     });
 
     estimators_do_not_allocate(&digits);
+    a_monitor_does_not_allocate(&digits);
 }
 
 fn estimators_do_not_allocate(digits: &Precision) {
@@ -204,4 +205,20 @@ fn does_not_allocate(method: &impl Method<Float>, digits: &Precision) {
     };
     while !advance() {}
     assert_eq!(allocations(|| assert!(advance())), (0, 0));
+}
+
+/// Neither between windows nor in one, nor where it merges its blocks, after 64 windows.
+fn a_monitor_does_not_allocate(digits: &Precision) {
+    let h = exact("1/50").unwrap();
+    let scheme = shipped("stormer-verlet").unwrap();
+    let weights = scheme.weights::<Float>(&h, digits);
+    let mut motion =
+        Motion::new(HenonHeiles, UnitMasses, numbers(["0.1", "0.2"], digits), numbers(["0.1", "0"], digits));
+    let mut monitor = ShadowEnergy::new(&mut motion, &h, &Bilinear::with_error(4)).unwrap().every(20);
+    let mut windows = |steps| {
+        let samples = (0..steps).map(|_| monitor.step(&scheme, &weights, &mut motion).unwrap().is_some());
+        samples.filter(|is_some| *is_some).count()
+    };
+    windows(40);
+    assert_eq!(allocations(|| assert_eq!(windows(1400), 70)), (0, 0));
 }

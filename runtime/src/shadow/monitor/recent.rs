@@ -1,0 +1,170 @@
+//! What the newest states of a window say besides H̄: how much energy round-off moves, and how far the fastest motion turns.
+
+use std::f64::consts::TAU;
+
+use crate::Rational;
+use crate::kinetic::Kinetic;
+use crate::motion::{Coordinates, Motion};
+use crate::number::Number;
+use crate::potential::Potential;
+
+/// States that the turning needs: three second differences.
+const STATES: usize = 5;
+
+/// The newest states of a window, and sums over all windows.
+#[derive(Clone, Debug)]
+pub(super) struct Recent<N> {
+    /// The newest last.
+    q: [Vec<N>; 2],
+    p: [Vec<N>; STATES],
+    /// Evaluations of the gradient up to the state before the newest, and up to the newest.
+    evaluations: [u64; 2],
+    /// (c ε/h)²
+    factor: N,
+    sums: Sums<N>,
+    /// Intermediate results.
+    x: N,
+    y: N,
+    z: N,
+}
+
+/// Over the windows, and over the coordinates of each; δ²p_i are second differences, the newest i = 2.
+#[derive(Clone, Debug)]
+struct Sums<N> {
+    /// Σ kick²
+    kicks: N,
+    /// Σ (δ²p_1)²
+    squares: N,
+    /// Σ δ²p_1 (δ²p_0 + δ²p_2)
+    products: N,
+    /// Σ (δ²p_0 + δ²p_2)²
+    neighbours: N,
+}
+
+/// How the fastest motion turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Turning {
+    /// θ, from one step to the next.
+    pub(super) angle: f64,
+    /// What of δ²p_0 + δ²p_2 is not 2 cos θ δ²p_1: 0 for one oscillation, 1 for noise.
+    pub(super) irregular: f64,
+}
+
+impl<N: Number> Recent<N> {
+    pub(super) fn new(h: &Rational, dimension: usize, context: &N::Context) -> Self {
+        let zero = || N::zero(context);
+        let zeros = || vec![zero(); dimension];
+        Recent {
+            q: std::array::from_fn(|_| zeros()),
+            p: std::array::from_fn(|_| zeros()),
+            evaluations: [0; 2],
+            factor: kick_factor(h, context),
+            sums: Sums { kicks: zero(), squares: zero(), products: zero(), neighbours: zero() },
+            x: zero(),
+            y: zero(),
+            z: zero(),
+        }
+    }
+
+    /// Takes the next state of a window.
+    pub(super) fn push<V: Coordinates<N>, P: Potential<N>, K: Kinetic<N>>(&mut self, motion: &Motion<N, V, P, K>) {
+        self.q.rotate_left(1);
+        self.p.rotate_left(1);
+        let ([_, q], [.., p]) = (&mut self.q, &mut self.p);
+        q.iter_mut().zip(motion.q()).for_each(|(own, q)| own.assign(q));
+        p.iter_mut().zip(motion.p()).for_each(|(own, p)| own.assign(p));
+        self.evaluations = [self.evaluations[1], motion.evaluations()];
+    }
+
+    /// Ends a window of so many states.
+    pub(super) fn end(&mut self, states: usize) {
+        self.add_kick();
+        if states >= STATES {
+            self.add_turning();
+        }
+    }
+
+    /// Adds s (cε/h)² Σ ((Δq p)² + (Δp q)²): T_p is Δq/h, U_q is −Δp/h, and s stages round q and p by cε|q| and cε|p| each.
+    fn add_kick(&mut self) {
+        let Recent { q: [q0, q1], p: [.., p0, p1], x, y, z, .. } = self;
+        z.assign_zero();
+        for (((q0, q1), p0), p1) in q0.iter().zip(q1).zip(p0).zip(p1) {
+            for [before, after, rounded] in [[q0, &*q1, &*p1], [p0, p1, q1]] {
+                x.assign_difference(after, before);
+                y.assign_product(x, rounded);
+                z.add_product(y, y);
+            }
+        }
+        let stages = self.evaluations[1].saturating_sub(self.evaluations[0]).max(1);
+        z.multiply_integer(i32::try_from(stages).unwrap_or(i32::MAX));
+        self.sums.kicks.add_product(z, &self.factor);
+    }
+
+    fn add_turning(&mut self) {
+        let Recent { p: [p0, p1, p2, p3, p4], sums, x, y, z, .. } = self;
+        for ((((p0, p1), p2), p3), p4) in p0.iter().zip(p1).zip(p2).zip(p3).zip(p4) {
+            assign_second_difference(x, p1, p2, p3);
+            assign_second_difference(y, p0, p1, p2);
+            assign_second_difference(z, p2, p3, p4);
+            y.add(z);
+            sums.squares.add_product(x, x);
+            sums.products.add_product(x, y);
+            sums.neighbours.add_product(y, y);
+        }
+    }
+
+    /// The mean of kick² over so many windows.
+    pub(super) fn mean_square_kick(&self, windows: &N) -> N {
+        let mut mean = self.sums.kicks.clone();
+        mean.divide(windows);
+        mean
+    }
+
+    /// None where the windows are too short, or nothing moves.
+    pub(super) fn turning(&self) -> Option<Turning> {
+        let Sums { squares, products, neighbours, .. } = &self.sums;
+        let ratio = |a: &N| {
+            let mut ratio = a.clone();
+            ratio.divide(squares);
+            ratio.to_f64()
+        };
+        let (twice_cosine, rest) = (ratio(products), ratio(neighbours));
+        let turning =
+            Turning { angle: (twice_cosine / 2.0).acos(), irregular: (rest - twice_cosine * twice_cosine) / 2.0 };
+        (turning.angle.is_finite() && turning.irregular.is_finite()).then_some(turning)
+    }
+}
+
+impl Turning {
+    /// In how many steps it turns once.
+    pub(super) fn steps(self) -> f64 {
+        TAU / self.angle
+    }
+}
+
+fn assign_second_difference<N: Number>(out: &mut N, a: &N, b: &N, c: &N) {
+    out.assign_sum(a, c);
+    out.subtract(b);
+    out.subtract(b);
+}
+
+/// (c ε/h)², with ε the distance from 1 to the next number.
+///
+/// A rounding of x is off by at most half the last place of x, by 1/√12 of it rms; and that place is ε|x|/m for a mantissa m
+/// between 1 and 2, of which the mean square with the density 1/(m log 2) is 3ε²x²/(8 log 2). So c² = 1/(32 log 2), c = 0.2123.
+fn kick_factor<N: Number>(h: &Rational, context: &N::Context) -> N {
+    let one = N::from_rational(&Rational::from_integer(1.into()), context);
+    let (mut half, mut epsilon, mut sum) = (one.clone(), one.clone(), one.clone());
+    loop {
+        half.divide_integer(2);
+        sum.assign_sum(&one, &half);
+        // a half of ε is a tie, which goes to 1, whose mantissa is even
+        if sum == one {
+            break;
+        }
+        epsilon.assign(&half);
+    }
+    epsilon.multiply(&N::from_rational(&(Rational::new(2123.into(), 10_000.into()) / h), context));
+    half.assign_square(&epsilon);
+    half
+}

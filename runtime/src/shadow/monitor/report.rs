@@ -1,0 +1,267 @@
+//! What a monitor has seen, in numbers and in words.
+
+use std::fmt;
+
+use super::ShadowEnergy;
+use super::blocks::Quiet;
+use super::recent::Turning;
+use super::statistics::{Range, difference, integer, quotient, root};
+use super::verdict::{Evidence, LEAST_WINDOWS, Sign, Verdict};
+use crate::number::Number;
+use crate::shadow::Estimator;
+
+/// What a run has done to its energy.
+///
+/// The energy error is split: H − H̄ is the method's part, and bounded; H̄ itself moves only by round-off and by what the
+/// method does not conserve.
+///
+/// Near a close encounter the estimates of H̄ can be off by more than it ever moves. So H̄ is followed by the quietest estimate of each of 32 to
+/// 64 equal parts of the run, that with the smallest error, and by the quieter half of these.
+///
+/// It is printed as some lines with the numbers and [a sentence](Report::reason).
+#[derive(Clone, Debug)]
+pub struct Report<N> {
+    /// How many steps have been made.
+    pub steps: u64,
+    /// In how many windows the modified energy was estimated.
+    pub windows: u64,
+    /// The energy error: max − min of H, over the first state and the middles of the windows.
+    pub energy_error: N,
+    /// The mean kinetic energy, over the middles of the windows.
+    pub kinetic: N,
+    /// The least H − H̄, with the quietest H̄ so far of the same part of the run.
+    pub method_least: N,
+    /// The largest H − H̄.
+    pub method_largest: N,
+    /// The root mean square of H − H̄.
+    pub method_rms: N,
+    /// The newest quiet H̄.
+    pub modified: N,
+    /// How far H̄ wanders: max − min of the quiet estimates. Where H̄ oscillates with the estimates' errors, as near a resonance,
+    /// these may all be of the same phase; `moved` sees more.
+    pub wander: N,
+    /// The permanent change of H̄: the newest quiet estimate less the first one.
+    pub change: N,
+    /// How far H̄ surely moved: max (H̄ − 3e) − min (H̄ + 3e) over all windows with their errors e, or 0.
+    pub moved: N,
+    /// How H̄ goes with time, from 16 quiet estimates on.
+    pub course: Option<Course>,
+    /// What can be resolved: the largest error of the quiet estimates; none where the estimator gives no errors.
+    pub resolution: Option<N>,
+    /// The largest error of the quietest estimate of a part of the run, that of the loudest part.
+    pub worst_error: Option<N>,
+    /// What round-off does to the energy in one step, rms.
+    ///
+    /// δH = U_qᵀδq + T_pᵀδp with δq and δp a rounding of each coordinate, 0.2123 ε|q_i| and 0.2123 ε|p_i| rms, once for each
+    /// evaluation of the gradient that a step needs; U_q and T_p are taken from the last step of each window.
+    pub kick: N,
+    /// What round-off is expected to have moved H̄ by: √steps times the kick (Brouwer's law).
+    ///
+    /// Where nothing else moves H̄, the wander was 0.6 to 6.5 times this in `f64`; that of a random walk is 1.6 times its √n in the
+    /// mean.
+    pub round_off: N,
+    /// In how many steps the fastest motion turns once; none where nothing turns, or windows have fewer than 5 states.
+    ///
+    /// From second differences δ²p of the last states of each window, which an oscillation by θ a step makes so that
+    /// δ²p_{n+1} + δ²p_{n−1} = 2 cos θ δ²p_n; by least squares over all coordinates and windows.
+    pub steps_per_turn: Option<f64>,
+    /// What that equation leaves, as a part: 0 for one oscillation, 1 for noise.
+    pub irregular: Option<f64>,
+    /// What it comes to.
+    pub verdict: Verdict,
+}
+
+/// How the modified energy goes with time: by (max − min)²/Σ(differences)² of successive quiet estimates.
+///
+/// 999 of 1000 samples of 16 to 64 numbers of noise are below 1.4, 0.8 and 0.4, and of random walks between 0.3 and 11.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Course {
+    /// It stays, or scatters: below 0.5.
+    Steady,
+    /// Like √t: a random walk, or a slow oscillation.
+    Walk,
+    /// Like t: above 8.
+    Drift,
+}
+
+impl<N: Number, E: Estimator<N>> ShadowEnergy<N, E> {
+    /// What has been seen so far.
+    pub fn report(&self) -> Report<N> {
+        let (statistics, context) = (&self.statistics, self.method.context());
+        let (all, quiet) = (self.blocks.all(), self.blocks.quiet());
+        let newest = &self.newest.modified.value;
+        let (first, last) =
+            (quiet.first().map_or(newest, |first| &first.value), quiet.last().map_or(newest, |last| &last.value));
+        let mut values = Range::of(first);
+        quiet.iter().for_each(|quiet| values.include(&quiet.value));
+        let (wander, moved) = (values.width(), statistics.moved());
+        let known = |error: N| self.newest.has_error.then_some(error);
+        let kick = root(&self.recent.mean_square_kick(&statistics.count()));
+        let mut round_off: N = root(&integer(self.n, &context));
+        round_off.multiply(&kick);
+        let turning = self.recent.turning();
+        let mut report = Report {
+            steps: self.n,
+            windows: statistics.windows,
+            energy_error: statistics.energy.width(),
+            kinetic: statistics.kinetic(),
+            method_least: statistics.method.least.clone(),
+            method_largest: statistics.method.largest.clone(),
+            method_rms: statistics.method_rms(),
+            modified: last.clone(),
+            change: difference(last, first),
+            course: course(&quiet, &wander),
+            wander,
+            moved,
+            resolution: known(largest_error(quiet.iter().copied(), &context)),
+            worst_error: known(largest_error(all.iter(), &context)),
+            kick,
+            round_off,
+            steps_per_turn: turning.map(Turning::steps),
+            irregular: turning.map(|turning| turning.irregular),
+            verdict: Verdict::Undecided,
+        };
+        report.verdict = report.evidence(turning).verdict();
+        report
+    }
+}
+
+fn largest_error<'a, N: Number + 'a>(estimates: impl Iterator<Item = &'a Quiet<N>>, context: &N::Context) -> N {
+    let mut largest = N::zero(context);
+    for Quiet { error, .. } in estimates {
+        if *error > largest {
+            largest.assign(error);
+        }
+    }
+    largest
+}
+
+fn course<N: Number>(quiet: &[&Quiet<N>], wander: &N) -> Option<Course> {
+    if quiet.len() < 16 {
+        return None;
+    }
+    let part = |pair: &[&Quiet<N>]| quotient(&difference(&pair[1].value, &pair[0].value), wander).to_f64();
+    let squares: f64 = quiet.windows(2).map(|pair| part(pair).powi(2)).sum();
+    Some(match 1.0 / squares {
+        ratio if ratio > 8.0 => Course::Drift,
+        ratio if ratio > 0.5 => Course::Walk,
+        // also if nothing moved at all
+        _ => Course::Steady,
+    })
+}
+
+impl<N: Number> Report<N> {
+    fn evidence(&self, turning: Option<Turning>) -> Evidence {
+        Evidence {
+            moved: self.part(&self.moved),
+            worst_error: self.worst_error.as_ref().map_or(0.0, |error| self.part(error)),
+            kick: self.part(&self.kick),
+            round_off: self.part(&self.round_off),
+            of_kinetic: self.of_kinetic(),
+            turning,
+            windows: self.windows,
+        }
+    }
+
+    /// An energy as a part of the energy error.
+    fn part(&self, energy: &N) -> f64 {
+        quotient(energy, &self.energy_error).to_f64()
+    }
+
+    fn of_kinetic(&self) -> f64 {
+        quotient(&self.energy_error, &self.kinetic).to_f64()
+    }
+
+    /// Why the verdict is what it is, in a sentence with numbers.
+    pub fn reason(&self) -> String {
+        let steps = self.steps;
+        let moved =
+            format!("the modified energy moved by {:.1e} of the energy error in {steps} steps", self.part(&self.moved));
+        match self.verdict {
+            Verdict::Undecided => {
+                format!("{LEAST_WINDOWS} windows make a verdict, and there are {}", self.windows)
+            }
+            Verdict::RoundOff => format!(
+                "{moved}, and round-off makes {:.1e} of it: a larger step would do, or more digits are needed",
+                self.part(&self.round_off)
+            ),
+            Verdict::NearResonance { turns, steps } => format!(
+                "{moved}, and the fastest motion turns once in {:.3} steps, near {turns}/{steps} turns a step: \
+                 another step size does better",
+                self.steps_per_turn.unwrap_or(f64::NAN)
+            ),
+            Verdict::TooLarge(Sign::Moves) => format!(
+                "{moved}, where round-off makes {:.1e} of it: nothing near the energy is conserved",
+                self.part(&self.round_off)
+            ),
+            Verdict::TooLarge(Sign::NotResolved) => format!(
+                "in a part of the run no estimate is better than {:.1e} of the energy error: there is no modified energy \
+                 near the energy, or the estimator needs more states",
+                self.worst_error.as_ref().map_or(f64::NAN, |error| self.part(error))
+            ),
+            Verdict::TooLarge(Sign::EnergyError) => {
+                format!("the energy error is {:.1e} of the mean kinetic energy", self.of_kinetic())
+            }
+            Verdict::Fine if self.of_kinetic() == 0.0 => {
+                format!("the energy is the same in all windows of {steps} steps")
+            }
+            Verdict::Fine => format!("{moved}: the energy error is the method's, and bounded"),
+        }
+    }
+}
+
+impl<N: Number> fmt::Display for Report<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Report { steps, windows, verdict, .. } = self;
+        writeln!(f, "{verdict} ({steps} steps, {windows} windows)")?;
+        let part = |energy: &N| match self.part(energy) {
+            part if part.is_finite() => format!("{part:.1e} of the energy error"),
+            _ => "where the energy error is 0".to_owned(),
+        };
+        let line = |f: &mut fmt::Formatter<'_>, name: &str, value: &N, text: &str| {
+            // the bar of H̄ is a character, and takes no column
+            let width = 18 + name.matches('\u{304}').count();
+            writeln!(f, "  {name:<width$}{:>10}  {text}", short(value))
+        };
+        line(f, "energy error", &self.energy_error, &format!("max − min of H; {:.1e} of T", self.of_kinetic()))?;
+        let range =
+            format!("rms of H − H̄, which is from {} to {}", short(&self.method_least), short(&self.method_largest));
+        line(f, "the method's part", &self.method_rms, &range)?;
+        let course = self.course.map_or(String::new(), |course| format!(", {course}"));
+        line(f, "H̄ wanders by", &self.wander, &format!("{}{course}", part(&self.wander)))?;
+        line(f, "it changed by", &self.change, &format!("and surely moved by {}", short(&self.moved)))?;
+        if let Some(resolution) = &self.resolution {
+            line(f, "it is known to", resolution, &part(resolution))?;
+        }
+        line(f, "round-off", &self.round_off, &format!("{}, expected by Brouwer's law", part(&self.round_off)))?;
+        if let Some(turn) = self.steps_per_turn {
+            writeln!(f, "  {:<18}{turn:>10.1}  steps a turn", "fastest motion")?;
+        }
+        write!(f, "  {}", self.reason())
+    }
+}
+
+impl fmt::Display for Course {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Course::Steady => "and stays",
+            Course::Walk => "like √t",
+            Course::Drift => "like t",
+        })
+    }
+}
+
+/// Three digits, also of a number that is no `f64`.
+fn short<N: Number>(number: &N) -> String {
+    let value = number.to_f64();
+    let log10 = number.log10_abs();
+    if value.is_normal() || log10 == f64::NEG_INFINITY {
+        return format!("{value:.2e}");
+    }
+    let (mut exponent, mut mantissa) = (log10.floor(), 10_f64.powf(log10 - log10.floor()));
+    if mantissa >= 9.995 {
+        (exponent, mantissa) = (exponent + 1.0, 1.0);
+    }
+    let sign = if number.is_below_zero() { "-" } else { "" };
+    format!("{sign}{mantissa:.2}e{exponent}")
+}

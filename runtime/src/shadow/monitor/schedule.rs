@@ -1,0 +1,105 @@
+//! Which states belong to windows.
+
+/// The odd number next to 2⁶⁴ times the golden section: its multiples, taken mod 2⁶⁴, are spread evenly.
+const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// One window of `states` states in every `every` steps, the first of them from the state 0.
+///
+/// A window begins at a place among its steps that wanders: windows at equal distances would see an oscillation whose
+/// period divides the distance always in the same phase, and take it for a constant.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Schedule {
+    states: u64,
+    every: u64,
+    /// The number of the present or next window.
+    window: u64,
+    /// Its last state.
+    end: u64,
+}
+
+impl Schedule {
+    pub(super) fn new(states: usize, every: u64) -> Self {
+        let states = states as u64;
+        Schedule { states, every: every.max(1), window: 0, end: states - 1 }
+    }
+
+    /// Whether the state n belongs to a window.
+    pub(super) fn takes(&self, n: u64) -> bool {
+        self.every <= self.states || n + self.states > self.end
+    }
+
+    /// Whether the step to the state n has to carry β: not to the first one of a window, of which only q and p are used.
+    pub(super) fn needs_beta(&self, n: u64) -> bool {
+        self.every <= self.states || n + self.states > self.end + 1
+    }
+
+    /// Whether the state n is the last one of its window.
+    pub(super) fn ends(&self, n: u64) -> bool {
+        n == self.end
+    }
+
+    /// Goes on to the next window.
+    pub(super) fn advance(&mut self) {
+        self.window += 1;
+        let places = if self.every > self.states { self.every - self.states + 1 } else { self.every };
+        let place = (u128::from(self.window.wrapping_mul(GOLDEN)) * u128::from(places)) >> 64;
+        self.end = self.states - 1 + self.window * self.every + place as u64;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// First and last states of the windows among the states 0..=last.
+    fn windows(states: usize, every: u64, last: u64) -> Vec<(u64, u64)> {
+        let mut schedule = Schedule::new(states, every);
+        let (mut first, mut all) = (None, Vec::new());
+        for n in 0..=last {
+            if !schedule.takes(n) {
+                continue;
+            }
+            first.get_or_insert(n);
+            if schedule.ends(n) {
+                all.extend(first.take().map(|first| (first, n)));
+                schedule.advance();
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn one_window_in_every_so_many_steps() {
+        for (states, every) in [(9, 100), (17, 100), (9, 10), (3, 1000)] {
+            let all = windows(states, every, 1000 * every - 1);
+            assert_eq!(all.len(), 1000);
+            for (i, (first, last)) in (0..).zip(all) {
+                assert_eq!(last - first + 1, states as u64);
+                assert!(i * every <= first && last < (i + 1) * every, "{states}, {every}: {first}–{last}");
+            }
+        }
+    }
+
+    #[test]
+    fn windows_that_overlap_take_every_state() {
+        let mut schedule = Schedule::new(9, 4);
+        let mut ends = Vec::new();
+        for n in 0..4000 {
+            assert!(schedule.takes(n));
+            if schedule.ends(n) {
+                ends.push(n);
+                schedule.advance();
+            }
+        }
+        assert!((998..=1000).contains(&ends.len()), "{}", ends.len());
+        assert_eq!(windows(9, 1, 100).len(), 92 + 1, "each state from the ninth on ends one");
+    }
+
+    /// A period that divides the distance of the windows is seen in all its phases.
+    #[test]
+    fn places_wander() {
+        let mut phases = [0; 4];
+        windows(9, 100, 100_000).iter().for_each(|(first, _)| phases[(first % 4) as usize] += 1);
+        assert!(phases.iter().all(|count| *count > 200), "{phases:?}");
+    }
+}

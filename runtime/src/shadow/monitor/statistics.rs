@@ -1,0 +1,137 @@
+//! Sums over the windows of a run.
+
+use super::blocks::Quiet;
+use crate::Rational;
+use crate::number::Number;
+
+/// How many times its error an estimate may be off.
+const MARGIN: i32 = 3;
+
+/// The least and the largest number so far.
+#[derive(Clone, Debug)]
+pub(super) struct Range<N> {
+    pub(super) least: N,
+    pub(super) largest: N,
+}
+
+impl<N: Number> Range<N> {
+    pub(super) fn of(first: &N) -> Self {
+        Range { least: first.clone(), largest: first.clone() }
+    }
+
+    pub(super) fn include(&mut self, value: &N) {
+        if *value < self.least {
+            self.least.assign(value);
+        }
+        if *value > self.largest {
+            self.largest.assign(value);
+        }
+    }
+
+    pub(super) fn width(&self) -> N {
+        difference(&self.largest, &self.least)
+    }
+}
+
+/// H, H − H̄ and T over the windows.
+#[derive(Clone, Debug)]
+pub(super) struct Statistics<N> {
+    pub(super) windows: u64,
+    /// H, that of the first state included.
+    pub(super) energy: Range<N>,
+    /// H − H̄, where there has been a window.
+    pub(super) method: Range<N>,
+    /// The largest H̄ − 3e and the least H̄ + 3e, e its error.
+    surely: Range<N>,
+    bound: N,
+    sum_of_squares: N,
+    sum_of_kinetic: N,
+}
+
+impl<N: Number> Statistics<N> {
+    pub(super) fn new(energy: &N) -> Self {
+        let zero = N::zero(&energy.context());
+        Statistics {
+            windows: 0,
+            energy: Range::of(energy),
+            method: Range::of(&zero),
+            surely: Range::of(&zero),
+            bound: zero.clone(),
+            sum_of_squares: zero.clone(),
+            sum_of_kinetic: zero,
+        }
+    }
+
+    /// Takes a window: H, T, H − H̄ and H̄.
+    pub(super) fn add(&mut self, energy: &N, kinetic: &N, method: &N, modified: &Quiet<N>) {
+        self.energy.include(energy);
+        self.include_bounds(modified);
+        if self.windows == 0 {
+            self.method.least.assign(method);
+            self.method.largest.assign(method);
+        }
+        self.method.include(method);
+        self.sum_of_squares.add_product(method, method);
+        self.sum_of_kinetic.add(kinetic);
+        self.windows += 1;
+    }
+
+    fn include_bounds(&mut self, Quiet { value, error }: &Quiet<N>) {
+        let Range { least, largest } = &mut self.surely;
+        for (sign, bound) in [(-MARGIN, largest), (MARGIN, least)] {
+            self.bound.assign(error);
+            self.bound.multiply_integer(sign);
+            self.bound.add(value);
+            let beyond = if sign < 0 { self.bound > *bound } else { self.bound < *bound };
+            if self.windows == 0 || beyond {
+                bound.assign(&self.bound);
+            }
+        }
+    }
+
+    /// max (H̄ − 3e) − min (H̄ + 3e), or 0: by how much H̄ has surely moved.
+    pub(super) fn moved(&self) -> N {
+        let mut moved = self.surely.width();
+        if moved.is_below_zero() {
+            moved.assign_zero();
+        }
+        moved
+    }
+
+    /// How many windows, at least 1.
+    pub(super) fn count(&self) -> N {
+        integer(self.windows.max(1), &self.sum_of_squares.context())
+    }
+
+    /// √⟨(H − H̄)²⟩
+    pub(super) fn method_rms(&self) -> N {
+        root(&quotient(&self.sum_of_squares, &self.count()))
+    }
+
+    /// ⟨T⟩
+    pub(super) fn kinetic(&self) -> N {
+        quotient(&self.sum_of_kinetic, &self.count())
+    }
+}
+
+pub(super) fn integer<N: Number>(n: u64, context: &N::Context) -> N {
+    N::from_rational(&Rational::from_integer(n.into()), context)
+}
+
+pub(super) fn difference<N: Number>(a: &N, b: &N) -> N {
+    let mut result = a.clone();
+    result.subtract(b);
+    result
+}
+
+pub(super) fn quotient<N: Number>(a: &N, b: &N) -> N {
+    let mut result = a.clone();
+    result.divide(b);
+    result
+}
+
+pub(super) fn root<N: Number>(a: &N) -> N {
+    let mut result = a.clone();
+    result.assign_sqrt(a);
+    result
+}
