@@ -8,8 +8,8 @@ use std::hint::black_box;
 
 use shadowstep::pairs::{PairPotential, Pairs};
 use shadowstep::problems::LennardJones;
-use shadowstep::shadow::{Bilinear, ShadowEnergy};
-use shadowstep::{Motion, Scheme, UnitMasses, exact, potential, splitting_scheme};
+use shadowstep::shadow::{Bilinear, BilinearEstimator, ShadowEnergy};
+use shadowstep::{Motion, Rational, Scheme, UnitMasses, Weights, exact, potential, splitting_scheme};
 
 use timing::{Contestant, compare};
 
@@ -34,57 +34,75 @@ fn bodies<P: PairPotential<f64>>(pair: P, distance: f64) -> Bodies<P> {
     Motion::new(Pairs::all(BODIES, pair), UnitMasses, q, vec![0.0; 3 * BODIES])
 }
 
-fn plain<'a, P: PairPotential<f64> + 'a>(mut motion: Bodies<P>) -> Contestant<'a> {
-    let h = StormerVerlet.weights::<f64>(&exact("1/1000").expect("exact"), &());
-    let run = move |repetitions| {
-        for _ in 0..repetitions {
-            StormerVerlet.step(&h, &mut motion);
-        }
-        black_box(motion.q());
-    };
-    ("steps", Box::new(run))
-}
-
-fn augmented<'a, P: PairPotential<f64> + 'a>(mut motion: Bodies<P>) -> Contestant<'a> {
-    let h = StormerVerlet.weights::<f64>(&exact("1/1000").expect("exact"), &());
-    let run = move |repetitions| {
-        for _ in 0..repetitions {
-            StormerVerlet.step_augmented(&h, &mut motion);
-        }
-        black_box(motion.q());
-    };
-    ("steps that carry β", Box::new(run))
-}
-
-fn watched<'a, P: PairPotential<f64> + 'a>(
+/// Each run begins at the same state, in vectors of its own: so all make the same steps, and find them at like places.
+fn contestant<'a, P: PairPotential<f64> + Clone + 'a>(
     name: &'static str,
-    mut motion: Bodies<P>,
-    method: Bilinear,
-    every: u64,
+    start: Bodies<P>,
+    steps: impl Fn(&mut Bodies<P>, &Weights<[f64; 2]>, u32) + 'a,
 ) -> Contestant<'a> {
-    let h = exact("1/1000").expect("exact");
-    let mut monitor = ShadowEnergy::new(&mut motion, &h, &method).expect("a finite state").every(every);
-    let h = StormerVerlet.weights::<f64>(&h, &());
+    let h = StormerVerlet.weights::<f64>(&step(), &());
     let run = move |repetitions| {
-        for _ in 0..repetitions {
-            monitor.step(&StormerVerlet, &h, &mut motion).expect("finite states");
-        }
+        let mut motion = start.clone();
+        steps(&mut motion, &h, repetitions);
         black_box(motion.q());
     };
     (name, Box::new(run))
 }
 
+fn step() -> Rational {
+    exact("1/1000").expect("exact")
+}
+
+#[inline(never)]
+fn plain<P: PairPotential<f64>>(motion: &mut Bodies<P>, h: &Weights<[f64; 2]>, repetitions: u32) {
+    for _ in 0..repetitions {
+        StormerVerlet.step(h, motion);
+    }
+}
+
+#[inline(never)]
+fn augmented<P: PairPotential<f64>>(motion: &mut Bodies<P>, h: &Weights<[f64; 2]>, repetitions: u32) {
+    for _ in 0..repetitions {
+        StormerVerlet.step_augmented(h, motion);
+    }
+}
+
+/// With a monitor that is made before.
+fn watched<P: PairPotential<f64> + Clone>(
+    start: &Bodies<P>,
+    method: Bilinear,
+    every: u64,
+) -> impl Fn(&mut Bodies<P>, &Weights<[f64; 2]>, u32) {
+    let monitor = ShadowEnergy::new(&mut start.clone(), &step(), &method).expect("a finite state").every(every);
+    move |motion, h, repetitions| watched_steps(motion, h, monitor.clone(), repetitions)
+}
+
+#[inline(never)]
+fn watched_steps<P: PairPotential<f64>>(
+    motion: &mut Bodies<P>,
+    h: &Weights<[f64; 2]>,
+    mut monitor: ShadowEnergy<f64, BilinearEstimator<f64>>,
+    repetitions: u32,
+) {
+    for _ in 0..repetitions {
+        monitor.step(&StormerVerlet, h, motion).expect("finite states");
+    }
+}
+
 fn compare_for<P: PairPotential<f64> + Clone>(title: &str, pair: &P, distance: f64) {
-    let motion = || bodies(pair.clone(), distance);
+    let start = bodies(pair.clone(), distance);
+    let with = |name, method, every| contestant(name, start.clone(), watched(&start, method, every));
+    let (value, with_error) = (Bilinear::new(8), Bilinear::with_error(8));
     let contestants = vec![
-        plain(motion()),
-        augmented(motion()),
-        watched("with E_8, a window in 100 steps", motion(), Bilinear::new(8), 100),
-        watched("with E_8 and its error, a window in 100 steps", motion(), Bilinear::with_error(8), 100),
-        watched("with E_8 and its error, a window in 1000 steps", motion(), Bilinear::with_error(8), 1000),
-        watched("with E_8 and its error at every step", motion(), Bilinear::with_error(8), 1),
+        contestant("steps", start.clone(), plain),
+        contestant("steps that carry β", start.clone(), augmented),
+        with("with E_8, a window in 100 steps", value, 100),
+        with("with E_8, a window in 200 steps", value, 200),
+        with("with E_8 and its error, a window in 100 steps", with_error, 100),
+        with("with E_8 and its error, a window in 1000 steps", with_error, 1000),
+        with("with E_8 and its error at every step", with_error, 1),
     ];
-    compare(title, contestants, 1000);
+    compare(title, contestants, 2000);
 }
 
 fn main() {

@@ -81,7 +81,8 @@ pub trait Estimator<N: Number> {
 
     /// Takes the next state; gives the estimate that it completes.
     ///
-    /// All states come with increments of q and p, or none of them does; the latter are subtracted from one another.
+    /// All states come with increments of q and p, or none of them does; the latter are subtracted from one another. A state that
+    /// comes without them after one with them begins anew: estimates that need states from before it mean nothing.
     fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>>;
 }
 

@@ -11,7 +11,12 @@ pub(super) struct Window<N> {
     pushed: usize,
     /// The increments added up.
     sum: Increments<N>,
+    /// Pairs while they are added up, in places of their own: those of `f64` stay in registers of the processor.
+    places: [N; AT_ONCE],
 }
+
+/// How many pairs are added up at once: sums that do not wait for one another.
+const AT_ONCE: usize = 4;
 
 #[derive(Clone, Debug)]
 struct Stored<N> {
@@ -27,7 +32,7 @@ impl<N: Number> Window<N> {
         let numbers = || vec![zero.clone(); dimension];
         let sum = Increments::zero(dimension, context);
         let stored = Stored { q: numbers(), p: numbers(), increments: sum.clone() };
-        Window { ring: vec![stored; states], pushed: 0, sum }
+        Window { ring: vec![stored; states], pushed: 0, sum, places: std::array::from_fn(|_| zero.clone()) }
     }
 
     /// How many states have come, those included that have gone again.
@@ -62,31 +67,39 @@ impl<N: Number> Window<N> {
     /// of increments.
     pub(super) fn pairs(&mut self, pairs: &mut [N]) -> usize {
         let count = (self.pushed - 1).min(self.ring.len() - 1).min(pairs.len());
+        let count = (0..count).position(|back| self.begins_anew(back)).unwrap_or(count);
         self.sum.assign_zero();
-        // four at a time: four sums that do not wait for one another
-        let (fours, rest) = pairs[..count].as_chunks_mut::<4>();
-        for (group, four) in fours.iter_mut().enumerate() {
-            self.add_pairs(1 + 4 * group, four);
+        let (groups, rest) = pairs[..count].as_chunks_mut::<AT_ONCE>();
+        for (group, pairs) in groups.iter_mut().enumerate() {
+            self.add_pairs(1 + AT_ONCE * group, pairs);
         }
-        let first = 1 + 4 * fours.len();
+        let first = 1 + AT_ONCE * groups.len();
         for (i, one) in (first..).zip(rest) {
             self.add_pairs(i, std::array::from_mut(one));
         }
         count
     }
 
+    /// Whether no step is known to have led to a state, while one is to the state before it.
+    fn begins_anew(&self, back: usize) -> bool {
+        let known = |back| self.ring[self.place(back)].increments.has_vectors();
+        !known(back) && known(back + 1)
+    }
+
     /// The pairs with the states `first`, `first` + 1, … before the newest; the increments after these are in the sum.
     fn add_pairs<const L: usize>(&mut self, first: usize, pairs: &mut [N; L]) {
         let places: [usize; L] = std::array::from_fn(|l| self.place(first + l));
         let after: [usize; L] = std::array::from_fn(|l| self.place(first + l - 1));
-        let Window { ring, pushed, sum } = self;
+        let Window { ring, pushed, sum, places: sums } = self;
         let newest = &ring[(*pushed - 1) % ring.len()];
         let older = places.map(|place| &ring[place]);
         let increments = after.map(|place| &ring[place].increments);
-        for (pair, increments) in pairs.iter_mut().zip(increments) {
+        let (sums, _) = sums.split_first_chunk_mut::<L>().expect("at most as many as there are places");
+        let mut sums = sums.each_mut().map(N::register);
+        for (own, increments) in sums.iter_mut().zip(increments) {
             // β − β_i is the sum of the increments after i
             sum.beta.add(&increments.beta);
-            pair.assign(&sum.beta);
+            own.assign(&sum.beta);
         }
         let dimension = newest.q.len();
         let q_of = older.map(|stored| &stored.q[..dimension]);
@@ -94,22 +107,22 @@ impl<N: Number> Window<N> {
         if newest.increments.has_vectors() {
             let dq_of = increments.map(|increments| &increments.q[..dimension]);
             let dp_of = increments.map(|increments| &increments.p[..dimension]);
-            let (q, p) = (&mut sum.q[..dimension], &mut sum.p[..dimension]);
-            for c in 0..dimension {
+            for (c, (q, p)) in sum.q.iter_mut().zip(&mut sum.p).enumerate() {
                 for l in 0..L {
-                    q[c].add(&dq_of[l][c]);
-                    p[c].add(&dp_of[l][c]);
-                    pairs[l].add_product(&q_of[l][c], &p[c]);
-                    pairs[l].subtract_product(&p_of[l][c], &q[c]);
+                    q.add(&dq_of[l][c]);
+                    p.add(&dp_of[l][c]);
+                    sums[l].add_product(&q_of[l][c], p);
+                    sums[l].subtract_product(&p_of[l][c], q);
                 }
             }
         } else {
             for (c, (q, p)) in newest.q.iter().zip(&newest.p).enumerate() {
                 for l in 0..L {
-                    pairs[l].add_product(&q_of[l][c], p);
-                    pairs[l].subtract_product(&p_of[l][c], q);
+                    sums[l].add_product(&q_of[l][c], p);
+                    sums[l].subtract_product(&p_of[l][c], q);
                 }
             }
         }
+        pairs.iter_mut().zip(&sums).for_each(|(pair, own)| pair.assign(own));
     }
 }

@@ -28,6 +28,11 @@ impl Schedule {
         self.every <= self.states || n + self.states > self.end
     }
 
+    /// Whether the state n is the first one of a window that follows plain steps.
+    pub(super) fn begins(&self, n: u64) -> bool {
+        self.takes(n) && !self.needs_beta(n)
+    }
+
     /// Whether the step to the state n has to carry β: not to the first one of a window, of which only q and p are used.
     pub(super) fn needs_beta(&self, n: u64) -> bool {
         self.every <= self.states || n + self.states > self.end + 1
