@@ -16,7 +16,7 @@ use super::recent::Turning;
 /// | round-off | moves or errors are half of the energy error, and no more than 10 times what round-off makes |
 /// | near a resonance | H̄ moved by 0.001 or more, beyond that, and the fastest motion is one oscillation that turns once in 3, 4, 5, 6 or 5/2 steps, to 0.006 turns a step |
 /// | too large: moves | H̄ moved by 0.05 or more, beyond that |
-/// | too large: not resolved | in some 1/64 of the run no window knows H̄ to 0.05 |
+/// | too large: not resolved | in some 1/32 to 1/64 of the run no window knows H̄ to 0.05 |
 /// | too large: energy error | the energy error is half of T or more |
 /// | fine | none of these |
 ///
@@ -120,7 +120,7 @@ const KICKS_IN_AN_ESTIMATE: f64 = 10.0;
 const OFF_RESONANCE: f64 = 0.006;
 /// Turns and steps of the resonances of low order, which are the strong ones.
 const RESONANCES: [(u32, u32); 5] = [(1, 3), (1, 4), (1, 5), (1, 6), (2, 5)];
-/// How irregular a motion may be that is taken for one oscillation: chaotic ones are at 0.17 or more.
+/// How irregular a motion may be that is taken for one oscillation: the chaotic pendulum's is 0.17 or more.
 const IRREGULAR: f64 = 0.1;
 
 /// What a verdict looks at; all but the last three as parts of the energy error.
