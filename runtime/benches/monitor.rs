@@ -96,6 +96,7 @@ fn compare_for<P: PairPotential<f64> + Clone>(title: &str, pair: &P, distance: f
     let contestants = vec![
         contestant("steps", start.clone(), plain),
         contestant("steps that carry β", start.clone(), augmented),
+        with("with E_6, a window in 100 steps", Bilinear::new(6), 100),
         with("with E_8, a window in 100 steps", value, 100),
         with("with E_8, a window in 200 steps", value, 200),
         with("with E_8 and its error, a window in 100 steps", with_error, 100),

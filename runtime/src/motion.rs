@@ -236,6 +236,21 @@ where
         energy.add(kinetic_energy);
     }
 
+    /// H and T(p) at the present state. Where the gradient and the rate are kept, U = ½(qᵀU_q − rate) costs no evaluation.
+    pub(crate) fn assign_energies(&mut self, energy: &mut N, kinetic_energy: &mut N) {
+        let Motion { potential, kinetic, q, p, gradient, rate, kept, scratch, kinetic_scratch, .. } = self;
+        kinetic.energy(p.as_ref(), kinetic_energy, kinetic_scratch);
+        if *kept == Kept::GradientAndRate {
+            energy.assign_zero();
+            q.as_ref().iter().zip(gradient.as_ref()).for_each(|(q, u)| energy.add_product(q, u));
+            energy.subtract(rate);
+            energy.divide_integer(2);
+        } else {
+            potential.energy(q.as_ref(), energy, scratch);
+        }
+        energy.add(kinetic_energy);
+    }
+
     /// Whether plain kicks that evaluate the gradient find and keep the rate as well: the last step before one that carries β
     /// does so, as that would have to evaluate its first gradient again.
     pub(crate) fn keep_rate(&mut self, wanted: bool) {

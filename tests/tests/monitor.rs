@@ -103,7 +103,10 @@ fn has_the_values_of_a_run<N: Bits>(method: &(impl Method<N> + std::fmt::Debug),
             for _ in 0..STEPS {
                 let Some(sample) = monitor.step(&scheme, &weights, &mut motion).unwrap() else { continue };
                 let (value, error, energy) = &expected[sample.n as usize];
-                let same = sample.modified.same_bits(value) && sample.energy.same_bits(energy);
+                let mut off = sample.energy.clone();
+                off.subtract(energy);
+                // in a window that is alone U = ½(qᵀU_q − rate), which rounds terms of size 0.1 once more
+                let same = sample.modified.same_bits(value) && off.log10_abs() < -16.0;
                 let same_error = match (sample.error, error) {
                     (Some(found), Some(error)) => found.same_bits(error),
                     (found, error) => found.is_none() && error.is_none(),
@@ -263,7 +266,7 @@ fn verdicts(expected: Verdict, name: &str, cases: &[(&[(&str, &str)], &str)]) {
 }
 
 const FINE: Verdict = Verdict::Fine;
-const MOVES: Verdict = Verdict::TooLarge(Sign::Moves);
+const MOVES: Verdict = Verdict::TooLarge(Sign::Moved);
 const ENERGY_ERROR: Verdict = Verdict::TooLarge(Sign::EnergyError);
 
 #[test]
@@ -343,9 +346,9 @@ fn free_motion_is_fine() {
     let weights = scheme.weights::<f64>(&h, &());
     for n in 1..=100 {
         monitor.step(&scheme, &weights, &mut motion).unwrap();
-        // with windows of 9 states the 16th ends at n = 23
+        // with windows of 11 states the 16th ends at n = 25
         let report = monitor.report();
-        assert_eq!(report.verdict == Verdict::Undecided, n < 23, "n = {n}");
+        assert_eq!(report.verdict == Verdict::Undecided, n < 25, "n = {n}");
         assert!(!report.to_string().is_empty());
     }
     assert_eq!(monitor.report().verdict, Verdict::Fine);

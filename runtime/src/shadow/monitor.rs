@@ -76,8 +76,8 @@ use crate::shadow::{Estimator, Method};
 ///   energy error         9.39e-3  max − min of H; 1.9e-2 of T
 ///   the method's part    1.71e-3  rms of H − H̄, which is from -9.05e-3 to 3.32e-4
 ///   H̄ wanders by        2.80e-14  3.0e-12 of the energy error, like √t
-///   it changed by      -1.57e-14  and surely moved by 3.64e-14
-///   it is known to      3.33e-16  3.5e-14 of the energy error
+///   it changed by      -1.26e-14  and surely moved by 3.64e-14
+///   it is known to      3.89e-16  4.1e-14 of the energy error
 ///   round-off           1.07e-14  1.1e-12 of the energy error, expected by Brouwer's law
 ///   fastest motion          17.2  steps a turn
 ///   the modified energy moved by 3.9e-12 of the energy error in 20000 steps: the energy error is the method's, and bounded
@@ -116,12 +116,14 @@ use crate::shadow::{Estimator, Method};
 ///
 /// | | softened gravity | Lennard-Jones |
 /// | --- | --- | --- |
-/// | [`Bilinear::new(8)`](crate::shadow::Bilinear::new), a window in 100 steps | 3.7 % | 3.6 % |
-/// | the same, a window in 200 steps | 2.1 % | 1.6 % |
-/// | [`Bilinear::with_error(8)`](crate::shadow::Bilinear::with_error), a window in 100 steps | 7.0 % | 7.9 % |
-/// | the same, a window in 1000 steps | 0.8 % | 0.9 % |
+/// | [`Bilinear::new(6)`](crate::shadow::Bilinear::new), a window in 100 steps | 1.7 % | 2.5 % |
+/// | `Bilinear::new(8)`, a window in 100 steps | 2.8 % | 3.9 % |
+/// | the same, a window in 200 steps | 0.9 % | 1.8 % |
+/// | [`Bilinear::with_error(8)`](crate::shadow::Bilinear::with_error), a window in 100 steps | 5.4 % | 7.4 % |
+/// | the same, a window in 1000 steps | below 0.4 % | 0.8 % |
 ///
-/// Half of it is β: a step that carries it costs 1.20 and 1.25 of a plain one here. A quarter is the potential for H. `cargo bench
+/// Two thirds of it are β: a step that carries it costs 1.19 and 1.26 of a plain one here. H itself is had from the gradient and
+/// β's rate where these are known, and costs an evaluation of the potential elsewhere. `cargo bench
 /// -p shadowstep --bench monitor` measures it.
 #[derive(Clone, Debug)]
 pub struct ShadowEnergy<N, E> {
@@ -266,6 +268,10 @@ impl<N: Number, E: Estimator<N>> ShadowEnergy<N, E> {
         &mut self,
         motion: &mut Motion<N, V, P, K>,
     ) -> Result<Option<Sample<'_, N>>, RunError> {
+        if self.schedule.is_middle(self.n) && !self.schedule.overlaps() {
+            // while the gradient that the energy can be had from is kept
+            motion.assign_energies(&mut self.newest.energy, &mut self.newest.kinetic);
+        }
         let increments = if self.schedule.begins(self.n) { &self.unknown } else { motion.increments() };
         let (q, p) = (motion.q(), motion.p());
         check_finite(&State { n: i64::try_from(self.n).unwrap_or(i64::MAX), q, p, increments })?;
@@ -285,7 +291,9 @@ impl<N: Number, E: Estimator<N>> ShadowEnergy<N, E> {
             Some(error) => modified.error.assign(error),
             None => modified.error.assign_zero(),
         }
-        motion.assign_energies_of(estimate.q, estimate.p, energy, kinetic);
+        if self.schedule.overlaps() {
+            motion.assign_energies_of(estimate.q, estimate.p, energy, kinetic);
+        }
         self.schedule.advance();
         self.end_window(states)?;
         Ok(Some(self.sample()))

@@ -191,7 +191,7 @@ impl<N: Number> Report<N> {
                  another step size does better",
                 self.steps_per_turn.unwrap_or(f64::NAN)
             ),
-            Verdict::TooLarge(Sign::Moves) => format!(
+            Verdict::TooLarge(Sign::Moved) => format!(
                 "{moved}, where round-off makes {:.1e} of it: nothing near the energy is conserved",
                 self.part(&self.round_off)
             ),

@@ -25,7 +25,7 @@ impl Schedule {
 
     /// Whether the state n belongs to a window.
     pub(super) fn takes(&self, n: u64) -> bool {
-        self.every <= self.states || n + self.states > self.end
+        self.overlaps() || n + self.states > self.end
     }
 
     /// Whether the state n is the first one of a window that follows plain steps.
@@ -35,12 +35,22 @@ impl Schedule {
 
     /// Whether the step to the state n has to carry β: not to the first one of a window, of which only q and p are used.
     pub(super) fn needs_beta(&self, n: u64) -> bool {
-        self.every <= self.states || n + self.states > self.end + 1
+        self.overlaps() || n + self.states > self.end + 1
     }
 
     /// Whether the state n is the last one of its window.
     pub(super) fn ends(&self, n: u64) -> bool {
         n == self.end
+    }
+
+    /// Whether windows have states in common.
+    pub(super) fn overlaps(&self) -> bool {
+        self.every <= self.states
+    }
+
+    /// Whether the state n is the one in the middle of its window, or just before.
+    pub(super) fn is_middle(&self, n: u64) -> bool {
+        n + self.states / 2 == self.end
     }
 
     /// Goes on to the next window.

@@ -95,7 +95,7 @@ pub enum Verdict {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
     /// The modified energy moves.
-    Moves,
+    Moved,
     /// The modified energy cannot be told.
     NotResolved,
     /// The energy error is as large as the energy that moves.
@@ -155,7 +155,7 @@ impl Evidence {
         } else if let Some((turns, steps)) = self.resonance().filter(|_| moved >= SOME) {
             Verdict::NearResonance { turns, steps }
         } else if moved >= MUCH {
-            Verdict::TooLarge(Sign::Moves)
+            Verdict::TooLarge(Sign::Moved)
         } else if worst_error >= MUCH {
             Verdict::TooLarge(Sign::NotResolved)
         } else if self.of_kinetic >= LARGE_ERROR {
@@ -209,7 +209,7 @@ mod tests {
         let moved = |moved| Evidence { moved, ..FINE }.verdict();
         assert_eq!(FINE.verdict(), Verdict::Fine);
         assert_eq!(Evidence { windows: 15, ..FINE }.verdict(), Verdict::Undecided);
-        assert_eq!((moved(0.049), moved(0.05)), (Verdict::Fine, Verdict::TooLarge(Sign::Moves)));
+        assert_eq!((moved(0.049), moved(0.05)), (Verdict::Fine, Verdict::TooLarge(Sign::Moved)));
         assert_eq!(Evidence { worst_error: 0.05, ..FINE }.verdict(), Verdict::TooLarge(Sign::NotResolved));
         assert_eq!(Evidence { of_kinetic: 0.5, ..FINE }.verdict(), Verdict::TooLarge(Sign::EnergyError));
     }
@@ -219,7 +219,7 @@ mod tests {
         let of = |moved, round_off| Evidence { moved, round_off, ..FINE }.verdict();
         assert_eq!(of(0.6, 0.1), Verdict::RoundOff);
         assert_eq!(of(0.3, 0.1), Verdict::Fine, "the energy error is the method's, mostly");
-        assert_eq!(of(0.6, 0.05), Verdict::TooLarge(Sign::Moves));
+        assert_eq!(of(0.6, 0.05), Verdict::TooLarge(Sign::Moved));
         // a short run: estimates are off by several kicks, while few have moved the energy
         let short = Evidence { worst_error: 0.6, kick: 0.1, round_off: 0.3, ..FINE };
         assert_eq!(short.verdict(), Verdict::RoundOff);
@@ -231,8 +231,8 @@ mod tests {
         assert_eq!(of(0.002, turning(4.05, 0.0)), Verdict::NearResonance { turns: 1, steps: 4 });
         assert_eq!(of(0.2, turning(2.52, 0.0)), Verdict::NearResonance { turns: 2, steps: 5 });
         assert_eq!(of(1e-9, turning(4.05, 0.0)), Verdict::Fine);
-        assert_eq!(of(0.2, turning(4.05, 0.3)), Verdict::TooLarge(Sign::Moves));
-        assert_eq!(of(0.2, turning(4.5, 0.0)), Verdict::TooLarge(Sign::Moves));
+        assert_eq!(of(0.2, turning(4.05, 0.3)), Verdict::TooLarge(Sign::Moved));
+        assert_eq!(of(0.2, turning(4.5, 0.0)), Verdict::TooLarge(Sign::Moved));
     }
 
     #[test]
