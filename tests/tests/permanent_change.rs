@@ -80,3 +80,29 @@ fn every_estimator_finds_the_same() {
         assert!(found.iter().all(|one| (one - found[0]).abs() < 4e-4), "{scheme}: {found:?}");
     }
 }
+
+/// The page of the documentation has the numbers of this tree.
+#[test]
+fn the_page_says_what_is_found() {
+    let page = include_str!("../../docs/the-modified-energy.md");
+    let cells = |label: &str| -> Vec<&str> {
+        let row = page.lines().find(|line| line.starts_with(&format!("| {label} |"))).expect(label);
+        row.split('|').map(str::trim).skip(2).take(3).collect()
+    };
+    let kepler = setup("kepler", &[]);
+    let (best, e50) = (Central::best(200, Stop::Full), Bilinear::with_error(50));
+    let shown = |value: &Float| format!("{:.2e}", value.to_f64());
+    for (label, scheme) in [
+        ("Störmer–Verlet", "stormer-verlet"),
+        ("Yoshida 4", "yoshida4"),
+        ("Blanes–Moan S6", "blanes-moan-s6"),
+        ("Blanes–Moan SRKN6b", "blanes-moan-srkn6b"),
+    ] {
+        let (drift, bilinear) = (of(scheme, &kepler, "1/20", &best).drift, of(scheme, &kepler, "1/20", &e50));
+        let found = [drift, bilinear.drift.clone(), bilinear.permanent.unwrap().change].map(|value| shown(&value));
+        assert_eq!(cells(label), found, "{label}");
+    }
+    let bilinear = on_the_exact_flow(&kepler, "1/20", &e50);
+    let found = [on_the_exact_flow(&kepler, "1/20", &best).drift, bilinear.drift].map(|value| shown(&value));
+    assert_eq!(cells("the exact flow"), [&found[0], &found[1], "none"]);
+}
