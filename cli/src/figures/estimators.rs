@@ -157,6 +157,7 @@ pub(crate) fn permanent(results: &Results) -> Drawn {
         rows.push([format!("1/{n}")].into_iter().chain(cells).collect());
     }
     let header: Vec<&str> = ["h"].into_iter().chain(SCHEMES.map(|(_, label)| label)).collect();
+    drawn.digits_held("the drift of SRKN6b at h = 1/20 by E_24", results.digits_held(&run(SCHEMES[3].0, 20), by, 200));
     drawn.table("Permanent change", &header, rows);
     let order = |n: u32| SCHEMES.map(|(scheme, _)| change(scheme, n).unwrap_or(f64::NAN));
     let [verlet, yoshida, s6, srkn] = order(20);

@@ -118,6 +118,8 @@ pub(crate) fn momentum(results: &Results) -> Drawn {
         );
         curves.push(line(format!("h = 1/{n}"), points, i));
     }
+    let chaotic = run("stormer-verlet", 10).with("px", "1/2");
+    drawn.digits_held("the drift at h = 1/10, p₁ = 0.5", results.digits_held(&chaotic, BEST, 200));
     drawn.chart(
         "Störmer–Verlet, Hénon–Heiles, q₁ = q₂ = p₂ = 0",
         linear("p₁(0)"),

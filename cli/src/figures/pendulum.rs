@@ -118,6 +118,9 @@ pub(crate) fn momentum(results: &Results) -> Drawn {
         );
         curves.push(line(format!("h = 1/{n}"), points, i));
     }
+    let checked = Setting::of("pendulum", SCHEME, "1/4").with("p", "19/10");
+    let by = By::Best { largest: 200, early: false };
+    drawn.digits_held("the drift at h = 1/4, p(0) = 1.9", results.digits_held(&checked, by, 200));
     drawn.chart(
         "Störmer–Verlet, pendulum, q(0) = 0",
         linear("p(0)"),
@@ -170,6 +173,9 @@ pub(crate) fn bilinear(results: &Results) -> Drawn {
              is the estimator's own."
         ));
     }
+    let checked = Setting::of("pendulum", SCHEME, "1/10");
+    let held = results.digits_held(&checked, By::Bilinear { k: 40 }, 200);
+    drawn.digits_held("the drift at h = 1/10 by E_40", held);
     let rho = singularity(1.0);
     let coarse = |points: &[(f64, f64)]| {
         points.iter().map(|(n, y)| (1.0 / n, *y)).filter(|(h, _)| *h > 0.12).collect::<Vec<_>>()

@@ -98,6 +98,11 @@ pub(crate) fn draw(results: &Results) -> Drawn {
         ),
         at(8.0) < -100.0,
     );
+    let held = [run(8, 1), run(8, 1).digits(200)].map(|run| results.transit(&run));
+    if let [Some(few), Some(many)] = held {
+        let held = -shadowstep::Number::log10_abs(&(many - few));
+        drawn.digits_held("the change of H at h = 1/8 from the second start", Some(held));
+    }
     drawn.table(
         "Rates",
         &DECAY_HEADER,

@@ -1,9 +1,21 @@
 //! By how much the modified energy changed for good.
 //!
 //! Where a motion is fast, as in a close encounter, an estimate is off by a bump that goes again. The modified energy itself
-//! changes there, too, for good and by far less. Between encounters the estimate is right to many more digits: a change is seen from one such
-//! *quiet* state to another. Quiet are those whose estimated error is at most the geometric mean of the least and the largest
-//! error of the run; so turning points need not be known, and where all errors are alike about half of the states are quiet.
+//! changes there, too, for good and by far less. Between encounters the estimate is right to many more digits: a change is seen
+//! from one such *quiet* state to another. Quiet are those whose estimated error is at most the geometric mean of the least
+//! and the largest error of the run; so turning points need not be known, and where all errors are alike about half of the
+//! states are quiet.
+//!
+//! Three ways were tried on the exact flow, where all they find is their own error, and on Störmer–Verlet (Kepler, e = 0.6,
+//! h = 1/20, t = 0 to 100, 80 digits; averages with the weights exp(−1/(1 − x²)) over the first and the last 252 steps, two
+//! periods):
+//!
+//! | | exact flow, D_m | E_16 | E_24 | Störmer–Verlet, D_m | E_16 | E_24 |
+//! | --- | --- | --- | --- | --- | --- | --- |
+//! | max − min of all estimates | 4.3e-7 | 1.5e-12 | 9.7e-14 | 1.0e-7 | 1.7e-12 | 2.8e-13 |
+//! | from smooth average to smooth average | 7e-10 | 2e-17 | 3e-18 | 7e-11 | 1.2e-14 | 1.7e-15 |
+//! | max − min over the apocentres | 2e-48 | 7e-44 | 2e-56 | 1.227e-14 | 1.227e-14 | 1.227e-14 |
+//! | max − min over the quiet states | 1e-28 | 3e-31 | 5e-38 | 1.227e-14 | 1.227e-14 | 1.227e-14 |
 
 use std::collections::BTreeMap;
 
