@@ -125,6 +125,16 @@ pub(crate) fn decay_row(label: &str, fit: Option<&ExponentialDecay>) -> Vec<Stri
 /// The header of a table of rates.
 pub(crate) const DECAY_HEADER: [&str; 4] = ["", "c in exp(−c/h)", "spread (decades)", "fitted over"];
 
+/// The least, the geometric mean, and the largest ratio of two drifts at the same steps.
+pub(crate) fn ratios(points: &[(f64, f64)], to: &[(f64, f64)]) -> [f64; 3] {
+    let all = points.iter().zip(to).map(|((_, a), (_, b))| a - b).filter(|ratio| ratio.is_finite());
+    let all: Vec<f64> = all.collect();
+    let mean = all.iter().sum::<f64>() / all.len() as f64;
+    let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
+    let (least, most) = all.iter().fold((least, most), |(least, most), y| (least.min(*y), most.max(*y)));
+    [least, mean, most].map(|ratio| 10_f64.powf(ratio))
+}
+
 /// 1.2e-34 from its log₁₀.
 pub(crate) fn power(log10: f64) -> String {
     if !log10.is_finite() {

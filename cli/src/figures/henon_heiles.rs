@@ -2,17 +2,10 @@
 
 use super::calculation::{By, Setting};
 use super::charts::{line, linear, log10_axis, thick};
-use super::drawn::{DECAY_HEADER, Drawn, SAME_RATE, decay, decay_row, power};
+use super::drawn::{DECAY_HEADER, Drawn, SAME_RATE, decay, decay_row, power, ratios};
+use super::fit::ExponentialDecay;
+use super::kepler::{BEST, SCHEMES};
 use super::results::Results;
-
-const BEST: By = By::Best { largest: 200, early: false };
-
-const SCHEMES: [(&str, &str); 4] = [
-    ("stormer-verlet", "Störmer–Verlet"),
-    ("yoshida4", "Yoshida 4"),
-    ("blanes-moan-s6", "Blanes–Moan S6"),
-    ("blanes-moan-srkn6b", "Blanes–Moan SRKN6b"),
-];
 
 /// 1/h
 const STEPS: [u32; 15] = [2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28];
@@ -37,60 +30,54 @@ pub(crate) fn step(results: &Results) -> Drawn {
          energy slightly better, and the value of c is the same.",
     ]);
     let steps = results.grid(&STEPS, &[2, 4, 6, 12, 25]);
-    let mut curves = Vec::new();
-    let mut rows = Vec::new();
-    let mut rates = Vec::new();
-    let (mut verlet, mut verlet_fit) = (Vec::new(), None);
-    for (i, (scheme, label)) in SCHEMES.into_iter().enumerate() {
-        let [points, by_step] = drifts(results, scheme, steps, BEST);
-        let fit = decay(&by_step, 0.25);
-        rows.push(decay_row(label, fit.as_ref()));
-        if let Some(fit) = &fit {
-            rates.push((fit.c, fit.spread));
-        }
-        if i == 0 {
-            verlet = points.clone();
-            verlet_fit = fit;
-        }
-        let more = points.iter().zip(&verlet).map(|((_, y), (_, verlet))| y - verlet).filter(|ratio| ratio.is_finite());
-        let more: Vec<f64> = more.collect();
-        if i > 0 && !more.is_empty() {
-            let mean = more.iter().sum::<f64>() / more.len() as f64;
-            drawn.check(
-                &format!("Störmer–Verlet preserves it slightly better than {label}."),
-                format!("{label}'s drift is {:.2} times as large (geometric mean over the steps)", 10_f64.powf(mean)),
-                mean > 0.0,
-            );
-        }
-        curves.push(line(label, points, i));
-    }
+    let of = SCHEMES.map(|(scheme, label)| (label, drifts(results, scheme, steps, BEST)));
+    let curves = of.iter().enumerate().map(|(i, (label, [points, _]))| line(*label, points.clone(), i));
     drawn.chart(
         "Hénon–Heiles, p₁(0) = 0.1, the best m up to 200",
         linear("1/h"),
         log10_axis("drift of the modified energy over [0, 100]"),
-        curves,
+        curves.collect(),
         "At 120 digits.",
     );
-    if let [first, others @ ..] = &rates[..] {
+    let [(_, [verlet, _]), others @ ..] = &of;
+    for (label, [points, _]) in others {
+        let [least, mean, most] = ratios(points, verlet);
+        drawn.check(
+            &format!("Störmer–Verlet preserves it slightly better than {label}."),
+            format!("{label}'s drift is {mean:.2} times as large (geometric mean; {least:.2} to {most:.2})"),
+            mean > 1.0,
+        );
+    }
+    let fits = of.map(|(label, [points, by_step])| (label, points, decay(&by_step, 0.25)));
+    rates(&mut drawn, &fits);
+    drawn.digits_held("the drift at h = 1/10", results.digits_held(&run("stormer-verlet", 10), BEST, 200));
+    drawn
+}
+
+/// A scheme's label, its drifts against 1/h, and their rate.
+type Fitted = (&'static str, Vec<(f64, f64)>, Option<ExponentialDecay>);
+
+/// Whether the rates are the same, and where the first scheme leaves its line for the round-off.
+fn rates(drawn: &mut Drawn, fits: &[Fitted]) {
+    if let [(_, points, Some(first)), others @ ..] = fits {
         drawn.check(
             "The drift is exponentially small.",
-            format!("c = {:.2}, a line to within {:.2} decades", first.0, first.1),
-            first.1 < 1.5,
+            format!("c = {:.2}, a line to within {:.2} decades", first.c, first.spread),
+            first.spread < 1.5,
         );
-        let off = others.iter().map(|(c, _)| (c / first.0 - 1.0).abs()).fold(0.0, f64::max);
+        let off =
+            others.iter().filter_map(|(_, _, fit)| Some((fit.as_ref()?.c / first.c - 1.0).abs())).fold(0.0, f64::max);
         drawn.check("The value of c is the same.", format!("to within {:.1} %", 100.0 * off), off < SAME_RATE);
-    }
-    if let (Some(fit), Some((n, y))) = (&verlet_fit, verlet.last()) {
-        let line = fit.a - fit.c * std::f64::consts::LOG10_E * n;
+        let (n, y) = points.last().expect("there are steps");
+        let line = first.a - first.c * std::f64::consts::LOG10_E * n;
         drawn.check(
             "The effect of round-off error becomes visible when 1/h exceeds 20.",
             format!("at h = 1/{n} the drift is {}, where the line goes on to {}", power(*y), power(line)),
             *y > line + 1.0,
         );
     }
+    let rows = fits.iter().map(|(label, _, fit)| decay_row(label, fit.as_ref())).collect();
     drawn.table("Rates", &DECAY_HEADER, rows);
-    drawn.digits_held("the drift at h = 1/10", results.digits_held(&run("stormer-verlet", 10), BEST, 200));
-    drawn
 }
 
 pub(crate) fn momentum(results: &Results) -> Drawn {

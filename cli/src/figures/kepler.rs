@@ -8,7 +8,7 @@ use shadowstep::Number;
 
 use super::calculation::{By, Setting, number};
 use super::charts::{dashed, line, linear, log10_axis, thick};
-use super::drawn::{DECAY_HEADER, Drawn, SAME_RATE, decay, decay_row, power};
+use super::drawn::{DECAY_HEADER, Drawn, SAME_RATE, decay, decay_row, power, ratios};
 use super::fit::ExponentialDecay;
 use super::results::Results;
 use in_time::apocentre;
@@ -192,14 +192,9 @@ pub(crate) fn eccentricity(results: &Results) -> Drawn {
     drawn
 }
 
-/// The least, the mean, and the largest ratio of two drifts over h ≤ 1/10.
-fn ratios(points: &[(f64, f64)], to: &[(f64, f64)]) -> [f64; 3] {
-    let fine = points.iter().zip(to).filter(|((n, _), _)| *n >= 10.0).map(|((_, a), (_, b))| a - b);
-    let fine: Vec<f64> = fine.filter(|ratio| ratio.is_finite()).collect();
-    let mean = fine.iter().sum::<f64>() / fine.len() as f64;
-    let (least, most) =
-        (fine.iter().fold(f64::INFINITY, |a, b| a.min(*b)), fine.iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b)));
-    [least, mean, most].map(|ratio| 10_f64.powf(ratio))
+/// Those with h ≤ 1/10.
+fn fine(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    points.iter().copied().filter(|(n, _)| *n >= 10.0).collect()
 }
 
 pub(crate) fn schemes(results: &Results) -> Drawn {
@@ -224,7 +219,7 @@ pub(crate) fn schemes(results: &Results) -> Drawn {
     );
     let [verlet, others @ ..] = &of;
     for ((label, points), stated) in others.iter().zip([3.0, 4.0, 4.0]) {
-        let [least, mean, most] = ratios(points, &verlet.1);
+        let [least, mean, most] = ratios(&fine(points), &fine(&verlet.1));
         drawn.check(
             &format!("The drift of {label} is about {stated} times that of Störmer–Verlet."),
             format!("{mean:.2} times (geometric mean over h ≤ 1/10; {least:.2} to {most:.2})"),
@@ -246,7 +241,7 @@ pub(crate) fn schemes(results: &Results) -> Drawn {
             results.digits_held(&run(scheme, 20), BEST, 200),
         );
     }
-    let [least, mean, most] = ratios(&control, &of[3].1);
+    let [least, mean, most] = ratios(&fine(&control), &fine(&of[3].1));
     drawn.found(format!(
         "The exact flow shows {mean:.2} times the drift of Blanes and Moan's SRKN6b (geometric mean over h ≤ 1/10; {least:.3} to \
          {most:.3}), though its energy does not change at all: that drift is the estimator's, not the scheme's."

@@ -1,5 +1,8 @@
 //! Scattering at a hill that vanishes far away: there H is the modified energy, and its change can be seen without an estimator.
 
+use rug::Float;
+use shadowstep::Number;
+
 use super::calculation::{By, Setting};
 use super::chart::Marker;
 use super::charts::{dots, line, linear, log10_axis, thick};
@@ -20,26 +23,31 @@ fn run(n: u32, phase: u32) -> Setting {
         .until("18")
 }
 
+/// H after the encounter less H before it.
+fn change(results: &Results, n: u32, phase: u32) -> Option<Float> {
+    results.transit(&run(n, phase % PHASES))
+}
+
+/// log₁₀ of its size.
+fn size(results: &Results, n: u32, phase: u32) -> f64 {
+    change(results, n, phase).map_or(f64::NAN, |change| change.log10_abs())
+}
+
+fn largest(results: &Results, n: u32) -> f64 {
+    (0..PHASES).map(|phase| size(results, n, phase)).fold(f64::NEG_INFINITY, f64::max)
+}
+
 pub(crate) fn draw(results: &Results) -> Drawn {
     let mut drawn = Drawn::of_paper(&[
-        "Benettin and Giorgilli's experiment: a potential that vanishes fast, a start far away. Where U vanishes the methods conserve H itself, so \
-         |H(y₀) − H(y_T)| can be observed; it is of the order exp(−C/h).",
+        "Benettin and Giorgilli's experiment: a potential that vanishes fast, a start far away. Where U vanishes the methods \
+         conserve H itself, so |H(y₀) − H(y_T)| can be observed; it is of the order exp(−C/h).",
         "Repeated with the authors' method, the experiment had zero error: a matter that warrants further investigation.",
     ]);
     let steps = results.grid(&STEPS, &[2, 4, 6, 8, 12, 16]);
-    let change = |n: u32, phase: u32| results.transit(&run(n, phase));
-    let size = |n: u32, phase: u32| change(n, phase).map_or(f64::NAN, |change| shadowstep::Number::log10_abs(&change));
-    let phases: Vec<u32> = (0..PHASES).collect();
-    let largest: Vec<(f64, f64)> = steps
-        .iter()
-        .map(|&n| (f64::from(n), phases.iter().map(|&phase| size(n, phase)).fold(f64::NEG_INFINITY, f64::max)))
-        .collect();
-    let every = steps.iter().flat_map(|&n| phases.iter().map(move |&phase| (n, phase)));
-    let every: Vec<_> = every.map(|(n, phase)| (f64::from(n), size(n, phase))).collect();
-    let drifts = |by: By| -> Vec<(f64, f64)> {
-        steps.iter().map(|&n| (f64::from(n), results.log10_drift(&run(n, 0), by))).collect()
-    };
-    let (best, bilinear) = (drifts(BEST), drifts(By::Bilinear { k: 40 }));
+    let against = |y: &dyn Fn(u32) -> f64| -> Vec<(f64, f64)> { steps.iter().map(|&n| (f64::from(n), y(n))).collect() };
+    let changes = against(&|n| largest(results, n));
+    let [best, bilinear] = [BEST, By::Bilinear { k: 40 }].map(|by| against(&|n| results.log10_drift(&run(n, 0), by)));
+    let every = steps.iter().flat_map(|&n| (0..PHASES).map(move |phase| (f64::from(n), size(results, n, phase))));
     drawn.chart(
         "Störmer–Verlet, U = exp(−|q|²), impact parameter 0.3, speed 2",
         linear("1/h"),
@@ -47,21 +55,41 @@ pub(crate) fn draw(results: &Results) -> Drawn {
         vec![
             thick("drift by the best m", best.clone(), 0),
             line("drift by E_40", bilinear, 2),
-            line("largest change of H", largest.clone(), 1),
-            dots("change of H, each start", every, 1, Marker::Dot),
+            line("largest change of H", changes.clone(), 1),
+            dots("change of H, each start", every.collect(), 1, Marker::Dot),
         ],
         "The change of H from before the encounter to after it, for 12 starts within one step.",
     );
-    let shown: &[u32] = if results.quick { &[4, 8] } else { &[4, 6, 8, 12] };
-    let curves = shown.iter().enumerate().map(|(i, &n)| {
-        let most = phases.iter().map(|&phase| size(n, phase)).fold(f64::NEG_INFINITY, f64::max);
+    against_the_phase(results, &mut drawn);
+    rates(&mut drawn, &changes, &best);
+    let smallest = (0..PHASES).map(|phase| size(results, 8, phase)).fold(f64::INFINITY, f64::min);
+    drawn.check(
+        "The experiment has zero error.",
+        format!(
+            "at h = 1/8 the change is up to {}; among 12 starts the smallest is {}: a start for which it vanishes looks like \
+             zero error",
+            power(largest(results, 8)),
+            power(smallest)
+        ),
+        largest(results, 8) < -100.0,
+    );
+    let held = [run(8, 1), run(8, 1).digits(200)].map(|run| results.transit(&run));
+    if let [Some(few), Some(many)] = held {
+        drawn.digits_held("the change of H at h = 1/8 from the second start", Some(-(many - few).log10_abs()));
+    }
+    drawn
+}
+
+fn against_the_phase(results: &Results, drawn: &mut Drawn) {
+    let curves = results.grid(&[4, 6, 8, 12], &[4, 8]).iter().enumerate().map(|(i, &n)| {
+        let most = largest(results, n);
         let relative = |phase: u32| {
-            let change = change(n, phase % PHASES)?;
-            let sign = if shadowstep::Number::is_below_zero(&change) { -1.0 } else { 1.0 };
-            Some(sign * 10_f64.powf(shadowstep::Number::log10_abs(&change) - most))
+            let change = change(results, n, phase)?;
+            let sign = if change.is_below_zero() { -1.0 } else { 1.0 };
+            Some(sign * 10_f64.powf(change.log10_abs() - most))
         };
-        let points =
-            (0..=PHASES).map(|phase| (f64::from(phase) / f64::from(PHASES), relative(phase).unwrap_or(f64::NAN)));
+        let shift = |phase: u32| f64::from(phase) / f64::from(PHASES);
+        let points = (0..=PHASES).map(|phase| (shift(phase), relative(phase).unwrap_or(f64::NAN)));
         line(format!("h = 1/{n}"), points.collect(), i)
     });
     drawn.chart(
@@ -71,9 +99,12 @@ pub(crate) fn draw(results: &Results) -> Drawn {
         curves.collect(),
         "A sinusoid, which vanishes for two starts within a step.",
     );
-    let by_step = |points: &[(f64, f64)]| decay(&points.iter().map(|(n, y)| (1.0 / n, *y)).collect::<Vec<_>>(), 0.25);
-    let (change_fit, best_fit) = (by_step(&largest), by_step(&best));
-    if let (Some(change), Some(best)) = (&change_fit, &best_fit) {
+}
+
+fn rates(drawn: &mut Drawn, changes: &[(f64, f64)], best: &[(f64, f64)]) {
+    let fit = |points: &[(f64, f64)]| decay(&points.iter().map(|(n, y)| (1.0 / n, *y)).collect::<Vec<_>>(), 0.25);
+    let (change, best) = (fit(changes), fit(best));
+    if let (Some(change), Some(best)) = (&change, &best) {
         drawn.check(
             "|H(y₀) − H(y_T)| is of the order exp(−C/h).",
             format!(
@@ -87,29 +118,6 @@ pub(crate) fn draw(results: &Results) -> Drawn {
             change.c / best.c
         ));
     }
-    let at = |n: f64| largest.iter().find(|(x, _)| *x == n).map_or(f64::NAN, |(_, y)| *y);
-    let smallest = phases.iter().map(|&phase| size(8, phase)).fold(f64::INFINITY, f64::min);
-    drawn.check(
-        "The experiment has zero error.",
-        format!(
-            "at h = 1/8 the change is up to {}; among 12 starts the smallest is {}: a start for which it vanishes looks like zero error",
-            power(at(8.0)),
-            power(smallest)
-        ),
-        at(8.0) < -100.0,
-    );
-    let held = [run(8, 1), run(8, 1).digits(200)].map(|run| results.transit(&run));
-    if let [Some(few), Some(many)] = held {
-        let held = -shadowstep::Number::log10_abs(&(many - few));
-        drawn.digits_held("the change of H at h = 1/8 from the second start", Some(held));
-    }
-    drawn.table(
-        "Rates",
-        &DECAY_HEADER,
-        vec![
-            decay_row("largest change of H", change_fit.as_ref()),
-            decay_row("drift by the best m", best_fit.as_ref()),
-        ],
-    );
-    drawn
+    let rows = vec![decay_row("largest change of H", change.as_ref()), decay_row("drift by the best m", best.as_ref())];
+    drawn.table("Rates", &DECAY_HEADER, rows);
 }
