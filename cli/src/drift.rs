@@ -9,7 +9,7 @@ use serde::{Serialize, Serializer};
 use shadowstep::Rational;
 use shadowstep::exact_flow::has_exact_flow;
 use shadowstep::number::{Number, Rounded};
-use shadowstep::run::EnergyDrift;
+use shadowstep::run::{EnergyDrift, Seen};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::arguments::DriftArguments;
@@ -56,11 +56,13 @@ struct Record {
 struct Permanent {
     change: String,
     first_to_last: String,
+    largest_jump: String,
     resolution: String,
-    resolved: bool,
+    seen: &'static str,
     from: i64,
     to: i64,
     states: u64,
+    stretches: u64,
 }
 
 /// What the same estimator shows at the same times on the exact flow, whose energy does not change: its own error.
@@ -76,18 +78,45 @@ impl Permanent {
         Some(Permanent {
             change: permanent.change.to_text(),
             first_to_last: permanent.first_to_last.to_text(),
+            largest_jump: permanent.largest_jump.to_text(),
             resolution: permanent.resolution.to_text(),
-            resolved: permanent.is_resolved(),
+            seen: match permanent.seen {
+                Seen::Resolved => "resolved",
+                Seen::Below => "below",
+                Seen::OneSide => NOT_SEEN,
+            },
             from: permanent.between.0,
             to: permanent.between.1,
             states: permanent.states,
+            stretches: permanent.stretches,
         })
     }
 
     /// The change, or what it is below.
     fn shown(&self) -> String {
-        if self.resolved { rounded(&self.change, 4) } else { format!("< {}", rounded(&self.resolution, 2)) }
+        match self.seen {
+            "resolved" => rounded(&self.change, 4),
+            "below" => format!("< {}", rounded(&self.resolution, 2)),
+            other => other.to_owned(),
+        }
     }
+}
+
+/// All quiet states lie on one side of what is not quiet.
+const NOT_SEEN: &str = "not seen";
+
+/// What marks in the column of the permanent change mean, where there are any.
+fn marks(rows: &[[String; 9]]) -> String {
+    let meanings = [
+        ("< ", "<: below what errors and round-off can feign"),
+        (
+            NOT_SEEN,
+            "not seen: the states with small errors all lie on one side of those with large ones, such as an encounter",
+        ),
+        (NOT_RELIABLE, "not reliable here: this order tells no errors"),
+    ];
+    let used = meanings.iter().filter(|(mark, _)| rows.iter().any(|row| row[4].starts_with(mark)));
+    used.map(|(_, meaning)| format!("{meaning}\n")).collect()
 }
 
 #[derive(Serialize)]
@@ -262,8 +291,9 @@ fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String {
     let order = selection.estimator.letter();
     let columns =
         ["scheme", "step", "energy drift", "estimator's own", "permanent change", order, "steps", "forces", "seconds"];
+    let marks = marks(&rows);
     format!(
-        "{}: H = {}\n{}\nfrom t = 0 to {}, {digits}; modified energy by {}\n{}\n",
+        "{}: H = {}\n{}\nfrom t = 0 to {}, {digits}; modified energy by {}\n{}\n{marks}",
         problem.title,
         problem.hamiltonian,
         values.join(", "),

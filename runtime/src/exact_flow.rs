@@ -223,7 +223,7 @@ impl<N: Rounded, E: Estimator<N>> ShadowRun<ExactFlow<N>, E> {
         }
         let estimator = method.estimator(h, setup.positions().len(), context);
         let reach = (estimator.states() - 1) / 2;
-        Ok(ShadowRun::of(ExactFlow::new(setup, h, steps, reach, context)?, estimator))
+        Ok(ShadowRun::of(ExactFlow::new(setup, h, steps, reach, context)?, estimator, h))
     }
 }
 

@@ -2,9 +2,10 @@
 
 mod drift;
 mod permanent;
+mod stretches;
 
 pub use drift::{EnergyDrift, energy_drift};
-pub use permanent::{PermanentChange, Quiet};
+pub use permanent::{PermanentChange, Quiet, Seen};
 
 use num_traits::Zero;
 use thiserror::Error;
@@ -257,6 +258,7 @@ pub type Estimated<'a, N> = (i64, Estimate<'a, N>);
 pub struct ShadowRun<T, E> {
     states: T,
     estimator: E,
+    h: Rational,
     reach: i64,
     /// How many states after the n of an estimate it needs: as many, or one more where it belongs to n + 1/2.
     after: i64,
@@ -308,7 +310,7 @@ where
         // the reach is known only where h is known to be no 0
         let trajectory = Trajectory::after(scheme, motion, h, from)?;
         let estimator = method.estimator(h, trajectory.motion.q().len(), &trajectory.motion.context());
-        let mut run = ShadowRun::of(trajectory, estimator);
+        let mut run = ShadowRun::of(trajectory, estimator, h);
         run.states.last = last(steps, run.reach as usize);
         Ok(run)
     }
@@ -321,10 +323,10 @@ where
 
 impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     /// The states begin as many before the first estimate as the estimator needs.
-    pub(crate) fn of(states: T, estimator: E) -> Self {
+    pub(crate) fn of(states: T, estimator: E, h: &Rational) -> Self {
         let missing = estimator.states() - 1;
         let reach = missing / 2;
-        ShadowRun { states, estimator, reach: reach as i64, after: (missing - reach) as i64, missing }
+        ShadowRun { states, estimator, h: h.clone(), reach: reach as i64, after: (missing - reach) as i64, missing }
     }
 
     /// How many states before 0, and after the last one, the estimator needs.

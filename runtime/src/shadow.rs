@@ -49,6 +49,7 @@ mod differences;
 mod form;
 mod monitor;
 mod spread;
+mod walk;
 mod window;
 
 pub use best_bilinear::{BestBilinear, BestBilinearEstimator};
@@ -56,6 +57,7 @@ pub use bilinear::{Bilinear, BilinearEstimator};
 pub use central::{Central, CentralEstimator};
 pub use differences::{Rule, Stop};
 pub use monitor::{Course, Report, Sample, ShadowEnergy, Sign, Verdict};
+pub(crate) use walk::Walk;
 
 use crate::Rational;
 use crate::motion::Increments;

@@ -3,7 +3,7 @@
 use rug::Float;
 use shadowstep::exact_flow::ExactFlow;
 use shadowstep::problems::{Setup, problem};
-use shadowstep::run::{EnergyDrift, PermanentChange, ShadowRun, energy_drift};
+use shadowstep::run::{EnergyDrift, PermanentChange, Seen, ShadowRun, energy_drift};
 use shadowstep::shadow::{Bilinear, Central, Method, Rule, Stop};
 use shadowstep::tables::shipped;
 use shadowstep::{Number, Rational};
@@ -56,7 +56,11 @@ fn the_exact_flow_has_none() {
                 "{name}, {set:?}, h = {h}, k = {k}: drift 1e{:.1}, change 1e{change:.1} of 1e{resolution:.1}",
                 found.drift.log10_abs()
             );
-            assert!(!found.permanent.unwrap().is_resolved(), "{name}, h = {h}, k = {k}: 1e{change} of 1e{resolution}");
+            assert_ne!(
+                found.permanent.unwrap().seen,
+                Seen::Resolved,
+                "{name}, h = {h}, k = {k}: 1e{change} of 1e{resolution}"
+            );
         }
     }
 }
@@ -70,7 +74,7 @@ fn every_estimator_finds_the_same() {
         for k in [16, 24, 50] {
             let drift = of(scheme, &kepler, "1/20", &Bilinear::with_error(k));
             println!("{scheme}, k = {k}: drift 1e{:.2}, change 1e{:.4}", drift.drift.log10_abs(), change(&drift).0);
-            assert!(drift.permanent.as_ref().unwrap().is_resolved());
+            assert_eq!(drift.permanent.as_ref().unwrap().seen, Seen::Resolved);
             found.push(change(&drift).0);
         }
         let drift = of(scheme, &kepler, "1/20", &Central::best_with_error(100, Stop::Full, Rule::Least));

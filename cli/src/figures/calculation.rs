@@ -4,7 +4,7 @@ use rug::Float;
 use serde::{Deserialize, Serialize};
 use shadowstep::number::{Number, Precision};
 use shadowstep::problems::{Setup, problem};
-use shadowstep::run::{States, Trajectory};
+use shadowstep::run::{Seen, States, Trajectory};
 use shadowstep::shadow::{Rule, Stop};
 use shadowstep::{Rational, exact};
 
@@ -17,7 +17,7 @@ use crate::propagator::{Propagator, motion};
 use crate::run::Run;
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
-const REVISION: u32 = 4;
+const REVISION: u32 = 5;
 
 /// A problem, what moves it on, and in which steps.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -77,9 +77,19 @@ pub(crate) enum Outcome {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Drift {
     pub(crate) drift: String,
-    /// The change between quiet states and what it has to exceed; none where the estimator tells no errors.
-    pub(crate) permanent: Option<(String, String)>,
+    /// None where the estimator tells no errors.
+    pub(crate) permanent: Option<Permanent>,
     pub(crate) orders: (u32, u32),
+}
+
+/// The change between quiet states.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Permanent {
+    pub(crate) change: String,
+    pub(crate) largest_jump: String,
+    /// What the change has to exceed.
+    pub(crate) resolution: String,
+    pub(crate) resolved: bool,
 }
 
 /// One value a step, or between the steps.
@@ -226,7 +236,12 @@ fn drift(run: &Setting, by: By) -> Result<Outcome, Complaint> {
     let context = run.precision();
     let found =
         run.run(|propagator, setup, of| propagator.energy_drift::<Float>(setup, of, &method, &context, |_| ()))?;
-    let permanent = found.permanent.map(|permanent| (permanent.change.to_text(), permanent.resolution.to_text()));
+    let permanent = found.permanent.map(|permanent| Permanent {
+        change: permanent.change.to_text(),
+        largest_jump: permanent.largest_jump.to_text(),
+        resolution: permanent.resolution.to_text(),
+        resolved: permanent.seen == Seen::Resolved,
+    });
     Ok(Outcome::Drift(Drift { drift: found.drift.to_text(), permanent, orders: found.orders }))
 }
 

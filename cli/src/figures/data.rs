@@ -1,6 +1,6 @@
 //! Results as CSV: every run that a figure shows, with all digits.
 
-use super::calculation::{By, Setting};
+use super::calculation::{By, Permanent, Setting};
 use super::results::Used;
 use crate::complaint::Complaint;
 
@@ -8,16 +8,19 @@ const RUN: [&str; 8] = ["problem", "set", "scheme", "step", "until", "digits", "
 
 /// The files of a figure: what is put behind its name, and the text.
 pub(crate) fn csv(used: &[Used]) -> Result<Vec<(&'static str, String)>, Complaint> {
-    let mut drifts = vec![header(&["drift", "permanent_change", "resolution", "order_least", "order_most"])];
+    let mut drifts =
+        vec![header(&["drift", "permanent_change", "largest_jump", "resolution", "order_least", "order_most"])];
     let mut energies = vec![header(&["t", "distance", "modified_energy", "order_used"])];
     let mut numbers = vec![header(&["quantity", "value"])];
     let mut blocks = vec![["differences", "steps", "scatter", "wander"].map(str::to_owned).to_vec()];
     for used in used {
         match used {
             Used::Drift(run, by, drift) => {
-                let (change, resolution) = drift.permanent.clone().unwrap_or_default();
+                let of =
+                    |text: fn(&Permanent) -> &String| drift.permanent.as_ref().map(text).cloned().unwrap_or_default();
+                let [change, jump, resolution] = [of(|p| &p.change), of(|p| &p.largest_jump), of(|p| &p.resolution)];
                 let [least, most] = [drift.orders.0, drift.orders.1].map(|order| order.to_string());
-                drifts.push(row(run, Some(*by), [drift.drift.clone(), change, resolution, least, most]));
+                drifts.push(row(run, Some(*by), [drift.drift.clone(), change, jump, resolution, least, most]));
             }
             Used::Energies(run, by, found) => {
                 energies.extend((0..found.times.len()).map(|n| {

@@ -32,11 +32,11 @@ pub(crate) enum Used {
     Blocks(Differences, Vec<Block>),
 }
 
-/// log₁₀ of a drift and of the permanent change, where this is more than the estimator can feign.
+/// log₁₀ of a drift, and of the permanent change and its largest jump, where this is more than can be feigned.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sizes {
     pub(crate) drift: f64,
-    pub(crate) permanent: Option<f64>,
+    pub(crate) permanent: Option<(f64, f64)>,
 }
 
 impl Results {
@@ -87,11 +87,8 @@ impl Results {
     /// The sizes of the drift of a run.
     pub(crate) fn sizes(&self, run: &Setting, by: By) -> Option<Sizes> {
         let drift = self.drift(run, by)?;
-        let resolved = |(change, resolution): &(String, String)| {
-            let change = log10(change);
-            Some(change).filter(|change| *change > log10(resolution))
-        };
-        let permanent = drift.permanent.as_ref().and_then(resolved);
+        let resolved = drift.permanent.as_ref().filter(|permanent| permanent.resolved);
+        let permanent = resolved.map(|permanent| (log10(&permanent.change), log10(&permanent.largest_jump)));
         Some(Sizes { drift: log10(&drift.drift), permanent })
     }
 

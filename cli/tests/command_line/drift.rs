@@ -252,8 +252,8 @@ fn the_drift_stands_beside_the_estimators_own_and_the_permanent_change() {
     assert!((drift / own - 1.0).abs() < 0.01, "{drift:e} {own:e}");
     assert!(value(&scheme["permanent_change"]["change"]) < 1e-15);
     assert_eq!(
-        (&scheme["permanent_change"]["resolved"], &flow["permanent_change"]["resolved"]),
-        (&true.into(), &false.into())
+        (&scheme["permanent_change"]["seen"], &flow["permanent_change"]["seen"]),
+        (&"resolved".into(), &"below".into())
     );
     assert_eq!(objects(&quietly(&format!("{words} --no-control")))[0]["control"], Value::Null);
     let table = quietly(&words.replace(" --json", ""));
@@ -277,4 +277,44 @@ fn exact_flows_that_are_not_known_are_refused() {
         "drift --scheme stormer-verlet --step 1/100 --until 1 --problem kepler --set py=5 --order 4 --json",
     ))[0];
     assert_eq!(record["control"], Value::Null);
+}
+
+/// Escape after one encounter, and a run that ends in the second one: quiet states on one side only.
+#[test]
+fn a_change_that_nothing_bounds_is_not_seen() {
+    let words =
+        "drift --problem kepler --scheme stormer-verlet --digits 60 --no-control --estimator bilinear --order 24";
+    for run in ["--set eccentricity=0.9 --step 1/10 --until 20", "--step 1/20 --until 7"] {
+        let record = &objects(&quietly(&format!("{words} {run} --json")))[0];
+        assert_eq!(record["permanent_change"]["seen"], "not seen", "{record}");
+        let table = quietly(&format!("{words} {run}"));
+        assert!(table.contains("\nnot seen: ") && !table.contains("< "), "{table}");
+    }
+    let record = &objects(&quietly(&format!("{words} --step 1/20 --until 10 --json")))[0];
+    assert_eq!(
+        (&record["permanent_change"]["seen"], &record["permanent_change"]["stretches"]),
+        (&"resolved".into(), &2.into())
+    );
+    let [change, jump] = ["change", "largest_jump"]
+        .map(|field| record["permanent_change"][field].as_str().unwrap().parse::<f64>().unwrap());
+    // two stretches: the change is over all their states, the jump between the quietest ones
+    assert!((change / jump - 1.0).abs() < 1e-9, "{change:e} {jump:e}");
+}
+
+/// Round-off is no change of the method's: in double precision, with few digits, and on the exact flow.
+#[test]
+fn round_off_is_not_resolved() {
+    let words = "drift --problem kepler --no-control --estimator bilinear --order auto --json";
+    for run in [
+        "--scheme stormer-verlet,yoshida4 --step 1/40 --until 100 --double",
+        "--scheme stormer-verlet,yoshida4 --step 1/100 --until 100 --double",
+        "--scheme exact-flow --step 1/80 --until 50 --digits 10",
+        "--scheme exact-flow --step 1/80 --until 50 --digits 16",
+        "--scheme exact-flow,stormer-verlet --step 1/80 --until 50 --digits 20",
+        "--scheme stormer-verlet --step 1/10 --until 50 --set eccentricity=0",
+    ] {
+        for record in objects(&quietly(&format!("{words} {run}"))) {
+            assert_ne!(record["permanent_change"]["seen"], "resolved", "{record}");
+        }
+    }
 }

@@ -54,7 +54,7 @@ fn a_figure_is_pictures_data_and_a_section_of_the_report() {
     let header = drifts.lines().next().unwrap();
     assert_eq!(
         header,
-        "problem,set,scheme,step,until,digits,estimator,order,drift,permanent_change,resolution,order_least,order_most"
+        "problem,set,scheme,step,until,digits,estimator,order,drift,permanent_change,largest_jump,resolution,order_least,order_most"
     );
     // every digit: the change of H of each start
     let values = of("scattering-values.csv");

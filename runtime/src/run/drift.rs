@@ -70,18 +70,20 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     /// If there is no estimate, as after the last one.
     pub fn drift(&mut self, mut progress: impl FnMut(i64)) -> Result<EnergyDrift<T::Number>, RunError> {
         let mut found: Option<EnergyDrift<T::Number>> = None;
-        let mut quiet = Quiet::default();
+        let h = self.h.clone();
+        let mut quiet = None;
         while let Some((n, estimate)) = self.advance()? {
             match &mut found {
                 None => found = Some(EnergyDrift::begin(&estimate)),
                 Some(found) => found.include(n, &estimate),
             }
+            let quiet = quiet.get_or_insert_with(|| Quiet::new(&h, &estimate.value.context()));
             quiet.include(n, &estimate);
             progress(n);
         }
         let mut found = found.expect("a run has the state 0");
         found.drift.assign_difference(&found.maximum, &found.minimum);
-        found.permanent = quiet.change();
+        found.permanent = quiet.and_then(|quiet| quiet.change());
         Ok(found)
     }
 }
