@@ -26,15 +26,24 @@ use crate::selection::Selection;
 /// What a run gives, as JSON has it; numbers of high precision are texts.
 #[derive(Serialize)]
 struct Record {
+    /// The version of the program.
+    shadowstep: &'static str,
     problem: &'static str,
     #[serde(serialize_with = "as_object")]
     parameters: Vec<(String, String)>,
     scheme: String,
     step: String,
     until: String,
+    /// The time of the last state: `until`, or the last multiple of the step before it.
+    end: String,
     digits: NumberOrWord,
     estimator: &'static str,
     order: NumberOrWord,
+    /// How the order is chosen, as far as the estimator has such a setting; none where the order is fixed.
+    max_order: Option<u32>,
+    stop: Option<&'static str>,
+    rule: Option<&'static str>,
+    accuracy: Option<String>,
     drift: String,
     minimum: String,
     maximum: String,
@@ -221,18 +230,25 @@ fn record<N: Rounded + 'static>(
     let found = measure::<N>(selection, propagator, run, context, controls.bar)?;
     let seconds = begin.elapsed().as_secs_f64();
     let control = propagator.scheme().and_then(|_| controls.of::<N>(selection, run, context));
+    let search = selection.estimator.stop_and_rule();
     Ok(Record {
+        shadowstep: env!("CARGO_PKG_VERSION"),
         problem: selection.setup.problem.name,
         parameters: selection.values(),
         scheme: run.propagator.to_owned(),
         step: to_text(run.h),
         until: to_text(&selection.until),
+        end: to_text(&run.time_of_last()),
         digits: match selection.arithmetic {
             Arithmetic::Double => NumberOrWord::Word("double"),
             Arithmetic::Digits(digits, _) => NumberOrWord::Number(digits),
         },
         estimator: selection.estimator.name(),
         order: selection.estimator.order().map_or(NumberOrWord::Word("auto"), NumberOrWord::Number),
+        max_order: selection.estimator.max_order(),
+        stop: search.map(|(stop, _)| stop),
+        rule: search.map(|(_, rule)| rule),
+        accuracy: selection.estimator.accuracy().map(to_text),
         drift: found.drift.to_text(),
         minimum: found.minimum.to_text(),
         maximum: found.maximum.to_text(),

@@ -1,5 +1,6 @@
 //! The estimator of the modified energy that is asked for, by flags or by the keys of a scene.
 
+use num_traits::Signed;
 use shadowstep::number::Number;
 use shadowstep::shadow::{
     BestBilinear, BestBilinearEstimator, Bilinear, BilinearEstimator, Central, CentralEstimator, Estimate, Estimator,
@@ -20,6 +21,19 @@ pub(crate) const DEFAULT_LARGEST_K: u32 = 64;
 /// What is to be done about an accuracy that is none.
 pub(crate) const NO_ACCURACY: &str =
     "write the largest error wanted, such as 1e-20, or leave it out for the best that can be had";
+
+/// Why this is no accuracy, if it is none: it is absolute, in the units of the energy, and no unit makes energies so large.
+pub(crate) fn no_accuracy(accuracy: &Rational) -> Option<&'static str> {
+    let largest = Rational::from_integer(10.into()).pow(LARGEST_ACCURACY);
+    match () {
+        () if !accuracy.is_positive() => Some("is no size of an error"),
+        () if *accuracy > largest => Some("is more than 1e100, an error larger than any energy"),
+        () => None,
+    }
+}
+
+/// Its power of ten.
+const LARGEST_ACCURACY: i32 = 100;
 
 /// An estimator with its order.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -137,6 +151,42 @@ impl Chosen {
         match self {
             Chosen::Central(order) | Chosen::Bilinear(order) => Some(*order),
             Chosen::Best(..) | Chosen::BestBilinear(_) => None,
+        }
+    }
+
+    /// The largest order that is tried, where it is not fixed.
+    pub(crate) fn max_order(&self) -> Option<u32> {
+        match self {
+            Chosen::Best(largest, ..) | Chosen::BestBilinear(BestBilinear { largest, .. }) => Some(*largest),
+            Chosen::Central(_) | Chosen::Bilinear(_) => None,
+        }
+    }
+
+    /// How the best m is searched for, in the words of flags and keys.
+    pub(crate) fn stop_and_rule(&self) -> Option<(&'static str, &'static str)> {
+        let Chosen::Best(_, stop, rule) = self else { return None };
+        let stop = match stop {
+            Stop::Full => "full",
+            Stop::Early => "early",
+        };
+        let rule = match rule {
+            Rule::Least => "least",
+            Rule::Robust => "robust",
+        };
+        Some((stop, rule))
+    }
+
+    /// The largest error wanted.
+    pub(crate) fn accuracy(&self) -> Option<&Rational> {
+        let Chosen::BestBilinear(best) = self else { return None };
+        best.accuracy.as_ref()
+    }
+
+    /// What sets its order, or the largest one that is tried: `order` or `max_order`, with the value.
+    pub(crate) fn order_setting(&self) -> (&'static str, u32) {
+        match self {
+            Chosen::Central(order) | Chosen::Bilinear(order) => ("order", *order),
+            Chosen::Best(largest, ..) | Chosen::BestBilinear(BestBilinear { largest, .. }) => ("max_order", *largest),
         }
     }
 

@@ -1,6 +1,5 @@
 //! Arguments → problem, schemes and steps: the runs to make.
 
-use num_traits::Signed;
 use shadowstep::Rational;
 use shadowstep::number::Precision;
 use shadowstep::problems::{Setup, problem};
@@ -10,10 +9,10 @@ use shadowstep_symbolic::decimal::to_text;
 use crate::arguments::{EstimatorChoice, OrderChoice, RuleChoice, RunArguments, StopChoice};
 use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
 use crate::complaint::{Complaint, remark};
-use crate::estimator::{Chosen, Kind, NO_ACCURACY, Wish};
+use crate::estimator::{Chosen, Kind, NO_ACCURACY, Wish, no_accuracy};
 use crate::propagator::Propagator;
 use crate::quantity;
-use crate::run::Run;
+use crate::run::{OrderSetting, Run};
 use crate::steps;
 
 /// Everything that is to be run.
@@ -49,9 +48,11 @@ impl Selection {
 
     /// The runs, all steps of a scheme together.
     pub(crate) fn runs(&self) -> impl Iterator<Item = (&Propagator, Run<'_>)> {
-        self.propagators.iter().flat_map(|propagator| {
+        let (name, value) = self.estimator.order_setting();
+        let order = Some(OrderSetting { name: if name == "order" { "--order" } else { "--max-order" }, value });
+        self.propagators.iter().flat_map(move |propagator| {
             let name = propagator.name();
-            self.steps.iter().map(move |(h, steps)| (propagator, Run { propagator: name, h, steps: *steps }))
+            self.steps.iter().map(move |(h, steps)| (propagator, Run { propagator: name, h, steps: *steps, order }))
         })
     }
 
@@ -110,9 +111,9 @@ fn estimator(arguments: &RunArguments) -> Result<Chosen, Complaint> {
 
 fn accuracy(text: &str) -> Result<Rational, Complaint> {
     let accuracy = quantity::number("--accuracy", text)?;
-    match accuracy.is_positive() {
-        true => Ok(accuracy),
-        false => Err(Complaint::usage(format!("--accuracy {text} is no size of an error"), NO_ACCURACY)),
+    match no_accuracy(&accuracy) {
+        None => Ok(accuracy),
+        Some(why) => Err(Complaint::usage(format!("--accuracy {text} {why}"), NO_ACCURACY)),
     }
 }
 

@@ -157,7 +157,7 @@ impl Setting {
     fn run<T>(&self, make: impl FnOnce(&Propagator, &Setup, Run<'_>) -> Result<T, Complaint>) -> Result<T, Complaint> {
         let setup = self.setup()?;
         let propagator = Propagator::read(self.propagator, &setup)?;
-        let run = Run { propagator: self.propagator, h: &self.step(), steps: self.steps() };
+        let run = Run { propagator: self.propagator, h: &self.step(), steps: self.steps(), order: None };
         make(&propagator, &setup, run)
     }
 }

@@ -9,7 +9,7 @@ use shadowstep::{Kinetic, Motion, Moves, Number, Potential, Scheme};
 use crate::complaint::{Complaint, remark};
 use crate::estimator::Chosen;
 use crate::progress::Progress;
-use crate::run::Run;
+use crate::run::{OrderSetting, Run};
 use crate::scene::checkpoint::{Checkpoint, Saved};
 use crate::scene::read::{Cadence, Scene};
 use crate::scene::system::Classed;
@@ -34,7 +34,11 @@ pub(crate) fn follow<N: Number + 'static>(
     checkpoint: Option<&Checkpoint>,
     stop: &dyn Fn() -> bool,
 ) -> Result<End, Complaint> {
-    let run = Run { propagator: &scene.scheme.name, h: &scene.h, steps: scene.steps };
+    let order = scene.output.modified.as_ref().map(|(chosen, _)| {
+        let (name, value) = chosen.order_setting();
+        OrderSetting { name, value }
+    });
+    let run = Run { propagator: &scene.scheme.name, h: &scene.h, steps: scene.steps, order };
     let progress = Progress::new(scene.output.file.is_some(), run.name(), run.steps);
     let (mut q, mut p) = scene.system.start::<N>(context);
     let saved = checkpoint.and_then(|checkpoint| checkpoint.state.as_ref());

@@ -7,15 +7,21 @@ use shadowstep::exact;
 
 const FAST: &str = "drift --problem kepler --scheme stormer-verlet --double --order 4 --until 2";
 
-const FIELDS: [&str; 22] = [
+const FIELDS: [&str; 28] = [
+    "shadowstep",
     "problem",
     "parameters",
     "scheme",
     "step",
     "until",
+    "end",
     "digits",
     "estimator",
     "order",
+    "max_order",
+    "stop",
+    "rule",
+    "accuracy",
     "drift",
     "minimum",
     "maximum",
@@ -59,6 +65,26 @@ fn a_record_says_what_was_run() {
     assert_eq!(text(parameters, "x"), "2/3");
     // sqrt 2, rounded beyond the digits of the run
     assert!(text(parameters, "py").starts_with("1.41421356237309504880168872"), "{parameters}");
+}
+
+#[test]
+fn a_record_says_how_the_order_was_chosen() {
+    let words = "drift --problem kepler --scheme stormer-verlet --step 1/10 --until 1 --digits 20 --no-control --json";
+    let settings = |flags: &str| {
+        let record = objects(&quietly(&format!("{words} {flags}"))).remove(0);
+        assert_eq!(text(&record, "shadowstep"), env!("CARGO_PKG_VERSION"));
+        ["max_order", "stop", "rule", "accuracy"].map(|field| record[field].clone())
+    };
+    let (word, none) = (|word: &str| Value::from(word), Value::Null);
+    assert_eq!(settings("--order 4"), [const { Value::Null }; 4]);
+    assert_eq!(settings(""), [200.into(), word("full"), word("least"), none.clone()]);
+    assert_eq!(
+        settings("--max-order 20 --stop early --rule robust"),
+        [20.into(), word("early"), word("robust"), none.clone()]
+    );
+    assert_eq!(settings("--estimator bilinear"), [64.into(), none.clone(), none.clone(), none.clone()]);
+    let bilinear = settings("--estimator bilinear --max-order 8 --accuracy 1/1000000000");
+    assert_eq!(bilinear, [8.into(), none.clone(), none.clone(), word("0.000000001")]);
 }
 
 #[test]
@@ -169,7 +195,8 @@ fn drifts_below_the_range_of_f64_are_shown() {
 fn a_remark_says_where_an_unfinished_interval_ends() {
     let said = shadowstep(&format!("{} --step 3/10 --json", FAST.replace("--until 2", "--until 100")));
     assert_eq!(said.err, "remark: 100 is not a multiple of 3/10: the run ends at n = 333, t = 99.9\n");
-    assert_eq!(objects(&said.out)[0]["steps"], 333);
+    let record = &objects(&said.out)[0];
+    assert_eq!((text(record, "until"), text(record, "end"), &record["steps"]), ("100", "999/10", &333.into()));
     assert_eq!(said.code, 0);
 }
 
@@ -192,6 +219,25 @@ fn a_run_that_fails_lets_the_others_go_on() {
     let runs = objects(&said.out);
     assert_eq!(runs.len(), 1);
     assert_eq!(text(&runs[0], "step"), "1/10");
+}
+
+/// Orbits that escape: from 0 to 3 the states are finite, not all that the estimator needs on either side.
+#[test]
+fn where_only_the_estimators_states_fail_a_lower_order_is_the_hint() {
+    let (before, after) = ("states before t = 0 are made", "states after the last one are made");
+    for (start, order, why, here) in [
+        ("--set y=1.1", "", before, "--max-order (here 200)"),
+        ("--set y=1.1", "--order 150", before, "--order (here 150)"),
+        ("--set y=1 --set py=1", "--order 40", after, "--order (here 40)"),
+    ] {
+        let words = format!("drift --problem henon-heiles --scheme stormer-verlet --step 1/10 --until 3 {start}");
+        let said = shadowstep(&format!("{words} {order}"));
+        assert_eq!((said.code, said.out.as_str()), (3, ""), "{start} {order}");
+        let expected =
+            format!("; {why} for the modified energies near it\n  hint: a lower {here} needs fewer of them; ");
+        assert!(said.err.contains(&expected), "{}", said.err);
+        quietly(&format!("{words} --order 8"));
+    }
 }
 
 #[test]

@@ -116,6 +116,12 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ),
     (
         "energy = true",
+        "modified_energy = { estimator = \"bilinear\", accuracy = \"1e400\" }",
+        "15:56: accuracy 1e400 is more than 1e100, an error larger than any energy",
+        "such as 1e-20",
+    ),
+    (
+        "energy = true",
         "modified_energy = { estimator = \"bilinear\", order = 7 }",
         "15:53: with estimator = \"bilinear\" and an odd order the values belong to times between the states",
         "an even order",

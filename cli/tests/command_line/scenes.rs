@@ -235,6 +235,24 @@ fn a_run_that_fails_leaves_the_old_file() {
 }
 
 #[test]
+fn where_only_the_estimators_states_fail_a_lower_order_is_the_hint() {
+    let scene = |modified: &str| {
+        format!(
+            "[problem]\nname = \"henon-heiles\"\n[initial]\nq = [0, 1.1]\np = [0.1, 0]\n[run]\nscheme = \"stormer-verlet\"\n\
+             step = 0.1\nuntil = 3\n[output]\nmodified_energy = {modified}\n"
+        )
+    };
+    for (modified, hint) in
+        [("true", "a lower max_order (here 200) "), ("{ order = 150 }", "a lower order (here 150) ")]
+    {
+        let said = run(folder(&scene(modified)).path(), "");
+        assert_eq!(said.code, 3);
+        assert!(said.err.contains(&format!("\n  hint: {hint}needs fewer of them; ")), "{}", said.err);
+    }
+    assert_eq!(run(folder(&scene("{ order = 8 }")).path(), "").code, 0);
+}
+
+#[test]
 fn the_file_of_another_scene_is_replaced_only_if_that_is_said() {
     for output in ["energy = true\nfile = \"out.csv\"", "energy = true\nfile = \"out.csv\"\ncheckpoint = 2"] {
         let folder = folder(&asking(output));

@@ -48,6 +48,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("--estimator bilinear --order auto --rule least", "--rule is for --estimator central, not for", "leave it out"),
     ("--estimator bilinear --order auto --accuracy 0", "--accuracy 0 is no size of an error", "such as 1e-20"),
     ("--estimator bilinear --order auto --accuracy -1e-9", "--accuracy -1e-9 is no size of an error", "such as 1e-20"),
+    ("--estimator bilinear --order auto --accuracy 1e400", "--accuracy 1e400 is more than 1e100", "such as 1e-20"),
     ("--estimator bilinear --order auto --accuracy 1e-9x", "--accuracy `1e-9x`, character", "1/10"),
     ("--output nowhere/out.json", "--output nowhere/out.json cannot be written", "folder that exists"),
     ("--output /", "--output / is no file", "name of a file"),

@@ -4,12 +4,11 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use num_traits::Signed;
 use shadowstep::Rational;
 use shadowstep::shadow::{Rule, Stop};
 use toml::de::DeValue;
 
-use crate::estimator::{Chosen, HIGHEST_ORDER, Kind, NO_ACCURACY, Wish};
+use crate::estimator::{Chosen, HIGHEST_ORDER, Kind, NO_ACCURACY, Wish, no_accuracy};
 use crate::scene::format::Format;
 use crate::scene::reader::{Reader, Section, Value};
 use crate::steps::MOST_STEPS;
@@ -151,10 +150,10 @@ fn up_to(reader: &mut Reader<'_>, value: &Value<'_>, least: u64) -> Option<u32> 
 fn accuracy(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Rational> {
     let text = reader.number(value)?;
     let accuracy = reader.evaluate(&text)?.value;
-    if !accuracy.is_positive() {
-        return reader.wrong(&text.at, format!("accuracy {} is no size of an error", text.value), NO_ACCURACY);
+    match no_accuracy(&accuracy) {
+        None => Some(accuracy),
+        Some(why) => reader.wrong(&text.at, format!("accuracy {} {why}", text.value), NO_ACCURACY),
     }
-    Some(accuracy)
 }
 
 /// A number of steps, or a time such as `1 min`.
