@@ -26,7 +26,8 @@ Examples:
   shadowstep figures --quick --out figures
   shadowstep figures kepler-schemes kepler-orders --out figures
 What is computed stays in DIR/results.jsonl: an interrupted run goes on where it stopped. All cores are used, or as many
-as RAYON_NUM_THREADS says; results do not depend on that.";
+as RAYON_NUM_THREADS says; results do not depend on that. Where only some figures are named, the report keeps those whose
+results are in DIR already.";
 
 const TRACE_EXAMPLE: &str = "\
 Example:

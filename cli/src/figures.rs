@@ -82,6 +82,7 @@ const FIGURES: [Entry; 17] = [
 /// Computes what is missing, and writes pictures, data and the report.
 pub(crate) fn figures(arguments: &FiguresArguments) -> Result<Ending, Complaint> {
     let chosen = chosen(&arguments.names)?;
+    refuse_foreign_report(&arguments.out)?;
     let mut store = Store::open(&arguments.out)?;
     let mut results = Results::new(arguments.quick);
     let mut ending = Ending::Done;
@@ -93,12 +94,48 @@ pub(crate) fn figures(arguments: &FiguresArguments) -> Result<Ending, Complaint>
         }
     }
     results.take_used();
-    let mut sections = Vec::new();
-    for entry in &chosen {
-        sections.push(write_figure(entry, &results, &arguments.out)?);
+    let (mut sections, mut earlier) = (Vec::new(), Vec::new());
+    for entry in &FIGURES {
+        if chosen.iter().any(|chosen| chosen.name == entry.name) {
+            sections.push(write_figure(entry, &results, &arguments.out)?);
+        } else if let Some(kept) = kept(entry, &store) {
+            sections.push(write_figure(entry, &kept, &arguments.out)?);
+            earlier.push(format!("{}{}", entry.name, if kept.quick { " --quick" } else { "" }));
+        }
     }
-    write(&arguments.out, "report.html", &report(arguments, sections).html())?;
+    let report = report(arguments, sections, &earlier);
+    write(&arguments.out, REPORT, &report.html())?;
+    let mut said = Output::open(None, "")?;
+    writeln!(said, "{}: {}", arguments.out.join(REPORT).display(), report.verdicts())?;
+    said.finish()?;
     Ok(ending)
+}
+
+const REPORT: &str = "report.html";
+
+/// What the program wrote has its results beside it.
+fn refuse_foreign_report(folder: &Path) -> Result<(), Complaint> {
+    let path = folder.join(REPORT);
+    if !path.exists() || Store::is_in(folder) {
+        return Ok(());
+    }
+    let sentence = format!("{} is there, without results of this program beside it", path.display());
+    Err(Complaint::usage(sentence, "give another folder, or take the file away"))
+}
+
+/// The results of a figure that is not asked for, if an earlier run left all of them: of the full grid, or of the thinned one.
+fn kept(entry: &Entry, store: &Store) -> Option<Results> {
+    [false, true].into_iter().find_map(|quick| {
+        let mut results = Results::new(quick);
+        loop {
+            drop((entry.draw)(&results));
+            if !results.take_kept(store)? {
+                break;
+            }
+        }
+        results.take_used();
+        Some(results)
+    })
 }
 
 fn chosen(names: &[String]) -> Result<Vec<&'static Entry>, Complaint> {
@@ -127,7 +164,8 @@ fn write_figure(entry: &Entry, results: &Results, folder: &Path) -> Result<Figur
         write(folder, &name, svg)?;
         files.push(name);
     }
-    for (kind, text) in data::csv(&results.take_used())? {
+    let command = format!("shadowstep figures {}{}", entry.name, if results.quick { " --quick" } else { "" });
+    for (kind, text) in data::csv(&command, &results.take_used())? {
         let name = format!("{}{kind}.csv", entry.name);
         write(folder, &name, &text)?;
         files.push(name);
@@ -142,7 +180,8 @@ fn write(folder: &Path, name: &str, text: &str) -> Result<(), Complaint> {
     output.finish()
 }
 
-fn report(arguments: &FiguresArguments, figures: Vec<Figure>) -> Report {
+/// `earlier` are the figures that this run was not asked for.
+fn report(arguments: &FiguresArguments, figures: Vec<Figure>, earlier: &[String]) -> Report {
     let quick = if arguments.quick { " --quick" } else { "" };
     let names: String = arguments.names.iter().map(|name| format!(" {name}")).collect();
     let introduction = [
@@ -153,14 +192,18 @@ fn report(arguments: &FiguresArguments, figures: Vec<Figure>) -> Report {
         "The drift is max − min of the modified energy over the states n = 0 … N of the interval. States before 0 and after N, which estimators \
          need, are made by the scheme and its exact inverse. The paper's sign of the rate of β, printed −h a (qᵀU_q + 2U), is +h a (qᵀU_q − 2U).",
     ];
+    let mut made_with = vec![
+        ("program".to_owned(), format!("shadowstep {}", env!("CARGO_PKG_VERSION"))),
+        ("command".to_owned(), format!("shadowstep figures{names}{quick} --out {}", arguments.out.display())),
+        ("digits".to_owned(), "120, where nothing else is said".to_owned()),
+    ];
+    if !earlier.is_empty() {
+        made_with.push(("from earlier runs".to_owned(), earlier.join(", ")));
+    }
     Report {
         title: "The modified energy of splitting schemes".to_owned(),
         introduction: introduction.map(str::to_owned).to_vec(),
-        made_with: vec![
-            ("program".to_owned(), format!("shadowstep {}", env!("CARGO_PKG_VERSION"))),
-            ("command".to_owned(), format!("shadowstep figures{names}{quick} --out {}", arguments.out.display())),
-            ("digits".to_owned(), "120, where nothing else is said".to_owned()),
-        ],
+        made_with,
         figures,
     }
 }

@@ -1,4 +1,4 @@
-//! Results as CSV: every run that a figure shows, with all digits.
+//! Results as CSV: every run that a figure shows, with all digits, below lines with # that tell what made them.
 
 use super::calculation::{By, Permanent, Setting};
 use super::results::Used;
@@ -6,8 +6,8 @@ use crate::complaint::Complaint;
 
 const RUN: [&str; 8] = ["problem", "set", "scheme", "step", "until", "digits", "estimator", "order"];
 
-/// The files of a figure: what is put behind its name, and the text.
-pub(crate) fn csv(used: &[Used]) -> Result<Vec<(&'static str, String)>, Complaint> {
+/// The files of a figure, which this command makes: what is put behind its name, and the text.
+pub(crate) fn csv(command: &str, used: &[Used]) -> Result<Vec<(&'static str, String)>, Complaint> {
     let mut drifts =
         vec![header(&["drift", "permanent_change", "largest_jump", "resolution", "order_least", "order_most"])];
     let mut energies = vec![header(&["t", "distance", "modified_energy", "order_used"])];
@@ -38,7 +38,7 @@ pub(crate) fn csv(used: &[Used]) -> Result<Vec<(&'static str, String)>, Complain
     }
     let files = [("", drifts), ("-energies", energies), ("-values", numbers), ("-blocks", blocks)];
     let files = files.into_iter().filter(|(_, rows)| rows.len() > 1);
-    files.map(|(kind, rows)| Ok((kind, text(&rows)?))).collect()
+    files.map(|(kind, rows)| Ok((kind, text(command, &rows)?))).collect()
 }
 
 fn header(last: &[&str]) -> Vec<String> {
@@ -61,9 +61,11 @@ fn row<const N: usize>(run: &Setting, by: Option<By>, last: [String; N]) -> Vec<
 }
 
 /// Equal rows, of results that a figure uses twice, are written once.
-fn text(rows: &[Vec<String>]) -> Result<String, Complaint> {
+fn text(command: &str, rows: &[Vec<String>]) -> Result<String, Complaint> {
     let mut written = std::collections::HashSet::new();
-    let mut csv = csv::Writer::from_writer(Vec::new());
+    let mut csv = csv::Writer::from_writer(
+        format!("# shadowstep: {}\n# command: {command}\n", env!("CARGO_PKG_VERSION")).into_bytes(),
+    );
     for row in rows.iter().filter(|row| written.insert(*row)) {
         csv.write_record(row)?;
     }

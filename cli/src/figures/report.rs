@@ -1,6 +1,10 @@
 //! A report of figures as one page of HTML: pictures are parts of it, and it needs no script and no network.
 
+mod indices;
+
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use indices::set;
 
 /// The whole page; all texts are plain, and are escaped where they are written.
 #[derive(Clone, Debug)]
@@ -74,6 +78,16 @@ impl Verdict {
         }
     }
 
+    /// `9 agree`
+    fn counted(self, count: usize) -> String {
+        let word = match (self, count) {
+            (Verdict::Agrees, 2..) => "agree",
+            (Verdict::Differs, 2..) => "differ",
+            _ => self.word(),
+        };
+        format!("{count} {word}")
+    }
+
     fn sentence(self) -> &'static str {
         match self {
             Verdict::Agrees => "What came out agrees with what the paper states.",
@@ -115,11 +129,19 @@ impl Report {
         page.into_string()
     }
 
+    /// How many figures agree, and so on: `9 agree, 1 differs, 7 ours`.
+    pub(crate) fn verdicts(&self) -> String {
+        let counts = [Verdict::Agrees, Verdict::Differs, Verdict::NotReproduced, Verdict::Ours]
+            .map(|verdict| (verdict, self.figures.iter().filter(|figure| figure.verdict == verdict).count()));
+        let told = counts.iter().filter(|(_, count)| *count > 0).map(|(verdict, count)| verdict.counted(*count));
+        told.collect::<Vec<_>>().join(", ")
+    }
+
     fn contents(&self) -> Markup {
         html! {
             ol {
                 @for (n, figure) in self.figures.iter().enumerate() {
-                    li { a href={ "#figure-" (n + 1) } { (figure.title) } " " (figure.verdict.badge()) }
+                    li { a href={ "#figure-" (n + 1) } { (set(&figure.title)) } " " (figure.verdict.badge()) }
                 }
             }
         }
@@ -131,7 +153,7 @@ impl Figure {
         let pictures = if self.pictures.len() == 1 { "pictures one" } else { "pictures" };
         html! {
             section id={ "figure-" (n) } {
-                h2 { (self.title) }
+                h2 { (set(&self.title)) }
                 p class="verdict-line" { (self.verdict.badge()) " " (self.verdict.sentence()) }
                 @if !self.stated.is_empty() { h3 { "The paper states" } (paragraphs(&self.stated)) }
                 @if !self.pictures.is_empty() {
@@ -153,7 +175,7 @@ impl Figure {
 
 impl Picture {
     fn figure(&self) -> Markup {
-        html! { figure { (PreEscaped(&self.svg)) figcaption { (self.caption) } } }
+        html! { figure { (PreEscaped(&self.svg)) figcaption { (set(&self.caption)) } } }
     }
 }
 
@@ -163,9 +185,9 @@ impl Table {
             // a focus, so that a wide table can be moved by keys
             div class="wide" tabindex="0" {
                 table {
-                    caption { (self.caption) }
-                    thead { tr { @for name in &self.header { th scope="col" { (name) } } } }
-                    tbody { @for row in &self.rows { tr { @for cell in row { td { (cell) } } } } }
+                    caption { (set(&self.caption)) }
+                    thead { tr { @for name in &self.header { th scope="col" { (set(name)) } } } }
+                    tbody { @for row in &self.rows { tr { @for cell in row { td { (set(cell)) } } } } }
                 }
             }
         }
@@ -178,7 +200,7 @@ fn statements(statements: &[Statement]) -> Markup {
             thead { tr { th scope="col" { "statement" } th scope="col" { "found" } th scope="col" { "holds" } } }
             tbody {
                 @for Statement { statement, found, holds } in statements {
-                    tr { td { (statement) } td { (found) } td { @if *holds { "yes" } @else { "no" } } }
+                    tr { td { (set(statement)) } td { (set(found)) } td { @if *holds { "yes" } @else { "no" } } }
                 }
             }
         }
@@ -186,7 +208,7 @@ fn statements(statements: &[Statement]) -> Markup {
 }
 
 fn paragraphs(texts: &[String]) -> Markup {
-    html! { @for text in texts { p { (text) } } }
+    html! { @for text in texts { p { (set(text)) } } }
 }
 
 #[cfg(test)]
@@ -282,6 +304,16 @@ mod tests {
         // title and heading, introduction, name, value; contents, heading, stated, found, link twice; caption,
         // header, cell, picture; statement, found
         assert_eq!(html.matches("&lt;b&gt; &amp; &quot;it&quot;").count(), 17);
+    }
+
+    #[test]
+    fn verdicts_are_counted() {
+        assert_eq!(report().verdicts(), "1 agrees, 1 differs, 1 not reproduced, 1 ours");
+        let mut more = report();
+        more.figures.extend(report().figures);
+        assert_eq!(more.verdicts(), "2 agree, 2 differ, 2 not reproduced, 2 ours");
+        more.figures.retain(|figure| figure.verdict == Verdict::Ours);
+        assert_eq!(more.verdicts(), "2 ours");
     }
 
     #[test]

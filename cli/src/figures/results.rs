@@ -56,6 +56,14 @@ impl Results {
         Ok(!missing.is_empty())
     }
 
+    /// Takes what was asked for from the store; whether there was anything, and none where not all is there.
+    pub(crate) fn take_kept(&mut self, store: &Store) -> Option<bool> {
+        let missing = self.missing.take();
+        let found = super::work::kept(&missing, store)?;
+        self.known.extend(missing.iter().map(key).zip(found.into_iter().map(Some)));
+        Some(!missing.is_empty())
+    }
+
     /// What has been used since the last call.
     pub(crate) fn take_used(&self) -> Vec<Used> {
         self.used.take()

@@ -68,6 +68,11 @@ pub(crate) fn run<T: Task>(tasks: &[T], store: &mut Store) -> Result<Outcomes<T:
     Ok(Outcomes { outcomes, failures })
 }
 
+/// All outcomes, if the store has them: nothing is computed.
+pub(crate) fn kept<T: Task>(tasks: &[T], store: &Store) -> Option<Vec<T::Outcome>> {
+    tasks.iter().map(|task| serde_json::from_str(store.outcome(&key(task).ok()?)?).ok()).collect()
+}
+
 /// The JSON of a task; a `Value` has one way to write it.
 fn key<T: Serialize>(task: &T) -> Result<String, Complaint> {
     Ok(serde_json::to_value(task)?.to_string())

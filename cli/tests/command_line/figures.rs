@@ -11,10 +11,12 @@ use crate::program::shadowstep;
 /// Two figures, of which one asks for results after it has seen others.
 const FAST: [&str; 2] = ["double-precision", "scattering"];
 
-fn figures(folder: &Path, names: &[&str], threads: &str) {
+/// What is said on stdout.
+fn figures(folder: &Path, names: &[&str], threads: &str) -> String {
     let mut program = Command::cargo_bin("shadowstep").unwrap();
     let program = program.arg("figures").args(names).args(["--quick", "--out"]).arg(folder);
-    program.env("RAYON_NUM_THREADS", threads).assert().success().stdout("").stderr("");
+    let said = program.env("RAYON_NUM_THREADS", threads).assert().success().stderr("");
+    String::from_utf8(said.get_output().stdout.clone()).unwrap()
 }
 
 /// Names and contents, but for the results, whose order is that of the threads.
@@ -28,7 +30,8 @@ fn files(folder: &Path) -> Vec<(String, String)> {
 #[test]
 fn a_figure_is_pictures_data_and_a_section_of_the_report() {
     let folder = TempDir::new().unwrap();
-    figures(folder.path(), &FAST, "2");
+    let said = figures(folder.path(), &FAST, "2");
+    assert_eq!(said, format!("{}: 1 differs, 1 ours\n", folder.path().join("report.html").display()));
     let files = files(folder.path());
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
@@ -51,14 +54,17 @@ fn a_figure_is_pictures_data_and_a_section_of_the_report() {
         assert!(report.contains(part), "{part}");
     }
     let drifts = of("scattering.csv");
-    let header = drifts.lines().next().unwrap();
     assert_eq!(
-        header,
-        "problem,set,scheme,step,until,digits,estimator,order,drift,permanent_change,largest_jump,resolution,order_least,order_most"
+        drifts.lines().take(3).collect::<Vec<_>>(),
+        [
+            concat!("# shadowstep: ", env!("CARGO_PKG_VERSION")),
+            "# command: shadowstep figures scattering --quick",
+            "problem,set,scheme,step,until,digits,estimator,order,drift,permanent_change,largest_jump,resolution,order_least,order_most"
+        ]
     );
     // every digit: the change of H of each start
     let values = of("scattering-values.csv");
-    assert!(values.lines().skip(1).all(|line| line.rsplit(',').next().unwrap().len() > 40), "{values}");
+    assert!(values.lines().skip(3).all(|line| line.rsplit(',').next().unwrap().len() > 40), "{values}");
 }
 
 #[test]
@@ -87,6 +93,48 @@ fn results_do_not_depend_on_threads_or_interruptions() {
         .map(|text| text.lines().map(|line| line.split(",\"seconds\"").next().unwrap().to_owned()).collect());
     lines.iter_mut().for_each(|lines| lines.sort());
     assert_eq!(lines[0], lines[1]);
+}
+
+#[test]
+fn a_report_keeps_the_figures_whose_results_are_there() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path();
+    figures(path, &["scattering"], "2");
+    let before = files(path);
+    let said = figures(path, &["double-precision"], "2");
+    assert!(said.ends_with("report.html: 1 differs, 1 ours\n"), "{said}");
+    let now = files(path);
+    let of = |name: &str| &now.iter().find(|(other, _)| other == name).unwrap().1;
+    for (name, text) in before.iter().filter(|(name, _)| name != "report.html") {
+        assert_eq!(of(name), text, "{name}");
+    }
+    let report = of("report.html");
+    assert!(report.contains("<dt>from earlier runs</dt><dd>scattering --quick</dd>"));
+    // in the order in which all are, whichever were asked for
+    let places = ["id=\"figure-1\"><h2>Scattering", "id=\"figure-2\"><h2>The noise"].map(|part| report.find(part));
+    assert!(places.iter().all(Option::is_some) && places.is_sorted(), "{places:?}");
+    // one result less, and nothing is computed for what was not asked for
+    let store = path.join("results.jsonl");
+    let text = fs::read_to_string(&store).unwrap();
+    let lost = text.lines().find(|line| line.contains("transit")).unwrap();
+    let fewer = text.replace(&format!("{lost}\n"), "");
+    fs::write(&store, &fewer).unwrap();
+    let said = figures(path, &["double-precision"], "2");
+    assert!(said.ends_with("report.html: 1 ours\n"), "{said}");
+    assert_eq!(fs::read_to_string(&store).unwrap(), fewer);
+}
+
+#[test]
+fn the_report_of_others_is_not_replaced() {
+    let folder = TempDir::new().unwrap();
+    let report = folder.path().join("report.html");
+    fs::write(&report, "mine").unwrap();
+    let said = shadowstep(&format!("figures double-precision --quick --out {}", folder.path().display()));
+    assert_eq!((said.code, said.out.as_str()), (2, ""));
+    let expected = format!("error: {} is there, without results of this program beside it\n", report.display());
+    assert!(said.err.starts_with(&expected), "{}", said.err);
+    assert_eq!(files(folder.path()), [("report.html".to_owned(), "mine".to_owned())]);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
 #[test]

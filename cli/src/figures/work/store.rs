@@ -47,6 +47,11 @@ impl Store {
         Store::open_as(folder, env!("CARGO_PKG_VERSION"))
     }
 
+    /// Whether a folder has such a file.
+    pub(crate) fn is_in(folder: &Path) -> bool {
+        folder.join(NAME).exists()
+    }
+
     pub(super) fn open_as(folder: &Path, version: &str) -> Result<Store, Complaint> {
         fs::create_dir_all(folder).map_err(|error| cannot(folder, &error))?;
         let path = folder.join(NAME);
