@@ -186,9 +186,14 @@ pub(crate) fn bilinear(results: &Results) -> Drawn {
     let coarse = |points: &[(f64, f64)]| {
         points.iter().map(|(n, y)| (1.0 / n, *y)).filter(|(h, _)| *h > 0.12).collect::<Vec<_>>()
     };
+    let k = orders[orders.len() - 1];
+    let control_highest = drifts("exact-flow", By::Bilinear { k });
+    let row = |label: &str, points: &[(f64, f64)]| decay_row(label, decay(&coarse(points), 0.5).as_ref());
     let mut rows = vec![
-        decay_row("m = 200", decay(&coarse(&linear_one), 0.5).as_ref()),
-        decay_row(&format!("E_{}", orders[orders.len() - 1]), decay(&coarse(highest), 0.5).as_ref()),
+        row("m = 200", &linear_one),
+        row("m = 200, exact flow", &control),
+        row(&format!("E_{k}"), highest),
+        row(&format!("E_{k}, exact flow"), &control_highest),
     ];
     let theory = format!("{:.3} and {:.3}", PI * rho, 2.0 * PI * rho);
     rows.push(vec!["π ρ and 2π ρ".to_owned(), theory, String::new(), String::new()]);

@@ -66,8 +66,8 @@ pub(crate) fn draw(results: &Results) -> Drawn {
     drawn.check(
         "The experiment has zero error.",
         format!(
-            "at h = 1/8 the change is up to {}; among 12 starts the smallest is {}: a start for which it vanishes looks like \
-             zero error",
+            "at h = 1/8 the change is up to {}; among 12 starts the smallest is {}: a start for which it vanishes would look \
+             like zero error",
             power(largest(results, 8)),
             power(smallest)
         ),
@@ -114,7 +114,7 @@ fn rates(drawn: &mut Drawn, changes: &[(f64, f64)], best: &[(f64, f64)]) {
             change.spread < 0.5,
         );
         drawn.found(format!(
-            "C is {:.3} times the c of the drift by the best m: the drift is the estimator's, the change of H is the method's.",
+            "C is {:.3} times the c of the drift by the best m, as on Kepler's problem, where the exact flow shows the drift, too.",
             change.c / best.c
         ));
     }
