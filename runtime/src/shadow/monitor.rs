@@ -5,7 +5,7 @@
 //! | `schedule` | which states belong to windows |
 //! | `blocks` | the quietest estimates of the parts of a run, in fixed memory |
 //! | `statistics` | extremes and sums over the windows |
-//! | `recent` | round-off and turning, from the newest states of a window |
+//! | `recent` | round-off, turning and whether β was carried, from the newest states of a window |
 //! | `report`, `verdict` | what it comes to |
 
 mod blocks;
@@ -107,7 +107,8 @@ use crate::shadow::{Estimator, Method};
 /// # Ok::<(), shadowstep::run::RunError>(())
 /// ```
 ///
-/// The step size, the scheme and the system have to stay the same, and nothing else may move the state.
+/// The step size, the scheme and the system have to stay the same, and nothing else may move the state. Where that shows, or
+/// where β was not carried or the steps are not of this h, the verdict is no fine one: see [`Verdict`].
 ///
 /// # Cost
 ///
@@ -140,6 +141,8 @@ pub struct ShadowEnergy<N, E> {
     unknown: Increments<N>,
     /// H − H̄
     method: N,
+    /// The first state that was not finite, or whose energy was not.
+    not_finite: Option<u64>,
 }
 
 #[derive(Clone, Debug)]
@@ -194,6 +197,7 @@ impl<N: Number, E: Estimator<N>> ShadowEnergy<N, E> {
             recent: Recent::new(h, dimension, &context),
             unknown: Increments::of_beta(zero.clone()),
             method: zero,
+            not_finite: None,
         };
         monitor.take(motion)?;
         Ok(monitor)
@@ -260,29 +264,38 @@ impl<N: Number, E: Estimator<N>> ShadowEnergy<N, E> {
         if !self.schedule.takes(self.n) {
             return Ok(None);
         }
-        self.take(motion)
+        match self.take(motion) {
+            Ok(ends) => Ok(ends.then(|| self.sample())),
+            Err(error) => {
+                if let RunError::NotFinite { step, .. } = error {
+                    self.not_finite.get_or_insert(step.unsigned_abs());
+                }
+                Err(error)
+            }
+        }
     }
 
-    /// Takes a state of a window.
+    /// Takes a state of a window; whether it ends one.
     fn take<V: Coordinates<N>, P: Potential<N>, K: Kinetic<N>>(
         &mut self,
         motion: &mut Motion<N, V, P, K>,
-    ) -> Result<Option<Sample<'_, N>>, RunError> {
+    ) -> Result<bool, RunError> {
         if self.schedule.is_middle(self.n) && !self.schedule.overlaps() {
             // while the gradient that the energy can be had from is kept
             motion.assign_energies(&mut self.newest.energy, &mut self.newest.kinetic);
         }
-        let increments = if self.schedule.begins(self.n) { &self.unknown } else { motion.increments() };
+        let begins = self.schedule.begins(self.n);
+        let increments = if begins { &self.unknown } else { motion.increments() };
         let (q, p) = (motion.q(), motion.p());
         check_finite(&State { n: i64::try_from(self.n).unwrap_or(i64::MAX), q, p, increments })?;
-        self.recent.push(motion);
+        self.recent.push(motion, (!begins && self.n > 0).then_some(increments));
         let states = self.estimator.states();
         let estimate = self.estimator.push(q, p, increments);
         // the first states of a window complete estimates with the last ones of another, which mean nothing
         if !self.schedule.ends(self.n) {
-            return Ok(None);
+            return Ok(false);
         }
-        let Some(estimate) = estimate else { return Ok(None) };
+        let Some(estimate) = estimate else { return Ok(false) };
         let Newest { n, modified, has_error, energy, kinetic } = &mut self.newest;
         *n = self.n - (states as u64 / 2);
         modified.value.assign(estimate.value);
@@ -296,7 +309,7 @@ impl<N: Number, E: Estimator<N>> ShadowEnergy<N, E> {
         }
         self.schedule.advance();
         self.end_window(states)?;
-        Ok(Some(self.sample()))
+        Ok(true)
     }
 
     fn end_window(&mut self, states: usize) -> Result<(), RunError> {

@@ -1,10 +1,11 @@
-//! What the newest states of a window say besides H̄: how much energy round-off moves, and how far the fastest motion turns.
+//! What the newest states of a window say besides H̄: how much energy round-off moves, how far the fastest motion turns, and
+//! whether they come from steps that carry β.
 
 use std::f64::consts::TAU;
 
 use crate::Rational;
 use crate::kinetic::Kinetic;
-use crate::motion::{Coordinates, Motion};
+use crate::motion::{Coordinates, Increments, Motion};
 use crate::number::Number;
 use crate::potential::Potential;
 
@@ -22,6 +23,14 @@ pub(super) struct Recent<N> {
     /// (c ε/h)²
     factor: N,
     sums: Sums<N>,
+    /// (10⁶ ε)²
+    rounding: N,
+    /// Whether a step of this window added something else than its increments say.
+    misfit: bool,
+    /// In how many windows there was such a step.
+    misfits: u64,
+    /// Whether q has changed in a last step of a window.
+    moves: bool,
     /// Intermediate results.
     x: N,
     y: N,
@@ -54,30 +63,70 @@ impl<N: Number> Recent<N> {
     pub(super) fn new(h: &Rational, dimension: usize, context: &N::Context) -> Self {
         let zero = || N::zero(context);
         let zeros = || vec![zero(); dimension];
+        let mut epsilon: N = epsilon(context);
+        let factor = kick_factor(&epsilon, h, context);
+        epsilon.multiply_integer(1_000_000);
+        let mut rounding = zero();
+        rounding.assign_square(&epsilon);
         Recent {
             q: std::array::from_fn(|_| zeros()),
             p: std::array::from_fn(|_| zeros()),
             evaluations: [0; 2],
-            factor: kick_factor(h, context),
+            factor,
             sums: Sums { kicks: zero(), squares: zero(), products: zero(), neighbours: zero() },
+            rounding,
+            misfit: false,
+            misfits: 0,
+            moves: false,
             x: zero(),
             y: zero(),
             z: zero(),
         }
     }
 
-    /// Takes the next state of a window.
-    pub(super) fn push<V: Coordinates<N>, P: Potential<N>, K: Kinetic<N>>(&mut self, motion: &Motion<N, V, P, K>) {
+    /// Takes the next state of a window, and what the step to it added, where that is known.
+    pub(super) fn push<V: Coordinates<N>, P: Potential<N>, K: Kinetic<N>>(
+        &mut self,
+        motion: &Motion<N, V, P, K>,
+        added: Option<&Increments<N>>,
+    ) {
         self.q.rotate_left(1);
         self.p.rotate_left(1);
         let ([_, q], [.., p]) = (&mut self.q, &mut self.p);
         q.iter_mut().zip(motion.q()).for_each(|(own, q)| own.assign(q));
         p.iter_mut().zip(motion.p()).for_each(|(own, p)| own.assign(p));
         self.evaluations = [self.evaluations[1], motion.evaluations()];
+        if let Some(added) = added.filter(|added| added.has_vectors()) {
+            self.misfit |= !self.fits(added);
+        }
+    }
+
+    /// Whether the newest state is the one before and what a step added, to 1/1000 of that and to 1000 ε of q and p.
+    ///
+    /// Increments that a plain step left behind are those of an earlier step, or 0.
+    fn fits(&mut self, added: &Increments<N>) -> bool {
+        let Recent { q: [q0, q1], p: [.., p0, p1], rounding, x, y, z, .. } = self;
+        [(q0, q1, &added.q), (p0, p1, &added.p)].into_iter().all(|(before, after, added)| {
+            y.assign_zero(); // what is off, 1000 times, squared
+            z.assign_zero(); // what it may be
+            for ((before, after), added) in before.iter().zip(after).zip(added) {
+                x.assign_difference(after, before);
+                z.add_product(x, x);
+                x.subtract(added);
+                x.multiply_integer(1000);
+                y.add_product(x, x);
+                x.assign_product(after, rounding);
+                z.add_product(x, after);
+            }
+            // what is no number is found elsewhere
+            !(*y > *z)
+        })
     }
 
     /// Ends a window of so many states.
     pub(super) fn end(&mut self, states: usize) {
+        self.misfits += u64::from(std::mem::take(&mut self.misfit));
+        self.moves |= self.q[0] != self.q[1];
         self.add_kick();
         if states >= STATES {
             self.add_turning();
@@ -111,6 +160,16 @@ impl<N: Number> Recent<N> {
             sums.products.add_product(x, y);
             sums.neighbours.add_product(y, y);
         }
+    }
+
+    /// In how many windows a step added something else than its increments say.
+    pub(super) fn misfits(&self) -> u64 {
+        self.misfits
+    }
+
+    /// Whether a window has seen q change.
+    pub(super) fn moves(&self) -> bool {
+        self.moves
     }
 
     /// The mean of kick² over so many windows.
@@ -148,11 +207,20 @@ fn assign_second_difference<N: Number>(out: &mut N, a: &N, b: &N, c: &N) {
     out.subtract(b);
 }
 
-/// (c ε/h)², with ε the distance from 1 to the next number.
+/// (c ε/h)².
 ///
 /// A rounding of x is off by at most half the last place of x, by 1/√12 of it rms; and that place is ε|x|/m for a mantissa m
 /// between 1 and 2, of which the mean square with the density 1/(m log 2) is 3ε²x²/(8 log 2). So c² = 1/(32 log 2), c = 0.2123.
-fn kick_factor<N: Number>(h: &Rational, context: &N::Context) -> N {
+fn kick_factor<N: Number>(epsilon: &N, h: &Rational, context: &N::Context) -> N {
+    let mut factor = epsilon.clone();
+    factor.multiply(&N::from_rational(&(Rational::new(2123.into(), 10_000.into()) / h), context));
+    let mut square = N::zero(context);
+    square.assign_square(&factor);
+    square
+}
+
+/// The distance ε from 1 to the next number.
+fn epsilon<N: Number>(context: &N::Context) -> N {
     let one = N::from_rational(&Rational::from_integer(1.into()), context);
     let (mut half, mut epsilon, mut sum) = (one.clone(), one.clone(), one.clone());
     loop {
@@ -160,11 +228,8 @@ fn kick_factor<N: Number>(h: &Rational, context: &N::Context) -> N {
         sum.assign_sum(&one, &half);
         // a half of ε is a tie, which goes to 1, whose mantissa is even
         if sum == one {
-            break;
+            return epsilon;
         }
         epsilon.assign(&half);
     }
-    epsilon.multiply(&N::from_rational(&(Rational::new(2123.into(), 10_000.into()) / h), context));
-    half.assign_square(&epsilon);
-    half
 }

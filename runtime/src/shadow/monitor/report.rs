@@ -67,6 +67,12 @@ pub struct Report<N> {
     pub steps_per_turn: Option<f64>,
     /// What that equation leaves, as a part: 0 for one oscillation, 1 for noise.
     pub irregular: Option<f64>,
+    /// In how many windows a step added something else to the state than it says: it was a plain step where β was needed, or q or p
+    /// were changed from outside, by more than 1/1000 of what a step adds. Seen in `f64` only, where steps that carry β
+    /// [keep what they add](crate::Increments).
+    pub misfits: u64,
+    /// The first state that was not finite, or whose energy was not.
+    pub not_finite: Option<u64>,
     /// What it comes to.
     pub verdict: Verdict,
 }
@@ -101,6 +107,7 @@ impl<N: Number, E: Estimator<N>> ShadowEnergy<N, E> {
         let mut round_off: N = root(&integer(self.n, &context));
         round_off.multiply(&kick);
         let turning = self.recent.turning();
+        let spread = spread(&quiet, &wander);
         let mut report = Report {
             steps: self.n,
             windows: statistics.windows,
@@ -111,7 +118,7 @@ impl<N: Number, E: Estimator<N>> ShadowEnergy<N, E> {
             method_rms: statistics.method_rms(),
             modified: last.clone(),
             change: difference(last, first),
-            course: course(&quiet, &wander),
+            course: spread.map(Spread::course),
             wander,
             moved,
             resolution: known(largest_error(quiet.iter().copied(), &context)),
@@ -120,9 +127,12 @@ impl<N: Number, E: Estimator<N>> ShadowEnergy<N, E> {
             round_off,
             steps_per_turn: turning.map(Turning::steps),
             irregular: turning.map(|turning| turning.irregular),
+            misfits: self.recent.misfits(),
+            not_finite: self.not_finite,
             verdict: Verdict::Undecided,
         };
-        report.verdict = report.evidence(turning).verdict();
+        let straight = spread.is_some_and(Spread::is_straight);
+        report.verdict = Evidence { straight, turning, moves: self.recent.moves(), ..report.evidence() }.verdict();
         report
     }
 }
@@ -137,31 +147,69 @@ fn largest_error<'a, N: Number + 'a>(estimates: impl Iterator<Item = &'a Quiet<N
     largest
 }
 
-fn course<N: Number>(quiet: &[&Quiet<N>], wander: &N) -> Option<Course> {
+/// (max − min)²/Σ(differences)² of so many successive quiet estimates.
+#[derive(Clone, Copy)]
+struct Spread {
+    ratio: f64,
+    count: usize,
+}
+
+fn spread<N: Number>(quiet: &[&Quiet<N>], wander: &N) -> Option<Spread> {
     if quiet.len() < 16 {
         return None;
     }
     let part = |pair: &[&Quiet<N>]| quotient(&difference(&pair[1].value, &pair[0].value), wander).to_f64();
     let squares: f64 = quiet.windows(2).map(|pair| part(pair).powi(2)).sum();
-    Some(match 1.0 / squares {
-        ratio if ratio > 8.0 => Course::Drift,
-        ratio if ratio > 0.5 => Course::Walk,
-        // also if nothing moved at all
-        _ => Course::Steady,
-    })
+    Some(Spread { ratio: 1.0 / squares, count: quiet.len() })
+}
+
+impl Spread {
+    fn course(self) -> Course {
+        match self.ratio {
+            ratio if ratio > 8.0 => Course::Drift,
+            ratio if ratio > 0.5 => Course::Walk,
+            // also if nothing moved at all
+            _ => Course::Steady,
+        }
+    }
+
+    /// Equal differences make one less than the count. The slow oscillation of the outer planets' H̄, which looks like a drift in
+    /// 20 000 steps of 200 days, made a third of that.
+    fn is_straight(self) -> bool {
+        2.0 * self.ratio > (self.count - 1) as f64
+    }
 }
 
 impl<N: Number> Report<N> {
-    fn evidence(&self, turning: Option<Turning>) -> Evidence {
+    fn evidence(&self) -> Evidence {
+        let numbers = [&self.energy_error, &self.kinetic, &self.method_rms, &self.kick];
         Evidence {
             moved: self.part(&self.moved),
             worst_error: self.worst_error.as_ref().map_or(0.0, |error| self.part(error)),
             kick: self.part(&self.kick),
             round_off: self.part(&self.round_off),
+            offset: self.part(&self.offset()),
             of_kinetic: self.of_kinetic(),
-            turning,
+            turning: None,
+            straight: false,
+            has_errors: self.worst_error.is_some(),
+            moves: true,
+            misfits: self.misfits > 0,
+            finite: self.not_finite.is_none() && numbers.into_iter().all(N::is_finite),
             windows: self.windows,
         }
+    }
+
+    /// How far the range of H − H̄ is from 0.
+    fn offset(&self) -> N {
+        let mut offset = self.method_least.clone();
+        if self.method_largest.is_below_zero() {
+            offset.assign(&self.method_largest);
+            offset.negate();
+        } else if offset.is_below_zero() {
+            offset.assign_zero();
+        }
+        offset
     }
 
     /// An energy as a part of the energy error.
@@ -173,40 +221,98 @@ impl<N: Number> Report<N> {
         quotient(&self.energy_error, &self.kinetic).to_f64()
     }
 
+    fn has_no_energy_error(&self) -> bool {
+        self.energy_error.log10_abs() == f64::NEG_INFINITY
+    }
+
+    /// An energy as a part of the energy error, in words; alone where that is 0.
+    fn in_parts(&self, energy: &N) -> String {
+        match self.part(energy) {
+            part if part.is_finite() => format!("{part:.1e} of the energy error"),
+            _ => short(energy),
+        }
+    }
+
     /// Why the verdict is what it is, in a sentence with numbers.
     pub fn reason(&self) -> String {
         let steps = self.steps;
-        let moved =
-            format!("the modified energy moved by {:.1e} of the energy error in {steps} steps", self.part(&self.moved));
+        let moved = format!("the modified energy moved by {} in {steps} steps", self.in_parts(&self.moved));
         match self.verdict {
             Verdict::Undecided => {
                 format!("{LEAST_WINDOWS} windows make a verdict, and there are {}", self.windows)
             }
+            Verdict::Inconsistent => self.why_inconsistent(),
             Verdict::RoundOff => format!(
-                "{moved}, and round-off makes {:.1e} of it: a larger step would do, or more digits are needed",
-                self.part(&self.round_off)
+                "{moved}, and round-off makes {}: a larger step would do, or more digits are needed",
+                self.in_parts(&self.round_off)
             ),
             Verdict::NearResonance { turns, steps } => format!(
                 "{moved}, and the fastest motion turns once in {:.3} steps, near {turns}/{steps} turns a step: \
                  another step size does better",
-                self.steps_per_turn.unwrap_or(f64::NAN)
+                self.steps_per_turn.unwrap_or_default()
             ),
-            Verdict::TooLarge(Sign::Moved) => format!(
-                "{moved}, where round-off makes {:.1e} of it: nothing near the energy is conserved",
-                self.part(&self.round_off)
+            Verdict::Drifts => format!(
+                "{moved}, steadily: by {} on the whole, where round-off makes {}. The scheme conserves it, so a force that is not \
+                 −U_q, or a state that is changed between the steps, or a resonance is at work",
+                short(&self.change),
+                short(&self.round_off)
             ),
-            Verdict::TooLarge(Sign::NotResolved) => format!(
-                "in a part of the run no estimate is better than {:.1e} of the energy error: there is no modified energy \
-                 near the energy, or the estimator needs more states",
-                self.worst_error.as_ref().map_or(f64::NAN, |error| self.part(error))
-            ),
-            Verdict::TooLarge(Sign::EnergyError) => {
-                format!("the energy error is {:.1e} of the mean kinetic energy", self.of_kinetic())
-            }
-            Verdict::Fine if self.of_kinetic() == 0.0 => {
+            Verdict::TooLarge(sign) => self.why_too_large(sign, &moved),
+            Verdict::Fine if self.has_no_energy_error() => {
                 format!("the energy is the same in all windows of {steps} steps")
             }
+            Verdict::Fine if self.course == Some(Course::Drift) && self.evidence().moved_beyond_round_off() > 0.0 => {
+                format!("{moved}, like t, which is no round-off: the energy error is the method's so far")
+            }
             Verdict::Fine => format!("{moved}: the energy error is the method's, and bounded"),
+        }
+    }
+
+    fn why_inconsistent(&self) -> String {
+        if self.misfits > 0 {
+            return format!(
+                "in {} of {} windows the states are not where the steps that carry β have left them: plain steps were made where \
+                 needs_beta() asks for β, or q or p were changed between the steps",
+                self.misfits, self.windows
+            );
+        }
+        format!(
+            "the states do not come from steps of this h that carry β: H − H̄ is {} rms, and H̄ moved by {}, too much beside an \
+             energy error of {}",
+            short(&self.method_rms),
+            short(&self.moved),
+            short(&self.energy_error)
+        )
+    }
+
+    fn why_too_large(&self, sign: Sign, moved: &str) -> String {
+        // of a wrapped angle or a kicked momentum H̄ knows nothing
+        let other = "or something other than the scheme moved the state";
+        match sign {
+            Sign::Moved if self.worst_error.is_none() => format!(
+                "{moved}, where round-off makes {}: nothing near the energy is conserved, {other}, or the estimates are off by as \
+                 much, as this estimator gives no errors",
+                self.in_parts(&self.round_off)
+            ),
+            Sign::Moved => format!(
+                "{moved}, where round-off makes {}: nothing near the energy is conserved, {other}",
+                self.in_parts(&self.round_off)
+            ),
+            Sign::NotResolved => format!(
+                "in a part of the run no estimate is better than {}: there is no modified energy near the energy, or the estimator \
+                 needs more states, {other}, or β was not carried",
+                self.worst_error.as_ref().map(|error| self.in_parts(error)).unwrap_or_default()
+            ),
+            Sign::EnergyError if self.of_kinetic().is_finite() => {
+                format!("the energy error is {:.1e} of the mean kinetic energy", self.of_kinetic())
+            }
+            Sign::EnergyError => {
+                "the mean kinetic energy is 0 while the positions change: half a turn a step, or more".to_owned()
+            }
+            Sign::NotFinite => match self.not_finite {
+                Some(n) => format!("a state or its energy is not finite since step {n}: the steps blow up"),
+                None => "the energies outgrow the numbers: the steps blow up".to_owned(),
+            },
         }
     }
 }
@@ -217,14 +323,19 @@ impl<N: Number> fmt::Display for Report<N> {
         writeln!(f, "{verdict} ({steps} steps, {windows} windows)")?;
         let part = |energy: &N| match self.part(energy) {
             part if part.is_finite() => format!("{part:.1e} of the energy error"),
-            _ => "where the energy error is 0".to_owned(),
+            _ if self.has_no_energy_error() => "where the energy error is 0".to_owned(),
+            _ => "more than the numbers hold".to_owned(),
         };
         let line = |f: &mut fmt::Formatter<'_>, name: &str, value: &N, text: &str| {
             // the bar of H̄ is a character, and takes no column
             let width = 18 + name.matches('\u{304}').count();
             writeln!(f, "  {name:<width$}{:>10}  {text}", short(value))
         };
-        line(f, "energy error", &self.energy_error, &format!("max − min of H; {:.1e} of T", self.of_kinetic()))?;
+        let of_kinetic = match self.of_kinetic() {
+            part if part.is_finite() => format!("{part:.1e} of T"),
+            _ => format!("T is {}", short(&self.kinetic)),
+        };
+        line(f, "energy error", &self.energy_error, &format!("max − min of H; {of_kinetic}"))?;
         let range =
             format!("rms of H − H̄, which is from {} to {}", short(&self.method_least), short(&self.method_largest));
         line(f, "the method's part", &self.method_rms, &range)?;
@@ -254,6 +365,9 @@ impl fmt::Display for Course {
 
 /// Three digits, also of a number that is no `f64`.
 fn short<N: Number>(number: &N) -> String {
+    if !number.is_finite() {
+        return "not finite".to_owned();
+    }
     let value = number.to_f64();
     let log10 = number.log10_abs();
     if value.is_normal() || log10 == f64::NEG_INFINITY {
@@ -285,7 +399,7 @@ mod tests {
         let all: Vec<_> = values.iter().map(|&value| Quiet { value, error: 0.0 }).collect();
         let most = values.iter().fold(f64::MIN, |a, b| a.max(*b));
         let least = values.iter().fold(f64::MAX, |a, b| a.min(*b));
-        course(&all.iter().collect::<Vec<_>>(), &(most - least))
+        spread(&all.iter().collect::<Vec<_>>(), &(most - least)).map(Spread::course)
     }
 
     fn sums(values: Vec<f64>, drift: f64) -> Vec<f64> {
@@ -309,9 +423,23 @@ mod tests {
     }
 
     #[test]
+    fn a_straight_line_is_told_from_a_bend_and_from_noise() {
+        let is_straight = |value: fn(f64) -> f64| {
+            let values: Vec<Quiet<f64>> =
+                (0..40).map(|i| Quiet { value: value(f64::from(i) / 39.0), error: 0.0 }).collect();
+            spread(&values.iter().collect::<Vec<_>>(), &1.0).unwrap().is_straight()
+        };
+        assert!(is_straight(|x| x) && is_straight(|x| -x));
+        // one period, which ranges from −1/2 to 1/2
+        assert!(!is_straight(|x| 0.5 * (std::f64::consts::TAU * x).sin()));
+        assert!(!is_straight(|x| x + 0.3 * (1000.0 * x).sin()));
+    }
+
+    #[test]
     fn short_texts_of_long_numbers() {
         assert_eq!([0.0, -1.5, 123456.0].map(|x| short(&x)), ["0.00e0", "-1.50e0", "1.23e5"]);
         // 5e-324 is no normal number
         assert_eq!(short(&-5e-324), "-4.94e-324");
+        assert_eq!([f64::INFINITY, f64::NAN].map(|x| short(&x)), ["not finite"; 2]);
     }
 }

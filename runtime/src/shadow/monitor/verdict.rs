@@ -12,12 +12,15 @@ use super::recent::Turning;
 ///
 /// | verdict | if |
 /// | --- | --- |
+/// | too large: not finite | a state or an energy is not finite, or the sums overflow |
 /// | undecided | there are fewer than 16 windows |
+/// | inconsistent | the steps of a window do not add what [they say](super::Report::misfits); or, beyond errors and round-off, the range of H − H̄ is as far from 0 as θ²T/6 and half of the energy error, θ the angle of the fastest motion in a step; or H̄ moved by twice the energy error |
 /// | round-off | moves or errors are half of the energy error, and no more than 10 times what round-off makes |
 /// | near a resonance | H̄ moved by 0.001 or more, beyond that, and the fastest motion is one oscillation that turns once in 3, 4, 5, 6 or 5/2 steps, to 0.006 turns a step |
+/// | drifts | H̄ moved by 1e-6 or more, beyond that, in a straight line |
 /// | too large: moves | H̄ moved by 0.05 or more, beyond that |
 /// | too large: not resolved | in some 1/32 to 1/64 of the run no window knows H̄ to 0.05 |
-/// | too large: energy error | the energy error is half of T or more |
+/// | too large: energy error | the energy error is half of T or more; or T is 0 in all windows, and q changes |
 /// | fine | none of these |
 ///
 /// **The thresholds come from measurement**: 50 000 steps of each shipped problem with a window in 20 of them, E_8 with its error,
@@ -64,7 +67,12 @@ use super::recent::Turning;
 /// oscillator the energy error is 2x²/(1 − x²) of T, x = hω/2: half of it at hω = 0.89, or 6.8 steps a turn, whatever becomes
 /// of H̄, which is conserved up to hω = 2.
 ///
+/// The range of H − H̄ mostly has 0 in it, and is off it where nothing swings: by θ²T/12 at most, which the circular orbit has, and
+/// the outer planets nearly, and Kepler at e = 0.1 by 0.031 θ²T. With β forgotten, Kepler at e = 0.6, h = 1/20 is off by
+/// 7.6 θ²T; with the monitor told 1/19, by 0.37 θ²T, and told 1/22, by 0.62 θ²T.
+///
 /// **What it cannot see:**
+/// - a step size that is told wrong by less than θ²/6 or so;
 /// - moves of H̄ below three times the errors of its estimates: of the resonance 1/6 of the pendulum at h = 1.015 E_8 sees
 ///   nothing, and E_16 a move of 0.004;
 /// - resonances of slow motions, and of oscillations that have little of the momentum: the turning is that of the second
@@ -83,6 +91,10 @@ pub enum Verdict {
         /// n of m/n: 3 to 6.
         steps: u32,
     },
+    /// The modified energy changes steadily, by what is no round-off: something other than the scheme and its forces is at work.
+    Drifts,
+    /// The states do not come from steps of this h that carry β.
+    Inconsistent,
     /// No modified energy is conserved well enough to speak of, or it says nothing of the energy.
     TooLarge(Sign),
     /// The energy error is round-off, not the method's: a larger step would do, or more digits are needed.
@@ -100,6 +112,8 @@ pub enum Sign {
     NotResolved,
     /// The energy error is as large as the energy that moves.
     EnergyError,
+    /// A state or an energy is not finite.
+    NotFinite,
 }
 
 /// Windows that a verdict needs.
@@ -108,6 +122,15 @@ pub(super) const LEAST_WINDOWS: u64 = 16;
 const MUCH: f64 = 0.05;
 /// What of it is enough to look for a resonance.
 const SOME: f64 = 1e-3;
+/// What of it is enough for a steady drift.
+const LITTLE: f64 = 1e-6;
+/// What of θ²T, and of the energy error, H − H̄ may be off 0: up to 1/12 of θ²T was measured.
+const OFFSET_OF_TURNING: f64 = 1.0 / 6.0;
+const OFFSET: f64 = 0.5;
+/// What of the energy error H̄ may move by: without a modified energy it was 1.0.
+const MORE_THAN_ALL: f64 = 2.0;
+/// How many times its error an estimate may be off.
+const OF_ERROR: f64 = 3.0;
 /// What of it has to be round-off for the verdict to be that.
 const MOST: f64 = 0.5;
 /// What of the mean kinetic energy is too much for the energy error.
@@ -123,7 +146,7 @@ const RESONANCES: [(u32, u32); 5] = [(1, 3), (1, 4), (1, 5), (1, 6), (2, 5)];
 /// How irregular a motion may be that is taken for one oscillation: the chaotic pendulum's is 0.17 or more.
 const IRREGULAR: f64 = 0.1;
 
-/// What a verdict looks at; all but the last three as parts of the energy error.
+/// What a verdict looks at; all up to `offset` as parts of the energy error.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Evidence {
     /// How far H̄ surely moved.
@@ -133,27 +156,46 @@ pub(super) struct Evidence {
     /// What round-off is expected to move H̄ by, in one step and in all.
     pub(super) kick: f64,
     pub(super) round_off: f64,
+    /// How far the range of H − H̄ is from 0.
+    pub(super) offset: f64,
     /// The energy error as a part of the mean kinetic energy.
     pub(super) of_kinetic: f64,
     pub(super) turning: Option<Turning>,
+    /// Whether H̄ goes in a straight line.
+    pub(super) straight: bool,
+    /// Whether errors are known.
+    pub(super) has_errors: bool,
+    /// Whether q changes.
+    pub(super) moves: bool,
+    /// Whether a step added something else than it says.
+    pub(super) misfits: bool,
+    /// Whether all states and energies are finite.
+    pub(super) finite: bool,
     pub(super) windows: u64,
 }
 
 impl Evidence {
     /// Of an energy error of 0 nothing is a part.
     pub(super) fn verdict(&self) -> Verdict {
-        let expected = OF_ROUND_OFF * self.round_off.max(KICKS_IN_AN_ESTIMATE * self.kick);
-        let beyond_round_off = |part: f64| if part > expected { part } else { 0.0 };
-        let (moved, worst_error) = (beyond_round_off(self.moved), beyond_round_off(self.worst_error));
+        let (moved, worst_error) = (self.moved_beyond_round_off(), self.beyond_round_off(self.worst_error));
         let round_off = self.moved.max(self.worst_error).max(self.round_off);
-        if self.windows < LEAST_WINDOWS {
+        if !self.finite {
+            Verdict::TooLarge(Sign::NotFinite)
+        } else if self.windows < LEAST_WINDOWS {
             Verdict::Undecided
+        } else if self.is_inconsistent() {
+            Verdict::Inconsistent
         } else if self.of_kinetic == 0.0 {
             Verdict::Fine
+        } else if self.of_kinetic.is_nan() {
+            // 0 of 0: at rest, or from one turning point to the next
+            if self.moves { Verdict::TooLarge(Sign::EnergyError) } else { Verdict::Fine }
         } else if moved == 0.0 && worst_error == 0.0 && round_off >= MOST {
             Verdict::RoundOff
         } else if let Some((turns, steps)) = self.resonance().filter(|_| moved >= SOME) {
             Verdict::NearResonance { turns, steps }
+        } else if self.straight && moved >= LITTLE {
+            Verdict::Drifts
         } else if moved >= MUCH {
             Verdict::TooLarge(Sign::Moved)
         } else if worst_error >= MUCH {
@@ -163,6 +205,25 @@ impl Evidence {
         } else {
             Verdict::Fine
         }
+    }
+
+    /// A part of the energy error, or 0 if it may be round-off.
+    fn beyond_round_off(&self, part: f64) -> f64 {
+        let expected = OF_ROUND_OFF * self.round_off.max(KICKS_IN_AN_ESTIMATE * self.kick);
+        if part > expected { part } else { 0.0 }
+    }
+
+    pub(super) fn moved_beyond_round_off(&self) -> f64 {
+        self.beyond_round_off(self.moved)
+    }
+
+    /// θ is taken for 1 where it is not known.
+    fn is_inconsistent(&self) -> bool {
+        let angle = self.turning.map_or(1.0, |turning| turning.angle);
+        let most = (OFFSET_OF_TURNING * angle * angle / self.of_kinetic).max(OFFSET).max(OF_ERROR * self.worst_error);
+        // moves of which no errors are known may all be errors
+        let moves_too_much = self.has_errors && self.moved_beyond_round_off() > MORE_THAN_ALL;
+        self.misfits || moves_too_much || self.beyond_round_off(self.offset) > most
     }
 
     fn resonance(&self) -> Option<(u32, u32)> {
@@ -179,6 +240,8 @@ impl fmt::Display for Verdict {
             Verdict::NearResonance { turns, steps } => {
                 write!(f, "the step size is near the resonance {turns}/{steps}")
             }
+            Verdict::Drifts => f.write_str("the modified energy drifts"),
+            Verdict::Inconsistent => f.write_str("the steps are not those that the monitor was told of"),
             Verdict::TooLarge(_) => f.write_str("the step size is too large here"),
             Verdict::RoundOff => f.write_str("the energy error is round-off"),
             Verdict::Undecided => f.write_str("no verdict yet"),
@@ -195,8 +258,14 @@ mod tests {
         worst_error: 1e-9,
         kick: 1e-14,
         round_off: 1e-12,
+        offset: 0.0,
         of_kinetic: 1e-2,
         turning: None,
+        straight: false,
+        has_errors: true,
+        moves: true,
+        misfits: false,
+        finite: true,
         windows: LEAST_WINDOWS,
     };
 
@@ -236,13 +305,30 @@ mod tests {
     }
 
     #[test]
+    fn what_the_scheme_cannot_have_done() {
+        assert_eq!(Evidence { finite: false, windows: 3, ..FINE }.verdict(), Verdict::TooLarge(Sign::NotFinite));
+        assert_eq!(Evidence { misfits: true, ..FINE }.verdict(), Verdict::Inconsistent);
+        assert_eq!(Evidence { moved: 2.1, ..FINE }.verdict(), Verdict::Inconsistent);
+        // of a circle in 20 steps θ²T/12 is some 0.8 of this energy error
+        let off = |offset, worst_error| Evidence { offset, worst_error, turning: turning(20.0, 0.0), ..FINE }.verdict();
+        assert_eq!(
+            [off(1.6, 0.0), off(1.7, 0.0), off(1.7, 0.6)],
+            [FINE.verdict(), Verdict::Inconsistent, Verdict::TooLarge(Sign::NotResolved)]
+        );
+        let drift = |moved| Evidence { moved, straight: true, ..FINE }.verdict();
+        assert_eq!([drift(1e-7), drift(1e-5), drift(0.2)], [Verdict::Fine, Verdict::Drifts, Verdict::Drifts]);
+    }
+
+    #[test]
     fn no_energy_error_at_all_is_fine() {
         let infinite = f64::INFINITY;
         let free = Evidence { moved: infinite, kick: infinite, round_off: infinite, of_kinetic: 0.0, ..FINE };
         assert_eq!(free.verdict(), Verdict::Fine);
         // at rest: 0 of 0
         let nothing = f64::NAN;
-        let rest = Evidence { moved: nothing, kick: nothing, round_off: nothing, of_kinetic: nothing, ..FINE };
+        let rest =
+            Evidence { moved: nothing, kick: nothing, round_off: nothing, of_kinetic: nothing, moves: false, ..FINE };
         assert_eq!(rest.verdict(), Verdict::Fine);
+        assert_eq!(Evidence { moves: true, ..rest }.verdict(), Verdict::TooLarge(Sign::EnergyError));
     }
 }
