@@ -97,16 +97,16 @@ impl<N: Number> Recent<N> {
         p.iter_mut().zip(motion.p()).for_each(|(own, p)| own.assign(p));
         self.evaluations = [self.evaluations[1], motion.evaluations()];
         if let Some(added) = added.filter(|added| added.has_vectors()) {
-            self.misfit |= !self.fits(added);
+            self.misfit |= self.differs_from(added);
         }
     }
 
-    /// Whether the newest state is the one before and what a step added, to 1/1000 of that and to 1000 ε of q and p.
+    /// Whether the newest state is off the one before and what a step added, by more than 1/1000 of that and 1000 ε of q and p.
     ///
     /// Increments that a plain step left behind are those of an earlier step, or 0.
-    fn fits(&mut self, added: &Increments<N>) -> bool {
+    fn differs_from(&mut self, added: &Increments<N>) -> bool {
         let Recent { q: [q0, q1], p: [.., p0, p1], rounding, x, y, z, .. } = self;
-        [(q0, q1, &added.q), (p0, p1, &added.p)].into_iter().all(|(before, after, added)| {
+        [(q0, q1, &added.q), (p0, p1, &added.p)].into_iter().any(|(before, after, added)| {
             y.assign_zero(); // what is off, 1000 times, squared
             z.assign_zero(); // what it may be
             for ((before, after), added) in before.iter().zip(after).zip(added) {
@@ -118,8 +118,8 @@ impl<N: Number> Recent<N> {
                 x.assign_product(after, rounding);
                 z.add_product(x, after);
             }
-            // what is no number is found elsewhere
-            !(*y > *z)
+            // not if they are no numbers, which is found elsewhere
+            *y > *z
         })
     }
 

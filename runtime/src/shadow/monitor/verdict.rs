@@ -72,6 +72,8 @@ use super::recent::Turning;
 /// 7.6 θ²T; with the monitor told 1/19, by 0.37 θ²T, and told 1/22, by 0.62 θ²T.
 ///
 /// **What it cannot see:**
+/// - steady drifts below 1e-6 of the energy error: the slow oscillation of the outer planets' H̄ at 200 days looks like one, and
+///   makes 2e-7; the report then says that H̄ moves like t, and not that it is bounded;
 /// - a step size that is told wrong by less than θ²/6 or so;
 /// - moves of H̄ below three times the errors of its estimates: of the resonance 1/6 of the pendulum at h = 1.015 E_8 sees
 ///   nothing, and E_16 a move of 0.004;
