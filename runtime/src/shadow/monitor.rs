@@ -6,13 +6,14 @@
 //! | `blocks` | the quietest estimates of the parts of a run, in fixed memory |
 //! | `statistics` | extremes and sums over the windows |
 //! | `recent` | round-off, turning and whether β was carried, from the newest states of a window |
-//! | `report`, `verdict` | what it comes to |
+//! | `report`, `verdict`, `text` | what it comes to, in numbers, a word, and sentences |
 
 mod blocks;
 mod recent;
 mod report;
 mod schedule;
 mod statistics;
+mod text;
 mod verdict;
 
 pub use report::{Course, Report};
@@ -117,13 +118,13 @@ use crate::shadow::{Estimator, Method};
 ///
 /// | | softened gravity | Lennard-Jones |
 /// | --- | --- | --- |
-/// | [`Bilinear::new(6)`](crate::shadow::Bilinear::new), a window in 100 steps | 1.7 % | 2.5 % |
-/// | `Bilinear::new(8)`, a window in 100 steps | 2.8 % | 3.9 % |
-/// | the same, a window in 200 steps | 0.9 % | 1.8 % |
-/// | [`Bilinear::with_error(8)`](crate::shadow::Bilinear::with_error), a window in 100 steps | 5.4 % | 7.4 % |
-/// | the same, a window in 1000 steps | below 0.4 % | 0.8 % |
+/// | [`Bilinear::new(6)`](crate::shadow::Bilinear::new), a window in 100 steps | 2.3 % | 2.9 % |
+/// | `Bilinear::new(8)`, a window in 100 steps | 3.0 % | 3.9 % |
+/// | the same, a window in 200 steps | 1.3 % | 2.0 % |
+/// | [`Bilinear::with_error(8)`](crate::shadow::Bilinear::with_error), a window in 100 steps | 6.6 % | 7.8 % |
+/// | the same, a window in 1000 steps | 0.4 % | 1.0 % |
 ///
-/// Two thirds of it are β: a step that carries it costs 1.19 and 1.26 of a plain one here. H itself is had from the gradient and
+/// More than half of it is β: a step that carries it costs 1.19 and 1.26 of a plain one here. H itself is had from the gradient and
 /// β's rate where these are known, and costs an evaluation of the potential elsewhere. `cargo bench
 /// -p shadowstep --bench monitor` measures it.
 #[derive(Clone, Debug)]

@@ -2,6 +2,7 @@
 
 use crate::Rational;
 use crate::number::Number;
+use crate::shadow::spread::epsilon;
 
 /// The walk that round-off is expected to make, √(Σ kick²), by Brouwer's law: errors of the states are independent, so that the
 /// energy goes like the square root of the number of steps (D. Brouwer, Astron. J. 46 (1937) 149).
@@ -21,7 +22,7 @@ pub(crate) struct Walk<N> {
 impl<N: Number> Walk<N> {
     pub(crate) fn new(h: &Rational, context: &N::Context) -> Self {
         let zero = || N::zero(context);
-        Walk { last: None, factor: kick_factor(h, context), sum: zero(), x: zero(), y: zero() }
+        Walk { last: None, factor: kick_factor(&epsilon(context), h, context), sum: zero(), x: zero(), y: zero() }
     }
 
     /// Takes the next state.
@@ -54,19 +55,10 @@ impl<N: Number> Walk<N> {
 ///
 /// A rounding of x is off by at most half the last place of x, by 1/√12 of it rms; and that place is ε|x|/m for a mantissa m
 /// between 1 and 2, of which the mean square with the density 1/(m log 2) is 3ε²x²/(8 log 2). So c² = 1/(32 log 2), c = 0.2123.
-pub(super) fn kick_factor<N: Number>(h: &Rational, context: &N::Context) -> N {
-    let one = N::from_rational(&Rational::from_integer(1.into()), context);
-    let (mut half, mut epsilon, mut sum) = (one.clone(), one.clone(), one.clone());
-    loop {
-        half.divide_integer(2);
-        sum.assign_sum(&one, &half);
-        // a half of ε is a tie, which goes to 1, whose mantissa is even
-        if sum == one {
-            break;
-        }
-        epsilon.assign(&half);
-    }
-    epsilon.multiply(&N::from_rational(&(Rational::new(2123.into(), 10_000.into()) / h), context));
-    half.assign_square(&epsilon);
-    half
+pub(super) fn kick_factor<N: Number>(epsilon: &N, h: &Rational, context: &N::Context) -> N {
+    let mut factor = epsilon.clone();
+    factor.multiply(&N::from_rational(&(Rational::new(2123.into(), 10_000.into()) / h), context));
+    let mut square = N::zero(context);
+    square.assign_square(&factor);
+    square
 }

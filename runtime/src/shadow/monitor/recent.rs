@@ -8,6 +8,8 @@ use crate::kinetic::Kinetic;
 use crate::motion::{Coordinates, Increments, Motion};
 use crate::number::Number;
 use crate::potential::Potential;
+use crate::shadow::spread::epsilon;
+use crate::shadow::walk::kick_factor;
 
 /// States that the turning needs: three second differences.
 const STATES: usize = 5;
@@ -205,31 +207,4 @@ fn assign_second_difference<N: Number>(out: &mut N, a: &N, b: &N, c: &N) {
     out.assign_sum(a, c);
     out.subtract(b);
     out.subtract(b);
-}
-
-/// (c ε/h)².
-///
-/// A rounding of x is off by at most half the last place of x, by 1/√12 of it rms; and that place is ε|x|/m for a mantissa m
-/// between 1 and 2, of which the mean square with the density 1/(m log 2) is 3ε²x²/(8 log 2). So c² = 1/(32 log 2), c = 0.2123.
-fn kick_factor<N: Number>(epsilon: &N, h: &Rational, context: &N::Context) -> N {
-    let mut factor = epsilon.clone();
-    factor.multiply(&N::from_rational(&(Rational::new(2123.into(), 10_000.into()) / h), context));
-    let mut square = N::zero(context);
-    square.assign_square(&factor);
-    square
-}
-
-/// The distance ε from 1 to the next number.
-fn epsilon<N: Number>(context: &N::Context) -> N {
-    let one = N::from_rational(&Rational::from_integer(1.into()), context);
-    let (mut half, mut epsilon, mut sum) = (one.clone(), one.clone(), one.clone());
-    loop {
-        half.divide_integer(2);
-        sum.assign_sum(&one, &half);
-        // a half of ε is a tie, which goes to 1, whose mantissa is even
-        if sum == one {
-            return epsilon;
-        }
-        epsilon.assign(&half);
-    }
 }
