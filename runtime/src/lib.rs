@@ -22,7 +22,8 @@
 //! The numbers may be `f64` or, with the feature `mpfr` (on by default), `rug::Float` at any precision. The energy
 //! oscillates; the *modified* energy, which the scheme conserves almost exactly, does not:
 //!
-//! ```
+#![cfg_attr(feature = "mpfr", doc = "```")]
+#![cfg_attr(not(feature = "mpfr"), doc = "```ignore")]
 //! use shadowstep::{problems::Kepler, run::energy_drift, shadow::Central, tables, Motion, UnitMasses};
 //! use shadowstep::number::{Float, Number, Precision};
 //!
