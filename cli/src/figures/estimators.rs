@@ -52,6 +52,8 @@ pub(crate) fn on_the_exact_flow(results: &Results) -> Drawn {
             "2m + 1 or k + 1 states.",
         );
     }
+    let held = results.digits_held(&run(EXACT, 20), By::Bilinear { k: 16 }, 200);
+    drawn.digits_held("the drift of the exact flow at h = 1/20 by E_16", held);
     drawn
 }
 

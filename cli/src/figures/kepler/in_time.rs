@@ -62,6 +62,8 @@ pub(crate) fn energies(results: &Results) -> Drawn {
         );
     }
     compare_schemes(&mut drawn, &of_schemes);
+    let held = results.digits_held(&run("blanes-moan-srkn6b", 10), BEST, 200);
+    drawn.digits_held("the drift of SRKN6b at h = 1/10", held);
     drawn
 }
 
@@ -126,6 +128,8 @@ pub(crate) fn orders(results: &Results) -> Drawn {
     for (label, found) in &searches {
         found.iter().for_each(|found| with_orders(&mut drawn, label, found));
     }
+    let held = results.digits_held(&run("stormer-verlet", 20), By::Best { largest: 200, early: true }, 200);
+    drawn.digits_held("the drift by the early stop", held);
     let [(_, Some(full)), (_, Some(early))] = &searches else { return drawn };
     let mean = |at: &dyn Fn(f64) -> bool| {
         let of = full.distances.iter().zip(&full.orders).filter(|(r, _)| at(**r));
