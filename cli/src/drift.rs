@@ -67,7 +67,8 @@ struct Permanent {
     first_to_last: String,
     largest_jump: String,
     resolution: String,
-    seen: &'static str,
+    #[serde(serialize_with = "as_word")]
+    seen: Seen,
     from: i64,
     to: i64,
     states: u64,
@@ -89,11 +90,7 @@ impl Permanent {
             first_to_last: permanent.first_to_last.to_text(),
             largest_jump: permanent.largest_jump.to_text(),
             resolution: permanent.resolution.to_text(),
-            seen: match permanent.seen {
-                Seen::Resolved => "resolved",
-                Seen::Below => "below",
-                Seen::OneSide => NOT_SEEN,
-            },
+            seen: permanent.seen,
             from: permanent.between.0,
             to: permanent.between.1,
             states: permanent.states,
@@ -104,11 +101,19 @@ impl Permanent {
     /// The change, or what it is below.
     fn shown(&self) -> String {
         match self.seen {
-            "resolved" => rounded(&self.change, 4),
-            "below" => format!("< {}", rounded(&self.resolution, 2)),
-            other => other.to_owned(),
+            Seen::Resolved => rounded(&self.change, 4),
+            Seen::Below => format!("< {}", rounded(&self.resolution, 2)),
+            Seen::OneSide => NOT_SEEN.to_owned(),
         }
     }
+}
+
+fn as_word<S: Serializer>(seen: &Seen, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(match seen {
+        Seen::Resolved => "resolved",
+        Seen::Below => "below",
+        Seen::OneSide => NOT_SEEN,
+    })
 }
 
 /// All quiet states lie on one side of what is not quiet.

@@ -29,7 +29,7 @@ mod work;
 use std::io::Write;
 use std::path::Path;
 
-use shadowstep_symbolic::nearest;
+use shadowstep_symbolic::meant;
 
 use crate::arguments::FiguresArguments;
 use crate::complaint::{Complaint, Ending};
@@ -139,15 +139,9 @@ fn kept(entry: &Entry, store: &Store) -> Option<Results> {
 }
 
 fn chosen(names: &[String]) -> Result<Vec<&'static Entry>, Complaint> {
-    let known = || FIGURES.iter().map(|entry| entry.name);
-    for name in names {
-        if !known().any(|known| known == name) {
-            let hint = match nearest(name, known()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("known are {}", known().collect::<Vec<_>>().join(", ")),
-            };
-            return Err(Complaint::usage(format!("there is no figure `{name}`"), hint));
-        }
+    let known = FIGURES.map(|entry| entry.name);
+    if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
+        return Err(Complaint::usage(format!("there is no figure `{name}`"), meant(name, &known)));
     }
     let wanted = |entry: &&Entry| names.is_empty() || names.iter().any(|name| name == entry.name);
     Ok(FIGURES.iter().filter(wanted).collect())

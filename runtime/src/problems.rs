@@ -29,7 +29,7 @@ pub use toda::TodaSpring;
 
 use std::collections::BTreeMap;
 
-use shadowstep_symbolic::{Exact, evaluate, nearest, parse};
+use shadowstep_symbolic::{Exact, evaluate, meant, parse};
 use thiserror::Error;
 
 use crate::Rational;
@@ -98,7 +98,7 @@ pub const PROBLEMS: [Problem; 12] = [
 pub fn problem(name: &str) -> Result<&'static Problem, ProblemError> {
     PROBLEMS.iter().find(|p| p.name == name).ok_or_else(|| ProblemError::UnknownProblem {
         name: name.to_owned(),
-        hint: hint(name, &PROBLEMS.map(|p| p.name)),
+        hint: meant(name, &PROBLEMS.map(|p| p.name)),
     })
 }
 
@@ -133,7 +133,7 @@ impl Problem {
                 return Err(ProblemError::UnknownParameter {
                     problem: self.name,
                     name: name.clone(),
-                    hint: hint(name, &names),
+                    hint: meant(name, &names),
                 });
             }
             if set[..i].iter().any(|(other, _)| other == name) {
@@ -168,13 +168,6 @@ fn value_of(name: &str, text: &str, known: &BTreeMap<String, Exact>, digits: u32
     let wrong = |why: String| ProblemError::NoValue { name: name.to_owned(), text: text.to_owned(), why };
     let expression = parse(text).map_err(|e| wrong(e.to_string()))?;
     evaluate(&expression, known, digits).map_err(|e| wrong(e.to_string()))
-}
-
-fn hint(word: &str, known: &[&str]) -> String {
-    match nearest(word, known.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("known are {}", known.join(", ")),
-    }
 }
 
 fn numbers<N: Number>(values: &[(String, Exact)], context: &N::Context) -> Vec<N> {

@@ -66,7 +66,7 @@ pub use exact::{Exact, evaluate};
 pub use fault::{EvaluationError, Fault};
 pub use function::Function;
 pub use graph::{Form, Graph, Node};
-pub use nearest::{nearest, nearest_few};
+pub use nearest::{meant, nearest, nearest_few};
 pub use num_rational::BigRational as Rational;
 pub use potential::{PotentialPrograms, Separation};
 pub use program::{Instruction, Place, Program};

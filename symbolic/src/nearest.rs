@@ -12,6 +12,14 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     (errors <= allowed).then_some(found)
 }
 
+/// What to say of a word that is none of the known ones: the one that was probably meant, or all of them.
+pub fn meant(word: &str, known: &[&str]) -> String {
+    match nearest(word, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known are {}", known.join(", ")),
+    }
+}
+
 /// At most `count` known words, the nearest first; equally near ones keep their order.
 pub fn nearest_few<'a>(word: &str, known: impl IntoIterator<Item = &'a str>, count: usize) -> Vec<&'a str> {
     let mut words: Vec<&str> = known.into_iter().collect();

@@ -13,6 +13,7 @@ use super::work::Task;
 use crate::arithmetic::GUARD_DIGITS;
 use crate::complaint::Complaint;
 use crate::estimator::Chosen;
+use crate::library::EXACT_FLOW;
 use crate::propagator::{Propagator, motion};
 use crate::run::Run;
 
@@ -208,7 +209,7 @@ impl Task for Calculation {
     fn cost(&self) -> f64 {
         let numbers = |run: &Setting, by: f64, states: u32| {
             // a step of the exact flow is a series
-            let step = if run.propagator == "exact-flow" { 3000.0 } else { 60.0 };
+            let step = if run.propagator == EXACT_FLOW { 3000.0 } else { 60.0 };
             (run.steps() as f64 + f64::from(states)) * (by + step) * f64::from(run.digits)
         };
         match &self.what {

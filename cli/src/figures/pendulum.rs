@@ -6,6 +6,7 @@ use super::calculation::{By, Setting};
 use super::charts::{dashed, line, linear, log10_axis, thick};
 use super::drawn::{DECAY_HEADER, Drawn, ROUND_OFF, decay, decay_row, power};
 use super::results::Results;
+use crate::library::EXACT_FLOW;
 
 const SCHEME: &str = "stormer-verlet";
 
@@ -152,7 +153,7 @@ pub(crate) fn bilinear(results: &Results) -> Drawn {
     let linear_one = drifts(SCHEME, central);
     let orders = results.grid(&[8, 16, 40, 100, 200], &[8, 16, 40, 100]);
     let of: Vec<_> = orders.iter().map(|&k| (k, drifts(SCHEME, By::Bilinear { k }))).collect();
-    let [control, control_40] = [central, By::Bilinear { k: 40 }].map(|by| drifts("exact-flow", by));
+    let [control, control_40] = [central, By::Bilinear { k: 40 }].map(|by| drifts(EXACT_FLOW, by));
     let mut curves = vec![thick("m = 200", linear_one.clone(), 0), dashed("m = 200, exact flow", control.clone(), 1)];
     curves.extend(of.iter().enumerate().map(|(i, (k, points))| line(format!("E_{k}"), points.clone(), i + 2)));
     curves.push(dashed("E_40, exact flow", control_40.clone(), 7));
@@ -187,7 +188,7 @@ pub(crate) fn bilinear(results: &Results) -> Drawn {
         points.iter().map(|(n, y)| (1.0 / n, *y)).filter(|(h, _)| *h > 0.12).collect::<Vec<_>>()
     };
     let k = orders[orders.len() - 1];
-    let control_highest = drifts("exact-flow", By::Bilinear { k });
+    let control_highest = drifts(EXACT_FLOW, By::Bilinear { k });
     let row = |label: &str, points: &[(f64, f64)]| decay_row(label, decay(&coarse(points), 0.5).as_ref());
     let mut rows = vec![
         row("m = 200", &linear_one),

@@ -31,15 +31,9 @@ impl<N: Number> Walk<N> {
             self.last = Some((q.to_vec(), p.to_vec()));
             return;
         };
-        for (((q, p), q0), p0) in q.iter().zip(p).zip(last_q).zip(last_p) {
-            for (before, after, rounded) in [(&mut *q0, q, p), (&mut *p0, p, q)] {
-                self.x.assign_difference(after, before);
-                self.y.assign_product(&self.x, rounded);
-                self.sum.add_product(&self.y, &self.y);
-            }
-            q0.assign(q);
-            p0.assign(p);
-        }
+        add_squares(&mut self.sum, [last_q, q], [last_p, p], [&mut self.x, &mut self.y]);
+        last_q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
+        last_p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
     }
 
     /// The walk over all steps.
@@ -48,6 +42,17 @@ impl<N: Number> Walk<N> {
         square.multiply(&self.factor);
         walk.assign_sqrt(&square);
         walk
+    }
+}
+
+/// Adds Σ ((Δq p)² + (Δp q)²) of a step to the newer ones of these states; the rest is room for intermediate results.
+pub(super) fn add_squares<N: Number>(sum: &mut N, [q0, q1]: [&[N]; 2], [p0, p1]: [&[N]; 2], [x, y]: [&mut N; 2]) {
+    for (((q0, q1), p0), p1) in q0.iter().zip(q1).zip(p0).zip(p1) {
+        for [before, after, rounded] in [[q0, q1, p1], [p0, p1, q1]] {
+            x.assign_difference(after, before);
+            y.assign_product(x, rounded);
+            sum.add_product(y, y);
+        }
     }
 }
 

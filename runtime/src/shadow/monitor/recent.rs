@@ -9,7 +9,7 @@ use crate::motion::{Coordinates, Increments, Motion};
 use crate::number::Number;
 use crate::potential::Potential;
 use crate::shadow::spread::epsilon;
-use crate::shadow::walk::kick_factor;
+use crate::shadow::walk::{add_squares, kick_factor};
 
 /// States that the turning needs: three second differences.
 const STATES: usize = 5;
@@ -139,13 +139,7 @@ impl<N: Number> Recent<N> {
     fn add_kick(&mut self) {
         let Recent { q: [q0, q1], p: [.., p0, p1], x, y, z, .. } = self;
         z.assign_zero();
-        for (((q0, q1), p0), p1) in q0.iter().zip(q1).zip(p0).zip(p1) {
-            for [before, after, rounded] in [[q0, &*q1, &*p1], [p0, p1, q1]] {
-                x.assign_difference(after, before);
-                y.assign_product(x, rounded);
-                z.add_product(y, y);
-            }
-        }
+        add_squares(z, [q0, q1], [p0, p1], [x, y]);
         let stages = self.evaluations[1].saturating_sub(self.evaluations[0]).max(1);
         z.multiply_integer(i32::try_from(stages).unwrap_or(i32::MAX));
         self.sums.kicks.add_product(z, &self.factor);

@@ -1,0 +1,146 @@
+//! Loops that are not what the monitor was told.
+
+use super::*;
+
+/// Eccentricity 0.6.
+fn comet<N: Number>(context: &N::Context) -> Start<N, Kepler> {
+    Motion::new(Kepler, UnitMasses, numbers(&["0.4", "0"], context), numbers(&["0", "2"], context))
+}
+
+#[test]
+fn a_forgotten_beta_is_seen() {
+    let plain =
+        watch_loop::<f64, _>(comet(&()), TWENTIETH, 4000, |scheme, weights, motion, _| scheme.step(weights, motion));
+    assert_eq!((plain.verdict, plain.misfits), (Verdict::Inconsistent, plain.windows), "{plain}");
+    assert!(plain.reason().contains("needs_beta()"), "{plain}");
+    // asked for the step before: the first step of each window has no β, and the first window's second
+    let mut asked = true;
+    let late = watch_loop::<f64, _>(comet(&()), TWENTIETH, 4000, |scheme, weights, motion, needs_beta| {
+        as_asked(scheme, weights, motion, std::mem::replace(&mut asked, needs_beta));
+    });
+    assert_eq!(late.verdict, Verdict::Inconsistent, "{late}");
+    // other numbers keep no increments of q and p, and H̄ has to show it
+    let context = precision(30);
+    let kepler = watch_loop::<Float, _>(comet(&context), TWENTIETH, 1000, |scheme, weights, motion, _| {
+        scheme.step(weights, motion);
+    });
+    assert_eq!((kepler.verdict, kepler.misfits), (Verdict::Inconsistent, 0), "{kepler}");
+    assert!(kepler.reason().starts_with("the states do not come from steps of this h that carry β"), "{kepler}");
+    let tenth = ("1/10", "1/10");
+    let henon = watch_loop::<Float, _>(henon_heiles(&context), tenth, 1000, |scheme, weights, motion, _| {
+        scheme.step(weights, motion);
+    });
+    assert_eq!(henon.verdict, Verdict::TooLarge(Sign::NotResolved), "{henon}");
+    assert!(henon.reason().ends_with("or β was not carried"), "{henon}");
+}
+
+#[test]
+fn another_step_size_than_told_is_seen() {
+    for told in ["1/10", "1/40", "1/19", "1/22"] {
+        let report = watch_loop::<f64, _>(comet(&()), ("1/20", told), 4000, as_asked);
+        assert_eq!((report.verdict, report.misfits), (Verdict::Inconsistent, 0), "told {told}: {report}");
+    }
+    let circle = Motion::new(Kepler, UnitMasses, vec![1.0, 0.0], vec![0.0, 1.0]);
+    let report = watch_loop(circle, ("1/20", "1/19"), 4000, as_asked);
+    assert_eq!(report.verdict, Verdict::Inconsistent, "{report}");
+}
+
+/// H − H̄ of a circular orbit never is 0, while H stays: by whatever scheme, and by estimators that are themselves off.
+#[test]
+fn a_circle_is_not_taken_for_another_loop() {
+    let watch_circle = |scheme_name: &str, h: &str, method: &Bilinear| {
+        let (scheme, h) = (scheme(scheme_name), rational(h));
+        let mut motion = Motion::new(Kepler, UnitMasses, [1.0, 0.0], [0.0, 1.0]);
+        let mut monitor = ShadowEnergy::new(&mut motion, &h, method).unwrap().every(20);
+        let weights = scheme.weights::<f64>(&h, &());
+        for _ in 0..1000 {
+            monitor.step(&scheme, &weights, &mut motion).unwrap();
+        }
+        let report = monitor.report();
+        assert_ne!(report.verdict, Verdict::Inconsistent, "{scheme_name}, h = {h}, {method:?}: {report}");
+        report.verdict
+    };
+    for h in ["1/20", "1/5", "2/5"] {
+        for name in ["symplectic-euler", "stormer-verlet", "ruth3", "yoshida4", "mclachlan-s2", "mclachlan-atela2"] {
+            assert_eq!(watch_circle(name, h, &Bilinear::with_error(8)), FINE, "{name}, h = {h}");
+        }
+        for method in [1, 2, 3, 4, 5].into_iter().flat_map(|k| [Bilinear::new(k), Bilinear::with_error(k)]) {
+            watch_circle("stormer-verlet", h, &method);
+        }
+    }
+}
+
+/// p ← (1 − δ)p after each step, with δ far above round-off and far below what a step does.
+#[test]
+fn a_weak_drag_is_a_drift() {
+    for drag in [1e-9, 1e-6] {
+        let report = watch_loop::<f64, _>(comet(&()), TWENTIETH, 20_000, |scheme, weights, motion, needs_beta| {
+            as_asked(scheme, weights, motion, needs_beta);
+            motion.p_mut().iter_mut().for_each(|p| *p *= 1.0 - drag);
+        });
+        assert_eq!((report.verdict, report.course), (Verdict::Drifts, Some(Course::Drift)), "{drag}: {report}");
+        let reason = report.reason();
+        assert!(reason.contains("steadily") && !reason.contains("bounded"), "{reason}");
+    }
+    // within windows changes of a thousandth of a step and more are seen at once
+    let strong = watch_loop::<f64, _>(comet(&()), TWENTIETH, 2000, |scheme, weights, motion, needs_beta| {
+        as_asked(scheme, weights, motion, needs_beta);
+        motion.p_mut().iter_mut().for_each(|p| *p *= 1.0 - 1e-3);
+    });
+    assert_eq!(strong.verdict, Verdict::Inconsistent, "{strong}");
+}
+
+/// The slow oscillation of the planets' H̄ looks like a drift for a while: that is no push, but not called bounded either.
+#[test]
+fn a_slow_oscillation_is_no_push() {
+    for (h, steps) in
+        [("200", 5000), ("200", 10_000), ("200", 20_000), ("300", 20_000), ("400", 20_000), ("600", 20_000)]
+    {
+        let report = watch("outer-solar-system", &[], "stormer-verlet", h, steps);
+        assert_eq!(report.verdict, Verdict::Fine, "h = {h}, {steps} steps: {report}");
+        if report.course == Some(Course::Drift) {
+            assert!(!report.reason().contains("bounded"), "{report}");
+        }
+    }
+}
+
+/// A momentum that is kicked once, between windows, and an angle that is wrapped where the potential has no such period.
+#[test]
+fn a_moved_state_is_named_as_a_cause() {
+    let (mut n, mut kicked) = (0, false);
+    let report = watch_loop::<f64, _>(comet(&()), TWENTIETH, 4000, |scheme, weights, motion, needs_beta| {
+        as_asked(scheme, weights, motion, needs_beta);
+        n += 1;
+        if n >= 2000 && !needs_beta && !kicked {
+            motion.p_mut()[0] += 0.02;
+            kicked = true;
+        }
+    });
+    assert!(kicked && report.misfits == 0, "{report}");
+    assert_eq!(report.verdict, MOVES, "{report}");
+    assert!(report.reason().contains("something other than the scheme moved the state"), "{report}");
+}
+
+/// An angle that is wrapped leaves H and its gradient as they are, but not β, nor H̄ as the estimator sees it.
+#[test]
+fn a_wrapped_angle_is_seen() {
+    let rotor = Motion::new(Pendulum, UnitMasses, vec![0.0], vec![2.5]);
+    let report = watch_loop::<f64, _>(rotor, TWENTIETH, 4000, |scheme, weights, motion, needs_beta| {
+        as_asked(scheme, weights, motion, needs_beta);
+        let turns = (motion.q()[0] / std::f64::consts::TAU).round();
+        motion.q_mut()[0] -= turns * std::f64::consts::TAU;
+    });
+    assert_eq!(report.verdict, Verdict::Inconsistent, "{report}");
+    assert!((1..report.windows).contains(&report.misfits), "{report}");
+    assert!(report.reason().ends_with("or q or p were changed between the steps"), "{report}");
+}
+
+/// E_1 has no errors, with or without: what it does not know it says.
+#[test]
+fn unknown_errors_are_named() {
+    for method in [Bilinear::new(1), Bilinear::with_error(1)] {
+        let report = watch_by(&method, "kepler", &[], "stormer-verlet", "1/20", 4000);
+        assert_eq!(report.verdict, MOVES, "{report}");
+        assert!(report.reason().contains("this estimator gives no errors"), "{report}");
+    }
+}

@@ -1,0 +1,112 @@
+//! Verdicts on problems and hard cases.
+
+use super::*;
+
+fn verdicts(expected: Verdict, name: &str, cases: &[(&[(&str, &str)], &str)]) {
+    for (set, h) in cases {
+        let report = watch(name, set, "stormer-verlet", h, 20_000);
+        assert_eq!(report.verdict, expected, "{name} {set:?}, h = {h}: {report}");
+    }
+}
+
+#[test]
+fn the_oscillator() {
+    verdicts(FINE, "harmonic-oscillator", &[(&[], "0.1"), (&[], "0.5"), (&[], "0.8")]);
+    // 2 sin(π/5), 2 sin(π/4), 2 sin(π/3): a linear oscillator has no resonances, but large errors
+    let large = ["1.1755705", "1.41421356", "1.7320508", "1.9", "1.99"];
+    verdicts(ENERGY_ERROR, "harmonic-oscillator", &large.map(|h| (&[] as &[_], h)));
+}
+
+#[test]
+fn the_pendulum_and_its_resonances() {
+    let of = |p| [("p", p)];
+    verdicts(FINE, "pendulum", &[(&of("0.3"), "0.8"), (&of("1"), "0.5"), (&of("2"), "0.1"), (&of("2.5"), "0.3")]);
+    verdicts(Verdict::NearResonance { turns: 1, steps: 4 }, "pendulum", &[(&of("0.3"), "1.42")]);
+    verdicts(ENERGY_ERROR, "pendulum", &[(&of("0.3"), "0.95"), (&of("0.3"), "1.2"), (&of("0.3"), "1.73")]);
+    verdicts(MOVES, "pendulum", &[(&of("1"), "1.5"), (&of("2.5"), "1.5")]);
+    verdicts(Verdict::TooLarge(Sign::NotResolved), "pendulum", &[(&of("1"), "1.25")]);
+    // a weak resonance: seen with more states, and gone at a step that is a little larger
+    let by_sixteen = |h| watch_by(&Bilinear::with_error(16), "pendulum", &[("p", "0.3")], "stormer-verlet", h, 20_000);
+    assert_eq!(by_sixteen("1.01").verdict, Verdict::NearResonance { turns: 1, steps: 6 });
+    assert_eq!(by_sixteen("1.05").verdict, ENERGY_ERROR);
+}
+
+#[test]
+fn kepler() {
+    let of = |e| [("eccentricity", e)];
+    let fine: [(&[_], &str); 6] = [
+        (&of("0.6"), "1/100"),
+        (&of("0.6"), "1/20"),
+        (&of("0.6"), "1/10"),
+        (&of("0"), "1/20"),
+        (&of("0.9"), "1/200"),
+        (&of("0.9"), "1/2000"),
+    ];
+    verdicts(FINE, "kepler", &fine);
+    verdicts(MOVES, "kepler", &[(&of("0.6"), "1/5"), (&of("0.6"), "1/4")]);
+    // thrown out by the first steps
+    verdicts(ENERGY_ERROR, "kepler", &[(&of("0.6"), "1/3"), (&of("0.9"), "1/20"), (&of("0.99"), "1/20")]);
+    verdicts(Verdict::RoundOff, "kepler", &[(&of("0"), "1/2000")]);
+    for (scheme, h, expected) in
+        [("yoshida4", "1/20", FINE), ("yoshida4", "1/5", MOVES), ("blanes-moan-s6", "1/200", FINE)]
+    {
+        assert_eq!(watch("kepler", &[], scheme, h, 20_000).verdict, expected, "{scheme}, h = {h}");
+    }
+}
+
+#[test]
+fn henon_heiles_regular_and_chaotic() {
+    let (regular, chaotic) = ([("px", "0.1")], [("px", "0.5"), ("py", "0.2")]);
+    verdicts(FINE, "henon-heiles", &[(&regular, "1/10"), (&regular, "1/2"), (&chaotic, "1/10"), (&chaotic, "1/2")]);
+    verdicts(ENERGY_ERROR, "henon-heiles", &[(&regular, "1")]);
+    let more = [("px", "0.3"), ("py", "0.3")];
+    let report = watch("henon-heiles", &more, "stormer-verlet", "0.9", 50_000);
+    assert_eq!(report.verdict, MOVES, "{report}");
+}
+
+#[test]
+fn many_bodies() {
+    verdicts(FINE, "pythagorean", &[(&[], "1/10000")]);
+    verdicts(MOVES, "pythagorean", &[(&[], "1/1000"), (&[], "1/100")]);
+    verdicts(FINE, "fput-stiff", &[(&[], "0.001"), (&[], "0.02")]);
+    verdicts(ENERGY_ERROR, "fput-stiff", &[(&[], "0.03")]);
+    verdicts(FINE, "outer-solar-system", &[(&[], "100"), (&[], "200")]);
+    verdicts(MOVES, "outer-solar-system", &[(&[], "800")]);
+    verdicts(FINE, "argon-crystal", &[(&[], "4e-5")]);
+    verdicts(MOVES, "argon-crystal", &[(&[], "1e-4")]);
+}
+
+/// A body that nothing pulls has an energy error of 0, of which nothing is a part.
+#[test]
+fn free_motion_is_fine() {
+    potential! { struct Nothing; U(x) = 0*x }
+    let (scheme, h) = (scheme("stormer-verlet"), rational("1/4"));
+    let mut motion = Motion::new(Nothing, UnitMasses, [0.0], [1.0]);
+    let mut monitor = ShadowEnergy::new(&mut motion, &h, &Bilinear::with_error(4)).unwrap();
+    let weights = scheme.weights::<f64>(&h, &());
+    for n in 1..=100 {
+        monitor.step(&scheme, &weights, &mut motion).unwrap();
+        // with windows of 11 states the 16th ends at n = 25
+        let report = monitor.report();
+        assert_eq!(report.verdict == Verdict::Undecided, n < 25, "n = {n}");
+        assert!(!report.to_string().is_empty());
+    }
+    assert_eq!(monitor.report().verdict, Verdict::Fine);
+}
+
+/// A kinetic energy of any kind, by a scheme for it.
+#[test]
+fn any_kinetic_energy() {
+    kinetic! { struct Relativistic; T(p) = sqrt(1 + p^2) }
+    potential! { struct Spring; U(q) = q^2/2 }
+    let scheme = scheme("yoshida4").for_every_kinetic().unwrap();
+    let h = rational("1/10");
+    let mut motion = Motion::new(Spring, Relativistic, [1.0], [0.0]);
+    let mut monitor = ShadowEnergy::new(&mut motion, &h, &Bilinear::with_error(8)).unwrap().every(40);
+    let weights = scheme.weights::<f64>(&h, &());
+    for _ in 0..8000 {
+        monitor.step(&scheme, &weights, &mut motion).unwrap();
+    }
+    let report = monitor.report();
+    assert!(report.verdict == Verdict::Fine && report.moved < 1e-4 * report.energy_error, "{report}");
+}
