@@ -6,6 +6,8 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Token, Visibility, braced, parenthesized};
 
+use shadowstep_symbolic::{Expression, Graph, GraphError, Node};
+
 use crate::formula::Formula;
 use crate::program::Names;
 
@@ -151,7 +153,32 @@ impl Definition {
         (structure, quote! { #name<N> })
     }
 
-    /// The names of the parameters, as formulas have them.
+    /// The graph of the formula, which `build` makes of its syntax tree.
+    ///
+    /// # Errors
+    /// An invalid formula, at its tokens.
+    pub(crate) fn graph(
+        &self,
+        build: impl FnOnce(&mut Graph, &Expression) -> Result<Node, GraphError>,
+    ) -> syn::Result<(Graph, Node)> {
+        let mut graph = Graph::new();
+        let expression = self.formula.parse()?;
+        let energy = build(&mut graph, &expression).map_err(|e| self.formula.error(&e.range, &e.fault))?;
+        Ok((graph, energy))
+    }
+
+    /// The graph of a formula in coordinates or momenta, of which there is at least one.
+    ///
+    /// # Errors
+    /// No arguments, with the message `empty`; an invalid formula, at its tokens.
+    pub(crate) fn graph_of_arguments(&self, empty: &str) -> syn::Result<(Graph, Node)> {
+        if self.arguments.is_empty() {
+            return Err(syn::Error::new(self.function.span(), empty));
+        }
+        self.graph(|graph, expression| graph.build(expression, &texts(&self.arguments), &self.parameters()))
+    }
+
+    /// The names of the parameters, as they are in formulas.
     pub(crate) fn parameters(&self) -> Vec<String> {
         self.parameters.iter().map(|parameter| parameter.name.to_string()).collect()
     }

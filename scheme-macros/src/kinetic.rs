@@ -2,10 +2,11 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
-use shadowstep_symbolic::{Graph, PotentialPrograms, Program};
+use shadowstep_symbolic::PotentialPrograms;
 
-use crate::definition::{Definition, texts};
-use crate::program::{numbered, own, prepare, scratch_names, size, statements};
+use crate::definition::Definition;
+use crate::methods::Methods;
+use crate::program::{numbered, own, size};
 
 /// T with T_p and pᵀT_p − 2T.
 struct Derived {
@@ -17,52 +18,24 @@ struct Derived {
 /// The struct and its implementation.
 ///
 /// # Errors
-/// A formula that is none, at its tokens.
+/// An invalid formula, at its tokens.
 pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     let derived = derive(definition)?;
-    let Derived { programs, quadratic } = &derived;
     let (structure, this) = definition.structure(&documentation(definition, &derived), &[]);
-    let names = definition.names();
-    let prepare = prepare(&[&programs.energy, &programs.gradient_and_rate], &names);
     let arguments = &definition.arguments;
-    // names of our own, whatever the momenta are called
-    let [weight, p, q, beta, energy, rate, scratch, results] =
-        ["weight", "p", "q", "beta", "energy", "rate", "scratch", "results"].map(own);
-    let body = |program: &Program, kept_before, outputs: &[TokenStream]| {
-        let scratch_names = scratch_names(program, kept_before, programs.kept());
-        let statements = statements(program, &names, outputs);
-        quote! {
-            let [#(#arguments),*] = #p else { ::core::unreachable!("as many as momenta") };
-            #scratch_names
-            #(#statements)*
-        }
+    // hygienic names, different from those of the momenta
+    let [weight, p, q, beta, energy, scratch] = ["weight", "p", "q", "beta", "energy", "scratch"].map(own);
+    let methods = Methods {
+        programs: &derived.programs,
+        names: definition.names(),
+        arguments: quote! { let [#(#arguments),*] = #p else { ::core::unreachable!("as many as momenta") }; },
     };
-    let velocities: Vec<_> = (0..arguments.len()).map(|i| numbered("velocity", i)).collect();
-    let positions: Vec<_> = (0..arguments.len()).map(|i| numbered("q", i)).collect();
-    // behind what the programs use: T_p, and pᵀT_p − 2T where it is not nothing
-    let program_scratch = programs.kept() + programs.scratch();
-    let scratch_size = size(program_scratch + arguments.len() + usize::from(!quadratic));
-    let program_scratch = size(program_scratch);
-    let drift = |program: &Program, outputs: &[TokenStream]| {
-        let body = body(program, programs.energy.kept, outputs);
-        quote! {
-            let (#scratch, #results) = #scratch.split_at_mut(#program_scratch);
-            let [#(#outputs,)* ..] = #results else { ::core::unreachable!("as much as asked for") };
-            #body
-            let [#(#positions),*] = #q else { ::core::unreachable!("as many as momenta") };
-            #(#positions.add_product(#weight, #velocities);)*
-        }
-    };
-    let plain = drift(&programs.gradient, &velocities);
-    let augmented = if *quadratic {
-        quote! { ::shadowstep::Kinetic::drift(self, #weight, #p, #q, #scratch); }
-    } else {
-        let outputs: Vec<_> = velocities.iter().cloned().chain([quote! { #rate }]).collect();
-        let drift = drift(&programs.gradient_and_rate, &outputs);
-        quote! { #drift #beta.add_product(#weight, #rate); }
-    };
-    let energy_body = body(&programs.energy, 0, &[quote! { #energy }]);
-    let class = if *quadratic {
+    let (drift, drift_augmented) = drifts(&methods, arguments.len(), derived.quadratic);
+    let prepare = methods.prepare();
+    let energy_body = methods.energy(&energy);
+    // behind what the programs use: T_p, and pᵀT_p − 2T where it is not 0
+    let scratch_size = size(methods.scratch() + arguments.len() + usize::from(!derived.quadratic));
+    let class = if derived.quadratic {
         quote! { Quadratic }
     } else {
         quote! { General }
@@ -79,7 +52,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
             #prepare
             #[inline]
             fn drift(&self, #weight: &N, #p: &[N], #q: &mut [N], #scratch: &mut [N]) {
-                #plain
+                #drift
             }
             #[inline]
             fn drift_augmented(
@@ -90,7 +63,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #beta: &mut N,
                 #scratch: &mut [N],
             ) {
-                #augmented
+                #drift_augmented
             }
             fn energy(&self, #p: &[N], #energy: &mut N, #scratch: &mut [N]) {
                 #energy_body
@@ -99,21 +72,43 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     })
 }
 
+/// The bodies of `drift`, q += w T_p, and of `drift_augmented`, which adds w (pᵀT_p − 2T) to β too.
+fn drifts(methods: &Methods<'_>, dimension: usize, quadratic: bool) -> (TokenStream, TokenStream) {
+    let [weight, p, q, beta, rate, scratch, results] =
+        ["weight", "p", "q", "beta", "rate", "scratch", "results"].map(own);
+    let [velocities, positions] =
+        ["velocity", "q"].map(|name| (0..dimension).map(|i| numbered(name, i)).collect::<Vec<_>>());
+    let program_scratch = size(methods.scratch());
+    let drift = |outputs: &[TokenStream], body: TokenStream| {
+        quote! {
+            let (#scratch, #results) = #scratch.split_at_mut(#program_scratch);
+            let [#(#outputs,)* ..] = #results else { ::core::unreachable!("as much as asked for") };
+            #body
+            let [#(#positions),*] = #q else { ::core::unreachable!("as many as momenta") };
+            #(#positions.add_product(#weight, #velocities);)*
+        }
+    };
+    let plain = drift(&velocities, methods.gradient(&velocities));
+    let augmented = if quadratic {
+        quote! { ::shadowstep::Kinetic::drift(self, #weight, #p, #q, #scratch); }
+    } else {
+        let outputs: Vec<_> = velocities.iter().cloned().chain([quote! { #rate }]).collect();
+        let drift = drift(&outputs, methods.gradient_and_rate(&outputs));
+        quote! { #drift #beta.add_product(#weight, #rate); }
+    };
+    (plain, augmented)
+}
+
 fn derive(definition: &Definition) -> syn::Result<Derived> {
-    let Definition { pair, function, arguments, properties, formula, .. } = definition;
+    let Definition { pair, function, arguments, properties, .. } = definition;
     if let Some(word) = pair.as_ref().or(properties.first()) {
         return Err(syn::Error::new(word.span(), "pairs are for potentials; a kinetic energy is `T(px, py) = …`"));
     }
     if function != "T" {
         return Err(syn::Error::new(function.span(), "the kinetic energy is called T: `T(px, py) = …`"));
     }
-    if arguments.is_empty() {
-        return Err(syn::Error::new(function.span(), "a kinetic energy has at least one momentum: `T(p) = …`"));
-    }
-    let mut graph = Graph::new();
-    let energy = graph
-        .build(&formula.parse()?, &texts(arguments), &definition.parameters())
-        .map_err(|e| formula.error(&e.range, &e.fault))?;
+    let (mut graph, energy) =
+        definition.graph_of_arguments("a kinetic energy has at least one momentum: `T(p) = …`")?;
     let quadratic = graph.is_quadratic(energy, arguments.len());
     Ok(Derived { programs: graph.potential(energy, arguments.len()), quadratic })
 }
@@ -148,9 +143,7 @@ mod tests {
     #[test]
     fn generated_code() {
         for (name, text) in CASES {
-            let code = super::emit(&syn::parse_str(text).unwrap()).unwrap();
-            let file = syn::parse2(code).expect("generated code is Rust");
-            insta::assert_snapshot!(name, prettyplease::unparse(&file), text);
+            insta::assert_snapshot!(name, crate::methods::tests::code(super::emit, text), text);
         }
     }
 }

@@ -12,6 +12,7 @@ mod emit;
 mod formula;
 mod kinetic;
 mod locate;
+mod methods;
 mod pair;
 mod potential;
 mod program;

@@ -2,15 +2,16 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
-use shadowstep_symbolic::{Graph, PotentialPrograms, Program, Separation, is_symmetric};
+use shadowstep_symbolic::{PotentialPrograms, Separation, is_symmetric};
 
 use crate::definition::{Definition, texts};
-use crate::program::{own, prepare, scratch_names, size, statements};
+use crate::methods::Methods;
+use crate::program::{own, size};
 
 /// The struct and its implementation.
 ///
 /// # Errors
-/// A formula that is none, arguments that are none of a pair, at their tokens.
+/// An invalid formula, arguments that a pair does not have, at their tokens.
 pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     let separation = separation(definition)?;
     let properties = properties(definition)?;
@@ -21,8 +22,6 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     } else {
         quote! { <N> }
     };
-    let prepare = prepare(&[&programs.energy, &programs.gradient_and_rate], &definition.names());
-    let prepare = prepare.unwrap_or_else(|| quote! { fn prepare(&self, _: &mut [N], _: &N::Context) {} });
     let x = &definition.arguments[0];
     let [i, j, energy, slope, rate, scratch] = ["i", "j", "energy", "slope", "rate", "scratch"].map(own);
     let written = definition.properties.iter().map(|name| {
@@ -32,16 +31,12 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
         let property = format_ident!("{property}", span = name.span());
         quote! { let #name = &self.#property[#index]; }
     });
-    let written = quote! { #(#written)* };
-    let body = |program: &Program, kept_before, outputs: &[TokenStream]| {
-        let scratch_names = scratch_names(program, kept_before, programs.kept());
-        let statements = statements(program, &definition.names(), outputs);
-        quote! { #written #scratch_names #(#statements)* }
-    };
-    let energy_body = body(&programs.energy, 0, &[quote! { #energy }]);
-    let slope_body = body(&programs.gradient, programs.energy.kept, &[quote! { #slope }]);
-    let rate_body = body(&programs.gradient_and_rate, programs.energy.kept, &[quote! { #slope }, quote! { #rate }]);
-    let scratch_size = size(programs.kept() + programs.scratch());
+    let methods = Methods { programs: &programs, names: definition.names(), arguments: quote! { #(#written)* } };
+    let prepare = methods.prepare().unwrap_or_else(|| quote! { fn prepare(&self, _: &mut [N], _: &N::Context) {} });
+    let energy_body = methods.energy(&energy);
+    let slope_body = methods.gradient(&[quote! { #slope }]);
+    let rate_body = methods.gradient_and_rate(&[quote! { #slope }, quote! { #rate }]);
+    let scratch_size = size(methods.scratch());
     let kind = format_ident!("{separation:?}");
     Ok(quote! {
         #structure
@@ -114,11 +109,9 @@ fn properties(definition: &Definition) -> syn::Result<Vec<Ident>> {
 }
 
 fn programs(definition: &Definition, separation: Separation) -> syn::Result<PotentialPrograms> {
-    let Definition { properties, formula, .. } = definition;
-    let mut graph = Graph::new();
-    let energy = graph
-        .build_pair(&formula.parse()?, separation.name(), &texts(properties), &definition.parameters())
-        .map_err(|e| formula.error(&e.range, &e.fault))?;
+    let (mut graph, energy) = definition.graph(|graph, expression| {
+        graph.build_pair(expression, separation.name(), &texts(&definition.properties), &definition.parameters())
+    })?;
     Ok(graph.pair(energy, separation))
 }
 

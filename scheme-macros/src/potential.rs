@@ -2,16 +2,17 @@
 
 use proc_macro2::TokenStream;
 use quote::quote;
-use shadowstep_symbolic::{Graph, PotentialPrograms, Program};
+use shadowstep_symbolic::PotentialPrograms;
 
-use crate::definition::{Definition, texts};
+use crate::definition::Definition;
+use crate::methods::Methods;
 use crate::pair;
-use crate::program::{numbered, own, prepare, scratch_names, size, statements};
+use crate::program::{numbered, own, size};
 
 /// The struct and its implementation.
 ///
 /// # Errors
-/// A formula that is none, at its tokens.
+/// An invalid formula, at its tokens.
 pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     if definition.function != "U" {
         return Err(syn::Error::new(definition.function.span(), "the potential is called U: `U(x, y) = …`"));
@@ -21,28 +22,22 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     }
     let programs = programs(definition)?;
     let (structure, this) = definition.structure(&documentation(definition, &programs), &[]);
-    let dimension = definition.arguments.len();
-    let names = definition.names();
-    let prepare = prepare(&[&programs.energy, &programs.gradient_and_rate], &names);
     let arguments = &definition.arguments;
-    // names of our own, whatever the coordinates are called
+    // hygienic names, different from those of the coordinates
     let [q, energy, gradient, rate, scratch] = ["q", "energy", "gradient", "rate", "scratch"].map(own);
-    let body = |program: &Program, kept_before, outputs: &[TokenStream]| {
-        let scratch_names = scratch_names(program, kept_before, programs.kept());
-        let statements = statements(program, &names, outputs);
-        quote! {
-            let [#(#arguments),*] = #q else { ::core::unreachable!("as many as coordinates") };
-            #scratch_names
-            #(#statements)*
-        }
+    let methods = Methods {
+        programs: &programs,
+        names: definition.names(),
+        arguments: quote! { let [#(#arguments),*] = #q else { ::core::unreachable!("as many as coordinates") }; },
     };
-    let parts: Vec<_> = (0..dimension).map(|i| numbered("gradient", i)).collect();
+    let parts: Vec<_> = (0..arguments.len()).map(|i| numbered("gradient", i)).collect();
     let with_rate: Vec<_> = parts.iter().cloned().chain([quote! { #rate }]).collect();
-    let energy_body = body(&programs.energy, 0, &[quote! { #energy }]);
-    let gradient_body = body(&programs.gradient, programs.energy.kept, &parts);
-    let rate_body = body(&programs.gradient_and_rate, programs.energy.kept, &with_rate);
+    let prepare = methods.prepare();
+    let energy_body = methods.energy(&energy);
+    let gradient_body = methods.gradient(&parts);
+    let rate_body = methods.gradient_and_rate(&with_rate);
     let components = quote! { let [#(#parts),*] = #gradient else { ::core::unreachable!("as many as coordinates") }; };
-    let (dimension, scratch_size) = (size(dimension), size(programs.kept() + programs.scratch()));
+    let (dimension, scratch_size) = (size(arguments.len()), size(methods.scratch()));
     Ok(quote! {
         #structure
 
@@ -75,18 +70,11 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
 }
 
 fn programs(definition: &Definition) -> syn::Result<PotentialPrograms> {
-    let Definition { function, arguments, properties, formula, .. } = definition;
-    if let Some(property) = properties.first() {
+    if let Some(property) = definition.properties.first() {
         return Err(syn::Error::new(property.span(), "properties of bodies are for pairs: `pair U(r2; m_i, m_j) = …`"));
     }
-    if arguments.is_empty() {
-        return Err(syn::Error::new(function.span(), "a potential has at least one coordinate: `U(q) = …`"));
-    }
-    let mut graph = Graph::new();
-    let energy = graph
-        .build(&formula.parse()?, &texts(arguments), &definition.parameters())
-        .map_err(|e| formula.error(&e.range, &e.fault))?;
-    Ok(graph.potential(energy, arguments.len()))
+    let (mut graph, energy) = definition.graph_of_arguments("a potential has at least one coordinate: `U(q) = …`")?;
+    Ok(graph.potential(energy, definition.arguments.len()))
 }
 
 fn documentation(definition: &Definition, programs: &PotentialPrograms) -> Vec<String> {
@@ -117,9 +105,7 @@ mod tests {
     #[test]
     fn generated_code() {
         for (name, text) in CASES {
-            let code = super::emit(&syn::parse_str(text).unwrap()).unwrap();
-            let file = syn::parse2(code).expect("generated code is Rust");
-            insta::assert_snapshot!(name, prettyplease::unparse(&file), text);
+            insta::assert_snapshot!(name, crate::methods::tests::code(super::emit, text), text);
         }
     }
 }

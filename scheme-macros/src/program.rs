@@ -1,71 +1,15 @@
-//! A straight-line program → the statements that carry it out, on numbers of every type.
+//! An instruction of a straight-line program → the statement that executes it, on numbers of every type.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_symbolic::{Instruction, Place, Program};
+use shadowstep_symbolic::{Instruction, Place};
 
 /// What the code calls the numbers of a formula.
 pub(crate) struct Names {
     pub(crate) coordinates: Vec<TokenStream>,
     pub(crate) parameters: Vec<TokenStream>,
     pub(crate) properties: Vec<TokenStream>,
-}
-
-/// The method `prepare`, which computes what each program keeps, one after the other from the beginning of the scratch
-/// space; nothing, where nothing is kept.
-pub(crate) fn prepare(programs: &[&Program], names: &Names) -> Option<TokenStream> {
-    let mut before = 0;
-    let mut parts = Vec::new();
-    for program in programs.iter().filter(|program| program.kept > 0) {
-        let constants: Vec<_> = (0..program.constants).map(|i| numbered("constant", i)).collect();
-        let (count, kept) = (size(program.constants), size(program.kept));
-        let (from, to) = (size(before), size(before + program.kept));
-        let instructions = program.prepare.iter().map(|instruction| statement(instruction, names, &[]));
-        parts.push(quote! {
-            let mut constants: [N; #count] = ::core::array::from_fn(|_| N::zero(context));
-            let [#(#constants),*] = &mut constants;
-            #(#instructions)*
-            for (kept, constant) in scratch[#from..#to].iter_mut().zip(&constants[..#kept]) {
-                kept.assign(constant);
-            }
-        });
-        before += program.kept;
-    }
-    (!parts.is_empty()).then(|| {
-        quote! {
-            fn prepare(&self, scratch: &mut [N], context: &N::Context) {
-                #({ #parts })*
-            }
-        }
-    })
-}
-
-/// Names the numbers in the scratch space: `kept` constants, of which this program's begin at `kept_before`, then its
-/// intermediate results; nothing, where it needs none.
-pub(crate) fn scratch_names(program: &Program, kept_before: usize, kept: usize) -> Option<TokenStream> {
-    let before = (0..kept_before).map(|_| quote! { _ });
-    let constants = (0..program.kept).map(|i| numbered("constant", i));
-    let after = (kept_before + program.kept..kept).map(|_| quote! { _ });
-    let intermediate = (0..program.scratch).map(|i| numbered("scratch", i));
-    let places = before.chain(constants).chain(after).chain(intermediate);
-    let scratch = own("scratch");
-    let registers: Vec<_> = (0..program.scratch).map(|i| numbered("scratch", i)).collect();
-    // of small numbers copies, so that no intermediate result is stored
-    let registers = (!registers.is_empty()).then(|| {
-        quote! { let [#(mut #registers),*] = [#(#registers),*].map(N::register); }
-    });
-    (program.kept + program.scratch > 0).then(|| {
-        quote! {
-            let [#(#places,)* ..] = #scratch else { ::core::unreachable!("as much as asked for") };
-            #registers
-        }
-    })
-}
-
-/// The program, a statement an instruction.
-pub(crate) fn statements(program: &Program, names: &Names, outputs: &[TokenStream]) -> Vec<TokenStream> {
-    program.instructions.iter().map(|instruction| statement(instruction, names, outputs)).collect()
 }
 
 fn place_name(place: Place, names: &Names, outputs: &[TokenStream]) -> TokenStream {
@@ -79,7 +23,8 @@ fn place_name(place: Place, names: &Names, outputs: &[TokenStream]) -> TokenStre
     }
 }
 
-fn statement(instruction: &Instruction, names: &Names, outputs: &[TokenStream]) -> TokenStream {
+/// The statement of an instruction.
+pub(crate) fn statement(instruction: &Instruction, names: &Names, outputs: &[TokenStream]) -> TokenStream {
     let place = |place| place_name(place, names, outputs);
     let method = Ident::new(&instruction.method(), Span::mixed_site());
     let operand = |at: Place| match at {
