@@ -9,7 +9,7 @@ pub use pair::FormulaPair;
 
 use std::ops::Range;
 
-use shadowstep_symbolic::{Graph, GraphError, Node, SyntaxError, parse};
+use shadowstep_symbolic::{Graph, Node, SemanticError, SyntaxError, parse};
 use thiserror::Error;
 
 pub use kinetic::FormulaKinetic;
@@ -41,7 +41,7 @@ pub enum FormulaError {
     Syntax(#[from] SyntaxError),
     /// The formula is none of these coordinates and parameters, or not smooth.
     #[error("{}", .0.fault)]
-    Meaning(GraphError),
+    Meaning(SemanticError),
     /// A coordinate or parameter has the name of another.
     #[error("`{0}` is there twice; the names of coordinates and parameters must differ")]
     RepeatedName(String),

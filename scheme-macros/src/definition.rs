@@ -6,7 +6,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Token, Visibility, braced, parenthesized};
 
-use shadowstep_symbolic::{Expression, Graph, GraphError, Node};
+use shadowstep_symbolic::{Expression, Graph, Node, SemanticError};
 
 use crate::formula::Formula;
 use crate::program::Names;
@@ -159,7 +159,7 @@ impl Definition {
     /// An invalid formula, at its tokens.
     pub(crate) fn graph(
         &self,
-        build: impl FnOnce(&mut Graph, &Expression) -> Result<Node, GraphError>,
+        build: impl FnOnce(&mut Graph, &Expression) -> Result<Node, SemanticError>,
     ) -> syn::Result<(Graph, Node)> {
         let mut graph = Graph::new();
         let expression = self.formula.parse()?;

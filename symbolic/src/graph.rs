@@ -3,15 +3,22 @@
 //! A node can only be made of nodes that exist, so the nodes below a node have smaller numbers. Whoever
 //! needs the parts before the whole walks through the numbers in order, without recursion.
 
+pub(crate) mod build;
+mod degree;
+mod derivative;
+pub(crate) mod pair;
+mod quadratic;
+mod rate;
+pub(crate) mod simplify;
+
 use std::collections::{BTreeSet, HashMap};
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-use num_traits::One;
+use num_traits::Zero;
 
-use crate::Rational;
-use crate::derivative::Derivation;
-use crate::function::Function;
+use crate::number::function::Function;
+use crate::number::rational::Rational;
 
 /// A formula in a [`Graph`]: a handle that is cheap to copy and means nothing elsewhere.
 ///
@@ -46,6 +53,15 @@ pub enum Form {
     Product(Vec<(Node, Rational)>),
     /// function(node)
     Call(Function, Node),
+}
+
+/// A linear map D of formulas with D(f g) = f D(g) + g D(f).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Derivation {
+    /// ∂/∂q_i
+    Along(usize),
+    /// Σ q_i ∂/∂q_i over all coordinates: k times a function that is homogeneous of degree k
+    Radial,
 }
 
 /// Formulas without repetitions, simplified as they are made.
@@ -161,6 +177,11 @@ impl Graph {
         }
     }
 
+    /// Whether the node is the number 0.
+    pub(crate) fn is_zero(&self, node: Node) -> bool {
+        self.as_number(node).is_some_and(Zero::is_zero)
+    }
+
     /// A number.
     pub fn number(&mut self, value: Rational) -> Node {
         self.intern(Form::Number(value))
@@ -179,26 +200,6 @@ impl Graph {
     /// A property of bodies.
     pub fn property(&mut self, index: usize) -> Node {
         self.intern(Form::Property(index))
-    }
-
-    /// coefficient · node
-    pub fn scaled(&mut self, node: Node, coefficient: &Rational) -> Node {
-        self.sum(&[(node, coefficient.clone())])
-    }
-
-    /// node^exponent, as described at [`Form::Product`]
-    pub fn power(&mut self, node: Node, exponent: &Rational) -> Node {
-        self.product(&[(node, exponent.clone())])
-    }
-
-    /// left · right
-    pub fn times(&mut self, left: Node, right: Node) -> Node {
-        self.product(&[(left, Rational::one()), (right, Rational::one())])
-    }
-
-    /// left + right
-    pub fn plus(&mut self, left: Node, right: Node) -> Node {
-        self.sum(&[(left, Rational::one()), (right, Rational::one())])
     }
 }
 

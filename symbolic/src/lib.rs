@@ -31,68 +31,64 @@
 //! assert_eq!(error.range(), 4..13);
 //! # Ok::<(), shadowstep_symbolic::Error>(())
 //! ```
+//!
+//! The files, each folder's from the ground up:
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | `number` | **exact numbers** |
+//! | `number/rational` | rationals |
+//! | `number/rounding` | a rational → the decimals next to it |
+//! | `number/power` | powers and roots that are rational, and how long a number may be |
+//! | `number/function` | the elementary functions: their names, parity, rational values |
+//! | `number/interval` | rational bounds of a real number |
+//! | `number/ball` | fixed-point numbers with error bounds |
+//! | `number/series` | power series of the functions, π, log 2 |
+//! | `number/elementary` | enclosures of the functions' values |
+//! | `text` | **text in and out** |
+//! | `text/literal` | decimal literals, `2.5e-7` |
+//! | [`decimal`] | rationals → text → rationals |
+//! | `text/near_names` | the word that was probably meant |
+//! | `text/error` | all that can be wrong with a formula |
+//! | `text/token`, `text/syntax` | text → tokens → syntax tree |
+//! | `text/names` | what the names in a formula stand for |
+//! | `evaluation` | **syntax tree → value** |
+//! | `evaluation/value` | exact or enclosed values |
+//! | `evaluation/domain` | where roots, quotients and functions have values |
+//! | `evaluation/evaluator` | one computation with a given number of digits |
+//! | `graph` | **syntax tree → formulas without repetitions** |
+//! | `graph/simplify` | how nodes are made |
+//! | `graph/build` | syntax tree → nodes |
+//! | `graph/pair` | formulas of a pair of bodies |
+//! | `graph/degree`, `graph/derivative`, `graph/rate`, `graph/quadratic` | homogeneity, ∂/∂q, qᵀU_q − 2U, quadratic forms |
+//! | `program` | **formulas → straight-line programs** |
+//! | `program/instruction`, `program/cost` | one operation in place, numbers of operations |
+//! | `program/lower/…` | nodes → operations, with common parts shared → places and instructions |
+//! | `program/factor` | the search for a cheaper form of the formulas |
+//! | `program/potential` | the programs of a potential |
 
-mod ball;
-mod build;
-mod cost;
-pub mod decimal;
-mod derivative;
-mod elementary;
-mod exact;
-mod factor;
-mod fault;
-mod function;
+mod evaluation;
 mod graph;
-mod interval;
-mod literal;
-mod lower;
-mod nearest;
-mod potential;
+mod number;
 mod program;
-mod quadratic;
-mod rate;
-mod rounding;
-mod series;
-mod simplify;
-mod syntax;
-mod token;
+mod text;
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
-pub use build::{GraphError, GraphFault, is_symmetric};
-pub use cost::Cost;
-pub use exact::{Exact, evaluate};
-pub use fault::{EvaluationError, Fault};
-pub use function::Function;
+pub use evaluation::{evaluate, value::Exact};
+pub use graph::pair::{Separation, is_symmetric};
 pub use graph::{Form, Graph, Node};
-pub use nearest::{meant, nearest, nearest_few};
-pub use num_rational::BigRational as Rational;
-pub use potential::{PotentialPrograms, Separation};
-pub use program::{Instruction, Place, Program};
-pub use rounding::compare;
-pub use syntax::{Expression, Kind, Operation, SyntaxError, parse};
-
-/// What keeps a text from having a value.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Error {
-    /// The text is not a formula.
-    #[error(transparent)]
-    Syntax(#[from] SyntaxError),
-    /// The formula has no value.
-    #[error(transparent)]
-    Evaluation(#[from] EvaluationError),
-}
-
-impl Error {
-    /// The bytes of the text that the error is about.
-    pub fn range(&self) -> Range<usize> {
-        match self {
-            Error::Syntax(error) => error.range.clone(),
-            Error::Evaluation(error) => error.range.clone(),
-        }
-    }
-}
+pub use number::function::Function;
+pub use number::rational::Rational;
+pub use number::rounding::compare;
+pub use program::Program;
+pub use program::cost::Cost;
+pub use program::instruction::{Instruction, Place};
+pub use program::potential::PotentialPrograms;
+pub use text::decimal;
+pub use text::error::{Error, SemanticError, SemanticFault, SyntaxError};
+pub use text::near_names::{meant, nearest, nearest_few};
+pub use text::syntax::{Expression, Kind, Operation, parse};
 
 /// Computes a formula without names; an irrational value is rounded to 300 significant digits.
 ///

@@ -6,9 +6,9 @@ use num_traits::Signed;
 use proptest::prelude::*;
 use rug::Float;
 use shadowstep_symbolic::decimal::{from_text, round_significant};
-use shadowstep_symbolic::{EvaluationError, Exact, Function, Rational, compare, evaluate, parse};
+use shadowstep_symbolic::{Exact, Function, Rational, SemanticError, compare, evaluate, parse};
 
-fn evaluated(text: &str, digits: u32) -> Result<Exact, EvaluationError> {
+fn evaluated(text: &str, digits: u32) -> Result<Exact, SemanticError> {
     evaluate(&parse(text).unwrap(), &BTreeMap::new(), digits)
 }
 

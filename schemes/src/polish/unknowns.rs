@@ -10,7 +10,7 @@ use std::ops::Range;
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
 use shadowstep_symbolic::decimal::from_text;
-use shadowstep_symbolic::{EvaluationError, Exact, Expression, Rational, evaluate, parse};
+use shadowstep_symbolic::{Exact, Expression, Rational, SemanticError, evaluate, parse};
 
 use crate::Scheme;
 use crate::fault::Faults;
@@ -152,7 +152,7 @@ impl Model {
     }
 
     /// The lists of weights at values of the unknowns; closed forms to so many digits.
-    pub(super) fn weights(&self, x: &[Rational], digits: u32) -> Result<Vec<Vec<Rational>>, EvaluationError> {
+    pub(super) fn weights(&self, x: &[Rational], digits: u32) -> Result<Vec<Vec<Rational>>, SemanticError> {
         let mut known = BTreeMap::new();
         for (name, cell) in &self.constants {
             let value = value(cell, x, &known, digits)?;
@@ -167,7 +167,7 @@ impl Model {
     /// The derivatives are differences with a step of a few units of the arithmetic's square root: exact where the cells
     /// are linear in the unknowns, as all but a few tables' are, and else with half of the digits, which Newton's
     /// iteration cannot tell from exact ones.
-    pub(super) fn duals(&self, x: &[Rational], arithmetic: Duals) -> Result<Vec<Vec<Dual>>, EvaluationError> {
+    pub(super) fn duals(&self, x: &[Rational], arithmetic: Duals) -> Result<Vec<Vec<Dual>>, SemanticError> {
         let digits = (f64::from(arithmetic.bits) * std::f64::consts::LOG10_2).ceil() as u32 + 5;
         let at_x = self.weights(x, digits)?;
         let shift = arithmetic.bits / 2;
@@ -206,7 +206,7 @@ impl Model {
     }
 }
 
-fn value(cell: &Cell, x: &[Rational], known: &BTreeMap<String, Exact>, digits: u32) -> Result<Exact, EvaluationError> {
+fn value(cell: &Cell, x: &[Rational], known: &BTreeMap<String, Exact>, digits: u32) -> Result<Exact, SemanticError> {
     match cell {
         Cell::Unknown(unknown) => Ok(Exact { value: x[*unknown].clone(), rounded: false }),
         Cell::Formula(expression) => evaluate(expression, known, digits),

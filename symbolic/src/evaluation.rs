@@ -1,0 +1,89 @@
+//! A syntax tree to its value: exact while it is rational, else rounded once and correctly.
+//!
+//! An irrational root, value of a function or π is enclosed in an interval, and so is all that depends on it. If both
+//! ends of the whole formula's interval round to the same decimal, that is the value; if not, the formula is computed
+//! again with twice the digits.
+
+mod domain;
+mod evaluator;
+pub(crate) mod value;
+
+use std::collections::BTreeMap;
+
+use num_bigint::BigInt;
+use num_traits::{One, Zero};
+
+use crate::evaluation::domain::Attempt;
+use crate::evaluation::evaluator::Evaluator;
+use crate::evaluation::value::{Exact, Stop, Value};
+use crate::number::interval::Interval;
+use crate::number::rational::Rational;
+use crate::number::rounding::{at_places, compare};
+use crate::text::decimal::round_significant;
+use crate::text::error::{SemanticError, SemanticFault};
+use crate::text::syntax::Expression;
+
+/// More digits would take long and meet the limits on the size of numbers.
+const MOST_DIGITS: u32 = 5000;
+
+/// Digits beyond those asked for in the first attempt.
+const GUARD_DIGITS: u32 = 20;
+
+/// Each attempt has twice the digits of the one before.
+const ATTEMPTS: u32 = 4;
+
+/// Computes an expression.
+///
+/// Rational arithmetic, roots of perfect powers, and the few rational values of functions, such as
+/// `exp(0)` and `acos(1)`, are exact, whatever the names were computed from. With any other root or
+/// value of a function, or with `pi` (unless a name hides it), the value of the whole expression is
+/// correctly rounded to `digits` significant decimal digits (at least 1, at most 5000), half to even.
+///
+/// The functions are sqrt, cbrt, exp, log (the natural logarithm), sin, cos, tan, sinh, cosh, tanh,
+/// atan, asin and acos. They are enclosed rigorously, in integer arithmetic alone.
+///
+/// An irrational expression that cannot be told from zero with eight times these digits counts as
+/// zero, so that `sin(pi)` is 0; one that cannot be told from the middle between two decimals counts
+/// as being there; and the argument of a root or function that cannot be told from the border of
+/// the domain counts as the border: `asin(sin(pi/2))` is pi/2, `log(sin(pi))` and `tan(pi/2)` have no value.
+///
+/// # Errors
+/// A [`SemanticError`] for an unknown name or function, a division by zero, `0^0`, an even root
+/// of a negative number, a function outside its domain, an exponent that is not an exact rational,
+/// and for numbers that are too large, too small or too near to each other to compute with.
+pub fn evaluate(expression: &Expression, names: &BTreeMap<String, Exact>, digits: u32) -> Result<Exact, SemanticError> {
+    let digits = digits.clamp(1, MOST_DIGITS);
+    for attempt in 0..ATTEMPTS {
+        let last = attempt + 1 == ATTEMPTS;
+        let attempt = Attempt { digits: (digits + GUARD_DIGITS) << attempt, last };
+        match (Evaluator { names, attempt }).value(expression) {
+            Ok(Value::Exact(exact)) => return Ok(exact),
+            Ok(Value::Enclosed(interval)) => {
+                if let Some(value) = settled(&interval, digits, last) {
+                    return Ok(Exact { value, rounded: true });
+                }
+            }
+            Err(Stop::Fault(error)) => return Err(error),
+            Err(Stop::Undecided) => {}
+        }
+    }
+    Err(SemanticError::new(SemanticFault::Cancellation(digits), &expression.range))
+}
+
+/// The one decimal that all numbers in the interval round to.
+fn settled(interval: &Interval, digits: u32, last: bool) -> Option<Rational> {
+    let rounded = |digits| {
+        let low = round_significant(&interval.low, digits);
+        compare(&low, &round_significant(&interval.high, digits)).is_eq().then_some(low)
+    };
+    if !last {
+        return rounded(digits);
+    }
+    // A number this close to zero, or to the middle between two decimals, counts as being there.
+    let tiny = at_places(BigInt::one(), 4 * i64::from(digits));
+    let width = &interval.high - &interval.low;
+    if interval.contains_zero() && compare(&width, &tiny).is_lt() {
+        return Some(Rational::zero());
+    }
+    rounded(digits).or_else(|| Some(round_significant(&rounded(4 * digits)?, digits)))
+}

@@ -1,0 +1,167 @@
+//! One computation of an expression with a given number of digits.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use num_integer::Integer;
+use num_traits::{Signed, ToPrimitive, Zero};
+
+use crate::evaluation::domain::Attempt;
+use crate::evaluation::value::{Exact, Stop, Value, fault};
+use crate::number::elementary::{image, pi};
+use crate::number::function::{Function, exact_value};
+use crate::number::interval::Interval;
+use crate::number::power::{MOST_BITS, perfect_root, rational_power};
+use crate::number::rational::Rational;
+use crate::text::error::{HIGHEST_ROOT, SemanticFault};
+use crate::text::names::{Callee, PI, callee, unknown_name};
+use crate::text::syntax::{Expression, Kind, Operation};
+
+/// One attempt to compute an expression.
+pub(super) struct Evaluator<'a> {
+    pub(super) names: &'a BTreeMap<String, Exact>,
+    pub(super) attempt: Attempt,
+}
+
+impl Evaluator<'_> {
+    pub(super) fn value(&self, expression: &Expression) -> Result<Value, Stop> {
+        let range = &expression.range;
+        match &expression.kind {
+            Kind::Number(value) => Ok(Value::Exact(Exact { value: value.clone(), rounded: false })),
+            Kind::Name(name) => self.named(name).map_err(|unknown| fault(unknown, range)),
+            Kind::Negate(inner) => Ok(self.value(inner)?.negate()),
+            Kind::Binary(operation, left, right) => self.binary(*operation, left, right, range),
+            Kind::Call { function, arguments } => self.call(function, arguments, range),
+        }
+    }
+
+    fn named(&self, name: &str) -> Result<Value, SemanticFault> {
+        if let Some(exact) = self.names.get(name) {
+            return Ok(Value::Exact(exact.clone()));
+        }
+        if name == PI {
+            return Ok(Value::Enclosed(pi(self.attempt.digits)));
+        }
+        let known: Vec<&str> = self.names.keys().map(String::as_str).collect();
+        Err(unknown_name(name, &known))
+    }
+
+    fn call(&self, name: &str, arguments: &[Expression], range: &Range<usize>) -> Result<Value, Stop> {
+        match callee(name, arguments).map_err(|refusal| fault(refusal, range))? {
+            (Callee::Root(order), argument) => self.power(argument, &Rational::new(1.into(), order.into()), range),
+            (Callee::Function(function), argument) => self.function(function, argument, range),
+        }
+    }
+
+    fn function(&self, function: Function, argument: &Expression, range: &Range<usize>) -> Result<Value, Stop> {
+        let value = self.value(argument)?;
+        if let Value::Exact(Exact { value, rounded }) = &value
+            && let Some(value) = exact_value(function, value)
+        {
+            return Ok(Value::Exact(Exact { value, rounded: *rounded }));
+        }
+        let digits = self.attempt.digits;
+        let interval = self.attempt.in_domain(function, value.interval(), &argument.range)?;
+        self.enclosed(image(function, &interval, digits).and_then(|image| image.outward(digits)), range)
+    }
+
+    fn binary(
+        &self,
+        operation: Operation,
+        left: &Expression,
+        right: &Expression,
+        range: &Range<usize>,
+    ) -> Result<Value, Stop> {
+        let value = |part| self.value(part);
+        match operation {
+            Operation::Add => self.sum(&value(left)?, &value(right)?, range),
+            Operation::Subtract => self.sum(&value(left)?, &value(right)?.negate(), range),
+            Operation::Multiply => self.product(&value(left)?, &value(right)?, range),
+            Operation::Divide => {
+                let (dividend, divisor) = (value(left)?, value(right)?);
+                self.not_zero(&divisor, SemanticFault::DivisionByZero, &right.range)?;
+                self.product(&dividend, &divisor.reciprocal(), range)
+            }
+            Operation::Power => match value(right)? {
+                Value::Exact(Exact { value: exponent, rounded: false }) => self.power(left, &exponent, range),
+                _ => Err(fault(SemanticFault::InexactExponent, &right.range)),
+            },
+        }
+    }
+
+    fn sum(&self, a: &Value, b: &Value, range: &Range<usize>) -> Result<Value, Stop> {
+        match (a, b) {
+            (Value::Exact(a), Value::Exact(b)) => sized(&a.value + &b.value, a.rounded || b.rounded, range),
+            _ => self.enclosed(a.interval().add(&b.interval()).outward(self.attempt.digits), range),
+        }
+    }
+
+    fn product(&self, a: &Value, b: &Value, range: &Range<usize>) -> Result<Value, Stop> {
+        match (a, b) {
+            (Value::Exact(a), Value::Exact(b)) => sized(&a.value * &b.value, a.rounded || b.rounded, range),
+            _ => self.enclosed(a.interval().multiply(&b.interval()).outward(self.attempt.digits), range),
+        }
+    }
+
+    /// The base to a rational power p/q: its q-th root, or one over it, to the power |p|.
+    fn power(&self, base: &Expression, exponent: &Rational, range: &Range<usize>) -> Result<Value, Stop> {
+        let value = self.value(base)?;
+        if exponent.is_zero() {
+            self.not_zero(&value, SemanticFault::ZeroToTheZero, range)?;
+        }
+        let order = exponent.denom().to_u32().filter(|order| *order <= HIGHEST_ROOT);
+        let order = order.ok_or_else(|| fault(SemanticFault::HighRoot(exponent.denom().clone()), range))?;
+        let mut root = self.root(value, order, &base.range)?;
+        if exponent.is_negative() {
+            self.not_zero(&root, SemanticFault::DivisionByZero, &base.range)?;
+            root = root.reciprocal();
+        }
+        let count = exponent.numer().magnitude().to_u32();
+        let count = count.ok_or_else(|| fault(SemanticFault::AbsurdSize, range))?;
+        match root {
+            Value::Exact(Exact { value, rounded }) => {
+                let power = rational_power(&value, count).ok_or_else(|| fault(SemanticFault::AbsurdSize, range))?;
+                sized(power, rounded, range)
+            }
+            Value::Enclosed(root) => self.enclosed(root.power(count, self.attempt.digits), range),
+        }
+    }
+
+    /// The real root of a base, which stands at `range`.
+    fn root(&self, base: Value, order: u32, range: &Range<usize>) -> Result<Value, Stop> {
+        if order == 1 {
+            return Ok(base);
+        }
+        let mut interval = base.interval();
+        if order.is_even() {
+            interval = self.attempt.not_negative(interval, range)?;
+        }
+        if let Value::Exact(Exact { value, rounded }) = base
+            && let Some(value) = perfect_root(&value, order)
+        {
+            return Ok(Value::Exact(Exact { value, rounded }));
+        }
+        Ok(Value::Enclosed(interval.root(order, self.attempt.digits)))
+    }
+
+    /// Refuses zero, and at the last attempt what cannot be told from zero.
+    fn not_zero(&self, value: &Value, refusal: SemanticFault, range: &Range<usize>) -> Result<(), Stop> {
+        match value {
+            Value::Exact(exact) if exact.value.is_zero() => Err(fault(refusal, range)),
+            Value::Exact(_) => Ok(()),
+            Value::Enclosed(interval) => self.attempt.without_zero(interval, refusal, range),
+        }
+    }
+
+    fn enclosed(&self, interval: Option<Interval>, range: &Range<usize>) -> Result<Value, Stop> {
+        interval.map(Value::Enclosed).ok_or_else(|| fault(SemanticFault::AbsurdSize, range))
+    }
+}
+
+/// An exact value, unless it is absurdly long.
+fn sized(value: Rational, rounded: bool, range: &Range<usize>) -> Result<Value, Stop> {
+    match value.numer().bits().max(value.denom().bits()) <= MOST_BITS {
+        true => Ok(Value::Exact(Exact { value, rounded })),
+        false => Err(fault(SemanticFault::AbsurdSize, range)),
+    }
+}

@@ -1,0 +1,59 @@
+//! Values of a formula and its parts, and why an attempt gave none.
+
+use std::ops::Range;
+
+use crate::number::interval::Interval;
+use crate::number::rational::Rational;
+use crate::text::error::{SemanticError, SemanticFault};
+
+/// A number as a rational.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Exact {
+    /// The number, or the decimal that stands for it.
+    pub value: Rational,
+    /// Whether something irrational went into it, a root, a value of a function or π, here or in a name it was computed
+    /// from.
+    pub rounded: bool,
+}
+
+/// The value of a part of the expression.
+pub(super) enum Value {
+    Exact(Exact),
+    /// Some number in the interval.
+    Enclosed(Interval),
+}
+
+impl Value {
+    pub(super) fn interval(&self) -> Interval {
+        match self {
+            Value::Exact(exact) => Interval::point(&exact.value),
+            Value::Enclosed(interval) => interval.clone(),
+        }
+    }
+
+    pub(super) fn negate(self) -> Self {
+        match self {
+            Value::Exact(exact) => Value::Exact(Exact { value: -exact.value, ..exact }),
+            Value::Enclosed(interval) => Value::Enclosed(interval.negate()),
+        }
+    }
+
+    /// 1/x; the value must not be zero, nor an interval around it.
+    pub(super) fn reciprocal(self) -> Self {
+        match self {
+            Value::Exact(exact) => Value::Exact(Exact { value: exact.value.recip(), ..exact }),
+            Value::Enclosed(interval) => Value::Enclosed(interval.reciprocal()),
+        }
+    }
+}
+
+/// Why an attempt gave no value.
+pub(super) enum Stop {
+    Fault(SemanticError),
+    /// Whether a number is zero or negative shows only with more digits.
+    Undecided,
+}
+
+pub(super) fn fault(fault: SemanticFault, range: &Range<usize>) -> Stop {
+    Stop::Fault(SemanticError::new(fault, range))
+}

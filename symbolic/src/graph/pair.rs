@@ -1,0 +1,63 @@
+//! Formulas of a pair of bodies: what they are in, and whether they stay what they are when the bodies are exchanged.
+
+use crate::graph::Graph;
+use crate::text::syntax::Expression;
+
+/// What the formula of a pair of bodies i < j is in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Separation {
+    /// d = q_j − q_i, on a line
+    Difference,
+    /// r² = |q_j − q_i|², in any dimension
+    SquaredDistance,
+}
+
+impl Separation {
+    /// What formulas call it: `d`, `r2`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Separation::Difference => "d",
+            Separation::SquaredDistance => "r2",
+        }
+    }
+
+    /// The separation of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        [Separation::Difference, Separation::SquaredDistance].into_iter().find(|separation| separation.name() == name)
+    }
+
+    /// Its degree in the coordinates of the bodies.
+    pub(crate) fn degree(self) -> u32 {
+        match self {
+            Separation::Difference => 1,
+            Separation::SquaredDistance => 2,
+        }
+    }
+}
+
+/// Whether the formula of a pair in r² stays what it is when the bodies i and j are exchanged, as far as its simplified
+/// form shows; `None` for a text that is no such formula, and for one in d, which has a direction.
+pub fn is_symmetric(
+    expression: &Expression,
+    separation: Separation,
+    properties: &[String],
+    parameters: &[String],
+) -> Option<bool> {
+    let exchanged = |name: &String| match (name.strip_suffix("_i"), name.strip_suffix("_j")) {
+        (Some(stem), _) => format!("{stem}_j"),
+        (_, Some(stem)) => format!("{stem}_i"),
+        _ => name.clone(),
+    };
+    // a property that the other body does not have in the list keeps an index of its own
+    let mut all = properties.to_vec();
+    for name in properties.iter().map(exchanged) {
+        if !all.contains(&name) {
+            all.push(name);
+        }
+    }
+    let mut graph = Graph::new();
+    let one = graph.build_pair(expression, separation.name(), &all, parameters).ok()?;
+    let others: Vec<String> = all.iter().map(exchanged).collect();
+    let other = graph.build_pair(expression, separation.name(), &others, parameters).ok()?;
+    (separation == Separation::SquaredDistance).then_some(one == other)
+}

@@ -1,0 +1,3 @@
+//! Exact rationals.
+
+pub use num_rational::BigRational as Rational;

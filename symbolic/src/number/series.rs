@@ -1,0 +1,116 @@
+//! sin, cos, sinh, cosh, arctan and artanh by their power series, and with them π and log 2, as balls.
+//!
+//! A series is short for a small argument. So the argument is halved some √bits times before, and the sum doubled as
+//! often after it; working bits make up for the errors that the doublings magnify.
+
+use num_bigint::BigInt;
+use num_traits::One;
+
+use crate::number::ball::Ball;
+
+/// What the point (cos t, sin t) runs on, or (cosh t, sinh t): the formulas differ in signs only.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Curve {
+    Circle,
+    Hyperbola,
+}
+
+impl Curve {
+    /// a − b on the circle, a + b on the hyperbola
+    fn turn(self, a: &Ball, b: &Ball) -> Ball {
+        match self {
+            Curve::Circle => a.subtract(b),
+            Curve::Hyperbola => a.add(b),
+        }
+    }
+}
+
+/// How often an argument is halved, if that costs about so many products: the series takes bits/halvings of them.
+fn halvings(argument: &Ball, products: u64) -> u64 {
+    (argument.bits() / products).isqrt().saturating_sub(argument.leading_zeros())
+}
+
+/// sin x and 1 − cos x, or sinh x and cosh x − 1, for an x between −1 and 1.
+///
+/// 1 − cos x is small with x: doubling it keeps its bits, where doubling cos x would lose them.
+pub(crate) fn sine_and_versine(curve: Curve, x: &Ball) -> (Ball, Ball) {
+    let halvings = halvings(x, 2);
+    let bits = x.bits() + 2 * halvings + 16;
+    let small = x.with_bits(bits).shifted_down(halvings);
+    // sin a = a − a³/3! + …, 1 − cos a = a²/2! − a⁴/4! + …
+    let mut term = small.clone();
+    let mut sums = [small.clone(), Ball::zero(bits)];
+    let mut n = 1;
+    while !term.is_negligible() {
+        n += 1;
+        term = term.multiply(&small).over(n);
+        let sum = &mut sums[usize::from(n % 2 == 0)];
+        *sum = if (n - 1) / 2 % 2 == 1 { curve.turn(sum, &term) } else { sum.add(&term) };
+    }
+    // Each term is at most half of the one before, so that the rest is at most the last.
+    let [mut sine, mut versine] = sums.map(|sum| sum.widened(term.size()));
+    let (one, two) = (Ball::one(bits), BigInt::from(2));
+    for _ in 0..halvings {
+        // sin 2a = 2 sin a cos a, 1 − cos 2a = 2 (1 − cos a) (1 + cos a)
+        let cosine = curve.turn(&one, &versine);
+        sine = sine.multiply(&cosine).times(&two);
+        versine = versine.multiply(&cosine.add(&one)).times(&two);
+    }
+    (sine.with_bits(x.bits()), versine.with_bits(x.bits()))
+}
+
+/// arctan x for an x between −1 and 1, or artanh x for one between −1/2 and 1/2.
+pub(crate) fn inverse_tangent(curve: Curve, x: &Ball) -> Ball {
+    // A root and a quotient take as long as some ten products, and the series has every other power only.
+    let halvings = halvings(x, 20);
+    let bits = x.bits() + halvings + 16;
+    let one = Ball::one(bits);
+    let mut small = x.with_bits(bits);
+    for _ in 0..halvings {
+        // tan(a/2) = tan a / (1 + √(1 + tan² a)); the hyperbola has the minus here.
+        let square = small.multiply(&small);
+        let under = if curve == Curve::Circle { one.add(&square) } else { one.subtract(&square) };
+        small = small.over_larger(&one.add(&under.sqrt()));
+    }
+    // arctan a = a − a³/3 + …; a² is at most 1/4, so that the rest is at most the last power.
+    let square = small.multiply(&small);
+    let (mut power, mut sum, mut n) = (small.clone(), small, 1);
+    while !power.is_negligible() {
+        n += 2;
+        power = power.multiply(&square);
+        let term = power.over(n);
+        sum = if n % 4 == 3 { curve.turn(&sum, &term) } else { sum.add(&term) };
+    }
+    sum.widened(power.size()).times(&(BigInt::one() << halvings)).with_bits(x.bits())
+}
+
+/// arctan 1/n or artanh 1/n, for n > 1.
+fn inverse_tangent_of_reciprocal(curve: Curve, n: u64, bits: u64) -> Ball {
+    let mut power = Ball::one(bits).over(n);
+    let (mut sum, mut k) = (power.clone(), 1);
+    while !power.is_negligible() {
+        k += 2;
+        power = power.over(n * n);
+        let term = power.over(k);
+        sum = if k % 4 == 3 { curve.turn(&sum, &term) } else { sum.add(&term) };
+    }
+    sum.widened(power.size())
+}
+
+/// Σ factor · arctan 1/n, or the same with artanh.
+fn combination(curve: Curve, parts: &[(i32, u64)], bits: u64) -> Ball {
+    let fine = bits + 32;
+    let part = |(factor, n): &(i32, u64)| inverse_tangent_of_reciprocal(curve, *n, fine).times(&(*factor).into());
+    let sum = parts.iter().map(part).reduce(|sum, part| sum.add(&part)).expect("a formula has parts");
+    sum.with_bits(bits)
+}
+
+/// π/2 by Machin's formula, to within few units.
+pub(crate) fn half_pi(bits: u64) -> Ball {
+    combination(Curve::Circle, &[(8, 5), (-2, 239)], bits)
+}
+
+/// log 2, to within few units.
+pub(crate) fn log_two(bits: u64) -> Ball {
+    combination(Curve::Hyperbola, &[(18, 26), (-2, 4801), (8, 8749)], bits)
+}

@@ -1,0 +1,217 @@
+//! The search for a form of the formulas that costs less: common factors of the terms of a sum are taken out, and constant
+//! factors of a sum multiplied into its terms, where that makes the whole program cheaper.
+//!
+//! Whether it does depends on what else needs the products, so each is tried.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use num_traits::{One, Signed, Zero};
+
+use crate::graph::{Form, Graph, Node};
+use crate::number::rational::Rational;
+use crate::number::rounding::compare;
+use crate::program::Program;
+use crate::program::lower;
+
+/// How many parts the nodes of all programs tried may have together; beyond it only absurdly long formulas go.
+const MOST_WORK: usize = 20_000;
+
+impl Graph {
+    /// A program that computes all outputs together, such as the components of a gradient and the rate.
+    ///
+    /// What several outputs need is computed once. Sums and products of parameters and numbers alone are constants, to be
+    /// prepared once, beside those rationals that are neither integers nor one over an integer. Common factors are taken
+    /// out of sums where that saves time. The graph itself stays as it is.
+    ///
+    /// ```
+    /// use shadowstep_symbolic::{Graph, parse};
+    ///
+    /// let mut graph = Graph::new();
+    /// let potential = graph.build(&parse("-1/sqrt(x^2 + y^2)")?, &["x".into(), "y".into()], &[])?;
+    /// let gradient = [graph.derivative(potential, 0), graph.derivative(potential, 1)];
+    /// let program = graph.program(&gradient);
+    /// assert_eq!(program.cost().to_string(), "1 addition, 6 multiplications, 1 root");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn program(&self, outputs: &[Node]) -> Program {
+        let mut graph = self.clone();
+        let mut outputs = outputs.to_vec();
+        let mut best = lower::program(&mut graph, &outputs);
+        let mut work = 0;
+        while let Some((better, program)) = improvement(&mut graph, &outputs, &best, &mut work) {
+            (outputs, best) = (better, program);
+        }
+        best
+    }
+}
+
+/// How a program compares: by time, then by length, then by room.
+fn price(program: &Program) -> (u64, usize, usize) {
+    (program.cost().weight(), program.instructions.len(), program.scratch)
+}
+
+/// The first change that makes the program cheaper.
+fn improvement(
+    graph: &mut Graph,
+    outputs: &[Node],
+    program: &Program,
+    work: &mut usize,
+) -> Option<(Vec<Node>, Program)> {
+    let size: usize = graph.below(outputs).into_iter().map(|node| 1 + graph.children(node).count()).sum();
+    for change in changes(graph, outputs) {
+        *work += size;
+        if *work > MOST_WORK {
+            return None;
+        }
+        let (old, new) = match change {
+            Change::TakeOut { sum, base, exponent } => (sum, factored(graph, sum, base, &exponent)),
+            Change::MultiplyIn { product, sum } => (product, distributed(graph, product, sum)),
+        };
+        let changed = rebuilt(graph, outputs, old, new);
+        let candidate = lower::program(graph, &changed);
+        if price(&candidate) < price(program) {
+            return Some((changed, candidate));
+        }
+    }
+    None
+}
+
+/// A form that a node could have as well.
+enum Change {
+    /// Take a power out of the terms of a sum that have it.
+    TakeOut { sum: Node, base: Node, exponent: Rational },
+    /// Multiply the constant factors of a product into a sum that is another factor.
+    MultiplyIn { product: Node, sum: Node },
+}
+
+/// What could be changed below the outputs.
+fn changes(graph: &Graph, outputs: &[Node]) -> Vec<Change> {
+    let mut changes = Vec::new();
+    let varying = varying(graph, outputs);
+    for node in graph.below(outputs) {
+        if let Form::Sum { terms, .. } = graph.form(node) {
+            let powers = common_factors(graph, terms).into_iter();
+            changes.extend(powers.map(|(base, exponent)| Change::TakeOut { sum: node, base, exponent }));
+        }
+        let Some((coefficient, factors)) = multiple(graph, node) else { continue };
+        if !coefficient.is_one() || factors.iter().any(|(base, _)| !varying.contains(base)) {
+            let is_sum = |base| matches!(graph.form(base), Form::Sum { .. }) && multiple(graph, base).is_none();
+            let sums = factors.iter().filter(|(base, exponent)| exponent.is_one() && is_sum(*base));
+            changes.extend(sums.map(|(sum, _)| Change::MultiplyIn { product: node, sum: *sum }));
+        }
+    }
+    changes
+}
+
+/// The nodes below the outputs that contain a coordinate.
+fn varying(graph: &Graph, outputs: &[Node]) -> HashSet<Node> {
+    let mut varying = HashSet::new();
+    for node in graph.below(outputs) {
+        if matches!(graph.form(node), Form::Coordinate(_)) || graph.children(node).any(|child| varying.contains(&child))
+        {
+            varying.insert(node);
+        }
+    }
+    varying
+}
+
+/// The coefficient and the factors of a product, or of a multiple of one.
+fn multiple(graph: &Graph, node: Node) -> Option<(Rational, Vec<(Node, Rational)>)> {
+    match graph.form(node) {
+        Form::Product(factors) => Some((Rational::one(), factors.clone())),
+        Form::Sum { constant, terms } if constant.is_zero() && terms.len() == 1 => {
+            let Form::Product(factors) = graph.form(terms[0].0) else { return None };
+            Some((terms[0].1.clone(), factors.clone()))
+        }
+        _ => None,
+    }
+}
+
+/// K · (Σ term) · rest as (Σ K · term) · rest, where K are all constant factors
+fn distributed(graph: &mut Graph, product: Node, sum: Node) -> Node {
+    let Some((coefficient, factors)) = multiple(graph, product) else { return product };
+    let Form::Sum { constant, terms } = &*graph.shared_form(sum) else { return product };
+    let varying = varying(graph, &[product]);
+    let others = factors.into_iter().filter(|(base, _)| *base != sum);
+    let (mut rest, constants): (Vec<_>, Vec<_>) = others.partition(|(base, _)| varying.contains(base));
+    let mut inside = Vec::new();
+    for (term, factor) in [(graph.number(constant.clone()), Rational::one())].iter().chain(terms) {
+        let mut factors = constants.clone();
+        factors.push((*term, Rational::one()));
+        inside.push((graph.product(&factors), factor * &coefficient));
+    }
+    rest.push((graph.sum(&inside), Rational::one()));
+    graph.product(&rest)
+}
+
+/// Powers that are in two terms at least, each with the exponent nearest to 0 that it has there.
+fn common_factors(graph: &Graph, terms: &[(Node, Rational)]) -> Vec<(Node, Rational)> {
+    let mut found: BTreeMap<(Node, bool), (usize, Rational)> = BTreeMap::new();
+    for (term, _) in terms {
+        for (base, exponent) in factors(graph, *term) {
+            let key = (base, exponent.is_negative());
+            let (count, least) = found.entry(key).or_insert_with(|| (0, exponent.clone()));
+            *count += 1;
+            if compare(&exponent.abs(), &least.abs()).is_lt() {
+                *least = exponent;
+            }
+        }
+    }
+    let common = found.into_iter().filter(|(_, (count, _))| *count > 1);
+    common.map(|((base, _), (_, exponent))| (base, exponent)).collect()
+}
+
+fn factors(graph: &Graph, term: Node) -> Vec<(Node, Rational)> {
+    match graph.form(term) {
+        Form::Product(factors) => factors.clone(),
+        _ => vec![(term, Rational::one())],
+    }
+}
+
+/// base^exponent · Σ (terms with that factor) / base^exponent + the rest
+fn factored(graph: &mut Graph, sum: Node, base: Node, exponent: &Rational) -> Node {
+    let Form::Sum { constant, terms } = &*graph.shared_form(sum) else { return sum };
+    let mut rest = vec![(graph.number(constant.clone()), Rational::one())];
+    let mut inside = Vec::new();
+    for (term, coefficient) in terms {
+        let found = factors(graph, *term).into_iter().find(|(other, _)| *other == base);
+        if found.is_some_and(|(_, other)| other.is_negative() == exponent.is_negative()) {
+            let quotient = graph.product(&[(*term, Rational::one()), (base, -exponent)]);
+            inside.push((quotient, coefficient.clone()));
+        } else {
+            rest.push((*term, coefficient.clone()));
+        }
+    }
+    let inside = graph.sum(&inside);
+    let product = graph.product(&[(inside, Rational::one()), (base, exponent.clone())]);
+    rest.push((product, Rational::one()));
+    graph.sum(&rest)
+}
+
+/// The outputs with one node below them replaced.
+fn rebuilt(graph: &mut Graph, outputs: &[Node], old: Node, new: Node) -> Vec<Node> {
+    let mut changed = HashMap::from([(old, new)]);
+    for node in graph.below(outputs) {
+        if node != old && graph.children(node).any(|child| changed.contains_key(&child)) {
+            let replaced = with_children(graph, node, &changed);
+            changed.insert(node, replaced);
+        }
+    }
+    outputs.iter().map(|output| *changed.get(output).unwrap_or(output)).collect()
+}
+
+fn with_children(graph: &mut Graph, node: Node, changed: &HashMap<Node, Node>) -> Node {
+    let replace = |part: Node| *changed.get(&part).unwrap_or(&part);
+    let parts =
+        |parts: &[(Node, Rational)]| parts.iter().map(|(part, x)| (replace(*part), x.clone())).collect::<Vec<_>>();
+    match &*graph.shared_form(node) {
+        Form::Number(_) | Form::Coordinate(_) | Form::Parameter(_) | Form::Property(_) => node,
+        Form::Sum { constant, terms } => {
+            let mut terms = parts(terms);
+            terms.push((graph.number(constant.clone()), Rational::one()));
+            graph.sum(&terms)
+        }
+        Form::Product(factors) => graph.product(&parts(factors)),
+        Form::Call(function, argument) => graph.call(*function, replace(*argument)),
+    }
+}

@@ -1,0 +1,41 @@
+//! From nodes to a program.
+//!
+//! [`collect`] states what has to be computed: sums, products of atoms, functions. [`products`] and [`sums`] find what
+//! these share. [`sequence`] splits all into operations with two operands, in order. [`places`] decides where each
+//! result lives, and writes the instructions.
+
+mod collect;
+mod places;
+mod products;
+mod sequence;
+mod sums;
+
+use crate::graph::{Graph, Node};
+use crate::program::Program;
+use crate::program::instruction::{Instruction, Place};
+
+/// The program for the outputs as they stand, without looking for a better form of the formulas.
+pub(crate) fn program(graph: &mut Graph, outputs: &[Node]) -> Program {
+    let plan = collect::plan(graph, outputs, collect::Stage::Main);
+    let hoisted = plan.hoisted.clone();
+    let main = places::place(&sequence::sequence(plan), outputs.len());
+    let early =
+        places::place(&sequence::sequence(collect::plan(graph, &hoisted, collect::Stage::Prepare)), hoisted.len());
+    Program {
+        prepare: early.instructions.into_iter().map(|instruction| to_constants(instruction, hoisted.len())).collect(),
+        instructions: main.instructions,
+        constants: hoisted.len() + early.scratch,
+        kept: hoisted.len(),
+        scratch: main.scratch,
+        outputs: outputs.len(),
+    }
+}
+
+/// The instruction with constants for outputs and, behind them, for scratch places.
+fn to_constants(instruction: Instruction, kept: usize) -> Instruction {
+    instruction.with_places(|place| match place {
+        Place::Output(index) => Place::Constant(index),
+        Place::Scratch(index) => Place::Constant(kept + index),
+        other => other,
+    })
+}

@@ -1,0 +1,64 @@
+//! A potential's formula → the programs that compute it.
+
+use num_traits::One;
+
+use crate::graph::pair::Separation;
+use crate::graph::{Derivation, Graph, Node};
+use crate::number::rational::Rational;
+use crate::program::Program;
+
+/// The programs of a potential U(q).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PotentialPrograms {
+    /// One output: U.
+    pub energy: Program,
+    /// An output per coordinate: U_q. The same operations as in `gradient_and_rate`, so that a trajectory has the same
+    /// bits whether qᵀU_q − 2U is computed or not; it keeps the same constants.
+    pub gradient: Program,
+    /// U_q, and as the last output qᵀU_q − 2U.
+    pub gradient_and_rate: Program,
+}
+
+impl Graph {
+    /// The programs of the potential `energy` of so many coordinates.
+    pub fn potential(&mut self, energy: Node, coordinates: usize) -> PotentialPrograms {
+        let mut outputs: Vec<Node> = (0..coordinates).map(|i| self.derivative(energy, i)).collect();
+        outputs.push(self.rate(energy));
+        let gradient_and_rate = self.program(&outputs);
+        let gradient = gradient_and_rate.without_last_output();
+        PotentialPrograms { energy: self.program(&[energy]), gradient, gradient_and_rate }
+    }
+}
+
+impl Graph {
+    /// The programs of a pair's energy u, a formula of [`Graph::build_pair`], with in place of the gradient its slope s,
+    /// by which ∂u/∂q_j = s (q_j − q_i) for u(r²), ∂u/∂q_j = s for u(d); the rate is Σ qᵀu_q − 2u over both bodies.
+    ///
+    /// So s = 2u'(r²) with the rate 2r²u'(r²) − 2u, or s = u'(d) with the rate d u'(d) − 2u.
+    pub fn pair(&mut self, energy: Node, separation: Separation) -> PotentialPrograms {
+        let degree = Rational::from_integer(separation.degree().into());
+        let derivative = self.derivative(energy, 0);
+        let slope = self.scaled(derivative, &degree);
+        let radial = self.derived(energy, Derivation::Radial);
+        let rate = self.sum(&[(radial, degree), (energy, -(Rational::one() + Rational::one()))]);
+        let gradient_and_rate = self.program(&[slope, rate]);
+        let gradient = gradient_and_rate.without_last_output();
+        PotentialPrograms { energy: self.program(&[energy]), gradient, gradient_and_rate }
+    }
+}
+
+impl PotentialPrograms {
+    /// How many constants there are to keep: those of the energy, then those of the gradient.
+    pub fn kept(&self) -> usize {
+        self.energy.kept + self.gradient_and_rate.kept
+    }
+
+    /// How many scratch places the programs use at most.
+    pub fn scratch(&self) -> usize {
+        [&self.energy, &self.gradient, &self.gradient_and_rate]
+            .map(|program| program.scratch)
+            .into_iter()
+            .max()
+            .unwrap_or(0)
+    }
+}

@@ -1,0 +1,123 @@
+//! Rationals as text and back, and rounding to significant digits.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Signed, Zero};
+
+use crate::number::rational::Rational;
+use crate::number::rounding::{self, Direction};
+use crate::text::literal;
+
+/// Up to this denominator a fraction is easier to read than its decimals.
+const LARGEST_SHORT_DENOMINATOR: u32 = 10_000;
+
+/// The most decimal places of a number that is written as a decimal.
+const MOST_PLACES: u64 = 400;
+
+/// A text that is not an integer, a fraction or a decimal.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{text}` is not a number: write an integer, a decimal such as -0.25 or a fraction such as 7/24")]
+pub struct NotANumber {
+    /// The text.
+    pub text: String,
+}
+
+/// Writes a rational with all its digits, such as `3`, `-7/24` or `0.6756035959798288170238437`.
+///
+/// Denominators up to 10000 stay fractions. Of the others, those with at most 400 decimal places
+/// become decimals. [`from_text`] reads the text back to the same number, and so does
+/// [`exact`](crate::exact()) up to the length it allows.
+pub fn to_text(value: &Rational) -> String {
+    let short = value.denom() <= &BigInt::from(LARGEST_SHORT_DENOMINATOR);
+    match decimal_places(value.denom()) {
+        Some(places) if !short => {
+            let units = rounding::units(value, places, Direction::Nearest);
+            let digits = units.magnitude().to_string();
+            let exponent = digits.len() as i64 - 1 - places;
+            format!("{}{}", sign(value), plain(&digits, exponent))
+        }
+        _ => value.to_string(),
+    }
+}
+
+/// Reads an optional sign and an integer, a decimal, or a fraction of two of these; all exactly.
+///
+/// # Errors
+/// [`NotANumber`] if the text is anything else, also if it divides by zero or has an exponent
+/// beyond 10000.
+///
+/// ```
+/// use shadowstep_symbolic::{Rational, decimal};
+/// assert_eq!(decimal::from_text("-7/24").unwrap(), Rational::new((-7).into(), 24.into()));
+/// assert!(decimal::from_text("sqrt(2)").is_err());
+/// ```
+pub fn from_text(text: &str) -> Result<Rational, NotANumber> {
+    let (negative, unsigned) = match text.strip_prefix('-') {
+        Some(rest) => (true, rest),
+        None => (false, text.strip_prefix('+').unwrap_or(text)),
+    };
+    let (numerator, denominator) = unsigned.split_once('/').unwrap_or((unsigned, "1"));
+    match (whole_literal(numerator), whole_literal(denominator)) {
+        (Some(n), Some(d)) if !d.is_zero() => Ok(if negative { -n / d } else { n / d }),
+        _ => Err(NotANumber { text: text.to_string() }),
+    }
+}
+
+/// Rounds to significant decimal digits (at least one), half to even.
+pub fn round_significant(value: &Rational, digits: u32) -> Rational {
+    rounding::to_places(value, rounding::places(value, digits), Direction::Nearest)
+}
+
+/// Writes a number rounded to significant digits, for messages: `0.593812`, `6.3e-16`.
+///
+/// Rounds as [`round_significant`] and omits zeros at the end; scientific outside 1e-4..1e9.
+pub fn to_significant(value: &Rational, digits: usize) -> String {
+    if value.is_zero() {
+        return "0".to_string();
+    }
+    let places = rounding::places(value, u32::try_from(digits).unwrap_or(u32::MAX));
+    let all = rounding::units(value, places, Direction::Nearest).magnitude().to_string();
+    let exponent = all.len() as i64 - 1 - places;
+    let digits = all.trim_end_matches('0');
+    let body =
+        if (-4..9).contains(&exponent) { plain(digits, exponent) } else { format!("{}e{exponent}", plain(digits, 0)) };
+    format!("{}{body}", sign(value))
+}
+
+fn sign(value: &Rational) -> &'static str {
+    if value.is_negative() { "-" } else { "" }
+}
+
+/// The number d.ddd * 10^exponent without an exponent.
+fn plain(digits: &str, exponent: i64) -> String {
+    let zeros = |count: i64| "0".repeat(count as usize);
+    let whole = exponent + 1;
+    let missing = whole - digits.len() as i64;
+    if whole <= 0 {
+        format!("0.{}{digits}", zeros(-whole))
+    } else if missing >= 0 {
+        format!("{digits}{}", zeros(missing))
+    } else {
+        let (before, after) = digits.split_at(whole as usize);
+        format!("{before}.{after}")
+    }
+}
+
+/// The decimal places of a number with this reduced denominator, up to [`MOST_PLACES`].
+fn decimal_places(denominator: &BigInt) -> Option<i64> {
+    let twos = denominator.trailing_zeros().unwrap_or(0);
+    let mut rest = denominator >> twos;
+    let mut fives = 0;
+    let five = BigInt::from(5);
+    while fives < MOST_PLACES && rest.is_multiple_of(&five) {
+        rest /= &five;
+        fives += 1;
+    }
+    (rest.is_one() && twos <= MOST_PLACES).then_some(twos.max(fives) as i64)
+}
+
+/// The value of a text that is one literal from end to end.
+fn whole_literal(text: &str) -> Option<Rational> {
+    let whole = !text.is_empty() && literal::length(text) == text.len();
+    whole.then(|| literal::value(text)).flatten()
+}
