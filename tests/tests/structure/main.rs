@@ -1,0 +1,65 @@
+//! Protects the structure of the workspace: no files of a crate import each other in a circle, so that a file can be read,
+//! tested and moved with only what it imports.
+
+mod circles;
+mod imports;
+mod made_up;
+mod source;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::circles::{circles, show};
+use crate::imports::imports;
+use crate::source::Crate;
+
+/// Packages that still have circles; none may be added.
+const WITH_CIRCLES: [&str; 4] = ["shadowstep", "shadowstep-cli", "shadowstep-schemes", "shadowstep-symbolic"];
+
+#[test]
+fn no_files_import_each_other_in_a_circle() {
+    let (folder, roots) = workspace();
+    assert!(roots.len() >= 6, "the crates of the workspace are found: {roots:?}");
+    let mut shown = Vec::new();
+    let mut with_circles = Vec::new();
+    for (package, root) in &roots {
+        let imports = imports(&Crate::read(root));
+        let found = circles(&imports);
+        let listed = WITH_CIRCLES.contains(&package.as_str());
+        if !found.is_empty() {
+            with_circles.push(package.as_str());
+        }
+        if !listed {
+            shown.extend(found.iter().map(|circle| show(circle, &imports, &folder)));
+        }
+    }
+    assert!(
+        shown.is_empty(),
+        "files import each other in a circle: move the names of one arrow into a file that imports none of these files, \
+         or into the file that uses them:\n{}",
+        shown.join("")
+    );
+    for listed in WITH_CIRCLES {
+        assert!(with_circles.contains(&listed), "{listed} has no circles any more: remove it from WITH_CIRCLES");
+    }
+}
+
+/// The workspace's folder, and of every crate in it (libraries, programs, tests, benchmarks) the package and the root file.
+fn workspace() -> (PathBuf, Vec<(String, PathBuf)>) {
+    let metadata = Command::new(env!("CARGO"))
+        .args(["metadata", "--no-deps", "--format-version", "1", "--manifest-path"])
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml"))
+        .output()
+        .expect("cargo runs");
+    assert!(metadata.status.success(), "{}", String::from_utf8_lossy(&metadata.stderr));
+    let metadata: serde_json::Value = serde_json::from_slice(&metadata.stdout).expect("cargo metadata writes JSON");
+    let text = |value: &serde_json::Value| value.as_str().expect("a text").to_string();
+    let list = |value: &serde_json::Value| value.as_array().expect("a list").clone();
+    let mut roots = Vec::new();
+    for package in list(&metadata["packages"]) {
+        for target in list(&package["targets"]) {
+            roots.push((text(&package["name"]), PathBuf::from(text(&target["src_path"]))));
+        }
+    }
+    (PathBuf::from(text(&metadata["workspace_root"])), roots)
+}
