@@ -4,7 +4,7 @@
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run: deps
-	cargo run --release --locked --quiet -p shadowstep-cli -- drift --problem kepler \
+	cargo run --release --locked -p shadowstep-cli -- drift --problem kepler \
 	    --scheme stormer-verlet,yoshida4,blanes-moan-s6,blanes-moan-srkn6b \
 	    --step 1/10,1/20,1/40 --until 100 --digits 120 --order auto
 
@@ -27,8 +27,14 @@ docs:
 bench: deps
 	cargo bench --workspace --locked
 
+# Where cargo's crate gmp-mpfr-sys keeps the libraries that it has built.
+GMP_FOLDERS = "$${GMP_MPFR_SYS_CACHE:-$${XDG_CACHE_HOME:-$$HOME/.cache}/gmp-mpfr-sys}" \
+    "$$HOME/Library/Caches/gmp-mpfr-sys" "$${CARGO_TARGET_DIR:-target}"
+
 # GMP and MPFR are built from their sources, which needs m4 and a C compiler.
 deps:
 	@command -v cc >/dev/null && command -v make >/dev/null || \
 	    { echo "A C compiler and make are needed to build GMP: install gcc and make." >&2; exit 1; }
 	@command -v m4 >/dev/null || ./.ci/install-m4
+	@find $(GMP_FOLDERS) -name libmpfr.a 2>/dev/null | grep -q . || \
+	    echo "GMP and MPFR are now built from their sources, once: the first build takes a few minutes."
