@@ -238,7 +238,7 @@ fn record<N: Rounded + 'static>(
     let search = selection.estimator.stop_and_rule();
     Ok(Record {
         shadowstep: env!("CARGO_PKG_VERSION"),
-        problem: selection.setup.problem.name,
+        problem: selection.setup.problem.name(),
         parameters: selection.values(),
         scheme: run.propagator.to_owned(),
         step: to_text(run.h),
@@ -297,8 +297,8 @@ const NOT_RELIABLE: &str = "not reliable here";
 const MOST_VALUES: usize = 16;
 
 fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String {
-    let problem = selection.setup.problem;
-    let all = selection.setup.values.iter();
+    let problem = selection.setup.problem.description();
+    let all = selection.setup.values.named().iter();
     let mut values: Vec<_> = all.map(|(name, exact)| format!("{name} = {}", shortened(&exact.value, 12))).collect();
     if values.len() > MOST_VALUES {
         let rest = values.len() - MOST_VALUES;

@@ -4,7 +4,8 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Component, Path};
 
-use shadowstep::exact_flow::WITH_EXACT_FLOW;
+use shadowstep::exact_flow;
+use shadowstep::problems::Problem;
 use shadowstep::tables::{self, Source, TableScheme, shipped_names};
 use shadowstep_schemes::{First, shipped, shipped_hint};
 
@@ -84,9 +85,10 @@ fn is_file(word: &str) -> bool {
 
 fn unknown(word: &str) -> Complaint {
     if word == EXACT_FLOW {
+        let known: Vec<_> = exact_flow::problems().map(Problem::name).collect();
         return Complaint::usage(
             "exact-flow is no scheme, but the solution itself, on which an estimator shows its own error",
-            format!("`shadowstep drift` and `trace` take it as --scheme, for {}", WITH_EXACT_FLOW.join(", ")),
+            format!("`shadowstep drift` and `trace` take it as --scheme, for {}", known.join(", ")),
         );
     }
     let hint = match shipped_hint(word) {

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use serde::Serialize;
-use shadowstep::problems::{Initial, PROBLEMS, Problem, problem};
+use shadowstep::problems::{Description, Initial, PROBLEMS, problem};
 
 use crate::complaint::{Complaint, Ending};
 use crate::output::Output;
@@ -43,22 +43,22 @@ const SHORT: usize = 12;
 pub(crate) fn problems(name: Option<&str>, json: bool) -> Result<Ending, Complaint> {
     let chosen = match name {
         Some(name) => vec![problem(name)?],
-        None => PROBLEMS.iter().collect(),
+        None => PROBLEMS.to_vec(),
     };
     let most_values = if name.is_some() { usize::MAX } else { SHORT };
     let mut output = Output::open(None, "")?;
     for (i, problem) in chosen.into_iter().enumerate() {
         if json {
-            output.json(&record(problem))?;
+            output.json(&record(problem.description()))?;
         } else {
-            write!(output, "{}{}", if i == 0 { "" } else { "\n" }, readable(problem, most_values))?;
+            write!(output, "{}{}", if i == 0 { "" } else { "\n" }, readable(problem.description(), most_values))?;
         }
     }
     output.finish()?;
     Ok(Ending::Done)
 }
 
-fn record(problem: &Problem) -> Record {
+fn record(problem: &Description) -> Record {
     let parameters = problem.parameters.iter();
     let Initial { positions, momenta, masses } = (problem.initial)();
     let values =
@@ -80,7 +80,7 @@ fn record(problem: &Problem) -> Record {
 }
 
 /// The problem in words; long lists of values in part only.
-fn readable(problem: &Problem, most_values: usize) -> String {
+fn readable(problem: &Description, most_values: usize) -> String {
     let mut text = format!("{}: {}\n  H = {}\n", problem.name, problem.title, problem.hamiltonian);
     for p in problem.parameters {
         text += &format!("  {} = {}    {}; {}\n", p.name, p.default, p.meaning, p.range);

@@ -25,8 +25,8 @@ impl Propagator {
         }
         shadowstep::exact_flow::has_exact_flow(setup).map_err(|error| {
             let hint = match error {
-                ExactFlowError::NoClosedForm { .. } => "take a scheme, or one of these problems",
-                _ => "--set x, y, px and py to another start",
+                ExactFlowError::NoSolution { .. } => "take a scheme, or one of these problems",
+                _ => "choose another initial state with --set",
             };
             Complaint::usage(error.to_string(), hint)
         })?;

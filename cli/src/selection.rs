@@ -64,7 +64,7 @@ impl Selection {
 
     /// Every parameter and initial value with its exact text, or the digits of what is irrational.
     pub(crate) fn values(&self) -> Vec<(String, String)> {
-        self.setup.values.iter().map(|(name, exact)| (name.clone(), self.arithmetic.text(exact))).collect()
+        self.setup.values.named().iter().map(|(name, exact)| (name.clone(), self.arithmetic.text(exact))).collect()
     }
 
     fn remark_on_ends(&self) {
@@ -121,7 +121,7 @@ fn setup(arguments: &RunArguments, arithmetic: Arithmetic) -> Result<Setup, Comp
     let set = arguments.set.iter().map(|text| quantity::assignment(text)).collect::<Result<Vec<_>, _>>()?;
     let digits = arithmetic.value_digits();
     let setup = problem(&arguments.problem)?.setup(&set, digits)?;
-    match setup.values.iter().find(|(_, value)| !arithmetic.has_digits_of(value)) {
+    match setup.values.named().iter().find(|(_, value)| !arithmetic.has_digits_of(value)) {
         None => Ok(setup),
         Some((name, _)) => Err(Complaint::usage(
             format!("{name} is irrational and computed to {MOST_VALUE_DIGITS} digits, the run needs {digits}"),

@@ -68,8 +68,8 @@ fn writer<'a>(
         return Ok(Box::new(|row| output.json(row)));
     }
     let mut csv = csv::Writer::from_writer(output);
-    let setup = &selection.setup;
-    let coordinates = setup.positions().iter().chain(setup.momenta()).map(|(name, _)| name.as_str());
+    let values = &selection.setup.values;
+    let coordinates = values.positions().iter().chain(values.momenta()).map(|(name, _)| name.as_str());
     let columns = ["n", "t", "energy", "modified_energy", "estimate", "order"];
     csv.write_record(columns.into_iter().chain(coordinates.filter(|_| arguments.states)))?;
     Ok(Box::new(move |row| {

@@ -74,12 +74,12 @@ fn planets<'a, N: Number + 'a, P: Potential<N> + 'a>(
     context: &N::Context,
 ) -> Contestant<'a> {
     let setup = problem("outer-solar-system").and_then(|problem| problem.setup(&[], 150)).expect("a problem");
-    let masses = setup.masses.as_ref().expect("planets have masses");
+    let masses = setup.values.masses().expect("planets have masses");
     let masses: Vec<_> = masses.iter().map(|mass| mass.value.clone()).collect();
     let m = masses.iter().step_by(3).map(|m| N::from_rational(m, context)).collect();
     let kinetic = DiagonalMasses::new(&masses, context).expect("positive");
-    let potential = potential(N::from_rational(setup.value("g"), context), m);
-    contestant(name, Motion::new(potential, kinetic, setup.q(context), setup.p(context)), "100")
+    let potential = potential(N::from_rational(setup.values.value("g"), context), m);
+    contestant(name, Motion::new(potential, kinetic, setup.values.q(context), setup.values.p(context)), "100")
 }
 
 const BY_HAND: &str = "potential by hand";

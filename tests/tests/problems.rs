@@ -38,12 +38,17 @@ fn follow(mut motion: ProblemMotion<f64>, h: &str, steps: u32, mut look: impl Fn
 
 #[test]
 fn states_masses_and_potentials_fit() {
-    for problem in &PROBLEMS {
+    for &problem in PROBLEMS {
         let setup = problem.setup(&[], 40).unwrap();
         let dimension = setup.potential::<f64>(&()).dimension();
-        assert_eq!((setup.positions().len(), setup.momenta().len()), (dimension, dimension), "{}", problem.name);
-        assert!(setup.masses.as_ref().is_none_or(|masses| masses.len() == dimension), "{}", problem.name);
-        assert!(motion::<f64>(problem.name, &()).energy().is_finite(), "{}", problem.name);
+        assert_eq!(
+            (setup.values.positions().len(), setup.values.momenta().len()),
+            (dimension, dimension),
+            "{}",
+            problem.name()
+        );
+        assert!(setup.values.masses().is_none_or(|masses| masses.len() == dimension), "{}", problem.name());
+        assert!(motion::<f64>(problem.name(), &()).energy().is_finite(), "{}", problem.name());
     }
 }
 
@@ -54,7 +59,7 @@ fn energies_that_are_published() {
     let argon = (energy("argon-crystal") / k_b.clone()).to_f64();
     assert!((argon - -1260.2).abs() < 0.05, "{argon}");
     let setup = setup("argon-crystal");
-    let kinetic: f64 = setup.p::<f64>(&()).iter().map(|p| p * p / (2.0 * 66.34e-27)).sum();
+    let kinetic: f64 = setup.values.p::<f64>(&()).iter().map(|p| p * p / (2.0 * 66.34e-27)).sum();
     let temperature = kinetic / (7.0 * k_b.to_f64());
     assert!((temperature - 22.72).abs() < 0.005, "{temperature}");
     let stiff = energy("fput-stiff");
@@ -81,8 +86,8 @@ fn energies_by_hand() {
 #[test]
 fn the_largest_displacement_of_the_first_mode_is_one() {
     let setup = setup("fput-alpha");
-    assert_eq!(setup.value("q16"), &Rational::one());
-    let q = setup.q::<Float>(&digits());
+    assert_eq!(setup.values.value("q16"), &Rational::one());
+    let q = setup.values.q::<Float>(&digits());
     assert!(q.iter().all(|other| *other <= q[15]), "{q:?}");
 }
 
@@ -91,8 +96,8 @@ fn planets_go_around_the_sun_at_their_distances() {
     // semi-major axes in astronomical units, from 1/a = 2/r − v²/μ
     let known = [5.2, 9.55, 19.2, 30.1, 39.5];
     let setup = setup("outer-solar-system");
-    let masses: Vec<f64> = setup.masses.as_ref().unwrap().iter().map(|m| f64::from_rational(&m.value, &())).collect();
-    let (q, p) = (setup.q::<f64>(&()), setup.p::<f64>(&()));
+    let masses: Vec<f64> = setup.values.masses().unwrap().iter().map(|m| f64::from_rational(&m.value, &())).collect();
+    let (q, p) = (setup.values.q::<f64>(&()), setup.values.p::<f64>(&()));
     let g = 2.95912208286e-4;
     for (planet, known) in (1..6).zip(known) {
         let square = |of: &dyn Fn(usize) -> f64| (0..3).map(|axis| of(3 * planet + axis).powi(2)).sum::<f64>();
@@ -113,7 +118,7 @@ fn the_centre_of_mass_of_three_bodies_and_of_the_crystal_is_at_rest() {
     for name in ["figure-eight", "pythagorean", "argon-crystal"] {
         let setup = setup(name);
         for axis in 0..2 {
-            let momenta = setup.momenta().iter().skip(axis).step_by(2).map(|(_, p)| &p.value);
+            let momenta = setup.values.momenta().iter().skip(axis).step_by(2).map(|(_, p)| &p.value);
             assert_eq!(momenta.sum::<Rational>(), Rational::zero(), "{name}");
         }
     }

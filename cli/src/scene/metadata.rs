@@ -71,7 +71,8 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
     let texts = |values: &[Exact]| json!(values.iter().map(|value| arithmetic.text(value)).collect::<Vec<_>>());
     let named = match &system.potential {
         PotentialEnergy::Shipped(setup) => {
-            vec![("problem", json!(setup.problem.name)), ("hamiltonian", json!(setup.problem.hamiltonian))]
+            let problem = setup.problem.description();
+            vec![("problem", json!(problem.name)), ("hamiltonian", json!(problem.hamiltonian))]
         }
         PotentialEnergy::Formula(formula) => vec![("potential", json!(formula))],
         PotentialEnergy::Pairs(pairs) => pair_energy(pairs, texts),

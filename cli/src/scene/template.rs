@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use shadowstep::problems::{PROBLEMS, Problem, problem};
+use shadowstep::problems::{Description, PROBLEMS, problem};
 
 use crate::complaint::{Complaint, Ending};
 use crate::output::Output;
@@ -12,7 +12,7 @@ use crate::scene::keys;
 /// Prints the scene of a problem, or the names of all.
 pub(crate) fn template(name: Option<&str>) -> Result<Ending, Complaint> {
     let text = match name {
-        Some(name) => scene(problem(name)?),
+        Some(name) => scene(problem(name)?.description()),
         None => list(),
     };
     let mut output = Output::open(None, "")?;
@@ -22,8 +22,8 @@ pub(crate) fn template(name: Option<&str>) -> Result<Ending, Complaint> {
 }
 
 fn list() -> String {
-    let names = PROBLEMS.iter().map(|problem| format!("  {:<20}  {}\n", problem.name, problem.title));
-    let names: String = names.collect();
+    let line = |problem: &Description| format!("  {:<20}  {}\n", problem.name, problem.title);
+    let names: String = PROBLEMS.iter().map(|problem| line(problem.description())).collect();
     format!(
         "There is a scene for each of these problems:\n{names}\
          `shadowstep scene kepler > scene.toml` writes one, `shadowstep run scene.toml` runs it, and \
@@ -50,8 +50,8 @@ impl Lines {
     }
 }
 
-fn scene(problem: &Problem) -> String {
-    let Problem { name, title, hamiltonian, source, .. } = problem;
+fn scene(problem: &Description) -> String {
+    let Description { name, title, hamiltonian, source, .. } = problem;
     let mut lines = Lines(wrapped(&format!("{title}: H = {hamiltonian}"), "# "));
     lines.0 += &wrapped(&format!("Source: {source}"), "# ");
     lines.section("problem");

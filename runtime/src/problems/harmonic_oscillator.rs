@@ -1,9 +1,17 @@
 //! The harmonic oscillator, whose modified Hamiltonian is known in closed form.
 
-use num_traits::Signed;
+#[cfg(feature = "mpfr")]
+mod exact_flow;
+
 use shadowstep_macros::potential;
 
-use crate::problems::{Initial, Parameter, Problem};
+use super::definition::{Definition, Description, Parameter};
+use super::initial::Initial;
+use super::values::Values;
+#[cfg(feature = "mpfr")]
+use crate::exact_flow::solution::Solver;
+use crate::number::Number;
+use crate::potential::Potential;
 
 potential! {
     /// The harmonic oscillator. U is homogeneous of degree 2: β stays 0.
@@ -11,19 +19,25 @@ potential! {
     U(q) = omega^2 * q^2/2
 }
 
-pub(super) const PROBLEM: Problem = Problem {
-    name: "harmonic-oscillator",
-    title: "Harmonic oscillator",
-    hamiltonian: "p^2/2 + omega^2 q^2/2",
-    parameters: &[Parameter {
-        name: "omega",
-        default: "1",
-        meaning: "angular frequency",
-        range: "it must be positive",
-        allowed: |omega| omega.is_positive(),
-    }],
-    initial: || Initial::new([("q", "1")], [("p", "0")]),
-    step: "1/20",
-    until: "100",
-    source: "closed form of the modified Hamiltonian of kick-drift-kick Störmer–Verlet: ½(p² + (1−x²)ω²q²)·arcsin(x)/(x√(1−x²)), x = hω/2",
-};
+/// The entry of the registry.
+pub(super) struct Entry;
+
+impl Definition for Entry {
+    const DESCRIPTION: Description = Description {
+        name: "harmonic-oscillator",
+        title: "Harmonic oscillator",
+        hamiltonian: "p^2/2 + omega^2 q^2/2",
+        parameters: &[Parameter::positive("omega", "1", "angular frequency")],
+        initial: || Initial::new([("q", "1")], [("p", "0")]),
+        step: "1/20",
+        until: "100",
+        source: "closed form of the modified Hamiltonian of kick-drift-kick Störmer–Verlet: ½(p² + (1−x²)ω²q²)·arcsin(x)/(x√(1−x²)), x = hω/2",
+    };
+
+    #[cfg(feature = "mpfr")]
+    const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::Rotation>());
+
+    fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
+        Box::new(HarmonicOscillator { omega: values.number("omega", context) })
+    }
+}

@@ -1,10 +1,19 @@
 //! Kepler's problem in the plane.
 
+#[cfg(feature = "mpfr")]
+mod exact_flow;
+
 use num_traits::{One, Signed};
 use shadowstep_macros::potential;
 
+use super::definition::{Definition, Description, Parameter};
+use super::initial::Initial;
+use super::values::Values;
 use crate::Rational;
-use crate::problems::{Initial, Parameter, Problem};
+#[cfg(feature = "mpfr")]
+use crate::exact_flow::solution::Solver;
+use crate::number::Number;
+use crate::potential::Potential;
 
 potential! {
     /// Kepler's problem in the plane.
@@ -12,24 +21,36 @@ potential! {
     U(x, y) = -1/sqrt(x^2 + y^2)
 }
 
-pub(super) const PROBLEM: Problem = Problem {
-    name: "kepler",
-    title: "Kepler's problem in the plane",
-    hamiltonian: "(px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)",
-    parameters: &[Parameter {
-        name: "eccentricity",
-        default: "0.6",
-        meaning: "eccentricity of the orbit, which begins at its pericentre",
-        range: "it must be at least 0 and less than 1",
-        allowed: |e| !e.is_negative() && *e < Rational::one(),
-    }],
-    initial: || {
-        Initial::new(
-            [("x", "1 - eccentricity"), ("y", "0")],
-            [("px", "0"), ("py", "sqrt((1 + eccentricity)/(1 - eccentricity))")],
-        )
-    },
-    step: "1/20",
-    until: "100",
-    source: "Moan & Niesen, section 5.2: e = 0.6, t in [0, 100]; H = -1/2, period 2 pi",
-};
+/// The entry of the registry.
+pub(super) struct Entry;
+
+impl Definition for Entry {
+    const DESCRIPTION: Description = Description {
+        name: "kepler",
+        title: "Kepler's problem in the plane",
+        hamiltonian: "(px^2 + py^2)/2 - 1/sqrt(x^2 + y^2)",
+        parameters: &[Parameter {
+            name: "eccentricity",
+            default: "0.6",
+            meaning: "eccentricity of the orbit, which begins at its pericentre",
+            range: "it must be at least 0 and less than 1",
+            allowed: |e| !e.is_negative() && *e < Rational::one(),
+        }],
+        initial: || {
+            Initial::new(
+                [("x", "1 - eccentricity"), ("y", "0")],
+                [("px", "0"), ("py", "sqrt((1 + eccentricity)/(1 - eccentricity))")],
+            )
+        },
+        step: "1/20",
+        until: "100",
+        source: "Moan & Niesen, section 5.2: e = 0.6, t in [0, 100]; H = -1/2, period 2 pi",
+    };
+
+    #[cfg(feature = "mpfr")]
+    const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::Ellipse>());
+
+    fn potential<N: Number + 'static>(_: &Values, _: &N::Context) -> Box<dyn Potential<N>> {
+        Box::new(Kepler)
+    }
+}

@@ -1,21 +1,17 @@
 //! The Sun and the outer planets.
 
-use num_traits::Signed;
-
-use crate::problems::initial::Body;
-use crate::problems::{Initial, Parameter, Problem};
+use super::definition::{Definition, Description, Parameter};
+use super::gravity::gravity;
+use super::initial::{Body, Initial};
+use super::values::Values;
+use crate::number::Number;
+use crate::potential::Potential;
 
 /// The parameters that are masses, in the order of the bodies.
-pub(super) const MASSES: [&str; 6] = ["m_sun", "m_jupiter", "m_saturn", "m_uranus", "m_neptune", "m_pluto"];
+const MASSES: [&str; 6] = ["m_sun", "m_jupiter", "m_saturn", "m_uranus", "m_neptune", "m_pluto"];
 
 const fn mass(name: &'static str, default: &'static str) -> Parameter {
-    Parameter {
-        name,
-        default,
-        meaning: "mass in solar masses",
-        range: "it must be positive",
-        allowed: |mass| mass.is_positive(),
-    }
+    Parameter::positive(name, default, "mass in solar masses")
 }
 
 const fn body(
@@ -51,28 +47,31 @@ const BODIES: [Body<3>; 6] = [
     ),
 ];
 
-pub(super) const PROBLEM: Problem = Problem {
-    name: "outer-solar-system",
-    title: "The Sun and the outer planets (astronomical units, days, solar masses)",
-    hamiltonian: "sum_i |p_i|^2/(2 m_i) - g sum_(i<j) m_i m_j/|q_i - q_j|",
-    parameters: &[
-        Parameter {
-            name: "g",
-            default: "2.95912208286e-4",
-            meaning: "gravitational constant",
-            range: "it must be positive",
-            allowed: |g| g.is_positive(),
-        },
-        // the inner planets' masses are the Sun's
-        mass("m_sun", "1.00000597682"),
-        mass("m_jupiter", "0.000954786104043"),
-        mass("m_saturn", "0.000285583733151"),
-        mass("m_uranus", "0.0000437273164546"),
-        mass("m_neptune", "0.0000517759138449"),
-        mass("m_pluto", "1/1.3e8"),
-    ],
-    initial: || Initial::of_bodies(&BODIES),
-    step: "100",
-    until: "200000",
-    source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.2.2: steps of 100 to 200 days over 200000 days",
-};
+/// The entry of the registry.
+pub(super) struct Entry;
+
+impl Definition for Entry {
+    const DESCRIPTION: Description = Description {
+        name: "outer-solar-system",
+        title: "The Sun and the outer planets (astronomical units, days, solar masses)",
+        hamiltonian: "sum_i |p_i|^2/(2 m_i) - g sum_(i<j) m_i m_j/|q_i - q_j|",
+        parameters: &[
+            Parameter::positive("g", "2.95912208286e-4", "gravitational constant"),
+            // the inner planets' masses are the Sun's
+            mass("m_sun", "1.00000597682"),
+            mass("m_jupiter", "0.000954786104043"),
+            mass("m_saturn", "0.000285583733151"),
+            mass("m_uranus", "0.0000437273164546"),
+            mass("m_neptune", "0.0000517759138449"),
+            mass("m_pluto", "1/1.3e8"),
+        ],
+        initial: || Initial::of_bodies(&BODIES),
+        step: "100",
+        until: "200000",
+        source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.2.2: steps of 100 to 200 days over 200000 days",
+    };
+
+    fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
+        gravity::<N, 3>(values, &MASSES, context)
+    }
+}

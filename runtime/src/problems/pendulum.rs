@@ -1,8 +1,17 @@
 //! The mathematical pendulum.
 
+#[cfg(feature = "mpfr")]
+mod exact_flow;
+
 use shadowstep_macros::potential;
 
-use crate::problems::{Initial, Problem};
+use super::definition::{Definition, Description};
+use super::initial::Initial;
+use super::values::Values;
+#[cfg(feature = "mpfr")]
+use crate::exact_flow::solution::Solver;
+use crate::number::Number;
+use crate::potential::Potential;
 
 potential! {
     /// The mathematical pendulum.
@@ -10,13 +19,25 @@ potential! {
     U(q) = -cos(q)
 }
 
-pub(super) const PROBLEM: Problem = Problem {
-    name: "pendulum",
-    title: "Pendulum",
-    hamiltonian: "p^2/2 - cos(q)",
-    parameters: &[],
-    initial: || Initial::new([("q", "0")], [("p", "1")]),
-    step: "1/10",
-    until: "100",
-    source: "Moan & Niesen, section 5.1: p(0) = 1, t in [0, 100]; p = 2 is the separatrix",
-};
+/// The entry of the registry.
+pub(super) struct Entry;
+
+impl Definition for Entry {
+    const DESCRIPTION: Description = Description {
+        name: "pendulum",
+        title: "Pendulum",
+        hamiltonian: "p^2/2 - cos(q)",
+        parameters: &[],
+        initial: || Initial::new([("q", "0")], [("p", "1")]),
+        step: "1/10",
+        until: "100",
+        source: "Moan & Niesen, section 5.1: p(0) = 1, t in [0, 100]; p = 2 is the separatrix",
+    };
+
+    #[cfg(feature = "mpfr")]
+    const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::TaylorSeries>());
+
+    fn potential<N: Number + 'static>(_: &Values, _: &N::Context) -> Box<dyn Potential<N>> {
+        Box::new(Pendulum)
+    }
+}

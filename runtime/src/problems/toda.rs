@@ -2,7 +2,12 @@
 
 use shadowstep_macros::potential;
 
-use crate::problems::{Initial, Problem};
+use super::definition::{Definition, Description};
+use super::initial::Initial;
+use super::values::Values;
+use crate::number::Number;
+use crate::pairs::{Ends, Pairs};
+use crate::potential::Potential;
 
 potential! {
     /// Toda's spring, at rest at d = 0.
@@ -10,15 +15,24 @@ potential! {
     pair U(d) = exp(-d) + d - 1
 }
 
-pub(super) const BODIES: usize = 200;
+const BODIES: usize = 200;
 
-pub(super) const PROBLEM: Problem = Problem {
-    name: "toda",
-    title: "Toda lattice: a ring of 200 bodies, begun with a long wave of velocities",
-    hamiltonian: "sum_i p_i^2/2 + sum_i (exp(-d_i) + d_i - 1), d_i = q_(i+1) - q_i, around the ring",
-    parameters: &[],
-    initial: || Initial::of_chain(BODIES, |_| "0".to_owned(), |i| format!("sin({i}*pi/100)")),
-    step: "1/20",
-    until: "100",
-    source: "Toda, Journal of the Physical Society of Japan 22 (1967) 431: integrable, with solitons; the wave is our choice",
-};
+/// The entry of the registry.
+pub(super) struct Entry;
+
+impl Definition for Entry {
+    const DESCRIPTION: Description = Description {
+        name: "toda",
+        title: "Toda lattice: a ring of 200 bodies, begun with a long wave of velocities",
+        hamiltonian: "sum_i p_i^2/2 + sum_i (exp(-d_i) + d_i - 1), d_i = q_(i+1) - q_i, around the ring",
+        parameters: &[],
+        initial: || Initial::of_chain(BODIES, |_| "0".to_owned(), |i| format!("sin({i}*pi/100)")),
+        step: "1/20",
+        until: "100",
+        source: "Toda, Journal of the Physical Society of Japan 22 (1967) 431: integrable, with solitons; the wave is our choice",
+    };
+
+    fn potential<N: Number + 'static>(_: &Values, _: &N::Context) -> Box<dyn Potential<N>> {
+        Box::new(Pairs::<_, 1>::neighbours(BODIES, TodaSpring, Ends::Periodic))
+    }
+}

@@ -20,9 +20,9 @@ impl Given {
             },
         );
         let setup = self.setup(reader, name)?;
-        let (coordinates, q): (Vec<_>, Vec<_>) = setup.positions().iter().cloned().unzip();
-        let (momenta, p): (Vec<_>, Vec<_>) = setup.momenta().iter().cloned().unzip();
-        let masses = setup.masses.clone();
+        let (coordinates, q): (Vec<_>, Vec<_>) = setup.values.positions().iter().cloned().unzip();
+        let (momenta, p): (Vec<_>, Vec<_>) = setup.values.momenta().iter().cloned().unzip();
+        let masses = setup.values.masses().map(<[_]>::to_vec);
         let (own_q, own_p) =
             self.state.values(reader, |reader, numbers| numbers.values(reader, coordinates.len()), masses.as_deref());
         for (given, names, values) in [(&own_q, &coordinates, &q), (&own_p, &momenta, &p)] {
@@ -54,10 +54,11 @@ impl Given {
             }
             Err(error) => return reader.wrong(&name.at, error.to_string(), "`shadowstep problems` lists all"),
         };
-        let names: Vec<&str> = problem.parameters.iter().map(|parameter| parameter.name).collect();
-        self.refuse_unknown_parameters(reader, problem.name, &names);
+        let parameters = problem.description().parameters;
+        let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name).collect();
+        self.refuse_unknown_parameters(reader, problem.name(), &names);
         let given = |name: &str| self.parameters.iter().find(|(key, _)| key.value == name).map(|(_, text)| text);
-        for parameter in problem.parameters {
+        for parameter in parameters {
             let value = match given(parameter.name) {
                 Some(text) => Some(reader.evaluate(text)?),
                 None => {

@@ -2,8 +2,8 @@
 
 use rug::Float;
 
-use super::{Asked, ExactFlowError, Point, Solution, log2};
 use crate::Rational;
+use crate::exact_flow::solution::{ExactFlowError, Point, Request, Solution, log2};
 use crate::number::{Number, Precision};
 
 /// A rotation of (ωq, p).
@@ -16,22 +16,20 @@ pub(super) struct Rotation {
     p: Float,
 }
 
-impl Rotation {
-    pub(super) fn new(asked: &Asked<'_>) -> Result<Self, ExactFlowError> {
-        let omega = Float::from_rational(asked.setup.value("omega"), &asked.rough()?);
-        // an angle of so many bits before the point
-        let precision = asked.precision(log2(&omega) + asked.longest.log2(), u32::MAX)?;
+impl Solution for Rotation {
+    fn new(request: &Request<'_>) -> Result<Self, ExactFlowError> {
+        let omega = Float::from_rational(request.values.value("omega"), &request.rough()?);
+        // the bits of the largest angle before its point
+        let precision = request.precision(log2(&omega) + request.longest.log2(), u32::MAX)?;
         Ok(Rotation {
-            h: asked.h.clone(),
+            h: request.h.clone(),
             precision,
-            omega: Float::from_rational(asked.setup.value("omega"), &precision),
-            q: asked.setup.q(&precision).remove(0),
-            p: asked.setup.p(&precision).remove(0),
+            omega: Float::from_rational(request.values.value("omega"), &precision),
+            q: request.values.q(&precision).remove(0),
+            p: request.values.p(&precision).remove(0),
         })
     }
-}
 
-impl Solution for Rotation {
     fn at(&mut self, n: i64) -> Point {
         let t = Float::from_rational(&(&self.h * Rational::from_integer(n.into())), &self.precision);
         let zero = Float::zero(&self.precision);

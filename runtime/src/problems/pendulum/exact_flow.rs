@@ -14,8 +14,8 @@ use std::f64::consts::{LN_2, LOG2_E};
 
 use rug::Float;
 
-use super::{Asked, ExactFlowError, Point, Solution, log2};
 use crate::Rational;
+use crate::exact_flow::solution::{ExactFlowError, Point, Request, Solution, log2};
 use crate::number::{Number, Precision};
 
 /// Beyond so many bits for the growth of errors a run would take too long; on the separatrix they suffice to |t| = 2772.
@@ -26,7 +26,7 @@ const LAST_TERMS: usize = 4;
 
 /// A state of the pendulum, and the one that it began with.
 #[derive(Debug)]
-pub(super) struct Series {
+pub(super) struct TaylorSeries {
     h: Rational,
     precision: Precision,
     start: Point,
@@ -34,23 +34,7 @@ pub(super) struct Series {
     n: i64,
 }
 
-impl Series {
-    pub(super) fn new(asked: &Asked<'_>) -> Result<Self, ExactFlowError> {
-        let rough = start(asked, &asked.rough()?);
-        let (q, p) = (&rough.q[0], &rough.p[0]);
-        let energy = p.clone().square() / 2u32 - q.clone().cos();
-        // errors grow by e^t at most, as |U''| ≤ 1; and away from the separatrix H = 1 linearly, by a factor of some
-        // 1/|H − 1| a period and of another one for the shape of the orbit
-        let exponential = asked.longest * LOG2_E;
-        let periods = (asked.longest + 1.0).log2() + log2(p).max(0.0);
-        let linear = 2.0 * (periods + (-log2(&(energy - 1u32))).max(0.0));
-        // q itself, which rotation makes large
-        let size = log2(q).max(periods).max(0.0);
-        let precision = asked.precision(size + exponential.min(linear), MOST_GROWTH)?;
-        let start = start(asked, &precision);
-        Ok(Series { h: asked.h.clone(), precision, present: start.clone(), start, n: 0 })
-    }
-
+impl TaylorSeries {
     /// Goes on by `rest`, or by as much of it as one series allows; returns what is left.
     fn advance(&mut self, rest: Float) -> Float {
         let bits = f64::from(self.precision.in_bits());
@@ -71,11 +55,27 @@ impl Series {
     }
 }
 
-fn start(asked: &Asked<'_>, precision: &Precision) -> Point {
-    Point { q: asked.setup.q(precision), p: asked.setup.p(precision), beta: Float::zero(precision) }
+fn start(request: &Request<'_>, precision: &Precision) -> Point {
+    Point { q: request.values.q(precision), p: request.values.p(precision), beta: Float::zero(precision) }
 }
 
-impl Solution for Series {
+impl Solution for TaylorSeries {
+    fn new(request: &Request<'_>) -> Result<Self, ExactFlowError> {
+        let rough = start(request, &request.rough()?);
+        let (q, p) = (&rough.q[0], &rough.p[0]);
+        let energy = p.clone().square() / 2u32 - q.clone().cos();
+        // errors grow by e^t at most, as |U''| ≤ 1; and away from the separatrix H = 1 linearly, by a factor of some
+        // 1/|H − 1| a period and of another one for the shape of the orbit
+        let exponential = request.longest * LOG2_E;
+        let periods = (request.longest + 1.0).log2() + log2(p).max(0.0);
+        let linear = 2.0 * (periods + (-log2(&(energy - 1u32))).max(0.0));
+        // q itself, which rotation makes large
+        let size = log2(q).max(periods).max(0.0);
+        let precision = request.precision(size + exponential.min(linear), MOST_GROWTH)?;
+        let start = start(request, &precision);
+        Ok(TaylorSeries { h: request.h.clone(), precision, present: start.clone(), start, n: 0 })
+    }
+
     fn at(&mut self, n: i64) -> Point {
         // from where it is, or from the start, which is then met exactly
         if n.abs() <= (n - self.n).abs() {

@@ -16,10 +16,17 @@
 use num_traits::Zero;
 use rug::Float;
 
-use super::{Asked, ExactFlowError, Point, Solution, log2};
 use crate::Rational;
+use crate::exact_flow::solution::{ExactFlowError, Point, Request, Solution, log2};
 use crate::number::{Number, Precision};
-use crate::problems::Setup;
+use crate::problems::values::Values;
+
+const UNBOUND: ExactFlowError = ExactFlowError::InitialState(
+    "the exact flow of kepler is that of bound orbits, and this start has H = |p|^2/2 - 1/|q| >= 0",
+);
+const RADIAL: ExactFlowError = ExactFlowError::InitialState(
+    "the exact flow of kepler is that of ellipses, and this start has no angular momentum: x py - y px = 0",
+);
 
 /// An ellipse and the time on it.
 #[derive(Debug)]
@@ -37,41 +44,9 @@ pub(super) struct Ellipse {
     tau: Float,
 }
 
-/// Refuses what has H ≥ 0, or goes through the centre.
-pub(super) fn is_ellipse(setup: &Setup) -> Result<(), ExactFlowError> {
-    let [x, y, px, py] = ["x", "y", "px", "py"].map(|name| setup.value(name));
-    if (x * py - y * px).is_zero() {
-        return Err(ExactFlowError::Radial);
-    }
-    // |p|²|q| < 2, in squares, which are exact
-    let (squared_r, squared_p) = (x * x + y * y, px * px + py * py);
-    if &squared_p * &squared_p * squared_r >= Rational::from_integer(4.into()) {
-        return Err(ExactFlowError::Unbound);
-    }
-    Ok(())
-}
-
 impl Ellipse {
-    pub(super) fn new(asked: &Asked<'_>) -> Result<Self, ExactFlowError> {
-        let rough = Ellipse::with(asked, asked.rough()?);
-        // a start as near to a parabola as this has no digits left
-        if !rough.a.is_finite() || rough.a.is_below_zero() {
-            return Err(ExactFlowError::Unbound);
-        }
-        // 1/a is a difference of numbers of size 2/r₀
-        let parabolic = log2(&rough.a) - log2(&rough.r);
-        let angle = log2(&rough.omega) + asked.longest.log2();
-        // 1 − e is at least this; r, the slope of Kepler's equation, gets as small, and errors grow as 1/r² in the forces
-        let [x, y] = &rough.q[..] else { unreachable!("two coordinates") };
-        let [px, py] = &rough.p[..] else { unreachable!("two coordinates") };
-        let momentum = x.clone() * py - y.clone() * px;
-        let flatness = log2(&rough.a) + 1.0 - 2.0 * log2(&momentum);
-        let growth = 2.0 * parabolic.max(0.0) + angle.max(0.0) + 4.0 * flatness.max(0.0);
-        Ok(Ellipse::with(asked, asked.precision(growth, u32::MAX)?))
-    }
-
-    fn with(asked: &Asked<'_>, precision: Precision) -> Self {
-        let (q, p) = (asked.setup.q::<Float>(&precision), asked.setup.p::<Float>(&precision));
+    fn with(request: &Request<'_>, precision: Precision) -> Self {
+        let (q, p) = (request.values.q::<Float>(&precision), request.values.p::<Float>(&precision));
         let product = |a: &[Float], b: &[Float]| a[0].clone() * &b[0] + a[1].clone() * &b[1];
         let r = product(&q, &q).sqrt();
         let a = (2u32 / r.clone() - product(&p, &p)).recip();
@@ -79,7 +54,7 @@ impl Ellipse {
         let omega = (a.clone() * &root_a).recip();
         let sigma = 1u32 - r.clone() / &a;
         let tau = product(&q, &p) / &root_a;
-        Ellipse { h: asked.h.clone(), precision, q, p, r, a, root_a, omega, sigma, tau }
+        Ellipse { h: request.h.clone(), precision, q, p, r, a, root_a, omega, sigma, tau }
     }
 
     /// sin x and 1 − cos x.
@@ -122,6 +97,38 @@ impl Ellipse {
 }
 
 impl Solution for Ellipse {
+    /// Refuses orbits with H ≥ 0 and those through the centre.
+    fn check(values: &Values) -> Result<(), ExactFlowError> {
+        let [x, y, px, py] = ["x", "y", "px", "py"].map(|name| values.value(name));
+        if (x * py - y * px).is_zero() {
+            return Err(RADIAL);
+        }
+        // |p|²|q| < 2, in squares, which are exact
+        let (squared_r, squared_p) = (x * x + y * y, px * px + py * py);
+        if &squared_p * &squared_p * squared_r >= Rational::from_integer(4.into()) {
+            return Err(UNBOUND);
+        }
+        Ok(())
+    }
+
+    fn new(request: &Request<'_>) -> Result<Self, ExactFlowError> {
+        let rough = Ellipse::with(request, request.rough()?);
+        // a start as near to a parabola as this has no digits left
+        if !rough.a.is_finite() || rough.a.is_below_zero() {
+            return Err(UNBOUND);
+        }
+        // 1/a is a difference of numbers of size 2/r₀
+        let parabolic = log2(&rough.a) - log2(&rough.r);
+        let angle = log2(&rough.omega) + request.longest.log2();
+        // 1 − e is at least this; r, the slope of Kepler's equation, gets as small, and errors grow as 1/r² in the forces
+        let [x, y] = &rough.q[..] else { unreachable!("two coordinates") };
+        let [px, py] = &rough.p[..] else { unreachable!("two coordinates") };
+        let momentum = x.clone() * py - y.clone() * px;
+        let flatness = log2(&rough.a) + 1.0 - 2.0 * log2(&momentum);
+        let growth = 2.0 * parabolic.max(0.0) + angle.max(0.0) + 4.0 * flatness.max(0.0);
+        Ok(Ellipse::with(request, request.precision(growth, u32::MAX)?))
+    }
+
     fn at(&mut self, n: i64) -> Point {
         let t = Float::from_rational(&(&self.h * Rational::from_integer(n.into())), &self.precision);
         let x = self.anomaly(&(t * &self.omega));

@@ -1,0 +1,72 @@
+//! What the file of a problem provides.
+
+use num_traits::Signed;
+
+use super::initial::Initial;
+use super::values::Values;
+use crate::Rational;
+#[cfg(feature = "mpfr")]
+use crate::exact_flow::solution::Solver;
+use crate::number::Number;
+use crate::potential::Potential;
+
+/// What the registry needs of a problem; each problem implements it in its own file.
+pub(super) trait Definition {
+    /// Name, formula, parameters and initial state.
+    const DESCRIPTION: Description;
+
+    /// How the exact flow is computed, where a solution is known.
+    #[cfg(feature = "mpfr")]
+    const EXACT_FLOW: Option<Solver> = None;
+
+    /// U(q) with these values of the parameters, each rounded once.
+    fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>>;
+}
+
+/// A problem in texts: its formula and, as exact expressions, its parameters and initial state.
+#[derive(Clone, Copy, Debug)]
+pub struct Description {
+    /// Short name, as the command line and scenes spell it.
+    pub name: &'static str,
+    /// One line for people.
+    pub title: &'static str,
+    /// H(q, p) as a formula.
+    pub hamiltonian: &'static str,
+    /// Parameters, ordered so that each default uses earlier ones only.
+    pub parameters: &'static [Parameter],
+    /// The initial state and the masses, which may use the parameters.
+    pub initial: fn() -> Initial,
+    /// A step size that a scheme of order 4 can use.
+    pub step: &'static str,
+    /// The default final time.
+    pub until: &'static str,
+    /// Where problem and numbers are from.
+    pub source: &'static str,
+}
+
+/// A parameter of a problem.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: &'static str,
+    /// Its default, an exact expression.
+    pub default: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// The allowed values, in words.
+    pub range: &'static str,
+    /// Whether a value is allowed.
+    pub allowed: fn(&Rational) -> bool,
+}
+
+impl Parameter {
+    /// A parameter that must be positive.
+    pub(super) const fn positive(name: &'static str, default: &'static str, meaning: &'static str) -> Self {
+        Parameter { name, default, meaning, range: "it must be positive", allowed: |value| value.is_positive() }
+    }
+
+    /// A parameter that may have any value.
+    pub(super) const fn any(name: &'static str, default: &'static str, meaning: &'static str) -> Self {
+        Parameter { name, default, meaning, range: "any number is allowed", allowed: |_| true }
+    }
+}
