@@ -91,7 +91,3 @@ pub use potential::Potential;
 pub use scheme::{Moves, Scheme, Summary, Weights};
 pub use shadowstep_macros::{kinetic, potential, splitting_scheme};
 pub use shadowstep_symbolic::{Rational, exact};
-
-#[cfg(all(doctest, feature = "mpfr"))]
-#[doc = include_str!("../../README.md")]
-struct Readme;

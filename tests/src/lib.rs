@@ -93,3 +93,7 @@ impl Bits for Float {
 pub fn same_bits<N: Bits>(a: &[N], b: &[N]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.same_bits(b))
 }
+
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
