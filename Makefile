@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything. Both fetch what is missing.
 
-.PHONY: run test deps format lint check docs bench
+.PHONY: run test deps format lint check docs bench package
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run: deps
@@ -26,6 +26,10 @@ docs:
 
 bench: deps
 	cargo bench --workspace --locked
+
+# Packs every crate but the tests as for crates.io, and builds each from its package.
+package: deps
+	cargo package --workspace --exclude shadowstep-tests --allow-dirty --locked
 
 # Where cargo's crate gmp-mpfr-sys keeps the libraries that it has built.
 GMP_FOLDERS = "$${GMP_MPFR_SYS_CACHE:-$${XDG_CACHE_HOME:-$$HOME/.cache}/gmp-mpfr-sys}" \
