@@ -1,6 +1,6 @@
 //! Problems with their parameters and initial states: those of the paper, then systems of many bodies.
 //!
-//! A problem is a file in `problems/` that implements [`Definition`]: its formula, parameters and their defaults, initial
+//! A problem is a file in `problems/` that implements `Definition`: its formula, parameters and their defaults, initial
 //! state, source and, where a solution is known, its exact flow. It is registered by its `mod` line and its line of the
 //! [registry](Problem); nothing else depends on which problems there are.
 
