@@ -40,8 +40,11 @@ pub(crate) fn imports(source: &Crate) -> Imports {
         for path in &module.paths {
             take(&module.file, source.resolve(index, path, &mut Vec::new()));
         }
-        for name in &module.calls {
+        for (name, arguments) in &module.calls {
             take(&module.file, source.resolve_macro(index, name));
+            if source.macros.contains_key(name) {
+                arguments.iter().for_each(|path| take(&module.file, source.resolve_module(index, path)));
+            }
         }
     }
     found
@@ -111,6 +114,14 @@ impl Crate {
         }
         seen.pop();
         found
+    }
+
+    /// A module given to a macro of the crate, which may use any name in it.
+    fn resolve_module(&self, module: usize, path: &[String]) -> Vec<Target> {
+        let targets = self.resolve(module, path, &mut Vec::new()).into_iter();
+        let modules = targets.filter_map(|target| if let Target::Module(index) = target { Some(index) } else { None });
+        let name = path.join("::");
+        modules.map(|index| Target::Item { file: self.modules[index].file.clone(), name: name.clone() }).collect()
     }
 
     /// `name!` is what is in scope by that name, or the crate's `macro_rules!` above it.

@@ -108,6 +108,15 @@ fn macros_and_items_behind_attributes_have_the_file_that_defines_them() {
     ]);
     assert_eq!(found.len(), 1);
     let found = circles_of(&[
+        ("lib.rs", "mod a; mod b; macro_rules! list { ($m:ident) => { pub fn f() { $m::f() } } } list!(a);"),
+        ("a.rs", "use crate::Item; pub fn f() {}"),
+        ("b.rs", "pub fn g(a: u8) { println!(\"{}\", a); }"),
+    ]);
+    assert_eq!(
+        found,
+        ["2 files import each other: a.rs, lib.rs\n  a.rs imports from lib.rs: Item\n  lib.rs imports from a.rs: a\n"]
+    );
+    let found = circles_of(&[
         ("lib.rs", "extern crate self as own; mod a; mod b; #[path = \"c/other.rs\"] mod c;"),
         ("a.rs", "use own::c::C; #[macro_export] macro_rules! twice { () => {} }"),
         ("b.rs", "made_by_macro!(Item);"),

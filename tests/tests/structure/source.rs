@@ -29,8 +29,8 @@ pub(crate) struct Module {
     pub(crate) uses: Vec<Use>,
     /// Every path in the code, single names among them.
     pub(crate) paths: BTreeSet<Vec<String>>,
-    /// Macros called by a single name.
-    pub(crate) calls: BTreeSet<String>,
+    /// Macros called by a single name, with the paths among their arguments.
+    pub(crate) calls: BTreeMap<String, BTreeSet<Vec<String>>>,
 }
 
 /// One name of a `use` declaration.
@@ -140,7 +140,7 @@ impl Crate {
 struct Code {
     uses: Vec<Use>,
     paths: BTreeSet<Vec<String>>,
-    calls: BTreeSet<String>,
+    calls: BTreeMap<String, BTreeSet<Vec<String>>>,
 }
 
 impl Visit<'_> for Code {
@@ -178,19 +178,20 @@ impl Visit<'_> for Code {
 
     fn visit_macro(&mut self, call: &syn::Macro) {
         let path: Vec<_> = call.path.segments.iter().map(|segment| text(&segment.ident)).collect();
-        let generates = path.last().is_some_and(|name| GENERATING.contains(&name.as_str()));
-        match &path[..] {
-            [name] => drop(self.calls.insert(name.clone())),
-            _ => drop(self.paths.insert(path)),
+        let mut arguments = BTreeSet::new();
+        if path.last().is_some_and(|name| !GENERATING.contains(&name.as_str())) {
+            add_paths(call.tokens.clone(), &mut arguments);
         }
-        if !generates {
-            self.tokens(call.tokens.clone());
+        self.paths.extend(arguments.iter().cloned());
+        match &path[..] {
+            [name] => self.calls.entry(name.clone()).or_default().append(&mut arguments),
+            _ => drop(self.paths.insert(path)),
         }
     }
 
     fn visit_attribute(&mut self, attribute: &Attribute) {
         if let Meta::List(list) = &attribute.meta {
-            self.tokens(list.tokens.clone());
+            add_paths(list.tokens.clone(), &mut self.paths);
         }
     }
 }
@@ -198,40 +199,33 @@ impl Visit<'_> for Code {
 /// Macros whose arguments become the code of another crate.
 const GENERATING: [&str; 4] = ["quote", "quote_spanned", "parse_quote", "parse_quote_spanned"];
 
-impl Code {
-    /// The paths among the arguments of a macro, which only the macro can parse. A name behind a dot is a field.
-    fn tokens(&mut self, tokens: TokenStream) {
-        let mut path = Vec::new();
-        let mut signs = String::new(); // between the last name and this token
-        for token in tokens {
-            match token {
-                TokenTree::Punct(sign) => {
-                    signs.push(sign.as_char());
-                    continue;
-                }
-                TokenTree::Ident(name) if signs == "::" && !path.is_empty() => path.push(text(&name)),
-                TokenTree::Ident(name) => {
-                    self.end(&mut path);
-                    if signs != "." {
-                        path.push(text(&name));
-                    }
-                }
-                TokenTree::Group(group) => {
-                    self.end(&mut path);
-                    self.tokens(group.stream());
-                }
-                TokenTree::Literal(_) => self.end(&mut path),
+/// Adds the paths among the arguments of a macro, which only the macro can parse. A name behind a dot is a field.
+fn add_paths(tokens: TokenStream, paths: &mut BTreeSet<Vec<String>>) {
+    let mut path = Vec::new();
+    let mut signs = String::new(); // between the last name and this token
+    for token in tokens {
+        match token {
+            TokenTree::Punct(sign) => {
+                signs.push(sign.as_char());
+                continue;
             }
-            signs.clear();
+            TokenTree::Ident(name) if signs == "::" && !path.is_empty() => path.push(text(&name)),
+            TokenTree::Ident(name) => {
+                paths.insert(std::mem::take(&mut path));
+                if signs != "." {
+                    path.push(text(&name));
+                }
+            }
+            TokenTree::Group(group) => {
+                paths.insert(std::mem::take(&mut path));
+                add_paths(group.stream(), paths);
+            }
+            TokenTree::Literal(_) => drop(paths.insert(std::mem::take(&mut path))),
         }
-        self.end(&mut path);
+        signs.clear();
     }
-
-    fn end(&mut self, path: &mut Vec<String>) {
-        if !path.is_empty() {
-            self.paths.insert(std::mem::take(path));
-        }
-    }
+    paths.insert(path);
+    paths.remove(&Vec::new());
 }
 
 /// `use a::{b, c::*};` as a::b and c::*, each with its name.
