@@ -1,10 +1,11 @@
-//! What a person is told when something is wrong, and how the program ends then.
+//! What is reported on stderr, and how the program ends.
 
-use std::fmt::{self, Display};
+use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};
 
 use shadowstep::problems::ProblemError;
-use shadowstep::tables::Faults;
+pub(crate) use shadowstep_scenes::Error as Complaint;
+use shadowstep_scenes::arithmetic::NUMBER_EXAMPLES;
 
 /// The exit codes; the later one weighs more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -15,110 +16,54 @@ pub(crate) enum Ending {
     RunFailed,
 }
 
-/// Why the program cannot go on.
-#[derive(Debug)]
-pub(crate) enum Complaint {
-    /// One sentence, and what would be right.
-    Usage { sentence: String, hint: String },
-    /// A scene, or a table that is to be run, has faults.
-    Faults(Faults),
-    /// One sentence, and what may help.
-    Run { sentence: String, hint: String },
-    /// The output cannot be written.
-    Output(io::Error),
-}
-
-impl Complaint {
-    pub(crate) fn usage(sentence: impl Into<String>, hint: impl Into<String>) -> Self {
-        Complaint::Usage { sentence: sentence.into(), hint: hint.into() }
+/// Reports an error on stderr.
+pub(crate) fn tell(error: &Complaint) -> Ending {
+    match error {
+        // who reads has read enough, as `head` does
+        Complaint::Output(error) if error.kind() == ErrorKind::BrokenPipe => return Ending::Done,
+        _ => say(format_args!("error: {error}")),
     }
-
-    pub(crate) fn run(sentence: impl Into<String>, hint: impl Into<String>) -> Self {
-        Complaint::Run { sentence: sentence.into(), hint: hint.into() }
-    }
-
-    /// Tells it on stderr.
-    pub(crate) fn tell(&self) -> Ending {
-        match self {
-            // who reads has read enough, as `head` does
-            Complaint::Output(error) if error.kind() == ErrorKind::BrokenPipe => return Ending::Done,
-            _ => say(format_args!("error: {self}")),
-        }
-        match self {
-            Complaint::Usage { .. } | Complaint::Faults(_) => Ending::WrongUsage,
-            Complaint::Run { .. } | Complaint::Output(_) => Ending::RunFailed,
-        }
+    match error {
+        Complaint::Usage { .. } | Complaint::Faults(_) => Ending::WrongUsage,
+        Complaint::Run { .. } | Complaint::Output(_) => Ending::RunFailed,
     }
 }
 
-impl Display for Complaint {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Complaint::Usage { sentence, hint } | Complaint::Run { sentence, hint } => {
-                write!(f, "{sentence}\n  hint: {hint}")
-            }
-            Complaint::Faults(faults) => write!(f, "{faults}"),
-            Complaint::Output(error) => write!(f, "the output cannot be written: {error}"),
-        }
-    }
+/// Reports something that the user should know of a run that goes well.
+pub(crate) fn remark(note: impl Display) {
+    say(format_args!("note: {note}"));
 }
 
-/// Tells something that one should know of a run that goes well.
-pub(crate) fn remark(sentence: impl Display) {
-    say(format_args!("remark: {sentence}"));
-}
-
-/// Tells that the answer is no, and why.
-pub(crate) fn no(sentence: impl Display, hint: impl Display) -> Ending {
-    say(format_args!("error: {sentence}\n  hint: {hint}"));
+/// Reports that the answer is no, and why.
+pub(crate) fn no(message: impl Display, hint: impl Display) -> Ending {
+    say(format_args!("error: {message}\n  hint: {hint}"));
     Ending::AnswerIsNo
 }
 
-/// Tells what was done, where stdout has the result itself.
+/// Reports what was done, where stdout has the result itself.
 pub(crate) fn report(text: impl Display) {
     say(text);
 }
 
-/// A closed stderr is no reason to end.
+/// A closed stderr is not a reason to end.
 fn say(text: impl Display) {
     let _ = writeln!(io::stderr(), "{text}");
 }
 
-impl From<io::Error> for Complaint {
-    fn from(error: io::Error) -> Self {
-        Complaint::Output(error)
-    }
-}
-
-impl From<serde_json::Error> for Complaint {
-    fn from(error: serde_json::Error) -> Self {
-        Complaint::Output(error.into())
-    }
-}
-
-impl From<csv::Error> for Complaint {
-    fn from(error: csv::Error) -> Self {
-        Complaint::Output(error.into())
-    }
-}
-
-impl From<ProblemError> for Complaint {
-    fn from(error: ProblemError) -> Self {
-        match error {
-            ProblemError::UnknownProblem { name, hint } => {
-                Complaint::usage(format!("there is no problem `{name}`"), hint)
-            }
-            ProblemError::UnknownParameter { problem, name, hint } => {
-                let hint = format!("{hint} `shadowstep problems {problem}` says what can be set");
-                Complaint::usage(format!("{problem} has no parameter or initial value `{name}`"), hint)
-            }
-            ProblemError::SetTwice { name } => Complaint::usage(format!("`{name}` is set twice"), "keep one"),
-            ProblemError::NoValue { name, text, why } => {
-                Complaint::usage(format!("--set {name}={text}: {why}"), crate::quantity::EXAMPLES)
-            }
-            ProblemError::OutOfRange { name, text, range } => {
-                Complaint::usage(format!("--set {name}={text} is out of range"), range)
-            }
+/// A problem or a value of `--set` that is wrong.
+pub(crate) fn of_problem(error: ProblemError) -> Complaint {
+    match error {
+        ProblemError::UnknownProblem { name, hint } => Complaint::usage(format!("there is no problem `{name}`"), hint),
+        ProblemError::UnknownParameter { problem, name, hint } => {
+            let hint = format!("{hint} `shadowstep problems {problem}` says what can be set");
+            Complaint::usage(format!("{problem} has no parameter or initial value `{name}`"), hint)
+        }
+        ProblemError::SetTwice { name } => Complaint::usage(format!("`{name}` is set twice"), "keep one"),
+        ProblemError::NoValue { name, text, why } => {
+            Complaint::usage(format!("--set {name}={text}: {why}"), NUMBER_EXAMPLES)
+        }
+        ProblemError::OutOfRange { name, text, range } => {
+            Complaint::usage(format!("--set {name}={text} is out of range"), range)
         }
     }
 }

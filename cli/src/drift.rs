@@ -14,7 +14,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use crate::arguments::DriftArguments;
 use crate::arithmetic::Arithmetic;
-use crate::complaint::{Complaint, Ending, remark};
+use crate::complaint::{Complaint, Ending, remark, tell};
 use crate::library::EXACT_FLOW;
 use crate::output::Output;
 use crate::progress::Progress;
@@ -164,7 +164,7 @@ pub(crate) fn drift(arguments: &DriftArguments) -> Result<Ending, Complaint> {
                 output.flush()?;
             }
             Ok(record) => rows.push(row(run, &record)),
-            Err(complaint) => ending = ending.max(complaint.tell()),
+            Err(complaint) => ending = ending.max(tell(&complaint)),
         }
     }
     if !arguments.json && !rows.is_empty() {
@@ -215,8 +215,8 @@ fn measure<N: Rounded + 'static>(
     bar: bool,
 ) -> Result<EnergyDrift<N>, Complaint> {
     let progress = Progress::new(bar, run.name(), run.steps);
-    let (method, heard) = (selection.estimator.method(true), progress.listener());
-    let found = propagator.energy_drift::<N>(&selection.setup, run, &method, context, heard)?;
+    let method = selection.estimator.method(true);
+    let found = propagator.energy_drift::<N>(&selection.setup, run, &method, context, |n| progress.reach(n))?;
     // both extremes may be finite where their difference overflows
     if !found.drift.is_finite() {
         return Err(run.not_finite("the energy drift"));

@@ -3,34 +3,27 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | [`arguments`] | the flags and their help |
-//! | [`quantity`], [`library`] | exact numbers and schemes, as a person names them |
-//! | [`selection`], [`propagator`], [`run`] | arguments → problem, schemes and steps: the runs to make |
-//! | [`arithmetic`], [`steps`], [`estimator`] | digits, the number of steps, and the m of the estimator |
+//! | [`quantity`], [`selection`] | exact numbers; arguments → problem, schemes and steps: the runs to make |
 //! | [`drift`], [`trace`] | the runs: one line a run, or one line a step |
 //! | [`scene`] | runs that a file describes |
 //! | [`figures`] | the figures of the paper, and ours |
-//! | [`figures`] | the figures of a paper: charts and a report |
 //! | [`schemes`], [`problems`] | what can be run |
-//! | [`readable`], [`output`], [`progress`], [`complaint`] | how it is told |
+//! | [`readable`], [`output`], [`progress`] | tables, lines and bars |
+//! | [`complaint`], [`interrupt`] | messages on stderr and exit codes; Ctrl-C |
 
 mod arguments;
-mod arithmetic;
 mod complaint;
 mod drift;
-mod estimator;
 mod figures;
-mod library;
+mod interrupt;
 mod output;
 mod problems;
 mod progress;
-mod propagator;
 mod quantity;
 mod readable;
-mod run;
 mod scene;
 mod schemes;
 mod selection;
-mod steps;
 mod trace;
 
 use std::process::ExitCode;
@@ -38,10 +31,11 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use arguments::{Arguments, Command, SchemesCommand};
-use complaint::{Complaint, Ending};
+use complaint::{Complaint, Ending, tell};
+use shadowstep_scenes::{arithmetic, estimator, library, propagator, run, steps};
 
 fn main() -> ExitCode {
-    let ending = obey(&Arguments::parse().command).unwrap_or_else(|complaint| complaint.tell());
+    let ending = obey(&Arguments::parse().command).unwrap_or_else(|complaint| tell(&complaint));
     ExitCode::from(ending as u8)
 }
 

@@ -1,72 +1,53 @@
 //! Where lines go: stdout, or a file that gets its name when it is complete.
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, StdoutLock, Write};
+use std::path::Path;
 
 use serde::Serialize;
-
-use crate::complaint::Complaint;
+use shadowstep_scenes::{Error, WholeFile};
 
 /// Takes lines.
-pub(crate) struct Output {
-    writer: Box<dyn Write>,
-    file: Option<Unfinished>,
-}
-
-/// A file under a temporary name; it goes away unless it is finished.
-struct Unfinished {
-    temporary: PathBuf,
-    path: PathBuf,
+pub(crate) enum Output {
+    Stdout(StdoutLock<'static>),
+    File(WholeFile),
 }
 
 impl Output {
-    /// The file, or stdout. In complaints, `named` is the flag or key that gives the file.
-    pub(crate) fn open(path: Option<&Path>, named: &str) -> Result<Self, Complaint> {
-        let Some(path) = path else {
-            return Ok(Output { writer: Box::new(io::stdout().lock()), file: None });
-        };
-        let name = path.file_name().filter(|_| path.is_file() || !path.exists()).ok_or_else(|| {
-            Complaint::usage(format!("{named} {} is no file", path.display()), "give the name of a file")
-        })?;
-        let temporary = path.with_file_name(format!("{}.{}.partial", name.display(), std::process::id()));
-        let file = File::create_new(&temporary).map_err(|error| {
-            let sentence = format!("{named} {} cannot be written: {error}", path.display());
-            Complaint::usage(sentence, "give a file in a folder that exists and is yours")
-        })?;
-        let file = (BufWriter::new(file), Unfinished { temporary, path: path.to_owned() });
-        Ok(Output { writer: Box::new(file.0), file: Some(file.1) })
+    /// The file, or stdout. In messages, `named` is the flag or key that gives the file.
+    pub(crate) fn open(path: Option<&Path>, named: &str) -> Result<Self, Error> {
+        Ok(match path {
+            Some(path) => Output::File(WholeFile::create(path, named)?),
+            None => Output::Stdout(io::stdout().lock()),
+        })
     }
 
     /// One JSON object on a line of its own.
-    pub(crate) fn json(&mut self, record: &impl Serialize) -> Result<(), Complaint> {
+    pub(crate) fn json(&mut self, record: &impl Serialize) -> Result<(), Error> {
         let line = serde_json::to_string(record)?;
         Ok(writeln!(self, "{line}")?)
     }
 
     /// Gives the file its name.
-    pub(crate) fn finish(mut self) -> Result<(), Complaint> {
-        self.flush()?;
-        if let Some(file) = &self.file {
-            fs::rename(&file.temporary, &file.path)?;
+    pub(crate) fn finish(self) -> Result<(), Error> {
+        match self {
+            Output::Stdout(mut stdout) => Ok(stdout.flush()?),
+            Output::File(file) => file.finish(),
         }
-        Ok(())
     }
 }
 
 impl Write for Output {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.writer.write(bytes)
+        match self {
+            Output::Stdout(stdout) => stdout.write(bytes),
+            Output::File(file) => file.write(bytes),
+        }
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.writer.flush()
-    }
-}
-
-impl Drop for Unfinished {
-    fn drop(&mut self) {
-        // after `finish` there is no such file any more
-        let _ = fs::remove_file(&self.temporary);
+        match self {
+            Output::Stdout(stdout) => stdout.flush(),
+            Output::File(file) => file.flush(),
+        }
     }
 }

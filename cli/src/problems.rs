@@ -5,7 +5,7 @@ use std::io::Write;
 use serde::Serialize;
 use shadowstep::problems::{Description, Initial, PROBLEMS, problem};
 
-use crate::complaint::{Complaint, Ending};
+use crate::complaint::{Complaint, Ending, of_problem};
 use crate::output::Output;
 
 #[derive(Serialize)]
@@ -42,7 +42,7 @@ const SHORT: usize = 12;
 /// One problem, or all.
 pub(crate) fn problems(name: Option<&str>, json: bool) -> Result<Ending, Complaint> {
     let chosen = match name {
-        Some(name) => vec![problem(name)?],
+        Some(name) => vec![problem(name).map_err(of_problem)?],
         None => PROBLEMS.to_vec(),
     };
     let most_values = if name.is_some() { usize::MAX } else { SHORT };

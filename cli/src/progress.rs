@@ -5,6 +5,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 /// A bar on stderr while a run lasts; nothing where stderr is no terminal.
 pub(crate) struct Progress {
     bar: ProgressBar,
+    shown: bool,
 }
 
 impl Progress {
@@ -13,17 +14,19 @@ impl Progress {
         let style = ProgressStyle::with_template("{prefix}  {wide_bar}  {pos}/{len}  {eta} left");
         bar.set_style(style.expect("the template is well formed"));
         bar.set_prefix(run);
-        Progress { bar }
+        Progress { shown: !bar.is_hidden(), bar }
     }
 
-    /// What is called at each step; without a bar it costs nothing.
-    pub(crate) fn listener(&self) -> impl Fn(i64) + '_ {
-        let shown = !self.bar.is_hidden();
-        move |n| {
-            if shown {
-                self.bar.set_position(n.unsigned_abs());
-            }
+    /// The run is at step n; without a bar it costs nothing.
+    pub(crate) fn reach(&self, n: i64) {
+        if self.shown {
+            self.bar.set_position(n.unsigned_abs());
         }
+    }
+
+    /// Takes the bar away while something else is written.
+    pub(crate) fn suspend(&self, write: impl FnOnce()) {
+        self.bar.suspend(write);
     }
 }
 

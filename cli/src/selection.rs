@@ -1,14 +1,14 @@
 //! Arguments → problem, schemes and steps: the runs to make.
 
 use shadowstep::Rational;
-use shadowstep::number::Precision;
 use shadowstep::problems::{Setup, problem};
 use shadowstep::shadow::{Rule, Stop};
+use shadowstep_scenes::Note;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::arguments::{EstimatorChoice, OrderChoice, RuleChoice, RunArguments, StopChoice};
 use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
-use crate::complaint::{Complaint, remark};
+use crate::complaint::{Complaint, of_problem, remark};
 use crate::estimator::{Chosen, Kind, NO_ACCURACY, Wish, no_accuracy};
 use crate::propagator::Propagator;
 use crate::quantity;
@@ -38,9 +38,10 @@ impl Selection {
         steps = each_once(&steps, |(h, _)| to_text(h), "step");
         let selection = Selection { setup, until, arithmetic, estimator, propagators, steps };
         for scheme in selection.propagators.iter().filter_map(Propagator::scheme) {
-            arithmetic.suits(scheme).map_err(|(sentence, most)| {
-                Complaint::usage(sentence, format!("use --digits {most}, or {OTHER_SCHEME}"))
+            let note = arithmetic.suits(scheme).map_err(|error| {
+                Complaint::usage(error.to_string(), format!("use --digits {}, or {OTHER_SCHEME}", error.most))
             })?;
+            note.iter().for_each(remark);
         }
         selection.remark_on_ends();
         Ok(selection)
@@ -68,7 +69,7 @@ impl Selection {
     }
 
     fn remark_on_ends(&self) {
-        self.steps.iter().for_each(|(h, count)| steps::remark_on_end(h, *count, &self.until));
+        self.steps.iter().filter_map(|(h, count)| Note::of_end(h, *count, &self.until)).for_each(remark);
     }
 }
 
@@ -76,9 +77,8 @@ fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Complaint> {
     if arguments.double {
         return Ok(Arithmetic::Double);
     }
-    let precision = Precision::digits(arguments.digits);
-    let precision = precision.map_err(|error| Complaint::usage(error.to_string(), "use --digits 120"))?;
-    Ok(Arithmetic::Digits(arguments.digits, precision))
+    let arithmetic = Arithmetic::with_digits(arguments.digits);
+    arithmetic.map_err(|error| Complaint::usage(error.to_string(), "use --digits 120"))
 }
 
 fn estimator(arguments: &RunArguments) -> Result<Chosen, Complaint> {
@@ -120,7 +120,7 @@ fn accuracy(text: &str) -> Result<Rational, Complaint> {
 fn setup(arguments: &RunArguments, arithmetic: Arithmetic) -> Result<Setup, Complaint> {
     let set = arguments.set.iter().map(|text| quantity::assignment(text)).collect::<Result<Vec<_>, _>>()?;
     let digits = arithmetic.value_digits();
-    let setup = problem(&arguments.problem)?.setup(&set, digits)?;
+    let setup = problem(&arguments.problem).and_then(|problem| problem.setup(&set, digits)).map_err(of_problem)?;
     match setup.values.named().iter().find(|(_, value)| !arithmetic.has_digits_of(value)) {
         None => Ok(setup),
         Some((name, _)) => Err(Complaint::usage(
@@ -147,5 +147,5 @@ fn each_once<T: Clone>(list: &[T], name: impl Fn(&T) -> String, what: &str) -> V
 fn step(text: &str, until: &Rational) -> Result<(Rational, u64), Complaint> {
     let h = quantity::number("--step", text)?;
     let count = steps::count((&h, text), (until, &to_text(until)), "--");
-    count.map(|count| (h, count)).map_err(|none| Complaint::usage(none.sentence, none.hint))
+    count.map(|count| (h, count)).map_err(|none| Complaint::usage(none.message, none.hint))
 }

@@ -95,7 +95,6 @@ fn follow<N: Rounded + 'static>(
 ) -> Result<(), Complaint> {
     let (method, between) = (selection.estimator.method(true), selection.estimator.is_between());
     let progress = Progress::new(bar, run.name(), run.steps);
-    let heard = progress.listener();
     let mut system = motion::<N>(&selection.setup, context);
     propagator.estimates(&selection.setup, run, &method, context, |n, found| {
         let energy = (!between).then(|| system.energy_of(found.q, found.p));
@@ -113,7 +112,7 @@ fn follow<N: Rounded + 'static>(
             q: texts(found.q),
             p: texts(found.p),
         })?;
-        heard(n);
+        progress.reach(n);
         Ok(())
     })
 }

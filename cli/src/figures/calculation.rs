@@ -11,7 +11,7 @@ use shadowstep::{Rational, exact};
 use super::double_precision::{self, Block, Differences};
 use super::work::Task;
 use crate::arithmetic::GUARD_DIGITS;
-use crate::complaint::Complaint;
+use crate::complaint::{Complaint, of_problem};
 use crate::estimator::Chosen;
 use crate::library::EXACT_FLOW;
 use crate::propagator::{Propagator, motion};
@@ -147,7 +147,9 @@ impl Setting {
     }
 
     fn setup(&self) -> Result<Setup, Complaint> {
-        Ok(problem(self.problem)?.setup(&self.set, self.digits + GUARD_DIGITS)?)
+        problem(self.problem)
+            .and_then(|problem| problem.setup(&self.set, self.digits + GUARD_DIGITS))
+            .map_err(of_problem)
     }
 
     fn precision(&self) -> Precision {

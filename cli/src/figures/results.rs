@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use super::calculation::{By, Calculation, Drift, Energies, Outcome, Setting, What, log10, number};
 use super::double_precision::{Block, Differences};
 use super::work::Store;
-use crate::complaint::{Complaint, Ending};
+use crate::complaint::{Complaint, Ending, tell};
 
 /// The results of all figures.
 pub(crate) struct Results {
@@ -49,7 +49,7 @@ impl Results {
         let missing = self.missing.take();
         let found = super::work::run(&missing, store)?;
         for (_, complaint) in &found.failures {
-            *ending = (*ending).max(complaint.tell());
+            *ending = (*ending).max(tell(complaint));
         }
         let keys = missing.iter().map(key);
         self.known.extend(keys.zip(found.outcomes));

@@ -5,7 +5,7 @@ use std::io::Write;
 use shadowstep::tables::{self, Proved};
 use shadowstep_schemes::Kinetic;
 
-use crate::complaint::{Complaint, Ending};
+use crate::complaint::{Complaint, Ending, tell};
 use crate::library;
 use crate::output::Output;
 use crate::schemes::{near_integrable, near_integrable_text};
@@ -18,7 +18,7 @@ pub(crate) fn check(files: &[String]) -> Result<Ending, Complaint> {
         let source = match library::source(path) {
             Ok(source) => source,
             Err(complaint) => {
-                ending = ending.max(complaint.tell());
+                ending = ending.max(tell(&complaint.into()));
                 continue;
             }
         };

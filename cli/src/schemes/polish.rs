@@ -8,7 +8,7 @@ use shadowstep_schemes::{Kinetic, Rational};
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::arguments::PolishArguments;
-use crate::complaint::{Complaint, Ending, no, remark, report};
+use crate::complaint::{Complaint, Ending, no, remark, report, tell};
 use crate::library;
 use crate::output::Output;
 use crate::readable::table;
@@ -22,7 +22,7 @@ pub(crate) fn polish(arguments: &PolishArguments) -> Result<Ending, Complaint> {
         Ok(polished) => polished,
         Err(NotPolished::Request { sentence, help }) => return Err(Complaint::usage(sentence, help)),
         Err(NotPolished::Faults(faults)) => {
-            Complaint::Faults(faults).tell();
+            tell(&Complaint::Faults(faults));
             return Ok(Ending::AnswerIsNo);
         }
         Err(NotPolished::Unsolved { sentence, help }) => return Ok(no(sentence, help)),

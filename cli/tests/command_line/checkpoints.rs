@@ -94,7 +94,7 @@ fn survives_kills(scene: &str, file: &str) {
     }
     let said = run(folder.path(), "");
     assert_eq!(said.code, 0, "{}", said.err);
-    assert!(said.err.starts_with("remark: taken up at n = "), "{}", said.err);
+    assert!(said.err.starts_with("note: resumed at n = "), "{}", said.err);
     assert_eq!(names(folder.path()), [file, "scene.toml"]);
     assert!(fs::read_to_string(folder.path().join(file)).unwrap() == undisturbed(scene, file), "other bytes");
 }

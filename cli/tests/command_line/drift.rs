@@ -194,7 +194,7 @@ fn drifts_below_the_range_of_f64_are_shown() {
 #[test]
 fn a_remark_says_where_an_unfinished_interval_ends() {
     let said = shadowstep(&format!("{} --step 3/10 --json", FAST.replace("--until 2", "--until 100")));
-    assert_eq!(said.err, "remark: 100 is not a multiple of 3/10: the run ends at n = 333, t = 99.9\n");
+    assert_eq!(said.err, "note: 100 is not a multiple of 3/10: the run ends at n = 333, t = 99.9\n");
     let record = &objects(&said.out)[0];
     assert_eq!((text(record, "until"), text(record, "end"), &record["steps"]), ("100", "999/10", &333.into()));
     assert_eq!(said.code, 0);
@@ -204,7 +204,7 @@ fn a_remark_says_where_an_unfinished_interval_ends() {
 fn a_remark_says_how_far_published_digits_hold() {
     let words = "drift --problem pendulum --scheme blanes-moan-s6 --step 1/10,1/20 --until 1 --order 2";
     let said = shadowstep(&format!("{words} --digits 300"));
-    assert!(said.err.starts_with("remark: blanes-moan-s6 has order 4 to 25"), "{}", said.err);
+    assert!(said.err.starts_with("note: blanes-moan-s6 has order 4 to 25"), "{}", said.err);
     assert_eq!(said.err.lines().count(), 1, "once per scheme: {}", said.err);
     quietly(&format!("{words} --digits 200"));
 }

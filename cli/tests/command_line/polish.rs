@@ -113,14 +113,14 @@ fn a_misprinted_weight_is_named() {
     let (_folder, path) = printed(&PRINTED.replace("0.25369333", "0.25639333"));
     let said = shadowstep(&format!("schemes polish {path}"));
     assert_eq!(said.code, 0, "{}", said.err);
-    assert!(said.err.contains("remark: w6 seems to be misprinted: 2 of its 21 digits are right"), "{}", said.err);
+    assert!(said.err.contains("note: w6 seems to be misprinted: 2 of its 21 digits are right"), "{}", said.err);
     assert!(said.err.contains(": w6 has 19 wrong digits, the others up to 9"), "{}", said.err);
     // two digits transposed far behind
     let said = with_misprint("yoshida6-a", "0.235573213359358", "0.235573213395358");
-    assert!(said.contains("remark: g2 seems to be misprinted: 10 of its 20 digits are right"), "{said}");
+    assert!(said.contains("note: g2 seems to be misprinted: 10 of its 20 digits are right"), "{said}");
     assert!(said.contains(": g2 has 10 wrong digits, the others up to 1"), "{said}");
     let said = with_misprint("aba864", "0.31078285989857486", "0.31078285989857846");
-    assert!(said.contains("remark: kick[3] seems to be misprinted: 14 of its"), "{said}");
+    assert!(said.contains("note: kick[3] seems to be misprinted: 14 of its"), "{said}");
 }
 
 /// Yoshida's C and D are wrong throughout, and the small weight of his 6C was printed to digits that were not computed.

@@ -51,7 +51,7 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ("[\"x\", \"y\"]", "[\"x\", \"px\"]", "3:21: the coordinate `px` has the name of the momentum of `x`", "another"),
     ("[\"x\", \"y\"]", "[\"px\", \"x\"]", "3:22: the momentum `px` of `x` has the name of a coordinate", "another"),
     ("[\"x\", \"y\"]", "[\"x\", \"t\"]", "3:21: the coordinate `t` has the name of a column of the output", "another"),
-    ("[\"x\", \"y\"]", "[\"x\", \"2y\"]", "3:21: `2y` is no name", "begins with a letter"),
+    ("[\"x\", \"y\"]", "[\"x\", \"2y\"]", "3:21: `2y` is not a valid name", "begins with a letter"),
     ("k = -1", "k = \"1/0\"", "4:23: division by zero", "1/10"),
     ("k = -1", "k = \"2*x\"", "4:23: unknown name `x`", "1/10"),
     ("masses = [1, 2]", "masses = [1, -2]", "5:14: a mass of -2 is not positive", "masses are positive"),
@@ -174,7 +174,7 @@ const WRONG_KINETIC: &[(&str, &str, &str, &str)] = &[
     ("[initial]", "momenta = [\"k\", \"b\"]\n[initial]", "6:12: the momentum `k` has the name of a param", "another"),
     ("[initial]", "momenta = [\"n\", \"b\"]\n[initial]", "6:12: the momentum `n` has the name of a column", "another"),
     ("[initial]", "momenta = [\"b\", \"b\"]\n[initial]", "6:17: the momentum `b` has the name of another", "another"),
-    ("[initial]", "momenta = [\"1b\", \"b\"]\n[initial]", "6:12: `1b` is no name", "begins with a letter"),
+    ("[initial]", "momenta = [\"1b\", \"b\"]\n[initial]", "6:12: `1b` is not a valid name", "begins with a letter"),
     ("[initial]", "momenta = [\"a\", \"b\"]\n[initial]", "5:23: unknown name `px`", "in the momenta a, b and"),
 ];
 
@@ -236,7 +236,7 @@ const WRONG_PAIRS: &[(&str, &str, &str, &str)] = &[
     ("[1, 1, 1]", "[1, [2], 3]", "4:20: this value is of the wrong kind", "an exact number"),
     ("[1, 1, 1]", "[1, 0, 1]", "5:10: a mass of 0 is not positive", "masses are positive"),
     ("[1, 1, 1] }", "[1, 1, 1], d = [1, 2, 3] }", "4:27: with `pair`, `d` is the difference", "another name"),
-    ("[1, 1, 1] }", "[1, 1, 1], 2a = [1, 2, 3] }", "4:27: `2a` is no name", "begins with a letter"),
+    ("[1, 1, 1] }", "[1, 1, 1], 2a = [1, 2, 3] }", "4:27: `2a` is not a valid name", "begins with a letter"),
     ("g = 1", "g = 1, r2 = 1", "6:23: with `pair`, `r2` is the square of the distance", "another name"),
     ("g = 1", "g = 1, i = 1", "6:23: with `pair`, `i` is the number of a body", "another name"),
     ("g = 1", "g = 1, m = 1", "6:23: the parameter `m` has the name of a property", "another name"),

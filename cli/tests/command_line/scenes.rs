@@ -295,7 +295,7 @@ fn an_end_that_is_no_multiple_of_the_step_is_told_of() {
     let folder = folder(&asking("energy = true").replace("steps = 4", "until = \"1/3\""));
     let said = run(folder.path(), "");
     assert_eq!(said.code, 0);
-    assert_eq!(said.err, "remark: 1/3 is not a multiple of 1/8: the run ends at n = 2, t = 0.25\n");
+    assert_eq!(said.err, "note: 1/3 is not a multiple of 1/8: the run ends at n = 2, t = 0.25\n");
 }
 
 #[test]

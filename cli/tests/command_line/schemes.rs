@@ -110,7 +110,7 @@ fn wrong_words_for_the_list_are_told() {
     let said = shadowstep("schemes --order 9 --json");
     assert_eq!((said.code, said.out.as_str()), (0, ""));
     assert!(
-        said.err.starts_with("remark: no shipped scheme has order 9 for every T(p) (--for quadratic"),
+        said.err.starts_with("note: no shipped scheme has order 9 for every T(p) (--for quadratic"),
         "{}",
         said.err
     );

@@ -170,11 +170,7 @@ fn where_no_estimate_can_be_relied_on_there_is_none() {
     for order in ["1", "1 --estimator bilinear"] {
         let said = shadowstep(&RUN.replace("--order 5", &format!("--order {order}")));
         assert_eq!(said.code, 0);
-        assert!(
-            said.err.starts_with("remark: with --order 1 no estimate of the error can be relied on"),
-            "{}",
-            said.err
-        );
+        assert!(said.err.starts_with("note: with --order 1 no estimate of the error can be relied on"), "{}", said.err);
         assert!(objects(&said.out).iter().all(|line| line["estimate"].is_null() && line["order"] == 1));
     }
 }

@@ -51,7 +51,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("--estimator bilinear --order auto --accuracy 1e400", "--accuracy 1e400 is more than 1e100", "such as 1e-20"),
     ("--estimator bilinear --order auto --accuracy 1e-9x", "--accuracy `1e-9x`, character", "1/10"),
     ("--output nowhere/out.json", "--output nowhere/out.json cannot be written", "folder that exists"),
-    ("--output /", "--output / is no file", "name of a file"),
+    ("--output /", "--output / is not a file", "name of a file"),
 ];
 
 #[test]

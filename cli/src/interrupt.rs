@@ -1,0 +1,32 @@
+//! Ctrl-C and a polite `kill`: a run ends after its present step.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
+
+/// Whether a signal has asked the run to end.
+pub(crate) struct Interrupt {
+    asked: Arc<AtomicBool>,
+}
+
+impl Interrupt {
+    /// From now on the first signal asks the run to end, and the second ends the program.
+    ///
+    /// A terminal that is closed (SIGHUP) is not listened to: `nohup` sees to that.
+    pub(crate) fn listen() -> Self {
+        let asked = Arc::default();
+        for signal in [SIGINT, SIGTERM] {
+            // without a handler the program ends at once, and files are whole nevertheless
+            let _ = flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(&asked));
+            let _ = flag::register(signal, Arc::clone(&asked));
+        }
+        Interrupt { asked }
+    }
+
+    /// Whether the run is asked to end.
+    pub(crate) fn asked(&self) -> bool {
+        self.asked.load(Ordering::Relaxed)
+    }
+}

@@ -1,0 +1,183 @@
+//! The number type of a run and its digits: the one list of number types, and the one place that chooses by it.
+
+use num_traits::Zero;
+use shadowstep::number::{Float, Number, Precision, Rounded};
+use shadowstep::{Rational, number::PrecisionError};
+use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
+use shadowstep_schemes::scheme::Held;
+use shadowstep_symbolic::Exact;
+use shadowstep_symbolic::decimal::{to_significant, to_text};
+
+use crate::library::NamedScheme;
+use crate::note::Note;
+
+/// Digits beyond those of the run to which exact values are computed, so that rounding them once more does not show.
+pub const GUARD_DIGITS: u32 = 20;
+
+/// Irrational values are not computed to more digits.
+pub const MOST_VALUE_DIGITS: u32 = 5000;
+
+/// The most digits of a run.
+pub const MOST_DIGITS: u32 = 100_000;
+
+/// The default digits of a run.
+pub const DEFAULT_DIGITS: u32 = 120;
+
+/// How exact numbers are written.
+pub const NUMBER_EXAMPLES: &str = "write an exact number, such as 1/10, 0.05, 1e-3 or sqrt(2)/20";
+
+/// What else helps where a scheme's weights have too few digits.
+pub const OTHER_SCHEME: &str = "a scheme whose weights are fractions";
+
+/// The significant digits of f64, rounded up.
+const DOUBLE_DIGITS: u32 = 16;
+
+/// The number type of a run.
+#[derive(Clone, Copy, Debug)]
+pub enum Arithmetic {
+    /// Double precision, `f64`.
+    Double,
+    /// Decimal digits, and the precision in bits that has them: [`Float`].
+    Digits(u32, Precision),
+}
+
+/// A computation that can be made in every number type.
+pub trait Computation {
+    /// Its result.
+    type Output;
+
+    /// Makes it with numbers of type N.
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output;
+}
+
+/// The digits of a run in words or numbers, as records and metadata have them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(untagged)]
+pub enum DigitsLabel {
+    /// A number type with a name, such as `double`.
+    Name(&'static str),
+    /// Decimal digits.
+    Digits(u32),
+}
+
+impl Arithmetic {
+    /// The number types that have names instead of digits.
+    pub const NAMED: [(&'static str, Arithmetic); 1] = [("double", Arithmetic::Double)];
+
+    /// Multiprecision numbers of so many decimal digits.
+    ///
+    /// # Errors
+    /// More digits than MPFR has.
+    pub fn with_digits(digits: u32) -> Result<Self, PrecisionError> {
+        Ok(Arithmetic::Digits(digits, Precision::digits(digits)?))
+    }
+
+    /// Makes a computation in this number type.
+    ///
+    /// ```
+    /// use shadowstep::number::Rounded;
+    /// use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+    ///
+    /// struct Third;
+    ///
+    /// impl Computation for Third {
+    ///     type Output = String;
+    ///
+    ///     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> String {
+    ///         N::from_rational(&shadowstep::exact("1/3").unwrap(), context).to_text()
+    ///     }
+    /// }
+    ///
+    /// assert_eq!(Arithmetic::Double.compute(Third), "0.3333333333333333");
+    /// assert_eq!(Arithmetic::with_digits(30)?.compute(Third).len(), "0.".len() + 31);
+    /// # Ok::<(), shadowstep::number::PrecisionError>(())
+    /// ```
+    pub fn compute<C: Computation>(self, computation: C) -> C::Output {
+        match self {
+            Arithmetic::Double => computation.compute::<f64>(&()),
+            Arithmetic::Digits(_, precision) => computation.compute::<Float>(&precision),
+        }
+    }
+
+    /// Its significant decimal digits.
+    pub fn digits(self) -> u32 {
+        match self {
+            Arithmetic::Double => DOUBLE_DIGITS,
+            Arithmetic::Digits(digits, _) => digits,
+        }
+    }
+
+    /// What records and metadata call it.
+    pub fn label(self) -> DigitsLabel {
+        match self {
+            Arithmetic::Double => DigitsLabel::Name("double"),
+            Arithmetic::Digits(digits, _) => DigitsLabel::Digits(digits),
+        }
+    }
+
+    /// What people call it: `120 digits`.
+    pub fn described(self) -> String {
+        match self {
+            Arithmetic::Double => "double precision".to_owned(),
+            Arithmetic::Digits(digits, _) => format!("{digits} digits"),
+        }
+    }
+
+    /// Whether a value neither overflows nor becomes 0.
+    pub fn holds(self, value: &Rational) -> bool {
+        match self {
+            Arithmetic::Double => {
+                let nearest = f64::from_rational(value, &());
+                nearest.is_finite() && (nearest != 0.0 || value.is_zero())
+            }
+            // 10^±646456993 and less
+            Arithmetic::Digits(..) => true,
+        }
+    }
+
+    /// The digits to which exact values of the run are computed.
+    pub fn value_digits(self) -> u32 {
+        self.digits() + GUARD_DIGITS
+    }
+
+    /// Whether a value is exact, or has the digits that a run needs.
+    pub fn has_digits_of(self, value: &Exact) -> bool {
+        !value.rounded || self.value_digits() <= MOST_VALUE_DIGITS
+    }
+
+    /// The exact text of a value that is given to the run, or the digits of an irrational one.
+    pub fn text(self, exact: &Exact) -> String {
+        match exact.rounded {
+            true => to_significant(&exact.value, self.value_digits() as usize),
+            false => to_text(&exact.value),
+        }
+    }
+
+    /// Whether a scheme's weights have the digits of the run; a note where its order holds to fewer digits.
+    ///
+    /// # Errors
+    /// The weights have fewer digits.
+    pub fn suits(self, NamedScheme { name, scheme }: &NamedScheme) -> Result<Option<Note>, TooManyDigits> {
+        let digits = self.digits();
+        let proved = scheme.proved();
+        let closed_forms = proved.scheme.held == Held::Digits(TABLE_DIGITS) && proved.scheme.table.digits.is_none();
+        if closed_forms && digits > TABLE_DIGITS {
+            return Err(TooManyDigits { scheme: name.clone(), most: TABLE_DIGITS, digits });
+        }
+        let order = proved.order();
+        let held = order.digits.filter(|held| !closed_forms && *held < digits);
+        Ok(held.map(|digits| Note::OrderHoldsTo { scheme: name.clone(), order: order.order, digits }))
+    }
+}
+
+/// A run with more digits than a scheme's weights have.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{scheme} has irrational weights, held to {most} digits; the run asks for {digits}")]
+pub struct TooManyDigits {
+    /// The scheme.
+    pub scheme: String,
+    /// The digits of its weights.
+    pub most: u32,
+    /// The digits of the run.
+    pub digits: u32,
+}

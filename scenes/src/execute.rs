@@ -1,0 +1,206 @@
+//! Running a scene: into its file, which a later run can resume, or into a writer.
+
+use std::io::Write;
+
+use shadowstep::number::Rounded;
+
+use crate::arithmetic::Computation;
+use crate::engine::{Outcome, follow};
+use crate::error::Error;
+use crate::note::Note;
+use crate::observer::Observer;
+use crate::results::{Checkpoint, Columns, Metadata, Rows, Target};
+use crate::scene::Scene;
+
+impl Scene {
+    /// Runs the scene and writes its rows to the file that it names, from the last checkpoint if there is one.
+    ///
+    /// `restart` begins at t = 0 in any case, and replaces a file that is not from this scene.
+    ///
+    /// # Errors
+    /// A scene without a file, a file that is not from this scene or cannot be written, a checkpoint of another scene, a
+    /// run that fails. The rows of a run that fails stay in a partial file if the scene asks for checkpoints.
+    pub fn run_to_file(&self, restart: bool, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+        let (target, checkpoint) = Target::open(self, restart, observer)?;
+        self.run(target, checkpoint.as_ref(), observer)
+    }
+
+    /// Runs the scene and writes its rows, whatever file it names, without checkpoints.
+    ///
+    /// # Errors
+    /// A run that fails, a writer that does.
+    pub fn run_into(&self, rows: &mut dyn Write, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+        self.run(Target::Writer(rows), None, observer)
+    }
+
+    fn run(
+        &self,
+        target: Target<'_>,
+        checkpoint: Option<&Checkpoint>,
+        observer: &mut dyn Observer,
+    ) -> Result<Outcome, Error> {
+        let mut rows = Rows { target, format: self.output.format, columns: columns(self) };
+        match checkpoint {
+            Some(checkpoint) => observer.note(&Note::Resumed { n: checkpoint.n, steps: self.steps }),
+            None => {
+                if let Some(note) = Note::of_end(&self.h, self.steps, &self.until) {
+                    observer.note(&note);
+                }
+                rows.head(&Metadata::of(self))?;
+            }
+        }
+        let following = Following { scene: self, rows: &mut rows, checkpoint, observer: &mut *observer };
+        let outcome = self.arithmetic.compute(following);
+        match &outcome {
+            Ok(Outcome::Complete { .. }) => rows.target.finish()?,
+            Err(Error::Run { .. }) => rows.target.give_up(observer)?,
+            // stopped, or the disk is full: a later run may go on
+            Ok(Outcome::Stopped { .. }) | Err(_) => {}
+        }
+        outcome
+    }
+}
+
+/// A run that waits for its number type.
+struct Following<'a, 'r> {
+    scene: &'a Scene,
+    rows: &'a mut Rows<'r>,
+    checkpoint: Option<&'a Checkpoint>,
+    observer: &'a mut dyn Observer,
+}
+
+impl Computation for Following<'_, '_> {
+    type Output = Result<Outcome, Error>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+        follow::<N>(self.scene, context, self.rows, self.checkpoint, self.observer)
+    }
+}
+
+fn columns(scene: &Scene) -> Columns {
+    let output = &scene.output;
+    let names = scene.system.coordinates.iter().chain(&scene.system.momenta);
+    Columns {
+        energy: output.energy.is_some(),
+        modified_energy: output.modified_energy.is_some(),
+        state: names.filter(|_| output.trajectory.is_some()).cloned().collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::path::Path;
+
+    const KEPLER: &str = "[problem]\nname = \"kepler\"";
+
+    /// What moves in 20 steps at 30 digits with a checkpoint at each `interrupt`, and what else the output is.
+    fn scene(folder: &Path, system: &str, output: &str) -> Scene {
+        let text = format!(
+            "{system}\n[run]\nscheme = \"ruth3\"\nstep = \"1/20\"\nsteps = 20\ndigits = 30\n\
+             [output]\nfile = \"out.csv\"\ncheckpoint = \"1 h\"\n{output}\n"
+        );
+        let path = folder.join("scene.toml");
+        fs::write(&path, text).unwrap();
+        Scene::open(path.to_str().unwrap()).unwrap()
+    }
+
+    /// Stops a run at the last of so many states.
+    struct StopAfter(i64);
+
+    impl Observer for StopAfter {
+        fn stops(&mut self) -> bool {
+            self.0 -= 1;
+            self.0 <= 0
+        }
+    }
+
+    /// Stops after so many states, then after twice as many of those that are made from there, and so on; gives the
+    /// bytes of the file and the n of the stops.
+    fn with_stops(system: &str, output: &str, each: usize) -> (String, Vec<i64>) {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = scene(folder.path(), system, output);
+        let mut stops = Vec::new();
+        loop {
+            let after = each * (stops.len() + 1) + 1;
+            match scene.run_to_file(false, &mut StopAfter(after as i64)).unwrap() {
+                Outcome::Complete { .. } => break,
+                Outcome::Stopped { n } => stops.push(n),
+            }
+            // a run that is killed may have written more than its checkpoint knows of
+            let partial = fs::OpenOptions::new().append(true).open(folder.path().join("out.csv.partial"));
+            partial.unwrap().write_all(b"a row, and the half of").unwrap();
+        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "the file and its scene");
+        (fs::read_to_string(folder.path().join("out.csv")).unwrap(), stops)
+    }
+
+    #[test]
+    fn wherever_a_run_is_stopped_its_file_has_the_same_bytes() {
+        for output in [
+            "trajectory = true",
+            "energy = { every = 3 }\ntrajectory = { every = 2 }",
+            "modified_energy = { order = 1 }",
+            "modified_energy = { order = 4, every = 3 }\nenergy = true",
+            "modified_energy = { max_order = 6 }\ntrajectory = { every = 5 }",
+            "modified_energy = { max_order = 30 }",
+            "modified_energy = { max_order = 6, rule = \"robust\" }\nenergy = { every = 4 }",
+            "modified_energy = { estimator = \"bilinear\", order = 6 }",
+            "modified_energy = { estimator = \"bilinear\", max_order = 8, accuracy = \"1e-9\", every = 2 }",
+        ] {
+            let (whole, stops) = with_stops(KEPLER, output, 1000);
+            assert_eq!((stops.len(), whole.lines().last().unwrap().split(',').next()), (0, Some("20")), "{output}");
+            for each in [5, 7, 8, 12, 13, 19, 20] {
+                let (bytes, stops) = with_stops(KEPLER, output, each);
+                assert!(!stops.is_empty() && stops.is_sorted(), "{output}: {stops:?}");
+                assert_eq!(bytes, whole, "{output}: {stops:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn so_has_that_of_pairs_of_bodies_and_of_a_general_kinetic_energy() {
+        let pairs = "[problem]\npair = \"-m_i*m_j/sqrt(r2)\"\ndimensions = 2\nbodies = { m = [1, 2, \"sqrt(3)\"] }\n\
+                     masses = \"m\"\n[initial]\nq = [0, 0, 1, 0, 0, 2]\nv = [0, \"1/3\", 1, 0, 0, 0]";
+        let kinetic = "[problem]\npotential = \"q^2/2\"\ncoordinates = [\"q\"]\nkinetic = \"sqrt(1 + pq^2)\"\n\
+                       [initial]\nq = [1]\np = [\"1/3\"]";
+        for system in [pairs, kinetic] {
+            for output in ["trajectory = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"] {
+                let (whole, _) = with_stops(system, output, 1000);
+                for each in [5, 8, 13] {
+                    let (bytes, stops) = with_stops(system, output, each);
+                    assert!(!stops.is_empty());
+                    assert_eq!(bytes, whole, "{output}: {stops:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn no_more_is_done_again_than_an_estimate_needs() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = scene(folder.path(), KEPLER, "modified_energy = { order = 2 }");
+        // each fifth state is kept, and the estimates after n need one at or before n - 5: D_2, and three states for its
+        // error; the run that goes on from 10 has its first estimate at 16, and so it keeps no state 15
+        let mut first = 0;
+        for (n, kept) in [(4, None), (6, Some(0)), (16, Some(10)), (17, Some(10)), (19, Some(10)), (20, Some(10))] {
+            let outcome = scene.run_to_file(false, &mut StopAfter(n - first + 1)).unwrap();
+            assert_eq!(outcome, Outcome::Stopped { n });
+            let text = fs::read_to_string(folder.path().join("out.csv.checkpoint")).unwrap();
+            let state = serde_json::from_str::<serde_json::Value>(&text).unwrap()["checkpoint"]["state"]["n"].as_i64();
+            assert_eq!(state, kept, "at n = {n}");
+            // the first estimate of the run that goes on from there
+            first = kept.map_or(0, |kept| kept + 6);
+        }
+    }
+
+    #[test]
+    fn a_plain_run_evaluates_the_gradient_once_a_step_and_once_to_begin() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut scene = scene(folder.path(), KEPLER, "energy = true");
+        scene.scheme = crate::library::scheme("stormer-verlet").unwrap();
+        let outcome = scene.run_to_file(false, &mut ()).unwrap();
+        assert_eq!(outcome, Outcome::Complete { force_evaluations: 21 });
+    }
+}

@@ -1,0 +1,29 @@
+//! What every key of a scene means.
+
+use crate::keys::{self, SECTIONS};
+use crate::readable::wrapped;
+
+const INTRODUCTION: &str = "\
+A scene is a TOML file with the sections [problem], [initial], [run] and [output].
+
+A number is written in digits, 0.05 and 1e-3, and is taken exactly as it is written; or it is an exact expression in \
+quotes, \"1/20\" or \"sqrt(2)/2\", in which the parameters of the problem have their names. It is rounded once, to the \
+digits of the run.";
+
+/// Every key of a scene with its meaning, an example and its default.
+///
+/// ```
+/// assert!(shadowstep_scenes::explain().contains("step = \"1/20\""));
+/// ```
+pub fn explain() -> String {
+    let mut text = wrapped(INTRODUCTION, "");
+    for section in &SECTIONS {
+        text += &format!("\n[{}]\n{}", section.name, wrapped(section.meaning, ""));
+        for key in keys::of(section.name) {
+            text += &format!("\n  {} = {}\n{}", key.name, key.example, wrapped(key.meaning, "      "));
+            let default = key.default.map_or("It is needed.".to_owned(), |default| format!("Default: {default}."));
+            text += &wrapped(&default, "      ");
+        }
+    }
+    text
+}

@@ -1,0 +1,111 @@
+//! Scenes: a TOML file says which system is run with which splitting scheme, and what is written; no more than that is
+//! computed.
+//!
+//! A scene is read with the place of everything that is wrong with it, and run into its file or into a writer:
+//!
+//! ```
+//! use shadowstep::tables::Source;
+//! use shadowstep_scenes::{Outcome, Scene};
+//!
+//! let text = r#"
+//! [problem]
+//! name = "kepler"
+//! [run]
+//! scheme = "stormer-verlet"
+//! step = "1/20"
+//! steps = 40
+//! digits = 30
+//! [output]
+//! energy = { every = 20 }
+//! "#;
+//! let scene = Scene::read(Source { path: "scene.toml".to_owned(), text: text.to_owned() })?;
+//! let mut rows = Vec::new();
+//! let outcome = scene.run_into(&mut rows, &mut ())?;
+//! assert_eq!(outcome, Outcome::Complete { force_evaluations: 41 });
+//!
+//! let csv = String::from_utf8(rows).unwrap();
+//! let rows: Vec<&str> = csv.lines().filter(|line| !line.starts_with('#')).collect();
+//! assert_eq!(rows.len(), 4);
+//! assert_eq!(rows[0], "n,t,energy");
+//! assert!(rows[1].starts_with("0,0"), "{}", rows[1]);
+//! # Ok::<(), shadowstep_scenes::Error>(())
+//! ```
+//!
+//! A scene with `file` and `checkpoint` in \[output\] is run by [`Scene::run_to_file`]: when an [`Observer`] stops it,
+//! another call resumes it, and the file has the same bytes in the end.
+//!
+//! ```
+//! use shadowstep_scenes::{Observer, Outcome, Scene};
+//!
+//! struct StopAt(i64);
+//!
+//! impl Observer for StopAt {
+//!     fn progress(&mut self, n: i64) {
+//!         self.0 -= i64::from(n > 0);
+//!     }
+//!
+//!     fn stops(&mut self) -> bool {
+//!         self.0 == 0
+//!     }
+//! }
+//!
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("scene.toml");
+//! std::fs::write(&path, r#"
+//! problem.name = "pendulum"
+//! run = { scheme = "yoshida4", step = "1/10", steps = 30, digits = "double" }
+//! output = { trajectory = true, file = "pendulum.csv", checkpoint = 10 }
+//! "#)?;
+//! let scene = Scene::open(path.to_str().unwrap())?;
+//! assert_eq!(scene.run_to_file(false, &mut StopAt(12))?, Outcome::Stopped { n: 12 });
+//! assert!(matches!(scene.run_to_file(false, &mut ())?, Outcome::Complete { .. }));
+//! let csv = std::fs::read_to_string(folder.path().join("pendulum.csv"))?;
+//! assert!(csv.lines().last().unwrap().starts_with("30,"));
+//! # Ok::<(), shadowstep_scenes::Error>(())
+//! ```
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | `scene` | what a scene says: plain data |
+//! | [`keys`] | every key with its meaning; `explain` lists them, `template` writes scenes with them |
+//! | `read` | a scene's text → a scene, or all its faults |
+//! | `execute`, `engine`, `snapshots` | the run of a scene |
+//! | `observer`, `note` | how a caller watches a run and stops it |
+//! | `results` | rows, the head of a file, checkpoints, and where they go |
+//! | `whole_file`, [`lock`] | files that get their names when they are complete, and that one process has alone |
+//! | [`arithmetic`] | number types and their digits |
+//! | [`library`] | schemes by their names: shipped ones and files |
+//! | [`estimator`] | estimators of the modified energy with their settings |
+//! | [`run`], [`steps`], [`propagator`] | one run of a scheme or of the exact flow with one step size |
+//! | [`readable`], `error` | numbers and texts for people; what can go wrong |
+
+pub mod arithmetic;
+mod engine;
+mod error;
+pub mod estimator;
+mod execute;
+mod explain;
+pub mod keys;
+pub mod library;
+pub mod lock;
+mod note;
+mod observer;
+pub mod propagator;
+mod read;
+pub mod readable;
+mod results;
+pub mod run;
+mod scene;
+mod snapshots;
+pub mod steps;
+mod template;
+mod whole_file;
+
+pub use engine::Outcome;
+pub use error::Error;
+pub use explain::explain;
+pub use note::Note;
+pub use observer::Observer;
+pub use scene::{CheckpointInterval, Format, KineticEnergy, Outputs, PairEnergy, PotentialEnergy, Scene, System};
+pub use template::template;
+pub use whole_file::WholeFile;

@@ -1,0 +1,147 @@
+//! Schemes by their names: shipped ones, and tables in files.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Component, Path};
+
+use shadowstep::exact_flow;
+use shadowstep::problems::Problem;
+use shadowstep::tables::{self, Faults, Source, TableScheme, shipped_names};
+use shadowstep_schemes::{First, shipped, shipped_hint};
+use thiserror::Error;
+
+use crate::error::Error;
+
+/// The word that stands in place of a scheme for the exact flow.
+pub const EXACT_FLOW: &str = "exact-flow";
+
+/// A scheme under the name by which it was asked for.
+#[derive(Clone, Debug)]
+pub struct NamedScheme {
+    /// The name of a shipped scheme or the path of a table, as the request has it.
+    pub name: String,
+    /// The scheme with its proof.
+    pub scheme: TableScheme,
+}
+
+/// Why there is no such scheme.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum LibraryError {
+    /// An unknown name, or a file that is missing or cannot be read.
+    #[error("{message}\n  hint: {hint}")]
+    NotFound {
+        /// What is wrong, one sentence.
+        message: String,
+        /// What would be right.
+        hint: String,
+    },
+    /// The table has faults.
+    #[error(transparent)]
+    Faults(#[from] Faults),
+}
+
+impl From<LibraryError> for Error {
+    fn from(error: LibraryError) -> Self {
+        match error {
+            LibraryError::NotFound { message, hint } => Error::Usage { message, hint },
+            LibraryError::Faults(faults) => Error::Faults(faults),
+        }
+    }
+}
+
+/// The scheme that a word means: a shipped one, or a file if the word ends in `.toml` or has a separator of folders.
+///
+/// ```
+/// use shadowstep_scenes::library::scheme;
+///
+/// assert_eq!(scheme("yoshida4").unwrap().scheme.proved().order().order, 4);
+/// assert!(scheme("yoshida5").unwrap_err().to_string().contains("did you mean"));
+/// ```
+///
+/// # Errors
+/// An unknown name, a file that cannot be read, a table with faults.
+pub fn scheme(word: &str) -> Result<NamedScheme, LibraryError> {
+    scheme_from(word, Path::new(""), None)
+}
+
+/// The same, with files as seen from a folder and steps that may begin with the other map.
+///
+/// # Errors
+/// As [`scheme`].
+pub fn scheme_from(word: &str, folder: &Path, first: Option<First>) -> Result<NamedScheme, LibraryError> {
+    let source = source_from(word, folder)?;
+    let scheme = tables::read(&source, &beside_or_shipped, first)?;
+    Ok(NamedScheme { name: word.to_owned(), scheme })
+}
+
+/// The text of the table that a word means: a shipped one, or a file.
+///
+/// # Errors
+/// An unknown name, a file that cannot be read.
+pub fn source(word: &str) -> Result<Source, LibraryError> {
+    source_from(word, Path::new(""))
+}
+
+fn source_from(word: &str, folder: &Path) -> Result<Source, LibraryError> {
+    if is_file(word) { file(&folder.join(word).to_string_lossy()) } else { shipped(word).ok_or_else(|| unknown(word)) }
+}
+
+/// The text of a table.
+fn file(path: &str) -> Result<Source, LibraryError> {
+    match fs::read_to_string(path) {
+        Ok(text) => Ok(Source { path: path.to_owned(), text }),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let shipped = path.strip_suffix(".toml").filter(|name| shipped_names().contains(name));
+            let hint = match shipped {
+                Some(name) => format!("the shipped scheme is `{name}`, without `.toml`"),
+                None => "give the path of a table, or a name that `shadowstep schemes` lists".to_owned(),
+            };
+            Err(not_found(format!("there is no file {path}"), hint))
+        }
+        Err(error) if error.kind() == ErrorKind::InvalidData => {
+            Err(not_found(format!("{path} is not a text in UTF-8"), "a table is a TOML file"))
+        }
+        Err(error) => Err(not_found(format!("{path} cannot be read: {error}"), "give the path of a table")),
+    }
+}
+
+fn not_found(message: impl Into<String>, hint: impl Into<String>) -> LibraryError {
+    LibraryError::NotFound { message: message.into(), hint: hint.into() }
+}
+
+/// The base table of a composition: beside the table that names it, else shipped. A shipped table has shipped bases only.
+pub fn beside_or_shipped(base: &str, from: &Source) -> Option<Source> {
+    if from.is_shipped() {
+        return shipped(base);
+    }
+    beside(base, &from.path).or_else(|| shipped(base))
+}
+
+fn beside(base: &str, from: &str) -> Option<Source> {
+    // a file name, no path: so a chain of tables ends or comes back to a name it has had
+    let mut parts = Path::new(base).components();
+    let (Some(Component::Normal(_)), None) = (parts.next(), parts.next()) else { return None };
+    let file = format!("{}.toml", base.strip_suffix(".toml").unwrap_or(base));
+    let path = Path::new(from).with_file_name(file).to_str()?.to_owned();
+    let text = fs::read_to_string(&path).ok()?;
+    Some(Source { path, text })
+}
+
+fn is_file(word: &str) -> bool {
+    word.ends_with(".toml") || word.contains(std::path::is_separator)
+}
+
+fn unknown(word: &str) -> LibraryError {
+    if word == EXACT_FLOW {
+        let known: Vec<_> = exact_flow::problems().map(Problem::name).collect();
+        return not_found(
+            "exact-flow is not a scheme, but the solution itself, on which an estimator shows its own error",
+            format!("`shadowstep drift` and `trace` take it as --scheme, for {}", known.join(", ")),
+        );
+    }
+    let hint = match shipped_hint(word) {
+        names if names.ends_with('?') => format!("{names} `shadowstep schemes` lists all"),
+        none => format!("{none}; `shadowstep schemes` lists all; the name of a custom table ends in .toml"),
+    };
+    not_found(format!("there is no scheme `{word}`"), hint)
+}

@@ -1,0 +1,108 @@
+//! What a caller should know of a scene or a run that is not wrong.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use shadowstep::Rational;
+use shadowstep_symbolic::decimal::to_significant;
+
+use crate::readable::shortened;
+
+/// Something worth knowing that stops nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Note {
+    /// The time is not a multiple of the step: the run ends before it.
+    EndsEarly {
+        /// The time asked for.
+        until: Rational,
+        /// The step size h.
+        h: Rational,
+        /// How many steps are made.
+        steps: u64,
+    },
+    /// The scheme's order holds to fewer digits than the run has.
+    OrderHoldsTo {
+        /// The scheme's name.
+        scheme: String,
+        /// Its order.
+        order: u32,
+        /// The digits to which that order holds.
+        digits: u32,
+    },
+    /// Bodies have a property that looks like a mass, and T has masses of 1.
+    MassesAreOne {
+        /// The property's name.
+        property: String,
+    },
+    /// The energy of a pair changes when its bodies are exchanged.
+    AsymmetricPair {
+        /// Its formula.
+        formula: String,
+    },
+    /// The run goes on from a checkpoint.
+    Resumed {
+        /// The last n with a row in the file.
+        n: i64,
+        /// The number of steps of the whole run.
+        steps: u64,
+    },
+    /// There is a checkpoint without rows: the run begins at t = 0.
+    CheckpointWithoutRows {
+        /// The checkpoint.
+        checkpoint: PathBuf,
+    },
+    /// A number of the state cannot be saved.
+    NoCheckpoint {
+        /// The n of the state.
+        n: i64,
+    },
+    /// A run failed, and its rows stay in a partial file.
+    RowsKept {
+        /// The partial file.
+        partial: PathBuf,
+    },
+}
+
+impl Note {
+    /// Where a run ends that does not end at `until`; `None` if it does.
+    pub fn of_end(h: &Rational, steps: u64, until: &Rational) -> Option<Note> {
+        (end(h, steps) != *until).then(|| Note::EndsEarly { until: until.clone(), h: h.clone(), steps })
+    }
+}
+
+/// t = n h after so many steps.
+fn end(h: &Rational, steps: u64) -> Rational {
+    h * Rational::from_integer(steps.into())
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Note::EndsEarly { until, h, steps } => {
+                let end = to_significant(&end(h, *steps), 12);
+                let (until, h) = (shortened(until, 20), shortened(h, 20));
+                write!(f, "{until} is not a multiple of {h}: the run ends at n = {steps}, t = {end}")
+            }
+            Note::OrderHoldsTo { scheme, order, digits } => {
+                write!(f, "{scheme} has order {order} to {digits} digits only; below that its order is lower")
+            }
+            Note::MassesAreOne { property } => {
+                write!(f, "all masses of T are 1; `masses = \"{property}\"` takes them from the property {property}")
+            }
+            Note::AsymmetricPair { formula } => {
+                write!(f, "{formula} changes when bodies are exchanged; i is the one with the smaller number")
+            }
+            Note::Resumed { n, steps } => write!(f, "resumed at n = {n} of {steps}"),
+            Note::CheckpointWithoutRows { checkpoint } => {
+                write!(f, "{} has no rows beside it: the run begins again", checkpoint.display())
+            }
+            Note::NoCheckpoint { n } => {
+                write!(f, "no checkpoint at n = {n}: a number is beyond 1e-10000 or 1e10000")
+            }
+            Note::RowsKept { partial } => {
+                write!(f, "the rows up to there are in {}, until the next run", partial.display())
+            }
+        }
+    }
+}

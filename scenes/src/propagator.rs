@@ -1,0 +1,126 @@
+//! What takes a state on in time: a scheme, or the exact flow.
+
+use shadowstep::exact_flow::{ExactFlow, ExactFlowError};
+use shadowstep::number::{Number, Rounded};
+use shadowstep::problems::{ProblemMotion, Setup};
+use shadowstep::run::{EnergyDrift, RunError, ShadowRun, States, energy_drift};
+use shadowstep::shadow::{Estimate, Estimator, Method};
+
+use crate::error::Error;
+use crate::library::{self, EXACT_FLOW, NamedScheme};
+use crate::run::Run;
+
+/// A scheme, or the exact flow as the control of an estimator.
+#[derive(Debug)]
+pub enum Propagator {
+    /// A scheme.
+    Scheme(Box<NamedScheme>),
+    /// The exact flow.
+    ExactFlow,
+}
+
+impl Propagator {
+    /// The scheme that a word means, or for `exact-flow` the exact flow, if the problem has it.
+    ///
+    /// # Errors
+    /// An unknown scheme, a table with faults, a problem whose exact flow is not known.
+    pub fn read(word: &str, setup: &Setup) -> Result<Self, Error> {
+        if word != EXACT_FLOW {
+            return Ok(Propagator::Scheme(Box::new(library::scheme(word)?)));
+        }
+        shadowstep::exact_flow::has_exact_flow(setup).map_err(|error| {
+            let hint = match error {
+                ExactFlowError::NoSolution { .. } => "take a scheme, or one of these problems",
+                _ => "choose another initial state with --set",
+            };
+            Error::usage(error.to_string(), hint)
+        })?;
+        Ok(Propagator::ExactFlow)
+    }
+
+    /// The name by which it was asked for.
+    pub fn name(&self) -> &str {
+        match self {
+            Propagator::Scheme(scheme) => &scheme.name,
+            Propagator::ExactFlow => EXACT_FLOW,
+        }
+    }
+
+    /// Its scheme, if it is one.
+    pub fn scheme(&self) -> Option<&NamedScheme> {
+        match self {
+            Propagator::Scheme(scheme) => Some(scheme),
+            Propagator::ExactFlow => None,
+        }
+    }
+
+    /// The drift of the modified energy over a run from the problem's initial state; `heard` gets the n of each value.
+    ///
+    /// # Errors
+    /// A state or a modified energy that is not finite, an exact flow that cannot be followed.
+    pub fn energy_drift<N: Rounded + 'static>(
+        &self,
+        setup: &Setup,
+        run: Run<'_>,
+        method: &impl Method<N>,
+        context: &N::Context,
+        heard: impl FnMut(i64),
+    ) -> Result<EnergyDrift<N>, Error> {
+        match self {
+            Propagator::Scheme(named) => {
+                energy_drift(&named.scheme, motion(setup, context), run.h, run.steps, method, heard)
+            }
+            Propagator::ExactFlow => {
+                ShadowRun::<ExactFlow<N>, _>::of_exact_flow(setup, run.h, run.steps, method, context)
+                    .map_err(|error| run.not_followed(&error))?
+                    .drift(heard)
+            }
+        }
+        .map_err(|error| run.failed(&error))
+    }
+
+    /// Gives each estimate of a run with its n to `take`.
+    ///
+    /// # Errors
+    /// As [`Propagator::energy_drift`], and those of `take`.
+    pub fn estimates<N: Rounded + 'static>(
+        &self,
+        setup: &Setup,
+        run: Run<'_>,
+        method: &impl Method<N>,
+        context: &N::Context,
+        take: impl FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let failed = |error: RunError| run.failed(&error);
+        match self {
+            Propagator::Scheme(named) => {
+                let motion = motion(setup, context);
+                let shadow = ShadowRun::new(&named.scheme, motion, run.h, run.steps, method).map_err(failed)?;
+                take_all(shadow, run, take)
+            }
+            Propagator::ExactFlow => {
+                let shadow = ShadowRun::<ExactFlow<N>, _>::of_exact_flow(setup, run.h, run.steps, method, context);
+                take_all(shadow.map_err(|error| run.not_followed(&error))?, run, take)
+            }
+        }
+    }
+}
+
+/// The problem at its initial state.
+///
+/// # Panics
+/// If a mass is not positive, which problems exclude.
+pub fn motion<N: Number + 'static>(setup: &Setup, context: &N::Context) -> ProblemMotion<N> {
+    setup.motion(context).expect("problems allow positive masses only")
+}
+
+fn take_all<T: States, E: Estimator<T::Number>>(
+    mut shadow: ShadowRun<T, E>,
+    run: Run<'_>,
+    mut take: impl FnMut(i64, Estimate<'_, T::Number>) -> Result<(), Error>,
+) -> Result<(), Error> {
+    while let Some((n, estimate)) = shadow.advance().map_err(|error| run.failed(&error))? {
+        take(n, estimate)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,171 @@
+//! A scene's text → all that it asks for, or all its faults. Each section has its file.
+
+mod bodies;
+mod formula;
+mod given;
+mod initial;
+mod kinetic;
+mod names;
+mod numbers;
+mod output;
+mod pair;
+mod problem;
+mod reader;
+mod run;
+mod shipped;
+
+use std::fs;
+use std::io::ErrorKind;
+
+use shadowstep::tables::{Faults, Source};
+use shadowstep_symbolic::nearest;
+use toml::de::DeTable;
+
+use crate::arithmetic::Arithmetic;
+use crate::error::Error;
+use crate::keys::{self, SECTIONS};
+use crate::read::reader::Reader;
+use crate::scene::{Outputs, Scene, System};
+
+impl Scene {
+    /// Reads a scene from its file.
+    ///
+    /// # Errors
+    /// A file that cannot be read; all faults of its text.
+    pub fn open(path: &str) -> Result<Scene, Error> {
+        let refuse = |message: String| {
+            Error::usage(message, "give the path of a scene; `shadowstep scene kepler > scene.toml` writes one")
+        };
+        match fs::read_to_string(path) {
+            Ok(text) if text.trim().is_empty() => Err(refuse(format!("{path} is empty"))),
+            Ok(text) => Ok(Scene::read(Source { path: path.to_owned(), text })?),
+            Err(error) if error.kind() == ErrorKind::NotFound => Err(refuse(format!("there is no file {path}"))),
+            Err(error) if error.kind() == ErrorKind::InvalidData => {
+                Err(refuse(format!("{path} is not a text in UTF-8")))
+            }
+            Err(error) => Err(refuse(format!("{path} cannot be read: {error}"))),
+        }
+    }
+
+    /// Reads a scene from its text; files that it names are seen from the folder of the path.
+    ///
+    /// ```
+    /// use shadowstep::tables::Source;
+    /// use shadowstep_scenes::Scene;
+    ///
+    /// let text = "[problem]\nname = \"keppler\"".to_owned();
+    /// let faults = Scene::read(Source { path: "scene.toml".to_owned(), text }).unwrap_err();
+    /// let fault = faults.0.iter().find(|fault| fault.line == 2).unwrap();
+    /// assert_eq!((fault.column, fault.message.as_str()), (8, "there is no problem `keppler`"));
+    /// assert_eq!(fault.help.as_deref(), Some("did you mean `kepler`?"));
+    /// ```
+    ///
+    /// # Errors
+    /// All faults of the text, each with its place.
+    pub fn read(source: Source) -> Result<Scene, Faults> {
+        let (document, errors) = DeTable::parse_recoverable(&source.text);
+        if let Some(error) = errors.first() {
+            return Err(Faults(vec![shadowstep_schemes::table::toml_fault(&source, error)]));
+        }
+        let mut reader = Reader::new(&source);
+        let parts = parts(&mut reader, document.get_ref());
+        let Reader { arithmetic, faults, notes, .. } = reader;
+        match (Faults::of(faults), parts) {
+            (None, Some((system, run::Steps { scheme, h, until, steps }, output))) => {
+                Ok(Scene { source, arithmetic, system, scheme, h, until, steps, output, notes })
+            }
+            (Some(faults), _) => Err(faults),
+            (None, None) => unreachable!("what cannot be read is a fault"),
+        }
+    }
+}
+
+fn parts(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<(System, run::Steps, Outputs)> {
+    refuse_unknown_sections(reader, root);
+    let (problem, initial) = (reader.section(root, "problem"), reader.section(root, "initial"));
+    let (run, output) = (reader.section(root, "run"), reader.section(root, "output"));
+    // the digits come first: values are computed to them
+    let arithmetic = run::arithmetic(reader, &run);
+    reader.arithmetic = arithmetic.unwrap_or(Arithmetic::Double);
+    let system = problem::system(reader, &problem, &initial);
+    let general = system.as_ref().is_some_and(System::has_general_kinetic);
+    let steps = run::Steps::read(reader, &run, general);
+    let output = output::read(reader, &output);
+    arithmetic?;
+    Some((system?, steps?, output?))
+}
+
+fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>) {
+    let names: Vec<&str> = SECTIONS.iter().map(|section| section.name).filter(|name| !name.contains('.')).collect();
+    for key in root.keys().filter(|key| !names.contains(&key.get_ref().as_ref())) {
+        let word: &str = key.get_ref();
+        let help = match (keys::KEYS.iter().find(|key| key.name == word), nearest(word, names.iter().copied())) {
+            (Some(known), _) => format!("`{word}` is a key of [{}]", known.section),
+            (None, Some(near)) => format!("did you mean [{near}]?"),
+            (None, None) => format!("the sections of a scene are [{}]", names.join("], [")),
+        };
+        reader.fault(&key.span(), format!("unknown section `{word}`"), help);
+    }
+    // a shipped problem has a state of its own
+    let problem = root.get("problem").and_then(|problem| problem.get_ref().as_table());
+    let own = problem.and_then(|problem| problem.get("potential").or(problem.get("pair")));
+    let needed = ["problem", "run", "output"].into_iter().chain(own.map(|_| "initial"));
+    for name in needed {
+        let misspelt = |word: &str| !names.contains(&word) && nearest(word, names.iter().copied()) == Some(name);
+        if root.get(name).is_none() && !root.keys().any(|word| misspelt(word.get_ref())) {
+            let help = "`shadowstep scene kepler` writes a scene with all sections";
+            reader.fault(&(0..0), format!("the section [{name}] is missing"), help);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::keys::KEYS;
+
+    /// The faults of a scene, each as `line:column: sentence`.
+    fn faults(text: &str) -> Vec<String> {
+        match Scene::read(Source { path: "test.toml".to_owned(), text: text.to_owned() }) {
+            Err(Faults(faults)) => {
+                faults.iter().map(|fault| format!("{}:{}: {}", fault.line, fault.column, fault.message)).collect()
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn every_key_that_is_explained_is_read() {
+        // a date is a value of no key
+        for key in &KEYS {
+            let text = format!("[{}]\n{} = 2001-01-01", key.section, key.name);
+            let wrong = format!("2:{}: this value is of the wrong kind", key.name.len() + 4);
+            assert!(faults(&text).contains(&wrong), "{text}: {:?}", faults(&text));
+        }
+    }
+
+    #[test]
+    fn what_is_not_explained_is_refused() {
+        for section in &SECTIONS {
+            let text = format!("[{}]\nfrobnicate = 1", section.name);
+            assert!(faults(&text).contains(&"2:1: unknown key `frobnicate`".to_owned()), "{text}: {:?}", faults(&text));
+        }
+    }
+
+    #[test]
+    fn every_section_is_explained() {
+        for key in &KEYS {
+            assert!(SECTIONS.iter().any(|section| section.name == key.section), "{}", key.section);
+            assert!(!key.meaning.is_empty() && !key.example.is_empty(), "{}", key.name);
+        }
+    }
+
+    #[test]
+    fn the_examples_are_values_that_can_be_read() {
+        for key in &KEYS {
+            let text = format!("[{}]\n{} = {}", key.section, key.name, key.example);
+            let faults = faults(&text);
+            assert!(!faults.iter().any(|fault| fault.contains("wrong kind")), "{text}: {faults:?}");
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! The bodies of a scene with their properties, and the numbers that each of them has.
+
+use std::ops::Range;
+
+use shadowstep::Rational;
+use shadowstep::pairs::Separation;
+use shadowstep_symbolic::Exact;
+use toml::de::DeValue;
+
+use super::names::check_name;
+use super::numbers::Numbers;
+use super::reader::{Reader, Text, Value};
+
+/// More bodies than anyone can wait for.
+const MOST_BODIES: u64 = 100_000;
+
+/// The key among the properties that says how many bodies there are.
+const COUNT: &str = "count";
+
+/// What formulas call the number of a body.
+const NUMBER: &str = "i";
+
+/// The bodies, as the scene has them.
+pub(super) enum GivenBodies {
+    Count(u64),
+    Properties(Vec<(Text, Property)>),
+}
+
+/// What stands in the table of properties.
+pub(super) enum Property {
+    Count(u64),
+    Values(Numbers),
+}
+
+impl GivenBodies {
+    pub(super) fn read(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<GivenBodies> {
+        match value.get_ref() {
+            DeValue::Integer(_) => reader.whole(value, 1..=MOST_BODIES).map(GivenBodies::Count),
+            DeValue::Table(table) => {
+                let mut properties = Vec::new();
+                for (key, value) in table {
+                    let property = match key.get_ref().as_ref() == COUNT {
+                        true => reader.whole(value, 1..=MOST_BODIES).map(Property::Count),
+                        false => Numbers::of_bodies(reader, value).map(Property::Values),
+                    };
+                    properties.push(property.map(|property| (Text::of_key(key), property)));
+                }
+                let mut properties = properties.into_iter().collect::<Option<Vec<_>>>()?;
+                properties.sort_by_key(|(name, _)| name.at.start);
+                Some(GivenBodies::Properties(properties))
+            }
+            _ => reader.wrong_kind(value, "the number of bodies, or a table of their properties: { m = [1, 2] }"),
+        }
+    }
+}
+
+/// How many bodies there are, and what they have.
+pub(super) struct Bodies {
+    pub(super) count: usize,
+    /// Names, with a value for each body.
+    pub(super) properties: Vec<(String, Vec<Exact>)>,
+}
+
+impl Bodies {
+    /// The bodies with their properties, for a formula with these parameters.
+    pub(super) fn read(
+        reader: &mut Reader<'_>,
+        given: &GivenBodies,
+        at: &Range<usize>,
+        parameters: &[(Text, Text)],
+    ) -> Option<Bodies> {
+        let given = match given {
+            GivenBodies::Count(count) => {
+                return Some(Bodies { count: *count as usize, properties: Vec::new() });
+            }
+            GivenBodies::Properties(given) => given,
+        };
+        let Some(count) = count(given) else {
+            let help = "write `bodies = 32`, or among the properties `count = 32`";
+            return reader.wrong(at, "how many bodies there are is not said", help);
+        };
+        let before = reader.faults.len();
+        let mut bodies = Bodies { count, properties: Vec::new() };
+        for (name, property) in given {
+            let Property::Values(numbers) = property else { continue };
+            check_property(reader, name, parameters);
+            // each may use those before it
+            if let Some(values) = bodies.values(reader, numbers) {
+                bodies.properties.push((name.value.clone(), values));
+            }
+        }
+        (reader.faults.len() == before).then_some(bodies)
+    }
+
+    /// A number for each body.
+    pub(super) fn values(&self, reader: &mut Reader<'_>, numbers: &Numbers) -> Option<Vec<Exact>> {
+        match numbers {
+            Numbers::List(list) => reader.values(list, self.count, "body"),
+            Numbers::Lists(_, at) => reader.wrong(at, "this needs one number for each body", "write a single list"),
+            Numbers::Formula(formula) => self.formula(reader, formula),
+        }
+    }
+
+    /// A number for each coordinate, body after body.
+    pub(super) fn values_in_space(
+        &self,
+        reader: &mut Reader<'_>,
+        numbers: &Numbers,
+        dimensions: usize,
+    ) -> Option<Vec<Exact>> {
+        let count = self.count;
+        match numbers {
+            Numbers::List(list) => {
+                let each = if dimensions == 1 { "body" } else { "coordinate of each body" };
+                reader.values(list, count * dimensions, each)
+            }
+            Numbers::Lists(lists, at) if lists.len() != count => {
+                let fault = reader.source.fault(at, "this needs a list for each body");
+                reader.faults.push(fault.values(format!("{} lists", lists.len()), count.to_string()));
+                None
+            }
+            Numbers::Lists(lists, _) => {
+                // where the dimensions are wrong, so are all lists
+                let wrong = lists.iter().position(|list| list.texts.len() != dimensions);
+                let lists = &lists[..wrong.map_or(count, |wrong| wrong + 1)];
+                let bodies: Vec<_> =
+                    lists.iter().map(|list| reader.values(list, dimensions, "coordinate of the body")).collect();
+                Some(bodies.into_iter().collect::<Option<Vec<_>>>()?.concat())
+            }
+            Numbers::Formula(formula) if dimensions == 1 => self.formula(reader, formula),
+            Numbers::Formula(formula) => {
+                let message = format!("a formula for all bodies is for a line, and here are {dimensions} dimensions");
+                reader.wrong(&formula.at, message, "write a list for each body: [[0, 0, 0], [1, 0, 0]]")
+            }
+        }
+    }
+
+    /// The values at i = 1, 2, …, where the properties of body i have their names; only the first fault is told of.
+    fn formula(&self, reader: &mut Reader<'_>, formula: &Text) -> Option<Vec<Exact>> {
+        let parameters = reader.known.clone();
+        let mut values = Vec::new();
+        for body in 0..self.count {
+            reader.known.insert(NUMBER.to_owned(), whole(body + 1));
+            let own = self.properties.iter().map(|(name, values)| (name.clone(), values[body].clone()));
+            reader.known.extend(own);
+            let Some(value) = reader.evaluate(formula) else {
+                // at the first body it may be a fault of the formula itself
+                if let Some(fault) = reader.faults.last_mut().filter(|_| body > 0) {
+                    fault.message += &format!(", at i = {}", body + 1);
+                }
+                break;
+            };
+            values.push(value);
+        }
+        reader.known = parameters;
+        (values.len() == self.count).then_some(values)
+    }
+}
+
+/// How many bodies there are, by `count` or by the first list.
+fn count(properties: &[(Text, Property)]) -> Option<usize> {
+    let counted = properties.iter().find_map(|(_, property)| match property {
+        Property::Count(count) => Some(*count as usize),
+        Property::Values(_) => None,
+    });
+    let listed = properties.iter().find_map(|(_, property)| match property {
+        Property::Values(Numbers::List(list)) => Some(list.texts.len()),
+        _ => None,
+    });
+    counted.or(listed)
+}
+
+fn whole(n: usize) -> Exact {
+    Exact { value: Rational::from_integer(n.into()), rounded: false }
+}
+
+/// The name of a property is a valid one, and no parameter has it in formulas.
+fn check_property(reader: &mut Reader<'_>, name: &Text, parameters: &[(Text, Text)]) {
+    check_name(reader, name);
+    refuse_reserved(reader, name);
+    let own = [name.value.clone(), format!("{}_i", name.value), format!("{}_j", name.value)];
+    for (parameter, _) in parameters.iter().filter(|(parameter, _)| own.contains(&parameter.value)) {
+        let message = format!("the parameter `{}` has the name of a property of the bodies", parameter.value);
+        reader.fault(&parameter.at, message, "give it another name");
+    }
+}
+
+/// Refuses the names that formulas have already.
+pub(super) fn refuse_reserved(reader: &mut Reader<'_>, name: &Text) {
+    let meaning = match (Separation::named(&name.value), name.value.as_str()) {
+        (Some(Separation::Difference), _) => Some("the difference q_j - q_i"),
+        (Some(Separation::SquaredDistance), _) => Some("the square of the distance"),
+        (None, NUMBER) => Some("the number of a body"),
+        (None, _) => None,
+    };
+    if let Some(meaning) = meaning {
+        reader.fault(&name.at, format!("with `pair`, `{}` is {meaning}", name.value), "give it another name");
+    }
+}

@@ -1,0 +1,94 @@
+//! A custom potential, with its coordinates and momenta.
+
+use super::given::Given;
+use super::kinetic;
+use super::names::check_name;
+use super::numbers::Numbers;
+use super::reader::{List, Reader, Text};
+use crate::scene::COLUMNS;
+use crate::scene::{KineticEnergy, PotentialEnergy, System, formula_potential};
+
+/// The system with this potential.
+pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -> Option<System> {
+    given.refuse(reader, &["bodies", "dimensions", "neighbours"], |key| {
+        (format!("{key} is for `pair`"), format!("leave out `{key}`, or write `pair` in place of `potential`"))
+    });
+    let parameters = given.own_parameters(reader);
+    let list = given.coordinates.as_ref()?;
+    let before = reader.faults.len();
+    let (coordinates, momenta) = names(reader, given, list);
+    let named = reader.faults.len() == before;
+    if named && let Err(error) = formula_potential::<f64>(&potential.value, &coordinates, &parameters, &()) {
+        let help = "a potential is a smooth formula such as \"-1/sqrt(x^2 + y^2)\"";
+        reader.fault(&potential.place(&error.range()), error.to_string(), help);
+    }
+    reader.refuse_constants(potential, coordinates.iter().chain(parameters.iter().map(|(name, _)| name)));
+    let kinetic = match named {
+        true => kinetic::by_formula(reader, given, &momenta, &parameters),
+        false => None,
+    };
+    let values = |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values(reader, coordinates.len());
+    let masses = given.masses.as_ref().and_then(|numbers| {
+        let values = values(reader, numbers)?;
+        kinetic::masses(reader, numbers, values)
+    });
+    if let Some(initial) = &given.initial {
+        given.state.all_there(reader, initial);
+    }
+    let (q, p) = given.state.values(reader, values, masses.as_deref());
+    let potential = PotentialEnergy::Formula(potential.value.clone());
+    let kinetic = kinetic.unwrap_or(KineticEnergy::Masses(masses));
+    Some(System { potential, kinetic, parameters, coordinates, momenta, q: q?, p: p? })
+}
+
+/// The names of the coordinates and of their momenta, all of them new.
+fn names(reader: &mut Reader<'_>, given: &Given, list: &List) -> (Vec<String>, Vec<String>) {
+    let mut taken: Vec<(String, String)> =
+        COLUMNS.iter().map(|name| ((*name).to_owned(), "of a column of the output".to_owned())).collect();
+    taken.extend(given.parameters.iter().map(|(name, _)| (name.value.clone(), "of a parameter".to_owned())));
+    for name in &list.texts {
+        check_name(reader, name);
+        // without names of their own, momenta are named after the coordinates
+        let momentum = given.place("momenta").is_none().then(|| format!("p{}", name.value));
+        let is_its = |other: &String| *other == name.value || momentum.as_ref() == Some(other);
+        if let Some((other, whose)) = taken.iter().find(|(other, _)| is_its(other)) {
+            let message = match *other == name.value {
+                true if whose == COORDINATE => format!("the coordinate `{other}` is named twice"),
+                true => format!("the coordinate `{other}` has the name {whose}"),
+                false => format!("the momentum `{other}` of `{}` has the name {whose}", name.value),
+            };
+            reader.fault(&name.at, message, "give it another name");
+        }
+        taken.push((name.value.clone(), COORDINATE.to_owned()));
+        taken.extend(momentum.map(|momentum| (momentum, format!("of the momentum of `{}`", name.value))));
+    }
+    let coordinates: Vec<String> = list.texts.iter().map(|name| name.value.clone()).collect();
+    let momenta = match &given.momenta {
+        Some(list) => own_momenta(reader, list, coordinates.len(), taken),
+        None => coordinates.iter().map(|name| format!("p{name}")).collect(),
+    };
+    (coordinates, momenta)
+}
+
+const COORDINATE: &str = "of a coordinate";
+
+/// The names of the momenta, as many as there are coordinates, none of them taken by something else.
+fn own_momenta(
+    reader: &mut Reader<'_>,
+    list: &List,
+    coordinates: usize,
+    mut taken: Vec<(String, String)>,
+) -> Vec<String> {
+    for name in &list.texts {
+        check_name(reader, name);
+        if let Some((other, whose)) = taken.iter().find(|(other, _)| *other == name.value) {
+            reader.fault(&name.at, format!("the momentum `{other}` has the name {whose}"), "give it another name");
+        }
+        taken.push((name.value.clone(), "of another momentum".to_owned()));
+    }
+    if list.texts.len() != coordinates {
+        let fault = reader.source.fault(&list.at, "this list needs a name for each coordinate");
+        reader.faults.push(fault.values(list.texts.len().to_string(), coordinates.to_string()));
+    }
+    list.texts.iter().map(|name| name.value.clone()).collect()
+}

@@ -1,0 +1,113 @@
+//! What [problem] and [initial] contain, whichever way the problem is given.
+
+use std::ops::Range;
+
+use num_traits::One;
+use shadowstep::Rational;
+use shadowstep::pairs::Ends;
+use shadowstep_symbolic::Exact;
+use toml::de::DeValue;
+
+use super::bodies::GivenBodies;
+use super::initial::State;
+use super::names::check_name;
+use super::numbers::Numbers;
+use super::reader::{List, Reader, Section, Text};
+use crate::keys;
+
+/// What the scene says besides the problem's name, its potential or its pairs.
+pub(super) struct Given {
+    pub(super) coordinates: Option<List>,
+    pub(super) momenta: Option<List>,
+    pub(super) masses: Option<Numbers>,
+    /// T(p)
+    pub(super) kinetic: Option<Text>,
+    pub(super) bodies: Option<GivenBodies>,
+    pub(super) dimensions: Option<usize>,
+    pub(super) neighbours: Option<Ends>,
+    /// Names and values in the order of the text.
+    pub(super) parameters: Vec<(Text, Text)>,
+    pub(super) state: State,
+    /// Places of the values of all keys that there are, right or wrong.
+    places: Vec<(&'static str, Range<usize>)>,
+    /// Places of the sections.
+    pub(super) problem: Range<usize>,
+    pub(super) initial: Option<Range<usize>>,
+}
+
+impl Given {
+    pub(super) fn read(
+        reader: &mut Reader<'_>,
+        problem: &Section<'_, '_>,
+        initial: &Section<'_, '_>,
+        of_bodies: bool,
+    ) -> Given {
+        let ends = [("free", Ends::Free), ("fixed", Ends::Fixed), ("periodic", Ends::Periodic)];
+        let masses = if of_bodies { Numbers::of_bodies } else { Numbers::of_coordinates };
+        Given {
+            coordinates: reader.list_of(problem, "coordinates", "a list of names: [\"x\", \"y\"]", Reader::text),
+            momenta: reader.list_of(problem, "momenta", "a list of names: [\"px\", \"py\"]", Reader::text),
+            masses: reader.get(problem, "masses").and_then(|value| masses(reader, value)),
+            kinetic: reader.get(problem, "kinetic").and_then(|value| reader.text(value)),
+            bodies: reader.get(problem, "bodies").and_then(|value| GivenBodies::read(reader, value)),
+            dimensions: reader
+                .get(problem, "dimensions")
+                .and_then(|value| reader.whole(value, 1..=3))
+                .map(|dimensions| dimensions as usize),
+            neighbours: reader.get(problem, "neighbours").and_then(|value| reader.word(value, &ends)),
+            parameters: parameters(reader, problem),
+            state: State::read(reader, initial, of_bodies),
+            places: keys::of("problem")
+                .filter_map(|key| Some((key.name, reader.get(problem, key.name)?.span())))
+                .collect(),
+            problem: problem.at.clone(),
+            initial: initial.is_there().then(|| initial.at.clone()),
+        }
+    }
+
+    /// Refuses that a key is left out.
+    pub(super) fn needs(&self, reader: &mut Reader<'_>, problem: &Section<'_, '_>, key: &str) {
+        if self.place(key).is_none() {
+            reader.missing(problem, key);
+        }
+    }
+
+    /// Names and values, which become known to the reader.
+    pub(super) fn own_parameters(&self, reader: &mut Reader<'_>) -> Vec<(String, Exact)> {
+        let mut parameters = Vec::new();
+        for (name, text) in &self.parameters {
+            check_name(reader, name);
+            // a parameter without a value stands as 1, so that its users add no faults of their own
+            let value = reader.evaluate(text).unwrap_or(Exact { value: Rational::one(), rounded: false });
+            reader.known.insert(name.value.clone(), value.clone());
+            parameters.push((name.value.clone(), value));
+        }
+        parameters
+    }
+
+    /// Where the value of a key is, if the key is there.
+    pub(super) fn place(&self, key: &str) -> Option<&Range<usize>> {
+        self.places.iter().find(|(name, _)| *name == key).map(|(_, at)| at)
+    }
+
+    /// Refuses keys that say nothing here, each with why and what would be right.
+    pub(super) fn refuse(&self, reader: &mut Reader<'_>, keys: &[&str], why: impl Fn(&str) -> (String, String)) {
+        for (key, at) in self.places.iter().filter(|(key, _)| keys.contains(key)) {
+            let (message, help) = why(key);
+            reader.fault(at, message, help);
+        }
+    }
+}
+
+/// Names and values in the order of the text.
+fn parameters(reader: &mut Reader<'_>, problem: &Section<'_, '_>) -> Vec<(Text, Text)> {
+    let Some(value) = reader.get(problem, "parameters") else { return Vec::new() };
+    let DeValue::Table(table) = value.get_ref() else {
+        reader.wrong_kind::<()>(value, "a table: { depth = 2 }");
+        return Vec::new();
+    };
+    let mut found: Vec<_> =
+        table.iter().filter_map(|(key, value)| Some((Text::of_key(key), reader.number(value)?))).collect();
+    found.sort_by_key(|(name, _)| name.at.start);
+    found
+}

@@ -1,0 +1,69 @@
+//! [initial]: positions and momenta at t = 0.
+
+use std::ops::Range;
+
+use shadowstep_symbolic::Exact;
+
+use super::numbers::Numbers;
+use super::reader::{Reader, Section};
+
+/// The state as the scene says it.
+pub(super) struct State {
+    q: Option<Numbers>,
+    p: Option<Numbers>,
+    /// The place of `v`: then `p` is of velocities.
+    velocities: Option<Range<usize>>,
+    /// How many of the lists are there, right or wrong.
+    has_q: bool,
+    has_p: bool,
+}
+
+impl State {
+    /// Of bodies, or of coordinates.
+    pub(super) fn read(reader: &mut Reader<'_>, initial: &Section<'_, '_>, of_bodies: bool) -> State {
+        let read = if of_bodies { Numbers::of_bodies_in_space } else { Numbers::of_coordinates };
+        let [q, p, v] = ["q", "p", "v"].map(|key| reader.get(initial, key).and_then(|value| read(reader, value)));
+        let has = |key| reader.get(initial, key).is_some();
+        let (has_q, has_p) = (has("q"), has("p") || has("v"));
+        let velocities = reader.get(initial, "v").map(|value| value.span());
+        if let (true, Some(at)) = (has("p"), &velocities) {
+            reader.fault(at, "p and v are both given", "keep one of the two");
+        }
+        State { q, p: v.or(p), velocities, has_q, has_p }
+    }
+
+    /// Refuses a state that is left out.
+    pub(super) fn all_there(&self, reader: &mut Reader<'_>, at: &Range<usize>) {
+        for (there, key) in [(self.has_q, "q"), (self.has_p, "p")] {
+            if !there {
+                let help = format!("add `{key} = […]` to [initial], with a number for each coordinate");
+                reader.fault(at, format!("the key `{key}` is missing"), help);
+            }
+        }
+    }
+
+    /// Refuses velocities, where T(p) is no sum over masses.
+    pub(super) fn refuse_velocities(&self, reader: &mut Reader<'_>) {
+        if let Some(at) = &self.velocities {
+            reader.fault(at, "v is of masses, and here T is given by `kinetic`", "give the momenta `p` in place of v");
+        }
+    }
+
+    /// q and p, where they are given; `read` makes values of numbers, and there is a mass for each value.
+    pub(super) fn values(
+        &self,
+        reader: &mut Reader<'_>,
+        read: impl Fn(&mut Reader<'_>, &Numbers) -> Option<Vec<Exact>>,
+        masses: Option<&[Exact]>,
+    ) -> (Option<Vec<Exact>>, Option<Vec<Exact>>) {
+        let q = self.q.as_ref().and_then(|numbers| read(reader, numbers));
+        let mut p = self.p.as_ref().and_then(|numbers| read(reader, numbers));
+        if let (Some(_), Some(p), Some(masses)) = (&self.velocities, &mut p, masses) {
+            for (p, mass) in p.iter_mut().zip(masses) {
+                p.value *= &mass.value;
+                p.rounded |= mass.rounded;
+            }
+        }
+        (q, p)
+    }
+}

@@ -1,0 +1,48 @@
+//! T(p): by masses, or by a formula in the momenta.
+
+use num_traits::{One, Signed};
+use shadowstep_symbolic::Exact;
+
+use super::given::Given;
+use super::numbers::Numbers;
+use super::reader::Reader;
+use crate::scene::{KineticEnergy, formula_kinetic};
+
+/// T(p), where it is given by its formula.
+pub(super) fn by_formula(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    momenta: &[String],
+    parameters: &[(String, Exact)],
+) -> Option<KineticEnergy> {
+    given.place("kinetic")?;
+    given.refuse(reader, &["masses"], |_| {
+        let help = "keep one of the two: with `kinetic` the masses are numbers or parameters in its formula";
+        ("masses and kinetic are both given".to_owned(), help.to_owned())
+    });
+    given.state.refuse_velocities(reader);
+    let text = given.kinetic.as_ref()?;
+    if let Err(error) = formula_kinetic::<f64>(&text.value, momenta, parameters, &()) {
+        let known = momenta.iter().take(3).map(String::as_str).collect::<Vec<_>>().join(", ");
+        let more = if momenta.len() > 3 { ", …" } else { "" };
+        let renamed = if given.place("pair").is_none() { "; `momenta` gives them other names" } else { "" };
+        let help = format!("T is a smooth formula in the momenta {known}{more} and the parameters{renamed}");
+        return reader.wrong(&text.place(&error.range()), error.to_string(), help);
+    }
+    reader.refuse_constants(text, momenta.iter().chain(parameters.iter().map(|(name, _)| name)));
+    Some(KineticEnergy::Formula(text.value.clone()))
+}
+
+/// The masses, unless all are 1.
+pub(super) fn masses(reader: &mut Reader<'_>, numbers: &Numbers, values: Vec<Exact>) -> Option<Vec<Exact>> {
+    let mut last_fault = None;
+    for (index, value) in values.iter().enumerate().filter(|(_, value)| !value.value.is_positive()) {
+        // all masses of a formula have one place
+        let at = numbers.place(index);
+        if last_fault.replace(at) != Some(at) {
+            let message = format!("a mass of {} is not positive", reader.arithmetic.text(value));
+            reader.fault(at, message, "masses are positive");
+        }
+    }
+    values.iter().any(|mass| !mass.value.is_one()).then_some(values)
+}

@@ -1,0 +1,24 @@
+//! Names in formulas.
+
+use std::collections::BTreeMap;
+
+use shadowstep_symbolic::{Expression, Kind, evaluate, parse};
+
+use super::reader::{Reader, Text};
+
+/// Refuses what formulas cannot have as a name.
+pub(super) fn check_name(reader: &mut Reader<'_>, name: &Text) {
+    let is_name = |expression: &Expression| matches!(&expression.kind, Kind::Name(whole) if *whole == name.value);
+    match parse(&name.value) {
+        Ok(expression) if is_name(&expression) => {
+            // a name that has a value without being given one is that of a constant
+            if evaluate(&expression, &BTreeMap::new(), 1).is_ok() {
+                reader.fault(&name.at, format!("`{}` is a constant", name.value), "give it another name");
+            }
+        }
+        _ => {
+            let help = "a name begins with a letter and goes on with letters, digits and _";
+            reader.fault(&name.at, format!("`{}` is not a valid name", name.value), help);
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Numbers of coordinates and of bodies: a list, a list for each body, or one formula for all bodies.
+
+use std::ops::Range;
+
+use shadowstep_symbolic::Exact;
+use toml::de::DeValue;
+
+use super::reader::{List, Reader, Text, Value};
+
+/// Numbers as the scene has them.
+pub(super) enum Numbers {
+    List(List),
+    /// A list for each body.
+    Lists(Vec<List>, Range<usize>),
+    /// A formula in the number i of the body.
+    Formula(Text),
+}
+
+impl Numbers {
+    /// A number for each coordinate.
+    pub(super) fn of_coordinates(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Numbers> {
+        reader.list(value, "a list of numbers: [1, \"1/2\"]", Reader::number).map(Numbers::List)
+    }
+
+    /// A number for each body.
+    pub(super) fn of_bodies(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Numbers> {
+        if matches!(value.get_ref(), DeValue::String(_)) {
+            return reader.text(value).map(Numbers::Formula);
+        }
+        let what = "a list with a number for each body, or a formula for all: \"1 + i/10\"";
+        reader.list(value, what, Reader::number).map(Numbers::List)
+    }
+
+    /// A number for each coordinate of each body.
+    pub(super) fn of_bodies_in_space(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Numbers> {
+        match value.get_ref() {
+            DeValue::Array(bodies) if matches!(bodies.first().map(Value::get_ref), Some(DeValue::Array(_))) => {
+                let what = "a list with the numbers of one body: [1, 0, 0]";
+                let lists: Vec<_> = bodies.iter().map(|body| reader.list(body, what, Reader::number)).collect();
+                Some(Numbers::Lists(lists.into_iter().collect::<Option<_>>()?, value.span()))
+            }
+            _ => Numbers::of_bodies(reader, value),
+        }
+    }
+
+    /// Where the number of a body or coordinate is, counted from 0.
+    pub(super) fn place(&self, index: usize) -> &Range<usize> {
+        match self {
+            Numbers::List(list) => list.texts.get(index).map_or(&list.at, |text| &text.at),
+            Numbers::Lists(_, at) => at,
+            Numbers::Formula(text) => &text.at,
+        }
+    }
+
+    /// A number for each of so many coordinates that are of no bodies.
+    pub(super) fn values(&self, reader: &mut Reader<'_>, coordinates: usize) -> Option<Vec<Exact>> {
+        match self {
+            Numbers::List(list) => reader.values(list, coordinates, "coordinate"),
+            Numbers::Lists(..) | Numbers::Formula(_) => unreachable!("they are read for bodies only"),
+        }
+    }
+}

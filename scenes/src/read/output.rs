@@ -1,0 +1,179 @@
+//! [output]: what is written, where, and how often.
+
+use std::path::Path;
+use std::time::Duration;
+
+use shadowstep::Rational;
+use shadowstep::shadow::{Rule, Stop};
+use toml::de::DeValue;
+
+use super::reader::{Reader, Section, Value};
+use crate::estimator::{Chosen, HIGHEST_ORDER, Kind, NO_ACCURACY, Wish, no_accuracy};
+use crate::scene::{CheckpointInterval, Format, Outputs};
+use crate::steps::MOST_STEPS;
+
+/// What is to be written, and where.
+pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<Outputs> {
+    let before = reader.faults.len();
+    let file = reader.get(output, "file").and_then(|value| reader.text(value));
+    let format = reader
+        .get(output, "format")
+        .map(|value| reader.word(value, &[("csv", Format::Csv), ("jsonl", Format::JsonLines)]));
+    let energy = every(reader, output, "energy", "output.energy");
+    let modified_energy = modified_energy(reader, output);
+    let trajectory = every(reader, output, "trajectory", "output.trajectory");
+    let checkpoint = reader.get(output, "checkpoint").map(|value| (value.span(), interval(reader, value)));
+    if let (Some((at, _)), None) = (&checkpoint, reader.get(output, "file")) {
+        reader.fault(at, "a checkpoint needs a file to go on with", "add `file = \"out.csv\"`");
+    }
+    let silent = energy.is_none() && modified_energy.is_none() && trajectory.is_none();
+    if silent && reader.faults.len() == before && output.is_there() {
+        let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
+        reader.fault(&output.at, "nothing is asked for", help);
+    }
+    if let Some(name) = file.as_ref().filter(|name| name.value.ends_with(['/', '\\'])) {
+        reader.fault(&name.at, format!("`{}` is a folder", name.value), "give the name of a file");
+    }
+    let format = match (format, &file) {
+        (Some(format), _) => format,
+        (None, None) => Some(Format::Csv),
+        (None, Some(name)) => Format::of(&name.value).or_else(|| {
+            let message = format!("`{}` says no format by its name", name.value);
+            reader.wrong(&name.at, message, "end it with .csv or .jsonl, or add `format = \"csv\"`")
+        }),
+    };
+    let folder = Path::new(&reader.source.path).parent().unwrap_or(Path::new(""));
+    let file = file.map(|name| (folder.join(&name.value), name.at));
+    let checkpoint = checkpoint.and_then(|(_, interval)| interval);
+    Some(Outputs { file, format: format?, energy, modified_energy, trajectory, checkpoint })
+}
+
+/// `true`, `false`, or a table with a section's name: when something is written, and the table.
+fn when<'t, 'i>(
+    reader: &mut Reader<'_>,
+    output: &Section<'t, 'i>,
+    key: &'static str,
+    section: &'static str,
+) -> Option<(u64, Option<Section<'t, 'i>>)> {
+    let value = reader.get(output, key)?;
+    match value.get_ref() {
+        DeValue::Boolean(true) => Some((1, None)),
+        DeValue::Boolean(false) => None,
+        DeValue::Table(table) => {
+            let table = reader.table(table, value.span(), section);
+            let every = match reader.get(&table, "every") {
+                Some(value) => reader.whole(value, 1..=MOST_STEPS)?,
+                None => 1,
+            };
+            Some((every, Some(table)))
+        }
+        _ => reader.wrong_kind(value, "true, or a table: { every = 10 }"),
+    }
+}
+
+fn every(reader: &mut Reader<'_>, output: &Section<'_, '_>, key: &'static str, section: &'static str) -> Option<u64> {
+    when(reader, output, key, section).map(|(every, _)| every)
+}
+
+fn modified_energy(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(Chosen, u64)> {
+    let (every, table) = when(reader, output, "modified_energy", "output.modified_energy")?;
+    let mut wish = Wish { kind: Kind::Central, order: None, largest: None, stop: None, rule: None, accuracy: None };
+    let Some(table) = table else { return Some((wish.chosen().ok()?, every)) };
+    let before = reader.faults.len();
+    let kinds = [("central", Kind::Central), ("bilinear", Kind::Bilinear)];
+    wish.kind = reader.get(&table, "estimator").map_or(Some(Kind::Central), |value| reader.word(value, &kinds))?;
+    wish.order = reader.get(&table, "order").and_then(|value| order(reader, value, wish.kind));
+    wish.largest = reader.get(&table, "max_order").and_then(|value| up_to(reader, value, 2));
+    let stops = [("full", Stop::Full), ("early", Stop::Early)];
+    wish.stop = reader.get(&table, "stop").and_then(|value| reader.word(value, &stops));
+    let rules = [("least", Rule::Least), ("robust", Rule::Robust)];
+    wish.rule = reader.get(&table, "rule").and_then(|value| reader.word(value, &rules));
+    wish.accuracy = reader.get(&table, "accuracy").and_then(|value| accuracy(reader, value));
+    if reader.faults.len() > before {
+        return None;
+    }
+    match wish.chosen() {
+        Ok(chosen) => Some((chosen, every)),
+        Err(misfit) => {
+            let spelt = |name: &str, value: &str| match value.parse::<u32>() {
+                Ok(number) => format!("{name} = {number}"),
+                Err(_) => format!("{name} = \"{value}\""),
+            };
+            let (message, help) = misfit.told(misfit.name, spelt);
+            let at = reader.get(&table, misfit.name).map_or(table.at.clone(), |value| value.span());
+            reader.wrong(&at, message, help)
+        }
+    }
+}
+
+/// A fixed order; none for "auto".
+fn order(reader: &mut Reader<'_>, value: &Value<'_>, kind: Kind) -> Option<u32> {
+    if !matches!(value.get_ref(), DeValue::Integer(_)) {
+        reader.word(value, &[("auto", ())]);
+        return None;
+    }
+    let order = up_to(reader, value, 1)?;
+    if kind == Kind::Bilinear && order % 2 == 1 {
+        let message = "with estimator = \"bilinear\" and an odd order the values belong to times between the states";
+        return reader.wrong(&value.span(), message, "write an even order");
+    }
+    Some(order)
+}
+
+/// The m of a central difference, or the k of E_k.
+fn up_to(reader: &mut Reader<'_>, value: &Value<'_>, least: u64) -> Option<u32> {
+    reader.whole(value, least..=HIGHEST_ORDER.into()).and_then(|m| u32::try_from(m).ok())
+}
+
+fn accuracy(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Rational> {
+    let text = reader.number(value)?;
+    let accuracy = reader.evaluate(&text)?.value;
+    match no_accuracy(&accuracy) {
+        None => Some(accuracy),
+        Some(why) => reader.wrong(&text.at, format!("accuracy {} {why}", text.value), NO_ACCURACY),
+    }
+}
+
+/// A number of steps, or a time such as `1 min`.
+fn interval(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<CheckpointInterval> {
+    if matches!(value.get_ref(), DeValue::Integer(_)) {
+        return reader.whole(value, 1..=MOST_STEPS).map(CheckpointInterval::Steps);
+    }
+    if !matches!(value.get_ref(), DeValue::String(_)) {
+        return reader.wrong_kind(value, "a time such as \"1 min\", or a number of steps");
+    }
+    let text = reader.text(value)?;
+    let found = duration(text.value.trim());
+    if found.is_none() {
+        let message = format!("`{}` is no time between checkpoints", text.value);
+        reader.fault(&text.at, message, "write a time in s, min or h such as \"1 min\", or a number of steps");
+    }
+    found.map(CheckpointInterval::Time)
+}
+
+fn duration(text: &str) -> Option<Duration> {
+    let (number, unit) = text.split_at(text.find(|c: char| c.is_ascii_alphabetic())?);
+    let seconds = match unit {
+        "s" => 1.0,
+        "min" => 60.0,
+        "h" => 3600.0,
+        _ => return None,
+    };
+    let number: f64 = number.trim().parse().ok()?;
+    Duration::try_from_secs_f64(number * seconds).ok().filter(|time| !time.is_zero())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations() {
+        for (text, seconds) in [("1 min", 60.0), ("30 s", 30.0), ("2h", 7200.0), ("0.5 min", 30.0)] {
+            assert_eq!(duration(text), Some(Duration::from_secs_f64(seconds)), "{text}");
+        }
+        for wrong in ["", "1", "min", "1 m", "0 s", "-1 s", "1e99 h", "1 min 3"] {
+            assert_eq!(duration(wrong), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Bodies and the energy of each pair of them.
+
+use shadowstep::pairs::{Ends, Separation};
+use shadowstep_symbolic::{Exact, Expression, Kind, is_symmetric, parse};
+
+use super::bodies::{Bodies, refuse_reserved};
+use super::given::Given;
+use super::kinetic;
+use super::numbers::Numbers;
+use super::reader::{Reader, Text};
+use crate::note::Note;
+use crate::scene::PairEnergy;
+use crate::scene::{KineticEnergy, PotentialEnergy, System};
+
+/// The energy of a pair, as the scene has it.
+pub(super) struct PairFormula {
+    pub(super) text: Text,
+    pub(super) separation: Separation,
+}
+
+impl PairFormula {
+    /// Finds out what the formula is in.
+    pub(super) fn read(reader: &mut Reader<'_>, text: Text) -> Option<PairFormula> {
+        let help = "r2 is the square of the distance, d = q_j - q_i the difference on a line: \"-g*m_i*m_j/sqrt(r2)\"";
+        let expression = match parse(&text.value) {
+            Ok(expression) => expression,
+            Err(error) => return reader.wrong(&text.place(&error.range), error.to_string(), help),
+        };
+        let mut found = Vec::new();
+        separations(&expression, &mut found);
+        found.dedup();
+        match found[..] {
+            [separation] => Some(PairFormula { text, separation }),
+            [] => reader.wrong(&text.at, "the energy of a pair is a formula in `r2` or in `d`, here is neither", help),
+            _ => reader.wrong(&text.at, "the energy of a pair is a formula in `r2` or in `d`, here are both", help),
+        }
+    }
+}
+
+fn separations(expression: &Expression, found: &mut Vec<Separation>) {
+    match &expression.kind {
+        Kind::Number(_) => {}
+        Kind::Name(name) => found.extend(Separation::named(name)),
+        Kind::Negate(inner) => separations(inner, found),
+        Kind::Binary(_, left, right) => [left, right].into_iter().for_each(|part| separations(part, found)),
+        Kind::Call { arguments, .. } => arguments.iter().for_each(|part| separations(part, found)),
+    }
+}
+
+/// The system of bodies with this energy of each pair.
+pub(super) fn system(reader: &mut Reader<'_>, given: &Given, pair: Option<PairFormula>) -> Option<System> {
+    given.refuse(reader, &["coordinates", "momenta"], |key| {
+        let names = "x1, y1, …, px1, py1, …, or on a line q1, …, p1, …";
+        (format!("with `pair` {key} have names by themselves"), format!("leave out `{key}`: the names are {names}"))
+    });
+    let parameters = given.own_parameters(reader);
+    given.parameters.iter().for_each(|(name, _)| refuse_reserved(reader, name));
+    let dimensions = dimensions(reader, given, pair.as_ref());
+    let bodies = match (given.place("bodies"), &given.bodies) {
+        (Some(at), Some(bodies)) => Bodies::read(reader, bodies, at, &given.parameters),
+        _ => None,
+    };
+    if let Some(initial) = &given.initial {
+        given.state.all_there(reader, initial);
+    }
+    let (pair, bodies, dimensions) = (pair?, bodies?, dimensions?);
+    let (coordinates, momenta) = names(bodies.count, dimensions);
+    let kinetic = match has_names_of_bodies(reader, given, &coordinates, &momenta) {
+        true => None,
+        false => kinetic::by_formula(reader, given, &momenta, &parameters),
+    };
+    let masses = given.masses.as_ref().and_then(|numbers| {
+        let values = bodies.values(reader, numbers)?;
+        let masses = kinetic::masses(reader, numbers, values)?;
+        Some(masses.into_iter().flat_map(|mass| vec![mass; dimensions]).collect::<Vec<_>>())
+    });
+    if given.place("masses").or(given.place("kinetic")).is_none() {
+        note_masses(reader, &bodies);
+    }
+    let values = |reader: &mut Reader<'_>, numbers: &Numbers| bodies.values_in_space(reader, numbers, dimensions);
+    let (q, p) = given.state.values(reader, values, masses.as_deref());
+    let kinetic = kinetic.unwrap_or(KineticEnergy::Masses(masses));
+    let potential = PotentialEnergy::Pairs(pair_energy(reader, given, &pair, bodies, dimensions, &parameters));
+    Some(System { potential, kinetic, parameters, coordinates, momenta, q: q?, p: p? })
+}
+
+fn pair_energy(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    pair: &PairFormula,
+    bodies: Bodies,
+    dimensions: usize,
+    parameters: &[(String, Exact)],
+) -> PairEnergy {
+    let energy = PairEnergy {
+        formula: pair.text.value.clone(),
+        separation: pair.separation,
+        dimensions,
+        ends: ends(reader, given, &bodies),
+        bodies: bodies.count,
+        properties: bodies.properties,
+    };
+    if let Err(error) = energy.pair::<f64>(parameters, &()) {
+        let help = "the energy of a pair is a smooth formula such as \"-g*m_i*m_j/sqrt(r2)\"";
+        reader.fault(&pair.text.place(&error.range()), error.to_string(), help);
+    }
+    let properties = energy.properties.iter().flat_map(|(name, _)| [format!("{name}_i"), format!("{name}_j")]);
+    let properties: Vec<String> = properties.collect();
+    let parameters: Vec<String> = parameters.iter().map(|(name, _)| name.clone()).collect();
+    let separation = pair.separation.name().to_owned();
+    reader.refuse_constants(&pair.text, properties.iter().chain(&parameters).chain([&separation]));
+    let symmetric = parse(&pair.text.value).ok();
+    let symmetric = symmetric.and_then(|text| is_symmetric(&text, pair.separation, &properties, &parameters));
+    if energy.ends.is_none() && symmetric == Some(false) {
+        reader.notes.push(Note::AsymmetricPair { formula: pair.text.value.clone() });
+    }
+    energy
+}
+
+/// How many dimensions there are: on a line one.
+fn dimensions(reader: &mut Reader<'_>, given: &Given, pair: Option<&PairFormula>) -> Option<usize> {
+    let on_a_line = pair.is_some_and(|pair| pair.separation == Separation::Difference);
+    match (given.dimensions, given.place("dimensions")) {
+        (Some(dimensions), Some(at)) if on_a_line && dimensions != 1 => {
+            let message = format!("a formula in d is for bodies on a line, and here are {dimensions} dimensions");
+            reader.wrong(at, message, "leave it out, or write the formula in `r2`")
+        }
+        (None, None) => on_a_line.then_some(1),
+        (dimensions, _) => dimensions,
+    }
+}
+
+/// Refuses parameters with the name of a coordinate or momentum; whether there are any.
+fn has_names_of_bodies(reader: &mut Reader<'_>, given: &Given, coordinates: &[String], momenta: &[String]) -> bool {
+    let before = reader.faults.len();
+    for (name, _) in &given.parameters {
+        for (names, what) in [(coordinates, "coordinate"), (momenta, "momentum")] {
+            if names.contains(&name.value) {
+                let message = format!("the parameter `{}` has the name of a {what} of the bodies", name.value);
+                reader.fault(&name.at, message, "give it another name");
+            }
+        }
+    }
+    reader.faults.len() > before
+}
+
+/// The ends of a chain, unless all pairs interact.
+fn ends(reader: &mut Reader<'_>, given: &Given, bodies: &Bodies) -> Option<Ends> {
+    let ends = given.neighbours;
+    let at = given.place("bodies").unwrap_or(&given.problem);
+    if ends == Some(Ends::Fixed) && !bodies.properties.is_empty() {
+        let message = "between fixed ends bodies have no properties: the walls would need them, too";
+        reader.fault(at, message, "write `bodies = 32`, or neighbours = \"free\" or \"periodic\"");
+    }
+    if ends != Some(Ends::Fixed) && bodies.count == 1 {
+        reader.fault(at, "one body makes no pair", "two bodies do, or one with neighbours = \"fixed\"");
+    }
+    ends
+}
+
+/// A property named as a mass is not a mass of T by itself.
+fn note_masses(reader: &mut Reader<'_>, bodies: &Bodies) {
+    if let Some((name, _)) = bodies.properties.iter().find(|(name, _)| ["m", "mass"].contains(&name.as_str())) {
+        reader.notes.push(Note::MassesAreOne { property: name.clone() });
+    }
+}
+
+/// The names of the coordinates and momenta, body after body.
+fn names(bodies: usize, dimensions: usize) -> (Vec<String>, Vec<String>) {
+    let axes: &[(&str, &str)] = match dimensions {
+        1 => &[("q", "p")],
+        more => &[("x", "px"), ("y", "py"), ("z", "pz")][..more],
+    };
+    let each =
+        (1..=bodies).flat_map(|body| axes.iter().map(move |(q, p)| (format!("{q}{body}"), format!("{p}{body}"))));
+    each.unzip()
+}

@@ -1,0 +1,45 @@
+//! [problem]: what moves, said in one of several ways, each with its file.
+
+use shadowstep::pairs::Separation;
+
+use super::given::Given;
+use super::pair::PairFormula;
+use super::reader::{Reader, Section};
+use super::{formula, pair, shipped};
+use crate::scene::System;
+
+/// The keys of which one says what moves.
+const WAYS: [&str; 3] = ["name", "potential", "pair"];
+
+/// What moves, and where from.
+pub(super) fn system(reader: &mut Reader<'_>, problem: &Section<'_, '_>, initial: &Section<'_, '_>) -> Option<System> {
+    let ways: Vec<_> = WAYS.into_iter().filter(|way| reader.get(problem, way).is_some()).collect();
+    let [name, potential, pair] = WAYS.map(|way| reader.get(problem, way).and_then(|value| reader.text(value)));
+    let pair = pair.and_then(|text| PairFormula::read(reader, text));
+    // where nothing says what moves, only that is a fault
+    let given = Given::read(reader, problem, initial, ways.is_empty() || ways.contains(&"pair"));
+    match ways[..] {
+        ["name"] => shipped::system(reader, &given, &name?),
+        ["potential"] => {
+            given.needs(reader, problem, "coordinates");
+            formula::system(reader, &given, &potential?)
+        }
+        ["pair"] => {
+            given.needs(reader, problem, "bodies");
+            // a formula in d is for a line
+            if pair.as_ref().is_some_and(|pair| pair.separation == Separation::SquaredDistance) {
+                given.needs(reader, problem, "dimensions");
+            }
+            pair::system(reader, &given, pair)
+        }
+        [] => {
+            reader.all_missing(problem, &WAYS);
+            None
+        }
+        [first, second] => {
+            let message = format!("{first} and {second} are both given");
+            reader.wrong(given.place(second)?, message, "keep one of the two")
+        }
+        _ => reader.wrong(given.place("pair")?, "name, potential and pair are all given", "keep one of the three"),
+    }
+}

@@ -1,0 +1,96 @@
+//! A shipped problem with parameters and a state that may be other ones.
+
+use shadowstep::problems::{ProblemError, Setup, problem};
+use shadowstep_symbolic::{evaluate, nearest, parse};
+
+use super::given::Given;
+use super::reader::{Reader, Text};
+use crate::arithmetic::{GUARD_DIGITS, MOST_VALUE_DIGITS};
+use crate::scene::{KineticEnergy, PotentialEnergy, System};
+
+/// The problem of this name.
+pub(super) fn system(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<System> {
+    given.refuse(
+        reader,
+        &["coordinates", "momenta", "masses", "kinetic", "bodies", "dimensions", "neighbours"],
+        |key| {
+            let help = format!("leave out `{key}`, or write a `potential` or `pair` in place of the name");
+            (format!("{} has {key} of its own", name.value), help)
+        },
+    );
+    let setup = setup(reader, given, name)?;
+    let (coordinates, q): (Vec<_>, Vec<_>) = setup.values.positions().iter().cloned().unzip();
+    let (momenta, p): (Vec<_>, Vec<_>) = setup.values.momenta().iter().cloned().unzip();
+    let masses = setup.values.masses().map(<[_]>::to_vec);
+    let (own_q, own_p) =
+        given.state.values(reader, |reader, numbers| numbers.values(reader, coordinates.len()), masses.as_deref());
+    for (own, names, values) in [(&own_q, &coordinates, &q), (&own_p, &momenta, &p)] {
+        let mut values = names.iter().zip(values);
+        let short = values.find(|(_, value)| own.is_none() && !reader.arithmetic.has_digits_of(value));
+        if let Some((value, _)) = short {
+            let message = format!("{value} is irrational and computed to {MOST_VALUE_DIGITS} digits");
+            let help = format!("use digits = {} or less, or other parameters", MOST_VALUE_DIGITS - GUARD_DIGITS);
+            reader.fault(&name.at, message, help);
+        }
+    }
+    Some(System {
+        parameters: reader.known.iter().map(|(name, value)| (name.clone(), value.clone())).collect(),
+        potential: PotentialEnergy::Shipped(setup),
+        kinetic: KineticEnergy::Masses(masses),
+        coordinates,
+        momenta,
+        q: own_q.unwrap_or(q),
+        p: own_p.unwrap_or(p),
+    })
+}
+
+/// The shipped problem with its parameters, which become known to the reader.
+fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
+    let problem = match problem(&name.value) {
+        Ok(problem) => problem,
+        Err(ProblemError::UnknownProblem { hint, .. }) => {
+            return reader.wrong(&name.at, format!("there is no problem `{}`", name.value), hint);
+        }
+        Err(error) => return reader.wrong(&name.at, error.to_string(), "`shadowstep problems` lists all"),
+    };
+    let parameters = problem.description().parameters;
+    let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name).collect();
+    refuse_unknown_parameters(reader, given, problem.name(), &names);
+    let value_of = |name: &str| given.parameters.iter().find(|(key, _)| key.value == name).map(|(_, text)| text);
+    for parameter in parameters {
+        let value = match value_of(parameter.name) {
+            Some(text) => Some(reader.evaluate(text)?),
+            None => {
+                let default = parse(parameter.default).ok();
+                default.and_then(|d| evaluate(&d, &reader.known, reader.arithmetic.value_digits()).ok())
+            }
+        };
+        // a default that has no value with the others is a fault of the setup below
+        reader.known.extend(value.map(|value| (parameter.name.to_owned(), value)));
+    }
+    let set: Vec<_> =
+        names.iter().filter_map(|name| Some(((*name).to_owned(), value_of(name)?.value.clone()))).collect();
+    let place = |name: &str| value_of(name).map_or(given.problem.clone(), |text| text.at.clone());
+    match problem.setup(&set, reader.arithmetic.value_digits()) {
+        Ok(setup) => Some(setup),
+        Err(ProblemError::OutOfRange { name, text, range }) => {
+            reader.wrong(&place(name), format!("{name} = {text} is out of range"), range)
+        }
+        Err(ProblemError::NoValue { name, text, why }) => {
+            let help = "other parameters give it a value";
+            reader.wrong(&place(&name), format!("{name} = {text}: {why}"), help)
+        }
+        Err(error) => reader.wrong(&given.problem, error.to_string(), "see `shadowstep problems`"),
+    }
+}
+
+fn refuse_unknown_parameters(reader: &mut Reader<'_>, given: &Given, problem: &str, names: &[&str]) {
+    for (key, _) in given.parameters.iter().filter(|(key, _)| !names.contains(&key.value.as_str())) {
+        let help = match nearest(&key.value, names.iter().copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if names.is_empty() => "it has none; the state is set in [initial]".to_owned(),
+            None => format!("it has {}; the state is set in [initial]", names.join(", ")),
+        };
+        reader.fault(&key.at, format!("{problem} has no parameter `{}`", key.value), help);
+    }
+}

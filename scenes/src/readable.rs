@@ -1,0 +1,38 @@
+//! Numbers and texts for people; machines get every digit.
+
+use shadowstep::Rational;
+use shadowstep_symbolic::decimal::{to_significant, to_text};
+
+/// The exact text of a number, or `digits` significant digits and `…` where it is longer.
+///
+/// ```
+/// use shadowstep_scenes::readable::shortened;
+///
+/// assert_eq!(shortened(&shadowstep::exact("1/10").unwrap(), 4), "1/10");
+/// assert_eq!(shortened(&shadowstep::exact("123456789/1001").unwrap(), 4), "123300…");
+/// ```
+pub fn shortened(value: &Rational, digits: usize) -> String {
+    let exact = to_text(value);
+    if exact.len() <= digits + 2 { exact } else { format!("{}…", to_significant(value, digits)) }
+}
+
+/// A text in lines of at most 100 characters, each of which begins with `margin`.
+///
+/// ```
+/// assert_eq!(shadowstep_scenes::readable::wrapped("The step size h.", "# "), "# The step size h.\n");
+/// ```
+pub fn wrapped(text: &str, margin: &str) -> String {
+    let mut lines = String::new();
+    for paragraph in text.lines() {
+        let mut line = margin.to_owned();
+        for word in paragraph.split_whitespace() {
+            if line.len() > margin.len() && line.chars().count() + 1 + word.chars().count() > 100 {
+                lines += &format!("{}\n", line.trim_end());
+                line = margin.to_owned();
+            }
+            line += &format!("{}{word}", if line.len() > margin.len() { " " } else { "" });
+        }
+        lines += &format!("{}\n", line.trim_end());
+    }
+    lines
+}

@@ -1,0 +1,154 @@
+//! What a run needs to go on with the same bits: which scene it is, how much of its file is good, and a state.
+
+use num_traits::Zero;
+use serde::{Deserialize, Serialize};
+use shadowstep::Number;
+use shadowstep_symbolic::decimal::from_text;
+
+use crate::results::metadata::{platform, sha256, table_hashes};
+use crate::scene::Scene;
+
+/// All that decides about the numbers of a run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Identity {
+    version: String,
+    platform: String,
+    scene_sha256: String,
+    tables_sha256: Vec<String>,
+}
+
+impl Identity {
+    pub(crate) fn of(scene: &Scene) -> Identity {
+        Identity {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            platform: platform(),
+            scene_sha256: sha256(&scene.source.text),
+            tables_sha256: table_hashes(scene),
+        }
+    }
+
+    /// What the other one was made with that differs from this.
+    fn differs(&self, other: &Identity) -> Option<String> {
+        if self.scene_sha256 != other.scene_sha256 {
+            return Some("another text of the scene".to_owned());
+        }
+        if self.tables_sha256 != other.tables_sha256 {
+            return Some("another table of the scheme".to_owned());
+        }
+        if self.version != other.version {
+            return Some(format!("shadowstep {}", other.version));
+        }
+        (self.platform != other.platform).then(|| format!("another platform, {}", other.platform))
+    }
+}
+
+/// A moment of a run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Checkpoint {
+    pub(crate) identity: Identity,
+    /// All rows up to this n are in the partial file,
+    pub(crate) n: i64,
+    /// which is good up to here,
+    pub(crate) bytes: u64,
+    /// and these bytes have this hash.
+    pub(crate) sha256: String,
+    /// The state from which to go on; `None` for the one at t = 0.
+    pub(crate) state: Option<SavedState>,
+}
+
+/// A state as texts that read back to the same numbers.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct SavedState {
+    pub(crate) n: i64,
+    q: Vec<String>,
+    p: Vec<String>,
+}
+
+/// A checkpoint with its own hash, as it is on the disk.
+#[derive(Serialize, Deserialize)]
+struct Sealed {
+    checkpoint: Checkpoint,
+    sha256: String,
+}
+
+impl Checkpoint {
+    pub(crate) fn to_text(&self) -> String {
+        let sealed = Sealed { sha256: seal(self), checkpoint: self.clone() };
+        serde_json::to_string_pretty(&sealed).expect("texts and numbers are JSON") + "\n"
+    }
+
+    /// Reads a checkpoint of this scene.
+    ///
+    /// # Errors
+    /// Why the run cannot go on from it, as the end of a sentence about it.
+    pub(crate) fn read(text: &str, identity: &Identity) -> Result<Checkpoint, String> {
+        let sealed: Sealed = serde_json::from_str(text).map_err(|_| "is damaged".to_owned())?;
+        if seal(&sealed.checkpoint) != sealed.sha256 {
+            return Err("was changed after it was written".to_owned());
+        }
+        match identity.differs(&sealed.checkpoint.identity) {
+            Some(other) => Err(format!("was made with {other}")),
+            None => Ok(sealed.checkpoint),
+        }
+    }
+}
+
+fn seal(checkpoint: &Checkpoint) -> String {
+    sha256(&serde_json::to_string(checkpoint).expect("texts and numbers are JSON"))
+}
+
+impl SavedState {
+    /// The state n; `None` if a number has an exponent that is not read back.
+    pub(crate) fn of<N: Number>(n: i64, q: &[N], p: &[N]) -> Option<SavedState> {
+        let text = |x: &N| Some(x.to_text()).filter(|text| number(text, &x.context()).as_ref() == Some(x));
+        let texts = |numbers: &[N]| numbers.iter().map(text).collect::<Option<_>>();
+        Some(SavedState { n, q: texts(q)?, p: texts(p)? })
+    }
+
+    /// q and p.
+    pub(crate) fn numbers<N: Number>(&self, context: &N::Context) -> Option<(Vec<N>, Vec<N>)> {
+        let numbers = |texts: &[String]| texts.iter().map(|text| number(text, context)).collect::<Option<_>>();
+        Some((numbers(&self.q)?, numbers(&self.p)?))
+    }
+}
+
+fn number<N: Number>(text: &str, context: &N::Context) -> Option<N> {
+    let exact = from_text(text).ok()?;
+    let mut number = N::from_rational(&exact, context);
+    // a rational 0 has no sign, a number's 0 has
+    if exact.is_zero() && text.starts_with('-') {
+        number.negate();
+    }
+    Some(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shadowstep::number::{Float, Precision};
+
+    #[test]
+    fn numbers_read_back_with_their_sign() {
+        let precision = Precision::digits(60).unwrap();
+        for text in ["-0.0", "0.0", "0.1", "-1e-300", "5e-324", "1.7976931348623157e308"] {
+            let x: f64 = text.parse().unwrap();
+            let saved = SavedState::of(7, &[x], &[-x]).unwrap();
+            let (q, p) = saved.numbers::<f64>(&()).unwrap();
+            assert_eq!((q[0].to_bits(), p[0].to_bits()), (x.to_bits(), (-x).to_bits()), "{text}");
+            let mut third = number::<Float>(text, &precision).unwrap();
+            third.divide_integer(3);
+            let saved = SavedState::of(7, &[third.clone()], &[]).unwrap();
+            assert_eq!(saved.numbers::<Float>(&precision).unwrap().0, [third]);
+        }
+    }
+
+    #[test]
+    fn what_does_not_read_back_is_not_saved() {
+        let precision = Precision::digits(30).unwrap();
+        let mut tiny = number::<Float>("1e-9999", &precision).unwrap();
+        let same = tiny.clone();
+        tiny.multiply(&same);
+        assert!(!tiny.is_zero());
+        assert_eq!(SavedState::of(1, &[tiny], &[]), None);
+    }
+}

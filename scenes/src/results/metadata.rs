@@ -1,0 +1,144 @@
+//! The head of a file: all that made its numbers, and nothing that would differ in another run of the same scene.
+
+use std::path::Path;
+
+use serde::{Serialize, Serializer};
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+use shadowstep::pairs::Ends;
+use shadowstep_schemes::fault::Source;
+use shadowstep_schemes::table::{Table, Weights};
+use shadowstep_symbolic::Exact;
+use shadowstep_symbolic::decimal::to_text;
+
+use crate::arithmetic::Arithmetic;
+use crate::library;
+use crate::scene::{KineticEnergy, PairEnergy, PotentialEnergy, Scene, System};
+
+/// Names and values in the order in which they are written.
+pub(crate) struct Metadata(Vec<(&'static str, Value)>);
+
+impl Serialize for Metadata {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+impl Metadata {
+    pub(crate) fn of(scene: &Scene) -> Metadata {
+        let proved = scene.scheme.scheme.proved();
+        let order = if scene.system.has_general_kinetic() { &proved.proof.general } else { proved.order() };
+        let mut all = vec![
+            ("shadowstep", json!(env!("CARGO_PKG_VERSION"))),
+            ("platform", json!(platform())),
+            ("scene", json!(file_name(&scene.source.path))),
+            ("scene_sha256", json!(sha256(&scene.source.text))),
+            ("scheme", json!(scene.scheme.name)),
+            ("table_sha256", json!(sha256(&proved.scheme.table.source.text))),
+        ];
+        all.extend(bases(&proved.scheme.table).iter().map(|base| ("base_table_sha256", json!(sha256(&base.text)))));
+        all.extend([
+            ("first", json!(proved.scheme.maps().first().map(|map| map.kind.to_string()))),
+            ("scheme_order", json!(order.order)),
+            ("digits", json!(scene.arithmetic.label())),
+        ]);
+        all.extend(system(&scene.system, scene.arithmetic));
+        all.extend([
+            ("step", json!(to_text(&scene.h))),
+            ("until", json!(to_text(&scene.until))),
+            ("steps", json!(scene.steps)),
+        ]);
+        all.extend(
+            scene.output.modified_energy.iter().map(|(chosen, _)| ("modified_energy_by", json!(chosen.described()))),
+        );
+        Metadata(all)
+    }
+
+    /// One line for each: `digits: 120`.
+    pub(crate) fn lines(&self) -> impl Iterator<Item = String> + '_ {
+        self.0.iter().map(|(name, value)| match value.as_str() {
+            Some(text) if !text.contains(char::is_control) => format!("{name}: {text}"),
+            _ => format!("{name}: {value}"),
+        })
+    }
+}
+
+fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)> {
+    let texts = |values: &[Exact]| json!(values.iter().map(|value| arithmetic.text(value)).collect::<Vec<_>>());
+    let named = match &system.potential {
+        PotentialEnergy::Shipped(setup) => {
+            let problem = setup.problem.description();
+            vec![("problem", json!(problem.name)), ("hamiltonian", json!(problem.hamiltonian))]
+        }
+        PotentialEnergy::Formula(formula) => vec![("potential", json!(formula))],
+        PotentialEnergy::Pairs(pairs) => pair_energy(pairs, texts),
+    };
+    let parameters: serde_json::Map<_, _> =
+        system.parameters.iter().map(|(name, value)| (name.clone(), json!(arithmetic.text(value)))).collect();
+    let kinetic = match &system.kinetic {
+        KineticEnergy::Masses(masses) => masses.iter().map(|masses| ("masses", texts(masses))).collect(),
+        KineticEnergy::Formula(formula) => vec![("kinetic", json!(formula)), ("momenta", json!(system.momenta))],
+    };
+    named
+        .into_iter()
+        .chain([("parameters", json!(parameters)), ("coordinates", json!(system.coordinates))])
+        .chain(kinetic)
+        .chain([("q", texts(&system.q)), ("p", texts(&system.p))])
+        .collect()
+}
+
+fn pair_energy(pairs: &PairEnergy, texts: impl Fn(&[Exact]) -> Value) -> Vec<(&'static str, Value)> {
+    let properties: serde_json::Map<_, _> =
+        pairs.properties.iter().map(|(name, values)| (name.clone(), texts(values))).collect();
+    let bodies = if properties.is_empty() { json!(pairs.bodies) } else { json!(properties) };
+    let neighbours = pairs.ends.map(|ends| match ends {
+        Ends::Free => "free",
+        Ends::Fixed => "fixed",
+        Ends::Periodic => "periodic",
+    });
+    [("pair", json!(pairs.formula)), ("dimensions", json!(pairs.dimensions)), ("bodies", bodies)]
+        .into_iter()
+        .chain(neighbours.map(|neighbours| ("neighbours", json!(neighbours))))
+        .collect()
+}
+
+/// The hashes of the tables that a scheme is made of: its own, and of a composition those of its bases.
+pub(crate) fn table_hashes(scene: &Scene) -> Vec<String> {
+    let table = &scene.scheme.scheme.proved().scheme.table;
+    std::iter::once(&table.source).chain(&bases(table)).map(|source| sha256(&source.text)).collect()
+}
+
+/// The tables that a composition is made of, which were found when it was read.
+fn bases(table: &Table) -> Vec<Source> {
+    let mut bases: Vec<Source> = Vec::new();
+    let mut above = table.clone();
+    while let Some(Weights::Composition { base, .. }) = &above.weights {
+        let Some(source) = library::beside_or_shipped(&base.value, &above.source) else { break };
+        let (Some(table), _) = shadowstep_schemes::table::parse(&source) else { break };
+        // a file that was changed meanwhile may lead back
+        if bases.contains(&source) {
+            break;
+        }
+        bases.push(source);
+        above = table;
+    }
+    bases
+}
+
+/// Double precision's functions come from it.
+pub(crate) fn platform() -> String {
+    format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS)
+}
+
+/// In hexadecimal digits.
+pub(crate) fn sha256(text: &str) -> String {
+    hexadecimal(&Sha256::digest(text))
+}
+
+pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+fn file_name(path: &str) -> String {
+    Path::new(path).file_name().map_or_else(|| path.to_owned(), |name| name.to_string_lossy().into_owned())
+}

@@ -1,0 +1,114 @@
+//! Rows and the head of a file, as CSV or as JSON lines.
+
+use std::io::Write;
+
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::results::metadata::Metadata;
+use crate::results::target::Target;
+use crate::scene::{COLUMNS, Format};
+
+/// A state of the run: what is due at its n. Numbers are texts that read back to the same numbers.
+#[derive(Serialize)]
+pub(crate) struct Row {
+    pub(crate) n: i64,
+    pub(crate) t: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) energy: Option<String>,
+    #[serde(flatten)]
+    pub(crate) modified_energy: Option<ModifiedEnergy>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) q: Option<Vec<String>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) p: Option<Vec<String>>,
+}
+
+#[derive(Serialize)]
+pub(crate) struct ModifiedEnergy {
+    pub(crate) modified_energy: String,
+    pub(crate) estimate: Option<String>,
+    pub(crate) order: u32,
+}
+
+/// The columns that a CSV file has besides n and t.
+pub(crate) struct Columns {
+    pub(crate) energy: bool,
+    pub(crate) modified_energy: bool,
+    /// Names of positions and momenta, where they are asked for.
+    pub(crate) state: Vec<String>,
+}
+
+impl Columns {
+    fn names(&self) -> Vec<&str> {
+        let mut names = COLUMNS[..2].to_vec();
+        names.extend(self.energy.then_some(COLUMNS[2]));
+        names.extend(COLUMNS[3..].iter().filter(|_| self.modified_energy));
+        names.extend(self.state.iter().map(String::as_str));
+        names
+    }
+
+    /// The cells of a row; what is not due is empty.
+    fn cells(&self, row: &Row) -> Vec<String> {
+        let mut cells = vec![row.n.to_string(), row.t.clone()];
+        if self.energy {
+            cells.push(row.energy.clone().unwrap_or_default());
+        }
+        match row.modified_energy.as_ref().filter(|_| self.modified_energy) {
+            Some(ModifiedEnergy { modified_energy, estimate, order }) => {
+                cells.extend([modified_energy.clone(), estimate.clone().unwrap_or_default(), order.to_string()]);
+            }
+            None => cells.extend(vec![String::new(); if self.modified_energy { 3 } else { 0 }]),
+        }
+        match (&row.q, &row.p) {
+            (Some(q), Some(p)) => cells.extend(q.iter().chain(p).cloned()),
+            _ => cells.extend(vec![String::new(); self.state.len()]),
+        }
+        cells
+    }
+}
+
+/// Writes the head and rows in one format.
+pub(crate) struct Rows<'a> {
+    pub(crate) target: Target<'a>,
+    pub(crate) format: Format,
+    pub(crate) columns: Columns,
+}
+
+impl Rows<'_> {
+    /// What was run, and in CSV the names of the columns.
+    pub(crate) fn head(&mut self, metadata: &Metadata) -> Result<(), Error> {
+        match self.format {
+            Format::JsonLines => self.line(&serde_json::json!({ "metadata": metadata })),
+            Format::Csv => {
+                for line in metadata.lines() {
+                    writeln!(self.target, "# {line}")?;
+                }
+                let line = record(self.columns.names())?;
+                Ok(self.target.write_all(&line)?)
+            }
+        }
+    }
+
+    pub(crate) fn row(&mut self, row: &Row) -> Result<(), Error> {
+        match self.format {
+            Format::JsonLines => self.line(row),
+            Format::Csv => {
+                let line = record(self.columns.cells(row))?;
+                Ok(self.target.write_all(&line)?)
+            }
+        }
+    }
+
+    fn line(&mut self, object: &impl Serialize) -> Result<(), Error> {
+        let line = serde_json::to_string(object)?;
+        Ok(writeln!(self.target, "{line}")?)
+    }
+}
+
+/// A line of CSV; a `csv::Writer` on the target itself would flush it with each line.
+fn record<C: AsRef<[u8]>>(cells: impl IntoIterator<Item = C>) -> Result<Vec<u8>, Error> {
+    let mut csv = csv::WriterBuilder::new().buffer_capacity(1 << 10).from_writer(Vec::new());
+    csv.write_record(cells)?;
+    Ok(csv.into_inner().map_err(csv::IntoInnerError::into_error)?)
+}

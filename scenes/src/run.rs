@@ -1,0 +1,97 @@
+//! One run: a scheme, or the exact flow, and a step size.
+
+use shadowstep::Rational;
+use shadowstep::exact_flow::ExactFlowError;
+use shadowstep::run::RunError;
+
+use crate::error::Error;
+use crate::estimator::Chosen;
+use crate::readable::shortened;
+
+const OTHER_START: &str = "a smaller step or another initial state may go on";
+
+/// n = 0, …, steps at the times n h.
+#[derive(Clone, Copy, Debug)]
+pub struct Run<'a> {
+    /// The name of a scheme, or exact-flow.
+    pub propagator: &'a str,
+    /// The step size.
+    pub h: &'a Rational,
+    /// The number of steps.
+    pub steps: u64,
+    /// The order of the estimator, where a person set it or could.
+    pub order: Option<OrderSetting>,
+}
+
+/// What holds the order of the estimator, as it is spelt where the run is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct OrderSetting {
+    /// `--max-order`, or `order` in a scene.
+    pub name: &'static str,
+    /// Its value.
+    pub value: u32,
+}
+
+impl Run<'_> {
+    /// t = n h
+    pub fn time(&self, n: i64) -> Rational {
+        self.h * Rational::from_integer(n.into())
+    }
+
+    /// The time of the last state.
+    pub fn time_of_last(&self) -> Rational {
+        self.h * Rational::from_integer(self.steps.into())
+    }
+
+    /// The time of the n-th value of an estimator: n h, or for one whose values belong to the middle between two states
+    /// (n + 1/2) h.
+    pub fn time_of_value(&self, n: i64, estimator: &Chosen) -> Rational {
+        if estimator.is_between() { self.h * Rational::new((2 * n + 1).into(), 2.into()) } else { self.time(n) }
+    }
+
+    /// Which run it is, in messages.
+    pub fn name(&self) -> String {
+        format!("{}, step {}", self.propagator, shortened(self.h, 20))
+    }
+
+    /// A state is not finite.
+    pub fn failed(&self, error: &RunError) -> Error {
+        match error {
+            RunError::NotFinite { step, what } if *step < 0 => {
+                self.ended_beyond(*step, what, "states before t = 0 are made for the modified energies near it")
+            }
+            RunError::NotFinite { step, what } if step.unsigned_abs() > self.steps => {
+                self.ended_beyond(*step, what, "states after the last one are made for the modified energies near it")
+            }
+            RunError::NotFinite { step, what } => self.ended(&format!("the run ends at n = {step} with {what}")),
+            RunError::ZeroStep => self.ended(&error.to_string()),
+        }
+    }
+
+    /// The exact flow cannot be followed.
+    pub fn not_followed(&self, error: &ExactFlowError) -> Error {
+        Error::run(format!("{}: {error}", self.name()), "an earlier --until or another initial state may go")
+    }
+
+    /// All states are finite, an energy is not.
+    pub fn not_finite(&self, energy: &str) -> Error {
+        self.ended(&format!("{energy} is not finite"))
+    }
+
+    fn ended(&self, how: &str) -> Error {
+        let message = format!("{}: {how}", self.name());
+        Error::run(message, OTHER_START)
+    }
+
+    /// At a state that only the estimator needs: the lower its order, the fewer there are.
+    fn ended_beyond(&self, n: i64, what: &str, why: &str) -> Error {
+        let message = format!("{}: the run ends at n = {n} with {what}; {why}", self.name());
+        let hint = match self.order {
+            Some(OrderSetting { name, value }) => {
+                format!("a lower {name} (here {value}) needs fewer of them; {OTHER_START}")
+            }
+            None => OTHER_START.to_owned(),
+        };
+        Error::run(message, hint)
+    }
+}

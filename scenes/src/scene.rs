@@ -1,0 +1,56 @@
+//! What a scene says: plain data, all of it exact.
+
+mod format;
+mod output;
+mod pairs;
+mod parameters;
+mod system;
+
+pub(crate) use format::COLUMNS;
+pub use format::Format;
+pub use output::{CheckpointInterval, Outputs};
+pub use pairs::PairEnergy;
+pub(crate) use system::{ClassifiedKinetic, formula_kinetic, formula_potential};
+pub use system::{KineticEnergy, PotentialEnergy, System};
+
+use shadowstep::Rational;
+use shadowstep::tables::Source;
+
+use crate::arithmetic::Arithmetic;
+use crate::library::NamedScheme;
+use crate::note::Note;
+use crate::run::{OrderSetting, Run};
+
+/// All that a scene asks for.
+#[derive(Debug)]
+pub struct Scene {
+    /// The text of the scene, and its path, from whose folder files are seen.
+    pub source: Source,
+    /// The number type.
+    pub arithmetic: Arithmetic,
+    /// H = T(p) + U(q) and the state at t = 0.
+    pub system: System,
+    /// The scheme.
+    pub scheme: NamedScheme,
+    /// The step size h.
+    pub h: Rational,
+    /// The time at which the run ends, at the latest.
+    pub until: Rational,
+    /// The number of steps.
+    pub steps: u64,
+    /// What is written, and where.
+    pub output: Outputs,
+    /// What the user should know of this scene.
+    pub notes: Vec<Note>,
+}
+
+impl Scene {
+    /// The steps of the run, with the order of the estimator as the scene sets it.
+    pub fn as_run(&self) -> Run<'_> {
+        let order = self.output.modified_energy.as_ref().map(|modified| {
+            let (name, value) = modified.0.order_setting();
+            OrderSetting { name, value }
+        });
+        Run { propagator: &self.scheme.name, h: &self.h, steps: self.steps, order }
+    }
+}

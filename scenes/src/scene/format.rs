@@ -1,0 +1,24 @@
+//! The kinds of files, and the columns that they have before positions and momenta.
+
+/// The columns before those of the trajectory; no coordinate has such a name.
+pub(crate) const COLUMNS: [&str; 6] = ["n", "t", "energy", "modified_energy", "estimate", "order"];
+
+/// How rows are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// A head of lines with `#`, a line of column names, and rows with commas.
+    Csv,
+    /// A JSON object a line, of which the first has the metadata.
+    JsonLines,
+}
+
+impl Format {
+    /// What a file's name says.
+    pub(crate) fn of(file: &str) -> Option<Format> {
+        match file.rsplit_once('.')?.1 {
+            "csv" => Some(Format::Csv),
+            "jsonl" => Some(Format::JsonLines),
+            _ => None,
+        }
+    }
+}

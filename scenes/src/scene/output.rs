@@ -1,0 +1,34 @@
+//! The section [output]: what is written, where, and how often.
+
+use std::ops::Range;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use crate::estimator::Chosen;
+use crate::scene::format::Format;
+
+/// What is to be written, and where. Periods are in steps: something is written at each n that is a multiple of its own.
+#[derive(Clone, Debug)]
+pub struct Outputs {
+    /// The file, and the place of its name in the scene.
+    pub file: Option<(PathBuf, Range<usize>)>,
+    /// How rows are written.
+    pub format: Format,
+    /// The period of the energy.
+    pub energy: Option<u64>,
+    /// The estimator of the modified energy, and the period.
+    pub modified_energy: Option<(Chosen, u64)>,
+    /// The period of positions and momenta.
+    pub trajectory: Option<u64>,
+    /// How often a checkpoint is made.
+    pub checkpoint: Option<CheckpointInterval>,
+}
+
+/// How often a checkpoint is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CheckpointInterval {
+    /// At each n that is a multiple of this.
+    Steps(u64),
+    /// After this time on the clock.
+    Time(Duration),
+}

@@ -1,0 +1,61 @@
+//! The energy of pairs of bodies by its formula.
+
+use shadowstep::formula::{FormulaError, FormulaPair};
+use shadowstep::pairs::{Ends, Pairs, Separation};
+use shadowstep::{Number, Potential};
+use shadowstep_symbolic::Exact;
+
+use crate::scene::parameters::rounded;
+
+/// U = Σ u over all pairs of bodies, or over those of neighbours in a chain.
+#[derive(Debug)]
+pub struct PairEnergy {
+    /// u, in the separation, properties and parameters.
+    pub formula: String,
+    /// What the formula is in.
+    pub separation: Separation,
+    /// 1, 2 or 3.
+    pub dimensions: usize,
+    /// How many bodies there are.
+    pub bodies: usize,
+    /// Names, with a value for each body.
+    pub properties: Vec<(String, Vec<Exact>)>,
+    /// Those of a chain; none where all pairs interact.
+    pub ends: Option<Ends>,
+}
+
+impl PairEnergy {
+    /// u, with properties and parameters rounded once.
+    pub(crate) fn pair<N: Number>(
+        &self,
+        parameters: &[(String, Exact)],
+        context: &N::Context,
+    ) -> Result<FormulaPair<N>, FormulaError> {
+        let number = |exact: &Exact| N::from_rational(&exact.value, context);
+        let properties: Vec<(&str, Vec<N>)> =
+            self.properties.iter().map(|(name, values)| (name.as_str(), values.iter().map(number).collect())).collect();
+        FormulaPair::new(&self.formula, self.separation, &properties, &rounded(parameters, context))
+    }
+
+    /// U
+    pub(crate) fn potential<N: Number + 'static>(
+        &self,
+        parameters: &[(String, Exact)],
+        context: &N::Context,
+    ) -> Box<dyn Potential<N>> {
+        let pair = self.pair(parameters, context).expect("the formula was read with the scene");
+        match self.dimensions {
+            1 => self.sum::<N, 1>(pair),
+            2 => self.sum::<N, 2>(pair),
+            3 => self.sum::<N, 3>(pair),
+            more => unreachable!("{more} dimensions are refused"),
+        }
+    }
+
+    fn sum<N: Number + 'static, const D: usize>(&self, pair: FormulaPair<N>) -> Box<dyn Potential<N>> {
+        Box::new(match self.ends {
+            None => Pairs::<_, D>::all(self.bodies, pair),
+            Some(ends) => Pairs::<_, D>::neighbours(self.bodies, pair, ends),
+        })
+    }
+}

@@ -1,0 +1,126 @@
+//! What moves: a shipped problem or a formula's potential, its kinetic energy and its state at t = 0.
+
+use shadowstep::formula::{FormulaError, FormulaKinetic, FormulaPotential};
+use shadowstep::kinetic::{General, Quadratic};
+use shadowstep::problems::Setup;
+use shadowstep::{DiagonalMasses, Kinetic, Number, Potential, Rational, UnitMasses};
+use shadowstep_symbolic::Exact;
+
+use crate::scene::pairs::PairEnergy;
+use crate::scene::parameters::rounded;
+
+/// H = T(p) + U(q) and the state at t = 0, all exact.
+#[derive(Debug)]
+pub struct System {
+    /// U(q)
+    pub potential: PotentialEnergy,
+    /// T(p)
+    pub kinetic: KineticEnergy,
+    /// Parameters of formulas or of the shipped problem: names and values.
+    pub parameters: Vec<(String, Exact)>,
+    /// Names of q_1, q_2, ….
+    pub coordinates: Vec<String>,
+    /// Names of p_1, p_2, ….
+    pub momenta: Vec<String>,
+    /// Positions at t = 0.
+    pub q: Vec<Exact>,
+    /// Momenta at t = 0.
+    pub p: Vec<Exact>,
+}
+
+/// U(q)
+#[derive(Debug)]
+pub enum PotentialEnergy {
+    /// That of a shipped problem.
+    Shipped(Setup),
+    /// A formula in the coordinates and parameters.
+    Formula(String),
+    /// A sum over pairs of bodies.
+    Pairs(PairEnergy),
+}
+
+/// T(p)
+#[derive(Debug)]
+pub enum KineticEnergy {
+    /// One for each coordinate, unless all are 1.
+    Masses(Option<Vec<Exact>>),
+    /// A formula in the momenta and parameters.
+    Formula(String),
+}
+
+/// A kinetic energy with its class, which decides about the schemes that move it.
+pub(crate) enum ClassifiedKinetic<N> {
+    Quadratic(Box<dyn Kinetic<N, Class = Quadratic>>),
+    General(Box<dyn Kinetic<N, Class = General>>),
+}
+
+impl System {
+    /// Positions and momenta at t = 0.
+    pub(crate) fn start<N: Number>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
+        let numbers = |values: &[Exact]| values.iter().map(|v| N::from_rational(&v.value, context)).collect();
+        (numbers(&self.q), numbers(&self.p))
+    }
+
+    /// U(q)
+    pub(crate) fn potential<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Potential<N>> {
+        match &self.potential {
+            PotentialEnergy::Shipped(setup) => setup.potential(context),
+            PotentialEnergy::Formula(formula) => {
+                let potential = formula_potential::<N>(formula, &self.coordinates, &self.parameters, context);
+                Box::new(potential.expect("the formula was read with the scene"))
+            }
+            PotentialEnergy::Pairs(pairs) => pairs.potential(&self.parameters, context),
+        }
+    }
+
+    /// T(p)
+    pub(crate) fn kinetic<N: Number + 'static>(&self, context: &N::Context) -> ClassifiedKinetic<N> {
+        match &self.kinetic {
+            KineticEnergy::Masses(None) => ClassifiedKinetic::Quadratic(Box::new(UnitMasses)),
+            KineticEnergy::Masses(Some(masses)) => {
+                let masses: Vec<Rational> = masses.iter().map(|mass| mass.value.clone()).collect();
+                let masses = DiagonalMasses::new(&masses, context);
+                ClassifiedKinetic::Quadratic(Box::new(masses.expect("the masses were read with the scene")))
+            }
+            KineticEnergy::Formula(formula) => {
+                let kinetic = formula_kinetic::<N>(formula, &self.momenta, &self.parameters, context);
+                match kinetic.expect("the formula was read with the scene").into_quadratic() {
+                    Ok(quadratic) => ClassifiedKinetic::Quadratic(Box::new(quadratic)),
+                    Err(general) => ClassifiedKinetic::General(Box::new(general)),
+                }
+            }
+        }
+    }
+
+    /// Whether schemes for quadratic T only do not move it.
+    pub(crate) fn has_general_kinetic(&self) -> bool {
+        match &self.kinetic {
+            KineticEnergy::Masses(_) => false,
+            KineticEnergy::Formula(_) => matches!(self.kinetic::<f64>(&()), ClassifiedKinetic::General(_)),
+        }
+    }
+}
+
+/// The potential of a formula, with its parameters rounded once.
+pub(crate) fn formula_potential<N: Number>(
+    formula: &str,
+    coordinates: &[String],
+    parameters: &[(String, Exact)],
+    context: &N::Context,
+) -> Result<FormulaPotential<N>, FormulaError> {
+    FormulaPotential::new(formula, &borrowed(coordinates), &rounded(parameters, context))
+}
+
+/// The kinetic energy of a formula, likewise.
+pub(crate) fn formula_kinetic<N: Number>(
+    formula: &str,
+    momenta: &[String],
+    parameters: &[(String, Exact)],
+    context: &N::Context,
+) -> Result<FormulaKinetic<N>, FormulaError> {
+    FormulaKinetic::new(formula, &borrowed(momenta), &rounded(parameters, context))
+}
+
+fn borrowed(names: &[String]) -> Vec<&str> {
+    names.iter().map(String::as_str).collect()
+}
