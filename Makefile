@@ -27,9 +27,11 @@ docs:
 bench: deps
 	cargo bench --workspace --locked
 
-# Packs every crate but the tests as for crates.io, and builds each from its package.
+# Packs every crate but the tests as for crates.io, and builds each from its package. cargo would build again with the
+# packages that an earlier run has unpacked, so these are removed first.
 package: deps
-	cargo package --workspace --exclude shadowstep-tests --allow-dirty --locked
+	rm -rf target/packed "$${CARGO_HOME:-$$HOME/.cargo}"/registry/src/-*/shadowstep*
+	cargo package --workspace --exclude shadowstep-tests --allow-dirty --locked --target-dir target/packed
 
 # Where cargo's crate gmp-mpfr-sys keeps the libraries that it has built.
 GMP_FOLDERS = "$${GMP_MPFR_SYS_CACHE:-$${XDG_CACHE_HOME:-$$HOME/.cache}/gmp-mpfr-sys}" \
