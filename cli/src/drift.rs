@@ -1,151 +1,53 @@
-//! The drift of the modified energy: one run per scheme and step, and the estimator's own on the exact flow.
+//! `shadowstep drift`: the drift of the modified energy, one run per scheme and step, and on the exact flow that of the
+//! estimator itself.
+
+mod record;
+mod table;
 
 use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
 use std::time::Instant;
 
-use rug::Float;
-use serde::{Serialize, Serializer};
+use clap::Args;
 use shadowstep::Rational;
 use shadowstep::exact_flow::has_exact_flow;
-use shadowstep::number::{Number, Rounded};
-use shadowstep::run::{EnergyDrift, Seen};
+use shadowstep::number::Rounded;
+use shadowstep::run::EnergyDrift;
+use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::library::EXACT_FLOW;
+use shadowstep_scenes::propagator::Propagator;
+use shadowstep_scenes::run::Run;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::arguments::DriftArguments;
-use crate::arithmetic::Arithmetic;
 use crate::complaint::{Complaint, Ending, remark, tell};
-use crate::library::EXACT_FLOW;
 use crate::output::Output;
 use crate::progress::Progress;
-use crate::propagator::Propagator;
-use crate::readable::{rounded, shortened, table};
-use crate::run::Run;
+use crate::run_arguments::RunArguments;
 use crate::selection::Selection;
+use record::{Control, OrderLabel, Permanent, Record};
+use table::{readable, row};
 
-/// What a run gives, as JSON has it; numbers of high precision are texts.
-#[derive(Serialize)]
-struct Record {
-    /// The version of the program.
-    shadowstep: &'static str,
-    problem: &'static str,
-    #[serde(serialize_with = "as_object")]
-    parameters: Vec<(String, String)>,
-    scheme: String,
-    step: String,
-    until: String,
-    /// The time of the last state: `until`, or the last multiple of the step before it.
-    end: String,
-    digits: NumberOrWord,
-    estimator: &'static str,
-    order: NumberOrWord,
-    /// How the order is chosen, as far as the estimator has such a setting; none where the order is fixed.
-    max_order: Option<u32>,
-    stop: Option<&'static str>,
-    rule: Option<&'static str>,
-    accuracy: Option<String>,
-    drift: String,
-    minimum: String,
-    maximum: String,
-    at_minimum: i64,
-    at_maximum: i64,
-    first: String,
-    last: String,
-    permanent_change: Option<Permanent>,
-    control: Option<Control>,
-    order_least: u32,
-    order_most: u32,
-    steps: u64,
-    force_evaluations: u64,
-    seconds: f64,
-}
+const EXAMPLE: &str = "\
+Example:
+  shadowstep drift --problem kepler --set eccentricity=0.3 --scheme stormer-verlet,yoshida4 \\
+      --step 1/10,1/20 --until 100 --digits 60 --order auto";
 
-/// The change between quiet states, which the estimator's error hardly reaches.
-#[derive(Clone, Serialize)]
-struct Permanent {
-    change: String,
-    first_to_last: String,
-    largest_jump: String,
-    resolution: String,
-    #[serde(serialize_with = "as_word")]
-    seen: Seen,
-    from: i64,
-    to: i64,
-    states: u64,
-    stretches: u64,
-}
-
-/// What the same estimator shows at the same times on the exact flow, whose energy does not change: its own error.
-#[derive(Clone, Serialize)]
-struct Control {
-    drift: String,
-    permanent_change: Option<Permanent>,
-}
-
-impl Permanent {
-    fn of<N: Number>(found: &EnergyDrift<N>) -> Option<Self> {
-        let permanent = found.permanent.as_ref()?;
-        Some(Permanent {
-            change: permanent.change.to_text(),
-            first_to_last: permanent.first_to_last.to_text(),
-            largest_jump: permanent.largest_jump.to_text(),
-            resolution: permanent.resolution.to_text(),
-            seen: permanent.seen,
-            from: permanent.between.0,
-            to: permanent.between.1,
-            states: permanent.states,
-            stretches: permanent.stretches,
-        })
-    }
-
-    /// The change, or what it is below.
-    fn shown(&self) -> String {
-        match self.seen {
-            Seen::Resolved => rounded(&self.change, 4),
-            Seen::Below => format!("< {}", rounded(&self.resolution, 2)),
-            Seen::OneSide => NOT_SEEN.to_owned(),
-        }
-    }
-}
-
-fn as_word<S: Serializer>(seen: &Seen, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(match seen {
-        Seen::Resolved => "resolved",
-        Seen::Below => "below",
-        Seen::OneSide => NOT_SEEN,
-    })
-}
-
-/// All quiet states lie on one side of what is not quiet.
-const NOT_SEEN: &str = "not seen";
-
-/// What marks in the column of the permanent change mean, where there are any.
-fn marks(rows: &[[String; 9]]) -> String {
-    let meanings = [
-        ("< ", "<: below what errors and round-off can feign"),
-        (
-            NOT_SEEN,
-            "not seen: the states with small errors all lie on one side of those with large ones, such as an encounter",
-        ),
-        (NOT_RELIABLE, "not reliable here: this order tells no errors"),
-    ];
-    let used = meanings.iter().filter(|(mark, _)| rows.iter().any(|row| row[4].starts_with(mark)));
-    used.map(|(_, meaning)| format!("{meaning}\n")).collect()
-}
-
-#[derive(Serialize)]
-#[serde(untagged)]
-enum NumberOrWord {
-    Number(u32),
-    Word(&'static str),
-}
-
-fn as_object<S: Serializer>(pairs: &[(String, String)], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
+/// The drift of the modified energy: one run per scheme and step.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    run: RunArguments,
+    /// Leaves out what the estimator shows on the exact flow, where that is known: it takes longer than a run in double precision
+    #[arg(long)]
+    no_control: bool,
+    /// One JSON object per run, a line each, in place of the table
+    #[arg(long)]
+    json: bool,
 }
 
 /// Runs all; a run that fails is told of, and the others go on.
-pub(crate) fn drift(arguments: &DriftArguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
     let selection = Selection::read(&arguments.run)?;
     let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
     // a bar would run through the lines on the same terminal
@@ -154,11 +56,8 @@ pub(crate) fn drift(arguments: &DriftArguments) -> Result<Ending, Complaint> {
     let mut rows = Vec::new();
     let mut controls = Controls { wanted: !arguments.no_control, bar, known: BTreeMap::new() };
     for (propagator, run) in selection.runs() {
-        let found = match selection.arithmetic {
-            Arithmetic::Double => record::<f64>(&selection, propagator, run, &(), &mut controls),
-            Arithmetic::Digits(_, precision) => record::<Float>(&selection, propagator, run, &precision, &mut controls),
-        };
-        match found {
+        let measurement = Measurement { selection: &selection, propagator, run, controls: &mut controls };
+        match selection.arithmetic.compute(measurement) {
             Ok(record) if arguments.json => {
                 output.json(&record)?;
                 output.flush()?;
@@ -224,19 +123,36 @@ fn measure<N: Rounded + 'static>(
     Ok(found)
 }
 
-fn record<N: Rounded + 'static>(
+/// A run that waits for its number type.
+struct Measurement<'a> {
+    selection: &'a Selection,
+    propagator: &'a Propagator,
+    run: Run<'a>,
+    controls: &'a mut Controls,
+}
+
+impl Computation for Measurement<'_> {
+    type Output = Result<Record, Complaint>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+        let Measurement { selection, propagator, run, controls } = self;
+        let begin = Instant::now();
+        let found = measure::<N>(selection, propagator, run, context, controls.bar)?;
+        let seconds = begin.elapsed().as_secs_f64();
+        let control = propagator.scheme().and_then(|_| controls.of::<N>(selection, run, context));
+        Ok(record(selection, run, &found, control, seconds))
+    }
+}
+
+fn record<N: Rounded>(
     selection: &Selection,
-    propagator: &Propagator,
     run: Run<'_>,
-    context: &N::Context,
-    controls: &mut Controls,
-) -> Result<Record, Complaint> {
-    let begin = Instant::now();
-    let found = measure::<N>(selection, propagator, run, context, controls.bar)?;
-    let seconds = begin.elapsed().as_secs_f64();
-    let control = propagator.scheme().and_then(|_| controls.of::<N>(selection, run, context));
+    found: &EnergyDrift<N>,
+    control: Option<Control>,
+    seconds: f64,
+) -> Record {
     let search = selection.estimator.stop_and_rule();
-    Ok(Record {
+    Record {
         shadowstep: env!("CARGO_PKG_VERSION"),
         problem: selection.setup.problem.name(),
         parameters: selection.values(),
@@ -244,12 +160,9 @@ fn record<N: Rounded + 'static>(
         step: to_text(run.h),
         until: to_text(&selection.until),
         end: to_text(&run.time_of_last()),
-        digits: match selection.arithmetic {
-            Arithmetic::Double => NumberOrWord::Word("double"),
-            Arithmetic::Digits(digits, _) => NumberOrWord::Number(digits),
-        },
+        digits: selection.arithmetic.label(),
         estimator: selection.estimator.name(),
-        order: selection.estimator.order().map_or(NumberOrWord::Word("auto"), NumberOrWord::Number),
+        order: selection.estimator.order().map_or(OrderLabel::Word("auto"), OrderLabel::Fixed),
         max_order: selection.estimator.max_order(),
         stop: search.map(|(stop, _)| stop),
         rule: search.map(|(_, rule)| rule),
@@ -261,65 +174,12 @@ fn record<N: Rounded + 'static>(
         at_maximum: found.at_maximum,
         first: found.first.to_text(),
         last: found.last.to_text(),
-        permanent_change: Permanent::of(&found),
+        permanent_change: Permanent::of(found),
         control,
         order_least: found.orders.0,
         order_most: found.orders.1,
         steps: run.steps,
         force_evaluations: found.evaluations,
         seconds,
-    })
-}
-
-fn row(run: Run<'_>, record: &Record) -> [String; 9] {
-    let orders = match (record.order_least, record.order_most) {
-        (least, most) if least == most => least.to_string(),
-        (least, most) => format!("{least}–{most}"),
-    };
-    let control = record.control.as_ref().map(|control| rounded(&control.drift, 4));
-    [
-        record.scheme.clone(),
-        shortened(run.h, 12),
-        rounded(&record.drift, 4),
-        control.unwrap_or_default(),
-        record.permanent_change.as_ref().map_or(NOT_RELIABLE.to_owned(), Permanent::shown),
-        orders,
-        record.steps.to_string(),
-        record.force_evaluations.to_string(),
-        format!("{:.3}", record.seconds),
-    ]
-}
-
-/// Where the estimator tells no errors, no state is known to be quiet.
-const NOT_RELIABLE: &str = "not reliable here";
-
-/// More parameters and initial values are not shown to people.
-const MOST_VALUES: usize = 16;
-
-fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String {
-    let problem = selection.setup.problem.description();
-    let all = selection.setup.values.named().iter();
-    let mut values: Vec<_> = all.map(|(name, exact)| format!("{name} = {}", shortened(&exact.value, 12))).collect();
-    if values.len() > MOST_VALUES {
-        let rest = values.len() - MOST_VALUES;
-        values.truncate(MOST_VALUES);
-        values.push(format!("… ({rest} more; --json has all)"));
     }
-    let digits = match selection.arithmetic {
-        Arithmetic::Double => "double precision".to_owned(),
-        Arithmetic::Digits(digits, _) => format!("{digits} digits"),
-    };
-    let order = selection.estimator.letter();
-    let columns =
-        ["scheme", "step", "energy drift", "estimator's own", "permanent change", order, "steps", "forces", "seconds"];
-    let marks = marks(&rows);
-    format!(
-        "{}: H = {}\n{}\nfrom t = 0 to {}, {digits}; modified energy by {}\n{}\n{marks}",
-        problem.title,
-        problem.hamiltonian,
-        values.join(", "),
-        shortened(&selection.until, 20),
-        selection.estimator.described(),
-        table(columns, rows, 1..9)
-    )
 }

@@ -1,56 +1,83 @@
 //! `shadowstep`: the energy drift of splitting schemes, and the schemes themselves, from the command line.
 //!
+//! A command is a file with its flags, `Arguments`, and its function, `execute`. It is registered by its `mod` line and its
+//! line of the list `commands!`.
+//!
 //! | file | what it is |
 //! | --- | --- |
-//! | [`arguments`] | the flags and their help |
-//! | [`quantity`], [`selection`] | exact numbers; arguments → problem, schemes and steps: the runs to make |
-//! | [`drift`], [`trace`] | the runs: one line a run, or one line a step |
-//! | [`scene`] | runs that a file describes |
-//! | [`figures`] | the figures of the paper, and ours |
+//! | [`drift`], [`trace`] | runs of problems: one line a run, or one line a step |
+//! | [`run`], [`scene`] | runs that a file describes; such files |
 //! | [`schemes`], [`problems`] | what can be run |
+//! | [`figures`] | the figures of the paper, and ours |
+//! | [`run_arguments`], [`quantity`], [`selection`] | the flags of runs; exact numbers; flags → problem, schemes and steps |
 //! | [`readable`], [`output`], [`progress`] | tables, lines and bars |
 //! | [`complaint`], [`interrupt`] | messages on stderr and exit codes; Ctrl-C |
 
-mod arguments;
-mod complaint;
 mod drift;
 mod figures;
+mod problems;
+mod run;
+mod scene;
+mod schemes;
+mod trace;
+
+mod complaint;
 mod interrupt;
 mod output;
-mod problems;
 mod progress;
 mod quantity;
 mod readable;
-mod scene;
-mod schemes;
+mod run_arguments;
 mod selection;
-mod trace;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{Parser, Subcommand};
 
-use arguments::{Arguments, Command, SchemesCommand};
 use complaint::{Complaint, Ending, tell};
-use shadowstep_scenes::{arithmetic, estimator, library, propagator, run, steps};
 
-fn main() -> ExitCode {
-    let ending = obey(&Arguments::parse().command).unwrap_or_else(|complaint| tell(&complaint));
-    ExitCode::from(ending as u8)
+/// Makes the enum of all commands from one list `Variant: module`.
+macro_rules! commands {
+    ($($Name:ident: $module:ident,)+) => {
+        #[derive(Debug, Subcommand)]
+        enum Command {
+            $($Name($module::Arguments),)+
+        }
+
+        impl Command {
+            fn execute(&self) -> Result<Ending, Complaint> {
+                match self { $(Command::$Name(arguments) => $module::execute(arguments),)+ }
+            }
+        }
+    };
 }
 
-fn obey(command: &Command) -> Result<Ending, Complaint> {
-    match command {
-        Command::Drift(arguments) => drift::drift(arguments),
-        Command::Trace(arguments) => trace::trace(arguments),
-        Command::Run(arguments) => scene::run(arguments),
-        Command::Scene { explain: true, .. } => scene::explain(),
-        Command::Scene { name, explain: false } => scene::template(name.as_deref()),
-        Command::Figures(arguments) => figures::figures(arguments),
-        Command::Problems { name, json } => problems::problems(name.as_deref(), *json),
-        Command::Schemes { list, command: None } => schemes::list(list),
-        Command::Schemes { command: Some(SchemesCommand::Show { name, json }), .. } => schemes::show(name, *json),
-        Command::Schemes { command: Some(SchemesCommand::Check { files }), .. } => schemes::check(files),
-        Command::Schemes { command: Some(SchemesCommand::Polish(arguments)), .. } => schemes::polish(arguments),
-    }
+commands! {
+    Drift: drift,
+    Trace: trace,
+    Run: run,
+    Scene: scene,
+    Schemes: schemes,
+    Figures: figures,
+    Problems: problems,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  1  the answer is no: a checked table has faults, a table cannot be polished
+  2  wrong usage: an unknown flag, name or file, a number out of range, a fault in a scene
+  3  a run failed: a state or an energy was not finite, the output could not be written, or it was interrupted";
+
+/// Splitting schemes and their modified energy, in any precision.
+#[derive(Debug, Parser)]
+#[command(name = "shadowstep", version, after_help = EXIT_CODES, arg_required_else_help = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+fn main() -> ExitCode {
+    let ending = Arguments::parse().command.execute().unwrap_or_else(|complaint| tell(&complaint));
+    ExitCode::from(ending as u8)
 }

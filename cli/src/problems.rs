@@ -1,12 +1,23 @@
-//! The problems, with their parameters and initial states.
+//! `shadowstep problems`: the problems, with their parameters and initial states.
 
 use std::io::Write;
 
+use clap::Args;
 use serde::Serialize;
 use shadowstep::problems::{Description, Initial, PROBLEMS, problem};
 
 use crate::complaint::{Complaint, Ending, of_problem};
 use crate::output::Output;
+
+/// Lists the problems with their parameters and initial states.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// One problem only, such as kepler
+    name: Option<String>,
+    /// One JSON object a line
+    #[arg(long)]
+    json: bool,
+}
 
 #[derive(Serialize)]
 struct Record {
@@ -40,7 +51,8 @@ struct Value {
 const SHORT: usize = 12;
 
 /// One problem, or all.
-pub(crate) fn problems(name: Option<&str>, json: bool) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+    let Arguments { name, json } = arguments;
     let chosen = match name {
         Some(name) => vec![problem(name).map_err(of_problem)?],
         None => PROBLEMS.to_vec(),
@@ -48,7 +60,7 @@ pub(crate) fn problems(name: Option<&str>, json: bool) -> Result<Ending, Complai
     let most_values = if name.is_some() { usize::MAX } else { SHORT };
     let mut output = Output::open(None, "")?;
     for (i, problem) in chosen.into_iter().enumerate() {
-        if json {
+        if *json {
             output.json(&record(problem.description()))?;
         } else {
             write!(output, "{}{}", if i == 0 { "" } else { "\n" }, readable(problem.description(), most_values))?;

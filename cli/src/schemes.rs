@@ -1,55 +1,43 @@
-//! Schemes: the shipped ones, all about one, the proof of a person's own, and its digits.
+//! `shadowstep schemes`: the shipped schemes; everything about one; the proof of custom tables, and their digits.
 
 mod analysis;
 mod check;
+mod facts;
 mod list;
 mod polish;
 mod show;
 
-pub(crate) use check::check;
-pub(crate) use list::list;
-pub(crate) use polish::polish;
-pub(crate) use show::show;
+use clap::{Args, Subcommand};
 
-use shadowstep_schemes::scheme::Held;
-use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{Kinetic, Proof};
+use crate::complaint::{Complaint, Ending};
 
-/// How many digits of the weights are right; `None` for all.
-fn digits(held: Held) -> Option<u32> {
-    match held {
-        Held::Exactly => None,
-        Held::Digits(digits) => Some(digits),
-    }
+const EXAMPLE: &str = "\
+Example:
+  shadowstep schemes --order 4 --for quadratic --sort effective-error";
+
+/// Lists the schemes that come along; shows one; checks a table of yours.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    list: list::Arguments,
+    #[command(subcommand)]
+    command: Option<Command>,
 }
 
-/// As people read it.
-fn digits_text(digits: Option<u32>) -> String {
-    digits.map_or_else(|| "exact".to_owned(), |digits| digits.to_string())
+#[derive(Debug, Subcommand)]
+enum Command {
+    Show(show::Arguments),
+    Check(check::Arguments),
+    Polish(polish::Arguments),
 }
 
-/// Other names under which the scheme is known.
-fn aliases(table: &Table) -> Vec<String> {
-    table.aliases.iter().map(|alias| alias.value.clone()).collect()
-}
-
-/// The orders for H = A + εB, of the terms of ε, ε², ….
-fn near_integrable(proof: &Proof) -> Vec<u32> {
-    proof.near_integrable.iter().map(|order| order.order).collect()
-}
-
-/// As papers write them: (8,6,4).
-fn near_integrable_text(orders: &[u32]) -> String {
-    if orders.is_empty() {
-        return String::new();
-    }
-    format!("({})", orders.iter().map(u32::to_string).collect::<Vec<_>>().join(","))
-}
-
-/// As tables write it.
-fn kinetic(kinetic: Kinetic) -> &'static str {
-    match kinetic {
-        Kinetic::Any => "any",
-        Kinetic::Quadratic => "quadratic",
+/// Lists the schemes, or runs a subcommand.
+pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+    match &arguments.command {
+        None => list::execute(&arguments.list),
+        Some(Command::Show(arguments)) => show::execute(arguments),
+        Some(Command::Check(arguments)) => check::execute(arguments),
+        Some(Command::Polish(arguments)) => polish::execute(arguments),
     }
 }

@@ -6,14 +6,14 @@ use shadowstep::shadow::{Rule, Stop};
 use shadowstep_scenes::Note;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::arguments::{EstimatorChoice, OrderChoice, RuleChoice, RunArguments, StopChoice};
-use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
 use crate::complaint::{Complaint, of_problem, remark};
-use crate::estimator::{Chosen, Kind, NO_ACCURACY, Wish, no_accuracy};
-use crate::propagator::Propagator;
 use crate::quantity;
-use crate::run::{OrderSetting, Run};
-use crate::steps;
+use crate::run_arguments::{EstimatorChoice, OrderChoice, RuleChoice, RunArguments, StopChoice};
+use shadowstep_scenes::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
+use shadowstep_scenes::estimator::{Chosen, Kind, NO_ACCURACY, Wish, no_accuracy};
+use shadowstep_scenes::propagator::Propagator;
+use shadowstep_scenes::run::{OrderSetting, Run};
+use shadowstep_scenes::steps;
 
 /// Everything that is to be run.
 #[derive(Debug)]

@@ -1,17 +1,41 @@
-//! Energy and modified energy at each step of one run.
+//! `shadowstep trace`: energy and modified energy at each step of one run.
 
-use rug::Float;
+use clap::Args;
 use serde::Serialize;
 use shadowstep::number::Rounded;
+use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::propagator::{Propagator, motion};
+use shadowstep_scenes::run::Run;
 
-use crate::arguments::TraceArguments;
-use crate::arithmetic::Arithmetic;
 use crate::complaint::{Complaint, Ending, remark};
 use crate::output::Output;
 use crate::progress::Progress;
-use crate::propagator::{Propagator, motion};
-use crate::run::Run;
+use crate::run_arguments::RunArguments;
 use crate::selection::Selection;
+
+const EXAMPLE: &str = "\
+Example:
+  shadowstep trace --problem pendulum --scheme yoshida4 --step 1/10 --until 20 --digits 40 --csv > pendulum.csv
+
+A line has n, t, energy, modified_energy, estimate and order: the m or k used. The estimate is of the error of modified_energy, and
+of the right size also near close encounters. Where none can be relied on, with --order 1, it is empty, in JSON null.";
+
+/// Energy and modified energy at each step of one run.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    run: RunArguments,
+    /// One JSON object per step, a line each (so it is without --csv)
+    #[arg(long)]
+    json: bool,
+    /// CSV with a header
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
+    /// Positions and momenta too
+    #[arg(long)]
+    states: bool,
+}
 
 /// A state of the run, as JSON has it; numbers are texts that read back to the same numbers.
 #[derive(Serialize)]
@@ -30,7 +54,7 @@ struct Row {
     p: Option<Vec<String>>,
 }
 
-pub(crate) fn trace(arguments: &TraceArguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
     let selection = Selection::read(&arguments.run)?;
     let (propagator, run) = selection.single().ok_or_else(|| {
         Complaint::usage("a trace is of one run: one scheme and one step", "`shadowstep drift` makes many runs")
@@ -45,12 +69,9 @@ pub(crate) fn trace(arguments: &TraceArguments) -> Result<Ending, Complaint> {
     let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
     let bar = arguments.run.output.is_some();
     let mut write = writer(&selection, arguments, &mut output)?;
-    match selection.arithmetic {
-        Arithmetic::Double => follow::<f64>(&selection, propagator, run, &(), arguments.states, bar, &mut write)?,
-        Arithmetic::Digits(_, precision) => {
-            follow::<Float>(&selection, propagator, run, &precision, arguments.states, bar, &mut write)?
-        }
-    }
+    let following =
+        Following { selection: &selection, propagator, run, states: arguments.states, bar, write: &mut write };
+    selection.arithmetic.compute(following)?;
     drop(write);
     output.finish()?;
     Ok(Ending::Done)
@@ -59,11 +80,7 @@ pub(crate) fn trace(arguments: &TraceArguments) -> Result<Ending, Complaint> {
 type Writer<'a> = Box<dyn FnMut(&Row) -> Result<(), Complaint> + 'a>;
 
 /// Writes rows as JSON, or as CSV under a header.
-fn writer<'a>(
-    selection: &Selection,
-    arguments: &TraceArguments,
-    output: &'a mut Output,
-) -> Result<Writer<'a>, Complaint> {
+fn writer<'a>(selection: &Selection, arguments: &Arguments, output: &'a mut Output) -> Result<Writer<'a>, Complaint> {
     if !arguments.csv {
         return Ok(Box::new(|row| output.json(row)));
     }
@@ -83,36 +100,42 @@ fn writer<'a>(
     }))
 }
 
-/// Makes the run and writes its rows.
-fn follow<N: Rounded + 'static>(
-    selection: &Selection,
-    propagator: &Propagator,
-    run: Run<'_>,
-    context: &N::Context,
+/// A run that waits for its number type, and then writes its rows.
+struct Following<'a, 'w> {
+    selection: &'a Selection,
+    propagator: &'a Propagator,
+    run: Run<'a>,
     states: bool,
     bar: bool,
-    write: &mut Writer<'_>,
-) -> Result<(), Complaint> {
-    let (method, between) = (selection.estimator.method(true), selection.estimator.is_between());
-    let progress = Progress::new(bar, run.name(), run.steps);
-    let mut system = motion::<N>(&selection.setup, context);
-    propagator.estimates(&selection.setup, run, &method, context, |n, found| {
-        let energy = (!between).then(|| system.energy_of(found.q, found.p));
-        if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
-            return Err(run.not_finite(&format!("the energy at n = {n}")));
-        }
-        let texts = |numbers: &[N]| states.then(|| numbers.iter().map(N::to_text).collect());
-        write(&Row {
-            n,
-            t: N::from_rational(&run.time_of_value(n, &selection.estimator), context).to_text(),
-            energy: energy.as_ref().map(N::to_text),
-            modified_energy: found.value.to_text(),
-            estimate: found.error.map(N::to_text),
-            order: found.order,
-            q: texts(found.q),
-            p: texts(found.p),
-        })?;
-        progress.reach(n);
-        Ok(())
-    })
+    write: &'a mut Writer<'w>,
+}
+
+impl Computation for Following<'_, '_> {
+    type Output = Result<(), Complaint>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+        let Following { selection, propagator, run, states, bar, write } = self;
+        let (method, between) = (selection.estimator.method(true), selection.estimator.is_between());
+        let progress = Progress::new(bar, run.name(), run.steps);
+        let mut system = motion::<N>(&selection.setup, context);
+        propagator.estimates(&selection.setup, run, &method, context, |n, found| {
+            let energy = (!between).then(|| system.energy_of(found.q, found.p));
+            if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
+                return Err(run.not_finite(&format!("the energy at n = {n}")));
+            }
+            let texts = |numbers: &[N]| states.then(|| numbers.iter().map(N::to_text).collect());
+            write(&Row {
+                n,
+                t: N::from_rational(&run.time_of_value(n, &selection.estimator), context).to_text(),
+                energy: energy.as_ref().map(N::to_text),
+                modified_energy: found.value.to_text(),
+                estimate: found.error.map(N::to_text),
+                order: found.order,
+                q: texts(found.q),
+                p: texts(found.p),
+            })?;
+            progress.reach(n);
+            Ok(())
+        })
+    }
 }

@@ -10,12 +10,12 @@ use shadowstep::{Rational, exact};
 
 use super::double_precision::{self, Block, Differences};
 use super::work::Task;
-use crate::arithmetic::GUARD_DIGITS;
 use crate::complaint::{Complaint, of_problem};
-use crate::estimator::Chosen;
-use crate::library::EXACT_FLOW;
-use crate::propagator::{Propagator, motion};
-use crate::run::Run;
+use shadowstep_scenes::arithmetic::GUARD_DIGITS;
+use shadowstep_scenes::estimator::Chosen;
+use shadowstep_scenes::library::EXACT_FLOW;
+use shadowstep_scenes::propagator::{Propagator, motion};
+use shadowstep_scenes::run::Run;
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
 const REVISION: u32 = 5;

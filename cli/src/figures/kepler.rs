@@ -23,7 +23,7 @@ pub(crate) const SCHEMES: [(&str, &str); 4] = [
     ("blanes-moan-srkn6b", "Blanes–Moan SRKN6b"),
 ];
 
-pub(crate) const EXACT: &str = crate::library::EXACT_FLOW;
+pub(crate) const EXACT: &str = shadowstep_scenes::library::EXACT_FLOW;
 
 /// 1/h
 const STEPS: [u32; 24] = [4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 18, 20, 22, 24, 27, 30, 35, 40, 45, 50, 60];

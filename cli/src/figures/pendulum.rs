@@ -6,7 +6,7 @@ use super::calculation::{By, Setting};
 use super::charts::{dashed, line, linear, log10_axis, thick};
 use super::drawn::{DECAY_HEADER, Drawn, ROUND_OFF, decay, decay_row, power};
 use super::results::Results;
-use crate::library::EXACT_FLOW;
+use shadowstep_scenes::library::EXACT_FLOW;
 
 const SCHEME: &str = "stormer-verlet";
 

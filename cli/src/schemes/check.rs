@@ -1,20 +1,34 @@
-//! The proof of what tables claim.
+//! `shadowstep schemes check`: the proof of what tables claim.
 
 use std::io::Write;
 
+use clap::Args;
 use shadowstep::tables::{self, Proved};
 use shadowstep_schemes::Kinetic;
 
 use crate::complaint::{Complaint, Ending, tell};
-use crate::library;
 use crate::output::Output;
-use crate::schemes::{near_integrable, near_integrable_text};
+use crate::schemes::facts::{near_integrable, near_integrable_text};
+use shadowstep_scenes::library;
+
+const EXAMPLE: &str = "\
+Example:
+  shadowstep schemes check mine.toml";
+
+/// Proves what tables claim; exit code 1 if one has faults.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    /// The tables
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<String>,
+}
 
 /// Goes through all tables; the worst answer counts.
-pub(crate) fn check(files: &[String]) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
     let mut output = Output::open(None, "")?;
     let mut ending = Ending::Done;
-    for path in files {
+    for path in &arguments.files {
         let source = match library::source(path) {
             Ok(source) => source,
             Err(complaint) => {

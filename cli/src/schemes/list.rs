@@ -1,17 +1,58 @@
-//! The shipped schemes, a line each.
+//! `shadowstep schemes`: the shipped schemes, a line each.
 
 use std::io::Write;
 
+use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use serde::Serialize;
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
 use shadowstep_schemes::Kinetic;
+use shadowstep_schemes::proof::HIGHEST_ORDER;
 
-use crate::arguments::{KineticChoice, ListArguments, SortKey};
 use crate::complaint::{Complaint, Ending, remark};
 use crate::output::Output;
 use crate::readable::{rounded, table};
-use crate::schemes::{aliases, digits, digits_text, kinetic, near_integrable, near_integrable_text};
+use crate::schemes::facts::{aliases, digits, digits_text, kinetic, near_integrable, near_integrable_text};
+
+/// Which schemes are listed, and in which order.
+#[derive(Debug, Args)]
+#[group(skip)]
+pub(crate) struct Arguments {
+    /// Only schemes of this order, such as 6
+    #[arg(long, value_name = "ORDER", value_parser = clap::value_parser!(u32).range(1..=i64::from(HIGHEST_ORDER)))]
+    order: Option<u32>,
+    /// Only schemes for these kinetic energies, with the orders and effective errors for them in --order and --sort
+    #[arg(long = "for", value_name = "KINETIC")]
+    kinetic: Option<KineticChoice>,
+    /// What comes first
+    #[arg(long, value_name = "KEY", default_value = "order")]
+    sort: SortKey,
+    /// One JSON object a line
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum KineticChoice {
+    /// Every T(p): schemes that need a quadratic one are left out
+    Any,
+    /// T = ½pᵀM⁻¹p: all schemes
+    Quadratic,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SortKey {
+    /// The lowest order, then the smallest effective error: it compares schemes of one order only
+    EffectiveError,
+    /// The largest stability limit
+    Stability,
+    /// The fewest force evaluations a step
+    Evaluations,
+    /// The alphabet
+    Name,
+    /// The lowest order, then the fewest force evaluations
+    Order,
+}
 
 #[derive(Serialize)]
 struct Record {
@@ -50,7 +91,7 @@ const COLUMNS: [&str; 11] = [
 ];
 
 /// The shipped schemes that are asked for.
-pub(crate) fn list(arguments: &ListArguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
     let of_order = |scheme: &TableScheme| arguments.order.is_none_or(|order| order == order_for(scheme, arguments));
     let all: Vec<_> = shipped_names().into_par_iter().filter_map(|name| Some((name, shipped(name)?))).collect();
     let moves = |scheme: &TableScheme| {
@@ -76,21 +117,21 @@ pub(crate) fn list(arguments: &ListArguments) -> Result<Ending, Complaint> {
     Ok(Ending::Done)
 }
 
-fn order_for(scheme: &TableScheme, arguments: &ListArguments) -> u32 {
+fn order_for(scheme: &TableScheme, arguments: &Arguments) -> u32 {
     let kinetic = if for_quadratic(arguments) { Kinetic::Quadratic } else { Kinetic::Any };
     scheme.proved().proof.for_kinetic(kinetic).order
 }
 
-fn for_quadratic(arguments: &ListArguments) -> bool {
+fn for_quadratic(arguments: &Arguments) -> bool {
     arguments.kinetic == Some(KineticChoice::Quadratic)
 }
 
-fn class(arguments: &ListArguments) -> &'static str {
+fn class(arguments: &Arguments) -> &'static str {
     if for_quadratic(arguments) { "for quadratic T" } else { "for every T(p) (--for quadratic looks at quadratic T)" }
 }
 
 /// By name, then order and cost, then what is asked for: each sort keeps the order of equals.
-fn sort(records: &mut [Record], arguments: &ListArguments) {
+fn sort(records: &mut [Record], arguments: &Arguments) {
     let quadratic = for_quadratic(arguments);
     if arguments.sort == SortKey::Name {
         return;

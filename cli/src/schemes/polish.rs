@@ -1,21 +1,50 @@
-//! Printed decimals to weights of many digits: the table, and a report on how far the printed ones were off.
+//! `shadowstep schemes polish`: printed decimals to weights of many digits: the table, and a report on how far the printed ones were off.
 
 use std::io::Write;
+use std::path::PathBuf;
 
+use clap::Args;
 use num_traits::Signed;
 use shadowstep_schemes::polish::{self, NotPolished, Polished, PolishedWeight, Request, Role, many, power_of_ten};
 use shadowstep_schemes::{Kinetic, Rational};
 use shadowstep_symbolic::decimal::to_significant;
 
-use crate::arguments::PolishArguments;
 use crate::complaint::{Complaint, Ending, no, remark, report, tell};
-use crate::library;
 use crate::output::Output;
 use crate::readable::table;
-use crate::schemes::{near_integrable, near_integrable_text};
+use crate::schemes::facts::{near_integrable, near_integrable_text};
+use shadowstep_scenes::library;
+
+const EXAMPLE: &str = "\
+Example:
+  shadowstep schemes polish printed.toml --digits 300 --output polished.toml
+
+Decimals that stand alone move, as constants or in the lists of weights; fractions and formulas stay as they are. If the
+conditions leave some decimals free, these stay as printed, and the report on stderr names them.";
+
+/// Solves a table's order conditions from its printed decimals, to many digits; exit code 1 if that cannot be.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    /// The table
+    #[arg(value_name = "FILE")]
+    file: String,
+    /// Decimal digits to which the conditions shall hold [default: as many as can be, at most 300]
+    #[arg(long, value_name = "DIGITS", value_parser = clap::value_parser!(u32).range(1..=i64::from(polish::MOST_DIGITS)))]
+    digits: Option<u32>,
+    /// Decimals that stay as printed: constants, or places such as kick[2], drift[3], gamma[1]
+    #[arg(long, value_name = "NAME", num_args = 1.., value_delimiter = ',')]
+    free: Vec<String>,
+    /// The cubes of the kicks must sum to 0 too: kicks are themselves split, as in heliocentric coordinates
+    #[arg(long)]
+    split_kicks: bool,
+    /// Writes to a file, such as polished.toml, under a temporary name until all is done
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
 
 /// The polished table to stdout or a file, the report to stderr.
-pub(crate) fn polish(arguments: &PolishArguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
     let source = library::source(&arguments.file)?;
     let wanted = Request { digits: arguments.digits, free: &arguments.free, split_kicks: arguments.split_kicks };
     let polished = match polish::polish(&source, &library::beside_or_shipped, &wanted) {

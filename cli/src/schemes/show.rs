@@ -1,7 +1,8 @@
-//! Everything that is known about a scheme.
+//! `shadowstep schemes show`: everything that is known about a scheme.
 
 use std::io::Write;
 
+use clap::Args;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use shadowstep::Rational;
@@ -12,11 +13,23 @@ use shadowstep_schemes::table::Table;
 use shadowstep_schemes::{Analysis, First, Kinetic, to_significant, to_text};
 
 use crate::complaint::{Complaint, Ending};
-use crate::library;
 use crate::output::Output;
 use crate::readable::{shortened, table, wrapped};
+use crate::schemes::analysis;
 use crate::schemes::analysis::{Error, Gap, Phase, Sizes};
-use crate::schemes::{aliases, analysis, digits, digits_text, kinetic, near_integrable, near_integrable_text};
+use crate::schemes::facts::{aliases, digits, digits_text, kinetic, near_integrable, near_integrable_text};
+use shadowstep_scenes::library;
+
+/// Everything that is known about a scheme.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// A shipped scheme, such as yoshida4, or a table's file, such as mine.toml
+    #[arg(value_name = "NAME|FILE")]
+    name: String,
+    /// One JSON object with every digit of the weights
+    #[arg(long)]
+    json: bool,
+}
 
 /// Digits of a weight that a person reads.
 const SHOWN: usize = 40;
@@ -85,11 +98,11 @@ struct Map {
     weight: String,
 }
 
-pub(crate) fn show(word: &str, json: bool) -> Result<Ending, Complaint> {
-    let scheme = library::scheme(word)?.scheme;
+pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+    let scheme = library::scheme(&arguments.name)?.scheme;
     let analysis = scheme.analysis();
     let mut output = Output::open(None, "")?;
-    if json {
+    if arguments.json {
         output.json(&record(&scheme, &analysis))?;
     } else {
         write!(output, "{}", readable(&scheme, &analysis))?;

@@ -1,0 +1,106 @@
+//! What a run of `drift` gives, as JSON has it.
+
+use serde::{Serialize, Serializer};
+use shadowstep::number::Number;
+use shadowstep::run::{EnergyDrift, Seen};
+use shadowstep_scenes::arithmetic::DigitsLabel;
+
+/// What a run gives, as JSON has it; numbers of high precision are texts.
+#[derive(Serialize)]
+pub(super) struct Record {
+    /// The version of the program.
+    pub(super) shadowstep: &'static str,
+    pub(super) problem: &'static str,
+    #[serde(serialize_with = "as_object")]
+    pub(super) parameters: Vec<(String, String)>,
+    pub(super) scheme: String,
+    pub(super) step: String,
+    pub(super) until: String,
+    /// The time of the last state: `until`, or the last multiple of the step before it.
+    pub(super) end: String,
+    pub(super) digits: DigitsLabel,
+    pub(super) estimator: &'static str,
+    pub(super) order: OrderLabel,
+    /// How the order is chosen, as far as the estimator has such a setting; none where the order is fixed.
+    pub(super) max_order: Option<u32>,
+    pub(super) stop: Option<&'static str>,
+    pub(super) rule: Option<&'static str>,
+    pub(super) accuracy: Option<String>,
+    pub(super) drift: String,
+    pub(super) minimum: String,
+    pub(super) maximum: String,
+    pub(super) at_minimum: i64,
+    pub(super) at_maximum: i64,
+    pub(super) first: String,
+    pub(super) last: String,
+    pub(super) permanent_change: Option<Permanent>,
+    pub(super) control: Option<Control>,
+    pub(super) order_least: u32,
+    pub(super) order_most: u32,
+    pub(super) steps: u64,
+    pub(super) force_evaluations: u64,
+    pub(super) seconds: f64,
+}
+
+/// The change between quiet states, which the estimator's error hardly reaches.
+#[derive(Clone, Serialize)]
+pub(super) struct Permanent {
+    pub(super) change: String,
+    pub(super) first_to_last: String,
+    pub(super) largest_jump: String,
+    pub(super) resolution: String,
+    #[serde(serialize_with = "as_word")]
+    pub(super) seen: Seen,
+    pub(super) from: i64,
+    pub(super) to: i64,
+    pub(super) states: u64,
+    pub(super) stretches: u64,
+}
+
+/// What the same estimator shows at the same times on the exact flow, whose energy does not change: its own error.
+#[derive(Clone, Serialize)]
+pub(super) struct Control {
+    pub(super) drift: String,
+    pub(super) permanent_change: Option<Permanent>,
+}
+
+impl Permanent {
+    pub(super) fn of<N: Number>(found: &EnergyDrift<N>) -> Option<Self> {
+        let permanent = found.permanent.as_ref()?;
+        Some(Permanent {
+            change: permanent.change.to_text(),
+            first_to_last: permanent.first_to_last.to_text(),
+            largest_jump: permanent.largest_jump.to_text(),
+            resolution: permanent.resolution.to_text(),
+            seen: permanent.seen,
+            from: permanent.between.0,
+            to: permanent.between.1,
+            states: permanent.states,
+            stretches: permanent.stretches,
+        })
+    }
+}
+
+fn as_word<S: Serializer>(seen: &Seen, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(match seen {
+        Seen::Resolved => "resolved",
+        Seen::Below => "below",
+        Seen::OneSide => NOT_SEEN,
+    })
+}
+
+/// All quiet states lie on one side of what is not quiet.
+pub(super) const NOT_SEEN: &str = "not seen";
+
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(super) enum OrderLabel {
+    /// A fixed m or k.
+    Fixed(u32),
+    /// `auto`
+    Word(&'static str),
+}
+
+fn as_object<S: Serializer>(pairs: &[(String, String)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(pairs.iter().map(|(name, value)| (name, value)))
+}

@@ -1,0 +1,81 @@
+//! `shadowstep run`: a run that a file describes.
+
+use std::io::{self, IsTerminal};
+use std::time::Instant;
+
+use clap::Args;
+use shadowstep_scenes::{Error, Note, Observer, Outcome, Scene};
+
+use crate::complaint::{Ending, remark};
+use crate::interrupt::Interrupt;
+use crate::output::Output;
+use crate::progress::Progress;
+
+const EXAMPLE: &str = "\
+Example:
+  shadowstep scene kepler > scene.toml
+  shadowstep run scene.toml
+
+A run that was stopped goes on from its last checkpoint when its scene is run again.";
+
+/// Runs a scene: a file that says what is run and what is written.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    /// The scene's file, such as scene.toml
+    #[arg(value_name = "FILE")]
+    scene: String,
+    /// Begins again where there is a checkpoint to go on from
+    #[arg(long)]
+    restart: bool,
+}
+
+/// Runs a scene.
+pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Error> {
+    let scene = Scene::open(&arguments.scene)?;
+    scene.notes.iter().for_each(remark);
+    let begin = Instant::now();
+    let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), scene.steps);
+    let mut terminal = Terminal { progress, interrupt: Interrupt::listen() };
+    let outcome = match scene.output.file {
+        Some(_) => scene.run_to_file(arguments.restart, &mut terminal)?,
+        None => scene.run_into(&mut Output::open(None, "")?, &mut terminal)?,
+    };
+    drop(terminal);
+    match outcome {
+        Outcome::Complete { force_evaluations } => {
+            if io::stderr().is_terminal() {
+                let (steps, seconds) = (scene.steps, begin.elapsed().as_secs_f64());
+                remark(format_args!("{steps} steps, {force_evaluations} force evaluations, {seconds:.3} seconds"));
+            }
+            Ok(Ending::Done)
+        }
+        Outcome::Stopped { n } => {
+            let hint = match scene.output.checkpoint {
+                Some(_) => "run the scene again to go on from there",
+                None => "with `checkpoint = \"1 min\"` in [output] it could go on from there",
+            };
+            Err(Error::run(format!("{}: interrupted at n = {n}", scene.source.path), hint))
+        }
+    }
+}
+
+/// Watches a run for the user: a bar and notes on stderr, and Ctrl-C.
+struct Terminal {
+    progress: Progress,
+    interrupt: Interrupt,
+}
+
+impl Observer for Terminal {
+    fn progress(&mut self, n: i64) {
+        self.progress.reach(n);
+    }
+
+    fn note(&mut self, note: &Note) {
+        self.progress.suspend(|| remark(note));
+    }
+
+    fn stops(&mut self) -> bool {
+        self.interrupt.asked()
+    }
+}

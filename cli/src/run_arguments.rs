@@ -1,0 +1,92 @@
+//! The flags of `drift` and `trace`: what is run, and how.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use shadowstep_scenes::arithmetic::{DEFAULT_DIGITS, MOST_DIGITS};
+use shadowstep_scenes::estimator::HIGHEST_ORDER;
+
+/// What is run, and how.
+#[derive(Debug, Args)]
+pub(crate) struct RunArguments {
+    /// The problem, such as kepler; `shadowstep problems` lists them
+    #[arg(long, value_name = "NAME")]
+    pub(crate) problem: String,
+    /// A parameter or initial value, exact, such as eccentricity=1/3 or "px=sqrt(2)/2"; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// Shipped schemes or files of tables, such as yoshida4,mine.toml; `shadowstep schemes` lists the shipped ones.
+    /// exact-flow is the solution itself, for harmonic-oscillator, pendulum and kepler: on it an estimator shows its own error
+    #[arg(long = "scheme", value_name = "NAME|FILE,…", required = true, value_delimiter = ',')]
+    pub(crate) schemes: Vec<String>,
+    /// Step sizes, exact, such as 1/10,0.05
+    #[arg(long = "step", value_name = "H,…", required = true, value_delimiter = ',', allow_hyphen_values = true)]
+    pub(crate) steps: Vec<String>,
+    /// The time at which runs end, exact, such as 100
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub(crate) until: String,
+    /// Decimal digits of all numbers, such as 50
+    #[arg(long, default_value_t = DEFAULT_DIGITS, value_name = "DIGITS", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_DIGITS)))]
+    pub(crate) digits: u32,
+    /// Double precision (f64) instead of --digits
+    #[arg(long, conflicts_with = "digits")]
+    pub(crate) double: bool,
+    /// How the modified energy is estimated
+    #[arg(long, value_name = "NAME", default_value = "central")]
+    pub(crate) estimator: EstimatorChoice,
+    /// The m of the central differences D_m or the k of E_k, such as 40, or auto for the best one of each state
+    #[arg(long, default_value = "auto", value_name = "M|K|auto", value_parser = order)]
+    pub(crate) order: OrderChoice,
+    /// The largest m or k that --order auto tries, such as 100 [default: 200 of m, 64 of k]
+    #[arg(long, value_name = "M|K", value_parser = clap::value_parser!(u32).range(2..=i64::from(HIGHEST_ORDER)))]
+    pub(crate) max_order: Option<u32>,
+    /// When --order auto stops trying m: at the largest, or early, where the errors rise [default: full]
+    #[arg(long, value_name = "WHEN")]
+    pub(crate) stop: Option<StopChoice>,
+    /// Which m is the best for --order auto [default: least, by which the results of Moan & Niesen are found again]
+    #[arg(long, value_name = "RULE")]
+    pub(crate) rule: Option<RuleChoice>,
+    /// The largest error wanted of --estimator bilinear --order auto, which takes the least k for it, such as 1e-20; the
+    /// estimates tell where it is missed [default: the best that can be had]
+    #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
+    pub(crate) accuracy: Option<String>,
+    /// Writes to a file, such as out.json, under a temporary name until all is done
+    #[arg(long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum OrderChoice {
+    Auto,
+    Fixed(u32),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EstimatorChoice {
+    /// Central differences D_m of the states: 2m + 1 of them, order 2m
+    Central,
+    /// Products of the states in pairs: E_k from k + 1 of them, order 2k; for an odd k between two states
+    Bilinear,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StopChoice {
+    Full,
+    Early,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum RuleChoice {
+    /// That with the least term |T_m - T_(m-1)|
+    Least,
+    /// That with the least largest of ten terms about it, which none makes small by chance; on no orbit measured worse
+    Robust,
+}
+
+fn order(text: &str) -> Result<OrderChoice, String> {
+    match text.parse() {
+        _ if text == "auto" => Ok(OrderChoice::Auto),
+        Ok(m) if (1..=HIGHEST_ORDER).contains(&m) => Ok(OrderChoice::Fixed(m)),
+        _ => Err(format!("write a number from 1 to {HIGHEST_ORDER}, or auto")),
+    }
+}
