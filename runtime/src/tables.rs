@@ -3,7 +3,6 @@
 use std::marker::PhantomData;
 
 pub use shadowstep_schemes::shipped as shipped_source;
-use shadowstep_schemes::table::parse;
 pub use shadowstep_schemes::{Analysis, Fault, Faults, Proved, Source, analysis, polish, shipped_names};
 use shadowstep_schemes::{First, Kinetic, MapKind, Plan};
 use thiserror::Error;
@@ -137,7 +136,7 @@ impl QuadraticOnly {
 /// highest that there is. Only those of one order are proved.
 fn better(order: u32) -> TableScheme {
     let claim = |name: &'static str| {
-        let table = parse(&shadowstep_schemes::shipped(name)?).0?;
+        let table = shadowstep_schemes::parse::table(&shadowstep_schemes::shipped(name)?).0?;
         (table.kinetic == Kinetic::Any).then_some((table.order.value, name))
     };
     let claims: Vec<_> = shipped_names().into_iter().filter_map(claim).collect();

@@ -18,6 +18,7 @@ use std::fs;
 use std::io::ErrorKind;
 
 use shadowstep::tables::{Faults, Source};
+use shadowstep_schemes::document::document;
 use shadowstep_symbolic::nearest;
 use toml::de::DeTable;
 
@@ -63,12 +64,10 @@ impl Scene {
     /// # Errors
     /// All faults of the text, each with its place.
     pub fn read(source: Source) -> Result<Scene, Faults> {
-        let (document, errors) = DeTable::parse_recoverable(&source.text);
-        if let Some(error) = errors.first() {
-            return Err(Faults(vec![shadowstep_schemes::table::toml_fault(&source, error)]));
-        }
+        let (document, faults) = document(&source);
+        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
         let mut reader = Reader::new(&source);
-        let parts = parts(&mut reader, document.get_ref());
+        let parts = parts(&mut reader, &document);
         let Reader { arithmetic, faults, notes, .. } = reader;
         match (Faults::of(faults), parts) {
             (None, Some((system, run::Steps { scheme, h, until, steps }, output))) => {

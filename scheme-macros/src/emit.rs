@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use shadowstep_schemes::proof::{HIGHEST_ORDER, Order};
+use shadowstep_schemes::claims::HIGHEST_ORDER;
+use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::{Kinetic, MapKind, Plan, Proved, to_text};
 use syn::{Ident, ItemStruct, LitStr};
 

@@ -21,9 +21,9 @@ pub mod trace;
 use num_traits::{Signed, Zero};
 use shadowstep_symbolic::{Rational, compare};
 
+use crate::claims::Kinetic;
+use crate::map::{Map, MapKind};
 use crate::proof::Proved;
-use crate::scheme::{Map, MapKind};
-use crate::table::Kinetic;
 use error::LeadingError;
 use stability::Stability;
 use trace::{PhaseError, Trace};

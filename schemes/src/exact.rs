@@ -6,14 +6,17 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{Signed, Zero};
 use shadowstep_symbolic::decimal::to_significant;
-use shadowstep_symbolic::{Exact, Rational, evaluate, parse};
+use shadowstep_symbolic::{Exact, Rational, evaluate, parse as formula};
 
-use crate::fault::{Fault, Source};
-use crate::scheme::{Held, Scheme, merged, stages_of};
+use crate::document::Placed;
+use crate::document::{Fault, Source};
+use crate::map::{merged, stages_of};
+use crate::parse;
+use crate::scheme::{Held, Scheme};
 use crate::shipped::shipped_hint;
-use crate::table::{self, Cell, Placed, Table, Weights};
+use crate::table::{Cell, Table, Weights};
 
 /// Digits to which an irrational constant is rounded.
 pub const DIGITS: u32 = 300;
@@ -40,7 +43,7 @@ pub fn scheme(source: &Source, library: Library<'_>) -> (Option<Scheme>, Vec<Fau
 }
 
 fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Option<Scheme>, Vec<Fault>) {
-    let (table, mut faults) = table::parse(source);
+    let (table, mut faults) = parse::table(source);
     let Some(table) = table else { return (None, faults) };
     let mut cells = Cells { table: &table, known: BTreeMap::new(), rounded: false, faults: Vec::new() };
     cells.constants();
@@ -77,7 +80,7 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
 
 fn too_long(table: &Table, stages: usize) -> Fault {
     let message = format!("{stages} stages are an absurd size");
-    table.source.fault(&table.name.at, message).help(format!("at most {MOST_STAGES} are allowed"))
+    table.source.fault(&table.name.at, message).hint(format!("at most {MOST_STAGES} are allowed"))
 }
 
 fn held(table: &Table, rounded: bool) -> Held {
@@ -95,7 +98,7 @@ fn base_scheme(
     above: &[String],
 ) -> (Option<Scheme>, Vec<Fault>) {
     let source = &table.source;
-    let fault = |message: String, help: String| (None, vec![source.fault(&base.at, message).help(help)]);
+    let fault = |message: String, help: String| (None, vec![source.fault(&base.at, message).hint(help)]);
     let Some(found) = library(&base.value, source) else {
         return fault(format!("there is no table `{}`", base.value), shipped_hint(&base.value));
     };
@@ -141,12 +144,12 @@ impl Cells<'_> {
             let Some((_, cell)) = self.table.constants.iter().find(|(constant, _)| constant.value == name.value) else {
                 continue;
             };
-            let Ok(expression) = parse(&cell.value) else { continue };
+            let Ok(expression) = formula(&cell.value) else { continue };
             let alone = evaluate(&expression, &BTreeMap::new(), DIGITS);
             if !alone.is_ok_and(|value| !value.rounded) {
                 let message = format!("`{}` is no free parameter: its value is `{}`", name.value, cell.value);
                 let help = "a free parameter is a plain number, exactly as published";
-                self.faults.push(self.table.source.fault(&name.at, message).help(help));
+                self.faults.push(self.table.source.fault(&name.at, message).hint(help));
             }
         }
     }
@@ -156,7 +159,7 @@ impl Cells<'_> {
         let word = self.table.source.text.get(at.clone())?;
         let defined = self.table.constants.iter().any(|(name, _)| name.value == word);
         let fault = || self.table.source.fault(at, format!("`{word}` is not known yet"));
-        (defined && !self.known.contains_key(word)).then(|| fault().help("a constant may use those above it only"))
+        (defined && !self.known.contains_key(word)).then(|| fault().hint("a constant may use those above it only"))
     }
 
     fn weights(&mut self, cells: &[Cell]) -> Vec<Rational> {
@@ -168,7 +171,7 @@ impl Cells<'_> {
             if value.abs() > Rational::from_integer(LARGEST_WEIGHT.into()) {
                 let message = format!("a weight of {} is an absurd size", to_significant(&value, 6));
                 let help = format!("weights are fractions of a step, at most {LARGEST_WEIGHT}");
-                self.faults.push(self.table.source.fault(&cell.at, message).help(help));
+                self.faults.push(self.table.source.fault(&cell.at, message).hint(help));
             }
             value
         };
@@ -177,7 +180,7 @@ impl Cells<'_> {
 
     fn cell(&mut self, cell: &Cell) -> Option<Exact> {
         let place = |range: &Range<usize>| cell.at.start + range.start..cell.at.start + range.end;
-        let expression = match parse(&cell.value) {
+        let expression = match formula(&cell.value) {
             Ok(expression) => expression,
             Err(error) => {
                 self.faults.push(self.table.source.fault(&place(&error.range), error.to_string()));
@@ -196,22 +199,4 @@ impl Cells<'_> {
             }
         }
     }
-}
-
-/// The number of decimal digits of which `uncertainty` is one unit, rounded down; `None` for 0.
-pub(crate) fn digits_of(uncertainty: &Rational) -> Option<u32> {
-    if uncertainty.is_zero() {
-        return None;
-    }
-    // bit lengths first: f64 has no room for 1e-400
-    let bits = uncertainty.denom().bits() as f64 - uncertainty.numer().bits() as f64;
-    let shift = bits as i32;
-    let (numer, denom) = (uncertainty.numer(), uncertainty.denom());
-    let scaled = if shift >= 0 {
-        Rational::new_raw(numer << shift as usize, denom.clone())
-    } else {
-        Rational::new_raw(numer.clone(), denom << (-shift) as usize)
-    };
-    let log10 = scaled.to_f64().unwrap_or(1.0).abs().log10() - f64::from(shift) * std::f64::consts::LOG10_2;
-    Some((-log10).floor().max(0.0).to_u32().unwrap_or(u32::MAX))
 }

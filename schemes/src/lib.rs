@@ -22,25 +22,30 @@
 
 pub mod analysis;
 mod arithmetic;
+pub mod claims;
+mod digits;
+pub mod document;
 pub mod exact;
-pub mod fault;
+pub mod map;
 pub mod near_integrable;
 pub mod nystrom;
 pub mod order;
+pub mod parse;
 pub mod polish;
 pub mod proof;
-mod reader;
 pub mod scheme;
 mod shipped;
+mod spelling;
 pub mod stage;
 pub mod table;
 
 pub use analysis::Analysis;
-pub use fault::{Fault, Faults, Source};
+pub use claims::Kinetic;
+pub use document::{Fault, Faults, Source};
+pub use map::{First, Map, MapKind};
 pub use proof::{Proof, Proved, prove, read, read_first};
-pub use scheme::{First, Map, MapKind, Scheme};
+pub use scheme::Scheme;
 pub use shadowstep_symbolic::decimal::{to_significant, to_text};
 pub use shadowstep_symbolic::{Rational, nearest};
 pub use shipped::{shipped, shipped_hint, shipped_names, shipped_proved};
 pub use stage::{Cost, Plan};
-pub use table::Kinetic;

@@ -8,21 +8,10 @@
 //! no lower orders are claimed. A may be any Hamiltonian, not just a kinetic energy.
 
 use crate::arithmetic::Arithmetic;
+use crate::claims::NearIntegrable;
+use crate::document::Placed;
+use crate::map::{Map, MapKind};
 use crate::order::{Condition, Word, lyndon_words, weighed, word_conditions};
-use crate::scheme::{Map, MapKind};
-use crate::table::Placed;
-
-/// The highest order that is proved for a power of ε: the words with few B's are few.
-pub const HIGHEST_ORDER: u32 = 12;
-
-/// The orders claimed for H = A + εB.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NearIntegrable {
-    /// For the terms of ε, ε², …, the last one for all higher powers too; they do not increase.
-    pub orders: Vec<Placed<u32>>,
-    /// The map that moves by A.
-    pub dominant: MapKind,
-}
 
 /// The words that belong to a power of ε.
 #[derive(Clone, Copy, Debug)]

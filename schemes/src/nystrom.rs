@@ -13,8 +13,8 @@
 use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
+use crate::map::{Map, MapKind};
 use crate::order::{Condition, weighed};
-use crate::scheme::{Map, MapKind};
 
 /// A tree whose root is a kick: its children are drifts, each given by the kick below it.
 struct KickTree {
@@ -171,7 +171,7 @@ mod tests {
         let rational = |n: i64, d: i64| Rational::new(n.into(), d.into());
         let a = [rational(1, 3), rational(-2, 5), rational(7, 11), rational(3, 2)];
         let b = [rational(5, 7), rational(1, 9), rational(-3, 4), rational(2, 13)];
-        let values = conditions(&crate::scheme::merged(&a, &b), 4, &ExactArithmetic);
+        let values = conditions(&crate::map::merged(&a, &b), 4, &ExactArithmetic);
         let value = |name: &str| &values.iter().find(|(c, _)| c.name == format!("the tree {name}")).unwrap().1;
 
         // c_s: where the kick s acts; f_r: how far the kicks have got before the drift r

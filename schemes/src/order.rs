@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
-use crate::scheme::{Map, MapKind};
+use crate::map::{Map, MapKind};
 
 /// An order condition: what a scheme's value must be equal to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -195,7 +195,7 @@ mod tests {
     }
 
     use crate::arithmetic::{ExactArithmetic, FixedPoint};
-    use crate::scheme::merged;
+    use crate::map::merged;
 
     fn rationals(fractions: &[(i64, i64)]) -> Vec<Rational> {
         fractions.iter().map(|&(n, d)| Rational::new(n.into(), d.into())).collect()

@@ -37,8 +37,8 @@ use std::collections::BTreeSet;
 
 use shadowstep_symbolic::{Rational, nearest, nearest_few};
 
+use crate::document::{Faults, Source};
 use crate::exact::{self, DIGITS, Library};
-use crate::fault::{Faults, Source};
 use crate::proof::Proved;
 use crate::scheme::Scheme;
 use crate::table::{Table, Weights};

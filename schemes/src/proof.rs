@@ -13,17 +13,18 @@ use shadowstep_symbolic::decimal::{to_significant, to_text};
 use shadowstep_symbolic::{Rational, compare};
 
 use crate::arithmetic::{Arithmetic, ExactArithmetic, FixedPoint, Sensitivity};
-use crate::exact::{self, Library, digits_of};
-use crate::fault::{Fault, Faults, Source};
+use crate::claims::{HIGHEST_NEAR_INTEGRABLE_ORDER, HIGHEST_ORDER, Kinetic};
+use crate::digits::digits_of;
+use crate::document::Placed;
+use crate::document::{Fault, Faults, Source};
+use crate::exact::{self, Library};
+use crate::map::{First, Map};
 use crate::near_integrable::{self, Power};
 use crate::order::Condition;
-use crate::scheme::{First, Held, Map, Scheme};
+use crate::scheme::{Held, Scheme};
 use crate::stage::Plan;
-use crate::table::{Kinetic, Placed, Table, Weights};
+use crate::table::{Table, Weights};
 use crate::{nystrom, order};
-
-/// The highest order that is proved.
-pub const HIGHEST_ORDER: u32 = 10;
 
 /// Digits that sums of products of good weights lose without a remark; the worst of the shipped tables loses 3.
 const MOST_DIGITS_LOST: u32 = 5;
@@ -132,7 +133,7 @@ pub fn prove(scheme: &Scheme) -> Proof {
     let for_kinetic = |kinetic| proved(Family::Kinetic(kinetic), scheme.table.order.value, HIGHEST_ORDER);
     let powers = scheme.table.near_integrable.iter().flat_map(|claim| claim.powers());
     let for_power =
-        |(claim, power): (&Placed<u32>, _)| proved(Family::Power(power), claim.value, near_integrable::HIGHEST_ORDER);
+        |(claim, power): (&Placed<u32>, _)| proved(Family::Power(power), claim.value, HIGHEST_NEAR_INTEGRABLE_ORDER);
     Proof {
         general: for_kinetic(Kinetic::Any),
         quadratic: for_kinetic(Kinetic::Quadratic),
@@ -259,7 +260,7 @@ fn judge_order(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks:
     let at = &table.order.at;
     if order.order > claimed {
         let message = format!("order {claimed} is claimed, order {} holds {class}", order.order);
-        remarks.push(table.source.fault(at, message).help(format!("write `order = {}`", order.order)));
+        remarks.push(table.source.fault(at, message).hint(format!("write `order = {}`", order.order)));
     }
     if order.order >= claimed {
         return;
@@ -278,7 +279,7 @@ fn judge_order(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks:
     let fault = table.source.fault(at, message).values(beside(found, &failed.needed), short(&failed.needed));
     faults.push(match table.kinetic {
         Kinetic::Any if proof.quadratic.order >= claimed => fault
-            .help(format!("order {} holds for quadratic T: write `kinetic = \"quadratic\"`", proof.quadratic.order)),
+            .hint(format!("order {} holds for quadratic T: write `kinetic = \"quadratic\"`", proof.quadratic.order)),
         _ => with_rounding_help(fault, table, &(found - &failed.needed)),
     });
 }
@@ -287,7 +288,7 @@ fn judge_order(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks:
 fn too_few_digits(table: &Table, order: &Order, failed: &Condition, class: &str) -> Option<Fault> {
     let digits = table.digits.as_ref().filter(|_| order.undecided)?;
     let message = format!("{} digits are too few to tell whether order {} holds {class}", digits.value, failed.order);
-    Some(table.source.fault(&digits.at, message).help("take the weights from a source with more digits"))
+    Some(table.source.fault(&digits.at, message).hint("take the weights from a source with more digits"))
 }
 
 fn judge_near_integrable(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks: &mut Vec<Fault>) {
@@ -300,7 +301,7 @@ fn judge_near_integrable(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>
         least = least.min(order.order);
         if least > claimed.value {
             let message = format!("order {} is claimed, order {least} holds {class}", claimed.value);
-            remarks.push(table.source.fault(&claimed.at, message).help(format!("write {least}")));
+            remarks.push(table.source.fault(&claimed.at, message).hint(format!("write {least}")));
         }
         let Some((failed, found)) = order.failed.as_ref().filter(|_| order.order < claimed.value) else { continue };
         faults.push(too_few_digits(table, order, failed, &class).unwrap_or_else(|| {
@@ -340,7 +341,7 @@ fn with_rounding_help(fault: Fault, table: &Table, distance: &Rational) -> Fault
         return fault;
     }
     let off = format!("the condition is off by {}", to_significant(&distance.abs(), 2));
-    fault.help(match &table.digits {
+    fault.hint(match &table.digits {
         None => format!("{off}: if the weights are rounded, say so with `digits = …`"),
         Some(digits) => format!("{off}, more than {} digits of the weights can account for", digits.value),
     })
@@ -351,7 +352,7 @@ fn judge_symmetry(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remar
     match &table.symmetric {
         Some(claim) if claim.value && !proof.symmetric => faults.push(not_a_palindrome(scheme, &claim.at)),
         Some(claim) if !claim.value && proof.symmetric => {
-            remarks.push(table.source.fault(&claim.at, "the scheme is a palindrome").help("write `symmetric = true`"))
+            remarks.push(table.source.fault(&claim.at, "the scheme is a palindrome").hint("write `symmetric = true`"))
         }
         _ => {}
     }
@@ -365,7 +366,7 @@ fn judge_digits(scheme: &Scheme, proof: &Proof, remarks: &mut Vec<Fault>) {
         let message = format!("{} digits are claimed, the order conditions hold to {held}", digits.value);
         let help =
             format!("some digits of the weights may be wrong: write `digits = {held}`, or look for a better source");
-        remarks.push(table.source.fault(&digits.at, message).help(help));
+        remarks.push(table.source.fault(&digits.at, message).hint(help));
     }
 }
 
@@ -379,7 +380,7 @@ fn not_a_palindrome(scheme: &Scheme, at: &std::ops::Range<usize>) -> Fault {
                 format!("{} {} as map {} from the start", from_start.kind, short(&from_start.weight), i + 1),
                 format!("{} {}, the map {} from the end", from_end.kind, short(&from_end.weight), i + 1),
             )
-            .help("correct the weights, or leave `symmetric` out"),
+            .hint("correct the weights, or leave `symmetric` out"),
         None => fault,
     }
 }

@@ -5,9 +5,10 @@ use std::sync::{LazyLock, OnceLock};
 
 use shadowstep_symbolic::nearest;
 
-use crate::fault::Source;
+use crate::document::Source;
+use crate::parse;
 use crate::proof::{Proved, read};
-use crate::table;
+use crate::spelling::spelling;
 
 const SHIPPED: &[(&str, &str)] = &include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 
@@ -71,17 +72,12 @@ fn source(index: usize) -> Source {
 static NAMES: LazyLock<BTreeMap<String, usize>> = LazyLock::new(|| {
     let mut names = BTreeMap::new();
     for (index, (name, _)) in SHIPPED.iter().enumerate() {
-        let aliases = table::parse(&source(index)).0.map_or_else(Vec::new, |table| table.aliases);
+        let aliases = parse::table(&source(index)).0.map_or_else(Vec::new, |table| table.aliases);
         names.extend(aliases.iter().map(|alias| (spelling(&alias.value), index)));
         names.insert(spelling(name), index);
     }
     names
 });
-
-/// A name without what makes no difference: its letters and digits, in small letters.
-pub(crate) fn spelling(name: &str) -> String {
-    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
-}
 
 impl Source {
     /// Whether it is a shipped table. Its base is a shipped table too, whatever files of that name there may be.
@@ -98,7 +94,7 @@ mod tests {
     fn no_two_tables_share_a_name() {
         let mut names: BTreeMap<String, &str> = BTreeMap::new();
         for (index, (name, _)) in SHIPPED.iter().enumerate() {
-            let table = table::parse(&source(index)).0.expect("shipped tables are TOML");
+            let table = parse::table(&source(index)).0.expect("shipped tables are TOML");
             assert_eq!(table.name.value, *name, "a table is named as its file");
             let aliases = table.aliases.iter().map(|alias| alias.value.as_str());
             for word in aliases.chain([*name]) {

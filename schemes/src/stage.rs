@@ -2,7 +2,9 @@
 
 use shadowstep_symbolic::Rational;
 
-use crate::scheme::{MapKind, Scheme};
+use crate::map::MapKind;
+
+use crate::scheme::Scheme;
 
 /// The maps of one step, each with the index of its weight among the distinct ones.
 ///

@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
+use shadowstep_schemes::First;
 use shadowstep_schemes::analysis::stability::Stability;
-use shadowstep_schemes::scheme::{First, Held};
+use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::{Cell, Table, Weights};
 use shadowstep_schemes::{Analysis, Kinetic, Proved, shipped_names, shipped_proved, to_significant, to_text};
 

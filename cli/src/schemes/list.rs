@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
 use shadowstep_schemes::Kinetic;
-use shadowstep_schemes::proof::HIGHEST_ORDER;
+use shadowstep_schemes::claims::HIGHEST_ORDER;
 
 use crate::complaint::{Complaint, Ending, remark};
 use crate::output::Output;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::{Range, RangeInclusive};
 
-use shadowstep_schemes::fault::{Fault, Source};
+use shadowstep_schemes::{Fault, Source};
 use shadowstep_symbolic::decimal::{from_text, to_significant};
 use shadowstep_symbolic::{Error, Exact, Graph, evaluate, parse};
 use toml::Spanned;
@@ -76,7 +76,7 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn fault(&mut self, at: &Range<usize>, message: impl Into<String>, help: impl Into<String>) {
-        self.faults.push(self.source.fault(at, message).help(help));
+        self.faults.push(self.source.fault(at, message).hint(help));
     }
 
     /// A fault in place of a value.

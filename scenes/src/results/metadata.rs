@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use shadowstep::pairs::Ends;
-use shadowstep_schemes::fault::Source;
+use shadowstep_schemes::Source;
 use shadowstep_schemes::table::{Table, Weights};
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_text;
@@ -114,7 +114,7 @@ fn bases(table: &Table) -> Vec<Source> {
     let mut above = table.clone();
     while let Some(Weights::Composition { base, .. }) = &above.weights {
         let Some(source) = library::beside_or_shipped(&base.value, &above.source) else { break };
-        let (Some(table), _) = shadowstep_schemes::table::parse(&source) else { break };
+        let (Some(table), _) = shadowstep_schemes::parse::table(&source) else { break };
         // a file that was changed meanwhile may lead back
         if bases.contains(&source) {
             break;

@@ -39,7 +39,7 @@ fn is_of_another(path: &Path, scene: &Scene) -> bool {
 /// An error about a value of the scene, at its place.
 fn at(scene: &Scene, place: &Range<usize>, error: Error) -> Error {
     match error {
-        Error::Usage { message, hint } => Faults(vec![scene.source.fault(place, message).help(hint)]).into(),
+        Error::Usage { message, hint } => Faults(vec![scene.source.fault(place, message).hint(hint)]).into(),
         other => other,
     }
 }

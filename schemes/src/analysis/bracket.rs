@@ -19,9 +19,9 @@ use num_traits::Zero;
 use shadowstep_symbolic::Rational;
 
 use super::prime::{PRIME, add_multiple, power};
+use crate::claims::Kinetic;
+use crate::map::MapKind;
 use crate::order::{Word, letter};
-use crate::scheme::MapKind;
-use crate::table::Kinetic;
 
 /// The bracket [x_1,[x_2,[…,[x_{n−1},x_n]…]]] of the Lie derivatives K of the kick and D of the drift.
 #[derive(Clone, Debug, PartialEq, Eq)]

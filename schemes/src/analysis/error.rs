@@ -13,10 +13,10 @@ use shadowstep_symbolic::Rational;
 
 use super::bracket::{Bracket, coordinates};
 use crate::arithmetic::FixedPoint;
+use crate::claims::Kinetic;
+use crate::map::{Map, MapKind};
 use crate::order::{Word, lyndon_words, prefix_coefficients};
 use crate::proof::Proof;
-use crate::scheme::{Map, MapKind};
-use crate::table::Kinetic;
 
 /// Digits behind the point of the words' coefficients. They are at least 1e-8 or so before the exact flow's are
 /// taken away, and what is left is wanted to the 16 digits of f64.
@@ -132,7 +132,7 @@ mod tests {
     use num_traits::Signed;
 
     use super::*;
-    use crate::scheme::merged;
+    use crate::map::merged;
 
     #[test]
     fn logarithms_are_lie_polynomials() {

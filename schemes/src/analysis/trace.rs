@@ -10,7 +10,8 @@ use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
 use shadowstep_symbolic::{Rational, compare};
 
 use crate::arithmetic::{Arithmetic, Sensitivity};
-use crate::scheme::{Held, Map, MapKind};
+use crate::map::{Map, MapKind};
+use crate::scheme::Held;
 
 /// The trace polynomial, with integers over powers of one denominator: reducing each fraction would cost far more.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -7,13 +7,14 @@ use num_traits::Zero;
 use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
+use crate::claims::Kinetic;
+use crate::map::MapKind;
 use crate::order::{self, Condition};
 use crate::polish::composition::{self, Word};
 use crate::polish::dual::{Dual, Duals};
 use crate::polish::unknowns::Model;
 use crate::proof::prove;
-use crate::scheme::MapKind;
-use crate::table::{Kinetic, Table};
+use crate::table::Table;
 use crate::{Scheme, near_integrable, nystrom};
 
 /// The conditions, as functions of the weights.

@@ -2,8 +2,8 @@
 
 use shadowstep_symbolic::Rational;
 
+use crate::document::{Faults, Source};
 use crate::exact::{DIGITS, Library};
-use crate::fault::{Faults, Source};
 use crate::polish::newton::{Problem, Solution};
 use crate::polish::write::{self, Written};
 use crate::polish::{NotPolished, many, rounded};

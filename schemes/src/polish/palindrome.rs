@@ -5,7 +5,7 @@ use num_traits::{Signed, Zero};
 use shadowstep_symbolic::Rational;
 use shadowstep_symbolic::decimal::to_significant;
 
-use crate::fault::Faults;
+use crate::document::Faults;
 use crate::polish::unknowns::{Cell, Mirrored, Model, Unknown};
 use crate::table::{self, Table};
 
@@ -125,6 +125,6 @@ fn unlike(table: &Table, cell: &table::Cell, first: &Rational, second: &Rational
         .source
         .fault(&cell.at, "a palindrome is claimed, this weight is not what it mirrors")
         .values(to_significant(second, 25), to_significant(first, 25))
-        .help("correct the weights, or write `symmetric = false`");
+        .hint("correct the weights, or write `symmetric = false`");
     Faults(vec![fault])
 }

@@ -5,10 +5,12 @@ use num_traits::{Signed, Zero};
 use shadowstep_symbolic::Rational;
 
 use crate::Scheme;
+use crate::claims::Kinetic;
+use crate::map::{Map, MapKind};
 use crate::polish::unknowns::Model;
 use crate::proof::{Proof, prove};
-use crate::scheme::{Held, Map, MapKind};
-use crate::table::{Kinetic, Table};
+use crate::scheme::Held;
+use crate::table::Table;
 
 /// What is proved with the weights taken for as good as their decimals are long, whatever `digits` the table claims.
 pub(super) fn proof(scheme: &Scheme, model: &Model) -> Proof {

@@ -13,7 +13,7 @@ use shadowstep_symbolic::decimal::from_text;
 use shadowstep_symbolic::{Exact, Expression, Rational, SemanticError, evaluate, parse};
 
 use crate::Scheme;
-use crate::fault::Faults;
+use crate::document::Faults;
 use crate::polish::dual::{Dual, Duals};
 use crate::polish::formulas;
 use crate::table::{self, Table, Weights};

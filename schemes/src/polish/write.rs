@@ -7,7 +7,7 @@ use num_traits::{One, Signed, Zero};
 use shadowstep_symbolic::Rational;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::fault::Faults;
+use crate::document::Faults;
 use crate::polish::unknowns::{Mirrored, Model};
 use crate::table::{Table, Weights};
 
@@ -158,7 +158,7 @@ fn constants(table: &Table, lines: &str) -> Result<(Range<usize>, String), Fault
             };
             let help = format!("write [constants] and {section} on lines of their own, the keys below them");
             let fault = table.source.fault(at, "there is no place for the polished constants");
-            Err(Faults(vec![fault.help(help)]))
+            Err(Faults(vec![fault.hint(help)]))
         }
     }
 }

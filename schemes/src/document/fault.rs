@@ -1,12 +1,12 @@
-//! Faults of a table: what is wrong, where, what was found and what is needed.
+//! Faults of a document: what is wrong, where, what was found and what is needed.
 
 use std::fmt;
 use std::ops::Range;
 
-/// The text of a table and the name under which messages speak of it.
+/// The text of a document and its name in messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// File path, or the file name of a shipped table.
+    /// Path of the file, or the name of a shipped document.
     pub path: String,
     /// The TOML text.
     pub text: String,
@@ -30,7 +30,7 @@ impl Source {
             source_line,
             message: message.into(),
             values: None,
-            help: None,
+            hint: None,
         }
     }
 
@@ -42,7 +42,7 @@ impl Source {
 /// The most characters of a line that are shown.
 const LONGEST_LINE: usize = 160;
 
-/// A line, or what stands around the character `place` of a long one; and how many characters are before it then.
+/// A line, or the part of a long line around the character `place`; and how many characters are before it then.
 fn shortened(line: &str, place: usize) -> (String, usize) {
     let length = line.chars().count();
     if length <= LONGEST_LINE {
@@ -54,9 +54,9 @@ fn shortened(line: &str, place: usize) -> (String, usize) {
     (format!("{head}{part}{tail}"), place - begin + head.chars().count())
 }
 
-/// One fault of a table, with its place.
+/// One fault of a document, with its place.
 ///
-/// Displayed as the sentence, the line with the place marked, and where there are such the values:
+/// Displayed as the sentence, the line with the place marked, the values and the hint, if there are any:
 /// ```text
 /// mine.toml:3:9: order 4 is claimed, order 1 holds: the condition of the word KD fails
 ///   3 | order = 4
@@ -65,7 +65,7 @@ fn shortened(line: &str, place: usize) -> (String, usize) {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// File of the table.
+    /// Path of the file.
     pub path: String,
     /// Line, from 1.
     pub line: usize,
@@ -73,14 +73,14 @@ pub struct Fault {
     pub column: usize,
     /// The line itself; of a long one the part around the place.
     pub source_line: String,
-    /// Which characters of `source_line` are meant, at least one.
+    /// The characters of `source_line` that are marked, at least one.
     pub marked: Range<usize>,
     /// What is wrong, one sentence.
     pub message: String,
     /// The value found and the value needed.
     pub values: Option<(String, String)>,
     /// What would be right.
-    pub help: Option<String>,
+    pub hint: Option<String>,
 }
 
 impl Fault {
@@ -91,8 +91,8 @@ impl Fault {
     }
 
     /// Adds what would be right.
-    pub fn help(mut self, help: impl Into<String>) -> Fault {
-        self.help = Some(help.into());
+    pub fn hint(mut self, hint: impl Into<String>) -> Fault {
+        self.hint = Some(hint.into());
         self
     }
 }
@@ -108,14 +108,14 @@ impl fmt::Display for Fault {
         if let Some((found, needed)) = &self.values {
             write!(f, "\n  found {found}, needed {needed}")?;
         }
-        if let Some(help) = &self.help {
-            write!(f, "\n  help: {help}")?;
+        if let Some(hint) = &self.hint {
+            write!(f, "\n  hint: {hint}")?;
         }
         Ok(())
     }
 }
 
-/// All the faults of a table, at least one, in the order of their places.
+/// All faults of a document, at least one, in the order of their places.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Faults(pub Vec<Fault>);
 

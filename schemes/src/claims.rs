@@ -1,0 +1,28 @@
+//! What a table may claim of its scheme.
+
+use crate::document::Placed;
+use crate::map::MapKind;
+
+/// The highest order that can be claimed and proved.
+pub const HIGHEST_ORDER: u32 = 10;
+
+/// The highest order that can be claimed and proved for a power of ε: the words with few B's are few.
+pub const HIGHEST_NEAR_INTEGRABLE_ORDER: u32 = 12;
+
+/// The kinetic energies for which a scheme is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kinetic {
+    /// Every T(p).
+    Any,
+    /// T = ½ pᵀM⁻¹p only (Runge–Kutta–Nyström schemes).
+    Quadratic,
+}
+
+/// The orders claimed for H = A + εB.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NearIntegrable {
+    /// For the terms of ε, ε², …, the last one for all higher powers too; they do not increase.
+    pub orders: Vec<Placed<u32>>,
+    /// The map that moves by A.
+    pub dominant: MapKind,
+}

@@ -1,0 +1,67 @@
+//! The keys that a table of a document may have.
+
+use shadowstep_symbolic::nearest;
+
+/// A key of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Key {
+    /// The key itself.
+    pub name: &'static str,
+    /// A value that it may have, in TOML.
+    pub example: &'static str,
+}
+
+impl Key {
+    /// A key and a value that it may have.
+    pub const fn new(name: &'static str, example: &'static str) -> Key {
+        Key { name, example }
+    }
+}
+
+/// All keys of a table.
+#[derive(Clone, Debug)]
+pub struct Keys {
+    table: &'static str,
+    keys: Vec<Key>,
+    elsewhere: fn(&str) -> Option<&'static str>,
+}
+
+impl Keys {
+    /// The keys of a table, which messages call `table`: `[run]`.
+    pub fn new(table: &'static str, keys: impl IntoIterator<Item = Key>) -> Keys {
+        Keys { table, keys: keys.into_iter().collect(), elsewhere: |_| None }
+    }
+
+    /// Adds a function that finds the table of a key that is not one of these, for the hint at a key in the wrong
+    /// table.
+    pub fn with_elsewhere(self, elsewhere: fn(&str) -> Option<&'static str>) -> Keys {
+        Keys { elsewhere, ..self }
+    }
+
+    /// The key of this name.
+    pub fn find(&self, name: &str) -> Option<&Key> {
+        self.keys.iter().find(|key| key.name == name)
+    }
+
+    /// Whether a word is a misspelling of a key: not a key itself, and spelt most like this one.
+    pub(super) fn is_misspelling(&self, word: &str, key: &str) -> bool {
+        self.find(word).is_none() && self.nearest(word) == Some(key)
+    }
+
+    /// What may be meant by a word that is not one of these keys.
+    pub(super) fn hint(&self, word: &str) -> String {
+        match (self.nearest(word), (self.elsewhere)(word)) {
+            (Some(near), _) => format!("did you mean `{near}`?"),
+            (None, Some(table)) => format!("`{word}` is a key of {table}"),
+            (None, None) => format!("the keys of {} are {}", self.table, self.names().collect::<Vec<_>>().join(", ")),
+        }
+    }
+
+    fn nearest(&self, word: &str) -> Option<&'static str> {
+        nearest(word, self.names())
+    }
+
+    fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.keys.iter().map(|key| key.name)
+    }
+}

@@ -1,0 +1,69 @@
+//! Values of a document with their places in its text.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use shadowstep_symbolic::decimal::from_text;
+use shadowstep_symbolic::{Error, Exact, evaluate, parse};
+use toml::Spanned;
+use toml::de::{DeString, DeValue};
+
+/// A value as the TOML parser gives it, with its place.
+pub type Value<'i> = Spanned<DeValue<'i>>;
+
+/// A value and its byte range in the text of the document.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placed<T> {
+    /// The value.
+    pub value: T,
+    /// Where it is.
+    pub at: Range<usize>,
+}
+
+/// A text of the document: a name, a formula, or a number as it is written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    /// The text without quotes, escapes resolved.
+    pub value: String,
+    /// Where the value is, with its quotes.
+    pub at: Range<usize>,
+    /// Where the text itself begins; `None` where escapes stand for some of it.
+    begin: Option<usize>,
+}
+
+impl Text {
+    /// The text of a value at the range `at` of the `document`.
+    pub(super) fn new(document: &str, value: &str, at: Range<usize>) -> Text {
+        let begin = document.get(at.clone()).and_then(|written| written.find(value)).map(|from| at.start + from);
+        Text { value: value.to_owned(), at, begin }
+    }
+
+    /// A key as a text.
+    pub fn of_key(key: &Spanned<DeString<'_>>) -> Text {
+        Text { value: key.get_ref().to_string(), at: key.span(), begin: None }
+    }
+
+    /// The place in the document of a byte range of the text; the whole value where escapes stand for some of the text.
+    pub fn place(&self, range: &Range<usize>) -> Range<usize> {
+        self.begin.map_or(self.at.clone(), |begin| begin + range.start..begin + range.end)
+    }
+
+    /// The text with its place inside the quotes.
+    pub fn inside_quotes(self) -> Placed<String> {
+        let at = self.place(&(0..self.value.len()));
+        Placed { value: self.value, at }
+    }
+
+    /// The value of the text as a number or an expression in `known` numbers. An irrational value is rounded to `digits`
+    /// significant digits.
+    ///
+    /// # Errors
+    /// A text that is not a number or expression, or has no value; [`Error::range`] is a range of the text.
+    pub fn evaluate(&self, known: &BTreeMap<String, Exact>, digits: u32) -> Result<Exact, Error> {
+        // a number may be longer than a formula
+        if let Ok(value) = from_text(&self.value) {
+            return Ok(Exact { value, rounded: false });
+        }
+        Ok(evaluate(&parse(&self.value)?, known, digits)?)
+    }
+}

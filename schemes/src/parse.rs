@@ -1,0 +1,237 @@
+//! TOML text → the cells and claims of a table, with their places.
+
+use shadowstep_symbolic::nearest;
+use toml::de::{DeTable, DeValue};
+
+use crate::claims::{HIGHEST_NEAR_INTEGRABLE_ORDER, HIGHEST_ORDER, Kinetic, NearIntegrable};
+use crate::document::{Fault, Key, Keys, Placed, Reader, Section, Source, Text, Value, document};
+use crate::map::MapKind;
+use crate::spelling::spelling;
+use crate::table::{Cell, Table, Weights};
+
+const TABLE: [Key; 15] = [
+    Key::new("name", "\"yoshida4\""),
+    Key::new("title", "\"Yoshida's triple jump of order 4\""),
+    Key::new("aliases", "[\"Forest-Ruth\"]"),
+    Key::new("order", "4"),
+    Key::new("kinetic", "\"any\""),
+    Key::new("near_integrable", "[8, 2]"),
+    Key::new("dominant", "\"drift\""),
+    Key::new("symmetric", "true"),
+    Key::new("digits", "15"),
+    Key::new("reference", "\"H. Yoshida, Phys. Lett. A 150 (1990) 262-268\""),
+    Key::new("doi", "\"10.1016/0375-9601(90)90092-3\""),
+    Key::new("constants", "{ g1 = \"1/(2 - 2^(1/3))\" }"),
+    Key::new("free", "[\"g1\"]"),
+    Key::new("composition", "{ base = \"stormer-verlet\", gamma = [\"g1\", \"1 - 2*g1\", \"g1\"] }"),
+    Key::new("stages", "{ kick = [\"1/2\", \"1/2\"], drift = [1, 0] }"),
+];
+
+const STAGES: [Key; 2] = [Key::new("kick", "[\"1/2\", \"1/2\"]"), Key::new("drift", "[1, 0]")];
+
+const COMPOSITION: [Key; 2] =
+    [Key::new("base", "\"stormer-verlet\""), Key::new("gamma", "[\"g1\", \"1 - 2*g1\", \"g1\"]")];
+
+const CELL_EXAMPLES: &str = "1, 0.25 or an expression in quotes, \"1/(2 - 2^(1/3))\"";
+
+/// Reads a table's text and all its faults: of the TOML, unknown or missing or repeated keys, values of the wrong kind.
+///
+/// If the text is TOML at all, the table is there too, so that its cells can be evaluated as well; in place of missing
+/// claims it has claims that every scheme meets.
+pub fn table(source: &Source) -> (Option<Table>, Vec<Fault>) {
+    let (document, faults) = document(source);
+    let Some(document) = document else { return (None, faults) };
+    let mut reader = Reader::new(source, faults);
+    let table = read(&mut reader, &document);
+    (Some(table), reader.faults)
+}
+
+fn read(reader: &mut Reader<'_>, document: &DeTable<'_>) -> Table {
+    let root = &reader.table(document, 0..0, Keys::new("a table", TABLE));
+    let name = reader.required(root, "name").and_then(|v| name(reader, v));
+    let order = reader.required(root, "order").and_then(|v| reader.whole(v, 1..=HIGHEST_ORDER, "an order"));
+    let kinetic = reader.required(root, "kinetic").and_then(|v| {
+        reader.word(v, &[("any", Kinetic::Any), ("quadratic", Kinetic::Quadratic)]).map(|kinetic| kinetic.value)
+    });
+    let reference = reader.required(root, "reference").and_then(|v| trimmed(reader, v));
+    let title = root.get("title").and_then(|v| trimmed(reader, v));
+    let aliases = aliases(reader, root, name.as_ref());
+    let near_integrable = near_integrable(reader, root);
+    let doi = root.get("doi").and_then(|v| doi(reader, v));
+    let symmetric = root.get("symmetric").and_then(|v| reader.truth(v));
+    let digits = root.get("digits").and_then(|v| reader.whole(v, 1..=300, "a number of digits"));
+    let constants = constants(reader, root);
+    let free = free(reader, root, &constants);
+    let weights = weights(reader, root, document);
+    Table {
+        source: reader.source.clone(),
+        name: name.unwrap_or(Placed { value: "unnamed".to_owned(), at: 0..0 }),
+        title: title.map(|t| t.value),
+        aliases,
+        order: order.unwrap_or(Placed { value: 1, at: 0..0 }),
+        kinetic: kinetic.unwrap_or(Kinetic::Quadratic),
+        near_integrable,
+        symmetric,
+        digits,
+        reference: reference.map_or(String::new(), |r| r.value),
+        doi: doi.map(|d| d.value),
+        constants,
+        free,
+        weights,
+    }
+}
+
+/// A text without blanks at its ends.
+fn trimmed(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Placed<String>> {
+    let text = reader.text(value)?;
+    Some(Placed { value: text.value.trim().to_owned(), at: text.at })
+}
+
+fn name(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Placed<String>> {
+    let name = trimmed(reader, value)?;
+    if name.value.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-') {
+        return Some(name);
+    }
+    let hint = "use small letters, digits and hyphens, as in \"blanes-moan-s6\"";
+    reader.wrong(&name.at, format!("`{}` is not a valid name of a scheme", name.value), hint)
+}
+
+fn aliases(reader: &mut Reader<'_>, root: &Section<'_, '_>, name: Option<&Placed<String>>) -> Vec<Placed<String>> {
+    let aliases = list(reader, root, "aliases", "a list of names, such as [\"PEFRL\"]", trimmed);
+    let mut known: Vec<_> = name.map(|name| spelling(&name.value)).into_iter().collect();
+    for alias in &aliases {
+        let spelt = spelling(&alias.value);
+        if spelt.is_empty() {
+            let message = format!("`{}` is not a valid name", alias.value);
+            reader.fault(&alias.at, message, "a name has letters or digits");
+        } else if known.contains(&spelt) {
+            let hint = "small and capital letters, hyphens, blanks and the like make no difference: leave it out";
+            reader.fault(&alias.at, format!("`{}` is a name of this table already", alias.value), hint);
+        }
+        known.push(spelt);
+    }
+    aliases
+}
+
+/// The list of a key; empty where the key is left out or a member has a fault.
+fn list<T>(
+    reader: &mut Reader<'_>,
+    root: &Section<'_, '_>,
+    key: &str,
+    what: &str,
+    read: impl FnMut(&mut Reader<'_>, &Value<'_>) -> Option<T>,
+) -> Vec<T> {
+    root.get(key).and_then(|value| reader.list(value, what, read)).map_or_else(Vec::new, |list| list.value)
+}
+
+fn near_integrable(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Option<NearIntegrable> {
+    let kinds = [("drift", MapKind::Drift), ("kick", MapKind::Kick)];
+    let dominant = root.get("dominant").and_then(|v| reader.word(v, &kinds));
+    let Some(value) = root.get("near_integrable") else {
+        if let Some(value) = root.get("dominant") {
+            let hint = "add `near_integrable = [8, 2]`, the orders claimed, or leave it out";
+            reader.fault(&value.span(), "`dominant` needs near-integrable orders", hint);
+        }
+        return None;
+    };
+    let order = |reader: &mut Reader<'_>, v: &Value<'_>| reader.whole(v, 1..=HIGHEST_NEAR_INTEGRABLE_ORDER, "an order");
+    let orders = reader.list(value, "a list of orders, such as [8, 2]", order)?.value;
+    for pair in orders.windows(2).filter(|pair| pair[0].value < pair[1].value) {
+        let message =
+            format!("order {} is claimed for a higher power of ε than order {}", pair[1].value, pair[0].value);
+        reader.fault(&pair[1].at, message, "the orders for ε, ε², … do not increase");
+    }
+    Some(NearIntegrable { orders, dominant: dominant.map_or(MapKind::Drift, |kind| kind.value) })
+}
+
+fn doi(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Placed<String>> {
+    let doi = trimmed(reader, value)?;
+    if doi.value.starts_with("10.") && doi.value.contains('/') {
+        return Some(doi);
+    }
+    let hint = "a DOI looks like \"10.1016/0375-9601(90)90092-3\", without https://doi.org/";
+    reader.wrong(&doi.at, format!("`{}` is not a valid DOI", doi.value), hint)
+}
+
+fn constants(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Vec<(Placed<String>, Cell)> {
+    let Some(value) = root.get("constants") else { return Vec::new() };
+    let DeValue::Table(table) = value.get_ref() else {
+        reader.wrong_kind::<()>(value, "a table of constants: [constants]");
+        return Vec::new();
+    };
+    let mut constants = Vec::new();
+    for (key, value) in table {
+        let name = Placed { value: key.get_ref().to_string(), at: key.span() };
+        if !is_constant_name(&name.value) {
+            let hint = "the name of a constant is a letter, then letters, digits and _";
+            reader.fault(&name.at, format!("`{}` is not a valid name of a constant", name.value), hint);
+        } else if let Some(cell) = cell(reader, value) {
+            constants.push((name, cell));
+        }
+    }
+    constants.sort_by_key(|(name, _)| name.at.start);
+    constants
+}
+
+fn is_constant_name(name: &str) -> bool {
+    let mut letters = name.chars();
+    letters.next().is_some_and(|c| c.is_ascii_alphabetic()) && letters.all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+fn free(reader: &mut Reader<'_>, root: &Section<'_, '_>, constants: &[(Placed<String>, Cell)]) -> Vec<Placed<String>> {
+    let free = list(reader, root, "free", "a list of constants, such as [\"g1\"]", trimmed);
+    let names = || constants.iter().map(|(name, _)| name.value.as_str());
+    for name in free.iter().filter(|name| !names().any(|known| known == name.value)) {
+        let hint = match nearest(&name.value, names()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => "free parameters are names of [constants]".to_owned(),
+        };
+        reader.fault(&name.at, format!("there is no constant `{}`", name.value), hint);
+    }
+    free
+}
+
+fn weights(reader: &mut Reader<'_>, root: &Section<'_, '_>, document: &DeTable<'_>) -> Option<Weights> {
+    match (root.get("stages"), root.get("composition")) {
+        (Some(_), None) => {
+            let section = reader.section(document, "stages", Keys::new("[stages]", STAGES));
+            stages(reader, &section)
+        }
+        (None, Some(_)) => {
+            let section = reader.section(document, "composition", Keys::new("[composition]", COMPOSITION));
+            let base = reader.required(&section, "base").and_then(|v| trimmed(reader, v));
+            let gamma = reader.required(&section, "gamma").and_then(|v| cells(reader, v));
+            Some(Weights::Composition { base: base?, gamma: gamma? })
+        }
+        (Some(_), Some(both)) => {
+            reader.wrong(&both.span(), "stages and a composition are both given", "keep one of the two")
+        }
+        (None, None) => {
+            let hint = "add [stages] with kick and drift, or [composition] with base and gamma";
+            reader.wrong(&(0..0), "the weights are missing", hint)
+        }
+    }
+}
+
+fn stages(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<Weights> {
+    let kick = reader.required(section, "kick").and_then(|v| cells(reader, v));
+    let drift = reader.required(section, "drift").and_then(|v| cells(reader, v));
+    let (kick, drift) = (kick?, drift?);
+    if kick.value.len() == drift.value.len() {
+        return Some(Weights::Stages { kick, drift });
+    }
+    let found = format!("{} for the kicks, {} for the drifts", kick.value.len(), drift.value.len());
+    let fault = reader.source.fault(&drift.at, "kick and drift must have as many weights as there are stages");
+    let hint = "each stage is a kick and then a drift; write 0 where there is none";
+    reader.faults.push(fault.values(found, "as many of both").hint(hint));
+    None
+}
+
+fn cells(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Placed<Vec<Cell>>> {
+    reader.list(value, "a list of weights, such as [\"1/2\", \"1/2\"]", cell)
+}
+
+/// The place of an expression is inside the quotes.
+fn cell(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Cell> {
+    reader.number(value, CELL_EXAMPLES).map(Text::inside_quotes)
+}
