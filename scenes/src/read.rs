@@ -58,7 +58,7 @@ impl Scene {
     /// let faults = Scene::read(Source { path: "scene.toml".to_owned(), text }).unwrap_err();
     /// let fault = faults.0.iter().find(|fault| fault.line == 2).unwrap();
     /// assert_eq!((fault.column, fault.message.as_str()), (8, "there is no problem `keppler`"));
-    /// assert_eq!(fault.help.as_deref(), Some("did you mean `kepler`?"));
+    /// assert_eq!(fault.hint.as_deref(), Some("did you mean `kepler`?"));
     /// ```
     ///
     /// # Errors

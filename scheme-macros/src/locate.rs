@@ -78,7 +78,7 @@ impl Locator {
         for folder in &self.folders {
             message += &format!("  in {}\n", folder.display());
         }
-        message + &format!("  among the {} shipped tables\n  help: {hint}", names.len())
+        message + &format!("  among the {} shipped tables\n  hint: {hint}", names.len())
     }
 
     fn nearest_file(&self, name: &str) -> Option<String> {

@@ -113,7 +113,7 @@ fn aliases(reader: &mut Reader<'_>, root: &Section<'_, '_>, name: Option<&Placed
     aliases
 }
 
-/// The list of a key; empty where the key is left out or a member has a fault.
+/// The readable members of the list of a key; none where the key is left out.
 fn list<T>(
     reader: &mut Reader<'_>,
     root: &Section<'_, '_>,
@@ -121,7 +121,7 @@ fn list<T>(
     what: &str,
     read: impl FnMut(&mut Reader<'_>, &Value<'_>) -> Option<T>,
 ) -> Vec<T> {
-    root.get(key).and_then(|value| reader.list(value, what, read)).map_or_else(Vec::new, |list| list.value)
+    root.get(key).map_or_else(Vec::new, |value| reader.readable_members(value, what, read))
 }
 
 fn near_integrable(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Option<NearIntegrable> {
@@ -135,7 +135,7 @@ fn near_integrable(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Option<Ne
         return None;
     };
     let order = |reader: &mut Reader<'_>, v: &Value<'_>| reader.whole(v, 1..=HIGHEST_NEAR_INTEGRABLE_ORDER, "an order");
-    let orders = reader.list(value, "a list of orders, such as [8, 2]", order)?.value;
+    let orders = reader.readable_members(value, "a list of orders, such as [8, 2]", order);
     for pair in orders.windows(2).filter(|pair| pair[0].value < pair[1].value) {
         let message =
             format!("order {} is claimed for a higher power of ε than order {}", pair[1].value, pair[0].value);

@@ -369,12 +369,12 @@ mine.toml:22:9: the kicks do not sum to 1, so not even order 1 holds
   22 | gamma = ["g1", "g2", "g3", "g4", "g5", "g6", "g7", "g8", "g9", "g8", "g7", "g6", "g5", "g4", "g3", "g2", "g1"]
      |         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
   found 0.9999999999999994…, needed 1
-  help: the condition is off by 6e-16, more than 20 digits of the weights can account for
+  hint: the condition is off by 6e-16, more than 20 digits of the weights can account for
 mine.toml:22:9: the drifts do not sum to 1, so not even order 1 holds
   22 | gamma = ["g1", "g2", "g3", "g4", "g5", "g6", "g7", "g8", "g9", "g8", "g7", "g6", "g5", "g4", "g3", "g2", "g1"]
      |         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
   found 0.9999999999999994…, needed 1
-  help: the condition is off by 6e-16, more than 20 digits of the weights can account for
+  hint: the condition is off by 6e-16, more than 20 digits of the weights can account for
 "#,
     );
     assert!(judge(&claiming("")).unwrap_err().to_string().contains("off by 6e-16: if the weights are rounded"));

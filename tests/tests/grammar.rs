@@ -28,55 +28,55 @@ weights = [1]
 mine.toml:1:1: unknown key `nam`
   1 | nam = "Mine"
     | ^^^
-  help: did you mean `name`?
+  hint: did you mean `name`?
 mine.toml:1:1: the key `reference` is missing
   1 | nam = "Mine"
     | ^
-  help: add `reference = …`: who published the scheme where
+  hint: add `reference = "H. Yoshida, Phys. Lett. A 150 (1990) 262-268"`
 mine.toml:2:9: 40 is out of range
   2 | order = 40
     |         ^^
-  help: orders from 1 to 10 can be proved
-mine.toml:3:11: `cubic` is no kind of kinetic energy
+  hint: write an order from 1 to 10
+mine.toml:3:11: `cubic` is not known here
   3 | kinetic = "cubic"
     |           ^^^^^^^
-  help: write "any" for every T(p), "quadratic" for T = ½pᵀM⁻¹p only
+  hint: write "any" or "quadratic"
 mine.toml:4:1: unknown key `symetric`
   4 | symetric = true
     | ^^^^^^^^
-  help: did you mean `symmetric`?
+  hint: did you mean `symmetric`?
 mine.toml:5:10: this value is of the wrong kind
   5 | digits = "many"
     |          ^^^^^^
   found a text, needed a whole number
-mine.toml:6:7: `https://doi.org/10.1/2` is no DOI
+mine.toml:6:7: `https://doi.org/10.1/2` is not a valid DOI
   6 | doi = "https://doi.org/10.1/2"
     |       ^^^^^^^^^^^^^^^^^^^^^^^^
-  help: a DOI looks like "10.1016/0375-9601(90)90092-3", without https://doi.org/
-mine.toml:9:1: `1x` is no name for a constant
+  hint: a DOI looks like "10.1016/0375-9601(90)90092-3", without https://doi.org/
+mine.toml:9:1: `1x` is not a valid name of a constant
   9 | 1x = "1/2"
     | ^^
-  help: a constant's name starts with a letter and goes on with letters, digits and _
+  hint: the name of a constant is a letter, then letters, digits and _
 mine.toml:10:5: this value is of the wrong kind
   10 | y = true
      |     ^^^^
   found a truth value, needed an exact number: 1, 0.25 or an expression in quotes, "1/(2 - 2^(1/3))"
-mine.toml:13:9: a weight cannot be inf
+mine.toml:13:9: inf is not a finite number
   13 | kick = [inf, "1/2", nan]
      |         ^^^
-  help: weights are finite exact numbers
-mine.toml:13:21: a weight cannot be nan
+  hint: write a number: 1, 0.25 or an expression in quotes, "1/(2 - 2^(1/3))"
+mine.toml:13:21: nan is not a finite number
   13 | kick = [inf, "1/2", nan]
      |                     ^^^
-  help: weights are finite exact numbers
-mine.toml:14:9: this list of weights is empty
+  hint: write a number: 1, 0.25 or an expression in quotes, "1/(2 - 2^(1/3))"
+mine.toml:14:9: this list is empty
   14 | drift = []
      |         ^^
-  help: a scheme has at least one stage
+  hint: write a list of weights, such as ["1/2", "1/2"]
 mine.toml:15:1: unknown key `weights`
   15 | weights = [1]
      | ^^^^^^^
-  help: the keys of [stages] are kick, drift
+  hint: the keys of [stages] are kick, drift
 "#,
     );
 }
@@ -134,7 +134,7 @@ mine.toml:14:33: 0^0 has no value
 mine.toml:14:39: a weight of 5000 is an absurd size
   14 | drift = ["1e400000", "foo(2)", "0^0", 5000]
      |                                       ^^^^
-  help: weights are fractions of a step, at most 1000
+  hint: weights are fractions of a step, at most 1000
 "#,
     );
 }
@@ -165,15 +165,15 @@ drift = [1, 0]
 mine.toml:2:22: `m-i-n-e` is a name of this table already
   2 | aliases = ["Mine 4", "m-i-n-e", "...", "MINE4", 4]
     |                      ^^^^^^^^^
-  help: small and capital letters, hyphens, blanks and the like make no difference: leave it out
-mine.toml:2:33: `...` is no name
+  hint: small and capital letters, hyphens, blanks and the like make no difference: leave it out
+mine.toml:2:33: `...` is not a valid name
   2 | aliases = ["Mine 4", "m-i-n-e", "...", "MINE4", 4]
     |                                 ^^^^^
-  help: a name has letters or digits
+  hint: a name has letters or digits
 mine.toml:2:40: `MINE4` is a name of this table already
   2 | aliases = ["Mine 4", "m-i-n-e", "...", "MINE4", 4]
     |                                        ^^^^^^^
-  help: small and capital letters, hyphens, blanks and the like make no difference: leave it out
+  hint: small and capital letters, hyphens, blanks and the like make no difference: leave it out
 mine.toml:2:49: this value is of the wrong kind
   2 | aliases = ["Mine 4", "m-i-n-e", "...", "MINE4", 4]
     |                                                 ^
@@ -181,7 +181,7 @@ mine.toml:2:49: this value is of the wrong kind
 mine.toml:5:23: 40 is out of range
   5 | near_integrable = [2, 40, "4", 3]
     |                       ^^
-  help: orders from 1 to 12 can be proved
+  hint: write an order from 1 to 12
 mine.toml:5:27: this value is of the wrong kind
   5 | near_integrable = [2, 40, "4", 3]
     |                           ^^^
@@ -189,23 +189,23 @@ mine.toml:5:27: this value is of the wrong kind
 mine.toml:5:32: order 3 is claimed for a higher power of ε than order 2
   5 | near_integrable = [2, 40, "4", 3]
     |                                ^
-  help: the orders for ε, ε², … do not increase
-mine.toml:6:12: `kepler` is neither kick nor drift
+  hint: the orders for ε, ε², … do not increase
+mine.toml:6:12: `kepler` is not known here
   6 | dominant = "kepler"
     |            ^^^^^^^^
-  help: write "drift" if the drifts move by the dominant part A of H = A + εB, "kick" if the kicks do
+  hint: write "drift" or "kick"
 mine.toml:7:15: `g2` is no free parameter: its value is `1 - 2*g1`
   7 | free = ["g1", "g2", "h1", "g3"]
     |               ^^^^
-  help: a free parameter is a plain number, exactly as published
+  hint: a free parameter is a plain number, exactly as published
 mine.toml:7:21: there is no constant `h1`
   7 | free = ["g1", "g2", "h1", "g3"]
     |                     ^^^^
-  help: did you mean `g1`?
+  hint: did you mean `g1`?
 mine.toml:7:27: `g3` is no free parameter: its value is `sqrt(2)`
   7 | free = ["g1", "g2", "h1", "g3"]
     |                           ^^^^
-  help: a free parameter is a plain number, exactly as published
+  hint: a free parameter is a plain number, exactly as published
 "#,
     );
     let alone = "name = \"mine\"\naliases = []\norder = 2\nkinetic = \"any\"\ndominant = \"drift\"\nfree = \"g1\"\n\
@@ -216,11 +216,11 @@ mine.toml:7:27: `g3` is no free parameter: its value is `sqrt(2)`
 mine.toml:2:11: this list is empty
   2 | aliases = []
     |           ^^
-  help: write a list of names, such as ["PEFRL"], or leave the key out
+  hint: write a list of names, such as ["PEFRL"], or leave the key out
 mine.toml:5:12: `dominant` says nothing without near-integrable orders
   5 | dominant = "drift"
     |            ^^^^^^^
-  help: add `near_integrable = [8, 2]`, the orders claimed, or leave it out
+  hint: add `near_integrable = [8, 2]`, the orders claimed, or leave it out
 mine.toml:6:8: this value is of the wrong kind
   6 | free = "g1"
     |        ^^^^
@@ -249,7 +249,7 @@ drift = [1, 0]
 mine.toml:8:1: duplicate key
   8 | a = "1/3"
     | ^
-  help: keep one of the two
+  hint: keep one of the two
 "#,
     );
 }
@@ -288,23 +288,23 @@ fn an_empty_text() {
 mine.toml:1:1: the key `name` is missing
   1 | 
     | ^
-  help: add `name = …`: the scheme's short name, such as "yoshida4"
+  hint: add `name = "yoshida4"`
 mine.toml:1:1: the key `order` is missing
   1 | 
     | ^
-  help: add `order = …`: the order claimed, such as 4
+  hint: add `order = 4`
 mine.toml:1:1: the key `kinetic` is missing
   1 | 
     | ^
-  help: add `kinetic = …`: "any" or "quadratic"
+  hint: add `kinetic = "any"`
 mine.toml:1:1: the key `reference` is missing
   1 | 
     | ^
-  help: add `reference = …`: who published the scheme where
+  hint: add `reference = "H. Yoshida, Phys. Lett. A 150 (1990) 262-268"`
 mine.toml:1:1: the weights are missing
   1 | 
     | ^
-  help: add [stages] with kick and drift, or [composition] with base and gamma
+  hint: add [stages] with kick and drift, or [composition] with base and gamma
 "#,
     );
 }
@@ -326,7 +326,7 @@ mine.toml:8:9: kick and drift must have as many weights as there are stages
   8 | drift = [1]
     |         ^^^
   found 2 for the kicks, 1 for the drifts, needed as many of both
-  help: each stage is a kick and then a drift; write 0 where there is none
+  hint: each stage is a kick and then a drift; write 0 where there is none
 "#,
     );
 }
@@ -351,7 +351,7 @@ gamma = [1]
 mine.toml:10:1: stages and a composition are both given
   10 | [composition]
      | ^^^^^^^^^^^^^
-  help: keep one of the two
+  hint: keep one of the two
 "#,
     );
 }
@@ -375,7 +375,7 @@ gamma = [{gamma}]
 mine.toml:1:8: 5001 stages are an absurd size
   1 | name = "mine"
     |        ^^^^^^
-  help: at most 2000 are allowed
+  hint: at most 2000 are allowed
 "#,
     );
 }
@@ -458,7 +458,7 @@ fn compositions_that_go_round() {
 two.toml:7:8: this composition is cyclic: one.toml → two.toml → one.toml
   7 | base = "one"
     |        ^^^^^
-  help: a composition must end at a table with [stages]
+  hint: a composition must end at a table with [stages]
 "#,
     );
 
@@ -470,7 +470,7 @@ two.toml:7:8: this composition is cyclic: one.toml → two.toml → one.toml
 own.toml:7:8: this composition is cyclic: own.toml → own.toml
   7 | base = "own"
     |        ^^^^^
-  help: a composition must end at a table with [stages]
+  hint: a composition must end at a table with [stages]
 "#,
     );
 }
@@ -483,7 +483,7 @@ fn a_base_that_is_not_there() {
 mine.toml:7:8: there is no table `stormer-verle`
   7 | base = "stormer-verle"
     |        ^^^^^^^^^^^^^^^
-  help: did you mean `stormer-verlet`?
+  hint: did you mean `stormer-verlet`?
 "#,
     );
     let far = judge(&composition_of("rk4")).unwrap_err().to_string();
@@ -575,7 +575,7 @@ fn a_composition_of_absurd_size() {
     let source = |path: &str, text: &str| Source { path: path.to_owned(), text: text.to_owned() };
     let faults = read(&source("mine.toml", &table), &|_, _| Some(source("base.toml", &base))).unwrap_err().to_string();
     assert!(faults.starts_with("mine.toml:1:8: 40000000 stages are an absurd size"), "{faults}");
-    assert!(faults.ends_with("help: at most 2000 are allowed"), "{faults}");
+    assert!(faults.ends_with("hint: at most 2000 are allowed"), "{faults}");
 }
 
 /// A constant that stands below, or is the one being defined, is no unknown name.
@@ -589,7 +589,7 @@ fn constants_from_below() {
     };
     assert_eq!(
         judge(&table("y + 1", "1/2")).unwrap_err().to_string(),
-        "mine.toml:7:6: `y` is not known yet\n  7 | x = \"y + 1\"\n    |      ^\n  help: a constant may use those above it only"
+        "mine.toml:7:6: `y` is not known yet\n  7 | x = \"y + 1\"\n    |      ^\n  hint: a constant may use those above it only"
     );
     assert!(judge(&table("0", "1 - y")).unwrap_err().to_string().contains("`y` is not known yet"));
 }

@@ -225,6 +225,6 @@ fn a_modest_claim_is_remarked() {
     assert_eq!(
         remarks,
         ["literature.toml:2:9: order 4 is claimed, order 6 holds for every T(p)\n  \
-          2 | order = 4\n    |         ^\n  help: write `order = 6`"]
+          2 | order = 4\n    |         ^\n  hint: write `order = 6`"]
     );
 }

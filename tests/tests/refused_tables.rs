@@ -81,7 +81,7 @@ mine.toml:4:13: a palindrome is claimed, the maps do not read the same backwards
   4 | symmetric = true
     |             ^^^^
   found kick 7/24 as map 1 from the start, needed drift 1, the map 1 from the end
-  help: correct the weights, or leave `symmetric` out
+  hint: correct the weights, or leave `symmetric` out
 "#,
     );
 }
@@ -105,7 +105,7 @@ mine.toml:2:13: a palindrome is claimed, the maps do not read the same backwards
   2 | symmetric = true
     |             ^^^^
   found kick 1 as map 1 from the start, needed drift 1, the map 1 from the end
-  help: correct the weights, or leave `symmetric` out
+  hint: correct the weights, or leave `symmetric` out
 mine.toml:3:9: order 2 is claimed, order 1 holds for every T(p): the condition of the word KD fails
   3 | order = 2
     |         ^

@@ -126,7 +126,7 @@ fn stopped(scene: &str, file: &str) -> TempDir {
 fn refused(folder: &TempDir, sentence: &str) {
     let said = run(folder.path(), "");
     assert_eq!(said.code, 2, "{}", said.err);
-    assert!(said.err.contains(sentence) && said.err.contains("help: --restart discards it"), "{}", said.err);
+    assert!(said.err.contains(sentence) && said.err.contains("hint: --restart discards it"), "{}", said.err);
     // what is discarded may be of any scene
     let scene = fs::read_to_string(folder.path().join("scene.toml")).unwrap();
     fs::write(folder.path().join("scene.toml"), short(&scene)).unwrap();

@@ -327,7 +327,7 @@ fn the_line_is_shown() {
     let folder = folder(&GOOD.replace("sqrt(x^2", "sqrt(z^2"));
     let said = run(folder.path(), "");
     assert!(
-        said.err.contains("  2 | potential = \"k/sqrt(z^2 + y^2)\"\n    |                     ^\n  help: "),
+        said.err.contains("  2 | potential = \"k/sqrt(z^2 + y^2)\"\n    |                     ^\n  hint: "),
         "{}",
         said.err
     );

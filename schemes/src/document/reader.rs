@@ -226,13 +226,32 @@ impl Reader<'_> {
         &mut self,
         value: &Value<'_>,
         what: &str,
-        mut read: impl FnMut(&mut Self, &Value<'_>) -> Option<T>,
+        read: impl FnMut(&mut Self, &Value<'_>) -> Option<T>,
     ) -> Option<Placed<Vec<T>>> {
+        let members = self.members(value, what, read)?;
+        Some(Placed { value: members.value.into_iter().collect::<Option<_>>()?, at: members.at })
+    }
+
+    /// Like [`Reader::list`]; a member that cannot be read is left out, so that the others can be checked too.
+    pub fn readable_members<T>(
+        &mut self,
+        value: &Value<'_>,
+        what: &str,
+        read: impl FnMut(&mut Self, &Value<'_>) -> Option<T>,
+    ) -> Vec<T> {
+        self.members(value, what, read).into_iter().flat_map(|members| members.value).flatten().collect()
+    }
+
+    fn members<T>(
+        &mut self,
+        value: &Value<'_>,
+        what: &str,
+        mut read: impl FnMut(&mut Self, &Value<'_>) -> Option<T>,
+    ) -> Option<Placed<Vec<Option<T>>>> {
         let DeValue::Array(array) = value.get_ref() else { return self.wrong_kind(value, what) };
         if array.is_empty() {
             return self.wrong(&value.span(), "this list is empty", format!("write {what}"));
         }
-        let members: Vec<_> = array.iter().map(|value| read(self, value)).collect();
-        Some(Placed { value: members.into_iter().collect::<Option<_>>()?, at: value.span() })
+        Some(Placed { value: array.iter().map(|value| read(self, value)).collect(), at: value.span() })
     }
 }
