@@ -8,7 +8,7 @@
 //! | [`drift`], [`trace`] | runs of problems: one line a run, or one line a step |
 //! | [`run`], [`scene`] | runs that a file describes; such files |
 //! | [`schemes`], [`problems`] | what can be run |
-//! | [`figures`] | the figures of the paper, and ours |
+//! | [`figures`] | the figures of the paper, and additional ones |
 //! | [`run_arguments`], [`quantity`], [`selection`] | the flags of runs; exact numbers; flags → problem, schemes and steps |
 //! | [`readable`], [`output`], [`progress`] | tables, lines and bars |
 //! | [`complaint`], [`interrupt`] | messages on stderr and exit codes; Ctrl-C |

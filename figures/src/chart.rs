@@ -42,6 +42,18 @@ pub(crate) struct Axis {
     pub(crate) range: Option<(f64, f64)>,
 }
 
+impl Axis {
+    /// An axis with the values themselves.
+    pub(crate) fn linear(label: &str) -> Self {
+        Axis { label: label.to_owned(), scale: Scale::Linear, range: None }
+    }
+
+    /// An axis with decades, of the logarithms to the base 10.
+    pub(crate) fn log10(label: &str) -> Self {
+        Axis { label: label.to_owned(), scale: Scale::Log10, range: None }
+    }
+}
+
 /// How values are meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scale {
@@ -61,6 +73,33 @@ pub(crate) struct Curve {
     pub(crate) side: Side,
     /// Its colour, markers, and dashes; after the ninth they come again.
     pub(crate) colour: usize,
+}
+
+impl Curve {
+    /// A line with a few of its points marked.
+    pub(crate) fn line(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+        Curve { label: label.into(), points, look: Look::Line, side: Side::First, colour }
+    }
+
+    /// A broad line.
+    pub(crate) fn thick(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+        Curve { look: Look::Thick, ..Curve::line(label, points, colour) }
+    }
+
+    /// A dashed line.
+    pub(crate) fn dashed(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+        Curve { look: Look::Dashed, ..Curve::line(label, points, colour) }
+    }
+
+    /// Points without a line.
+    pub(crate) fn dots(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize, marker: Marker) -> Self {
+        Curve { look: Look::Points(marker), ..Curve::line(label, points, colour) }
+    }
+
+    /// The curve on the axis at the right.
+    pub(crate) fn on_the_right(self) -> Self {
+        Curve { side: Side::Second, ..self }
+    }
 }
 
 /// How a curve is drawn.

@@ -1,13 +1,14 @@
 //! Results as CSV: every run that a figure shows, with all digits, below lines with # that tell what made them.
 
-use super::calculation::{By, Permanent, Setting};
-use super::results::Used;
-use crate::complaint::Complaint;
+use crate::Error;
+use crate::calculation::Permanent;
+use crate::results::Used;
+use crate::run::{Estimator, Run};
 
 const RUN: [&str; 8] = ["problem", "set", "scheme", "step", "until", "digits", "estimator", "order"];
 
 /// The files of a figure, which this command makes: what is put behind its name, and the text.
-pub(crate) fn csv(command: &str, used: &[Used]) -> Result<Vec<(&'static str, String)>, Complaint> {
+pub(crate) fn csv(command: &str, used: &[Used]) -> Result<Vec<(&'static str, String)>, Error> {
     let mut drifts =
         vec![header(&["drift", "permanent_change", "largest_jump", "resolution", "order_least", "order_most"])];
     let mut energies = vec![header(&["t", "distance", "modified_energy", "order_used"])];
@@ -15,17 +16,17 @@ pub(crate) fn csv(command: &str, used: &[Used]) -> Result<Vec<(&'static str, Str
     let mut blocks = vec![["differences", "steps", "scatter", "wander"].map(str::to_owned).to_vec()];
     for used in used {
         match used {
-            Used::Drift(run, by, drift) => {
+            Used::Drift(run, estimator, drift) => {
                 let of =
                     |text: fn(&Permanent) -> &String| drift.permanent.as_ref().map(text).cloned().unwrap_or_default();
                 let [change, jump, resolution] = [of(|p| &p.change), of(|p| &p.largest_jump), of(|p| &p.resolution)];
                 let [least, most] = [drift.orders.0, drift.orders.1].map(|order| order.to_string());
-                drifts.push(row(run, Some(*by), [drift.drift.clone(), change, jump, resolution, least, most]));
+                drifts.push(row(run, Some(*estimator), [drift.drift.clone(), change, jump, resolution, least, most]));
             }
-            Used::Energies(run, by, found) => {
+            Used::Energies(run, estimator, found) => {
                 energies.extend((0..found.times.len()).map(|n| {
                     let [t, distance] = [found.times[n], found.distances[n]].map(|number| number.to_string());
-                    row(run, Some(*by), [t, distance, found.values[n].clone(), found.orders[n].to_string()])
+                    row(run, Some(*estimator), [t, distance, found.values[n].clone(), found.orders[n].to_string()])
                 }));
             }
             Used::Number(run, what, value) => numbers.push(row(run, None, [(*what).to_owned(), value.clone()])),
@@ -45,23 +46,28 @@ fn header(last: &[&str]) -> Vec<String> {
     RUN.iter().chain(last).map(|&name| name.to_owned()).collect()
 }
 
-fn row<const N: usize>(run: &Setting, by: Option<By>, last: [String; N]) -> Vec<String> {
+fn row<const N: usize>(run: &Run, estimator: Option<Estimator>, last: [String; N]) -> Vec<String> {
     let set: Vec<_> = run.set.iter().map(|(name, value)| format!("{name}={value}")).collect();
-    let (estimator, order) = match by {
+    let (name, order) = match estimator {
         None => ("", String::new()),
-        Some(By::Central { m }) => ("central", m.to_string()),
-        Some(By::Best { largest, early: false }) => ("central", format!("best of 2-{largest}")),
-        Some(By::Best { largest, early: true }) => ("central", format!("best of 2-{largest}, early stop")),
-        Some(By::Bilinear { k }) => ("bilinear", k.to_string()),
+        Some(Estimator::Central { m }) => ("central", m.to_string()),
+        Some(Estimator::Best { largest, early: false }) => ("central", format!("best of 2-{largest}")),
+        Some(Estimator::Best { largest, early: true }) => ("central", format!("best of 2-{largest}, early stop")),
+        Some(Estimator::Bilinear { k }) => ("bilinear", k.to_string()),
     };
-    let first =
-        [run.problem.to_owned(), set.join(" "), run.propagator.to_owned(), run.step.clone(), run.until.to_owned()];
-    let how = [run.digits.to_string(), estimator.to_owned(), order];
+    let first = [
+        run.problem.name().to_owned(),
+        set.join(" "),
+        run.propagator.to_owned(),
+        run.step.clone(),
+        run.until.to_owned(),
+    ];
+    let how = [run.digits.to_string(), name.to_owned(), order];
     first.into_iter().chain(how).chain(last).collect()
 }
 
 /// Equal rows, of results that a figure uses twice, are written once.
-fn text(command: &str, rows: &[Vec<String>]) -> Result<String, Complaint> {
+fn text(command: &str, rows: &[Vec<String>]) -> Result<String, Error> {
     let mut written = std::collections::HashSet::new();
     let mut csv = csv::Writer::from_writer(
         format!("# shadowstep: {}\n# command: {command}\n", env!("CARGO_PKG_VERSION")).into_bytes(),

@@ -78,6 +78,44 @@ impl ExponentialDecay {
     }
 }
 
+/// Below this the round-off of 120 digits may be seen.
+pub(crate) const ROUND_OFF: f64 = -108.0;
+
+/// Rates that differ by less are called the same: what is to be told apart differs by a factor of two.
+pub(crate) const SAME_RATE: f64 = 0.1;
+
+/// The rate of a drift over the steps from `coarsest` on, as far as it is above the round-off.
+pub(crate) fn decay(drifts: &[(f64, f64)], coarsest: f64) -> Option<ExponentialDecay> {
+    let used: Vec<_> = drifts.iter().copied().filter(|(h, y)| *h <= coarsest && *y > ROUND_OFF).collect();
+    ExponentialDecay::of(&used)
+}
+
+/// A row for a table of rates.
+pub(crate) fn decay_row(label: &str, fit: Option<&ExponentialDecay>) -> Vec<String> {
+    let Some(fit) = fit else {
+        return vec![label.to_owned(), "not enough points".to_owned(), String::new(), String::new()];
+    };
+    vec![
+        label.to_owned(),
+        format!("{:.4} ± {:.4}", fit.c, fit.c_error),
+        format!("{:.2}", fit.spread),
+        format!("h = {:.4} … {:.4}, {} steps", fit.steps.0, fit.steps.1, fit.points),
+    ]
+}
+
+/// The header of a table of rates.
+pub(crate) const DECAY_HEADER: [&str; 4] = ["", "c in exp(−c/h)", "spread (decades)", "fitted over"];
+
+/// The least, the geometric mean, and the largest ratio of two drifts at the same steps.
+pub(crate) fn ratios(points: &[(f64, f64)], to: &[(f64, f64)]) -> [f64; 3] {
+    let all = points.iter().zip(to).map(|((_, a), (_, b))| a - b).filter(|ratio| ratio.is_finite());
+    let all: Vec<f64> = all.collect();
+    let mean = all.iter().sum::<f64>() / all.len() as f64;
+    let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
+    let (least, most) = all.iter().fold((least, most), |(least, most), y| (least.min(*y), most.max(*y)));
+    [least, mean, most].map(|ratio| 10_f64.powf(ratio))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

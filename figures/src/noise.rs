@@ -9,10 +9,7 @@ use shadowstep::shadow::{Bilinear, Estimator, Method};
 use shadowstep::tables::shipped;
 use shadowstep::{Increments, Motion, UnitMasses, exact};
 
-use super::charts::{line, log10_axis};
-use super::drawn::{Drawn, scientific};
-use super::results::Results;
-use crate::complaint::Complaint;
+use crate::Error;
 
 /// What an estimator is given beside the states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -49,11 +46,11 @@ struct Part {
 }
 
 /// Störmer–Verlet on Kepler's problem, e = 0.6, h = 1/20, by E_8: blocks that end at 10³, 10^3.5, … steps.
-pub(crate) fn scatter(steps: u64, differences: Differences) -> Result<Vec<Block>, Complaint> {
+pub(crate) fn blocks(steps: u64, differences: Differences) -> Result<Vec<Block>, Error> {
     let (scheme, h) = (shipped("stormer-verlet").expect("it is shipped"), exact("1/20").expect("it is a number"));
     let start = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]);
     let mut estimator = Method::<f64>::estimator(&Bilinear::new(8), &h, 2, &());
-    let failed = |error: shadowstep::run::RunError| Complaint::run(error.to_string(), "this run has no other");
+    let failed = |error: shadowstep::run::RunError| Error::run(error.to_string(), "this run has no other");
     let mut trajectory = Trajectory::new(&scheme, start, &h, steps, estimator.states() / 2).map_err(failed)?;
     let mut near: VecDeque<(f64, f64)> = VecDeque::new();
     let (mut blocks, mut part, mut first, mut end, mut sum) = (Vec::new(), Part::default(), None, 1000.0, 0.0);
@@ -102,62 +99,4 @@ impl Part {
         self.sum += near[REACH].1 + 0.5;
         self.apocentres += 1;
     }
-}
-
-pub(crate) fn draw(results: &Results) -> Drawn {
-    let steps = if results.quick { 100_000 } else { 10_000_000 };
-    let kinds = [
-        (Differences::Sums, "β as a running sum"),
-        (Differences::OfBeta, "β by increments"),
-        (Differences::Increments, "q, p and β by increments"),
-    ];
-    let blocks = kinds.map(|(kind, label)| (label, results.scatter(steps, kind).unwrap_or_default()));
-    let curve = |n: usize, of: &dyn Fn(&Block) -> f64| {
-        let (label, blocks) = &blocks[n];
-        line(*label, blocks.iter().map(|block| ((block.steps as f64).log10(), of(block))).collect(), n)
-    };
-    let mut drawn =
-        Drawn::ours("Störmer–Verlet on Kepler's problem, e = 0.6, h = 1/20, in double precision (f64), by E_8");
-    drawn.chart(
-        "Scatter of the modified energy near apocentres",
-        log10_axis("steps"),
-        log10_axis("max − min within ± 10 steps"),
-        (0..3).map(|n| curve(n, &|block| block.scatter.log10())).collect(),
-        "The largest of all apocentres of a part of the run that ends there.",
-    );
-    drawn.chart(
-        "Wander of its mean",
-        log10_axis("steps"),
-        log10_axis("|mean − mean of the first 1000 steps|"),
-        (1..3).map(|n| curve(n, &|block| block.wander.abs().log10())).collect(),
-        "What the round-off of the steps themselves does: no estimator can help it.",
-    );
-    let last = |n: usize| blocks[n].1.last().cloned();
-    if let (Some(sums), Some(beta), Some(increments)) = (last(0), last(1), last(2)) {
-        drawn.check(
-            "Increments keep the scatter at apocentre below 2e-15 to the end of the run.",
-            format!("{} after {} steps", scientific(increments.scatter), increments.steps),
-            increments.scatter < 2e-15,
-        );
-        drawn.check(
-            "A running sum of β loses digits like the length of the run.",
-            format!(
-                "{}, {:.0} times as much as with increments of β",
-                scientific(sums.scatter),
-                sums.scatter / beta.scatter
-            ),
-            sums.scatter > 100.0 * beta.scatter,
-        );
-        drawn.check(
-            "Differences of q and p from increments gain a little more.",
-            format!("{} against {}", scientific(increments.scatter), scientific(beta.scatter)),
-            increments.scatter < beta.scatter,
-        );
-        drawn.found(format!(
-            "The mean wanders by {} in {} steps: the round-off of the states, which is the same however differences are taken.",
-            scientific(increments.wander.abs()),
-            increments.steps
-        ));
-    }
-    drawn
 }

@@ -14,12 +14,12 @@ pub(crate) struct Report {
     pub(crate) introduction: Vec<String>,
     /// What made it, as pairs of a name and a value: version, digits, command.
     pub(crate) made_with: Vec<(String, String)>,
-    pub(crate) figures: Vec<Figure>,
+    pub(crate) sections: Vec<Section>,
 }
 
 /// One figure of the paper, and what came out here.
 #[derive(Clone, Debug)]
-pub(crate) struct Figure {
+pub(crate) struct Section {
     pub(crate) title: String,
     /// What the paper states, in paragraphs; none where the figure is ours alone.
     pub(crate) stated: Vec<String>,
@@ -36,7 +36,7 @@ pub(crate) struct Figure {
 /// A picture and what is said below it.
 #[derive(Clone, Debug)]
 pub(crate) struct Picture {
-    /// An `<svg>` element without `id`s, as [`Chart::svg`](super::chart::Chart::svg) gives it. It is not escaped.
+    /// An `<svg>` element without `id`s, as [`Chart::svg`](crate::chart::Chart::svg) gives it. It is not escaped.
     pub(crate) svg: String,
     pub(crate) caption: String,
 }
@@ -122,7 +122,7 @@ impl Report {
                     (paragraphs(&self.introduction))
                     dl { @for (name, value) in &self.made_with { dt { (name) } dd { (value) } } }
                     nav aria-label="Figures" { (self.contents()) }
-                    main { @for (n, figure) in self.figures.iter().enumerate() { (figure.section(n + 1)) } }
+                    main { @for (n, figure) in self.sections.iter().enumerate() { (figure.section(n + 1)) } }
                 }
             }
         };
@@ -132,7 +132,7 @@ impl Report {
     /// How many figures agree, and so on: `9 agree, 1 differs, 7 ours`.
     pub(crate) fn verdicts(&self) -> String {
         let counts = [Verdict::Agrees, Verdict::Differs, Verdict::NotReproduced, Verdict::Ours]
-            .map(|verdict| (verdict, self.figures.iter().filter(|figure| figure.verdict == verdict).count()));
+            .map(|verdict| (verdict, self.sections.iter().filter(|figure| figure.verdict == verdict).count()));
         let told = counts.iter().filter(|(_, count)| *count > 0).map(|(verdict, count)| verdict.counted(*count));
         told.collect::<Vec<_>>().join(", ")
     }
@@ -140,7 +140,7 @@ impl Report {
     fn contents(&self) -> Markup {
         html! {
             ol {
-                @for (n, figure) in self.figures.iter().enumerate() {
+                @for (n, figure) in self.sections.iter().enumerate() {
                     li { a href={ "#figure-" (n + 1) } { (set(&figure.title)) } " " (figure.verdict.badge()) }
                 }
             }
@@ -148,7 +148,7 @@ impl Report {
     }
 }
 
-impl Figure {
+impl Section {
     fn section(&self, n: usize) -> Markup {
         let pictures = if self.pictures.len() == 1 { "pictures one" } else { "pictures" };
         html! {
@@ -213,20 +213,20 @@ fn paragraphs(texts: &[String]) -> Markup {
 
 #[cfg(test)]
 mod tests {
-    use super::super::chart::samples;
     use super::*;
+    use crate::chart::samples;
 
     fn texts<const N: usize>(texts: [&str; N]) -> Vec<String> {
         texts.map(str::to_owned).to_vec()
     }
 
-    fn figure(title: &str, verdict: Verdict, charts: usize) -> Figure {
+    fn figure(title: &str, verdict: Verdict, charts: usize) -> Section {
         let pictures = samples().into_iter().take(charts).map(|(_, chart)| Picture {
             svg: chart.svg().unwrap(),
             caption: format!("{} (computed at 120 digits)", chart.title),
         });
         let row = |n: i32| vec![format!("1/{}", 10 << n), format!("{}.31e-{}", n + 1, 20 * n), (n + 2).to_string()];
-        Figure {
+        Section {
             title: title.to_owned(),
             stated: texts(["The drift is exponentially small: log₁₀ is about −c/h, with c ≈ 4.2."]),
             pictures: pictures.collect(),
@@ -251,7 +251,7 @@ mod tests {
             title: "Figures of a paper, computed again".to_owned(),
             introduction: texts(["Each figure is computed from nothing but the equations."]),
             made_with: vec![("digits".to_owned(), "120".to_owned())],
-            figures: vec![
+            sections: vec![
                 figure("Figure 1: drifts", Verdict::Agrees, 2),
                 figure("Figure 2", Verdict::Differs, 1),
                 figure("Figure 3", Verdict::NotReproduced, 0),
@@ -283,7 +283,7 @@ mod tests {
     fn texts_are_escaped_everywhere() {
         let nasty = "<b> & \"it\"";
         let mut page = report();
-        let figure = &mut page.figures[0];
+        let figure = &mut page.sections[0];
         page.made_with[0] = (nasty.to_owned(), nasty.to_owned());
         for text in [&mut page.title, &mut page.introduction[0]] {
             *text = nasty.to_owned();
@@ -310,9 +310,9 @@ mod tests {
     fn verdicts_are_counted() {
         assert_eq!(report().verdicts(), "1 agrees, 1 differs, 1 not reproduced, 1 ours");
         let mut more = report();
-        more.figures.extend(report().figures);
+        more.sections.extend(report().sections);
         assert_eq!(more.verdicts(), "2 agree, 2 differ, 2 not reproduced, 2 ours");
-        more.figures.retain(|figure| figure.verdict == Verdict::Ours);
+        more.sections.retain(|figure| figure.verdict == Verdict::Ours);
         assert_eq!(more.verdicts(), "2 ours");
     }
 

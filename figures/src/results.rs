@@ -7,10 +7,15 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use super::calculation::{By, Calculation, Drift, Energies, Outcome, Setting, What, log10, number};
-use super::double_precision::{Block, Differences};
-use super::work::Store;
-use crate::complaint::{Complaint, Ending, tell};
+use rug::Float;
+use shadowstep::Number;
+
+use crate::calculation::{Calculation, Drift, Energies, Outcome, Quantity};
+use crate::noise::{Block, Differences};
+use crate::numbers::{log10, number};
+use crate::run::{Estimator, Run};
+use crate::tasks::{self, Store};
+use crate::{Error, Observer};
 
 /// The results of all figures.
 pub(crate) struct Results {
@@ -26,9 +31,9 @@ pub(crate) struct Results {
 /// A run and what came of it, as the data beside a figure have it.
 #[derive(Clone, Debug)]
 pub(crate) enum Used {
-    Drift(Setting, By, Drift),
-    Energies(Setting, By, Energies),
-    Number(Setting, &'static str, String),
+    Drift(Run, Estimator, Drift),
+    Energies(Run, Estimator, Energies),
+    Number(Run, &'static str, String),
     Blocks(Differences, Vec<Block>),
 }
 
@@ -45,12 +50,10 @@ impl Results {
     }
 
     /// Computes what was asked for; whether there was anything.
-    pub(crate) fn compute(&mut self, store: &mut Store, ending: &mut Ending) -> Result<bool, Complaint> {
+    pub(crate) fn compute(&mut self, store: &mut Store, observer: &mut dyn Observer) -> Result<bool, Error> {
         let missing = self.missing.take();
-        let found = super::work::run(&missing, store)?;
-        for (_, complaint) in &found.failures {
-            *ending = (*ending).max(tell(complaint));
-        }
+        let found = tasks::run(&missing, store, observer)?;
+        found.failures.iter().for_each(|(_, error)| observer.failed(error));
         let keys = missing.iter().map(key);
         self.known.extend(keys.zip(found.outcomes));
         Ok(!missing.is_empty())
@@ -59,7 +62,7 @@ impl Results {
     /// Takes what was asked for from the store; whether there was anything, and none where not all is there.
     pub(crate) fn take_kept(&mut self, store: &Store) -> Option<bool> {
         let missing = self.missing.take();
-        let found = super::work::kept(&missing, store)?;
+        let found = tasks::kept(&missing, store)?;
         self.known.extend(missing.iter().map(key).zip(found.into_iter().map(Some)));
         Some(!missing.is_empty())
     }
@@ -69,8 +72,8 @@ impl Results {
         self.used.take()
     }
 
-    fn ask(&self, what: What) -> Option<Outcome> {
-        let calculation = what.calculation();
+    fn request(&self, quantity: Quantity) -> Option<Outcome> {
+        let calculation = quantity.calculation();
         match self.known.get(&key(&calculation)) {
             Some(known) => known.clone(),
             None => {
@@ -85,62 +88,62 @@ impl Results {
     }
 
     /// The drift of a run.
-    pub(crate) fn drift(&self, run: &Setting, by: By) -> Option<Drift> {
-        let outcome = self.ask(What::Drift { run: run.clone(), by })?;
+    pub(crate) fn drift(&self, run: &Run, estimator: Estimator) -> Option<Drift> {
+        let outcome = self.request(Quantity::Drift { run: run.clone(), estimator })?;
         let Outcome::Drift(drift) = outcome else { unreachable!("a drift was asked for") };
-        self.using(Used::Drift(run.clone(), by, drift.clone()));
+        self.using(Used::Drift(run.clone(), estimator, drift.clone()));
         Some(drift)
     }
 
     /// The sizes of the drift of a run.
-    pub(crate) fn sizes(&self, run: &Setting, by: By) -> Option<Sizes> {
-        let drift = self.drift(run, by)?;
+    pub(crate) fn sizes(&self, run: &Run, estimator: Estimator) -> Option<Sizes> {
+        let drift = self.drift(run, estimator)?;
         let resolved = drift.permanent.as_ref().filter(|permanent| permanent.resolved);
         let permanent = resolved.map(|permanent| (log10(&permanent.change), log10(&permanent.largest_jump)));
         Some(Sizes { drift: log10(&drift.drift), permanent })
     }
 
     /// log₁₀ of the drift of a run; NaN where there is none, which breaks a line.
-    pub(crate) fn log10_drift(&self, run: &Setting, by: By) -> f64 {
-        self.sizes(run, by).map_or(f64::NAN, |sizes| sizes.drift)
+    pub(crate) fn log10_drift(&self, run: &Run, estimator: Estimator) -> f64 {
+        self.sizes(run, estimator).map_or(f64::NAN, |sizes| sizes.drift)
     }
 
     /// To how many digits the drift of a run is that of the same run with more digits: −log₁₀ of the difference.
-    pub(crate) fn digits_held(&self, run: &Setting, by: By, digits: u32) -> Option<f64> {
-        let [this, more] = [run.clone(), run.clone().digits(digits)].map(|run| self.drift(&run, by));
-        Some(-shadowstep::Number::log10_abs(&(number(&this?.drift) - number(&more?.drift))))
+    pub(crate) fn digits_held(&self, run: &Run, estimator: Estimator, digits: u32) -> Option<f64> {
+        let [this, more] = [run.clone(), run.clone().digits(digits)].map(|run| self.drift(&run, estimator));
+        Some(-(number(&this?.drift) - number(&more?.drift)).log10_abs())
     }
 
     /// The modified energies of a run.
-    pub(crate) fn energies(&self, run: &Setting, by: By) -> Option<Energies> {
-        let outcome = self.ask(What::Energies { run: run.clone(), by })?;
+    pub(crate) fn energies(&self, run: &Run, estimator: Estimator) -> Option<Energies> {
+        let outcome = self.request(Quantity::Energies { run: run.clone(), estimator })?;
         let Outcome::Energies(energies) = outcome else { unreachable!("energies were asked for") };
-        self.using(Used::Energies(run.clone(), by, energies.clone()));
+        self.using(Used::Energies(run.clone(), estimator, energies.clone()));
         Some(energies)
     }
 
     /// The largest |q| of a run.
-    pub(crate) fn farthest(&self, run: &Setting) -> Option<f64> {
-        let farthest = self.number(What::Farthest { run: run.clone() })?;
+    pub(crate) fn farthest(&self, run: &Run) -> Option<f64> {
+        let farthest = self.number(Quantity::Farthest { run: run.clone() })?;
         self.using(Used::Number(run.clone(), "largest |q|", farthest.clone()));
         Some(number(&farthest).to_f64())
     }
 
     /// H at the end of a run less H at its start.
-    pub(crate) fn transit(&self, run: &Setting) -> Option<rug::Float> {
-        let change = self.number(What::Transit { run: run.clone() })?;
+    pub(crate) fn transit(&self, run: &Run) -> Option<Float> {
+        let change = self.number(Quantity::Transit { run: run.clone() })?;
         self.using(Used::Number(run.clone(), "change of H", change.clone()));
         Some(number(&change))
     }
 
-    fn number(&self, what: What) -> Option<String> {
-        let Outcome::Number(number) = self.ask(what)? else { unreachable!("a number was asked for") };
+    fn number(&self, quantity: Quantity) -> Option<String> {
+        let Outcome::Number(number) = self.request(quantity)? else { unreachable!("a number was asked for") };
         Some(number)
     }
 
     /// Scatter and wander in double precision.
-    pub(crate) fn scatter(&self, steps: u64, differences: Differences) -> Option<Vec<Block>> {
-        let outcome = self.ask(What::Scatter { steps, differences })?;
+    pub(crate) fn noise(&self, steps: u64, differences: Differences) -> Option<Vec<Block>> {
+        let outcome = self.request(Quantity::Noise { steps, differences })?;
         let Outcome::Blocks(blocks) = outcome else { unreachable!("blocks were asked for") };
         self.using(Used::Blocks(differences, blocks.clone()));
         Some(blocks)

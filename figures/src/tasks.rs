@@ -1,6 +1,5 @@
 //! Tasks over all cores, whose outcomes are kept as they come: what was interrupted goes on where it stopped.
 
-mod progress;
 mod store;
 
 use std::collections::HashMap;
@@ -11,8 +10,7 @@ use std::time::Instant;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::complaint::Complaint;
-use progress::Progress;
+use crate::{Error, Observer, Progress};
 pub(crate) use store::Store;
 
 /// Something to compute, which is known by its JSON: equal JSON is an equal task, and is computed once.
@@ -27,7 +25,7 @@ pub(crate) trait Task: Serialize + Sync {
     fn cost(&self) -> f64;
 
     /// Computes it, in one thread.
-    fn compute(&self) -> Result<Self::Outcome, Complaint>;
+    fn compute(&self) -> Result<Self::Outcome, Error>;
 }
 
 /// What came of some tasks.
@@ -36,7 +34,7 @@ pub(crate) struct Outcomes<O> {
     /// In the order in which they were asked for; `None` where the task failed.
     pub(crate) outcomes: Vec<Option<O>>,
     /// The failures, with the first of the tasks (by its place) that failed so.
-    pub(crate) failures: Vec<(usize, Complaint)>,
+    pub(crate) failures: Vec<(usize, Error)>,
 }
 
 /// Does what the store does not have yet, the costliest first, and gives all outcomes.
@@ -44,7 +42,11 @@ pub(crate) struct Outcomes<O> {
 /// It uses all threads of the present rayon pool: as many as there are cores, or as `RAYON_NUM_THREADS` or the caller's
 /// pool says. Outcomes are read back from their JSON in any case, so that they depend neither on the threads nor on
 /// what was done before. The failure of a task stops no other; only a store that cannot be written stops all.
-pub(crate) fn run<T: Task>(tasks: &[T], store: &mut Store) -> Result<Outcomes<T::Outcome>, Complaint> {
+pub(crate) fn run<T: Task>(
+    tasks: &[T],
+    store: &mut Store,
+    observer: &mut dyn Observer,
+) -> Result<Outcomes<T::Outcome>, Error> {
     let keys = tasks.iter().map(key).collect::<Result<Vec<_>, _>>()?;
     let mut places: HashMap<&str, usize> = HashMap::new();
     let mut due = Vec::new();
@@ -59,7 +61,7 @@ pub(crate) fn run<T: Task>(tasks: &[T], store: &mut Store) -> Result<Outcomes<T:
         }
     }
     due.sort_by(|&a, &b| tasks[b].cost().total_cmp(&tasks[a].cost()));
-    let failures = compute(tasks, &keys, &due, store)?;
+    let failures = compute(tasks, &keys, &due, store, observer)?;
     let outcome = |key: &String| {
         let failed = failures.iter().any(|(place, _)| *place == places[key.as_str()]);
         if failed { Ok(None) } else { store.outcome(key).map(serde_json::from_str).transpose() }
@@ -74,7 +76,7 @@ pub(crate) fn kept<T: Task>(tasks: &[T], store: &Store) -> Option<Vec<T::Outcome
 }
 
 /// The JSON of a task; a `Value` has one way to write it.
-fn key<T: Serialize>(task: &T) -> Result<String, Complaint> {
+fn key<T: Serialize>(task: &T) -> Result<String, Error> {
     Ok(serde_json::to_value(task)?.to_string())
 }
 
@@ -84,9 +86,10 @@ fn compute<T: Task>(
     keys: &[String],
     due: &[usize],
     store: &mut Store,
-) -> Result<Vec<(usize, Complaint)>, Complaint> {
+    observer: &mut dyn Observer,
+) -> Result<Vec<(usize, Error)>, Error> {
     let cost = |place: usize| tasks[place].cost().max(0.0);
-    let progress = Mutex::new(Progress::new(due.len(), due.iter().map(|&place| cost(place)).sum()));
+    let progress = Mutex::new(Reporter::new(observer, due.len(), due.iter().map(|&place| cost(place)).sum()));
     let next = AtomicUsize::new(0);
     let stop = AtomicBool::new(false);
     let store = Mutex::new(store);
@@ -116,12 +119,42 @@ fn compute<T: Task>(
     Ok(failures)
 }
 
+/// Reports how much of the cost is done, and not only how many tasks: their costs differ widely.
+struct Reporter<'a> {
+    observer: &'a mut dyn Observer,
+    done: usize,
+    tasks: usize,
+    cost_done: f64,
+    cost: f64,
+}
+
+impl<'a> Reporter<'a> {
+    fn new(observer: &'a mut dyn Observer, tasks: usize, cost: f64) -> Self {
+        let mut reporter = Reporter { observer, done: 0, tasks, cost_done: 0.0, cost };
+        if tasks > 0 {
+            reporter.report();
+        }
+        reporter
+    }
+
+    fn done(&mut self, cost: f64) {
+        self.done += 1;
+        self.cost_done += cost;
+        self.report();
+    }
+
+    fn report(&mut self) {
+        let fraction = if self.cost > 0.0 { self.cost_done / self.cost } else { 0.0 };
+        self.observer.progress(Progress { done: self.done, tasks: self.tasks, fraction });
+    }
+}
+
 /// The JSON of an outcome, if it can be read back.
-fn json<T: Task>(outcome: &T::Outcome) -> Result<String, Complaint> {
+fn json<T: Task>(outcome: &T::Outcome) -> Result<String, Error> {
     let json = serde_json::to_string(outcome)?;
     match serde_json::from_str::<T::Outcome>(&json) {
         Ok(_) => Ok(json),
-        Err(error) => Err(Complaint::run(
+        Err(error) => Err(Error::run(
             format!("an outcome cannot be read back from its JSON ({error}): {json}"),
             "a number in it may be infinite or not a number",
         )),

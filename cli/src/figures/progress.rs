@@ -5,24 +5,21 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
+use shadowstep_figures::Progress;
 
-/// A bar on stderr, where that is a terminal; its length is the cost of all tasks, and not their number.
-pub(super) struct Progress {
+/// A bar on stderr, if that is a terminal; its length is the cost of all tasks, not their number.
+pub(super) struct Bar {
     bar: ProgressBar,
-    /// How many are done, and of how many.
-    tasks: (usize, usize),
-    /// Of those done, and of all.
-    cost: (f64, f64),
-    /// How long all together will take, as it seemed when the last task was done.
+    /// The time that all tasks take together, as estimated when the last task was done.
     expected: Arc<Mutex<Option<Duration>>>,
 }
 
-impl Progress {
+impl Bar {
     /// The positions of the bar.
     const LENGTH: f64 = 10_000.0;
 
-    pub(super) fn new(tasks: usize, cost: f64) -> Progress {
-        let bar = if tasks > 0 { ProgressBar::new(Self::LENGTH as u64) } else { ProgressBar::hidden() };
+    pub(super) fn new() -> Bar {
+        let bar = ProgressBar::new(Self::LENGTH as u64);
         let expected = Arc::new(Mutex::new(None));
         let seen = Arc::clone(&expected);
         let left = move |state: &ProgressState, writer: &mut dyn Write| {
@@ -37,34 +34,22 @@ impl Progress {
         if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_secs(1));
         }
-        let progress = Progress { bar, tasks: (0, tasks), cost: (0.0, cost), expected };
-        progress.show();
-        progress
+        Bar { bar, expected }
     }
 
-    pub(super) fn done(&mut self, cost: f64) {
-        self.tasks.0 += 1;
-        self.cost.0 += cost;
-        *self.expected.lock().unwrap_or_else(PoisonError::into_inner) = in_all(self.bar.elapsed(), self.fraction());
-        self.show();
-    }
-
-    fn fraction(&self) -> f64 {
-        if self.cost.1 > 0.0 { self.cost.0 / self.cost.1 } else { 0.0 }
-    }
-
-    fn show(&self) {
-        self.bar.set_prefix(format!("{} of {} tasks", self.tasks.0, self.tasks.1));
-        self.bar.set_position((self.fraction() * Self::LENGTH) as u64);
+    pub(super) fn show(&self, Progress { done, tasks, fraction }: Progress) {
+        *self.expected.lock().unwrap_or_else(PoisonError::into_inner) = in_all(self.bar.elapsed(), fraction);
+        self.bar.set_prefix(format!("{done} of {tasks} tasks"));
+        self.bar.set_position((fraction * Self::LENGTH) as u64);
     }
 }
 
-/// How long all takes where a fraction of the cost took so long; `None` where that says nothing.
+/// The time of all tasks if a fraction of their cost took `elapsed`; `None` if that cannot be estimated.
 fn in_all(elapsed: Duration, fraction: f64) -> Option<Duration> {
     Duration::try_from_secs_f64(elapsed.as_secs_f64() / fraction).ok()
 }
 
-impl Drop for Progress {
+impl Drop for Bar {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
@@ -74,12 +59,9 @@ impl Drop for Progress {
 mod tests {
     use super::*;
 
-    /// One task of ten is done, but nine tenths of the cost: a ninth of the time is left.
+    /// Nine tenths of the cost are done, however many tasks that is: a ninth of the time is left.
     #[test]
-    fn time_is_told_from_costs_and_not_from_the_number_of_tasks() {
-        let mut progress = Progress::new(10, 100.0);
-        progress.done(90.0);
-        assert_eq!(progress.fraction(), 0.9);
+    fn time_is_estimated_from_costs() {
         assert_eq!(in_all(Duration::from_secs(90), 0.9), Some(Duration::from_secs(100)));
         assert_eq!(in_all(Duration::from_secs(90), 0.0), None);
     }

@@ -131,7 +131,7 @@ fn the_report_of_others_is_not_replaced() {
     fs::write(&report, "mine").unwrap();
     let said = shadowstep(&format!("figures double-precision --quick --out {}", folder.path().display()));
     assert_eq!((said.code, said.out.as_str()), (2, ""));
-    let expected = format!("error: {} is there, without results of this program beside it\n", report.display());
+    let expected = format!("error: {} exists, without results of this program beside it\n", report.display());
     assert!(said.err.starts_with(&expected), "{}", said.err);
     assert_eq!(files(folder.path()), [("report.html".to_owned(), "mine".to_owned())]);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);

@@ -1,6 +1,5 @@
 //! The picture as a whole.
 
-use std::error::Error;
 use std::io;
 use std::ops::Range;
 
@@ -14,10 +13,10 @@ use super::labels::spread;
 use super::layout::{GAP, LINE, Layout, MARGIN, SAMPLE, Span, TEXT, TICK, TITLE, UNDER, in_legend};
 use super::looks::{self, Shape};
 use super::{Chart, Curve, Look, Marker, Side};
-use crate::complaint::Complaint;
+use crate::Error;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn Error + Send + Sync>>;
+type DrawResult = Result<(), Box<dyn std::error::Error + Send + Sync>>;
 type Pixel = (i32, i32);
 
 const RADIUS: f64 = 4.0;
@@ -42,7 +41,7 @@ impl Chart {
     ///
     /// Text is text, without `id`s and scripts; on dark screens it turns dark. Thin out curves with more points than
     /// can be seen (some thousands) before: every point is written.
-    pub(crate) fn svg(&self) -> Result<String, Complaint> {
+    pub(crate) fn svg(&self) -> Result<String, Error> {
         let layout = Layout::of(self);
         let size = (layout.width.ceil() as u32, layout.height.ceil() as u32);
         let mut drawn = String::new();
@@ -53,7 +52,7 @@ impl Chart {
         Ok(finished(&drawn, size, &self.title))
     }
 
-    fn draw(&self, area: &Area<'_>, layout: &Layout) -> Drawn {
+    fn draw(&self, area: &Area<'_>, layout: &Layout) -> DrawResult {
         let [x, y, second] = [&layout.x, &layout.y, &layout.second];
         let mut builder = ChartBuilder::on(area);
         builder
@@ -107,7 +106,7 @@ impl Chart {
     }
 
     /// At the right, each curve's label at the height where the curve ends, or as near as there is room.
-    fn label_ends(&self, area: &Area<'_>, ends: &[Option<Pixel>], columns: Range<i32>, rows: Range<i32>) -> Drawn {
+    fn label_ends(&self, area: &Area<'_>, ends: &[Option<Pixel>], columns: Range<i32>, rows: Range<i32>) -> DrawResult {
         // curves that are nowhere to be seen are named below the others
         let wanted: Vec<_> = ends.iter().map(|end| f64::from(end.map_or(rows.end, |(_, y)| y))).collect();
         let range = (f64::from(rows.start + fine(LINE / 2.0)), f64::from(rows.end - fine(LINE / 2.0)));
@@ -125,7 +124,7 @@ impl Chart {
     }
 
     /// Title, legend, and notes.
-    fn words_around(&self, area: &Area<'_>, layout: &Layout) -> Drawn {
+    fn words_around(&self, area: &Area<'_>, layout: &Layout) -> DrawResult {
         for (n, line) in layout.title.iter().enumerate() {
             let mut style = text(TITLE, (HPos::Left, VPos::Top));
             style.font = style.font.style(FontStyle::Bold);
@@ -144,7 +143,7 @@ impl Chart {
 }
 
 /// Short strokes at the left and lower sides.
-fn minor_ticks(area: &Area<'_>, x: &Span, y: &Span, place: &dyn Fn((f64, f64)) -> Pixel, corner: Pixel) -> Drawn {
+fn minor_ticks(area: &Area<'_>, x: &Span, y: &Span, place: &dyn Fn((f64, f64)) -> Pixel, corner: Pixel) -> DrawResult {
     let style = stroke(Ink::Text, 0.8);
     for &value in &x.ticks.minor {
         let column = place((value, y.range.0)).0;
@@ -165,7 +164,7 @@ fn draw_curve(
     marked: bool,
     frame: Frame,
     place: &dyn Fn((f64, f64)) -> Pixel,
-) -> Result<Option<Pixel>, Box<dyn Error + Send + Sync>> {
+) -> Result<Option<Pixel>, Box<dyn std::error::Error + Send + Sync>> {
     let inside: Vec<_> =
         curve.points.iter().filter(|point| frame.contains(**point)).map(|point| place(*point)).collect();
     if let Look::Points(marker) = curve.look {
@@ -214,7 +213,7 @@ fn line_style(curve: &Curve) -> ShapeStyle {
     }
 }
 
-fn draw_marker(area: &Area<'_>, marker: Marker, colour: usize, at: Pixel) -> Drawn {
+fn draw_marker(area: &Area<'_>, marker: Marker, colour: usize, at: Pixel) -> DrawResult {
     let style = stroke(Ink::Curve(colour), 1.5);
     match marker.shape(at, RADIUS * FINE) {
         Shape::Strokes(strokes) => {
@@ -230,7 +229,7 @@ fn draw_marker(area: &Area<'_>, marker: Marker, colour: usize, at: Pixel) -> Dra
 }
 
 /// A sample of the curve, and its label, whose middle is at the right of a place.
-fn draw_label(area: &Area<'_>, curve: &Curve, marked: bool, (x, y): Pixel, label: &str) -> Drawn {
+fn draw_label(area: &Area<'_>, curve: &Curve, marked: bool, (x, y): Pixel, label: &str) -> DrawResult {
     if !matches!(curve.look, Look::Points(_)) {
         area.draw(&PathElement::new([(x, y), (x + fine(SAMPLE), y)], line_style(curve)))?;
     }

@@ -1,27 +1,32 @@
 //! Ours: what estimators say of their errors, against their errors on the exact flow.
 
 use shadowstep::Number;
+use shadowstep::problems::Problem;
 
-use super::calculation::{By, Energies, Setting, number};
-use super::charts::{dashed, line, linear, log10_axis, thick};
-use super::drawn::Drawn;
-use super::kepler::EXACT;
-use super::results::Results;
+use crate::calculation::Energies;
+use crate::chart::{Axis, Curve};
+use crate::drawing::Drawing;
+use crate::figure::Figure;
+use crate::numbers::number;
+use crate::results::Results;
+use crate::run::{EXACT_FLOW, Estimator, Run};
 
-const ESTIMATORS: [(&str, By); 6] = [
-    ("T_{m,m}, m = 10", By::Central { m: 10 }),
-    ("T_{m,m}, m = 40", By::Central { m: 40 }),
-    ("best m ≤ 100", By::Best { largest: 100, early: false }),
-    ("E_8", By::Bilinear { k: 8 }),
-    ("E_16", By::Bilinear { k: 16 }),
-    ("E_32", By::Bilinear { k: 32 }),
+pub(super) const FIGURE: Figure = Figure { name: "reliability", title: "What estimators say of their errors", draw };
+
+const ESTIMATORS: [(&str, Estimator); 6] = [
+    ("T_{m,m}, m = 10", Estimator::Central { m: 10 }),
+    ("T_{m,m}, m = 40", Estimator::Central { m: 40 }),
+    ("best m ≤ 100", Estimator::Best { largest: 100, early: false }),
+    ("E_8", Estimator::Bilinear { k: 8 }),
+    ("E_16", Estimator::Bilinear { k: 16 }),
+    ("E_32", Estimator::Bilinear { k: 32 }),
 ];
 
 /// Beyond this an estimate of the error is none.
 const RELIABLE: f64 = 2.0;
 
-fn run(e: &str, h: &str, until: &'static str) -> Setting {
-    Setting::of("kepler", EXACT, h).with("eccentricity", e).until(until)
+fn run(e: &str, h: &str, until: &'static str) -> Run {
+    Run::of(Problem::Kepler, EXACT_FLOW, h).with("eccentricity", e).until(until)
 }
 
 /// log₁₀ of the true errors: the energy is −1/2.
@@ -48,13 +53,13 @@ fn shown(ratio: f64) -> String {
     if (0.01..1000.0).contains(&ratio) { format!("{ratio:.2}") } else { format!("{ratio:.0e}") }
 }
 
-pub(crate) fn draw(results: &Results) -> Drawn {
-    let mut drawn = Drawn::ours(
+fn draw(results: &Results) -> Drawing {
+    let mut drawing = Drawing::ours(
         "On the exact flow of Kepler's problem the error of an estimate is known. The paper takes |T_{m,m} − T_{m−1,m−1}| for it. Ours is the \
          largest of the differences of the estimates at a few states on either side, of their last terms, and of the last digit.",
     );
     for (label, by) in [ESTIMATORS[2], ESTIMATORS[4]] {
-        along_an_orbit(results, &mut drawn, label, by);
+        along_an_orbit(results, &mut drawing, label, by);
     }
     let orbits = results.grid(&["0", "3/10", "6/10", "9/10"], &["0", "6/10", "9/10"]);
     let steps = results.grid(&["1/10", "3/31", "1/20", "1/40"], &["1/10", "1/20"]);
@@ -77,31 +82,31 @@ pub(crate) fn draw(results: &Results) -> Drawn {
         worst_of_all = worst_of_all.max(ours[2]);
         rows.push([label.to_owned()].into_iter().chain(ours.map(shown)).chain([shown(papers[2]), few]).collect());
     }
-    drawn.table(
+    drawing.table(
         "True error / estimated error over orbits of e = 0 to 0.9, h = 1/10 to 1/40",
         &["", "median", "95 %", "largest", "largest, by the last term", "largest, h = 2: three states a period"],
         rows,
     );
-    drawn.check(
+    drawing.check(
         "The estimated errors are hardly ever less than the true ones, close encounters included.",
         format!("true/estimated is at most {worst_of_all:.2}"),
         worst_of_all < RELIABLE,
     );
-    drawn
+    drawing
 }
 
-fn along_an_orbit(results: &Results, drawn: &mut Drawn, label: &str, by: By) {
+fn along_an_orbit(results: &Results, drawing: &mut Drawing, label: &str, by: Estimator) {
     let Some(found) = results.energies(&run("6/10", "1/20", "7"), by) else { return };
     let against = |sizes: Vec<f64>| found.times.iter().copied().zip(sizes).collect::<Vec<_>>();
     let known = |sizes: &[Option<f64>]| against(sizes.iter().map(|size| size.unwrap_or(f64::NAN)).collect());
-    drawn.chart(
+    drawing.chart(
         &format!("Exact flow, Kepler, e = 0.6, h = 1/20, {label}"),
-        linear("time t"),
-        log10_axis("error"),
+        Axis::linear("time t"),
+        Axis::log10("error"),
         vec![
-            thick("true", against(true_errors(&found)), 0),
-            line("estimated", known(&found.errors), 1),
-            dashed("last term", known(&found.last_terms), 2),
+            Curve::thick("true", against(true_errors(&found)), 0),
+            Curve::line("estimated", known(&found.errors), 1),
+            Curve::dashed("last term", known(&found.last_terms), 2),
         ],
         "One orbit from pericentre to pericentre.",
     );

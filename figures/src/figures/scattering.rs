@@ -2,13 +2,18 @@
 
 use rug::Float;
 use shadowstep::Number;
+use shadowstep::problems::Problem;
 
-use super::calculation::{By, Setting};
-use super::chart::Marker;
-use super::charts::{dots, line, linear, log10_axis, thick};
-use super::drawn::{DECAY_HEADER, Drawn, decay, decay_row, power};
-use super::kepler::BEST;
-use super::results::Results;
+use crate::chart::{Axis, Curve, Marker};
+use crate::drawing::Drawing;
+use crate::figure::Figure;
+use crate::fit::{DECAY_HEADER, decay, decay_row};
+use crate::numbers::power;
+use crate::results::Results;
+use crate::run::{BEST, Estimator, Run};
+
+pub(super) const FIGURE: Figure =
+    Figure { name: "scattering", title: "Scattering: the change of the energy itself", draw };
 
 /// Starts within one step.
 const PHASES: u32 = 12;
@@ -17,8 +22,8 @@ const PHASES: u32 = 12;
 const STEPS: [u32; 13] = [2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20];
 
 /// The start is moved by `phase`/12 of what a step covers at speed 2.
-fn run(n: u32, phase: u32) -> Setting {
-    Setting::of("scattering", "stormer-verlet", format!("1/{n}"))
+fn run(n: u32, phase: u32) -> Run {
+    Run::of(Problem::Scattering, "stormer-verlet", format!("1/{n}"))
         .with("start", format!("17 + {}/{}", 2 * phase, n * PHASES))
         .until("18")
 }
@@ -37,8 +42,8 @@ fn largest(results: &Results, n: u32) -> f64 {
     (0..PHASES).map(|phase| size(results, n, phase)).fold(f64::NEG_INFINITY, f64::max)
 }
 
-pub(crate) fn draw(results: &Results) -> Drawn {
-    let mut drawn = Drawn::of_paper(&[
+fn draw(results: &Results) -> Drawing {
+    let mut drawing = Drawing::of_paper(&[
         "Benettin and Giorgilli's experiment: a potential that vanishes fast, a start far away. Where U vanishes the methods \
          conserve H itself, so |H(y₀) − H(y_T)| can be observed; it is of the order exp(−C/h).",
         "Repeated with the authors' method, the experiment had zero error: a matter that warrants further investigation.",
@@ -46,24 +51,25 @@ pub(crate) fn draw(results: &Results) -> Drawn {
     let steps = results.grid(&STEPS, &[2, 4, 6, 8, 12, 16]);
     let against = |y: &dyn Fn(u32) -> f64| -> Vec<(f64, f64)> { steps.iter().map(|&n| (f64::from(n), y(n))).collect() };
     let changes = against(&|n| largest(results, n));
-    let [best, bilinear] = [BEST, By::Bilinear { k: 40 }].map(|by| against(&|n| results.log10_drift(&run(n, 0), by)));
+    let [best, bilinear] =
+        [BEST, Estimator::Bilinear { k: 40 }].map(|by| against(&|n| results.log10_drift(&run(n, 0), by)));
     let every = steps.iter().flat_map(|&n| (0..PHASES).map(move |phase| (f64::from(n), size(results, n, phase))));
-    drawn.chart(
+    drawing.chart(
         "Störmer–Verlet, U = exp(−|q|²), impact parameter 0.3, speed 2",
-        linear("1/h"),
-        log10_axis("energy"),
+        Axis::linear("1/h"),
+        Axis::log10("energy"),
         vec![
-            thick("drift by the best m", best.clone(), 0),
-            line("drift by E_40", bilinear, 2),
-            line("largest change of H", changes.clone(), 1),
-            dots("change of H, each start", every.collect(), 1, Marker::Dot),
+            Curve::thick("drift by the best m", best.clone(), 0),
+            Curve::line("drift by E_40", bilinear, 2),
+            Curve::line("largest change of H", changes.clone(), 1),
+            Curve::dots("change of H, each start", every.collect(), 1, Marker::Dot),
         ],
         "The change of H from before the encounter to after it, for 12 starts within one step.",
     );
-    against_the_phase(results, &mut drawn);
-    rates(&mut drawn, &changes, &best);
+    against_the_phase(results, &mut drawing);
+    rates(&mut drawing, &changes, &best);
     let smallest = (0..PHASES).map(|phase| size(results, 8, phase)).fold(f64::INFINITY, f64::min);
-    drawn.check(
+    drawing.check(
         "The experiment has zero error.",
         format!(
             "at h = 1/8 the change is up to {}; among 12 starts the smallest is {}: a start for which it vanishes would look \
@@ -75,12 +81,12 @@ pub(crate) fn draw(results: &Results) -> Drawn {
     );
     let held = [run(8, 1), run(8, 1).digits(200)].map(|run| results.transit(&run));
     if let [Some(few), Some(many)] = held {
-        drawn.digits_held("the change of H at h = 1/8 from the second start", Some(-(many - few).log10_abs()));
+        drawing.digits_held("the change of H at h = 1/8 from the second start", Some(-(many - few).log10_abs()));
     }
-    drawn
+    drawing
 }
 
-fn against_the_phase(results: &Results, drawn: &mut Drawn) {
+fn against_the_phase(results: &Results, drawing: &mut Drawing) {
     let curves = results.grid(&[4, 6, 8, 12], &[4, 8]).iter().enumerate().map(|(i, &n)| {
         let most = largest(results, n);
         let relative = |phase: u32| {
@@ -90,22 +96,22 @@ fn against_the_phase(results: &Results, drawn: &mut Drawn) {
         };
         let shift = |phase: u32| f64::from(phase) / f64::from(PHASES);
         let points = (0..=PHASES).map(|phase| (shift(phase), relative(phase).unwrap_or(f64::NAN)));
-        line(format!("h = 1/{n}"), points.collect(), i)
+        Curve::line(format!("h = 1/{n}"), points.collect(), i)
     });
-    drawn.chart(
+    drawing.chart(
         "Change of H against the phase of the first step",
-        linear("shift of the start in steps"),
-        linear("change of H / largest"),
+        Axis::linear("shift of the start in steps"),
+        Axis::linear("change of H / largest"),
         curves.collect(),
         "A sinusoid, which vanishes for two starts within a step.",
     );
 }
 
-fn rates(drawn: &mut Drawn, changes: &[(f64, f64)], best: &[(f64, f64)]) {
+fn rates(drawing: &mut Drawing, changes: &[(f64, f64)], best: &[(f64, f64)]) {
     let fit = |points: &[(f64, f64)]| decay(&points.iter().map(|(n, y)| (1.0 / n, *y)).collect::<Vec<_>>(), 0.25);
     let (change, best) = (fit(changes), fit(best));
     if let (Some(change), Some(best)) = (&change, &best) {
-        drawn.check(
+        drawing.check(
             "|H(y₀) − H(y_T)| is of the order exp(−C/h).",
             format!(
                 "C = {:.3} ± {:.3} for the largest change, a line to within {:.2} decades",
@@ -113,11 +119,11 @@ fn rates(drawn: &mut Drawn, changes: &[(f64, f64)], best: &[(f64, f64)]) {
             ),
             change.spread < 0.5,
         );
-        drawn.found(format!(
+        drawing.found(format!(
             "C is {:.3} times the c of the drift by the best m, as on Kepler's problem, where the exact flow shows the drift, too.",
             change.c / best.c
         ));
     }
     let rows = vec![decay_row("largest change of H", change.as_ref()), decay_row("drift by the best m", best.as_ref())];
-    drawn.table("Rates", &DECAY_HEADER, rows);
+    drawing.table("Rates", &DECAY_HEADER, rows);
 }

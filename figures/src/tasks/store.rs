@@ -4,16 +4,16 @@
 //! whole. A process holds a lock on the file, which the system takes off when the process ends in whatever way.
 
 use std::collections::HashMap;
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, File, OpenOptions};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use same_file::Handle;
 use serde::Deserialize;
 use serde_json::{Value, json};
+use shadowstep_scenes::lock::{LockError, open_locked};
 
-use crate::complaint::{Complaint, remark};
+use crate::{Error, Observer};
 
 /// The name of the file in its folder.
 const NAME: &str = "results.jsonl";
@@ -43,8 +43,8 @@ impl Store {
     /// Outcomes of another version of the program are set aside under another name. A last line that is not whole was
     /// being written when the program was ended, and is dropped. It is an error if another process has the file, or a
     /// line is none of ours.
-    pub(crate) fn open(folder: &Path) -> Result<Store, Complaint> {
-        Store::open_as(folder, env!("CARGO_PKG_VERSION"))
+    pub(crate) fn open(folder: &Path, observer: &mut dyn Observer) -> Result<Store, Error> {
+        Store::open_as(folder, env!("CARGO_PKG_VERSION"), observer)
     }
 
     /// Whether a folder has such a file.
@@ -52,7 +52,7 @@ impl Store {
         folder.join(NAME).exists()
     }
 
-    pub(super) fn open_as(folder: &Path, version: &str) -> Result<Store, Complaint> {
+    fn open_as(folder: &Path, version: &str, observer: &mut dyn Observer) -> Result<Store, Error> {
         fs::create_dir_all(folder).map_err(|error| cannot(folder, &error))?;
         let path = folder.join(NAME);
         let mut file = locked(&path)?;
@@ -73,14 +73,14 @@ impl Store {
         if found.shadowstep != version {
             let aside = unused(folder, &found.shadowstep);
             fs::rename(&path, &aside).map_err(|error| cannot(&path, &error))?;
-            remark(format_args!(
+            observer.note(&format!(
                 "{} is of version {} and not {version}: it is now {}, and all is computed again",
                 path.display(),
                 found.shadowstep,
                 aside.display()
             ));
             drop(file);
-            return Store::open_as(folder, version);
+            return Store::open_as(folder, version, observer);
         }
         let mut outcomes = HashMap::new();
         for (n, line) in lines.lines().enumerate() {
@@ -97,7 +97,7 @@ impl Store {
     }
 
     /// Adds an outcome, also to the file. After an error, the last line of the file may be torn.
-    pub(super) fn keep(&mut self, task: &str, outcome: String, took: Duration) -> Result<(), Complaint> {
+    pub(super) fn keep(&mut self, task: &str, outcome: String, took: Duration) -> Result<(), Error> {
         let seconds = (took.as_secs_f64() * 1e3).round() / 1e3;
         // one write, so that only the system can tear it
         let line = format!("{{\"task\":{task},\"outcome\":{outcome},\"seconds\":{seconds}}}\n");
@@ -109,21 +109,14 @@ impl Store {
 }
 
 /// The file, for this process alone; writes go to its end.
-fn locked(path: &Path) -> Result<File, Complaint> {
-    let taken = || {
-        let sentence = format!("another process is at work in {}", path.display());
-        Complaint::usage(sentence, "wait until it ends, or give another folder")
-    };
-    let file =
-        OpenOptions::new().read(true).append(true).create(true).open(path).map_err(|error| cannot(path, &error))?;
-    match file.try_lock() {
-        Ok(()) => {}
-        Err(TryLockError::WouldBlock) => return Err(taken()),
-        Err(TryLockError::Error(error)) => return Err(cannot(path, &error)),
-    }
-    // the process that held the lock may have set the file aside just now
-    let still_there = Handle::from_path(path).ok() == Some(Handle::from_file(file.try_clone()?)?);
-    if still_there { Ok(file) } else { Err(taken()) }
+fn locked(path: &Path) -> Result<File, Error> {
+    open_locked(path, OpenOptions::new().read(true).append(true).create(true)).map_err(|error| match error {
+        LockError::Taken => {
+            let message = format!("another process is at work in {}", path.display());
+            Error::usage(message, "wait until it ends, or give another folder")
+        }
+        LockError::Io(error) => cannot(path, &error),
+    })
 }
 
 /// A name that no file has yet: `results-0.1.0.jsonl`, `results-0.1.0-2.jsonl`, …
@@ -139,17 +132,17 @@ fn unused(folder: &Path, version: &str) -> PathBuf {
     path
 }
 
-fn cannot(path: &Path, error: &std::io::Error) -> Complaint {
+fn cannot(path: &Path, error: &std::io::Error) -> Error {
     let sentence = format!("{} cannot be written: {error}", path.display());
-    Complaint::usage(sentence, "give a folder that is yours")
+    Error::usage(sentence, "give a folder that is yours")
 }
 
-fn foreign(path: &Path, why: &str) -> Complaint {
+fn foreign(path: &Path, why: &str) -> Error {
     let sentence = format!("{} is no file of outcomes: {why}", path.display());
-    Complaint::usage(sentence, "give another folder, or take the file away")
+    Error::usage(sentence, "give another folder, or take the file away")
 }
 
-fn damaged(path: &Path, line: usize, error: &serde_json::Error) -> Complaint {
+fn damaged(path: &Path, line: usize, error: &serde_json::Error) -> Error {
     let sentence = format!("{}:{line}: no outcome of a task: {error}", path.display());
-    Complaint::usage(sentence, "delete the line, and its task is computed again")
+    Error::usage(sentence, "delete the line, and its task is computed again")
 }

@@ -21,11 +21,11 @@ impl Task for Sum<'_> {
         f64::from(self.n)
     }
 
-    fn compute(&self) -> Result<f64, Complaint> {
+    fn compute(&self) -> Result<f64, Error> {
         self.begun.lock().unwrap().push(self.n);
         match self.n {
             13 => Ok(f64::NAN),
-            n if n > 1000 && n % 2 == 1 => Err(Complaint::run(format!("{n} is odd"), "take another")),
+            n if n > 1000 && n % 2 == 1 => Err(Error::run(format!("{n} is odd"), "take another")),
             n => Ok((1..=n).map(|k| f64::from(k).powi(-2)).sum()),
         }
     }
@@ -35,9 +35,9 @@ impl Task for Sum<'_> {
 fn sums(folder: &Path, threads: usize, numbers: &[u32]) -> (Outcomes<f64>, Vec<u32>) {
     let begun = Mutex::new(Vec::new());
     let tasks: Vec<_> = numbers.iter().map(|&n| Sum { n, begun: &begun }).collect();
-    let mut store = Store::open(folder).unwrap();
+    let mut store = Store::open(folder, &mut ()).unwrap();
     let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    let outcomes = pool.install(|| run(&tasks, &mut store)).unwrap();
+    let outcomes = pool.install(|| run(&tasks, &mut store, &mut ())).unwrap();
     drop(tasks);
     (outcomes, begun.into_inner().unwrap())
 }
@@ -115,11 +115,11 @@ fn outcomes_of_another_version_are_set_aside() {
 #[test]
 fn two_stores_cannot_have_one_folder() {
     let folder = TempDir::new().unwrap();
-    let store = Store::open(folder.path()).unwrap();
-    let refused = format!("{:?}", Store::open(folder.path()).unwrap_err());
+    let store = Store::open(folder.path(), &mut ()).unwrap();
+    let refused = format!("{:?}", Store::open(folder.path(), &mut ()).unwrap_err());
     assert!(refused.contains("another process is at work in"), "{refused}");
     drop(store);
-    Store::open(folder.path()).unwrap();
+    Store::open(folder.path(), &mut ()).unwrap();
 }
 
 #[test]
@@ -132,7 +132,7 @@ fn files_that_are_not_ours_are_left_alone() {
     ] {
         let folder = TempDir::new().unwrap();
         fs::write(folder.path().join("results.jsonl"), &text).unwrap();
-        let refused = format!("{:?}", Store::open(folder.path()).unwrap_err());
+        let refused = format!("{:?}", Store::open(folder.path(), &mut ()).unwrap_err());
         assert!(refused.contains(told), "{refused}");
         assert_eq!(file(folder.path()), text);
     }

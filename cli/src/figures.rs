@@ -1,0 +1,73 @@
+//! `shadowstep figures`: the figures of Moan and Niesen's paper, and additional ones.
+
+mod progress;
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use shadowstep_figures::{Error, Observer, Progress, Request, reproduce};
+
+use crate::complaint::{Complaint, Ending, remark, tell};
+use crate::output::Output;
+use progress::Bar;
+
+const EXAMPLE: &str = "\
+Examples:
+  shadowstep figures --quick --out figures
+  shadowstep figures kepler-schemes kepler-orders --out figures
+Results are saved in DIR/results.jsonl, so that an interrupted run can be resumed by the same command. All cores are used,
+or as many as RAYON_NUM_THREADS says; results do not depend on that. If figures are named, the report keeps the others
+whose results are in DIR already.";
+
+/// Computes the figures of Moan and Niesen's paper, and additional ones: charts, data, and a report.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    /// Only these figures, such as kepler-schemes; all, if none is named
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// The folder for report.html, SVG and CSV files, and for the results
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Coarser grids: all figures in less than a minute on two cores
+    #[arg(long)]
+    quick: bool,
+}
+
+/// Computes what is missing, and writes charts, data and the report.
+pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+    let Arguments { names, quick, out } = arguments;
+    let request = Request { names: names.clone(), quick: *quick, folder: out.clone() };
+    let mut terminal = Terminal { bar: None, ending: Ending::Done };
+    let summary = reproduce(&request, &mut terminal)?;
+    let mut output = Output::open(None, "")?;
+    writeln!(output, "{}: {}", summary.report.display(), summary.verdicts)?;
+    output.finish()?;
+    Ok(terminal.ending)
+}
+
+/// Shows on stderr what happens.
+struct Terminal {
+    /// While there are tasks.
+    bar: Option<Bar>,
+    ending: Ending,
+}
+
+impl Observer for Terminal {
+    fn progress(&mut self, progress: Progress) {
+        self.bar.get_or_insert_with(Bar::new).show(progress);
+        if progress.done == progress.tasks {
+            self.bar = None;
+        }
+    }
+
+    fn note(&mut self, note: &str) {
+        remark(note);
+    }
+
+    fn failed(&mut self, error: &Error) {
+        self.bar = None;
+        self.ending = self.ending.max(tell(error));
+    }
+}

@@ -1,0 +1,13 @@
+//! A figure of the list.
+
+use crate::drawing::Drawing;
+use crate::results::Results;
+
+/// A figure by its name.
+pub(crate) struct Figure {
+    pub(crate) name: &'static str,
+    pub(crate) title: &'static str,
+    /// Requests the results that it needs, and draws those that are there. It is called again until none is missing, so
+    /// that it may request more depending on those.
+    pub(crate) draw: fn(&Results) -> Drawing,
+}

@@ -1,0 +1,69 @@
+//! The noise floor of double precision against the length of the run, by what differences of states are taken from.
+
+use crate::chart::{Axis, Curve};
+use crate::drawing::Drawing;
+use crate::figure::Figure;
+use crate::noise::{Block, Differences};
+use crate::numbers::scientific;
+use crate::results::Results;
+
+pub(super) const FIGURE: Figure =
+    Figure { name: "double-precision", title: "The noise floor of double precision", draw };
+
+pub(super) fn draw(results: &Results) -> Drawing {
+    let steps = if results.quick { 100_000 } else { 10_000_000 };
+    let kinds = [
+        (Differences::Sums, "β as a running sum"),
+        (Differences::OfBeta, "β by increments"),
+        (Differences::Increments, "q, p and β by increments"),
+    ];
+    let blocks = kinds.map(|(kind, label)| (label, results.noise(steps, kind).unwrap_or_default()));
+    let curve = |n: usize, of: &dyn Fn(&Block) -> f64| {
+        let (label, blocks) = &blocks[n];
+        Curve::line(*label, blocks.iter().map(|block| ((block.steps as f64).log10(), of(block))).collect(), n)
+    };
+    let mut drawing =
+        Drawing::ours("Störmer–Verlet on Kepler's problem, e = 0.6, h = 1/20, in double precision (f64), by E_8");
+    drawing.chart(
+        "Scatter of the modified energy near apocentres",
+        Axis::log10("steps"),
+        Axis::log10("max − min within ± 10 steps"),
+        (0..3).map(|n| curve(n, &|block| block.scatter.log10())).collect(),
+        "The largest of all apocentres of a part of the run that ends there.",
+    );
+    drawing.chart(
+        "Wander of its mean",
+        Axis::log10("steps"),
+        Axis::log10("|mean − mean of the first 1000 steps|"),
+        (1..3).map(|n| curve(n, &|block| block.wander.abs().log10())).collect(),
+        "What the round-off of the steps themselves does: no estimator can help it.",
+    );
+    let last = |n: usize| blocks[n].1.last().cloned();
+    if let (Some(sums), Some(beta), Some(increments)) = (last(0), last(1), last(2)) {
+        drawing.check(
+            "Increments keep the scatter at apocentre below 2e-15 to the end of the run.",
+            format!("{} after {} steps", scientific(increments.scatter), increments.steps),
+            increments.scatter < 2e-15,
+        );
+        drawing.check(
+            "A running sum of β loses digits like the length of the run.",
+            format!(
+                "{}, {:.0} times as much as with increments of β",
+                scientific(sums.scatter),
+                sums.scatter / beta.scatter
+            ),
+            sums.scatter > 100.0 * beta.scatter,
+        );
+        drawing.check(
+            "Differences of q and p from increments gain a little more.",
+            format!("{} against {}", scientific(increments.scatter), scientific(beta.scatter)),
+            increments.scatter < beta.scatter,
+        );
+        drawing.found(format!(
+            "The mean wanders by {} in {} steps: the round-off of the states, which is the same however differences are taken.",
+            scientific(increments.wander.abs()),
+            increments.steps
+        ));
+    }
+    drawing
+}

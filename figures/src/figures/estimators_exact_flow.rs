@@ -1,0 +1,47 @@
+//! What estimators show on the exact flow, against the number of states that they use.
+
+use super::estimators::{ORDERS, STATES, against_states, even};
+use super::kepler::run;
+use crate::chart::{Axis, Curve};
+use crate::drawing::Drawing;
+use crate::figure::Figure;
+use crate::numbers::power;
+use crate::results::Results;
+use crate::run::{EXACT_FLOW, Estimator};
+
+pub(super) const FIGURE: Figure = Figure { name: "estimators-exact-flow", title: "Estimators on the exact flow", draw };
+
+fn draw(results: &Results) -> Drawing {
+    let mut drawing = Drawing::ours(
+        "The states of Kepler's exact flow (e = 0.6) at t = n h, with β along it: the modified energy of this trajectory is −1/2 at every state, so \
+         everything that an estimator shows is its own error.",
+    );
+    let orders = results.grid(&ORDERS, &[1, 3, 8, 24, 200]);
+    for n in [10, 20, 40] {
+        let exact = run(EXACT_FLOW, n);
+        let central = against_states(results, &exact, &|m| Estimator::Central { m }, orders);
+        let best = against_states(results, &exact, &|largest| Estimator::Best { largest, early: false }, &orders[1..]);
+        let bilinear = against_states(results, &exact, &|k| Estimator::Bilinear { k }, &even(orders));
+        let least = |points: &[(f64, f64)]| points.iter().map(|(_, y)| *y).fold(f64::INFINITY, f64::min);
+        drawing.found(format!(
+            "h = 1/{n}: with up to 401 states the best m shows {}, any fixed m at least {}; the bilinear estimator shows {} with up to 201.",
+            power(best.last().map_or(f64::NAN, |(_, y)| *y)),
+            power(least(&central)),
+            power(least(&bilinear)),
+        ));
+        drawing.chart(
+            &format!("Exact flow, Kepler, e = 0.6, h = 1/{n}"),
+            Axis::log10(STATES),
+            Axis::log10("max − min of the estimates"),
+            vec![
+                Curve::line("T_{m,m}, every state the same m", central, 0),
+                Curve::line("best m up to a cap", best, 1),
+                Curve::line("bilinear E_k", bilinear, 2),
+            ],
+            "2m + 1 or k + 1 states.",
+        );
+    }
+    let held = results.digits_held(&run(EXACT_FLOW, 20), Estimator::Bilinear { k: 16 }, 200);
+    drawing.digits_held("the drift of the exact flow at h = 1/20 by E_16", held);
+    drawing
+}

@@ -1,0 +1,19 @@
+//! What the figures of the Hénon–Heiles problem share.
+
+use crate::results::Results;
+use crate::run::{Estimator, Run};
+use shadowstep::problems::Problem;
+
+/// 1/h
+pub(super) const STEPS: [u32; 15] = [2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28];
+
+pub(super) fn run(scheme: &'static str, n: u32) -> Run {
+    Run::of(Problem::HenonHeiles, scheme, format!("1/{n}"))
+}
+
+/// (1/h, log₁₀ drift) and (h, log₁₀ drift)
+pub(super) fn drifts(results: &Results, scheme: &'static str, steps: &[u32], by: Estimator) -> [Vec<(f64, f64)>; 2] {
+    let drift = |n: u32| results.log10_drift(&run(scheme, n), by);
+    let of = |x: &dyn Fn(f64) -> f64| steps.iter().map(|&n| (x(f64::from(n)), drift(n))).collect();
+    [of(&|n| n), of(&|n| 1.0 / n)]
+}

@@ -1,0 +1,37 @@
+//! The Hénon–Heiles problem by the bilinear estimator.
+
+use super::henon_heiles::{STEPS, drifts};
+use crate::chart::{Axis, Curve};
+use crate::drawing::Drawing;
+use crate::figure::Figure;
+use crate::numbers::power;
+use crate::results::Results;
+use crate::run::{BEST, Estimator};
+
+pub(super) const FIGURE: Figure =
+    Figure { name: "henon-heiles-bilinear", title: "Hénon–Heiles by the bilinear estimator", draw };
+
+fn draw(results: &Results) -> Drawing {
+    let mut drawing = Drawing::ours(
+        "Hénon–Heiles again, p₁(0) = 0.1, by the bilinear estimator E_k of k + 1 states beside central differences with the best m \
+         up to 200 (401 states).",
+    );
+    let steps = results.grid(&STEPS, &[2, 4, 6, 12, 25]);
+    let [best, _] = drifts(results, "stormer-verlet", steps, BEST);
+    let mut curves = vec![Curve::thick("best m ≤ 200", best, 0)];
+    for (i, &k) in results.grid(&[8, 16, 40, 100], &[8, 16, 40]).iter().enumerate() {
+        let [points, _] = drifts(results, "stormer-verlet", steps, Estimator::Bilinear { k });
+        if let Some((_, y)) = points.iter().find(|(n, _)| *n == 6.0) {
+            drawing.found(format!("At h = 1/6 the drift by E_{k} is {}.", power(*y)));
+        }
+        curves.push(Curve::line(format!("E_{k}"), points, i + 1));
+    }
+    drawing.chart(
+        "Störmer–Verlet, Hénon–Heiles, p₁(0) = 0.1",
+        Axis::linear("1/h"),
+        Axis::log10("drift of the modified energy over [0, 100]"),
+        curves,
+        "The exact flow is not known here: there is no control.",
+    );
+    drawing
+}

@@ -1,0 +1,48 @@
+//! The figures of Moan and Niesen, “On an asymptotic method for computing the modified energy for symplectic methods”,
+//! computed again, and additional ones: charts as SVG, data as CSV, and a report as one page of HTML.
+//!
+//! [`reproduce`] computes what its folder does not have yet, on all cores, and writes the files. Each result is saved when
+//! it is complete, so that an interrupted call can be repeated without computing it again.
+//!
+//! ```no_run
+//! use shadowstep_figures::{Request, reproduce};
+//!
+//! let request = Request { names: vec!["scattering".to_owned()], quick: true, folder: "figures".into() };
+//! let summary = reproduce(&request, &mut ())?;
+//! println!("{}: {}", summary.report.display(), summary.verdicts);
+//! # Ok::<(), shadowstep_figures::Error>(())
+//! ```
+//!
+//! A figure is a file in `figures/` and its line in the list `FIGURES`; everything else walks that list.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | `reproduction`, `observer` | from a request to the files; how a caller follows it |
+//! | `figures` | the list of all figures, and one file for each |
+//! | `figure`, `drawing` | a figure of the list; its charts, tables and statements |
+//! | `results` | the results that figures request |
+//! | `calculation`, `run`, `noise` | the calculations: runs at many digits, and in double precision |
+//! | `tasks` | calculations on all cores; their outcomes stay in a file |
+//! | `fit`, `numbers` | lines through points; numbers as texts |
+//! | `chart` | curves → SVG |
+//! | `report`, `data` | figures → HTML; results → CSV |
+
+mod calculation;
+mod chart;
+mod data;
+mod drawing;
+mod figure;
+mod figures;
+mod fit;
+mod noise;
+mod numbers;
+mod observer;
+mod report;
+mod reproduction;
+mod results;
+mod run;
+mod tasks;
+
+pub use observer::{Observer, Progress};
+pub use reproduction::{Request, Summary, names, reproduce};
+pub use shadowstep_scenes::Error;

@@ -1,0 +1,30 @@
+//! Numbers as texts: those of many digits, and those that people read.
+
+use rug::Float;
+use shadowstep::Number;
+
+/// log₁₀ of the size of a number that is a text; −∞ of 0.
+pub(crate) fn log10(text: &str) -> f64 {
+    number(text).log10_abs()
+}
+
+/// A number that is a text, to more digits than any run has.
+pub(crate) fn number(text: &str) -> Float {
+    let bits = (text.len() as f64 * std::f64::consts::LOG2_10) as u32 + 64;
+    Float::with_val(bits, Float::parse(text).expect("texts are written by numbers"))
+}
+
+/// 1.2e-34 from its log₁₀.
+pub(crate) fn power(log10: f64) -> String {
+    if !log10.is_finite() {
+        return if log10 == f64::NEG_INFINITY { "0" } else { "–" }.to_owned();
+    }
+    let exponent = log10.floor();
+    let digits = format!("{:.2}", 10_f64.powf(log10 - exponent));
+    if digits == "10.00" { format!("1.00e{}", exponent + 1.0) } else { format!("{digits}e{exponent}") }
+}
+
+/// Three digits and a power of ten.
+pub(crate) fn scientific(value: f64) -> String {
+    power(value.abs().log10())
+}

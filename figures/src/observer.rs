@@ -1,0 +1,34 @@
+//! How a caller follows the computation of figures.
+
+use crate::Error;
+
+/// Receives what happens while figures are computed; `()` ignores it. Calls come from several threads, one at a time.
+pub trait Observer: Send {
+    /// Some tasks are due, or one of them is done.
+    fn progress(&mut self, progress: Progress) {
+        let _ = progress;
+    }
+
+    /// Something that the user should know of a computation that continues.
+    fn note(&mut self, note: &str) {
+        let _ = note;
+    }
+
+    /// A calculation failed; the others continue, and its values are missing from the figures.
+    fn failed(&mut self, error: &Error) {
+        let _ = error;
+    }
+}
+
+impl Observer for () {}
+
+/// How many of the tasks that are due are done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// The number of tasks that are done.
+    pub done: usize,
+    /// The number of all tasks.
+    pub tasks: usize,
+    /// The part of the estimated cost of all tasks that is done, from 0 to 1.
+    pub fraction: f64,
+}

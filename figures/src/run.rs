@@ -1,0 +1,126 @@
+//! The runs of figures: a problem, what advances it, the steps, and the estimator.
+
+use serde::{Serialize, Serializer};
+use shadowstep::number::Precision;
+use shadowstep::problems::{Problem, Setup};
+use shadowstep::shadow::{Rule, Stop};
+use shadowstep::{Rational, exact};
+use shadowstep_scenes::arithmetic::GUARD_DIGITS;
+use shadowstep_scenes::estimator::Chosen;
+pub(crate) use shadowstep_scenes::library::EXACT_FLOW;
+
+/// The schemes of the paper's figures, with their labels.
+pub(crate) const SCHEMES: [(&str, &str); 4] = [
+    ("stormer-verlet", "Störmer–Verlet"),
+    ("yoshida4", "Yoshida 4"),
+    ("blanes-moan-s6", "Blanes–Moan S6"),
+    ("blanes-moan-srkn6b", "Blanes–Moan SRKN6b"),
+];
+
+/// The estimator of the paper's figures: the best m of each state, up to 200.
+pub(crate) const BEST: Estimator = Estimator::Best { largest: 200, early: false };
+
+/// A problem with its values, what advances it, the step size, the final time, and the digits.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Run {
+    #[serde(serialize_with = "by_name")]
+    pub(crate) problem: Problem,
+    /// Values of parameters or of the initial state that differ from the defaults.
+    pub(crate) set: Vec<(String, String)>,
+    /// The name of a shipped scheme, or exact-flow.
+    pub(crate) propagator: &'static str,
+    pub(crate) step: String,
+    pub(crate) until: &'static str,
+    pub(crate) digits: u32,
+}
+
+fn by_name<S: Serializer>(problem: &Problem, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(problem.name())
+}
+
+impl Run {
+    /// Over [0, 100] with 120 digits, as in the paper.
+    pub(crate) fn of(problem: Problem, propagator: &'static str, step: impl Into<String>) -> Self {
+        Run { problem, set: Vec::new(), propagator, step: step.into(), until: "100", digits: 120 }
+    }
+
+    /// With another value of a parameter or of the initial state.
+    pub(crate) fn with(mut self, name: &str, value: impl Into<String>) -> Self {
+        self.set.push((name.to_owned(), value.into()));
+        self
+    }
+
+    pub(crate) fn until(self, until: &'static str) -> Self {
+        Run { until, ..self }
+    }
+
+    pub(crate) fn digits(self, digits: u32) -> Self {
+        Run { digits, ..self }
+    }
+
+    /// The step size.
+    pub(crate) fn h(&self) -> Rational {
+        exact(&self.step).expect("figures have exact step sizes")
+    }
+
+    /// The number of steps.
+    pub(crate) fn steps(&self) -> u64 {
+        let steps = (exact(self.until).expect("figures have exact times") / self.h()).floor();
+        u64::try_from(steps.to_integer()).expect("figures run forward in time")
+    }
+
+    pub(crate) fn setup(&self) -> Setup {
+        let setup = self.problem.setup(&self.set, self.digits + GUARD_DIGITS);
+        setup.expect("figures have values that their problems allow")
+    }
+
+    pub(crate) fn precision(&self) -> Precision {
+        Precision::digits(self.digits).expect("figures have digits that MPFR allows")
+    }
+}
+
+/// The estimator of the modified energy.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Estimator {
+    /// D_m
+    Central { m: u32 },
+    /// D_m with the m of each state that has the smallest last term, as in the paper.
+    Best { largest: u32, early: bool },
+    /// E_k
+    Bilinear { k: u32 },
+}
+
+impl Estimator {
+    pub(crate) fn settings(self) -> Chosen {
+        match self {
+            Estimator::Central { m } => Chosen::Central(m),
+            Estimator::Best { largest, early } => {
+                Chosen::Best(largest, if early { Stop::Early } else { Stop::Full }, Rule::Least)
+            }
+            Estimator::Bilinear { k } => Chosen::Bilinear(k),
+        }
+    }
+
+    /// The number of states that an estimate uses.
+    pub(crate) fn states(self) -> u32 {
+        match self {
+            Estimator::Central { m } | Estimator::Best { largest: m, .. } => 2 * m + 1,
+            Estimator::Bilinear { k } => k + 1,
+        }
+    }
+
+    /// Whether a drift needs estimated errors: the permanent change is that of the bilinear estimator.
+    pub(crate) fn needs_errors(self) -> bool {
+        matches!(self, Estimator::Bilinear { .. })
+    }
+
+    /// About how many multiplications of numbers it makes per step and coordinate.
+    pub(crate) fn cost(self) -> f64 {
+        match self {
+            Estimator::Central { m } => 6.0 * f64::from(m),
+            Estimator::Best { largest, .. } => 12.0 * f64::from(largest),
+            Estimator::Bilinear { k } => 4.0 * f64::from(k) + f64::from(k) * f64::from(k) / 2.0,
+        }
+    }
+}
