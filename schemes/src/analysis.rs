@@ -19,7 +19,7 @@ pub mod stability;
 pub mod trace;
 
 use num_traits::{Signed, Zero};
-use shadowstep_symbolic::{Rational, compare};
+use shadowstep_symbolic::Rational;
 
 use crate::claims::Kinetic;
 use crate::map::{Map, MapKind};
@@ -95,7 +95,7 @@ impl Analysis {
 impl Sizes {
     fn of(maps: &[Map], kind: MapKind) -> Sizes {
         let mut weights: Vec<_> = maps.iter().filter(|map| map.kind == kind).map(|map| &map.weight).collect();
-        weights.sort_by(|a, b| compare(a, b));
+        weights.sort();
         let end = |weight: Option<&&Rational>| weight.map_or_else(Rational::zero, |weight| (*weight).clone());
         Sizes {
             sum_of_sizes: weights.iter().map(|weight| weight.abs()).sum(),

@@ -3,7 +3,7 @@
 
 use num_bigint::BigInt;
 use num_traits::{One, ToPrimitive, Zero};
-use shadowstep_symbolic::Rational;
+use shadowstep_symbolic::{Fraction, Rational};
 
 /// Sums of products, as order conditions need them.
 pub(crate) trait Arithmetic {
@@ -73,12 +73,12 @@ impl FixedPoint {
         BigInt::one() << self.bits
     }
 
-    /// The middle and the bound of the error as rationals with the denominator of the unit, not reduced.
-    pub(crate) fn read(&self, value: &Fixed) -> (Rational, Rational) {
+    /// The middle and the bound of the error as fractions with the denominator of the unit.
+    pub(crate) fn read(&self, value: &Fixed) -> (Fraction, Fraction) {
         let unit = self.unit();
         // a bound that ran over is none: then the value may be anything
         let error = if value.error == u128::MAX { BigInt::one() << (2 * self.bits) } else { value.error.into() };
-        (Rational::new_raw(value.units.clone(), unit.clone()), Rational::new_raw(error, unit))
+        (Fraction::new(value.units.clone(), unit.clone()), Fraction::new(error, unit))
     }
 
     /// A power of two, at least 1, that |value| does not exceed.

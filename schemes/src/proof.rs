@@ -5,12 +5,10 @@
 //! with the rounding of the arithmetic itself included), and if that is close enough to tell: at most a thousandth of the
 //! value needed. How many digits really hold is reported.
 
-use std::cmp::Ordering;
-
 use num_bigint::BigInt;
 use num_traits::{FromPrimitive, Signed, Zero};
 use shadowstep_symbolic::decimal::{to_significant, to_text};
-use shadowstep_symbolic::{Rational, compare};
+use shadowstep_symbolic::{Fraction, Ratio, Rational};
 
 use crate::arithmetic::{Arithmetic, ExactArithmetic, FixedPoint, Sensitivity};
 use crate::claims::{HIGHEST_NEAR_INTEGRABLE_ORDER, HIGHEST_ORDER, Kinetic};
@@ -153,23 +151,22 @@ fn prove_up_to(maps: &[Map], held: Held, family: Family, highest: u32) -> Order 
     Order { order, digits, failed: failed.map(|c| (c.condition, c.found.reduced())), undecided }
 }
 
-/// A condition with its value and what the digits of the weights allow. The rationals are not reduced: their common
-/// divisors cost more to find than they save.
+/// A condition with its value and what the digits of the weights allow.
 struct Judged {
     condition: Condition,
-    found: Rational,
+    found: Fraction,
     /// Bound of the error of `found`.
-    error: Rational,
+    error: Fraction,
     /// How far the value may be off.
-    tolerance: Rational,
+    tolerance: Fraction,
 }
 
 impl Judged {
-    fn uncertainty(&self) -> Rational {
+    fn uncertainty(&self) -> Fraction {
         let (found, needed, error) = (&self.found, &self.condition.needed, &self.error);
-        debug_assert!(error.is_zero() || found.denom() == error.denom());
+        debug_assert!(error.numer().is_zero() || found.denom() == error.denom());
         let distance = (found.numer() * needed.denom() - needed.numer() * found.denom()).abs();
-        Rational::new_raw(distance + error.numer() * needed.denom(), found.denom() * needed.denom())
+        Fraction::new(distance + error.numer() * needed.denom(), found.denom() * needed.denom())
     }
 
     fn holds(&self) -> bool {
@@ -177,27 +174,25 @@ impl Judged {
     }
 
     fn is_met(&self) -> bool {
-        at_most(&self.uncertainty(), &self.tolerance)
+        self.uncertainty() <= self.tolerance
     }
 
     /// Whether the weights have digits enough to tell a condition that is met from one that is not.
     fn is_decided(&self) -> bool {
-        let thousandfold = Rational::new_raw(self.tolerance.numer() * 1000, self.tolerance.denom().clone());
-        at_most(&thousandfold, &self.condition.needed)
+        let thousandfold = Fraction::new(self.tolerance.numer() * 1000, self.tolerance.denom().clone());
+        thousandfold <= self.condition.needed
     }
-}
-
-/// a ≤ b; the operator recurses along continued fractions, too deep for hundreds of digits.
-fn at_most(a: &Rational, b: &Rational) -> bool {
-    compare(a, b) != Ordering::Greater
 }
 
 fn judged_conditions(maps: &[Map], held: Held, family: Family, highest: u32) -> Vec<Judged> {
     match held {
-        Held::Exactly => conditions(maps, family, worth_exactness(maps, family, highest), &ExactArithmetic)
-            .into_iter()
-            .map(|(condition, found)| Judged { condition, found, error: Rational::zero(), tolerance: Rational::zero() })
-            .collect(),
+        Held::Exactly => {
+            let zero = || Fraction::from(Rational::zero());
+            conditions(maps, family, worth_exactness(maps, family, highest), &ExactArithmetic)
+                .into_iter()
+                .map(|(condition, found)| Judged { condition, found: found.into(), error: zero(), tolerance: zero() })
+                .collect()
+        }
         Held::Digits(digits) => {
             let arithmetic = FixedPoint::new(digits);
             let unit = BigInt::from(10).pow(digits - 1);
@@ -208,7 +203,7 @@ fn judged_conditions(maps: &[Map], held: Held, family: Family, highest: u32) -> 
                 .map(|((condition, value), (_, sensitive))| {
                     let (found, error) = arithmetic.read(&value);
                     let slope = Rational::from_f64(sensitive.slope).unwrap_or_else(Rational::zero);
-                    let tolerance = Rational::new_raw(slope.numer().clone(), slope.denom() * &unit);
+                    let tolerance = Fraction::new(slope.numer().clone(), slope.denom() * &unit);
                     Judged { condition, found, error, tolerance }
                 })
                 .collect()
@@ -221,7 +216,7 @@ fn worth_exactness(maps: &[Map], family: Family, highest: u32) -> u32 {
     let arithmetic = FixedPoint::new(60);
     let fails = |(condition, value): &(Condition, _)| {
         let (found, error) = arithmetic.read(value);
-        let judged = Judged { condition: condition.clone(), found, error: Rational::zero(), tolerance: error };
+        let judged = Judged { condition: condition.clone(), found, error: Rational::zero().into(), tolerance: error };
         !judged.is_met()
     };
     conditions(maps, family, highest, &arithmetic).iter().find(|c| fails(c)).map_or(highest, |(c, _)| c.order)
@@ -330,8 +325,9 @@ fn judge_sums(scheme: &Scheme, faults: &mut Vec<Fault>) {
             None => continue,
         };
         let message = format!("the {weights} do not sum to 1, so not even order 1 holds");
-        let fault = table.source.fault(at, message).values(beside(&sum.found, &sum.condition.needed), "1");
-        faults.push(with_rounding_help(fault, table, &(&sum.found - &sum.condition.needed)));
+        let (found, needed) = (sum.found.clone().reduced(), &sum.condition.needed);
+        let fault = table.source.fault(at, message).values(beside(&found, needed), "1");
+        faults.push(with_rounding_help(fault, table, &(found - needed)));
     }
 }
 

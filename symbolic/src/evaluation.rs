@@ -18,7 +18,7 @@ use crate::evaluation::evaluator::Evaluator;
 use crate::evaluation::value::{Exact, Stop, Value};
 use crate::number::interval::Interval;
 use crate::number::rational::Rational;
-use crate::number::rounding::{at_places, compare};
+use crate::number::rounding::at_places;
 use crate::text::decimal::round_significant;
 use crate::text::error::{SemanticError, SemanticFault};
 use crate::text::syntax::Expression;
@@ -74,7 +74,7 @@ pub fn evaluate(expression: &Expression, names: &BTreeMap<String, Exact>, digits
 fn settled(interval: &Interval, digits: u32, last: bool) -> Option<Rational> {
     let rounded = |digits| {
         let low = round_significant(&interval.low, digits);
-        compare(&low, &round_significant(&interval.high, digits)).is_eq().then_some(low)
+        (low == round_significant(&interval.high, digits)).then_some(low)
     };
     if !last {
         return rounded(digits);
@@ -82,7 +82,7 @@ fn settled(interval: &Interval, digits: u32, last: bool) -> Option<Rational> {
     // A number this close to zero, or to the middle between two decimals, counts as being there.
     let tiny = at_places(BigInt::one(), 4 * i64::from(digits));
     let width = &interval.high - &interval.low;
-    if interval.contains_zero() && compare(&width, &tiny).is_lt() {
+    if interval.contains_zero() && width < tiny {
         return Some(Rational::zero());
     }
     rounded(digits).or_else(|| Some(round_significant(&rounded(4 * digits)?, digits)))

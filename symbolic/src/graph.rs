@@ -12,7 +12,6 @@ mod rate;
 pub(crate) mod simplify;
 
 use std::collections::{BTreeSet, HashMap};
-use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use num_traits::Zero;
@@ -27,7 +26,7 @@ use crate::number::rational::Rational;
 pub struct Node(u32);
 
 /// What a node is made of.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Form {
     /// An exact number.
     Number(Rational),
@@ -200,62 +199,5 @@ impl Graph {
     /// A property of bodies.
     pub fn property(&mut self, index: usize) -> Node {
         self.intern(Form::Property(index))
-    }
-}
-
-// Rationals are in lowest terms, so that equal ones have equal parts. The comparison and the hash of `Ratio` itself
-// go along its continued fraction by recursion, for long numbers beyond the end of the stack.
-
-/// Whether two rationals are the same.
-pub(crate) fn same(one: &Rational, other: &Rational) -> bool {
-    one.numer() == other.numer() && one.denom() == other.denom()
-}
-
-fn same_parts(one: &[(Node, Rational)], other: &[(Node, Rational)]) -> bool {
-    one.len() == other.len() && one.iter().zip(other).all(|((a, x), (b, y))| a == b && same(x, y))
-}
-
-impl PartialEq for Form {
-    fn eq(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Form::Number(one), Form::Number(other)) => same(one, other),
-            (Form::Coordinate(one), Form::Coordinate(other)) => one == other,
-            (Form::Parameter(one), Form::Parameter(other)) => one == other,
-            (Form::Property(one), Form::Property(other)) => one == other,
-            (Form::Sum { constant: a, terms: one }, Form::Sum { constant: b, terms: other }) => {
-                same(a, b) && same_parts(one, other)
-            }
-            (Form::Product(one), Form::Product(other)) => same_parts(one, other),
-            (Form::Call(f, one), Form::Call(g, other)) => (f, one) == (g, other),
-            _ => false,
-        }
-    }
-}
-
-impl Eq for Form {}
-
-impl Hash for Form {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        fn rational<H: Hasher>(value: &Rational, state: &mut H) {
-            value.numer().hash(state);
-            value.denom().hash(state);
-        }
-        fn parts<H: Hasher>(parts: &[(Node, Rational)], state: &mut H) {
-            for (node, value) in parts {
-                node.hash(state);
-                rational(value, state);
-            }
-        }
-        std::mem::discriminant(self).hash(state);
-        match self {
-            Form::Number(value) => rational(value, state),
-            Form::Coordinate(index) | Form::Parameter(index) | Form::Property(index) => index.hash(state),
-            Form::Sum { constant, terms } => {
-                rational(constant, state);
-                parts(terms, state);
-            }
-            Form::Product(factors) => parts(factors, state),
-            Form::Call(function, argument) => (function, argument).hash(state),
-        }
     }
 }

@@ -37,7 +37,7 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | `number` | **exact numbers** |
-//! | `number/rational` | rationals |
+//! | `number/ratio`, `number/rational`, `number/fraction` | ratios, in lowest terms or not, and how they compare |
 //! | `number/rounding` | a rational → the decimals next to it |
 //! | `number/power` | powers and roots that are rational, and how long a number may be |
 //! | `number/function` | the elementary functions: their names, parity, rational values |
@@ -78,9 +78,11 @@ use std::collections::BTreeMap;
 pub use evaluation::{evaluate, value::Exact};
 pub use graph::pair::{Separation, is_symmetric};
 pub use graph::{Form, Graph, Node};
+pub use number::fraction::Fraction;
 pub use number::function::Function;
+pub use number::ratio::Ratio;
 pub use number::rational::Rational;
-pub use number::rounding::compare;
+
 pub use program::Program;
 pub use program::cost::Cost;
 pub use program::instruction::{Instruction, Place};

@@ -5,8 +5,8 @@
 
 use num_bigint::BigInt;
 use num_traits::{One, ToPrimitive};
+use shadowstep_symbolic::Rational;
 use shadowstep_symbolic::decimal::to_significant;
-use shadowstep_symbolic::{Rational, compare};
 
 use super::roots::{InDoubt, Isolated, SignChanges};
 use super::trace::Trace;
@@ -90,7 +90,7 @@ impl Crossing {
     }
 
     fn is_below(&self, x: u64) -> bool {
-        compare(&self.upper, &Rational::from_integer(x.into())).is_le()
+        self.upper <= Rational::from_integer(x.into())
     }
 
     /// √x − √(this)
@@ -135,7 +135,7 @@ fn crossings_within(functions: &[SignChanges], range: u64, bits: u64) -> Result<
             all.push(Crossing::of(&root, range)?);
         }
     }
-    all.sort_by(|a, b| compare(&a.lower, &b.lower));
-    let parted = all.windows(2).all(|pair| compare(&pair[0].upper, &pair[1].lower).is_le());
+    all.sort_by(|a, b| a.lower.cmp(&b.lower));
+    let parted = all.windows(2).all(|pair| pair[0].upper <= pair[1].lower);
     if parted { Ok(all) } else { Err(InDoubt) }
 }

@@ -7,7 +7,7 @@
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
-use shadowstep_symbolic::{Rational, compare};
+use shadowstep_symbolic::{Fraction, Rational};
 
 use crate::arithmetic::{Arithmetic, Sensitivity};
 use crate::map::{Map, MapKind};
@@ -57,9 +57,9 @@ impl Trace {
     }
 
     /// t_k without reducing the fraction, which takes long where the weights have hundreds of digits.
-    pub fn unreduced_coefficient(&self, k: usize) -> Rational {
-        let Some(integer) = self.integers.get(k) else { return Rational::zero() };
-        Rational::new_raw(integer.clone(), self.denominator.pow(k as u32))
+    pub fn unreduced_coefficient(&self, k: usize) -> Fraction {
+        let Some(integer) = self.integers.get(k) else { return Rational::zero().into() };
+        Fraction::new(integer.clone(), self.denominator.pow(k as u32))
     }
 
     /// The leading error of the phase of a scheme that has the order `order` for quadratic T.
@@ -78,7 +78,7 @@ impl Trace {
         let mut m = order.div_ceil(2) as usize + 1;
         loop {
             let difference = self.coefficient(m) - cosine(m);
-            if compare(&difference.abs(), &tolerance(m)).is_gt() {
+            if difference.abs() > tolerance(m) {
                 let coefficient = -difference.to_f64().unwrap_or(f64::NAN) / 2.0;
                 return PhaseError { coefficient, power: 2 * m as u32 - 2 };
             }

@@ -78,7 +78,7 @@ impl Attempt {
             Function::Asin | Function::Acos => {
                 let refusal = || SemanticFault::OutsideDomain { function, argument: beyond_one(&argument.low) };
                 let inside = argument.within_one().ok_or_else(|| fault(refusal(), range))?;
-                if !self.last && !inside.is_same(&argument) {
+                if !self.last && inside != argument {
                     return Err(Stop::Undecided);
                 }
                 return Ok(inside);

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use num_traits::{One, Zero};
 
-use crate::graph::{Form, Graph, Node, same};
+use crate::graph::{Form, Graph, Node};
 use crate::number::rational::Rational;
 
 impl Graph {
@@ -30,8 +30,7 @@ impl Graph {
             Form::Coordinate(_) => Some(Rational::one()),
             Form::Sum { constant, terms } => {
                 let degree = known[&terms[0].0].clone()?;
-                let alike = |other: &Option<Rational>| other.as_ref().is_some_and(|other| same(other, &degree));
-                let all = terms.iter().all(|(part, _)| alike(&known[part]));
+                let all = terms.iter().all(|(part, _)| known[part].as_ref() == Some(&degree));
                 (all && (constant.is_zero() || degree.is_zero())).then_some(degree)
             }
             Form::Product(factors) => factors

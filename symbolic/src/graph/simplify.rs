@@ -10,7 +10,7 @@ use num_traits::{One, Signed, Zero};
 
 use crate::number::rational::Rational;
 
-use crate::graph::{Form, Graph, Node, same};
+use crate::graph::{Form, Graph, Node};
 use crate::number::function::{Function, Parity, exact_value};
 use crate::number::power::exact_power;
 
@@ -180,7 +180,7 @@ pub(crate) fn common_size(constant: &Rational, terms: &[(Node, Rational)]) -> Op
     let size = terms[0].1.abs();
     let shared =
         terms[1..].iter().map(|(_, coefficient)| coefficient).chain([constant].into_iter().filter(|c| !c.is_zero()));
-    shared.into_iter().all(|coefficient| same(&coefficient.abs(), &size)).then_some(size)
+    shared.into_iter().all(|coefficient| coefficient.abs() == size).then_some(size)
 }
 
 /// (Π b^a)^n = Π b^(a n): for an n with an odd denominator always; else only for one factor, whose power a must have the

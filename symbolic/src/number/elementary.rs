@@ -10,7 +10,7 @@ use crate::number::ball::Ball;
 use crate::number::function::Function;
 use crate::number::interval::Interval;
 use crate::number::rational::Rational;
-use crate::number::rounding::{at_places, compare};
+use crate::number::rounding::at_places;
 use crate::number::series::{Curve, half_pi, inverse_tangent, log_two, sine_and_versine};
 
 /// Beyond this argument, up or down, exp is larger or smaller than any number that is computed with.
@@ -178,7 +178,7 @@ fn cosh(interval: &Interval, digits: u32) -> Option<Interval> {
         Some(half(&power.add(&power.reciprocal())))
     };
     let (low, high) = (at(&interval.low)?, at(&interval.high)?);
-    let (low, high) = if compare(&low.high, &high.high).is_le() { (low, high) } else { (high, low) };
+    let (low, high) = if low.high <= high.high { (low, high) } else { (high, low) };
     let low = if interval.contains_zero() { Rational::one() } else { low.low };
     Some(Interval { low, high: high.high })
 }

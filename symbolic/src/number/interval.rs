@@ -4,13 +4,13 @@ use num_bigint::BigInt;
 use num_traits::{One, Signed};
 
 use crate::number::rational::Rational;
-use crate::number::rounding::{self, Direction, at_places, compare, magnitude, scaled};
+use crate::number::rounding::{self, Direction, at_places, magnitude, scaled};
 
 /// The largest power of ten, up or down, that an enclosed number may have.
 const LARGEST_MAGNITUDE: i64 = 30_000;
 
 /// The numbers from `low` to `high`; `low <= high`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Interval {
     pub(crate) low: Rational,
     pub(crate) high: Rational,
@@ -26,25 +26,20 @@ impl Interval {
     }
 
     pub(crate) fn is_point(&self) -> bool {
-        compare(&self.low, &self.high).is_eq()
+        self.low == self.high
     }
 
     /// Whether the ends are 1 apart, or more.
     pub(crate) fn is_wide(&self) -> bool {
-        !self.is_point() && compare(&(&self.high - &self.low), &Rational::one()).is_ge()
-    }
-
-    /// Whether the ends are those of the other.
-    pub(crate) fn is_same(&self, other: &Self) -> bool {
-        compare(&self.low, &other.low).is_eq() && compare(&self.high, &other.high).is_eq()
+        !self.is_point() && &self.high - &self.low >= Rational::one()
     }
 
     /// The part between −1 and 1, if there is one.
     pub(crate) fn within_one(&self) -> Option<Self> {
         let one = Rational::one();
-        let low = if compare(&self.low, &-&one).is_lt() { -&one } else { self.low.clone() };
-        let high = if compare(&self.high, &one).is_gt() { one } else { self.high.clone() };
-        compare(&low, &high).is_le().then_some(Interval { low, high })
+        let low = self.low.clone().max(-&one);
+        let high = self.high.clone().min(one);
+        (low <= high).then_some(Interval { low, high })
     }
 
     pub(crate) fn negate(&self) -> Self {
@@ -58,7 +53,7 @@ impl Interval {
     pub(crate) fn multiply(&self, other: &Self) -> Self {
         let mut products =
             [&self.low * &other.low, &self.low * &other.high, &self.high * &other.low, &self.high * &other.high];
-        products.sort_by(compare);
+        products.sort();
         let [low, _, _, high] = products;
         Interval { low, high }
     }

@@ -4,8 +4,9 @@ use std::cmp::Ordering;
 
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::{Signed, Zero};
+use num_traits::Zero;
 
+use crate::number::ratio::Ratio;
 use crate::number::rational::Rational;
 
 /// Which of the neighbouring decimals a number becomes.
@@ -15,14 +16,6 @@ pub(crate) enum Direction {
     Up,
     /// The nearer one; of two equally near ones that with an even last digit.
     Nearest,
-}
-
-/// The order of two rationals.
-///
-/// Use it instead of `<` and `==` for long numbers that may be nearly equal: those operators recurse
-/// along the continued fractions, some two levels per common digit, and may overflow the stack.
-pub fn compare(a: &Rational, b: &Rational) -> Ordering {
-    (a.numer() * b.denom()).cmp(&(b.numer() * a.denom()))
 }
 
 /// 10^exponent.
@@ -37,7 +30,7 @@ pub(crate) fn at_places(units: BigInt, places: i64) -> Rational {
 }
 
 /// Numerator and denominator of value * 10^places, not reduced.
-pub(crate) fn scaled(value: &Rational, places: i64) -> (BigInt, BigInt) {
+pub(crate) fn scaled(value: &impl Ratio, places: i64) -> (BigInt, BigInt) {
     let power = ten(places.unsigned_abs());
     if places >= 0 {
         (value.numer() * power, value.denom().clone())
@@ -47,7 +40,7 @@ pub(crate) fn scaled(value: &Rational, places: i64) -> (BigInt, BigInt) {
 }
 
 /// The integer next to value * 10^places in the given direction.
-pub(crate) fn units(value: &Rational, places: i64, direction: Direction) -> BigInt {
+pub(crate) fn units(value: &impl Ratio, places: i64, direction: Direction) -> BigInt {
     let (numerator, denominator) = scaled(value, places);
     let (floor, rest) = numerator.div_mod_floor(&denominator);
     let up = match direction {
@@ -63,32 +56,31 @@ pub(crate) fn units(value: &Rational, places: i64, direction: Direction) -> BigI
 }
 
 /// The number of the form n / 10^places next to the value in the given direction.
-pub(crate) fn to_places(value: &Rational, places: i64, direction: Direction) -> Rational {
+pub(crate) fn to_places(value: &impl Ratio, places: i64, direction: Direction) -> Rational {
     at_places(units(value, places, direction), places)
 }
 
 /// The largest k with 10^k <= |value|; zero for the value zero.
-pub(crate) fn magnitude(value: &Rational) -> i64 {
-    if value.is_zero() {
+pub(crate) fn magnitude(value: &impl Ratio) -> i64 {
+    if value.numer().is_zero() {
         return 0;
     }
     // Bit lengths bound |value| below by a power of two, and so k to one or two candidates.
     let bits = value.numer().bits() as i64 - value.denom().bits() as i64;
     let mut k = ((bits - 1) as f64 * std::f64::consts::LOG10_2).floor() as i64;
-    let size = value.abs();
-    while reaches(&size, k + 1) {
+    while reaches(value, k + 1) {
         k += 1;
     }
     k
 }
 
-/// Whether 10^k <= size.
-fn reaches(size: &Rational, k: i64) -> bool {
-    let (numerator, denominator) = scaled(size, -k);
-    numerator >= denominator
+/// Whether 10^k <= |value|.
+fn reaches(value: &impl Ratio, k: i64) -> bool {
+    let (numerator, denominator) = scaled(value, -k);
+    numerator.magnitude() >= denominator.magnitude()
 }
 
 /// The decimal places that `digits` significant digits of the value reach to.
-pub(crate) fn places(value: &Rational, digits: u32) -> i64 {
+pub(crate) fn places(value: &impl Ratio, digits: u32) -> i64 {
     i64::from(digits.max(1)) - 1 - magnitude(value)
 }

@@ -9,7 +9,6 @@ use num_traits::{One, Signed, Zero};
 
 use crate::graph::{Form, Graph, Node};
 use crate::number::rational::Rational;
-use crate::number::rounding::compare;
 use crate::program::Program;
 use crate::program::lower;
 
@@ -152,7 +151,7 @@ fn common_factors(graph: &Graph, terms: &[(Node, Rational)]) -> Vec<(Node, Ratio
             let key = (base, exponent.is_negative());
             let (count, least) = found.entry(key).or_insert_with(|| (0, exponent.clone()));
             *count += 1;
-            if compare(&exponent.abs(), &least.abs()).is_lt() {
+            if exponent.abs() < least.abs() {
                 *least = exponent;
             }
         }

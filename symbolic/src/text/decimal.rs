@@ -4,6 +4,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
 
+use crate::number::ratio::Ratio;
 use crate::number::rational::Rational;
 use crate::number::rounding::{self, Direction};
 use crate::text::literal;
@@ -64,15 +65,15 @@ pub fn from_text(text: &str) -> Result<Rational, NotANumber> {
 }
 
 /// Rounds to significant decimal digits (at least one), half to even.
-pub fn round_significant(value: &Rational, digits: u32) -> Rational {
+pub fn round_significant(value: &impl Ratio, digits: u32) -> Rational {
     rounding::to_places(value, rounding::places(value, digits), Direction::Nearest)
 }
 
 /// Writes a number rounded to significant digits, for messages: `0.593812`, `6.3e-16`.
 ///
 /// Rounds as [`round_significant`] and omits zeros at the end; scientific outside 1e-4..1e9.
-pub fn to_significant(value: &Rational, digits: usize) -> String {
-    if value.is_zero() {
+pub fn to_significant(value: &impl Ratio, digits: usize) -> String {
+    if value.numer().is_zero() {
         return "0".to_string();
     }
     let places = rounding::places(value, u32::try_from(digits).unwrap_or(u32::MAX));
@@ -84,8 +85,8 @@ pub fn to_significant(value: &Rational, digits: usize) -> String {
     format!("{}{body}", sign(value))
 }
 
-fn sign(value: &Rational) -> &'static str {
-    if value.is_negative() { "-" } else { "" }
+fn sign(value: &impl Ratio) -> &'static str {
+    if value.numer().is_negative() { "-" } else { "" }
 }
 
 /// The number d.ddd * 10^exponent without an exponent.
