@@ -19,12 +19,13 @@ use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::Run;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::complaint::{Complaint, Ending, remark, tell};
 use crate::output::Output;
 use crate::progress::Progress;
+use crate::report::{self, Status};
 use crate::run_arguments::RunArguments;
 use crate::selection::Selection;
 use record::{Control, OrderLabel, Permanent, Record};
+use shadowstep_scenes::Error;
 use table::{readable, row};
 
 const EXAMPLE: &str = "\
@@ -47,12 +48,12 @@ pub(crate) struct Arguments {
 }
 
 /// Runs all; a run that fails is told of, and the others go on.
-pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let selection = Selection::read(&arguments.run)?;
     let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
     // a bar would run through the lines on the same terminal
     let bar = !arguments.json || arguments.run.output.is_some() || !std::io::stdout().is_terminal();
-    let mut ending = Ending::Done;
+    let mut status = Status::Success;
     let mut rows = Vec::new();
     let mut controls = Controls { wanted: !arguments.no_control, bar, known: BTreeMap::new() };
     for (propagator, run) in selection.runs() {
@@ -63,14 +64,14 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
                 output.flush()?;
             }
             Ok(record) => rows.push(row(run, &record)),
-            Err(complaint) => ending = ending.max(tell(&complaint)),
+            Err(error) => status = status.max(report::error(&error)),
         }
     }
     if !arguments.json && !rows.is_empty() {
         write!(output, "{}", readable(&selection, rows))?;
     }
     output.finish()?;
-    Ok(ending)
+    Ok(status)
 }
 
 /// What the estimator shows on the exact flow, by the step; none where the flow is not known.
@@ -96,8 +97,8 @@ impl Controls {
         let run = Run { propagator: EXACT_FLOW, ..run };
         let found = match measure::<N>(selection, &Propagator::ExactFlow, run, context, self.bar) {
             Ok(found) => Some(Control { drift: found.drift.to_text(), permanent_change: Permanent::of(&found) }),
-            Err(complaint) => {
-                remark(format_args!("there is no control: {complaint}"));
+            Err(error) => {
+                report::note(format_args!("there is no control: {error}"));
                 None
             }
         };
@@ -112,7 +113,7 @@ fn measure<N: Rounded + 'static>(
     run: Run<'_>,
     context: &N::Context,
     bar: bool,
-) -> Result<EnergyDrift<N>, Complaint> {
+) -> Result<EnergyDrift<N>, Error> {
     let progress = Progress::new(bar, run.name(), run.steps);
     let method = selection.estimator.method(true);
     let found = propagator.energy_drift::<N>(&selection.setup, run, &method, context, |n| progress.reach(n))?;
@@ -132,7 +133,7 @@ struct Measurement<'a> {
 }
 
 impl Computation for Measurement<'_> {
-    type Output = Result<Record, Complaint>;
+    type Output = Result<Record, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         let Measurement { selection, propagator, run, controls } = self;

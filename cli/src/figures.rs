@@ -8,8 +8,8 @@ use std::path::PathBuf;
 use clap::Args;
 use shadowstep_figures::{Error, Observer, Progress, Request, reproduce};
 
-use crate::complaint::{Complaint, Ending, remark, tell};
 use crate::output::Output;
+use crate::report::{self, Status};
 use progress::Bar;
 
 const EXAMPLE: &str = "\
@@ -36,22 +36,22 @@ pub(crate) struct Arguments {
 }
 
 /// Computes what is missing, and writes charts, data and the report.
-pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let Arguments { names, quick, out } = arguments;
     let request = Request { names: names.clone(), quick: *quick, folder: out.clone() };
-    let mut terminal = Terminal { bar: None, ending: Ending::Done };
+    let mut terminal = Terminal { bar: None, status: Status::Success };
     let summary = reproduce(&request, &mut terminal)?;
     let mut output = Output::open(None, "")?;
     writeln!(output, "{}: {}", summary.report.display(), summary.verdicts)?;
     output.finish()?;
-    Ok(terminal.ending)
+    Ok(terminal.status)
 }
 
 /// Shows on stderr what happens.
 struct Terminal {
     /// While there are tasks.
     bar: Option<Bar>,
-    ending: Ending,
+    status: Status,
 }
 
 impl Observer for Terminal {
@@ -63,11 +63,11 @@ impl Observer for Terminal {
     }
 
     fn note(&mut self, note: &str) {
-        remark(note);
+        report::note(note);
     }
 
     fn failed(&mut self, error: &Error) {
         self.bar = None;
-        self.ending = self.ending.max(tell(error));
+        self.status = self.status.max(report::error(error));
     }
 }

@@ -11,7 +11,7 @@
 //! | [`figures`] | the figures of the paper, and additional ones |
 //! | [`run_arguments`], [`quantity`], [`selection`] | the flags of runs; exact numbers; flags → problem, schemes and steps |
 //! | [`readable`], [`output`], [`progress`] | tables, lines and bars |
-//! | [`complaint`], [`interrupt`] | messages on stderr and exit codes; Ctrl-C |
+//! | [`report`], [`interrupt`] | messages on stderr and the exit status; Ctrl-C |
 
 mod drift;
 mod figures;
@@ -21,20 +21,21 @@ mod scene;
 mod schemes;
 mod trace;
 
-mod complaint;
 mod interrupt;
 mod output;
 mod progress;
 mod quantity;
 mod readable;
+mod report;
 mod run_arguments;
 mod selection;
 
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use shadowstep_scenes::Error;
 
-use complaint::{Complaint, Ending, tell};
+use report::Status;
 
 /// Makes the enum of all commands from one list `Variant: module`.
 macro_rules! commands {
@@ -45,7 +46,7 @@ macro_rules! commands {
         }
 
         impl Command {
-            fn execute(&self) -> Result<Ending, Complaint> {
+            fn execute(&self) -> Result<Status, Error> {
                 match self { $(Command::$Name(arguments) => $module::execute(arguments),)+ }
             }
         }
@@ -78,6 +79,6 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    let ending = Arguments::parse().command.execute().unwrap_or_else(|complaint| tell(&complaint));
-    ExitCode::from(ending as u8)
+    let status = Arguments::parse().command.execute().unwrap_or_else(|error| report::error(&error));
+    ExitCode::from(status as u8)
 }

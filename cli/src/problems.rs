@@ -6,8 +6,10 @@ use clap::Args;
 use serde::Serialize;
 use shadowstep::problems::{Description, Initial, PROBLEMS, problem};
 
-use crate::complaint::{Complaint, Ending, of_problem};
 use crate::output::Output;
+use crate::quantity::problem_error;
+use crate::report::Status;
+use shadowstep_scenes::Error;
 
 /// Lists the problems with their parameters and initial states.
 #[derive(Debug, Args)]
@@ -51,10 +53,10 @@ struct Value {
 const SHORT: usize = 12;
 
 /// One problem, or all.
-pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let Arguments { name, json } = arguments;
     let chosen = match name {
-        Some(name) => vec![problem(name).map_err(of_problem)?],
+        Some(name) => vec![problem(name).map_err(problem_error)?],
         None => PROBLEMS.to_vec(),
     };
     let most_values = if name.is_some() { usize::MAX } else { SHORT };
@@ -67,7 +69,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
         }
     }
     output.finish()?;
-    Ok(Ending::Done)
+    Ok(Status::Success)
 }
 
 fn record(problem: &Description) -> Record {

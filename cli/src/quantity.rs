@@ -1,11 +1,12 @@
-//! Exact numbers as a person writes them.
+//! Exact numbers in flags: `--step 1/10`, `--set x=1/2`.
 
 use shadowstep::Rational;
+use shadowstep::problems::ProblemError;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::NUMBER_EXAMPLES;
 use shadowstep_symbolic::parse;
 
-/// The number that a flag is given.
+/// The number of a flag.
 pub(crate) fn number(flag: &str, text: &str) -> Result<Rational, Error> {
     shadowstep::exact(text).map_err(|error| {
         let place = character(text, error.range().start);
@@ -19,7 +20,7 @@ pub(crate) fn assignment(text: &str) -> Result<(String, String), Error> {
         return Err(Error::usage(format!("--set {text} has no `=`"), "write a name and a value: --set x=1/2"));
     };
     if name.trim().is_empty() {
-        return Err(Error::usage(format!("--set {text} names nothing before its `=`"), "write --set x=1/2"));
+        return Err(Error::usage(format!("--set {text} has no name before its `=`"), "write --set x=1/2"));
     }
     if let Err(error) = parse(expression) {
         let place = character(expression, error.range.start);
@@ -28,7 +29,25 @@ pub(crate) fn assignment(text: &str) -> Result<(String, String), Error> {
     Ok((name.trim().to_owned(), expression.trim().to_owned()))
 }
 
-/// Counted from 1, as people count.
+/// The error of a problem or of a value of `--set`.
+pub(crate) fn problem_error(error: ProblemError) -> Error {
+    match error {
+        ProblemError::UnknownProblem { name, hint } => Error::usage(format!("there is no problem `{name}`"), hint),
+        ProblemError::UnknownParameter { problem, name, hint } => {
+            let hint = format!("{hint} `shadowstep problems {problem}` lists what can be set");
+            Error::usage(format!("{problem} has no parameter or initial value `{name}`"), hint)
+        }
+        ProblemError::SetTwice { name } => Error::usage(format!("`{name}` is set twice"), "keep one"),
+        ProblemError::NoValue { name, text, why } => {
+            Error::usage(format!("--set {name}={text}: {why}"), NUMBER_EXAMPLES)
+        }
+        ProblemError::OutOfRange { name, text, range } => {
+            Error::usage(format!("--set {name}={text} is out of range"), range)
+        }
+    }
+}
+
+/// The number of a character, from 1.
 fn character(text: &str, byte: usize) -> usize {
     text.char_indices().take_while(|(at, _)| *at < byte).count() + 1
 }

@@ -6,10 +6,10 @@ use std::time::Instant;
 use clap::Args;
 use shadowstep_scenes::{Error, Note, Observer, Outcome, Scene};
 
-use crate::complaint::{Ending, remark};
 use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::progress::Progress;
+use crate::report::{self, Status};
 
 const EXAMPLE: &str = "\
 Example:
@@ -31,9 +31,9 @@ pub(crate) struct Arguments {
 }
 
 /// Runs a scene.
-pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Error> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let scene = Scene::open(&arguments.scene)?;
-    scene.notes.iter().for_each(remark);
+    scene.notes.iter().for_each(report::note);
     let begin = Instant::now();
     let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), scene.steps);
     let mut terminal = Terminal { progress, interrupt: Interrupt::listen() };
@@ -46,9 +46,11 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Error> {
         Outcome::Complete { force_evaluations } => {
             if io::stderr().is_terminal() {
                 let (steps, seconds) = (scene.steps, begin.elapsed().as_secs_f64());
-                remark(format_args!("{steps} steps, {force_evaluations} force evaluations, {seconds:.3} seconds"));
+                report::note(format_args!(
+                    "{steps} steps, {force_evaluations} force evaluations, {seconds:.3} seconds"
+                ));
             }
-            Ok(Ending::Done)
+            Ok(Status::Success)
         }
         Outcome::Stopped { n } => {
             let hint = match scene.output.checkpoint {
@@ -72,7 +74,7 @@ impl Observer for Terminal {
     }
 
     fn note(&mut self, note: &Note) {
-        self.progress.suspend(|| remark(note));
+        self.progress.suspend(|| report::note(note));
     }
 
     fn stops(&mut self) -> bool {

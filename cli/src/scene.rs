@@ -6,8 +6,9 @@ use clap::Args;
 use shadowstep::problems::{Description, PROBLEMS, problem};
 use shadowstep_scenes::Error;
 
-use crate::complaint::{Ending, of_problem};
 use crate::output::Output;
+use crate::quantity::problem_error;
+use crate::report::Status;
 
 const EXAMPLE: &str = "\
 Example:
@@ -25,16 +26,16 @@ pub(crate) struct Arguments {
 }
 
 /// Prints the scene of a problem, the names of all, or what the keys mean.
-pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Error> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let text = match &arguments.name {
         _ if arguments.explain => shadowstep_scenes::explain(),
-        Some(name) => shadowstep_scenes::template(problem(name).map_err(of_problem)?.description()),
+        Some(name) => shadowstep_scenes::template(problem(name).map_err(problem_error)?.description()),
         None => list(),
     };
     let mut output = Output::open(None, "")?;
     write!(output, "{text}")?;
     output.finish()?;
-    Ok(Ending::Done)
+    Ok(Status::Success)
 }
 
 fn list() -> String {

@@ -9,7 +9,8 @@ mod show;
 
 use clap::{Args, Subcommand};
 
-use crate::complaint::{Complaint, Ending};
+use crate::report::Status;
+use shadowstep_scenes::Error;
 
 const EXAMPLE: &str = "\
 Example:
@@ -33,7 +34,7 @@ enum Command {
 }
 
 /// Lists the schemes, or runs a subcommand.
-pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     match &arguments.command {
         None => list::execute(&arguments.list),
         Some(Command::Show(arguments)) => show::execute(arguments),

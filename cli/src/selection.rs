@@ -6,9 +6,11 @@ use shadowstep::shadow::{Rule, Stop};
 use shadowstep_scenes::Note;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::complaint::{Complaint, of_problem, remark};
 use crate::quantity;
+use crate::quantity::problem_error;
+use crate::report;
 use crate::run_arguments::{EstimatorChoice, OrderChoice, RuleChoice, RunArguments, StopChoice};
+use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
 use shadowstep_scenes::estimator::{Chosen, Kind, NO_ACCURACY, Wish, no_accuracy};
 use shadowstep_scenes::propagator::Propagator;
@@ -27,7 +29,7 @@ pub(crate) struct Selection {
 }
 
 impl Selection {
-    pub(crate) fn read(arguments: &RunArguments) -> Result<Self, Complaint> {
+    pub(crate) fn read(arguments: &RunArguments) -> Result<Self, Error> {
         let arithmetic = arithmetic(arguments)?;
         let estimator = estimator(arguments)?;
         let setup = setup(arguments, arithmetic)?;
@@ -39,9 +41,9 @@ impl Selection {
         let selection = Selection { setup, until, arithmetic, estimator, propagators, steps };
         for scheme in selection.propagators.iter().filter_map(Propagator::scheme) {
             let note = arithmetic.suits(scheme).map_err(|error| {
-                Complaint::usage(error.to_string(), format!("use --digits {}, or {OTHER_SCHEME}", error.most))
+                Error::usage(error.to_string(), format!("use --digits {}, or {OTHER_SCHEME}", error.most))
             })?;
-            note.iter().for_each(remark);
+            note.iter().for_each(report::note);
         }
         selection.remark_on_ends();
         Ok(selection)
@@ -69,19 +71,19 @@ impl Selection {
     }
 
     fn remark_on_ends(&self) {
-        self.steps.iter().filter_map(|(h, count)| Note::of_end(h, *count, &self.until)).for_each(remark);
+        self.steps.iter().filter_map(|(h, count)| Note::of_end(h, *count, &self.until)).for_each(report::note);
     }
 }
 
-fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Complaint> {
+fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Error> {
     if arguments.double {
         return Ok(Arithmetic::Double);
     }
     let arithmetic = Arithmetic::with_digits(arguments.digits);
-    arithmetic.map_err(|error| Complaint::usage(error.to_string(), "use --digits 120"))
+    arithmetic.map_err(|error| Error::usage(error.to_string(), "use --digits 120"))
 }
 
-fn estimator(arguments: &RunArguments) -> Result<Chosen, Complaint> {
+fn estimator(arguments: &RunArguments) -> Result<Chosen, Error> {
     let wish = Wish {
         kind: match arguments.estimator {
             EstimatorChoice::Central => Kind::Central,
@@ -105,26 +107,26 @@ fn estimator(arguments: &RunArguments) -> Result<Chosen, Complaint> {
     wish.chosen().map_err(|misfit| {
         let flag = |name: &str| format!("--{}", name.replace('_', "-"));
         let (sentence, hint) = misfit.told(&flag(misfit.name), |name, value| format!("{} {value}", flag(name)));
-        Complaint::usage(sentence, hint)
+        Error::usage(sentence, hint)
     })
 }
 
-fn accuracy(text: &str) -> Result<Rational, Complaint> {
+fn accuracy(text: &str) -> Result<Rational, Error> {
     let accuracy = quantity::number("--accuracy", text)?;
     match no_accuracy(&accuracy) {
         None => Ok(accuracy),
-        Some(why) => Err(Complaint::usage(format!("--accuracy {text} {why}"), NO_ACCURACY)),
+        Some(why) => Err(Error::usage(format!("--accuracy {text} {why}"), NO_ACCURACY)),
     }
 }
 
-fn setup(arguments: &RunArguments, arithmetic: Arithmetic) -> Result<Setup, Complaint> {
+fn setup(arguments: &RunArguments, arithmetic: Arithmetic) -> Result<Setup, Error> {
     let set = arguments.set.iter().map(|text| quantity::assignment(text)).collect::<Result<Vec<_>, _>>()?;
     let digits = arithmetic.value_digits();
-    let setup = problem(&arguments.problem).and_then(|problem| problem.setup(&set, digits)).map_err(of_problem)?;
+    let setup = problem(&arguments.problem).and_then(|problem| problem.setup(&set, digits)).map_err(problem_error)?;
     match setup.values.named().iter().find(|(_, value)| !arithmetic.has_digits_of(value)) {
         None => Ok(setup),
-        Some((name, _)) => Err(Complaint::usage(
-            format!("{name} is irrational and computed to {MOST_VALUE_DIGITS} digits, the run needs {digits}"),
+        Some((name, _)) => Err(Error::usage(
+            format!("{name} is irrational and computed to {MOST_VALUE_DIGITS} digits; the run needs {digits}"),
             format!("use --digits {} or less, or set {name} to a fraction", MOST_VALUE_DIGITS - GUARD_DIGITS),
         )),
     }
@@ -135,7 +137,7 @@ fn each_once<T: Clone>(list: &[T], name: impl Fn(&T) -> String, what: &str) -> V
     let mut kept: Vec<T> = Vec::new();
     for item in list {
         if kept.iter().any(|other| name(other) == name(item)) {
-            remark(format_args!("the {what} {} is named twice; it is run once", name(item)));
+            report::note(format_args!("the {what} {} is named twice; it is run once", name(item)));
         } else {
             kept.push(item.clone());
         }
@@ -144,8 +146,8 @@ fn each_once<T: Clone>(list: &[T], name: impl Fn(&T) -> String, what: &str) -> V
 }
 
 /// A step size h, and how many steps end at or before `until`.
-fn step(text: &str, until: &Rational) -> Result<(Rational, u64), Complaint> {
+fn step(text: &str, until: &Rational) -> Result<(Rational, u64), Error> {
     let h = quantity::number("--step", text)?;
     let count = steps::count((&h, text), (until, &to_text(until)), "--");
-    count.map(|count| (h, count)).map_err(|none| Complaint::usage(none.message, none.hint))
+    count.map(|count| (h, count)).map_err(|none| Error::usage(none.message, none.hint))
 }

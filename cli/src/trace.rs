@@ -7,11 +7,12 @@ use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::propagator::{Propagator, motion};
 use shadowstep_scenes::run::Run;
 
-use crate::complaint::{Complaint, Ending, remark};
 use crate::output::Output;
 use crate::progress::Progress;
+use crate::report::{self, Status};
 use crate::run_arguments::RunArguments;
 use crate::selection::Selection;
+use shadowstep_scenes::Error;
 
 const EXAMPLE: &str = "\
 Example:
@@ -54,17 +55,17 @@ struct Row {
     p: Option<Vec<String>>,
 }
 
-pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let selection = Selection::read(&arguments.run)?;
     let (propagator, run) = selection.single().ok_or_else(|| {
-        Complaint::usage("a trace is of one run: one scheme and one step", "`shadowstep drift` makes many runs")
+        Error::usage("a trace is of one run: one scheme and one step", "`shadowstep drift` makes many runs")
     })?;
     if arguments.states && selection.estimator.is_between() {
         let sentence = "with --estimator bilinear and an odd --order the values belong to times between the states";
-        return Err(Complaint::usage(sentence, "take an even order, or leave out --states"));
+        return Err(Error::usage(sentence, "take an even order, or leave out --states"));
     }
     if !selection.estimator.tells_error() {
-        remark("with --order 1 no estimate of the error can be relied on; the estimates are left empty");
+        report::note("with --order 1 no estimate of the error can be relied on; the estimates are left empty");
     }
     let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
     let bar = arguments.run.output.is_some();
@@ -74,13 +75,13 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
     selection.arithmetic.compute(following)?;
     drop(write);
     output.finish()?;
-    Ok(Ending::Done)
+    Ok(Status::Success)
 }
 
-type Writer<'a> = Box<dyn FnMut(&Row) -> Result<(), Complaint> + 'a>;
+type Writer<'a> = Box<dyn FnMut(&Row) -> Result<(), Error> + 'a>;
 
 /// Writes rows as JSON, or as CSV under a header.
-fn writer<'a>(selection: &Selection, arguments: &Arguments, output: &'a mut Output) -> Result<Writer<'a>, Complaint> {
+fn writer<'a>(selection: &Selection, arguments: &Arguments, output: &'a mut Output) -> Result<Writer<'a>, Error> {
     if !arguments.csv {
         return Ok(Box::new(|row| output.json(row)));
     }
@@ -111,7 +112,7 @@ struct Following<'a, 'w> {
 }
 
 impl Computation for Following<'_, '_> {
-    type Output = Result<(), Complaint>;
+    type Output = Result<(), Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         let Following { selection, propagator, run, states, bar, write } = self;

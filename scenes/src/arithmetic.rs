@@ -172,7 +172,7 @@ impl Arithmetic {
 
 /// A run with more digits than a scheme's weights have.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{scheme} has irrational weights, held to {most} digits; the run asks for {digits}")]
+#[error("{scheme} has irrational weights, computed to {most} digits; the run has {digits}")]
 pub struct TooManyDigits {
     /// The scheme.
     pub scheme: String,

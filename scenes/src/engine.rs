@@ -64,7 +64,7 @@ pub(crate) fn follow<N: Number + 'static>(
 }
 
 fn unreadable(n: i64) -> Error {
-    Error::usage(format!("the state n = {n} of the checkpoint cannot be read"), "--restart begins again")
+    Error::usage(format!("the state n = {n} of the checkpoint cannot be read"), "begin again with --restart")
 }
 
 /// Follows the states of a run in the order of time.

@@ -6,9 +6,8 @@ use crate::readable::wrapped;
 const INTRODUCTION: &str = "\
 A scene is a TOML file with the sections [problem], [initial], [run] and [output].
 
-A number is written in digits, 0.05 and 1e-3, and is taken exactly as it is written; or it is an exact expression in \
-quotes, \"1/20\" or \"sqrt(2)/2\", in which the parameters of the problem have their names. It is rounded once, to the \
-digits of the run.";
+A number is written in digits, 0.05 or 1e-3, and is used exactly; or it is an exact expression in quotes, \"1/20\" or \
+\"sqrt(2)/2\", which can contain the parameters of the problem. It is rounded once, to the digits of the run.";
 
 /// Every key of a scene with its meaning, an example and its default.
 ///
@@ -21,7 +20,7 @@ pub fn explain() -> String {
         text += &format!("\n[{}]\n{}", section.name, wrapped(section.meaning, ""));
         for key in keys::of(section.name) {
             text += &format!("\n  {} = {}\n{}", key.name, key.example, wrapped(key.meaning, "      "));
-            let default = key.default.map_or("It is needed.".to_owned(), |default| format!("Default: {default}."));
+            let default = key.default.map_or("Required.".to_owned(), |default| format!("Default: {default}."));
             text += &wrapped(&default, "      ");
         }
     }

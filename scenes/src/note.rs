@@ -85,23 +85,23 @@ impl fmt::Display for Note {
                 write!(f, "{until} is not a multiple of {h}: the run ends at n = {steps}, t = {end}")
             }
             Note::OrderHoldsTo { scheme, order, digits } => {
-                write!(f, "{scheme} has order {order} to {digits} digits only; below that its order is lower")
+                write!(f, "{scheme} has order {order} to {digits} digits only; errors below that have a lower order")
             }
             Note::MassesAreOne { property } => {
-                write!(f, "all masses of T are 1; `masses = \"{property}\"` takes them from the property {property}")
+                write!(f, "all masses of T are 1; `masses = \"{property}\"` uses the property {property}")
             }
             Note::AsymmetricPair { formula } => {
-                write!(f, "{formula} changes when bodies are exchanged; i is the one with the smaller number")
+                write!(f, "{formula} changes if bodies are exchanged; body i is the one with the smaller number")
             }
             Note::Resumed { n, steps } => write!(f, "resumed at n = {n} of {steps}"),
             Note::CheckpointWithoutRows { checkpoint } => {
-                write!(f, "{} has no rows beside it: the run begins again", checkpoint.display())
+                write!(f, "{} has no partial file: the run begins again", checkpoint.display())
             }
             Note::NoCheckpoint { n } => {
-                write!(f, "no checkpoint at n = {n}: a number is beyond 1e-10000 or 1e10000")
+                write!(f, "no checkpoint at n = {n}: a number is below 1e-10000 or above 1e10000")
             }
             Note::RowsKept { partial } => {
-                write!(f, "the rows up to there are in {}, until the next run", partial.display())
+                write!(f, "the rows up to there stay in {} until the next run", partial.display())
             }
         }
     }

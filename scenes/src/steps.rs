@@ -44,27 +44,35 @@ pub enum WrongValue {
 pub fn count((h, step): (&Rational, &str), (until, end): (&Rational, &str), dashes: &str) -> Result<u64, StepsError> {
     let refuse = |wrong, message: String, hint: &str| Err(StepsError { message, hint: hint.to_owned(), wrong });
     if h.is_zero() {
-        return refuse(WrongValue::Step, format!("{dashes}step {step} is zero"), "a step has a size, such as 1/10");
+        return refuse(
+            WrongValue::Step,
+            format!("{dashes}step {step}: the step size must be nonzero"),
+            "write a step size such as 1/10",
+        );
     }
     if until.is_zero() {
         let hint = format!("write a time such as {dashes}until 100");
-        return refuse(WrongValue::Until, format!("{dashes}until {end} leaves no time for a step"), &hint);
+        return refuse(WrongValue::Until, format!("{dashes}until {end}: the time must be nonzero"), &hint);
     }
     let count = (until / h).floor();
     if count.is_negative() {
-        let message = format!("steps of {step} never come to {dashes}until {end}: their signs differ");
-        return refuse(WrongValue::Step, message, "both are positive, or both negative to go back in time");
+        let message = format!("steps of {step} never reach {dashes}until {end}: the signs differ");
+        return refuse(
+            WrongValue::Step,
+            message,
+            "use positive values for both, or negative values for both to go back in time",
+        );
     }
     match count.to_u64() {
         Some(0) => {
             let message = format!("{dashes}step {step} is longer than the run until {end}");
-            refuse(WrongValue::Step, message, "use a shorter step")
+            refuse(WrongValue::Step, message, "use a smaller step size")
         }
         Some(steps) if steps <= MOST_STEPS => Ok(steps),
         _ => refuse(
             WrongValue::Step,
             format!("steps of {step} until {end} are {} steps", to_significant(&count, 3)),
-            "more than 1e10 are not run: use a longer step or a shorter time",
+            "the limit is 1e10 steps: use a larger step size or a shorter time",
         ),
     }
 }

@@ -39,7 +39,7 @@ impl WholeFile {
         let temporary = path.with_file_name(format!("{}.{}.partial", name.display(), std::process::id()));
         let file = File::create_new(&temporary).map_err(|error| {
             let message = format!("{named} {} cannot be written: {error}", path.display());
-            Error::usage(message, "give a file in a folder that exists and is yours")
+            Error::usage(message, "give a file in a folder that exists and can be written")
         })?;
         Ok(WholeFile { writer: BufWriter::new(file), temporary, path: path.to_owned() })
     }

@@ -12,7 +12,7 @@ const MOST_TERMS: usize = 6;
 
 /// The leading error of log(step) for one class of kinetic energies.
 #[derive(Serialize)]
-pub(crate) struct Error {
+pub(crate) struct ErrorRecord {
     power: u32,
     norm: f64,
     terms: Vec<Term>,
@@ -46,11 +46,11 @@ pub(crate) struct Sizes {
     largest: String,
 }
 
-impl Error {
-    pub(crate) fn of(error: &LeadingError) -> Error {
+impl ErrorRecord {
+    pub(crate) fn of(error: &LeadingError) -> ErrorRecord {
         let term =
             |(bracket, c): &(analysis::bracket::Bracket, f64)| Term { bracket: bracket.to_string(), coefficient: *c };
-        Error { power: error.power, norm: error.norm(), terms: error.terms.iter().map(term).collect() }
+        ErrorRecord { power: error.power, norm: error.norm(), terms: error.terms.iter().map(term).collect() }
     }
 }
 

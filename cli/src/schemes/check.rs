@@ -6,9 +6,10 @@ use clap::Args;
 use shadowstep::tables::{self, Proved};
 use shadowstep_schemes::Kinetic;
 
-use crate::complaint::{Complaint, Ending, tell};
 use crate::output::Output;
+use crate::report::{self, Status};
 use crate::schemes::facts::{near_integrable, near_integrable_text};
+use shadowstep_scenes::Error;
 use shadowstep_scenes::library;
 
 const EXAMPLE: &str = "\
@@ -25,14 +26,14 @@ pub(crate) struct Arguments {
 }
 
 /// Goes through all tables; the worst answer counts.
-pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let mut output = Output::open(None, "")?;
-    let mut ending = Ending::Done;
+    let mut status = Status::Success;
     for path in &arguments.files {
         let source = match library::source(path) {
             Ok(source) => source,
-            Err(complaint) => {
-                ending = ending.max(tell(&complaint.into()));
+            Err(error) => {
+                status = status.max(report::error(&error.into()));
                 continue;
             }
         };
@@ -40,12 +41,12 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
             Ok(scheme) => write!(output, "{}", verdict(path, scheme.proved()))?,
             Err(faults) => {
                 writeln!(output, "{faults}")?;
-                ending = ending.max(Ending::AnswerIsNo);
+                status = status.max(Status::NegativeAnswer);
             }
         }
     }
     output.finish()?;
-    Ok(ending)
+    Ok(status)
 }
 
 fn verdict(path: &str, proved: &Proved) -> String {

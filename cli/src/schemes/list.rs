@@ -9,10 +9,11 @@ use shadowstep::tables::{TableScheme, shipped, shipped_names};
 use shadowstep_schemes::Kinetic;
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 
-use crate::complaint::{Complaint, Ending, remark};
 use crate::output::Output;
 use crate::readable::{rounded, table};
+use crate::report::{self, Status};
 use crate::schemes::facts::{aliases, digits, digits_text, kinetic, near_integrable, near_integrable_text};
+use shadowstep_scenes::Error;
 
 /// Which schemes are listed, and in which order.
 #[derive(Debug, Args)]
@@ -91,7 +92,7 @@ const COLUMNS: [&str; 11] = [
 ];
 
 /// The shipped schemes that are asked for.
-pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let of_order = |scheme: &TableScheme| arguments.order.is_none_or(|order| order == order_for(scheme, arguments));
     let all: Vec<_> = shipped_names().into_par_iter().filter_map(|name| Some((name, shipped(name)?))).collect();
     let moves = |scheme: &TableScheme| {
@@ -105,7 +106,10 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
         orders.sort_unstable();
         orders.dedup();
         let orders = orders.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
-        remark(format_args!("no shipped scheme has order {order} {}; there are the orders {orders}", class(arguments)));
+        report::note(format_args!(
+            "no shipped scheme has order {order} {}; there are the orders {orders}",
+            class(arguments)
+        ));
     }
     let mut output = Output::open(None, "")?;
     if arguments.json {
@@ -114,7 +118,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
         writeln!(output, "{}", table(COLUMNS, records.iter().map(row).collect(), 0..9))?;
     }
     output.finish()?;
-    Ok(Ending::Done)
+    Ok(Status::Success)
 }
 
 fn order_for(scheme: &TableScheme, arguments: &Arguments) -> u32 {

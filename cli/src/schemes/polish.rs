@@ -9,10 +9,11 @@ use shadowstep_schemes::polish::{self, NotPolished, Polished, PolishedWeight, Re
 use shadowstep_schemes::{Kinetic, Rational};
 use shadowstep_symbolic::decimal::to_significant;
 
-use crate::complaint::{Complaint, Ending, no, remark, report, tell};
 use crate::output::Output;
 use crate::readable::table;
+use crate::report::{self, Status};
 use crate::schemes::facts::{near_integrable, near_integrable_text};
+use shadowstep_scenes::Error;
 use shadowstep_scenes::library;
 
 const EXAMPLE: &str = "\
@@ -44,29 +45,29 @@ pub(crate) struct Arguments {
 }
 
 /// The polished table to stdout or a file, the report to stderr.
-pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let source = library::source(&arguments.file)?;
     let wanted = Request { digits: arguments.digits, free: &arguments.free, split_kicks: arguments.split_kicks };
     let polished = match polish::polish(&source, &library::beside_or_shipped, &wanted) {
         Ok(polished) => polished,
-        Err(NotPolished::Request { sentence, help }) => return Err(Complaint::usage(sentence, help)),
+        Err(NotPolished::Request { sentence, help }) => return Err(Error::usage(sentence, help)),
         Err(NotPolished::Faults(faults)) => {
-            tell(&Complaint::Faults(faults));
-            return Ok(Ending::AnswerIsNo);
+            report::error(&Error::Faults(faults));
+            return Ok(Status::NegativeAnswer);
         }
-        Err(NotPolished::Unsolved { sentence, help }) => return Ok(no(sentence, help)),
+        Err(NotPolished::Unsolved { sentence, help }) => return Ok(report::negative_answer(sentence, help)),
     };
     let mut output = Output::open(arguments.output.as_deref(), "--output")?;
     write!(output, "{}", polished.text)?;
     output.finish()?;
-    report(told(&polished));
-    polished.remarks.iter().for_each(remark);
+    report::write(told(&polished));
+    polished.remarks.iter().for_each(report::note);
     for weight in misprints(&polished.weights) {
         let PolishedWeight { name, right, printed_digits, .. } = weight;
         let are = if *right == 1 { "is" } else { "are" };
-        remark(format_args!("{name} seems to be misprinted: {right} of its {printed_digits} digits {are} right"));
+        report::note(format_args!("{name} seems to be misprinted: {right} of its {printed_digits} digits {are} right"));
     }
-    Ok(Ending::Done)
+    Ok(Status::Success)
 }
 
 fn told(polished: &Polished) -> String {

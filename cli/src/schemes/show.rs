@@ -13,12 +13,13 @@ use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
 use shadowstep_schemes::{Analysis, First, Kinetic, to_significant, to_text};
 
-use crate::complaint::{Complaint, Ending};
 use crate::output::Output;
 use crate::readable::{shortened, table, wrapped};
+use crate::report::Status;
 use crate::schemes::analysis;
-use crate::schemes::analysis::{Error, Gap, Phase, Sizes};
+use crate::schemes::analysis::{ErrorRecord, Gap, Phase, Sizes};
 use crate::schemes::facts::{aliases, digits, digits_text, kinetic, near_integrable, near_integrable_text};
+use shadowstep_scenes::Error;
 use shadowstep_scenes::library;
 
 /// Everything that is known about a scheme.
@@ -67,8 +68,8 @@ struct Record {
     kinetic: &'static str,
     effective_error: f64,
     effective_error_quadratic: f64,
-    leading_error: Error,
-    leading_error_quadratic: Error,
+    leading_error: ErrorRecord,
+    leading_error_quadratic: ErrorRecord,
     stability_limit: String,
     unstable_gaps: Vec<Gap>,
     phase_error: Phase,
@@ -99,7 +100,7 @@ struct Map {
     weight: String,
 }
 
-pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let scheme = library::scheme(&arguments.name)?.scheme;
     let analysis = scheme.analysis();
     let mut output = Output::open(None, "")?;
@@ -109,7 +110,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Ending, Complaint> {
         write!(output, "{}", readable(&scheme, &analysis))?;
     }
     output.finish()?;
-    Ok(Ending::Done)
+    Ok(Status::Success)
 }
 
 fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
@@ -146,8 +147,8 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         kinetic: kinetic(table.kinetic),
         effective_error: analysis.effective_error(Kinetic::Any),
         effective_error_quadratic: analysis.effective_error(Kinetic::Quadratic),
-        leading_error: Error::of(&analysis.general),
-        leading_error_quadratic: Error::of(&analysis.quadratic),
+        leading_error: ErrorRecord::of(&analysis.general),
+        leading_error_quadratic: ErrorRecord::of(&analysis.quadratic),
         trace: trace(analysis, weights.held),
         kick_sizes: Sizes::of(&analysis.kicks),
         drift_sizes: Sizes::of(&analysis.drifts),

@@ -126,7 +126,11 @@ fn stopped(scene: &str, file: &str) -> TempDir {
 fn refused(folder: &TempDir, sentence: &str) {
     let said = run(folder.path(), "");
     assert_eq!(said.code, 2, "{}", said.err);
-    assert!(said.err.contains(sentence) && said.err.contains("hint: --restart discards it"), "{}", said.err);
+    assert!(
+        said.err.contains(sentence) && said.err.contains("hint: discard it and begin again with --restart"),
+        "{}",
+        said.err
+    );
     // what is discarded may be of any scene
     let scene = fs::read_to_string(folder.path().join("scene.toml")).unwrap();
     fs::write(folder.path().join("scene.toml"), short(&scene)).unwrap();
@@ -139,7 +143,10 @@ fn refused(folder: &TempDir, sentence: &str) {
 fn another_scene_is_not_gone_on_with() {
     let folder = stopped(PLAIN, "out.csv");
     fs::write(folder.path().join("scene.toml"), PLAIN.replace("0.4", "0.5")).unwrap();
-    refused(&folder, "out.csv.checkpoint was made with another text of the scene, so the run cannot go on from it");
+    refused(
+        &folder,
+        "out.csv.checkpoint was made with a different text of the scene, so the run cannot be resumed from it",
+    );
     let file = fs::read_to_string(folder.path().join("out.csv")).unwrap();
     assert!(file.contains("# q: [\"1/2\",\"0\"]"));
 }
@@ -155,7 +162,7 @@ fn another_table_is_not_gone_on_with() {
     fs::write(folder.path().join("mine.toml"), format!("{euler}\n# a word more")).unwrap();
     let said = run(folder.path(), "");
     assert_eq!(said.code, 2);
-    assert!(said.err.contains("was made with another table of the scheme"), "{}", said.err);
+    assert!(said.err.contains("was made with a different table of the scheme"), "{}", said.err);
 }
 
 #[test]
@@ -210,7 +217,7 @@ fn a_checkpoint_that_a_complete_run_left_is_no_obstacle() {
     fs::write(folder.path().join("scene.toml"), short(PLAIN)).unwrap();
     let said = run(folder.path(), "");
     assert_eq!(said.code, 0, "{}", said.err);
-    assert!(said.err.contains("has no rows beside it: the run begins again"), "{}", said.err);
+    assert!(said.err.contains("has no partial file: the run begins again"), "{}", said.err);
     assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
 }
 

@@ -172,7 +172,7 @@ fn a_general_kinetic_energy_moves_bodies() {
 fn masses_that_are_forgotten_are_remarked_on() {
     let scene = whole(&FIGURE_EIGHT.replace("masses = \"m\"\n", ""), "30");
     let said = run(folder(&scene).path(), "");
-    let remark = "note: all masses of T are 1; `masses = \"m\"` takes them from the property m\n";
+    let remark = "note: all masses of T are 1; `masses = \"m\"` uses the property m\n";
     assert_eq!((said.code, said.err.as_str()), (0, remark));
 }
 
@@ -187,6 +187,7 @@ fn a_pair_that_is_not_symmetric_is_told_of() {
     };
     assert_eq!(run(folder(&scene("-m_i*m_j/sqrt(r2)")).path(), "").err, "");
     let said = run(folder(&scene("-m_i*m_i/sqrt(r2)")).path(), "").err;
-    let expected = "note: -m_i*m_i/sqrt(r2) changes when bodies are exchanged; i is the one with the smaller number\n";
+    let expected =
+        "note: -m_i*m_i/sqrt(r2) changes if bodies are exchanged; body i is the one with the smaller number\n";
     assert_eq!(said, expected);
 }

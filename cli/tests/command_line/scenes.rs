@@ -260,8 +260,8 @@ fn the_file_of_another_scene_is_replaced_only_if_that_is_said() {
         fs::write(folder.path().join("out.csv"), "precious").unwrap();
         let said = run(folder.path(), "");
         assert_eq!(said.code, 2, "{}", said.err);
-        assert!(said.err.contains("out.csv is there already, and not from this scene as it is now"), "{}", said.err);
-        assert!(said.err.contains("replace it by --restart"), "{}", said.err);
+        assert!(said.err.contains("out.csv already exists and is not from this unchanged scene"), "{}", said.err);
+        assert!(said.err.contains("replace it with --restart"), "{}", said.err);
         assert_eq!(read(), "precious");
         assert_eq!(run(folder.path(), "--restart").code, 0);
         let whole = read();
@@ -339,8 +339,7 @@ fn scene_lists_and_explains() {
     let list = quietly("scene");
     assert!(list.contains("  kepler  ") && list.contains("shadowstep scene kepler > scene.toml"), "{list}");
     let explained = quietly("scene --explain");
-    for line in
-        ["[problem]", "[output.modified_energy]", "  step = \"1/20\"", "      It is needed.", "      Default: 120."]
+    for line in ["[problem]", "[output.modified_energy]", "  step = \"1/20\"", "      Required.", "      Default: 120."]
     {
         assert!(explained.lines().any(|l| l == line), "{line}: {explained}");
     }
@@ -371,7 +370,7 @@ fn numbers_of_a_formula_that_double_precision_has_not_are_refused() {
         let said = run(folder(&scene(potential, "\"double\"")).path(), "");
         assert_eq!(said.code, 2, "{potential}: {}", said.err);
         assert!(said.err.contains("scene.toml:2:13: the number 1e"), "{}", said.err);
-        assert!(said.err.contains("in the formula is beyond double precision"), "{}", said.err);
+        assert!(said.err.contains("in the formula overflows or underflows in double precision"), "{}", said.err);
         assert_eq!(run(folder(&scene(potential, "17")).path(), "").code, 0, "{potential}");
     }
 }

@@ -76,8 +76,8 @@ impl Bodies {
             GivenBodies::Properties(given) => given,
         };
         let Some(count) = count(given) else {
-            let help = "write `bodies = 32`, or among the properties `count = 32`";
-            return reader.wrong(at, "how many bodies there are is not said", help);
+            let help = "write `bodies = 32`, or add `count = 32` to the properties";
+            return reader.wrong(at, "the number of bodies is missing", help);
         };
         let before = reader.faults.len();
         let mut bodies = Bodies { count, properties: Vec::new() };
@@ -96,7 +96,9 @@ impl Bodies {
     pub(super) fn values(&self, reader: &mut Reader<'_>, numbers: &Numbers) -> Option<Vec<Exact>> {
         match numbers {
             Numbers::List(list) => reader.values(list, self.count, "body"),
-            Numbers::Lists(_, at) => reader.wrong(at, "this needs one number for each body", "write a single list"),
+            Numbers::Lists(_, at) => {
+                reader.wrong(at, "this needs one number for each body", "write one list of numbers")
+            }
             Numbers::Formula(formula) => self.formula(reader, formula),
         }
     }
@@ -129,7 +131,7 @@ impl Bodies {
             }
             Numbers::Formula(formula) if dimensions == 1 => self.formula(reader, formula),
             Numbers::Formula(formula) => {
-                let message = format!("a formula for all bodies is for a line, and here are {dimensions} dimensions");
+                let message = format!("a formula for all bodies requires one dimension, not {dimensions}");
                 reader.wrong(&formula.at, message, "write a list for each body: [[0, 0, 0], [1, 0, 0]]")
             }
         }

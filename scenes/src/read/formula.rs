@@ -11,7 +11,7 @@ use crate::scene::{KineticEnergy, PotentialEnergy, System, formula_potential};
 /// The system with this potential.
 pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -> Option<System> {
     given.refuse(reader, &["bodies", "dimensions", "neighbours"], |key| {
-        (format!("{key} is for `pair`"), format!("leave out `{key}`, or write `pair` in place of `potential`"))
+        (format!("{key} requires `pair`"), format!("remove `{key}`, or write `pair` instead of `potential`"))
     });
     let parameters = given.own_parameters(reader);
     let list = given.coordinates.as_ref()?;

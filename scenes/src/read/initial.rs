@@ -45,7 +45,11 @@ impl State {
     /// Refuses velocities, where T(p) is no sum over masses.
     pub(super) fn refuse_velocities(&self, reader: &mut Reader<'_>) {
         if let Some(at) = &self.velocities {
-            reader.fault(at, "v is of masses, and here T is given by `kinetic`", "give the momenta `p` in place of v");
+            reader.fault(
+                at,
+                "velocities `v` require masses, but T is given by `kinetic`",
+                "give the momenta `p` instead of `v`",
+            );
         }
     }
 

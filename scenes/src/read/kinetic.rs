@@ -17,7 +17,7 @@ pub(super) fn by_formula(
 ) -> Option<KineticEnergy> {
     given.place("kinetic")?;
     given.refuse(reader, &["masses"], |_| {
-        let help = "keep one of the two: with `kinetic` the masses are numbers or parameters in its formula";
+        let help = "keep one of the two; with `kinetic`, write the masses as numbers or parameters in its formula";
         ("masses and kinetic are both given".to_owned(), help.to_owned())
     });
     given.state.refuse_velocities(reader);
@@ -41,7 +41,7 @@ pub(super) fn masses(reader: &mut Reader<'_>, numbers: &Numbers, values: Vec<Exa
         let at = numbers.place(index);
         if last_fault.replace(at) != Some(at) {
             let message = format!("a mass of {} is not positive", reader.arithmetic.text(value));
-            reader.fault(at, message, "masses are positive");
+            reader.fault(at, message, "masses must be positive");
         }
     }
     values.iter().any(|mass| !mass.value.is_one()).then_some(values)

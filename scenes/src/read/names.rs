@@ -17,7 +17,7 @@ pub(super) fn check_name(reader: &mut Reader<'_>, name: &Text) {
             }
         }
         _ => {
-            let help = "a name begins with a letter and goes on with letters, digits and _";
+            let help = "a name consists of letters, digits and _, and begins with a letter";
             reader.fault(&name.at, format!("`{}` is not a valid name", name.value), help);
         }
     }

@@ -24,12 +24,12 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<
     let trajectory = every(reader, output, "trajectory", "output.trajectory");
     let checkpoint = reader.get(output, "checkpoint").map(|value| (value.span(), interval(reader, value)));
     if let (Some((at, _)), None) = (&checkpoint, reader.get(output, "file")) {
-        reader.fault(at, "a checkpoint needs a file to go on with", "add `file = \"out.csv\"`");
+        reader.fault(at, "a checkpoint requires a file", "add `file = \"out.csv\"`");
     }
     let silent = energy.is_none() && modified_energy.is_none() && trajectory.is_none();
     if silent && reader.faults.len() == before && output.is_there() {
         let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
-        reader.fault(&output.at, "nothing is asked for", help);
+        reader.fault(&output.at, "no output is selected", help);
     }
     if let Some(name) = file.as_ref().filter(|name| name.value.ends_with(['/', '\\'])) {
         reader.fault(&name.at, format!("`{}` is a folder", name.value), "give the name of a file");
@@ -38,8 +38,8 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<
         (Some(format), _) => format,
         (None, None) => Some(Format::Csv),
         (None, Some(name)) => Format::of(&name.value).or_else(|| {
-            let message = format!("`{}` says no format by its name", name.value);
-            reader.wrong(&name.at, message, "end it with .csv or .jsonl, or add `format = \"csv\"`")
+            let message = format!("the name `{}` does not give the format", name.value);
+            reader.wrong(&name.at, message, "use the ending .csv or .jsonl, or add `format = \"csv\"`")
         }),
     };
     let folder = Path::new(&reader.source.path).parent().unwrap_or(Path::new(""));
@@ -145,7 +145,7 @@ fn interval(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<CheckpointInte
     let text = reader.text(value)?;
     let found = duration(text.value.trim());
     if found.is_none() {
-        let message = format!("`{}` is no time between checkpoints", text.value);
+        let message = format!("`{}` is not a valid time between checkpoints", text.value);
         reader.fault(&text.at, message, "write a time in s, min or h such as \"1 min\", or a number of steps");
     }
     found.map(CheckpointInterval::Time)

@@ -21,7 +21,8 @@ pub(super) struct PairFormula {
 impl PairFormula {
     /// Finds out what the formula is in.
     pub(super) fn read(reader: &mut Reader<'_>, text: Text) -> Option<PairFormula> {
-        let help = "r2 is the square of the distance, d = q_j - q_i the difference on a line: \"-g*m_i*m_j/sqrt(r2)\"";
+        let help =
+            "r2 is the square of the distance, d = q_j - q_i the difference in one dimension: \"-g*m_i*m_j/sqrt(r2)\"";
         let expression = match parse(&text.value) {
             Ok(expression) => expression,
             Err(error) => return reader.wrong(&text.place(&error.range), error.to_string(), help),
@@ -31,8 +32,16 @@ impl PairFormula {
         found.dedup();
         match found[..] {
             [separation] => Some(PairFormula { text, separation }),
-            [] => reader.wrong(&text.at, "the energy of a pair is a formula in `r2` or in `d`, here is neither", help),
-            _ => reader.wrong(&text.at, "the energy of a pair is a formula in `r2` or in `d`, here are both", help),
+            [] => reader.wrong(
+                &text.at,
+                "the energy of a pair must be a formula in `r2` or in `d`; this one has neither",
+                help,
+            ),
+            _ => reader.wrong(
+                &text.at,
+                "the energy of a pair must be a formula in `r2` or in `d`; this one has both",
+                help,
+            ),
         }
     }
 }
@@ -50,8 +59,8 @@ fn separations(expression: &Expression, found: &mut Vec<Separation>) {
 /// The system of bodies with this energy of each pair.
 pub(super) fn system(reader: &mut Reader<'_>, given: &Given, pair: Option<PairFormula>) -> Option<System> {
     given.refuse(reader, &["coordinates", "momenta"], |key| {
-        let names = "x1, y1, …, px1, py1, …, or on a line q1, …, p1, …";
-        (format!("with `pair` {key} have names by themselves"), format!("leave out `{key}`: the names are {names}"))
+        let names = "x1, y1, …, px1, py1, …, or in one dimension q1, …, p1, …";
+        (format!("{key} cannot be set with `pair`"), format!("remove `{key}`: the names are {names}"))
     });
     let parameters = given.own_parameters(reader);
     given.parameters.iter().for_each(|(name, _)| refuse_reserved(reader, name));
@@ -122,8 +131,8 @@ fn dimensions(reader: &mut Reader<'_>, given: &Given, pair: Option<&PairFormula>
     let on_a_line = pair.is_some_and(|pair| pair.separation == Separation::Difference);
     match (given.dimensions, given.place("dimensions")) {
         (Some(dimensions), Some(at)) if on_a_line && dimensions != 1 => {
-            let message = format!("a formula in d is for bodies on a line, and here are {dimensions} dimensions");
-            reader.wrong(at, message, "leave it out, or write the formula in `r2`")
+            let message = format!("a formula in `d` requires one dimension, not {dimensions}");
+            reader.wrong(at, message, "remove `dimensions`, or write the formula in `r2`")
         }
         (None, None) => on_a_line.then_some(1),
         (dimensions, _) => dimensions,
@@ -149,11 +158,11 @@ fn ends(reader: &mut Reader<'_>, given: &Given, bodies: &Bodies) -> Option<Ends>
     let ends = given.neighbours;
     let at = given.place("bodies").unwrap_or(&given.problem);
     if ends == Some(Ends::Fixed) && !bodies.properties.is_empty() {
-        let message = "between fixed ends bodies have no properties: the walls would need them, too";
+        let message = "bodies between fixed ends cannot have properties, because the walls have none";
         reader.fault(at, message, "write `bodies = 32`, or neighbours = \"free\" or \"periodic\"");
     }
     if ends != Some(Ends::Fixed) && bodies.count == 1 {
-        reader.fault(at, "one body makes no pair", "two bodies do, or one with neighbours = \"fixed\"");
+        reader.fault(at, "one body does not form a pair", "use two bodies or more, or one with neighbours = \"fixed\"");
     }
     ends
 }

@@ -225,13 +225,15 @@ impl<'a> Reader<'a> {
         let found = value(&text.value, &self.known, digits);
         match found {
             Ok(exact) if !self.arithmetic.has_digits_of(&exact) => {
-                let message =
-                    format!("this is irrational and computed to {MOST_VALUE_DIGITS} digits, the run needs {digits}");
+                let message = format!(
+                    "this value is irrational and computed to {MOST_VALUE_DIGITS} digits; the run needs {digits}"
+                );
                 let help = format!("use digits = {} or less, or write a fraction", MOST_VALUE_DIGITS - GUARD_DIGITS);
                 self.wrong(&text.at, message, help)
             }
             Ok(exact) if !self.arithmetic.holds(&exact.value) => {
-                let message = format!("{} is beyond double precision", to_significant(&exact.value, 6));
+                let message =
+                    format!("{} overflows or underflows in double precision", to_significant(&exact.value, 6));
                 self.wrong(&text.at, message, "write digits = 16 in [run] for numbers of any size")
             }
             Ok(exact) => Some(exact),
@@ -258,8 +260,11 @@ impl<'a> Reader<'a> {
         let Ok(expression) = parse(&text.value) else { return };
         let Ok(node) = graph.build(&expression, &names, &[]) else { return };
         if let Some(value) = graph.numbers(node).into_iter().find(|value| !self.arithmetic.holds(value)) {
-            let message = format!("the number {} in the formula is beyond double precision", to_significant(value, 12));
-            self.fault(&text.at, message, "write digits = 17, or scale it");
+            let message = format!(
+                "the number {} in the formula overflows or underflows in double precision",
+                to_significant(value, 12)
+            );
+            self.fault(&text.at, message, "write digits = 17, or scale the number");
         }
     }
 

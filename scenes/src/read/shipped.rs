@@ -14,8 +14,8 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Opt
         reader,
         &["coordinates", "momenta", "masses", "kinetic", "bodies", "dimensions", "neighbours"],
         |key| {
-            let help = format!("leave out `{key}`, or write a `potential` or `pair` in place of the name");
-            (format!("{} has {key} of its own", name.value), help)
+            let help = format!("remove `{key}`, or write a `potential` or a `pair` instead of the name");
+            (format!("{key} cannot be set for the shipped problem {}", name.value), help)
         },
     );
     let setup = setup(reader, given, name)?;
@@ -77,7 +77,7 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
             reader.wrong(&place(name), format!("{name} = {text} is out of range"), range)
         }
         Err(ProblemError::NoValue { name, text, why }) => {
-            let help = "other parameters give it a value";
+            let help = "choose other parameters";
             reader.wrong(&place(&name), format!("{name} = {text}: {why}"), help)
         }
         Err(error) => reader.wrong(&given.problem, error.to_string(), "see `shadowstep problems`"),
@@ -88,8 +88,8 @@ fn refuse_unknown_parameters(reader: &mut Reader<'_>, given: &Given, problem: &s
     for (key, _) in given.parameters.iter().filter(|(key, _)| !names.contains(&key.value.as_str())) {
         let help = match nearest(&key.value, names.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
-            None if names.is_empty() => "it has none; the state is set in [initial]".to_owned(),
-            None => format!("it has {}; the state is set in [initial]", names.join(", ")),
+            None if names.is_empty() => "it has no parameters; the initial state is set in [initial]".to_owned(),
+            None => format!("it has {}; the initial state is set in [initial]", names.join(", ")),
         };
         reader.fault(&key.at, format!("{problem} has no parameter `{}`", key.value), help);
     }

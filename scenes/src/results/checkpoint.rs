@@ -30,15 +30,15 @@ impl Identity {
     /// What the other one was made with that differs from this.
     fn differs(&self, other: &Identity) -> Option<String> {
         if self.scene_sha256 != other.scene_sha256 {
-            return Some("another text of the scene".to_owned());
+            return Some("a different text of the scene".to_owned());
         }
         if self.tables_sha256 != other.tables_sha256 {
-            return Some("another table of the scheme".to_owned());
+            return Some("a different table of the scheme".to_owned());
         }
         if self.version != other.version {
             return Some(format!("shadowstep {}", other.version));
         }
-        (self.platform != other.platform).then(|| format!("another platform, {}", other.platform))
+        (self.platform != other.platform).then(|| format!("a different platform, {}", other.platform))
     }
 }
 

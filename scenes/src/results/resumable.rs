@@ -88,8 +88,8 @@ impl Resumable {
     }
 
     fn refused(&self, file: &Path, why: &str) -> Error {
-        let hint = "--restart discards it and begins again; or restore what it was made with";
-        Error::usage(format!("{} {why}, so the run cannot go on from it", file.display()), hint)
+        let hint = "discard it and begin again with --restart, or restore what it was made with";
+        Error::usage(format!("{} {why}, so the run cannot be resumed from it", file.display()), hint)
     }
 
     /// Makes a checkpoint: all rows up to n are written, and the run can go on from a state.
@@ -162,7 +162,7 @@ impl Write for Hashing<'_> {
 fn locked(path: &Path, partial: &Path) -> Result<File, Error> {
     let cannot = |error: io::Error| {
         let message = format!("file {} cannot be written: {error}", path.display());
-        Error::usage(message, "give a file in a folder that exists and is yours")
+        Error::usage(message, "give a file in a folder that exists and can be written")
     };
     if path.is_dir() || path.file_name().is_none() {
         return Err(Error::usage(format!("file {} is a folder", path.display()), "give the name of a file"));

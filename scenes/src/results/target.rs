@@ -59,8 +59,8 @@ impl<'a> Target<'a> {
             return Err(at_place(Error::usage("the file is the scene itself", "give it another name")));
         }
         if !restart && is_of_another(path, scene) {
-            let message = format!("{} is there already, and not from this scene as it is now", path.display());
-            let hint = "give another name, move it away, or replace it by --restart";
+            let message = format!("{} already exists and is not from this unchanged scene", path.display());
+            let hint = "use another name, move the file, or replace it with --restart";
             return Err(at_place(Error::usage(message, hint)));
         }
         if scene.output.checkpoint.is_none() {
