@@ -49,7 +49,7 @@ struct Value {
     default: String,
 }
 
-/// A list of all problems shows no more initial values of each.
+/// The list of all problems shows a part only of more initial values.
 const SHORT: usize = 12;
 
 /// One problem, or all.
@@ -93,7 +93,7 @@ fn record(problem: &Description) -> Record {
     }
 }
 
-/// The problem in words; long lists of values in part only.
+/// A problem as text, with a part of a long list of values.
 fn readable(problem: &Description, most_values: usize) -> String {
     let mut text = format!("{}: {}\n  H = {}\n", problem.name, problem.title, problem.hamiltonian);
     for p in problem.parameters {
@@ -103,12 +103,15 @@ fn readable(problem: &Description, most_values: usize) -> String {
     let mut state: Vec<_> = positions.iter().chain(&momenta).map(|(name, value)| format!("{name} = {value}")).collect();
     if state.len() > most_values {
         state.truncate(most_values / 4);
-        state.push(format!("… ({} coordinates; `shadowstep problems {}` has all)", positions.len(), problem.name));
+        state.push(format!("… ({} coordinates; `shadowstep problems {}` lists all)", positions.len(), problem.name));
     }
     text += &format!("  at t = 0: {}\n", state.join(", "));
     if let Some(masses) = masses.filter(|masses| masses.len() <= most_values) {
         text += &format!("  masses of the coordinates: {}\n", masses.join(", "));
     }
-    text += &format!("  steps such as {} until {}\n  source: {}\n", problem.step, problem.until, problem.source);
+    text += &format!(
+        "  for example step size {} until t = {}\n  source: {}\n",
+        problem.step, problem.until, problem.source
+    );
     text
 }

@@ -1,14 +1,14 @@
-//! A chart: curves over two or three axes, as the text of an SVG picture.
+//! A chart: curves over two or three axes, as an SVG picture.
 //!
 //! | file | what it is |
 //! | --- | --- |
 //! | [`draw`] | the picture as a whole: title, axes, curves, labels, notes |
-//! | [`layout`] | what the axes show, and how much room everything takes |
+//! | [`layout`] | what the axes show, and the sizes of all parts |
 //! | [`ticks`] | round numbers and decades on an axis |
-//! | [`clip`] | what of a curve is visible |
-//! | [`labels`] | texts beside the chart that do not overlap |
+//! | [`clip`] | the visible part of a curve |
+//! | [`labels`] | labels beside the chart, without overlaps |
 //! | [`looks`] | colours, dashes and markers |
-//! | [`ink`] | what a style sheet can change: from plotters' plain colours to classes |
+//! | [`ink`] | from the plain colours of plotters to classes that a style sheet can change |
 
 mod clip;
 mod draw;
@@ -18,7 +18,7 @@ mod layout;
 mod looks;
 mod ticks;
 
-/// What one picture shows.
+/// The content of one picture.
 #[derive(Clone, Debug)]
 pub(crate) struct Chart {
     pub(crate) title: String,
@@ -26,19 +26,19 @@ pub(crate) struct Chart {
     pub(crate) y: Axis,
     /// A second vertical axis, at the right.
     pub(crate) second_y: Option<Axis>,
-    /// Without a second axis, each is labelled where it ends; else in a legend above the chart.
+    /// Labelled at their ends, or with a second axis in a legend above the chart.
     pub(crate) curves: Vec<Curve>,
     /// Short remarks below the chart.
     pub(crate) notes: Vec<String>,
 }
 
-/// What is along one side.
+/// An axis along one side.
 #[derive(Clone, Debug)]
 pub(crate) struct Axis {
-    /// What it is, with its unit.
+    /// The quantity, with its unit.
     pub(crate) label: String,
     pub(crate) scale: Scale,
-    /// The least and the largest value; `None` for those of the curves and a little room.
+    /// The smallest and the largest value; `None` for those of the curves with a margin.
     pub(crate) range: Option<(f64, f64)>,
 }
 
@@ -54,12 +54,12 @@ impl Axis {
     }
 }
 
-/// How values are meant.
+/// The scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scale {
     /// The values themselves.
     Linear,
-    /// log₁₀ of the values, so that 1e-400 is −400 and not 0.
+    /// log₁₀ of the values, so that 1e-400 is −400 instead of 0.
     Log10,
 }
 
@@ -67,11 +67,11 @@ pub(crate) enum Scale {
 #[derive(Clone, Debug)]
 pub(crate) struct Curve {
     pub(crate) label: String,
-    /// In the order in which the line goes; NaN and infinite values are missing points, and break the line.
+    /// In the order of the line; NaN and infinite values are missing points, which interrupt the line.
     pub(crate) points: Vec<(f64, f64)>,
     pub(crate) look: Look,
     pub(crate) side: Side,
-    /// Its colour, markers, and dashes; after the ninth they come again.
+    /// The number of its colour, markers, and dashes, which repeat after the ninth.
     pub(crate) colour: usize,
 }
 
@@ -105,13 +105,13 @@ impl Curve {
 /// How a curve is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Look {
-    /// A line with a few of its points marked, where there are other curves.
+    /// A line; a few of its points are marked if there are other curves.
     Line,
-    /// Dashes that go with the colour.
+    /// A dashed line, with the dashes of its colour.
     Dashed,
     /// A broad line.
     Thick,
-    /// Each point, and no line.
+    /// Points without a line.
     Points(Marker),
 }
 
@@ -125,9 +125,9 @@ pub(crate) enum Marker {
     /// ×
     Cross,
     Plus,
-    /// A full circle.
+    /// A filled circle.
     Dot,
-    /// A triangle on its tip.
+    /// A triangle that points down.
     Nabla,
     Star,
 }

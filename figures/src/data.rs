@@ -1,4 +1,4 @@
-//! Results as CSV: every run that a figure shows, with all digits, below lines with # that tell what made them.
+//! Results as CSV: every run that a figure shows, with all digits, after lines with # that give version and command.
 
 use crate::Error;
 use crate::calculation::Permanent;
@@ -7,7 +7,7 @@ use crate::run::{Estimator, Run};
 
 const RUN: [&str; 8] = ["problem", "set", "scheme", "step", "until", "digits", "estimator", "order"];
 
-/// The files of a figure, which this command makes: what is put behind its name, and the text.
+/// The CSV files of a figure that this command makes: the end of the file name, and the text.
 pub(crate) fn csv(command: &str, used: &[Used]) -> Result<Vec<(&'static str, String)>, Error> {
     let mut drifts =
         vec![header(&["drift", "permanent_change", "largest_jump", "resolution", "order_least", "order_most"])];
@@ -66,7 +66,7 @@ fn row<const N: usize>(run: &Run, estimator: Option<Estimator>, last: [String; N
     first.into_iter().chain(how).chain(last).collect()
 }
 
-/// Equal rows, of results that a figure uses twice, are written once.
+/// The CSV text. Results that a figure uses twice are written once.
 fn text(command: &str, rows: &[Vec<String>]) -> Result<String, Error> {
     let mut written = std::collections::HashSet::new();
     let mut csv = csv::Writer::from_writer(
@@ -76,5 +76,5 @@ fn text(command: &str, rows: &[Vec<String>]) -> Result<String, Error> {
         csv.write_record(row)?;
     }
     let bytes = csv.into_inner().map_err(|error| error.into_error())?;
-    Ok(String::from_utf8(bytes).expect("texts were written"))
+    Ok(String::from_utf8(bytes).expect("CSV of texts is a text"))
 }

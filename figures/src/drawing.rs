@@ -1,14 +1,14 @@
-//! A figure as it is drawn: what the paper states, the charts, what came out, and whether that is the same.
+//! The content of a figure: what the paper states, charts, results, and whether the results agree.
 
 use crate::Error;
 use crate::chart::{Axis, Chart, Curve};
 use crate::report::{Picture, Section, Statement, Table, Verdict};
 
-/// A figure in the making.
+/// The content of a figure.
 #[derive(Clone, Debug)]
 pub(crate) struct Drawing {
     stated: Vec<String>,
-    ours: bool,
+    additional: bool,
     pub(crate) charts: Vec<(Chart, String)>,
     found: Vec<String>,
     statements: Vec<Statement>,
@@ -16,11 +16,11 @@ pub(crate) struct Drawing {
 }
 
 impl Drawing {
-    /// A figure of the paper, with what its text says of it.
+    /// A figure of the paper, with the statements of its text.
     pub(crate) fn of_paper(stated: &[&str]) -> Self {
         Drawing {
             stated: stated.iter().map(|&text| text.to_owned()).collect(),
-            ours: false,
+            additional: false,
             charts: Vec::new(),
             found: Vec::new(),
             statements: Vec::new(),
@@ -28,9 +28,9 @@ impl Drawing {
         }
     }
 
-    /// A figure that the paper does not have.
-    pub(crate) fn ours(what: &str) -> Self {
-        Drawing { ours: true, found: vec![what.to_owned()], ..Drawing::of_paper(&[]) }
+    /// An additional figure, which the paper does not have.
+    pub(crate) fn additional(what: &str) -> Self {
+        Drawing { additional: true, found: vec![what.to_owned()], ..Drawing::of_paper(&[]) }
     }
 
     pub(crate) fn chart(&mut self, title: &str, x: Axis, y: Axis, curves: Vec<Curve>, caption: &str) {
@@ -54,7 +54,7 @@ impl Drawing {
         self.found.push(paragraph.into());
     }
 
-    /// What is stated, what was found, and whether that agrees.
+    /// A statement, what was found, and whether the statement holds.
     pub(crate) fn check(&mut self, statement: &str, found: impl Into<String>, holds: bool) {
         self.statements.push(Statement { statement: statement.to_owned(), found: found.into(), holds });
     }
@@ -64,24 +64,24 @@ impl Drawing {
         self.tables.push(Table { caption: caption.to_owned(), header, rows });
     }
 
-    /// The digits to which a result stays when it is computed with more.
+    /// How many decimals of a result are the same when it is computed with 200 digits.
     pub(crate) fn digits_held(&mut self, what: &str, held: Option<f64>) {
         if let Some(held) = held {
-            let held = if held.is_finite() { format!("to {held:.0} decimals") } else { "in every digit".to_owned() };
-            self.found(format!("Computed again with 200 digits, {what} is the same {held}."));
+            let held = if held.is_finite() { format!("to {held:.0} decimals") } else { "in all digits".to_owned() };
+            self.found(format!("Recomputed with 200 digits, {what} is the same {held}."));
         }
     }
 
     fn verdict(&self) -> Verdict {
         match &self.statements[..] {
-            _ if self.ours => Verdict::Ours,
+            _ if self.additional => Verdict::Additional,
             [] => Verdict::NotReproduced,
             all if all.iter().all(|one| one.holds) => Verdict::Agrees,
             _ => Verdict::Differs,
         }
     }
 
-    /// The section of the report; `files` are those beside it.
+    /// The section of the report; `files` are the names of its files.
     pub(crate) fn section(self, title: &str, svgs: Vec<String>, files: Vec<String>) -> Section {
         let verdict = self.verdict();
         let captions = self.charts.iter().map(|(_, caption)| caption.clone());

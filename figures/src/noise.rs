@@ -1,4 +1,5 @@
-//! The noise floor of double precision against the length of the run, by what differences of states are taken from.
+//! The noise of the modified energy in double precision against the length of the run, for several ways to take the
+//! differences of states.
 
 use std::collections::VecDeque;
 
@@ -11,15 +12,15 @@ use shadowstep::{Increments, Motion, UnitMasses, exact};
 
 use crate::Error;
 
-/// What an estimator is given beside the states.
+/// How the estimator takes the differences of neighbouring states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Differences {
-    /// β as a running sum; differences of q and p are those of the states.
+    /// β is a running sum; differences of q and p are those of the states.
     Sums,
-    /// What each step added to β; q and p as before.
+    /// β by the increment of each step; q and p as before.
     OfBeta,
-    /// What each step added to q, p and β.
+    /// q, p and β by the increments of each step.
     Increments,
 }
 
@@ -37,9 +38,9 @@ pub(crate) struct Block {
 /// Steps on either side of an apocentre.
 const REACH: usize = 10;
 
-/// A part of a run while it is made.
+/// A block while its part of the run is computed.
 #[derive(Default)]
-struct Part {
+struct Sums {
     scatter: f64,
     sum: f64,
     apocentres: u32,
@@ -47,13 +48,13 @@ struct Part {
 
 /// Störmer–Verlet on Kepler's problem, e = 0.6, h = 1/20, by E_8: blocks that end at 10³, 10^3.5, … steps.
 pub(crate) fn blocks(steps: u64, differences: Differences) -> Result<Vec<Block>, Error> {
-    let (scheme, h) = (shipped("stormer-verlet").expect("it is shipped"), exact("1/20").expect("it is a number"));
+    let (scheme, h) = (shipped("stormer-verlet").expect("a shipped scheme"), exact("1/20").expect("a number"));
     let start = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]);
     let mut estimator = Method::<f64>::estimator(&Bilinear::new(8), &h, 2, &());
-    let failed = |error: shadowstep::run::RunError| Error::run(error.to_string(), "this run has no other");
+    let failed = |error: shadowstep::run::RunError| Error::run(error.to_string(), "this calculation has no options");
     let mut trajectory = Trajectory::new(&scheme, start, &h, steps, estimator.states() / 2).map_err(failed)?;
     let mut near: VecDeque<(f64, f64)> = VecDeque::new();
-    let (mut blocks, mut part, mut first, mut end, mut sum) = (Vec::new(), Part::default(), None, 1000.0, 0.0);
+    let (mut blocks, mut part, mut first, mut end, mut sum) = (Vec::new(), Sums::default(), None, 1000.0, 0.0);
     while let Some(state) = trajectory.advance().map_err(failed)? {
         let given = given(differences, state.increments, &mut sum);
         let Some(estimate) = estimator.push(state.q, state.p, &given) else { continue };
@@ -66,14 +67,14 @@ pub(crate) fn blocks(steps: u64, differences: Differences) -> Result<Vec<Block>,
             let mean = part.sum / f64::from(part.apocentres);
             let wander = mean - *first.get_or_insert(mean);
             blocks.push(Block { steps: state.n.unsigned_abs(), scatter: part.scatter, wander });
-            part = Part::default();
+            part = Sums::default();
             end *= 10_f64.sqrt();
         }
     }
     Ok(blocks)
 }
 
-/// What is told of a step; a running sum loses the digits that it has before the point.
+/// The increments that the estimator gets; a running sum loses digits as it grows.
 fn given(differences: Differences, increments: &Increments<f64>, sum: &mut f64) -> Increments<f64> {
     match differences {
         Differences::Increments => increments.clone(),
@@ -86,7 +87,7 @@ fn given(differences: Differences, increments: &Increments<f64>, sum: &mut f64) 
     }
 }
 
-impl Part {
+impl Sums {
     /// The middle of the newest estimates may be an apocentre.
     fn include(&mut self, near: &VecDeque<(f64, f64)>) {
         let r = |i: usize| near[i].0;
@@ -94,8 +95,8 @@ impl Part {
             return;
         }
         let values = near.iter().map(|(_, value)| *value);
-        let spread = values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min);
-        self.scatter = self.scatter.max(spread);
+        let range = values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min);
+        self.scatter = self.scatter.max(range);
         self.sum += near[REACH].1 + 0.5;
         self.apocentres += 1;
     }

@@ -1,17 +1,17 @@
-//! Numbers as texts: those of many digits, and those that people read.
+//! Numbers as texts: with all their digits, and for people.
 
 use rug::Float;
 use shadowstep::Number;
 
-/// log₁₀ of the size of a number that is a text; −∞ of 0.
+/// log₁₀|x| of a number in a text; −∞ for 0.
 pub(crate) fn log10(text: &str) -> f64 {
     number(text).log10_abs()
 }
 
-/// A number that is a text, to more digits than any run has.
+/// The number in a text, with more digits than any run has.
 pub(crate) fn number(text: &str) -> Float {
     let bits = (text.len() as f64 * std::f64::consts::LOG2_10) as u32 + 64;
-    Float::with_val(bits, Float::parse(text).expect("texts are written by numbers"))
+    Float::with_val(bits, Float::parse(text).expect("the texts are those of numbers"))
 }
 
 /// 1.2e-34 from its log₁₀.

@@ -1,4 +1,4 @@
-//! A report of figures as one page of HTML: pictures are parts of it, and it needs no script and no network.
+//! A report of figures as one page of HTML, which contains its pictures and needs neither scripts nor a network.
 
 mod indices;
 
@@ -6,34 +6,34 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use indices::set;
 
-/// The whole page; all texts are plain, and are escaped where they are written.
+/// The whole page. All texts are plain; they are escaped when the page is written.
 #[derive(Clone, Debug)]
 pub(crate) struct Report {
     pub(crate) title: String,
     /// Paragraphs.
     pub(crate) introduction: Vec<String>,
-    /// What made it, as pairs of a name and a value: version, digits, command.
+    /// How it was made, as pairs of a name and a value: version, command, digits.
     pub(crate) made_with: Vec<(String, String)>,
     pub(crate) sections: Vec<Section>,
 }
 
-/// One figure of the paper, and what came out here.
+/// The section of one figure.
 #[derive(Clone, Debug)]
 pub(crate) struct Section {
     pub(crate) title: String,
-    /// What the paper states, in paragraphs; none where the figure is ours alone.
+    /// What the paper states, in paragraphs; none for an additional figure.
     pub(crate) stated: Vec<String>,
     pub(crate) pictures: Vec<Picture>,
-    /// What came out, in paragraphs.
+    /// The results, in paragraphs.
     pub(crate) found: Vec<String>,
     pub(crate) statements: Vec<Statement>,
     pub(crate) tables: Vec<Table>,
     pub(crate) verdict: Verdict,
-    /// Files beside the page, by the names that links have: SVG, CSV.
+    /// Names of the files beside the page: SVG, CSV.
     pub(crate) files: Vec<String>,
 }
 
-/// A picture and what is said below it.
+/// A picture and its caption.
 #[derive(Clone, Debug)]
 pub(crate) struct Picture {
     /// An `<svg>` element without `id`s, as [`Chart::svg`](crate::chart::Chart::svg) gives it. It is not escaped.
@@ -41,7 +41,7 @@ pub(crate) struct Picture {
     pub(crate) caption: String,
 }
 
-/// A statement, what was found, and whether that agrees.
+/// A statement, what was found, and whether the statement holds.
 #[derive(Clone, Debug)]
 pub(crate) struct Statement {
     pub(crate) statement: String,
@@ -49,7 +49,7 @@ pub(crate) struct Statement {
     pub(crate) holds: bool,
 }
 
-/// Numbers, or other short texts. Each row has as many cells as the header.
+/// A table of numbers or short texts. Each row has as many cells as the header.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
     pub(crate) caption: String,
@@ -57,15 +57,15 @@ pub(crate) struct Table {
     pub(crate) rows: Vec<Vec<String>>,
 }
 
-/// Whether what came out is what the paper states.
+/// Whether the results agree with what the paper states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
     Agrees,
     Differs,
-    /// It was not, or could not be, computed here.
+    /// It was not computed here, or cannot be.
     NotReproduced,
     /// The paper has no such figure.
-    Ours,
+    Additional,
 }
 
 impl Verdict {
@@ -74,7 +74,7 @@ impl Verdict {
             Verdict::Agrees => "agrees",
             Verdict::Differs => "differs",
             Verdict::NotReproduced => "not reproduced",
-            Verdict::Ours => "ours",
+            Verdict::Additional => "additional",
         }
     }
 
@@ -90,10 +90,10 @@ impl Verdict {
 
     fn sentence(self) -> &'static str {
         match self {
-            Verdict::Agrees => "What came out agrees with what the paper states.",
-            Verdict::Differs => "What came out differs from what the paper states.",
+            Verdict::Agrees => "The results agree with what the paper states.",
+            Verdict::Differs => "The results differ from what the paper states.",
             Verdict::NotReproduced => "What the paper states was not reproduced here.",
-            Verdict::Ours => "The paper has no such figure.",
+            Verdict::Additional => "The paper has no such figure.",
         }
     }
 
@@ -129,12 +129,12 @@ impl Report {
         page.into_string()
     }
 
-    /// How many figures agree, and so on: `9 agree, 1 differs, 7 ours`.
+    /// How many figures agree, and so on: `9 agree, 1 differs, 7 additional`.
     pub(crate) fn verdicts(&self) -> String {
-        let counts = [Verdict::Agrees, Verdict::Differs, Verdict::NotReproduced, Verdict::Ours]
+        let counts = [Verdict::Agrees, Verdict::Differs, Verdict::NotReproduced, Verdict::Additional]
             .map(|verdict| (verdict, self.sections.iter().filter(|figure| figure.verdict == verdict).count()));
-        let told = counts.iter().filter(|(_, count)| *count > 0).map(|(verdict, count)| verdict.counted(*count));
-        told.collect::<Vec<_>>().join(", ")
+        let words = counts.iter().filter(|(_, count)| *count > 0).map(|(verdict, count)| verdict.counted(*count));
+        words.collect::<Vec<_>>().join(", ")
     }
 
     fn contents(&self) -> Markup {
@@ -159,7 +159,7 @@ impl Section {
                 @if !self.pictures.is_empty() {
                     div class=(pictures) { @for picture in &self.pictures { (picture.figure()) } }
                 }
-                @if !self.found.is_empty() { h3 { "What came out" } (paragraphs(&self.found)) }
+                @if !self.found.is_empty() { h3 { "Results" } (paragraphs(&self.found)) }
                 @if !self.statements.is_empty() { (statements(&self.statements)) }
                 @for table in &self.tables { (table.markup()) }
                 @if !self.files.is_empty() {
@@ -182,7 +182,7 @@ impl Picture {
 impl Table {
     fn markup(&self) -> Markup {
         html! {
-            // a focus, so that a wide table can be moved by keys
+            // focusable, so that a wide table can be scrolled with keys
             div class="wide" tabindex="0" {
                 table {
                     caption { (set(&self.caption)) }
@@ -255,12 +255,12 @@ mod tests {
                 figure("Figure 1: drifts", Verdict::Agrees, 2),
                 figure("Figure 2", Verdict::Differs, 1),
                 figure("Figure 3", Verdict::NotReproduced, 0),
-                figure("Beyond the paper", Verdict::Ours, 3),
+                figure("Beyond the paper", Verdict::Additional, 3),
             ],
         }
     }
 
-    /// `SHADOWSTEP_LOOK=DIR` keeps the page, for eyes.
+    /// `SHADOWSTEP_LOOK=DIR` keeps the page, for inspection.
     #[test]
     fn page_stands_alone() {
         let page = report().html();
@@ -270,7 +270,7 @@ mod tests {
         for wrong in ["<script", "@import", "url(", "src=", "<link"] {
             assert!(!page.contains(wrong), "{wrong}");
         }
-        // the name of the SVG language is no address that is fetched
+        // the XML namespace of SVG is not fetched
         assert_eq!(page.matches("http").count(), page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
         let mut ids: Vec<_> = page.split(" id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
         assert_eq!(ids, ["figure-1", "figure-2", "figure-3", "figure-4"]);
@@ -308,18 +308,18 @@ mod tests {
 
     #[test]
     fn verdicts_are_counted() {
-        assert_eq!(report().verdicts(), "1 agrees, 1 differs, 1 not reproduced, 1 ours");
+        assert_eq!(report().verdicts(), "1 agrees, 1 differs, 1 not reproduced, 1 additional");
         let mut more = report();
         more.sections.extend(report().sections);
-        assert_eq!(more.verdicts(), "2 agree, 2 differ, 2 not reproduced, 2 ours");
-        more.sections.retain(|figure| figure.verdict == Verdict::Ours);
-        assert_eq!(more.verdicts(), "2 ours");
+        assert_eq!(more.verdicts(), "2 agree, 2 differ, 2 not reproduced, 2 additional");
+        more.sections.retain(|figure| figure.verdict == Verdict::Additional);
+        assert_eq!(more.verdicts(), "2 additional");
     }
 
     #[test]
     fn verdicts_are_words_and_not_only_colours() {
         let page = report().html();
-        for verdict in [Verdict::Agrees, Verdict::Differs, Verdict::NotReproduced, Verdict::Ours] {
+        for verdict in [Verdict::Agrees, Verdict::Differs, Verdict::NotReproduced, Verdict::Additional] {
             assert_eq!(page.matches(&format!(">{}</span>", verdict.word())).count(), 2, "contents and section");
             assert_eq!(page.matches(verdict.sentence()).count(), 1);
         }

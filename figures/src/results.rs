@@ -1,8 +1,8 @@
-//! What figures ask for, and what came of it.
+//! The results that figures request.
 //!
-//! A figure is a function that asks for results and draws them. What it asks for and is not known yet is noted and computed,
-//! and the figure is drawn again, until nothing is missing: so what it needs and what it shows stand in one place, and it may
-//! ask for more after what it has seen.
+//! A figure is a function that requests results and draws them. Results that are not known yet are noted and computed, and the
+//! figure is drawn again, until none is missing. So the results that it needs and the charts that it draws are in one place,
+//! and it may request more depending on earlier results.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -19,16 +19,16 @@ use crate::{Error, Observer};
 
 /// The results of all figures.
 pub(crate) struct Results {
-    /// On a thinned grid.
+    /// Whether grids are coarser.
     pub(crate) quick: bool,
-    /// By the JSON of the calculation; none where it failed.
+    /// By the JSON of the calculation; `None` if it failed.
     known: HashMap<String, Option<Outcome>>,
     missing: RefCell<Vec<Calculation>>,
-    /// What the present figure uses, for its data.
+    /// The results that the present figure uses, for its data.
     used: RefCell<Vec<Used>>,
 }
 
-/// A run and what came of it, as the data beside a figure have it.
+/// A run with its result, for the data of a figure.
 #[derive(Clone, Debug)]
 pub(crate) enum Used {
     Drift(Run, Estimator, Drift),
@@ -37,7 +37,7 @@ pub(crate) enum Used {
     Blocks(Differences, Vec<Block>),
 }
 
-/// log₁₀ of a drift, and of the permanent change and its largest jump, where this is more than can be feigned.
+/// log₁₀ of a drift, and of the permanent change and its largest jump if the change is resolved.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sizes {
     pub(crate) drift: f64,
@@ -49,7 +49,7 @@ impl Results {
         Results { quick, known: HashMap::new(), missing: RefCell::default(), used: RefCell::default() }
     }
 
-    /// Computes what was asked for; whether there was anything.
+    /// Computes the missing results; returns whether there were any.
     pub(crate) fn compute(&mut self, store: &mut Store, observer: &mut dyn Observer) -> Result<bool, Error> {
         let missing = self.missing.take();
         let found = tasks::run(&missing, store, observer)?;
@@ -59,7 +59,7 @@ impl Results {
         Ok(!missing.is_empty())
     }
 
-    /// Takes what was asked for from the store; whether there was anything, and none where not all is there.
+    /// Takes the missing results from the store; returns whether there were any, or `None` if the store lacks one.
     pub(crate) fn take_kept(&mut self, store: &Store) -> Option<bool> {
         let missing = self.missing.take();
         let found = tasks::kept(&missing, store)?;
@@ -67,7 +67,7 @@ impl Results {
         Some(!missing.is_empty())
     }
 
-    /// What has been used since the last call.
+    /// The results that have been used since the last call.
     pub(crate) fn take_used(&self) -> Vec<Used> {
         self.used.take()
     }
@@ -90,7 +90,7 @@ impl Results {
     /// The drift of a run.
     pub(crate) fn drift(&self, run: &Run, estimator: Estimator) -> Option<Drift> {
         let outcome = self.request(Quantity::Drift { run: run.clone(), estimator })?;
-        let Outcome::Drift(drift) = outcome else { unreachable!("a drift was asked for") };
+        let Outcome::Drift(drift) = outcome else { unreachable!("a drift was requested") };
         self.using(Used::Drift(run.clone(), estimator, drift.clone()));
         Some(drift)
     }
@@ -103,12 +103,12 @@ impl Results {
         Some(Sizes { drift: log10(&drift.drift), permanent })
     }
 
-    /// log₁₀ of the drift of a run; NaN where there is none, which breaks a line.
+    /// log₁₀ of the drift of a run; NaN, a missing point, if there is none.
     pub(crate) fn log10_drift(&self, run: &Run, estimator: Estimator) -> f64 {
         self.sizes(run, estimator).map_or(f64::NAN, |sizes| sizes.drift)
     }
 
-    /// To how many digits the drift of a run is that of the same run with more digits: −log₁₀ of the difference.
+    /// −log₁₀ of the difference between the drift of a run and that of the same run with more digits.
     pub(crate) fn digits_held(&self, run: &Run, estimator: Estimator, digits: u32) -> Option<f64> {
         let [this, more] = [run.clone(), run.clone().digits(digits)].map(|run| self.drift(&run, estimator));
         Some(-(number(&this?.drift) - number(&more?.drift)).log10_abs())
@@ -117,7 +117,7 @@ impl Results {
     /// The modified energies of a run.
     pub(crate) fn energies(&self, run: &Run, estimator: Estimator) -> Option<Energies> {
         let outcome = self.request(Quantity::Energies { run: run.clone(), estimator })?;
-        let Outcome::Energies(energies) = outcome else { unreachable!("energies were asked for") };
+        let Outcome::Energies(energies) = outcome else { unreachable!("energies were requested") };
         self.using(Used::Energies(run.clone(), estimator, energies.clone()));
         Some(energies)
     }
@@ -137,24 +137,24 @@ impl Results {
     }
 
     fn number(&self, quantity: Quantity) -> Option<String> {
-        let Outcome::Number(number) = self.request(quantity)? else { unreachable!("a number was asked for") };
+        let Outcome::Number(number) = self.request(quantity)? else { unreachable!("a number was requested") };
         Some(number)
     }
 
     /// Scatter and wander in double precision.
     pub(crate) fn noise(&self, steps: u64, differences: Differences) -> Option<Vec<Block>> {
         let outcome = self.request(Quantity::Noise { steps, differences })?;
-        let Outcome::Blocks(blocks) = outcome else { unreachable!("blocks were asked for") };
+        let Outcome::Blocks(blocks) = outcome else { unreachable!("blocks were requested") };
         self.using(Used::Blocks(differences, blocks.clone()));
         Some(blocks)
     }
 
-    /// The values of a grid: all, or in a hurry some of them.
+    /// The values of a grid: all, or for a quick figure some of them.
     pub(crate) fn grid<'a, T>(&self, all: &'a [T], some: &'a [T]) -> &'a [T] {
         if self.quick { some } else { all }
     }
 }
 
 fn key(calculation: &Calculation) -> String {
-    serde_json::to_string(calculation).expect("a calculation is plain")
+    serde_json::to_string(calculation).expect("a calculation can be written as JSON")
 }

@@ -1,4 +1,4 @@
-//! Tasks over all cores, whose outcomes are kept as they come: what was interrupted goes on where it stopped.
+//! Tasks on all cores. Each outcome is saved when its task is done, so that an interrupted computation can be resumed.
 
 mod store;
 
@@ -13,35 +13,35 @@ use serde::de::DeserializeOwned;
 use crate::{Error, Observer, Progress};
 pub(crate) use store::Store;
 
-/// Something to compute, which is known by its JSON: equal JSON is an equal task, and is computed once.
+/// Something to compute, identified by its JSON: tasks with equal JSON are computed once.
 ///
 /// Tasks of different types may share a store only if their JSON differs, as that of an `enum` does. Numbers of more than
-/// 64 bits belong into texts.
+/// 64 bits must be texts.
 pub(crate) trait Task: Serialize + Sync {
-    /// Floating-point numbers in it must be finite, as JSON has no others.
+    /// Floating-point numbers in it must be finite, because JSON has no others.
     type Outcome: Serialize + DeserializeOwned;
 
-    /// About how long it takes, in any unit that all tasks share.
+    /// The approximate time, in a unit common to all tasks.
     fn cost(&self) -> f64;
 
-    /// Computes it, in one thread.
+    /// Computes it in one thread.
     fn compute(&self) -> Result<Self::Outcome, Error>;
 }
 
-/// What came of some tasks.
+/// The outcomes of several tasks.
 #[derive(Debug)]
 pub(crate) struct Outcomes<O> {
-    /// In the order in which they were asked for; `None` where the task failed.
+    /// In the order of the tasks; `None` if the task failed.
     pub(crate) outcomes: Vec<Option<O>>,
-    /// The failures, with the first of the tasks (by its place) that failed so.
+    /// The failures, each with the place of its task.
     pub(crate) failures: Vec<(usize, Error)>,
 }
 
-/// Does what the store does not have yet, the costliest first, and gives all outcomes.
+/// Computes the tasks whose outcomes the store lacks, the most expensive first, and returns all outcomes.
 ///
-/// It uses all threads of the present rayon pool: as many as there are cores, or as `RAYON_NUM_THREADS` or the caller's
-/// pool says. Outcomes are read back from their JSON in any case, so that they depend neither on the threads nor on
-/// what was done before. The failure of a task stops no other; only a store that cannot be written stops all.
+/// It uses all threads of the current rayon pool: one per core, or the number of `RAYON_NUM_THREADS` or of the caller's pool.
+/// Outcomes are always read back from their JSON, so that they depend neither on the threads nor on earlier calls. A
+/// failed task stops no other; only a store that cannot be written stops all.
 pub(crate) fn run<T: Task>(
     tasks: &[T],
     store: &mut Store,
@@ -55,7 +55,7 @@ pub(crate) fn run<T: Task>(
             continue;
         }
         places.insert(key, place);
-        // what another form of outcome left there is computed again
+        // an outcome in another form is computed again
         if store.outcome(key).is_none_or(|json| serde_json::from_str::<T::Outcome>(json).is_err()) {
             due.push(place);
         }
@@ -70,17 +70,17 @@ pub(crate) fn run<T: Task>(
     Ok(Outcomes { outcomes, failures })
 }
 
-/// All outcomes, if the store has them: nothing is computed.
+/// All outcomes if the store has them; nothing is computed.
 pub(crate) fn kept<T: Task>(tasks: &[T], store: &Store) -> Option<Vec<T::Outcome>> {
     tasks.iter().map(|task| serde_json::from_str(store.outcome(&key(task).ok()?)?).ok()).collect()
 }
 
-/// The JSON of a task; a `Value` has one way to write it.
+/// The JSON of a task; a `Value` is written in one way only.
 fn key<T: Serialize>(task: &T) -> Result<String, Error> {
     Ok(serde_json::to_value(task)?.to_string())
 }
 
-/// Computes the tasks that are due in their order: each thread takes the next one when it is done with another.
+/// Computes the tasks that are due in their order; each idle thread takes the next one.
 fn compute<T: Task>(
     tasks: &[T],
     keys: &[String],
@@ -106,7 +106,7 @@ fn compute<T: Task>(
                         *locked(&broken) = Some(error);
                     }
                 }
-                Err(complaint) => locked(&failures).push((place, complaint)),
+                Err(error) => locked(&failures).push((place, error)),
             }
             locked(&progress).done(cost(place));
         }
@@ -156,12 +156,12 @@ fn json<T: Task>(outcome: &T::Outcome) -> Result<String, Error> {
         Ok(_) => Ok(json),
         Err(error) => Err(Error::run(
             format!("an outcome cannot be read back from its JSON ({error}): {json}"),
-            "a number in it may be infinite or not a number",
+            "a number in it may be infinite or NaN",
         )),
     }
 }
 
-/// A thread that panicked left nothing half done.
+/// A thread that panicked leaves no partial changes.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -31,7 +31,7 @@ fn files(folder: &Path) -> Vec<(String, String)> {
 fn a_figure_is_pictures_data_and_a_section_of_the_report() {
     let folder = TempDir::new().unwrap();
     let said = figures(folder.path(), &FAST, "2");
-    assert_eq!(said, format!("{}: 1 differs, 1 ours\n", folder.path().join("report.html").display()));
+    assert_eq!(said, format!("{}: 1 differs, 1 additional\n", folder.path().join("report.html").display()));
     let files = files(folder.path());
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
@@ -102,7 +102,7 @@ fn a_report_keeps_the_figures_whose_results_are_there() {
     figures(path, &["scattering"], "2");
     let before = files(path);
     let said = figures(path, &["double-precision"], "2");
-    assert!(said.ends_with("report.html: 1 differs, 1 ours\n"), "{said}");
+    assert!(said.ends_with("report.html: 1 differs, 1 additional\n"), "{said}");
     let now = files(path);
     let of = |name: &str| &now.iter().find(|(other, _)| other == name).unwrap().1;
     for (name, text) in before.iter().filter(|(name, _)| name != "report.html") {
@@ -120,7 +120,7 @@ fn a_report_keeps_the_figures_whose_results_are_there() {
     let fewer = text.replace(&format!("{lost}\n"), "");
     fs::write(&store, &fewer).unwrap();
     let said = figures(path, &["double-precision"], "2");
-    assert!(said.ends_with("report.html: 1 ours\n"), "{said}");
+    assert!(said.ends_with("report.html: 1 additional\n"), "{said}");
     assert_eq!(fs::read_to_string(&store).unwrap(), fewer);
 }
 

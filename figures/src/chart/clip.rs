@@ -1,4 +1,4 @@
-//! Lines that are broken where points are missing, and cut where they leave the chart.
+//! Lines are interrupted where points are missing, and cut where they leave the chart.
 
 /// A rectangle in the values of the axes.
 #[derive(Clone, Copy)]
@@ -27,13 +27,13 @@ impl Frame {
                 Some(piece) if last == Some(from) => piece.push(to),
                 _ => pieces.push(vec![from, to]),
             }
-            // a line that was cut goes on elsewhere, if at all
+            // after a cut the next piece begins elsewhere
             last = (to == pair[1]).then_some(to);
         }
         pieces
     }
 
-    /// The points that no line could show, as those before and after them are missing.
+    /// The points that no line shows because both neighbours are missing.
     pub(super) fn alone(&self, points: &[Point]) -> Vec<Point> {
         let is_there = |i: usize| points.get(i).is_some_and(|(x, y)| x.is_finite() && y.is_finite());
         let alone = |i: &usize| !is_there(i + 1) && (*i == 0 || !is_there(i - 1));
@@ -43,7 +43,7 @@ impl Frame {
     /// The part of a line within the frame (Liang and Barsky 1984).
     fn cut(&self, from: Point, to: Point) -> Option<(Point, Point)> {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
-        // neither are they if an end is not
+        // not finite if an end is not
         if !dx.is_finite() || !dy.is_finite() {
             return None;
         }

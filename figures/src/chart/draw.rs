@@ -9,7 +9,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::clip::Frame;
 use super::ink::{FINE, Ink, finished};
-use super::labels::spread;
+use super::labels::separate;
 use super::layout::{GAP, LINE, Layout, MARGIN, SAMPLE, Span, TEXT, TICK, TITLE, UNDER, in_legend};
 use super::looks::{self, Shape};
 use super::{Chart, Curve, Look, Marker, Side};
@@ -30,17 +30,17 @@ fn stroke(ink: Ink, width: f64) -> ShapeStyle {
     ink.placeholder().stroke_width(fine(width).unsigned_abs())
 }
 
-/// plotters writes a size of font divided by 1.24.
+/// plotters divides font sizes by 1.24.
 fn text(size: f64, anchor: (HPos, VPos)) -> TextStyle<'static> {
     let color = Ink::Text.placeholder().to_backend_color();
     TextStyle { font: ("sans-serif", size * FINE * 1.24).into_font(), color, pos: Pos::new(anchor.0, anchor.1) }
 }
 
 impl Chart {
-    /// The SVG text: it can be a file of its own, or a part of an HTML page.
+    /// The SVG text, for a separate file or as a part of an HTML page.
     ///
-    /// Text is text, without `id`s and scripts; on dark screens it turns dark. Thin out curves with more points than
-    /// can be seen (some thousands) before: every point is written.
+    /// It has no `id`s and no scripts; text stays text, and on dark screens the picture is dark. Every point is written, so
+    /// curves of many thousand points should be thinned out before.
     pub(crate) fn svg(&self) -> Result<String, Error> {
         let layout = Layout::of(self);
         let size = (layout.width.ceil() as u32, layout.height.ceil() as u32);
@@ -102,18 +102,18 @@ impl Chart {
         if right.is_none() {
             self.label_ends(area, &ends, columns.start..columns.end, rows)?;
         }
-        self.words_around(area, layout)
+        self.draw_texts(area, layout)
     }
 
     /// At the right, each curve's label at the height where the curve ends, or as near as there is room.
     fn label_ends(&self, area: &Area<'_>, ends: &[Option<Pixel>], columns: Range<i32>, rows: Range<i32>) -> DrawResult {
-        // curves that are nowhere to be seen are named below the others
+        // curves without visible points are labelled below the others
         let wanted: Vec<_> = ends.iter().map(|end| f64::from(end.map_or(rows.end, |(_, y)| y))).collect();
         let range = (f64::from(rows.start + fine(LINE / 2.0)), f64::from(rows.end - fine(LINE / 2.0)));
-        let places = spread(&wanted, LINE * FINE, range);
+        let places = separate(&wanted, LINE * FINE, range);
         for ((curve, end), place) in self.curves.iter().zip(ends).zip(places) {
             let at = (columns.end + fine(GAP), place.round() as i32);
-            // a leader through half the chart would look like a curve
+            // a longer leader would look like a curve
             let near = end.filter(|(x, _)| columns.end - x < (columns.end - columns.start) / 4);
             if let Some(end) = near.filter(|(x, y)| (y - at.1).abs() > fine(1.0) || *x < columns.end - fine(8.0)) {
                 area.draw(&PathElement::new([end, (at.0 - fine(2.0), at.1)], stroke(Ink::Leader, 0.8)))?;
@@ -124,7 +124,7 @@ impl Chart {
     }
 
     /// Title, legend, and notes.
-    fn words_around(&self, area: &Area<'_>, layout: &Layout) -> DrawResult {
+    fn draw_texts(&self, area: &Area<'_>, layout: &Layout) -> DrawResult {
         for (n, line) in layout.title.iter().enumerate() {
             let mut style = text(TITLE, (HPos::Left, VPos::Top));
             style.font = style.font.style(FontStyle::Bold);
@@ -156,7 +156,7 @@ fn minor_ticks(area: &Area<'_>, x: &Span, y: &Span, place: &dyn Fn((f64, f64)) -
     Ok(())
 }
 
-/// Draws what is visible of a curve, and tells where that ends at the right.
+/// Draws the visible part of a curve, and returns its rightmost point.
 fn draw_curve(
     area: &Area<'_>,
     curve: &Curve,
@@ -196,7 +196,7 @@ fn draw_curve(
     Ok(rightmost(&visible))
 }
 
-/// Where a curve ends for who reads from left to right, in whatever order its points are.
+/// The rightmost point of a curve, whatever the order of its points.
 fn rightmost(points: &[Pixel]) -> Option<Pixel> {
     points.iter().copied().max_by_key(|(x, _)| *x)
 }
@@ -228,7 +228,7 @@ fn draw_marker(area: &Area<'_>, marker: Marker, colour: usize, at: Pixel) -> Dra
     Ok(())
 }
 
-/// A sample of the curve, and its label, whose middle is at the right of a place.
+/// A sample of the curve and its label, to the right of a place and vertically centred on it.
 fn draw_label(area: &Area<'_>, curve: &Curve, marked: bool, (x, y): Pixel, label: &str) -> DrawResult {
     if !matches!(curve.look, Look::Points(_)) {
         area.draw(&PathElement::new([(x, y), (x + fine(SAMPLE), y)], line_style(curve)))?;

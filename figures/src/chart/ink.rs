@@ -1,14 +1,14 @@
-//! What a style sheet can change.
+//! Colours and dashes that a style sheet can change.
 //!
-//! plotters writes plain colours, and knows no dashes and no classes. So each part of a picture is drawn in a colour of
-//! its own that stands for what it is, and is then replaced by what is meant.
+//! plotters writes plain colours, without dashes and classes. So each kind of part is drawn in a placeholder colour, which
+//! is then replaced by its attributes.
 
 use maud::{PreEscaped, html};
 use plotters::style::RGBColor;
 
 use super::looks;
 
-/// What a stroke, a filled shape, or a text is.
+/// The kind of a stroke, a filled shape, or a text.
 #[derive(Clone, Copy)]
 pub(super) enum Ink {
     /// Frame and texts.
@@ -23,7 +23,7 @@ pub(super) enum Ink {
     Dashed(usize),
 }
 
-/// Lengths in the picture are in tenths, as plotters has whole numbers only.
+/// Lengths in the picture are in tenths of a pixel, because plotters has integers only.
 pub(super) const FINE: f64 = 10.0;
 
 impl Ink {
@@ -32,7 +32,7 @@ impl Ink {
         [Ink::Text, Ink::Grid, Ink::Leader].into_iter().chain(curves)
     }
 
-    /// The colour that stands for it until the picture is finished.
+    /// The placeholder colour until the picture is finished.
     pub(super) fn placeholder(self) -> RGBColor {
         match self {
             Ink::Text => RGBColor(1, 0, 0),
@@ -52,7 +52,7 @@ impl Ink {
         }
     }
 
-    /// What the style sheet calls it; other colours can be seen on white and on black.
+    /// Its class in the style sheet; other colours are visible on white and on black.
     fn class(self) -> Option<&'static str> {
         match self {
             Ink::Text | Ink::Curve(looks::BLACK) | Ink::Dashed(looks::BLACK) => Some("ink"),
@@ -109,7 +109,7 @@ fn raised(text: &str) -> String {
     plain
 }
 
-/// The style of all charts; it is the same in each, so that pictures within one page do not disturb each other.
+/// The style of all charts. It is the same in each, so that pictures on one page do not interfere.
 const STYLE: &str = "
 svg.chart text { font-family: Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif; }
 svg.chart polyline { stroke-linejoin: round; }
@@ -123,9 +123,9 @@ svg.chart polyline { stroke-linejoin: round; }
 }
 ";
 
-/// The picture that plotters drew, of a size in pixels, with a name, a style and a ground.
+/// The picture of plotters with its size in pixels, a title, a style and a background.
 ///
-/// It has no `id`s, so that many such pictures can be parts of one page.
+/// It has no `id`s, so that one page can contain many pictures.
 pub(super) fn finished(drawn: &str, (width, height): (u32, u32), title: &str) -> String {
     let mut content = drawn.split_once(">\n").map_or("", |(_, content)| content).trim_end().to_owned();
     if let Some(end) = content.rfind("</svg>") {
@@ -135,7 +135,7 @@ pub(super) fn finished(drawn: &str, (width, height): (u32, u32), title: &str) ->
     for ink in Ink::all() {
         let RGBColor(r, g, b) = ink.placeholder();
         for paint in ["stroke", "fill"] {
-            // texts cannot be mistaken for it: their quotation marks are escaped
+            // texts cannot match, because their quotation marks are escaped
             content = content.replace(&format!("{paint}=\"#{r:02X}{g:02X}{b:02X}\""), &ink.attributes(paint));
         }
     }

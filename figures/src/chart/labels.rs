@@ -1,9 +1,9 @@
-//! Texts beside a chart: how wide they are about, and how they are kept apart.
+//! Texts beside a chart: their approximate widths, and their places without overlaps.
 
-/// The width of a text in em of its font: about that of a sans-serif face, rather too wide than too narrow.
+/// The width of a character in em: about that of a sans-serif face, rather too wide than too narrow.
 const CHARACTER: f64 = 0.56;
 
-/// About how wide a text is at a size of font.
+/// The approximate width of a text at a font size.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     // small raised digits and signs are narrower
     let characters = text.chars().map(|character| match character {
@@ -15,7 +15,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
     characters.sum::<f64>() * CHARACTER * size
 }
 
-/// The lines of a text that is at most so wide; a single word may be wider.
+/// The lines of a text of at most this width; a single word may be wider.
 pub(super) fn lines(text: &str, most: f64, size: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -30,15 +30,15 @@ pub(super) fn lines(text: &str, most: f64, size: f64) -> Vec<String> {
     lines
 }
 
-/// Places within `range` that are as near to those wanted as they can be, and at least `gap` apart.
+/// Places within `range`, as close as possible to those wanted, and at least `gap` apart.
 ///
-/// The sum of squared shifts is least. Where the range is too short for all, the gap is what it has room for.
-pub(super) fn spread(wanted: &[f64], gap: f64, range: (f64, f64)) -> Vec<f64> {
+/// They minimise the sum of squared shifts. If the range is too short, the gap is reduced.
+pub(super) fn separate(wanted: &[f64], gap: f64, range: (f64, f64)) -> Vec<f64> {
     let (low, high) = range;
     let gap = gap.min((high - low) / wanted.len().saturating_sub(1).max(1) as f64);
     let mut order: Vec<usize> = (0..wanted.len()).collect();
     order.sort_by(|&i, &j| wanted[i].total_cmp(&wanted[j]));
-    // less their gaps, the places only have to rise: neighbours that do not are pooled at their mean
+    // without their gaps the places must be nondecreasing: violating neighbours are pooled at their mean
     let mut pools: Vec<(f64, usize)> = Vec::new();
     for (rank, &i) in order.iter().enumerate() {
         pools.push((wanted[i] - rank as f64 * gap, 1));
@@ -64,19 +64,19 @@ mod tests {
 
     #[test]
     fn labels_that_do_not_touch_stay() {
-        assert_eq!(spread(&[50.0, 10.0, 90.0], 15.0, (0.0, 100.0)), [50.0, 10.0, 90.0]);
+        assert_eq!(separate(&[50.0, 10.0, 90.0], 15.0, (0.0, 100.0)), [50.0, 10.0, 90.0]);
     }
 
     #[test]
-    fn labels_at_one_place_go_apart_evenly() {
-        assert_eq!(spread(&[50.0, 50.0, 50.0], 10.0, (0.0, 100.0)), [40.0, 50.0, 60.0]);
+    fn labels_at_one_place_are_separated_evenly() {
+        assert_eq!(separate(&[50.0, 50.0, 50.0], 10.0, (0.0, 100.0)), [40.0, 50.0, 60.0]);
     }
 
     #[test]
     fn labels_stay_within_the_range() {
-        assert_eq!(spread(&[99.0, 98.0, -5.0], 10.0, (0.0, 100.0)), [100.0, 90.0, 0.0]);
-        assert_eq!(spread(&[7.0, 7.0, 7.0], 80.0, (0.0, 100.0)), [0.0, 50.0, 100.0]);
-        assert!(spread(&[], 10.0, (0.0, 100.0)).is_empty());
+        assert_eq!(separate(&[99.0, 98.0, -5.0], 10.0, (0.0, 100.0)), [100.0, 90.0, 0.0]);
+        assert_eq!(separate(&[7.0, 7.0, 7.0], 80.0, (0.0, 100.0)), [0.0, 50.0, 100.0]);
+        assert!(separate(&[], 10.0, (0.0, 100.0)).is_empty());
     }
 
     #[test]

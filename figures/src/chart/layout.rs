@@ -1,4 +1,4 @@
-//! How much room everything takes.
+//! The places and sizes of all parts of a chart.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use super::labels::{lines, width};
 use super::ticks::Ticks;
 use super::{Axis, Chart, Curve, Scale, Side};
 
-// sizes in pixels of a screen; half a page is about 640 of them
+// sizes in pixels; half a page is about 640 of them
 pub(super) const TITLE: f64 = 18.0;
 pub(super) const TEXT: f64 = 16.0;
 pub(super) const LINE: f64 = 20.0;
@@ -16,7 +16,7 @@ pub(super) const MARGIN: f64 = 10.0;
 pub(super) const TICK: f64 = 5.0;
 /// Between the plot and the labels of curves.
 pub(super) const GAP: f64 = 14.0;
-/// Of a curve, beside its label.
+/// The sample of a curve beside its label.
 pub(super) const SAMPLE: f64 = 26.0;
 /// For the labels and the description of the horizontal axis.
 pub(super) const UNDER: f64 = 2.0 * TICK + 2.0 * LINE + 4.0;
@@ -24,7 +24,7 @@ const WIDTH: f64 = 660.0;
 const LEAST_PLOT_WIDTH: f64 = 400.0;
 const PLOT_HEIGHT: f64 = 330.0;
 
-/// What an axis shows.
+/// The range and the ticks of an axis.
 pub(super) struct Span {
     pub(super) range: (f64, f64),
     pub(super) ticks: Ticks,
@@ -37,7 +37,7 @@ impl Span {
         Span { range, ticks: Ticks::new(axis.scale, range) }
     }
 
-    /// How wide the labels of a vertical axis are, with the description.
+    /// The width of the labels of a vertical axis, with its description.
     pub(super) fn room(&self) -> f64 {
         let widest = self.ticks.labelled.iter().map(|(_, label)| width(label, TEXT)).fold(0.0, f64::max);
         widest + 2.0 * TICK + LINE + 2.0
@@ -54,7 +54,7 @@ impl Ranged for &Span {
     }
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        // lines of the grid are at labels only
+        // the grid has lines at labels only
         if hint.weight().allow_light_points() { Vec::new() } else { self.ticks.values() }
     }
 
@@ -73,7 +73,7 @@ impl ValueFormatter<f64> for &Span {
     }
 }
 
-/// From the least to the largest value that an axis can have, and a little more.
+/// From the smallest to the largest value that an axis can show, with a margin.
 fn extent(values: impl Iterator<Item = f64>, scale: Scale) -> (f64, f64) {
     let usable = values.filter(|value| value.abs() < largest(scale));
     let (least, most) = usable.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), value| (a.min(value), b.max(value)));
@@ -88,7 +88,7 @@ fn extent(values: impl Iterator<Item = f64>, scale: Scale) -> (f64, f64) {
     (least - room, most + room)
 }
 
-/// Beyond these, a step from tick to tick is no number any more.
+/// Beyond this, neighbouring ticks cannot be distinguished.
 fn largest(scale: Scale) -> f64 {
     match scale {
         Scale::Linear => 1e290,
@@ -98,19 +98,19 @@ fn largest(scale: Scale) -> f64 {
 
 const SMALLEST: f64 = 1e-290;
 
-/// Whether ticks within the range are different numbers: not so about a value that hardly changes.
+/// Whether ticks within the range are different numbers; not so if the values hardly change.
 fn has_ticks((least, most): (f64, f64), scale: Scale) -> bool {
     let size = least.abs().max(most.abs());
     size < largest(scale) && most - least > SMALLEST.max(1e-9 * size)
 }
 
-/// Where everything goes, in pixels.
+/// The places of all parts, in pixels.
 pub(super) struct Layout {
     pub(super) x: Span,
     pub(super) y: Span,
     pub(super) second: Span,
     pub(super) title: Vec<String>,
-    /// Where the entries of a legend begin.
+    /// The left ends of the entries of a legend.
     pub(super) legend: Vec<(f64, f64)>,
     pub(super) notes: Vec<String>,
     pub(super) above: f64,
@@ -153,7 +153,7 @@ impl Layout {
     }
 }
 
-/// Entries from left to right, in as many rows as it takes.
+/// Entries from left to right, in as many rows as necessary.
 fn legend(chart: &Chart, picture: f64, top: f64) -> Vec<(f64, f64)> {
     let (mut x, mut y) = (MARGIN, top);
     let mut places = Vec::new();
@@ -168,7 +168,7 @@ fn legend(chart: &Chart, picture: f64, top: f64) -> Vec<(f64, f64)> {
     places
 }
 
-/// A curve of the other axis says so.
+/// The label of a curve, with its axis if that is the right one.
 pub(super) fn in_legend(curve: &Curve) -> String {
     let right = if curve.side == Side::Second { " (right axis)" } else { "" };
     format!("{}{right}", curve.label)

@@ -1,9 +1,9 @@
-//! Colours, dashes and markers: each curve is known by more than its colour.
+//! Colours, dashes and markers: a curve is recognised by more than its colour.
 
 use super::Marker;
 
-/// The colours of Okabe and Ito (2008), which people with any colour vision can tell apart, and a grey; the most
-/// different first. Their yellow is darker here, as a thin line of it could not be seen on white.
+/// The colours of Okabe and Ito (2008), which people with any colour vision can distinguish, and a grey; the most
+/// different first. The yellow is darker here, because a thin yellow line is not visible on white.
 const COLOURS: [&str; 9] =
     ["#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#777777", "#B5A500"];
 

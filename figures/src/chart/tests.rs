@@ -72,7 +72,7 @@ pub(crate) fn samples() -> [(&'static str, Chart); 3] {
     [("drifts", drifts()), ("bumps", bumps()), ("orders", orders())]
 }
 
-/// `SHADOWSTEP_LOOK=DIR` keeps the pictures, for eyes.
+/// `SHADOWSTEP_LOOK=DIR` keeps the pictures, for inspection.
 #[test]
 pub(crate) fn samples_are_drawn_whole() {
     for (name, chart) in samples() {
@@ -83,7 +83,7 @@ pub(crate) fn samples_are_drawn_whole() {
         for label in chart.curves.iter().map(|curve| &curve.label).chain([&chart.x.label]) {
             assert!(svg.contains(label), "{name} lacks {label}");
         }
-        // many are parts of one page, where ids would clash; placeholders are all replaced
+        // one page contains many, so that ids would clash; all placeholders are replaced
         let ticks = ["drifts", "orders"]
             .contains(&name)
             .then_some(">10<tspan dy=\"-0.4em\" font-size=\"0.75em\">−20</tspan></text>");
@@ -111,7 +111,7 @@ fn curves_stay_within_the_plot() {
     chart.y = Axis { range: Some((-10.0, 20.0)), ..axis("y", Scale::Linear) };
     let svg = chart.svg().unwrap();
     let lines = polylines(&svg);
-    // the sides of the frame at top and right, drawn after the curve, tell where the plot is
+    // the sides of the frame at top and right, drawn after the curve, are the bounds of the plot
     let frame = lines.iter().find(|line| line.len() == 3 && line[0].1 == line[1].1).unwrap();
     let ((left, top), (right, bottom)) = (frame[0], frame[2]);
     let of_curve: Vec<_> = lines.iter().filter(|line| line.len() > 3).collect();
@@ -136,7 +136,7 @@ fn labels_do_not_overlap_with_many_curves_of_one_end() {
     assert!(rows.windows(2).all(|pair| pair[1] - pair[0] >= 190.0), "{rows:?}");
 }
 
-/// What a computation may give where something went wrong; nothing of it may panic or hang.
+/// Values of failed computations; none may cause a panic or an endless loop.
 #[test]
 fn strange_values_are_drawn_or_left_out() {
     let lists = [

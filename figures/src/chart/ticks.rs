@@ -1,4 +1,4 @@
-//! Where an axis has its ticks, and what is written there.
+//! The ticks of an axis and their labels.
 
 use super::Scale;
 
@@ -8,7 +8,7 @@ pub(super) struct Ticks {
     pub(super) minor: Vec<f64>,
 }
 
-/// About so many steps between labels fit on an axis.
+/// The approximate number of intervals between labels that fit on an axis.
 const MOST_STEPS: f64 = 7.0;
 
 impl Ticks {
@@ -21,7 +21,7 @@ impl Ticks {
     }
 
     pub(super) fn label(&self, value: f64) -> String {
-        // ticks are asked for as they were given
+        // the values are those of `values`, bit for bit
         self.labelled.iter().find(|(tick, _)| *tick == value).map(|(_, label)| label.clone()).unwrap_or_default()
     }
 
@@ -42,7 +42,7 @@ fn linear(least: f64, most: f64) -> Ticks {
     let values = |parts: i64| {
         let step = f64::from(digit) / parts as f64;
         let unit = move |n: i64| scaled(n as f64 * step, exponent);
-        // a tick on the end of the range is one, whatever the last bit says
+        // a tick at the end of the range is included, whatever the last bit
         let nudge = (most - least) * 1e-9;
         let end = |value: f64| value / scaled(step, exponent);
         let (first, last) = (end(least - nudge).ceil() as i64, end(most + nudge).floor() as i64);
@@ -74,7 +74,7 @@ fn decimal(n: i64, exponent: i32) -> String {
     }
 }
 
-/// Whole decades; 1, 2 and 5 times them, or round numbers, where there is not more than one.
+/// Whole decades; if there is at most one, 1, 2 and 5 times them, or round numbers.
 fn logarithmic(least: f64, most: f64) -> Ticks {
     let span = most - least;
     let within = |value: &f64| (least..=most).contains(value);
@@ -85,7 +85,7 @@ fn logarithmic(least: f64, most: f64) -> Ticks {
     if most.floor() - least.ceil() < 1.0 {
         return few_decades(least, most);
     }
-    // steps that are parts of their followers, beside the minor steps that go with them
+    // steps, each of which divides its successor, with their minor steps
     const STEPS: [(i64, i64); 10] =
         [(1, 1), (2, 1), (5, 1), (10, 2), (20, 5), (50, 10), (100, 20), (200, 50), (500, 100), (1000, 200)];
     let (step, minor) = STEPS.into_iter().find(|(step, _)| span <= *step as f64 * MOST_STEPS).unwrap_or_else(|| {

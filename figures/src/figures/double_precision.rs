@@ -1,4 +1,4 @@
-//! The noise floor of double precision against the length of the run, by what differences of states are taken from.
+//! The noise floor of double precision against the length of the run, for several ways to take differences of states.
 
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
@@ -23,20 +23,20 @@ pub(super) fn draw(results: &Results) -> Drawing {
         Curve::line(*label, blocks.iter().map(|block| ((block.steps as f64).log10(), of(block))).collect(), n)
     };
     let mut drawing =
-        Drawing::ours("Störmer–Verlet on Kepler's problem, e = 0.6, h = 1/20, in double precision (f64), by E_8");
+        Drawing::additional("Störmer–Verlet on Kepler's problem, e = 0.6, h = 1/20, in double precision (f64), by E_8");
     drawing.chart(
         "Scatter of the modified energy near apocentres",
         Axis::log10("steps"),
         Axis::log10("max − min within ± 10 steps"),
         (0..3).map(|n| curve(n, &|block| block.scatter.log10())).collect(),
-        "The largest of all apocentres of a part of the run that ends there.",
+        "The largest value over the apocentres of the block that ends there.",
     );
     drawing.chart(
         "Wander of its mean",
         Axis::log10("steps"),
         Axis::log10("|mean − mean of the first 1000 steps|"),
         (1..3).map(|n| curve(n, &|block| block.wander.abs().log10())).collect(),
-        "What the round-off of the steps themselves does: no estimator can help it.",
+        "The effect of the round-off of the steps, which no estimator can remove.",
     );
     let last = |n: usize| blocks[n].1.last().cloned();
     if let (Some(sums), Some(beta), Some(increments)) = (last(0), last(1), last(2)) {
@@ -46,7 +46,7 @@ pub(super) fn draw(results: &Results) -> Drawing {
             increments.scatter < 2e-15,
         );
         drawing.check(
-            "A running sum of β loses digits like the length of the run.",
+            "A running sum of β loses digits in proportion to the length of the run.",
             format!(
                 "{}, {:.0} times as much as with increments of β",
                 scientific(sums.scatter),
@@ -55,12 +55,12 @@ pub(super) fn draw(results: &Results) -> Drawing {
             sums.scatter > 100.0 * beta.scatter,
         );
         drawing.check(
-            "Differences of q and p from increments gain a little more.",
+            "Differences of q and p from increments reduce the scatter a little more.",
             format!("{} against {}", scientific(increments.scatter), scientific(beta.scatter)),
             increments.scatter < beta.scatter,
         );
         drawing.found(format!(
-            "The mean wanders by {} in {} steps: the round-off of the states, which is the same however differences are taken.",
+            "The mean wanders by {} in {} steps: this is the round-off of the states, which does not depend on how differences are taken.",
             scientific(increments.wander.abs()),
             increments.steps
         ));

@@ -1,4 +1,4 @@
-//! What the figures of estimators against their states share.
+//! Shared by the figures of estimators against the number of states that they use.
 
 use crate::results::Results;
 use crate::run::{Estimator, Run};
@@ -16,9 +16,9 @@ pub(super) fn against_states(
     orders.iter().map(point).collect()
 }
 
-/// Even ones, whose values belong to states.
+/// The even orders up to 200, whose values belong to states.
 pub(super) fn even(orders: &[u32]) -> Vec<u32> {
     orders.iter().map(|order| 2 * order).filter(|order| *order <= 200).collect()
 }
 
-pub(super) const STATES: &str = "states that an estimate needs";
+pub(super) const STATES: &str = "states per estimate";

@@ -1,4 +1,4 @@
-//! What estimators show on the exact flow, against the number of states that they use.
+//! Estimators on the exact flow, against the number of states that they use.
 
 use super::estimators::{ORDERS, STATES, against_states, even};
 use super::kepler::run;
@@ -12,9 +12,8 @@ use crate::run::{EXACT_FLOW, Estimator};
 pub(super) const FIGURE: Figure = Figure { name: "estimators-exact-flow", title: "Estimators on the exact flow", draw };
 
 fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::ours(
-        "The states of Kepler's exact flow (e = 0.6) at t = n h, with β along it: the modified energy of this trajectory is −1/2 at every state, so \
-         everything that an estimator shows is its own error.",
+    let mut drawing = Drawing::additional(
+        "The states of Kepler's exact flow (e = 0.6) at t = n h, with β along it: the modified energy of this trajectory is −1/2 at every state, so all variation of the estimates is the estimator's own error.",
     );
     let orders = results.grid(&ORDERS, &[1, 3, 8, 24, 200]);
     for n in [10, 20, 40] {
@@ -24,7 +23,7 @@ fn draw(results: &Results) -> Drawing {
         let bilinear = against_states(results, &exact, &|k| Estimator::Bilinear { k }, &even(orders));
         let least = |points: &[(f64, f64)]| points.iter().map(|(_, y)| *y).fold(f64::INFINITY, f64::min);
         drawing.found(format!(
-            "h = 1/{n}: with up to 401 states the best m shows {}, any fixed m at least {}; the bilinear estimator shows {} with up to 201.",
+            "h = 1/{n}: the variation is {} by the best m with up to 401 states, at least {} by any fixed m, and {} by the bilinear estimator with up to 201 states.",
             power(best.last().map_or(f64::NAN, |(_, y)| *y)),
             power(least(&central)),
             power(least(&bilinear)),

@@ -1,4 +1,4 @@
-//! What estimators show on schemes, against the number of states that they use.
+//! Estimators on schemes, against the number of states that they use.
 
 use super::estimators::{ORDERS, STATES, against_states, even};
 use super::kepler::run;
@@ -12,8 +12,8 @@ use crate::run::{BEST, EXACT_FLOW, Estimator, SCHEMES};
 pub(super) const FIGURE: Figure = Figure { name: "estimators-schemes", title: "Estimators on schemes", draw };
 
 fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::ours(
-        "The same on the schemes, Kepler, e = 0.6, h = 1/20, beside the permanent change between quiet states.",
+    let mut drawing = Drawing::additional(
+        "The same estimators on schemes, Kepler, e = 0.6, h = 1/20, and the permanent change between low-error states.",
     );
     let orders = results.grid(&ORDERS, &[1, 3, 8, 24, 200]);
     let best = |largest| Estimator::Best { largest, early: false };
@@ -29,7 +29,7 @@ fn draw(results: &Results) -> Drawing {
             Axis::log10(STATES),
             Axis::log10("drift of the modified energy over [0, 100]"),
             curves,
-            "Where a curve leaves that of the exact flow, it shows the scheme.",
+            "Where a curve departs from that of the exact flow, it shows the scheme.",
         );
     };
     chart("Best m up to a cap", &best, &orders[1..]);

@@ -1,4 +1,4 @@
-//! What the figures of the Hénon–Heiles problem share.
+//! Shared by the figures of the Hénon–Heiles problem.
 
 use crate::results::Results;
 use crate::run::{Estimator, Run};

@@ -12,9 +12,9 @@ pub(super) const FIGURE: Figure =
     Figure { name: "henon-heiles-bilinear", title: "Hénon–Heiles by the bilinear estimator", draw };
 
 fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::ours(
-        "Hénon–Heiles again, p₁(0) = 0.1, by the bilinear estimator E_k of k + 1 states beside central differences with the best m \
-         up to 200 (401 states).",
+    let mut drawing = Drawing::additional(
+        "The Hénon–Heiles problem, p₁(0) = 0.1, by the bilinear estimator E_k of k + 1 states and by central differences with the best m up to 200 \
+         (401 states).",
     );
     let steps = results.grid(&STEPS, &[2, 4, 6, 12, 25]);
     let [best, _] = drifts(results, "stormer-verlet", steps, BEST);
@@ -31,7 +31,7 @@ fn draw(results: &Results) -> Drawing {
         Axis::linear("1/h"),
         Axis::log10("drift of the modified energy over [0, 100]"),
         curves,
-        "The exact flow is not known here: there is no control.",
+        "The exact flow of this problem is not known, so the estimator's own error is not shown.",
     );
     drawing
 }

@@ -1,4 +1,4 @@
-//! The Hénon–Heiles problem: the drift against the step.
+//! The Hénon–Heiles problem: the drift against the step size.
 
 use super::henon_heiles::{STEPS, drifts, run};
 use crate::chart::{Axis, Curve};
@@ -10,11 +10,11 @@ use crate::results::Results;
 use crate::run::{BEST, SCHEMES};
 
 pub(super) const FIGURE: Figure =
-    Figure { name: "henon-heiles-step", title: "Hénon–Heiles: drift against the step", draw };
+    Figure { name: "henon-heiles-step", title: "Hénon–Heiles: drift against the step size", draw };
 
 fn draw(results: &Results) -> Drawing {
     let mut drawing = Drawing::of_paper(&[
-        "The drift against the step with p₁(0) = 0.1. The expected exponential smallness is indeed present, and there is no problem \
+        "The drift against the step size with p₁(0) = 0.1. The expected exponential smallness is indeed present, and there is no problem \
          in using the algorithm other than allowing for large values of m (capped at 200). The effect of round-off error becomes \
          visible when 1/h exceeds 20.",
         "The fourth-order methods of Yoshida and of Blanes and Moan show the same as for Kepler's problem: Störmer–Verlet preserves the \
@@ -48,26 +48,26 @@ fn draw(results: &Results) -> Drawing {
 /// A scheme's label, its drifts against 1/h, and their rate.
 type Fitted = (&'static str, Vec<(f64, f64)>, Option<ExponentialDecay>);
 
-/// Whether the rates are the same, and where the first scheme leaves its line for the round-off.
+/// Checks whether the rates are the same, and whether the first scheme leaves its line where round-off begins.
 fn rates(drawing: &mut Drawing, fits: &[Fitted]) {
     if let [(_, points, Some(first)), others @ ..] = fits {
         drawing.check(
             "The drift is exponentially small.",
-            format!("c = {:.2}, a line to within {:.2} decades", first.c, first.spread),
-            first.spread < 1.5,
+            format!("c = {:.2}, a line to within {:.2} decades", first.c, first.deviation),
+            first.deviation < 1.5,
         );
         let off =
             others.iter().filter_map(|(_, _, fit)| Some((fit.as_ref()?.c / first.c - 1.0).abs())).fold(0.0, f64::max);
         drawing.check(
             "The value of c is the same.",
-            format!("to within {:.1} %; within 10 % is called the same", 100.0 * off),
+            format!("to within {:.1} %; within 10 % counts as the same", 100.0 * off),
             off < SAME_RATE,
         );
         let (n, y) = points.last().expect("there are steps");
         let line = first.a - first.c * std::f64::consts::LOG10_E * n;
         drawing.check(
             "The effect of round-off error becomes visible when 1/h exceeds 20.",
-            format!("at h = 1/{n} the drift is {}, where the line goes on to {}", power(*y), power(line)),
+            format!("at h = 1/{n} the drift is {}, where the fitted line gives {}", power(*y), power(line)),
             *y > line + 1.0,
         );
     }

@@ -1,4 +1,4 @@
-//! What the figures of Kepler's problem share.
+//! Shared by the figures of Kepler's problem.
 
 use shadowstep::Number;
 use shadowstep::problems::Problem;
@@ -18,7 +18,7 @@ pub(super) fn singularity(e: f64) -> f64 {
     (1.0 / e).acosh() - (1.0 - e * e).sqrt()
 }
 
-/// Störmer–Verlet and others with e = 0.6, a = 1.
+/// A run with h = 1/n, e = 0.6 and a = 1.
 pub(super) fn run(propagator: &'static str, n: u32) -> Run {
     Run::of(Problem::Kepler, propagator, format!("1/{n}"))
 }
@@ -44,7 +44,7 @@ pub(super) fn off(energies: &Energies, reference: usize) -> Vec<(f64, f64)> {
     energies.times.iter().copied().zip(sizes).collect()
 }
 
-/// The place of the first apocentre.
+/// The index of the first apocentre.
 pub(super) fn apocentre(energies: &Energies) -> usize {
     energies.distances.windows(2).position(|pair| pair[1] < pair[0]).unwrap_or(0)
 }

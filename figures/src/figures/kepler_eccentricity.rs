@@ -11,7 +11,7 @@ use crate::run::{BEST, Run};
 pub(super) const FIGURE: Figure =
     Figure { name: "kepler-eccentricity", title: "Kepler: drift against the eccentricity", draw };
 
-/// Thousandths of e, to which the instability is located.
+/// The smallest e with which the body escapes, to a thousandth.
 fn escapes(results: &Results, n: u32, coarse: &[u32]) -> Option<f64> {
     // a bound orbit stays within 1 + e, its precession included
     let escapes = |e: u32| Some(results.farthest(&of(n, e))? > 3.0);
@@ -27,7 +27,7 @@ fn escapes(results: &Results, n: u32, coarse: &[u32]) -> Option<f64> {
     Some(f64::from(escaped) / 1000.0)
 }
 
-/// With e in thousandths.
+/// Störmer–Verlet with h = 1/n and e in thousandths.
 fn of(n: u32, e: u32) -> Run {
     run("stormer-verlet", n).with("eccentricity", format!("{e}/1000"))
 }
@@ -35,7 +35,7 @@ fn of(n: u32, e: u32) -> Run {
 fn draw(results: &Results) -> Drawing {
     let mut drawing = Drawing::of_paper(&[
         "Almost circular orbits show much better preservation of the energy than highly elliptical ones.",
-        "An instability occurs at a critical eccentricity which depends on the step: the topology of the energy levels of the modified \
+        "An instability occurs at a critical eccentricity which depends on the step size: the topology of the energy levels of the modified \
          energy changes, which leads to unbounded trajectories.",
     ]);
     let grid: Vec<u32> = (1..=19).map(|n| 50 * n).collect();
@@ -60,10 +60,10 @@ fn draw(results: &Results) -> Drawing {
     if !located.is_empty() {
         let grows = located.windows(2).all(|pair| pair[0] < pair[1]);
         let list = rows.iter().map(|row| format!("{} at h = {}", row[1], row[0])).collect::<Vec<_>>().join(", ");
-        drawing.check("An instability occurs at a critical eccentricity which depends on the step.", list, grows);
+        drawing.check("An instability occurs at a critical eccentricity which depends on the step size.", list, grows);
     }
     drawing.digits_held("the drift at h = 1/20, e = 0.8", results.digits_held(&of(20, 800), BEST, 200));
-    drawing.table("The least eccentricity with which the body goes beyond |q| = 3 before t = 100", &["h", "e"], rows);
+    drawing.table("The smallest eccentricity for which |q| exceeds 3 before t = 100", &["h", "e"], rows);
     drawing.chart(
         "Störmer–Verlet, Kepler",
         Axis::linear("eccentricity e"),

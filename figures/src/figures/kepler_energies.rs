@@ -1,4 +1,4 @@
-//! Kepler's problem: the modified energy in time, for several steps and schemes.
+//! Kepler's problem: the modified energy in time, for several step sizes and schemes.
 
 use super::kepler::{FAR, NEAR, apocentre, off, run};
 use crate::calculation::Energies;
@@ -23,7 +23,7 @@ fn largest_off(energies: &Energies, at: impl Fn(f64) -> bool) -> f64 {
 
 fn draw(results: &Results) -> Drawing {
     let mut drawing = Drawing::of_paper(&[
-        "The modified energy less the initial one, for several steps (Störmer–Verlet) and for the methods at h = 0.1. There \
+        "The modified energy less the initial one, for several step sizes (Störmer–Verlet) and for the methods at h = 0.1. There \
          are peaks when the particle is near the singularity, and the energy essentially recovers its value after this point \
          before another close encounter.",
         "The methods give rather different results, even though the maximal variation is almost the same. The Blanes–Moan \
@@ -35,7 +35,8 @@ fn draw(results: &Results) -> Drawing {
     let all = SCHEMES.into_iter().chain([(EXACT_FLOW, "exact flow")]);
     let of_schemes: Labelled =
         all.map(|(scheme, label)| (label.to_owned(), results.energies(&run(scheme, 10), BEST))).collect();
-    for (title, of) in [("Störmer–Verlet, several steps", &of_steps), ("h = 1/10, several schemes", &of_schemes)] {
+    for (title, of) in [("Störmer–Verlet, several step sizes", &of_steps), ("h = 1/10, several schemes", &of_schemes)]
+    {
         in_time(&mut drawing, title, of, false);
         in_time(&mut drawing, &format!("{title}, from the apocentre"), of, true);
     }
@@ -44,7 +45,11 @@ fn draw(results: &Results) -> Drawing {
         let (encounter, between) = (largest_off(verlet, |r| r < NEAR), largest_off(verlet, |r| r > FAR));
         drawing.check(
             "It essentially recovers its value after a close encounter (Störmer–Verlet, h = 1/20).",
-            format!("off by up to {} where |q| < 0.8, by {} where |q| > 1.5", power(encounter), power(between)),
+            format!(
+                "the difference is up to {} where |q| < 0.8 and up to {} where |q| > 1.5",
+                power(encounter),
+                power(between)
+            ),
             between < encounter - 2.0,
         );
     }
@@ -65,8 +70,7 @@ fn in_time(drawing: &mut Drawing, title: &str, of: &Labelled, from_apocentre: bo
     let (y, caption) = if from_apocentre {
         (
             "|modified energy − its value at the first apocentre|",
-            "The start is a pericentre, where the estimate is worst; from an apocentre the changes between encounters can be \
-             seen.",
+            "The start is a pericentre, where the estimate is worst; relative to an apocentre the changes between encounters are visible.",
         )
     } else {
         ("|modified energy − its first value|", "t ≤ 40 of [0, 100]; the start is a pericentre.")
@@ -91,7 +95,7 @@ fn compare_schemes(drawing: &mut Drawing, of: &Labelled) {
     drawing.check(
         "Blanes and Moan's methods preserve it better after the encounter.",
         format!(
-            "where |q| > 1.5 off by {} for S6 and {} for SRKN6b, {} for Störmer–Verlet",
+            "where |q| > 1.5 the difference is up to {} for S6, {} for SRKN6b and {} for Störmer–Verlet",
             power(s6.2),
             power(srkn.2),
             power(verlet.2)

@@ -11,7 +11,7 @@ use crate::run::{BEST, EXACT_FLOW, SCHEMES};
 pub(super) const FIGURE: Figure =
     Figure { name: "kepler-schemes", title: "Kepler: three schemes, and the exact flow", draw };
 
-/// Those with h ≤ 1/10.
+/// The points with h ≤ 1/10.
 fn fine(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     points.iter().copied().filter(|(n, _)| *n >= 10.0).collect()
 }
@@ -42,7 +42,7 @@ fn draw(results: &Results) -> Drawing {
         drawing.check(
             &format!("The drift of {label} is about {stated} times that of Störmer–Verlet."),
             format!(
-                "{mean:.2} times (geometric mean over h ≤ 1/10; {least:.2} to {most:.2}); within 35 % is called about"
+                "{mean:.2} times (geometric mean over h ≤ 1/10; {least:.2} to {most:.2}); within 35 % counts as about"
             ),
             (mean / stated - 1.0).abs() < 0.35,
         );
@@ -53,7 +53,7 @@ fn draw(results: &Results) -> Drawing {
         let off = others.iter().map(|c| (c / first - 1.0).abs()).fold(0.0, f64::max);
         drawing.check(
             "The constant c is the same.",
-            format!("to within {:.2} %; within 10 % is called the same", 100.0 * off),
+            format!("to within {:.2} %; within 10 % counts as the same", 100.0 * off),
             off < SAME_RATE,
         );
     }
@@ -69,7 +69,7 @@ fn draw(results: &Results) -> Drawing {
     let [least, mean, most] = ratios(&fine(&control), &fine(&of[3].1));
     drawing.found(format!(
         "The exact flow shows {mean:.2} times the drift of Blanes and Moan's SRKN6b (geometric mean over h ≤ 1/10; {least:.3} to \
-         {most:.3}), though its energy does not change at all: that drift is the estimator's, not the scheme's."
+         {most:.3}), although its energy does not change at all: that drift belongs to the estimator, not to the scheme."
     ));
     drawing
 }

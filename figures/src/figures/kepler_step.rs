@@ -1,4 +1,4 @@
-//! Kepler's problem: the drift against the step.
+//! Kepler's problem: the drift against the step size.
 
 use std::f64::consts::PI;
 
@@ -13,12 +13,12 @@ use crate::numbers::{number, power};
 use crate::results::Results;
 use crate::run::{BEST, EXACT_FLOW, Estimator};
 
-pub(super) const FIGURE: Figure = Figure { name: "kepler-step", title: "Kepler: drift against the step", draw };
+pub(super) const FIGURE: Figure = Figure { name: "kepler-step", title: "Kepler: drift against the step size", draw };
 
 fn draw(results: &Results) -> Drawing {
     let mut drawing = Drawing::of_paper(&[
-        "The drift against the step, e = 0.6: the theoretical exp(−c/h) behaviour.",
-        "In contrast with the pendulum, the T_{m,m} do not converge as m → ∞: the m of 2 … 200 with the least |T_{m,m} − T_{m−1,m−1}| is taken.",
+        "The drift against the step size, e = 0.6: the theoretical exp(−c/h) behaviour.",
+        "In contrast with the pendulum, the T_{m,m} do not converge as m → ∞: the m of 2 … 200 with the smallest |T_{m,m} − T_{m−1,m−1}| is taken.",
     ]);
     let steps = results.grid(&STEPS, &[4, 6, 10, 14, 20, 30]);
     let best = drifts(results, "stormer-verlet", steps, BEST);
@@ -32,14 +32,14 @@ fn draw(results: &Results) -> Drawing {
         Axis::linear("1/h"),
         Axis::log10("drift of the modified energy over [0, 100]"),
         curves,
-        "The same m at every state, and the best one of each.",
+        "The same m at every state, and the best m of each state.",
     );
     let fit = rate(&best);
     if let Some(fit) = &fit {
         drawing.check(
             "The drift follows exp(−c/h).",
-            format!("c = {:.3} ± {:.3}, a line to within {:.2} decades", fit.c, fit.c_error, fit.spread),
-            fit.spread < 0.5 && fit.c > 0.0,
+            format!("c = {:.3} ± {:.3}, a line to within {:.2} decades", fit.c, fit.c_error, fit.deviation),
+            fit.deviation < 0.5 && fit.c > 0.0,
         );
     }
     errors_against_m(results, &mut drawing);
@@ -49,7 +49,7 @@ fn draw(results: &Results) -> Drawing {
         vec![
             decay_row("best m ≤ 200", fit.as_ref()),
             vec![
-                "π ρ, what differences of samples alias to".to_owned(),
+                "π ρ, from aliasing of differences of samples".to_owned(),
                 format!("{:.4}", PI * singularity(0.6)),
                 String::new(),
                 String::new(),
@@ -65,7 +65,7 @@ fn draw(results: &Results) -> Drawing {
     drawing
 }
 
-/// What T_{m,m} is off by at a pericentre and at an apocentre of the exact flow, whose energy is known.
+/// The errors of T_{m,m} at a pericentre and at an apocentre of the exact flow, whose energy is known.
 fn errors_against_m(results: &Results, drawing: &mut Drawing) {
     let orders =
         results.grid(&[2, 5, 10, 15, 20, 25, 30, 35, 40, 50, 60, 80, 100, 130, 160, 200], &[5, 20, 35, 50, 200]);
@@ -94,6 +94,6 @@ fn errors_against_m(results: &Results, drawing: &mut Drawing) {
         Axis::linear("m"),
         Axis::log10("|T_{m,m} + 1/2|"),
         vec![Curve::line("at a pericentre", pericentre, 0), Curve::line("at an apocentre", apocentre, 1)],
-        "With m > 60 the states about an apocentre reach into the close encounters.",
+        "With m > 60 the states around an apocentre reach into the close encounters.",
     );
 }

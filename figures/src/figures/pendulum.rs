@@ -1,4 +1,4 @@
-//! What the figures of the pendulum share.
+//! Shared by the figures of the pendulum.
 
 use std::f64::consts::PI;
 

@@ -16,9 +16,9 @@ pub(super) const FIGURE: Figure =
     Figure { name: "pendulum-bilinear", title: "The pendulum by the bilinear estimator", draw };
 
 fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::ours(
-        "The pendulum again, by the bilinear estimator E_k of k + 1 states, beside T_{m,m} with m = 200 (401 states), and what both \
-         show on the exact flow, whose energy does not change.",
+    let mut drawing = Drawing::additional(
+        "The pendulum by the bilinear estimator E_k of k + 1 states and by T_{m,m} with m = 200 (401 states), each also on the exact flow, whose \
+         energy does not change.",
     );
     let steps = results.grid(&[2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20], &[2, 4, 7, 10]);
     let drifts = |propagator: &'static str, by: Estimator| -> Vec<(f64, f64)> {
@@ -39,7 +39,7 @@ fn draw(results: &Results) -> Drawing {
         Axis::linear("1/h"),
         Axis::log10("drift of the modified energy over [0, 100]"),
         curves,
-        "What goes on below a curve cannot be seen by its estimator.",
+        "An estimator cannot resolve what is below its curve.",
     );
     let highest = &of[of.len() - 1].1;
     let ten = |points: &[(f64, f64)]| power(points.iter().find(|(n, _)| *n == 10.0).map_or(f64::NAN, |(_, y)| *y));
@@ -53,8 +53,8 @@ fn draw(results: &Results) -> Drawing {
     for (what, scheme, control) in [("m = 200", &linear_one, &control), ("E_40", &of[2].1, &control_40)] {
         let off = scheme.iter().zip(control).map(|((_, a), (_, b))| (a - b).abs()).fold(0.0, f64::max);
         drawing.found(format!(
-            "By {what} the exact flow shows the same drift to within {off:.2} decades at every step: what is shown on the scheme \
-             is the estimator's own."
+            "By {what} the drift of the exact flow is the same to within {off:.2} decades at every step size: the drift shown for the scheme belongs \
+             to the estimator."
         ));
     }
     let checked = Run::of(Problem::Pendulum, SCHEME, "1/10");

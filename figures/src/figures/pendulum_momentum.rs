@@ -41,7 +41,7 @@ fn draw(results: &Results) -> Drawing {
         Axis::linear("p(0)"),
         Axis::log10("drift of the modified energy over [0, 100]"),
         curves,
-        "Best m up to 200. Beyond p(0) = 2 the pendulum goes round; at 2 is the separatrix.",
+        "Best m up to 200. For p(0) > 2 the pendulum rotates; p(0) = 2 is the separatrix.",
     );
     drawing
 }

@@ -1,4 +1,4 @@
-//! The pendulum: the drift against the step.
+//! The pendulum: the drift against the step size.
 
 use shadowstep::problems::Problem;
 use std::f64::consts::PI;
@@ -12,16 +12,17 @@ use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{Estimator, Run};
 
-pub(super) const FIGURE: Figure = Figure { name: "pendulum-step", title: "The pendulum: drift against the step", draw };
+pub(super) const FIGURE: Figure =
+    Figure { name: "pendulum-step", title: "The pendulum: drift against the step size", draw };
 
-/// The m of the paper.
+/// The m of the paper's figure.
 const ORDERS: [u32; 7] = [2, 5, 10, 15, 20, 30, 40];
 
 /// 1/h
 const STEPS: [u32; 22] = [2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 18, 20, 22, 24, 26, 28, 30];
 
-/// The m by which T_{m,m} have converged: what is missing is about exp(ρ²/(h² m)), by the paper's lemma 3. Beyond 1000 a step
-/// takes too long.
+/// An m at which T_{m,m} has converged: the remainder is about exp(ρ²/(h² m)), by lemma 3 of the paper. It is at most 1000, as a
+/// step takes too long with a larger one.
 fn limit(n: u32, quick: bool) -> Estimator {
     let wanted = (singularity(1.0) * f64::from(n)).powi(2) * 3.0;
     Estimator::Central { m: (wanted as u32).clamp(200, if quick { 400 } else { 1000 }) }
@@ -59,16 +60,16 @@ fn draw(results: &Results) -> Drawing {
         pair[0].1.iter().zip(&pair[1].1).all(|((_, lower), (_, higher))| *higher < lower + 0.05 || *higher < ROUND_OFF)
     });
     drawing.check(
-        "A larger m gives no larger drift.",
-        if falls { "at every step" } else { "not at every step" },
+        "A larger m does not give a larger drift.",
+        if falls { "at every step size" } else { "not at every step size" },
         falls,
     );
     let fit = decay(&limit, 0.25);
     if let Some(fit) = &fit {
         drawing.check(
             "The limit follows exp(−c/h).",
-            format!("c = {:.3} ± {:.3}, a line to within {:.2} decades", fit.c, fit.c_error, fit.spread),
-            fit.spread < 0.5 && fit.c > 0.0,
+            format!("c = {:.3} ± {:.3}, a line to within {:.2} decades", fit.c, fit.c_error, fit.deviation),
+            fit.deviation < 0.5 && fit.c > 0.0,
         );
     }
     let rho = singularity(1.0);
@@ -78,7 +79,7 @@ fn draw(results: &Results) -> Drawing {
         vec![
             decay_row("limit", fit.as_ref()),
             vec![
-                "π ρ, what differences of samples alias to".to_owned(),
+                "π ρ, from aliasing of differences of samples".to_owned(),
                 format!("{:.4}", PI * rho),
                 String::new(),
                 String::new(),
@@ -88,13 +89,13 @@ fn draw(results: &Results) -> Drawing {
     let checked = (run(10), Estimator::Central { m: 20 });
     drawing.digits_held("the drift at h = 1/10 by m = 20", results.digits_held(&checked.0, checked.1, 200));
     drawing.found(format!(
-        "c is that of the estimator, π ρ with ρ = {rho:.4}, the distance of the nearest singularity of q(t) from the real axis: \
-         the bilinear estimator, below, finds a modified energy that is conserved far better."
+        "c is the rate of the estimator, π ρ, where ρ = {rho:.4} is the distance of the nearest singularity of q(t) from the real axis. The \
+         bilinear estimator, below, gives a modified energy that is conserved far better."
     ));
     drawing
 }
 
-/// With m far beyond those of the figure, at h = 1/4.
+/// Checks the limit with m far larger than those of the figure, at h = 1/4.
 fn converges(results: &Results, drawing: &mut Drawing) {
     let run = Run::of(Problem::Pendulum, SCHEME, "1/4");
     let many = [40, 80, 160, 320, 640].map(|m| results.log10_drift(&run, Estimator::Central { m }));

@@ -1,4 +1,4 @@
-//! The permanent change of the modified energy of the schemes, between the states with small estimated errors.
+//! The permanent change of the modified energy of the schemes, between low-error states.
 
 use super::kepler::{self, run};
 use crate::chart::{Axis, Curve};
@@ -36,11 +36,11 @@ fn drift_and_change(results: &Results, drawing: &mut Drawing, steps: &[u32], cha
         Axis::linear("1/h"),
         Axis::log10("modified energy over [0, 100]"),
         curves,
-        "Above, the drift by the best m: that of every scheme is that of the exact flow, whose energy does not change. Below, what changes for good.",
+        "Above, the drift by the best m: for every scheme it is that of the exact flow, whose energy does not change. Below, the permanent change.",
     );
 }
 
-/// Evaluations of the gradient a step.
+/// Force evaluations per step.
 const COSTS: [f64; 4] = [1.0, 3.0, 6.0, 6.0];
 
 /// log₁₀ of the permanent change and of its largest jump, by E_24.
@@ -58,17 +58,16 @@ fn changes(results: &Results, steps: &[u32], x: impl Fn(f64, f64) -> f64) -> Vec
 }
 
 fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::ours(
-        "By how much the modified energy changes for good over [0, 100], Kepler, e = 0.6: max − min over the states whose estimated \
-         error is small, which are those near the apocentres; by E_24. It is the range of the sum of jumps, one an encounter; each \
-         depends like a sine on where within a step the encounter comes, so that the sum also depends on the start and on how the \
-         period fits the step.",
+    let mut drawing = Drawing::additional(
+        "The permanent change of the modified energy over [0, 100], Kepler, e = 0.6: max − min over the low-error states, which are near the \
+         apocentres; by E_24. It is the range of a sum of jumps, one per encounter. Each jump is a sinusoidal function of the position of the \
+         encounter within a step, so the sum also depends on the start and on the ratio of the period to the step size.",
     );
     let all = [5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 23, 26, 30, 35, 40];
     let steps = results.grid(&all, &[5, 7, 10, 14, 20, 28, 40]);
     let (equal_steps, equal_cost) = (changes(results, steps, |n, _| n), changes(results, steps, |n, cost| n * cost));
     let y = || Axis::log10("permanent change over [0, 100]");
-    drawing.chart("At equal steps", Axis::linear("1/h"), y(), equal_steps.clone(), "Lower is better.");
+    drawing.chart("At equal step sizes", Axis::linear("1/h"), y(), equal_steps.clone(), "Lower is better.");
     let per_time = Axis::linear("force evaluations per unit of time");
     drawing.chart("At equal cost", per_time, y(), equal_cost.clone(), "Lower is better.");
     drift_and_change(results, &mut drawing, steps, &equal_steps);
@@ -86,7 +85,7 @@ fn draw(results: &Results) -> Drawing {
     drawing
 }
 
-/// Which schemes change less, at equal steps and at equal cost.
+/// Which schemes change less, at equal step sizes and at equal cost.
 fn rank(drawing: &mut Drawing, equal_steps: &[Curve], equal_cost: &[Curve]) {
     let at = |scheme: usize| equal_steps[scheme].points.iter().map(|(_, y)| *y);
     let both = at(0).zip(at(1)).filter(|(verlet, yoshida)| verlet.is_finite() && yoshida.is_finite());
@@ -95,12 +94,12 @@ fn rank(drawing: &mut Drawing, equal_steps: &[Curve], equal_cost: &[Curve]) {
     let others = at(0).zip(at(1)).zip(at(2).zip(at(3))).map(|((a, b), (c, d))| c.max(d) - a.min(b));
     let most = others.filter(|y| y.is_finite()).fold(f64::NEG_INFINITY, f64::max);
     drawing.check(
-        "At equal steps S6 and SRKN6b, whose drifts are the largest, change least.",
-        format!("by {:.2} of the lesser of the others at most", 10_f64.powf(most)),
+        "At equal step sizes S6 and SRKN6b, whose drifts are the largest, change least.",
+        format!("by at most {:.2} times the smaller change of the others", 10_f64.powf(most)),
         most < 0.0,
     );
     drawing.found(format!(
-        "Störmer–Verlet changes more than Yoshida 4 at {larger} of {count} steps: between these two the phases of the encounters decide."
+        "Störmer–Verlet changes more than Yoshida 4 at {larger} of {count} step sizes: which of the two changes more depends on the phases of the encounters."
     ));
     let verlet = &equal_cost[0].points;
     let behind =
@@ -108,12 +107,12 @@ fn rank(drawing: &mut Drawing, equal_steps: &[Curve], equal_cost: &[Curve]) {
     let behind = behind.filter(|y| y.is_finite()).fold(f64::NEG_INFINITY, f64::max);
     drawing.check(
         "At equal cost Störmer–Verlet changes least.",
-        format!("by {} of the others at most, where costs overlap", power(behind)),
+        format!("by at most {} times the change of the others, where costs overlap", power(behind)),
         behind < 0.0,
     );
 }
 
-/// Between points in the order of x.
+/// Linear interpolation between points in the order of x.
 fn interpolated(points: &[(f64, f64)], x: f64) -> Option<f64> {
     let pair = points.windows(2).find(|pair| pair[0].0 <= x && x <= pair[1].0)?;
     let part = (x - pair[0].0) / (pair[1].0 - pair[0].0);

@@ -1,4 +1,4 @@
-//! Ours: what estimators say of their errors, against their errors on the exact flow.
+//! The estimated errors of estimators, against their true errors on the exact flow.
 
 use shadowstep::Number;
 use shadowstep::problems::Problem;
@@ -11,7 +11,7 @@ use crate::numbers::number;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, Estimator, Run};
 
-pub(super) const FIGURE: Figure = Figure { name: "reliability", title: "What estimators say of their errors", draw };
+pub(super) const FIGURE: Figure = Figure { name: "reliability", title: "Estimated errors against true errors", draw };
 
 const ESTIMATORS: [(&str, Estimator); 6] = [
     ("T_{m,m}, m = 10", Estimator::Central { m: 10 }),
@@ -22,7 +22,7 @@ const ESTIMATORS: [(&str, Estimator); 6] = [
     ("E_32", Estimator::Bilinear { k: 32 }),
 ];
 
-/// Beyond this an estimate of the error is none.
+/// The largest ratio of true and estimated error that counts as reliable.
 const RELIABLE: f64 = 2.0;
 
 fn run(e: &str, h: &str, until: &'static str) -> Run {
@@ -34,14 +34,14 @@ fn true_errors(found: &Energies) -> Vec<f64> {
     found.values.iter().map(|value| (number(value) + 0.5_f64).log10_abs()).collect()
 }
 
-/// log₁₀ of true error/estimate; where both are nothing there is nothing to compare.
+/// log₁₀ of true error/estimate; infinite ratios, of zeros, are left out.
 fn ratios(found: &Energies, estimates: &[Option<f64>]) -> Vec<f64> {
     let pairs = true_errors(found).into_iter().zip(estimates);
     pairs.filter_map(|(error, estimate)| Some(error - (*estimate)?)).filter(|ratio| ratio.is_finite()).collect()
 }
 
-/// The median, the 95th hundredth, and the largest.
-fn parts(mut ratios: Vec<f64>) -> [f64; 3] {
+/// The median, the 95th percentile, and the largest.
+fn quantiles(mut ratios: Vec<f64>) -> [f64; 3] {
     ratios.sort_by(f64::total_cmp);
     let at = |part: f64| {
         ratios.get(((ratios.len().max(1) - 1) as f64 * part) as usize).map_or(f64::NAN, |y| 10_f64.powf(*y))
@@ -54,9 +54,8 @@ fn shown(ratio: f64) -> String {
 }
 
 fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::ours(
-        "On the exact flow of Kepler's problem the error of an estimate is known. The paper takes |T_{m,m} − T_{m−1,m−1}| for it. Ours is the \
-         largest of the differences of the estimates at a few states on either side, of their last terms, and of the last digit.",
+    let mut drawing = Drawing::additional(
+        "On the exact flow of Kepler's problem the error of an estimate is known. The paper uses |T_{m,m} − T_{m−1,m−1}| as its estimate. Here the estimate is the largest of the differences of the estimates at a few states on either side, of their last terms, and of the last digit.",
     );
     for (label, by) in [ESTIMATORS[2], ESTIMATORS[4]] {
         along_an_orbit(results, &mut drawing, label, by);
@@ -68,7 +67,7 @@ fn draw(results: &Results) -> Drawing {
     for (label, by) in ESTIMATORS {
         let all = || orbits.iter().flat_map(|e| steps.iter().map(move |h| run(e, h, "7")));
         let of = |pick: fn(&Energies) -> &Vec<Option<f64>>| {
-            parts(
+            quantiles(
                 all()
                     .filter_map(|run| results.energies(&run, by))
                     .flat_map(|found| ratios(&found, pick(&found)))
@@ -77,7 +76,7 @@ fn draw(results: &Results) -> Drawing {
         };
         let (ours, papers) = (of(|found| &found.errors), of(|found| &found.last_terms));
         let coarse = results.energies(&run("6/10", "2", "100"), by);
-        let coarse = coarse.map_or(f64::NAN, |found| parts(ratios(&found, &found.errors))[2]);
+        let coarse = coarse.map_or(f64::NAN, |found| quantiles(ratios(&found, &found.errors))[2]);
         let few = if coarse > RELIABLE { "not reliable here".to_owned() } else { shown(coarse) };
         worst_of_all = worst_of_all.max(ours[2]);
         rows.push([label.to_owned()].into_iter().chain(ours.map(shown)).chain([shown(papers[2]), few]).collect());
@@ -88,7 +87,7 @@ fn draw(results: &Results) -> Drawing {
         rows,
     );
     drawing.check(
-        "The estimated errors are hardly ever less than the true ones, close encounters included.",
+        "The estimated errors are hardly ever smaller than the true ones, close encounters included.",
         format!("true/estimated is at most {worst_of_all:.2}"),
         worst_of_all < RELIABLE,
     );

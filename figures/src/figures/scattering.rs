@@ -1,4 +1,4 @@
-//! Scattering at a hill that vanishes far away: there H is the modified energy, and its change can be seen without an estimator.
+//! Scattering at a hill that vanishes far away: there H is the modified energy, and its change is observed without an estimator.
 
 use rug::Float;
 use shadowstep::Number;
@@ -21,7 +21,7 @@ const PHASES: u32 = 12;
 /// 1/h
 const STEPS: [u32; 13] = [2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20];
 
-/// The start is moved by `phase`/12 of what a step covers at speed 2.
+/// The start is moved by `phase`/12 of the distance per step at speed 2.
 fn run(n: u32, phase: u32) -> Run {
     Run::of(Problem::Scattering, "stormer-verlet", format!("1/{n}"))
         .with("start", format!("17 + {}/{}", 2 * phase, n * PHASES))
@@ -115,12 +115,12 @@ fn rates(drawing: &mut Drawing, changes: &[(f64, f64)], best: &[(f64, f64)]) {
             "|H(y₀) − H(y_T)| is of the order exp(−C/h).",
             format!(
                 "C = {:.3} ± {:.3} for the largest change, a line to within {:.2} decades",
-                change.c, change.c_error, change.spread
+                change.c, change.c_error, change.deviation
             ),
-            change.spread < 0.5,
+            change.deviation < 0.5,
         );
         drawing.found(format!(
-            "C is {:.3} times the c of the drift by the best m, as on Kepler's problem, where the exact flow shows the drift, too.",
+            "C is {:.3} times the c of the drift by the best m, as for Kepler's problem, where the exact flow also shows that drift.",
             change.c / best.c
         ));
     }

@@ -1,8 +1,8 @@
-//! T_{m,m} and E_k in texts, as they are printed.
+//! T_{m,m} and E_k in texts, with subscripts.
 
 use maud::{Markup, html};
 
-/// A text in which what follows the _ of T_{m,m}, E_k and E_40 is set below the line.
+/// A text in which the indices of T_{m,m}, E_k and E_40 are subscripts.
 pub(super) fn set(text: &str) -> Markup {
     let mut rest = text;
     let mut pieces = Vec::new();
@@ -13,12 +13,12 @@ pub(super) fn set(text: &str) -> Markup {
     html! { @for (before, index) in pieces { (before) sub { (index) } } (rest) }
 }
 
-/// What is before the first index, the index, and what is after it.
+/// The text before the first index, the index, and the text after it.
 fn first_index(text: &str) -> Option<(&str, &str, &str)> {
     text.match_indices('_').find_map(|(at, _)| {
         let mut before = text[..at].chars().rev();
         let letter = before.next().is_some_and(|letter| "TE".contains(letter));
-        // the end of a longer name is no symbol
+        // not the end of a longer name
         if !letter || before.next().is_some_and(|c| c.is_alphanumeric() || c == '_') {
             return None;
         }
@@ -36,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn indices_are_set_below_the_line() {
+    fn indices_are_subscripts() {
         for (text, expected) in [
             ("|T_{m,m} − T_{m−1,m−1}|", "|T<sub>m,m</sub> − T<sub>m−1,m−1</sub>|"),
             ("E_k, of E_40.", "E<sub>k</sub>, of E<sub>40</sub>."),

@@ -1,7 +1,7 @@
-//! The file of outcomes: a head, and a line for each task that is done.
+//! The file of outcomes: a header, and one line per task that is done.
 //!
-//! A line is written at once when its task is done, so that whatever ends the program, all lines but the last are
-//! whole. A process holds a lock on the file, which the system takes off when the process ends in whatever way.
+//! A line is written as soon as its task is done, so that all lines but the last are complete however the program ends. The
+//! process holds a lock on the file, which the system releases when the process ends.
 
 use std::collections::HashMap;
 use std::fs::{self, File, OpenOptions};
@@ -25,9 +25,9 @@ pub(crate) struct Store {
     outcomes: HashMap<String, String>,
 }
 
-/// The first line: what made the outcomes.
+/// The first line: the version of the program.
 #[derive(Deserialize)]
-struct Head {
+struct Header {
     shadowstep: String,
 }
 
@@ -38,11 +38,10 @@ struct Line {
 }
 
 impl Store {
-    /// Opens `results.jsonl` in a folder, which is made if it is not there.
+    /// Opens `results.jsonl` in a folder, which is created if it does not exist.
     ///
-    /// Outcomes of another version of the program are set aside under another name. A last line that is not whole was
-    /// being written when the program was ended, and is dropped. It is an error if another process has the file, or a
-    /// line is none of ours.
+    /// A file of another version of the program is renamed. An incomplete last line, from an interrupted program, is dropped.
+    /// It is an error if another process has the file, or if a line is not an outcome of a task.
     pub(crate) fn open(folder: &Path, observer: &mut dyn Observer) -> Result<Store, Error> {
         Store::open_as(folder, env!("CARGO_PKG_VERSION"), observer)
     }
@@ -58,23 +57,23 @@ impl Store {
         let mut file = locked(&path)?;
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes)?;
-        let head = format!("{}\n", json!({ "shadowstep": version }));
-        // a file that ended within its first line
-        if head.as_bytes().starts_with(&bytes) && bytes.len() < head.len() {
+        let header = format!("{}\n", json!({ "shadowstep": version }));
+        // the program ended within its first line
+        if header.as_bytes().starts_with(&bytes) && bytes.len() < header.len() {
             file.set_len(0)?;
-            file.write_all(head.as_bytes())?;
+            file.write_all(header.as_bytes())?;
             return Ok(Store { file, outcomes: HashMap::new() });
         }
         let whole = bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
-        let text = std::str::from_utf8(&bytes[..whole]).map_err(|_| foreign(&path, "it is no text"))?;
+        let text = std::str::from_utf8(&bytes[..whole]).map_err(|_| foreign(&path, "it is not UTF-8 text"))?;
         let (first, lines) = text.split_once('\n').unwrap_or(("", ""));
-        let found: Head =
+        let found: Header =
             serde_json::from_str(first).map_err(|_| foreign(&path, "its first line is not the program's"))?;
         if found.shadowstep != version {
             let aside = unused(folder, &found.shadowstep);
             fs::rename(&path, &aside).map_err(|error| cannot(&path, &error))?;
             observer.note(&format!(
-                "{} is of version {} and not {version}: it is now {}, and all is computed again",
+                "{} is of version {}, not of {version}: it was renamed to {}, and everything is computed again",
                 path.display(),
                 found.shadowstep,
                 aside.display()
@@ -91,15 +90,15 @@ impl Store {
         Ok(Store { file, outcomes })
     }
 
-    /// The JSON of what came of a task.
+    /// The JSON of the outcome of a task.
     pub(super) fn outcome(&self, task: &str) -> Option<&str> {
         self.outcomes.get(task).map(String::as_str)
     }
 
-    /// Adds an outcome, also to the file. After an error, the last line of the file may be torn.
+    /// Adds an outcome, also to the file. After an error, the last line of the file may be incomplete.
     pub(super) fn keep(&mut self, task: &str, outcome: String, took: Duration) -> Result<(), Error> {
         let seconds = (took.as_secs_f64() * 1e3).round() / 1e3;
-        // one write, so that only the system can tear it
+        // one write, so that only the system can split it
         let line = format!("{{\"task\":{task},\"outcome\":{outcome},\"seconds\":{seconds}}}\n");
         self.file.write_all(line.as_bytes())?;
         self.file.sync_data()?;
@@ -108,18 +107,18 @@ impl Store {
     }
 }
 
-/// The file, for this process alone; writes go to its end.
+/// The file, locked for this process; writes append to it.
 fn locked(path: &Path) -> Result<File, Error> {
     open_locked(path, OpenOptions::new().read(true).append(true).create(true)).map_err(|error| match error {
         LockError::Taken => {
-            let message = format!("another process is at work in {}", path.display());
-            Error::usage(message, "wait until it ends, or give another folder")
+            let message = format!("another process uses {}", path.display());
+            Error::usage(message, "wait until that process ends, or give another folder")
         }
         LockError::Io(error) => cannot(path, &error),
     })
 }
 
-/// A name that no file has yet: `results-0.1.0.jsonl`, `results-0.1.0-2.jsonl`, …
+/// An unused file name: `results-0.1.0.jsonl`, `results-0.1.0-2.jsonl`, …
 fn unused(folder: &Path, version: &str) -> PathBuf {
     let plain: String =
         version.chars().map(|c| if c.is_ascii_alphanumeric() || "._-+".contains(c) { c } else { '_' }).collect();
@@ -133,16 +132,16 @@ fn unused(folder: &Path, version: &str) -> PathBuf {
 }
 
 fn cannot(path: &Path, error: &std::io::Error) -> Error {
-    let sentence = format!("{} cannot be written: {error}", path.display());
-    Error::usage(sentence, "give a folder that is yours")
+    let message = format!("{} cannot be written: {error}", path.display());
+    Error::usage(message, "give a folder that you can write to")
 }
 
 fn foreign(path: &Path, why: &str) -> Error {
-    let sentence = format!("{} is no file of outcomes: {why}", path.display());
-    Error::usage(sentence, "give another folder, or take the file away")
+    let message = format!("{} is not a file of outcomes: {why}", path.display());
+    Error::usage(message, "give another folder, or remove the file")
 }
 
 fn damaged(path: &Path, line: usize, error: &serde_json::Error) -> Error {
-    let sentence = format!("{}:{line}: no outcome of a task: {error}", path.display());
-    Error::usage(sentence, "delete the line, and its task is computed again")
+    let message = format!("{}:{line}: not an outcome of a task: {error}", path.display());
+    Error::usage(message, "delete the line; its task is then computed again")
 }

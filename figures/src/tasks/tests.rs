@@ -25,13 +25,13 @@ impl Task for Sum<'_> {
         self.begun.lock().unwrap().push(self.n);
         match self.n {
             13 => Ok(f64::NAN),
-            n if n > 1000 && n % 2 == 1 => Err(Error::run(format!("{n} is odd"), "take another")),
+            n if n > 1000 && n % 2 == 1 => Err(Error::run(format!("{n} is odd"), "choose another")),
             n => Ok((1..=n).map(|k| f64::from(k).powi(-2)).sum()),
         }
     }
 }
 
-/// Runs the sums in a folder; gives what came out and which were computed, in the order in which they began.
+/// Runs the sums in a folder; returns the outcomes, and which were computed, in the order in which they began.
 fn sums(folder: &Path, threads: usize, numbers: &[u32]) -> (Outcomes<f64>, Vec<u32>) {
     let begun = Mutex::new(Vec::new());
     let tasks: Vec<_> = numbers.iter().map(|&n| Sum { n, begun: &begun }).collect();
@@ -67,9 +67,9 @@ fn costliest_tasks_begin_first() {
     assert_eq!(sums(folder.path(), 1, &NUMBERS).1, [2000, 500, 400, 77, 30, 1]);
 }
 
-/// After each possible byte at which the program was ended, all that is whole is kept, and the rest computed.
+/// If the program ends after any byte, all complete lines are kept, and the rest is computed.
 #[test]
-fn interrupted_anywhere_it_goes_on() {
+fn interrupted_anywhere_it_can_be_resumed() {
     let folder = TempDir::new().unwrap();
     let (all, _) = sums(folder.path(), 1, &NUMBERS);
     let whole = file(folder.path());
@@ -87,14 +87,14 @@ fn interrupted_anywhere_it_goes_on() {
 }
 
 #[test]
-fn failures_are_told_and_the_others_are_done() {
+fn failures_are_reported_and_the_others_are_done() {
     let folder = TempDir::new().unwrap();
     let (found, _) = sums(folder.path(), 2, &[10, 1001, 13, 20, 1001]);
     assert_eq!(found.outcomes.iter().map(Option::is_some).collect::<Vec<_>>(), [true, false, false, true, false]);
     let places: Vec<_> = found.failures.iter().map(|(place, _)| *place).collect();
     assert_eq!(places, [1, 2]);
-    let told: Vec<_> = found.failures.iter().map(|(_, complaint)| format!("{complaint:?}")).collect();
-    assert!(told[0].contains("1001 is odd") && told[1].contains("cannot be read back"), "{told:?}");
+    let messages: Vec<_> = found.failures.iter().map(|(_, error)| format!("{error:?}")).collect();
+    assert!(messages[0].contains("1001 is odd") && messages[1].contains("cannot be read back"), "{messages:?}");
     // they are tried again, and only they
     let (_, mut begun) = sums(folder.path(), 2, &[10, 1001, 13, 20]);
     begun.sort_unstable();
@@ -102,7 +102,7 @@ fn failures_are_told_and_the_others_are_done() {
 }
 
 #[test]
-fn outcomes_of_another_version_are_set_aside() {
+fn files_of_another_version_are_renamed() {
     let folder = TempDir::new().unwrap();
     let old = "{\"shadowstep\":\"0.0.1\"}\n{\"task\":{\"n\":30},\"outcome\":1.0,\"seconds\":1}\n";
     for aside in ["results-0.0.1.jsonl", "results-0.0.1-2.jsonl"] {
@@ -117,23 +117,23 @@ fn two_stores_cannot_have_one_folder() {
     let folder = TempDir::new().unwrap();
     let store = Store::open(folder.path(), &mut ()).unwrap();
     let refused = format!("{:?}", Store::open(folder.path(), &mut ()).unwrap_err());
-    assert!(refused.contains("another process is at work in"), "{refused}");
+    assert!(refused.contains("another process uses"), "{refused}");
     drop(store);
     Store::open(folder.path(), &mut ()).unwrap();
 }
 
 #[test]
-fn files_that_are_not_ours_are_left_alone() {
+fn other_files_are_not_changed() {
     let head = format!("{{\"shadowstep\":\"{}\"}}\n", env!("CARGO_PKG_VERSION"));
-    for (text, told) in [
-        ("a list of mine".to_owned(), "is no file of outcomes"),
-        ("a list\nof mine\n".to_owned(), "is no file of outcomes"),
-        (format!("{head}{{\"task\":1,\"outcome\":2}}\nnonsense\n"), "results.jsonl:3: no outcome of a task"),
+    for (text, expected) in [
+        ("a list of mine".to_owned(), "is not a file of outcomes"),
+        ("a list\nof mine\n".to_owned(), "is not a file of outcomes"),
+        (format!("{head}{{\"task\":1,\"outcome\":2}}\nnonsense\n"), "results.jsonl:3: not an outcome of a task"),
     ] {
         let folder = TempDir::new().unwrap();
         fs::write(folder.path().join("results.jsonl"), &text).unwrap();
         let refused = format!("{:?}", Store::open(folder.path(), &mut ()).unwrap_err());
-        assert!(refused.contains(told), "{refused}");
+        assert!(refused.contains(expected), "{refused}");
         assert_eq!(file(folder.path()), text);
     }
 }

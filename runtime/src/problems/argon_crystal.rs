@@ -21,7 +21,7 @@ const fn atom(name: &'static str, position: [&'static str; 2], velocity: [&'stat
     Body { name, mass: "m", position, velocity }
 }
 
-/// One in the middle, six around it.
+/// One atom in the middle, six around it.
 const BODIES: [Body<2>; ATOMS] = [
     atom("1", ["0", "0"], ["-30", "-20"]),
     atom("2", ["0.02", "0.39"], ["50", "-90"]),

@@ -7,8 +7,8 @@ use super::values::Values;
 use crate::number::Number;
 use crate::potential::Potential;
 
-/// The third body begins in the middle, between the other two, whose velocities are −1/2 of its own: copies with
-/// 0.46620368 have lost a digit, and the momentum is not 0.
+/// The third body starts in the middle, with −2 times the velocity of the other two. Copies of these values with 0.46620368
+/// lack a digit: their total momentum is not 0.
 const BODIES: [Body<2>; 3] = [
     Body { name: "1", mass: "m_1", position: ["0.97000436", "-0.24308753"], velocity: ["0.466203685", "0.43236573"] },
     Body { name: "2", mass: "m_2", position: ["-0.97000436", "0.24308753"], velocity: ["0.466203685", "0.43236573"] },

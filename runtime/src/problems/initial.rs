@@ -7,7 +7,7 @@ pub struct Initial {
     pub positions: Vec<(String, String)>,
     /// Names and defaults of p_1, …, p_d; they may use the positions, too.
     pub momenta: Vec<(String, String)>,
-    /// The mass of each coordinate; none, if all are 1.
+    /// The mass of each coordinate; `None` if all are 1.
     pub masses: Option<Vec<String>>,
 }
 

@@ -32,7 +32,7 @@ impl Definition for Entry {
         parameters: &[Parameter {
             name: "eccentricity",
             default: "0.6",
-            meaning: "eccentricity of the orbit, which begins at its pericentre",
+            meaning: "eccentricity of the orbit, which starts at its pericentre",
             range: "it must be at least 0 and less than 1",
             allowed: |e| !e.is_negative() && *e < Rational::one(),
         }],

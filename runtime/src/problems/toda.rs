@@ -23,7 +23,7 @@ pub(super) struct Entry;
 impl Definition for Entry {
     const DESCRIPTION: Description = Description {
         name: "toda",
-        title: "Toda lattice: a ring of 200 bodies, begun with a long wave of velocities",
+        title: "Toda lattice: a ring of 200 bodies that starts with a long wave of velocities",
         hamiltonian: "sum_i p_i^2/2 + sum_i (exp(-d_i) + d_i - 1), d_i = q_(i+1) - q_i, around the ring",
         parameters: &[],
         initial: || Initial::of_chain(BODIES, |_| "0".to_owned(), |i| format!("sin({i}*pi/100)")),
