@@ -1,11 +1,11 @@
 //! The keys of a scene with their meanings: the one place for `--explain`, messages and templates.
 
-use shadowstep_symbolic::nearest;
-
 /// A section of a scene, or a table that is the value of a key.
 pub struct Section {
     /// Its name in TOML: `output`, `output.energy`.
     pub name: &'static str,
+    /// The same in brackets: `[output]`.
+    pub heading: &'static str,
     /// What it is about.
     pub meaning: &'static str,
 }
@@ -28,14 +28,15 @@ pub struct Key {
 pub const SECTIONS: [Section; 7] = [
     section(
         "problem",
+        "[problem]",
         "The system H = T(p) + U(q). U is that of a shipped problem, a formula in the coordinates, or a sum over pairs of bodies.",
     ),
-    section("initial", "The state at t = 0."),
-    section("run", "The scheme, its steps, and the number type."),
-    section("output", "What is written, and where. Nothing else is computed."),
-    section("output.energy", "A table in place of `energy = true`."),
-    section("output.modified_energy", "A table in place of `modified_energy = true`."),
-    section("output.trajectory", "A table in place of `trajectory = true`."),
+    section("initial", "[initial]", "The state at t = 0."),
+    section("run", "[run]", "The scheme, its steps, and the number type."),
+    section("output", "[output]", "What is written, and where. Nothing else is computed."),
+    section("output.energy", "[output.energy]", "A table in place of `energy = true`."),
+    section("output.modified_energy", "[output.modified_energy]", "A table in place of `modified_energy = true`."),
+    section("output.trajectory", "[output.trajectory]", "A table in place of `trajectory = true`."),
 ];
 
 /// All keys, section by section.
@@ -261,8 +262,8 @@ pub const KEYS: [Key; 35] = [
     key("output.trajectory", "every", "They are written at every n that is a multiple of this.", "100", Some("1")),
 ];
 
-const fn section(name: &'static str, meaning: &'static str) -> Section {
-    Section { name, meaning }
+const fn section(name: &'static str, heading: &'static str, meaning: &'static str) -> Section {
+    Section { name, heading, meaning }
 }
 
 const fn key(
@@ -285,19 +286,8 @@ pub fn find(section: &str, name: &str) -> Option<&'static Key> {
     of(section).find(|key| key.name == name)
 }
 
-/// The key with the spelling nearest to a word.
-pub(crate) fn near(section: &str, word: &str) -> Option<&'static str> {
-    nearest(word, of(section).map(|key| key.name))
-}
-
-/// A hint for a word that is not a key of this section.
-pub(crate) fn hint(section: &str, word: &str) -> String {
-    if let Some(near) = near(section, word) {
-        return format!("did you mean `{near}`?");
-    }
-    let names: Vec<&str> = of(section).map(|key| key.name).collect();
-    match KEYS.iter().find(|key| key.name == word) {
-        Some(elsewhere) => format!("`{word}` is a key of [{}]", elsewhere.section),
-        None => format!("the keys of [{section}] are {}", names.join(", ")),
-    }
+/// The heading of the section that has a key of this name: `[run]`.
+pub(crate) fn section_with(name: &str) -> Option<&'static str> {
+    let key = KEYS.iter().find(|key| key.name == name)?;
+    SECTIONS.iter().find(|section| section.name == key.section).map(|section| section.heading)
 }

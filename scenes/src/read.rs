@@ -68,8 +68,8 @@ impl Scene {
         let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
         let mut reader = Reader::new(&source);
         let parts = parts(&mut reader, &document);
-        let Reader { arithmetic, faults, notes, .. } = reader;
-        match (Faults::of(faults), parts) {
+        let Reader { toml, arithmetic, notes, .. } = reader;
+        match (Faults::of(toml.faults), parts) {
             (None, Some((system, run::Steps { scheme, h, until, steps }, output))) => {
                 Ok(Scene { source, arithmetic, system, scheme, h, until, steps, output, notes })
             }
@@ -98,12 +98,12 @@ fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>) {
     let names: Vec<&str> = SECTIONS.iter().map(|section| section.name).filter(|name| !name.contains('.')).collect();
     for key in root.keys().filter(|key| !names.contains(&key.get_ref().as_ref())) {
         let word: &str = key.get_ref();
-        let help = match (keys::KEYS.iter().find(|key| key.name == word), nearest(word, names.iter().copied())) {
-            (Some(known), _) => format!("`{word}` is a key of [{}]", known.section),
+        let help = match (keys::section_with(word), nearest(word, names.iter().copied())) {
+            (Some(section), _) => format!("`{word}` is a key of {section}"),
             (None, Some(near)) => format!("did you mean [{near}]?"),
             (None, None) => format!("the sections of a scene are [{}]", names.join("], [")),
         };
-        reader.fault(&key.span(), format!("unknown section `{word}`"), help);
+        reader.toml.fault(&key.span(), format!("unknown section `{word}`"), help);
     }
     // a shipped problem has a state of its own
     let problem = root.get("problem").and_then(|problem| problem.get_ref().as_table());
@@ -113,7 +113,7 @@ fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>) {
         let misspelt = |word: &str| !names.contains(&word) && nearest(word, names.iter().copied()) == Some(name);
         if root.get(name).is_none() && !root.keys().any(|word| misspelt(word.get_ref())) {
             let help = "`shadowstep scene kepler` writes a scene with all sections";
-            reader.fault(&(0..0), format!("the section [{name}] is missing"), help);
+            reader.toml.fault(&(0..0), format!("the section [{name}] is missing"), help);
         }
     }
 }

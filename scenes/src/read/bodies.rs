@@ -9,7 +9,8 @@ use toml::de::DeValue;
 
 use super::names::check_name;
 use super::numbers::Numbers;
-use super::reader::{Reader, Text, Value};
+use super::reader::Reader;
+use shadowstep_schemes::document::{Text, Value};
 
 /// More bodies than anyone can wait for.
 const MOST_BODIES: u64 = 100_000;
@@ -49,7 +50,7 @@ impl GivenBodies {
                 properties.sort_by_key(|(name, _)| name.at.start);
                 Some(GivenBodies::Properties(properties))
             }
-            _ => reader.wrong_kind(value, "the number of bodies, or a table of their properties: { m = [1, 2] }"),
+            _ => reader.toml.wrong_kind(value, "the number of bodies, or a table of their properties: { m = [1, 2] }"),
         }
     }
 }
@@ -77,9 +78,9 @@ impl Bodies {
         };
         let Some(count) = count(given) else {
             let help = "write `bodies = 32`, or add `count = 32` to the properties";
-            return reader.wrong(at, "the number of bodies is missing", help);
+            return reader.toml.wrong(at, "the number of bodies is missing", help);
         };
-        let before = reader.faults.len();
+        let before = reader.toml.faults.len();
         let mut bodies = Bodies { count, properties: Vec::new() };
         for (name, property) in given {
             let Property::Values(numbers) = property else { continue };
@@ -89,7 +90,7 @@ impl Bodies {
                 bodies.properties.push((name.value.clone(), values));
             }
         }
-        (reader.faults.len() == before).then_some(bodies)
+        (reader.toml.faults.len() == before).then_some(bodies)
     }
 
     /// A number for each body.
@@ -97,7 +98,7 @@ impl Bodies {
         match numbers {
             Numbers::List(list) => reader.values(list, self.count, "body"),
             Numbers::Lists(_, at) => {
-                reader.wrong(at, "this needs one number for each body", "write one list of numbers")
+                reader.toml.wrong(at, "this needs one number for each body", "write one list of numbers")
             }
             Numbers::Formula(formula) => self.formula(reader, formula),
         }
@@ -117,13 +118,13 @@ impl Bodies {
                 reader.values(list, count * dimensions, each)
             }
             Numbers::Lists(lists, at) if lists.len() != count => {
-                let fault = reader.source.fault(at, "this needs a list for each body");
-                reader.faults.push(fault.values(format!("{} lists", lists.len()), count.to_string()));
+                let fault = reader.toml.source.fault(at, "this needs a list for each body");
+                reader.toml.faults.push(fault.values(format!("{} lists", lists.len()), count.to_string()));
                 None
             }
             Numbers::Lists(lists, _) => {
                 // where the dimensions are wrong, so are all lists
-                let wrong = lists.iter().position(|list| list.texts.len() != dimensions);
+                let wrong = lists.iter().position(|list| list.value.len() != dimensions);
                 let lists = &lists[..wrong.map_or(count, |wrong| wrong + 1)];
                 let bodies: Vec<_> =
                     lists.iter().map(|list| reader.values(list, dimensions, "coordinate of the body")).collect();
@@ -132,7 +133,7 @@ impl Bodies {
             Numbers::Formula(formula) if dimensions == 1 => self.formula(reader, formula),
             Numbers::Formula(formula) => {
                 let message = format!("a formula for all bodies requires one dimension, not {dimensions}");
-                reader.wrong(&formula.at, message, "write a list for each body: [[0, 0, 0], [1, 0, 0]]")
+                reader.toml.wrong(&formula.at, message, "write a list for each body: [[0, 0, 0], [1, 0, 0]]")
             }
         }
     }
@@ -147,7 +148,7 @@ impl Bodies {
             reader.known.extend(own);
             let Some(value) = reader.evaluate(formula) else {
                 // at the first body it may be a fault of the formula itself
-                if let Some(fault) = reader.faults.last_mut().filter(|_| body > 0) {
+                if let Some(fault) = reader.toml.faults.last_mut().filter(|_| body > 0) {
                     fault.message += &format!(", at i = {}", body + 1);
                 }
                 break;
@@ -166,7 +167,7 @@ fn count(properties: &[(Text, Property)]) -> Option<usize> {
         Property::Values(_) => None,
     });
     let listed = properties.iter().find_map(|(_, property)| match property {
-        Property::Values(Numbers::List(list)) => Some(list.texts.len()),
+        Property::Values(Numbers::List(list)) => Some(list.value.len()),
         _ => None,
     });
     counted.or(listed)
@@ -183,7 +184,7 @@ fn check_property(reader: &mut Reader<'_>, name: &Text, parameters: &[(Text, Tex
     let own = [name.value.clone(), format!("{}_i", name.value), format!("{}_j", name.value)];
     for (parameter, _) in parameters.iter().filter(|(parameter, _)| own.contains(&parameter.value)) {
         let message = format!("the parameter `{}` has the name of a property of the bodies", parameter.value);
-        reader.fault(&parameter.at, message, "give it another name");
+        reader.toml.fault(&parameter.at, message, "give it another name");
     }
 }
 
@@ -196,6 +197,6 @@ pub(super) fn refuse_reserved(reader: &mut Reader<'_>, name: &Text) {
         (None, _) => None,
     };
     if let Some(meaning) = meaning {
-        reader.fault(&name.at, format!("with `pair`, `{}` is {meaning}", name.value), "give it another name");
+        reader.toml.fault(&name.at, format!("with `pair`, `{}` is {meaning}", name.value), "give it another name");
     }
 }

@@ -4,9 +4,10 @@ use super::given::Given;
 use super::kinetic;
 use super::names::check_name;
 use super::numbers::Numbers;
-use super::reader::{List, Reader, Text};
+use super::reader::Reader;
 use crate::scene::COLUMNS;
 use crate::scene::{KineticEnergy, PotentialEnergy, System, formula_potential};
+use shadowstep_schemes::document::{Placed, Text};
 
 /// The system with this potential.
 pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -> Option<System> {
@@ -15,12 +16,12 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -
     });
     let parameters = given.own_parameters(reader);
     let list = given.coordinates.as_ref()?;
-    let before = reader.faults.len();
+    let before = reader.toml.faults.len();
     let (coordinates, momenta) = names(reader, given, list);
-    let named = reader.faults.len() == before;
+    let named = reader.toml.faults.len() == before;
     if named && let Err(error) = formula_potential::<f64>(&potential.value, &coordinates, &parameters, &()) {
         let help = "a potential is a smooth formula such as \"-1/sqrt(x^2 + y^2)\"";
-        reader.fault(&potential.place(&error.range()), error.to_string(), help);
+        reader.toml.fault(&potential.place(&error.range()), error.to_string(), help);
     }
     reader.refuse_constants(potential, coordinates.iter().chain(parameters.iter().map(|(name, _)| name)));
     let kinetic = match named {
@@ -42,11 +43,11 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -
 }
 
 /// The names of the coordinates and of their momenta, all of them new.
-fn names(reader: &mut Reader<'_>, given: &Given, list: &List) -> (Vec<String>, Vec<String>) {
+fn names(reader: &mut Reader<'_>, given: &Given, list: &Placed<Vec<Text>>) -> (Vec<String>, Vec<String>) {
     let mut taken: Vec<(String, String)> =
         COLUMNS.iter().map(|name| ((*name).to_owned(), "of a column of the output".to_owned())).collect();
     taken.extend(given.parameters.iter().map(|(name, _)| (name.value.clone(), "of a parameter".to_owned())));
-    for name in &list.texts {
+    for name in &list.value {
         check_name(reader, name);
         // without names of their own, momenta are named after the coordinates
         let momentum = given.place("momenta").is_none().then(|| format!("p{}", name.value));
@@ -57,12 +58,12 @@ fn names(reader: &mut Reader<'_>, given: &Given, list: &List) -> (Vec<String>, V
                 true => format!("the coordinate `{other}` has the name {whose}"),
                 false => format!("the momentum `{other}` of `{}` has the name {whose}", name.value),
             };
-            reader.fault(&name.at, message, "give it another name");
+            reader.toml.fault(&name.at, message, "give it another name");
         }
         taken.push((name.value.clone(), COORDINATE.to_owned()));
         taken.extend(momentum.map(|momentum| (momentum, format!("of the momentum of `{}`", name.value))));
     }
-    let coordinates: Vec<String> = list.texts.iter().map(|name| name.value.clone()).collect();
+    let coordinates: Vec<String> = list.value.iter().map(|name| name.value.clone()).collect();
     let momenta = match &given.momenta {
         Some(list) => own_momenta(reader, list, coordinates.len(), taken),
         None => coordinates.iter().map(|name| format!("p{name}")).collect(),
@@ -75,20 +76,20 @@ const COORDINATE: &str = "of a coordinate";
 /// The names of the momenta, as many as there are coordinates, none of them taken by something else.
 fn own_momenta(
     reader: &mut Reader<'_>,
-    list: &List,
+    list: &Placed<Vec<Text>>,
     coordinates: usize,
     mut taken: Vec<(String, String)>,
 ) -> Vec<String> {
-    for name in &list.texts {
+    for name in &list.value {
         check_name(reader, name);
         if let Some((other, whose)) = taken.iter().find(|(other, _)| *other == name.value) {
-            reader.fault(&name.at, format!("the momentum `{other}` has the name {whose}"), "give it another name");
+            reader.toml.fault(&name.at, format!("the momentum `{other}` has the name {whose}"), "give it another name");
         }
         taken.push((name.value.clone(), "of another momentum".to_owned()));
     }
-    if list.texts.len() != coordinates {
-        let fault = reader.source.fault(&list.at, "this list needs a name for each coordinate");
-        reader.faults.push(fault.values(list.texts.len().to_string(), coordinates.to_string()));
+    if list.value.len() != coordinates {
+        let fault = reader.toml.source.fault(&list.at, "this list needs a name for each coordinate");
+        reader.toml.faults.push(fault.values(list.value.len().to_string(), coordinates.to_string()));
     }
-    list.texts.iter().map(|name| name.value.clone()).collect()
+    list.value.iter().map(|name| name.value.clone()).collect()
 }

@@ -12,13 +12,14 @@ use super::bodies::GivenBodies;
 use super::initial::State;
 use super::names::check_name;
 use super::numbers::Numbers;
-use super::reader::{List, Reader, Section, Text};
+use super::reader::Reader;
 use crate::keys;
+use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// What the scene says besides the problem's name, its potential or its pairs.
 pub(super) struct Given {
-    pub(super) coordinates: Option<List>,
-    pub(super) momenta: Option<List>,
+    pub(super) coordinates: Option<Placed<Vec<Text>>>,
+    pub(super) momenta: Option<Placed<Vec<Text>>>,
     pub(super) masses: Option<Numbers>,
     /// T(p)
     pub(super) kinetic: Option<Text>,
@@ -45,21 +46,19 @@ impl Given {
         let ends = [("free", Ends::Free), ("fixed", Ends::Fixed), ("periodic", Ends::Periodic)];
         let masses = if of_bodies { Numbers::of_bodies } else { Numbers::of_coordinates };
         Given {
-            coordinates: reader.list_of(problem, "coordinates", "a list of names: [\"x\", \"y\"]", Reader::text),
-            momenta: reader.list_of(problem, "momenta", "a list of names: [\"px\", \"py\"]", Reader::text),
-            masses: reader.get(problem, "masses").and_then(|value| masses(reader, value)),
-            kinetic: reader.get(problem, "kinetic").and_then(|value| reader.text(value)),
-            bodies: reader.get(problem, "bodies").and_then(|value| GivenBodies::read(reader, value)),
-            dimensions: reader
-                .get(problem, "dimensions")
+            coordinates: reader.names(problem, "coordinates", "a list of names: [\"x\", \"y\"]"),
+            momenta: reader.names(problem, "momenta", "a list of names: [\"px\", \"py\"]"),
+            masses: problem.get("masses").and_then(|value| masses(reader, value)),
+            kinetic: problem.get("kinetic").and_then(|value| reader.toml.text(value)),
+            bodies: problem.get("bodies").and_then(|value| GivenBodies::read(reader, value)),
+            dimensions: problem
+                .get("dimensions")
                 .and_then(|value| reader.whole(value, 1..=3))
                 .map(|dimensions| dimensions as usize),
-            neighbours: reader.get(problem, "neighbours").and_then(|value| reader.word(value, &ends)),
+            neighbours: problem.get("neighbours").and_then(|value| reader.word(value, &ends)),
             parameters: parameters(reader, problem),
             state: State::read(reader, initial, of_bodies),
-            places: keys::of("problem")
-                .filter_map(|key| Some((key.name, reader.get(problem, key.name)?.span())))
-                .collect(),
+            places: keys::of("problem").filter_map(|key| Some((key.name, problem.get(key.name)?.span()))).collect(),
             problem: problem.at.clone(),
             initial: initial.is_there().then(|| initial.at.clone()),
         }
@@ -68,7 +67,7 @@ impl Given {
     /// Refuses that a key is left out.
     pub(super) fn needs(&self, reader: &mut Reader<'_>, problem: &Section<'_, '_>, key: &str) {
         if self.place(key).is_none() {
-            reader.missing(problem, key);
+            reader.toml.missing(problem, &[key]);
         }
     }
 
@@ -94,16 +93,16 @@ impl Given {
     pub(super) fn refuse(&self, reader: &mut Reader<'_>, keys: &[&str], why: impl Fn(&str) -> (String, String)) {
         for (key, at) in self.places.iter().filter(|(key, _)| keys.contains(key)) {
             let (message, help) = why(key);
-            reader.fault(at, message, help);
+            reader.toml.fault(at, message, help);
         }
     }
 }
 
 /// Names and values in the order of the text.
 fn parameters(reader: &mut Reader<'_>, problem: &Section<'_, '_>) -> Vec<(Text, Text)> {
-    let Some(value) = reader.get(problem, "parameters") else { return Vec::new() };
+    let Some(value) = problem.get("parameters") else { return Vec::new() };
     let DeValue::Table(table) = value.get_ref() else {
-        reader.wrong_kind::<()>(value, "a table: { depth = 2 }");
+        reader.toml.wrong_kind::<()>(value, "a table: { depth = 2 }");
         return Vec::new();
     };
     let mut found: Vec<_> =

@@ -5,7 +5,8 @@ use std::ops::Range;
 use shadowstep_symbolic::Exact;
 
 use super::numbers::Numbers;
-use super::reader::{Reader, Section};
+use super::reader::Reader;
+use shadowstep_schemes::document::Section;
 
 /// The state as the scene says it.
 pub(super) struct State {
@@ -22,12 +23,12 @@ impl State {
     /// Of bodies, or of coordinates.
     pub(super) fn read(reader: &mut Reader<'_>, initial: &Section<'_, '_>, of_bodies: bool) -> State {
         let read = if of_bodies { Numbers::of_bodies_in_space } else { Numbers::of_coordinates };
-        let [q, p, v] = ["q", "p", "v"].map(|key| reader.get(initial, key).and_then(|value| read(reader, value)));
-        let has = |key| reader.get(initial, key).is_some();
+        let [q, p, v] = ["q", "p", "v"].map(|key| initial.get(key).and_then(|value| read(reader, value)));
+        let has = |key| initial.get(key).is_some();
         let (has_q, has_p) = (has("q"), has("p") || has("v"));
-        let velocities = reader.get(initial, "v").map(|value| value.span());
+        let velocities = initial.get("v").map(|value| value.span());
         if let (true, Some(at)) = (has("p"), &velocities) {
-            reader.fault(at, "p and v are both given", "keep one of the two");
+            reader.toml.fault(at, "p and v are both given", "keep one of the two");
         }
         State { q, p: v.or(p), velocities, has_q, has_p }
     }
@@ -37,7 +38,7 @@ impl State {
         for (there, key) in [(self.has_q, "q"), (self.has_p, "p")] {
             if !there {
                 let help = format!("add `{key} = […]` to [initial], with a number for each coordinate");
-                reader.fault(at, format!("the key `{key}` is missing"), help);
+                reader.toml.fault(at, format!("the key `{key}` is missing"), help);
             }
         }
     }
@@ -45,7 +46,7 @@ impl State {
     /// Refuses velocities, where T(p) is no sum over masses.
     pub(super) fn refuse_velocities(&self, reader: &mut Reader<'_>) {
         if let Some(at) = &self.velocities {
-            reader.fault(
+            reader.toml.fault(
                 at,
                 "velocities `v` require masses, but T is given by `kinetic`",
                 "give the momenta `p` instead of `v`",

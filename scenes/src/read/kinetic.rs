@@ -27,7 +27,7 @@ pub(super) fn by_formula(
         let more = if momenta.len() > 3 { ", …" } else { "" };
         let renamed = if given.place("pair").is_none() { "; `momenta` gives them other names" } else { "" };
         let help = format!("T is a smooth formula in the momenta {known}{more} and the parameters{renamed}");
-        return reader.wrong(&text.place(&error.range()), error.to_string(), help);
+        return reader.toml.wrong(&text.place(&error.range()), error.to_string(), help);
     }
     reader.refuse_constants(text, momenta.iter().chain(parameters.iter().map(|(name, _)| name)));
     Some(KineticEnergy::Formula(text.value.clone()))
@@ -41,7 +41,7 @@ pub(super) fn masses(reader: &mut Reader<'_>, numbers: &Numbers, values: Vec<Exa
         let at = numbers.place(index);
         if last_fault.replace(at) != Some(at) {
             let message = format!("a mass of {} is not positive", reader.arithmetic.text(value));
-            reader.fault(at, message, "masses must be positive");
+            reader.toml.fault(at, message, "masses must be positive");
         }
     }
     values.iter().any(|mass| !mass.value.is_one()).then_some(values)

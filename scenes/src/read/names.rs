@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use shadowstep_symbolic::{Expression, Kind, evaluate, parse};
 
-use super::reader::{Reader, Text};
+use super::reader::Reader;
+use shadowstep_schemes::document::Text;
 
 /// Refuses what formulas cannot have as a name.
 pub(super) fn check_name(reader: &mut Reader<'_>, name: &Text) {
@@ -13,12 +14,12 @@ pub(super) fn check_name(reader: &mut Reader<'_>, name: &Text) {
         Ok(expression) if is_name(&expression) => {
             // a name that has a value without being given one is that of a constant
             if evaluate(&expression, &BTreeMap::new(), 1).is_ok() {
-                reader.fault(&name.at, format!("`{}` is a constant", name.value), "give it another name");
+                reader.toml.fault(&name.at, format!("`{}` is a constant", name.value), "give it another name");
             }
         }
         _ => {
             let help = "a name consists of letters, digits and _, and begins with a letter";
-            reader.fault(&name.at, format!("`{}` is not a valid name", name.value), help);
+            reader.toml.fault(&name.at, format!("`{}` is not a valid name", name.value), help);
         }
     }
 }

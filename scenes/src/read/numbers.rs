@@ -5,13 +5,14 @@ use std::ops::Range;
 use shadowstep_symbolic::Exact;
 use toml::de::DeValue;
 
-use super::reader::{List, Reader, Text, Value};
+use super::reader::Reader;
+use shadowstep_schemes::document::{Placed, Text, Value};
 
 /// Numbers as the scene has them.
 pub(super) enum Numbers {
-    List(List),
+    List(Placed<Vec<Text>>),
     /// A list for each body.
-    Lists(Vec<List>, Range<usize>),
+    Lists(Vec<Placed<Vec<Text>>>, Range<usize>),
     /// A formula in the number i of the body.
     Formula(Text),
 }
@@ -19,16 +20,16 @@ pub(super) enum Numbers {
 impl Numbers {
     /// A number for each coordinate.
     pub(super) fn of_coordinates(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Numbers> {
-        reader.list(value, "a list of numbers: [1, \"1/2\"]", Reader::number).map(Numbers::List)
+        reader.numbers(value, "a list of numbers: [1, \"1/2\"]").map(Numbers::List)
     }
 
     /// A number for each body.
     pub(super) fn of_bodies(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Numbers> {
         if matches!(value.get_ref(), DeValue::String(_)) {
-            return reader.text(value).map(Numbers::Formula);
+            return reader.toml.text(value).map(Numbers::Formula);
         }
         let what = "a list with a number for each body, or a formula for all: \"1 + i/10\"";
-        reader.list(value, what, Reader::number).map(Numbers::List)
+        reader.numbers(value, what).map(Numbers::List)
     }
 
     /// A number for each coordinate of each body.
@@ -36,7 +37,7 @@ impl Numbers {
         match value.get_ref() {
             DeValue::Array(bodies) if matches!(bodies.first().map(Value::get_ref), Some(DeValue::Array(_))) => {
                 let what = "a list with the numbers of one body: [1, 0, 0]";
-                let lists: Vec<_> = bodies.iter().map(|body| reader.list(body, what, Reader::number)).collect();
+                let lists: Vec<_> = bodies.iter().map(|body| reader.numbers(body, what)).collect();
                 Some(Numbers::Lists(lists.into_iter().collect::<Option<_>>()?, value.span()))
             }
             _ => Numbers::of_bodies(reader, value),
@@ -46,7 +47,7 @@ impl Numbers {
     /// Where the number of a body or coordinate is, counted from 0.
     pub(super) fn place(&self, index: usize) -> &Range<usize> {
         match self {
-            Numbers::List(list) => list.texts.get(index).map_or(&list.at, |text| &text.at),
+            Numbers::List(list) => list.value.get(index).map_or(&list.at, |text| &text.at),
             Numbers::Lists(_, at) => at,
             Numbers::Formula(text) => &text.at,
         }

@@ -7,42 +7,42 @@ use shadowstep::Rational;
 use shadowstep::shadow::{Rule, Stop};
 use toml::de::DeValue;
 
-use super::reader::{Reader, Section, Value};
+use super::reader::Reader;
 use crate::estimator::{Chosen, HIGHEST_ORDER, Kind, NO_ACCURACY, Wish, no_accuracy};
 use crate::scene::{CheckpointInterval, Format, Outputs};
 use crate::steps::MOST_STEPS;
+use shadowstep_schemes::document::{Section, Value};
 
 /// What is to be written, and where.
 pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<Outputs> {
-    let before = reader.faults.len();
-    let file = reader.get(output, "file").and_then(|value| reader.text(value));
-    let format = reader
-        .get(output, "format")
-        .map(|value| reader.word(value, &[("csv", Format::Csv), ("jsonl", Format::JsonLines)]));
+    let before = reader.toml.faults.len();
+    let file = output.get("file").and_then(|value| reader.toml.text(value));
+    let format =
+        output.get("format").map(|value| reader.word(value, &[("csv", Format::Csv), ("jsonl", Format::JsonLines)]));
     let energy = every(reader, output, "energy", "output.energy");
     let modified_energy = modified_energy(reader, output);
     let trajectory = every(reader, output, "trajectory", "output.trajectory");
-    let checkpoint = reader.get(output, "checkpoint").map(|value| (value.span(), interval(reader, value)));
-    if let (Some((at, _)), None) = (&checkpoint, reader.get(output, "file")) {
-        reader.fault(at, "a checkpoint requires a file", "add `file = \"out.csv\"`");
+    let checkpoint = output.get("checkpoint").map(|value| (value.span(), interval(reader, value)));
+    if let (Some((at, _)), None) = (&checkpoint, output.get("file")) {
+        reader.toml.fault(at, "a checkpoint requires a file", "add `file = \"out.csv\"`");
     }
     let silent = energy.is_none() && modified_energy.is_none() && trajectory.is_none();
-    if silent && reader.faults.len() == before && output.is_there() {
+    if silent && reader.toml.faults.len() == before && output.is_there() {
         let help = "add `energy = true`, `modified_energy = true` or `trajectory = true`";
-        reader.fault(&output.at, "no output is selected", help);
+        reader.toml.fault(&output.at, "no output is selected", help);
     }
     if let Some(name) = file.as_ref().filter(|name| name.value.ends_with(['/', '\\'])) {
-        reader.fault(&name.at, format!("`{}` is a folder", name.value), "give the name of a file");
+        reader.toml.fault(&name.at, format!("`{}` is a folder", name.value), "give the name of a file");
     }
     let format = match (format, &file) {
         (Some(format), _) => format,
         (None, None) => Some(Format::Csv),
         (None, Some(name)) => Format::of(&name.value).or_else(|| {
             let message = format!("the name `{}` does not give the format", name.value);
-            reader.wrong(&name.at, message, "use the ending .csv or .jsonl, or add `format = \"csv\"`")
+            reader.toml.wrong(&name.at, message, "use the ending .csv or .jsonl, or add `format = \"csv\"`")
         }),
     };
-    let folder = Path::new(&reader.source.path).parent().unwrap_or(Path::new(""));
+    let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
     let file = file.map(|name| (folder.join(&name.value), name.at));
     let checkpoint = checkpoint.and_then(|(_, interval)| interval);
     Some(Outputs { file, format: format?, energy, modified_energy, trajectory, checkpoint })
@@ -55,19 +55,19 @@ fn when<'t, 'i>(
     key: &'static str,
     section: &'static str,
 ) -> Option<(u64, Option<Section<'t, 'i>>)> {
-    let value = reader.get(output, key)?;
+    let value = output.get(key)?;
     match value.get_ref() {
         DeValue::Boolean(true) => Some((1, None)),
         DeValue::Boolean(false) => None,
         DeValue::Table(table) => {
-            let table = reader.table(table, value.span(), section);
-            let every = match reader.get(&table, "every") {
+            let table = reader.table(table, value, section);
+            let every = match table.get("every") {
                 Some(value) => reader.whole(value, 1..=MOST_STEPS)?,
                 None => 1,
             };
             Some((every, Some(table)))
         }
-        _ => reader.wrong_kind(value, "true, or a table: { every = 10 }"),
+        _ => reader.toml.wrong_kind(value, "true, or a table: { every = 10 }"),
     }
 }
 
@@ -79,17 +79,17 @@ fn modified_energy(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<
     let (every, table) = when(reader, output, "modified_energy", "output.modified_energy")?;
     let mut wish = Wish { kind: Kind::Central, order: None, largest: None, stop: None, rule: None, accuracy: None };
     let Some(table) = table else { return Some((wish.chosen().ok()?, every)) };
-    let before = reader.faults.len();
+    let before = reader.toml.faults.len();
     let kinds = [("central", Kind::Central), ("bilinear", Kind::Bilinear)];
-    wish.kind = reader.get(&table, "estimator").map_or(Some(Kind::Central), |value| reader.word(value, &kinds))?;
-    wish.order = reader.get(&table, "order").and_then(|value| order(reader, value, wish.kind));
-    wish.largest = reader.get(&table, "max_order").and_then(|value| up_to(reader, value, 2));
+    wish.kind = table.get("estimator").map_or(Some(Kind::Central), |value| reader.word(value, &kinds))?;
+    wish.order = table.get("order").and_then(|value| order(reader, value, wish.kind));
+    wish.largest = table.get("max_order").and_then(|value| up_to(reader, value, 2));
     let stops = [("full", Stop::Full), ("early", Stop::Early)];
-    wish.stop = reader.get(&table, "stop").and_then(|value| reader.word(value, &stops));
+    wish.stop = table.get("stop").and_then(|value| reader.word(value, &stops));
     let rules = [("least", Rule::Least), ("robust", Rule::Robust)];
-    wish.rule = reader.get(&table, "rule").and_then(|value| reader.word(value, &rules));
-    wish.accuracy = reader.get(&table, "accuracy").and_then(|value| accuracy(reader, value));
-    if reader.faults.len() > before {
+    wish.rule = table.get("rule").and_then(|value| reader.word(value, &rules));
+    wish.accuracy = table.get("accuracy").and_then(|value| accuracy(reader, value));
+    if reader.toml.faults.len() > before {
         return None;
     }
     match wish.chosen() {
@@ -100,8 +100,8 @@ fn modified_energy(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<
                 Err(_) => format!("{name} = \"{value}\""),
             };
             let (message, help) = misfit.told(misfit.name, spelt);
-            let at = reader.get(&table, misfit.name).map_or(table.at.clone(), |value| value.span());
-            reader.wrong(&at, message, help)
+            let at = table.get(misfit.name).map_or(table.at.clone(), |value| value.span());
+            reader.toml.wrong(&at, message, help)
         }
     }
 }
@@ -115,7 +115,7 @@ fn order(reader: &mut Reader<'_>, value: &Value<'_>, kind: Kind) -> Option<u32> 
     let order = up_to(reader, value, 1)?;
     if kind == Kind::Bilinear && order % 2 == 1 {
         let message = "with estimator = \"bilinear\" and an odd order the values belong to times between the states";
-        return reader.wrong(&value.span(), message, "write an even order");
+        return reader.toml.wrong(&value.span(), message, "write an even order");
     }
     Some(order)
 }
@@ -130,7 +130,7 @@ fn accuracy(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Rational> {
     let accuracy = reader.evaluate(&text)?.value;
     match no_accuracy(&accuracy) {
         None => Some(accuracy),
-        Some(why) => reader.wrong(&text.at, format!("accuracy {} {why}", text.value), NO_ACCURACY),
+        Some(why) => reader.toml.wrong(&text.at, format!("accuracy {} {why}", text.value), NO_ACCURACY),
     }
 }
 
@@ -140,13 +140,13 @@ fn interval(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<CheckpointInte
         return reader.whole(value, 1..=MOST_STEPS).map(CheckpointInterval::Steps);
     }
     if !matches!(value.get_ref(), DeValue::String(_)) {
-        return reader.wrong_kind(value, "a time such as \"1 min\", or a number of steps");
+        return reader.toml.wrong_kind(value, "a time such as \"1 min\", or a number of steps");
     }
-    let text = reader.text(value)?;
+    let text = reader.toml.text(value)?;
     let found = duration(text.value.trim());
     if found.is_none() {
         let message = format!("`{}` is not a valid time between checkpoints", text.value);
-        reader.fault(&text.at, message, "write a time in s, min or h such as \"1 min\", or a number of steps");
+        reader.toml.fault(&text.at, message, "write a time in s, min or h such as \"1 min\", or a number of steps");
     }
     found.map(CheckpointInterval::Time)
 }

@@ -7,10 +7,11 @@ use super::bodies::{Bodies, refuse_reserved};
 use super::given::Given;
 use super::kinetic;
 use super::numbers::Numbers;
-use super::reader::{Reader, Text};
+use super::reader::Reader;
 use crate::note::Note;
 use crate::scene::PairEnergy;
 use crate::scene::{KineticEnergy, PotentialEnergy, System};
+use shadowstep_schemes::document::Text;
 
 /// The energy of a pair, as the scene has it.
 pub(super) struct PairFormula {
@@ -25,19 +26,19 @@ impl PairFormula {
             "r2 is the square of the distance, d = q_j - q_i the difference in one dimension: \"-g*m_i*m_j/sqrt(r2)\"";
         let expression = match parse(&text.value) {
             Ok(expression) => expression,
-            Err(error) => return reader.wrong(&text.place(&error.range), error.to_string(), help),
+            Err(error) => return reader.toml.wrong(&text.place(&error.range), error.to_string(), help),
         };
         let mut found = Vec::new();
         separations(&expression, &mut found);
         found.dedup();
         match found[..] {
             [separation] => Some(PairFormula { text, separation }),
-            [] => reader.wrong(
+            [] => reader.toml.wrong(
                 &text.at,
                 "the energy of a pair must be a formula in `r2` or in `d`; this one has neither",
                 help,
             ),
-            _ => reader.wrong(
+            _ => reader.toml.wrong(
                 &text.at,
                 "the energy of a pair must be a formula in `r2` or in `d`; this one has both",
                 help,
@@ -111,7 +112,7 @@ fn pair_energy(
     };
     if let Err(error) = energy.pair::<f64>(parameters, &()) {
         let help = "the energy of a pair is a smooth formula such as \"-g*m_i*m_j/sqrt(r2)\"";
-        reader.fault(&pair.text.place(&error.range()), error.to_string(), help);
+        reader.toml.fault(&pair.text.place(&error.range()), error.to_string(), help);
     }
     let properties = energy.properties.iter().flat_map(|(name, _)| [format!("{name}_i"), format!("{name}_j")]);
     let properties: Vec<String> = properties.collect();
@@ -132,7 +133,7 @@ fn dimensions(reader: &mut Reader<'_>, given: &Given, pair: Option<&PairFormula>
     match (given.dimensions, given.place("dimensions")) {
         (Some(dimensions), Some(at)) if on_a_line && dimensions != 1 => {
             let message = format!("a formula in `d` requires one dimension, not {dimensions}");
-            reader.wrong(at, message, "remove `dimensions`, or write the formula in `r2`")
+            reader.toml.wrong(at, message, "remove `dimensions`, or write the formula in `r2`")
         }
         (None, None) => on_a_line.then_some(1),
         (dimensions, _) => dimensions,
@@ -141,16 +142,16 @@ fn dimensions(reader: &mut Reader<'_>, given: &Given, pair: Option<&PairFormula>
 
 /// Refuses parameters with the name of a coordinate or momentum; whether there are any.
 fn has_names_of_bodies(reader: &mut Reader<'_>, given: &Given, coordinates: &[String], momenta: &[String]) -> bool {
-    let before = reader.faults.len();
+    let before = reader.toml.faults.len();
     for (name, _) in &given.parameters {
         for (names, what) in [(coordinates, "coordinate"), (momenta, "momentum")] {
             if names.contains(&name.value) {
                 let message = format!("the parameter `{}` has the name of a {what} of the bodies", name.value);
-                reader.fault(&name.at, message, "give it another name");
+                reader.toml.fault(&name.at, message, "give it another name");
             }
         }
     }
-    reader.faults.len() > before
+    reader.toml.faults.len() > before
 }
 
 /// The ends of a chain, unless all pairs interact.
@@ -159,10 +160,14 @@ fn ends(reader: &mut Reader<'_>, given: &Given, bodies: &Bodies) -> Option<Ends>
     let at = given.place("bodies").unwrap_or(&given.problem);
     if ends == Some(Ends::Fixed) && !bodies.properties.is_empty() {
         let message = "bodies between fixed ends cannot have properties, because the walls have none";
-        reader.fault(at, message, "write `bodies = 32`, or neighbours = \"free\" or \"periodic\"");
+        reader.toml.fault(at, message, "write `bodies = 32`, or neighbours = \"free\" or \"periodic\"");
     }
     if ends != Some(Ends::Fixed) && bodies.count == 1 {
-        reader.fault(at, "one body does not form a pair", "use two bodies or more, or one with neighbours = \"fixed\"");
+        reader.toml.fault(
+            at,
+            "one body does not form a pair",
+            "use two bodies or more, or one with neighbours = \"fixed\"",
+        );
     }
     ends
 }

@@ -4,17 +4,18 @@ use shadowstep::pairs::Separation;
 
 use super::given::Given;
 use super::pair::PairFormula;
-use super::reader::{Reader, Section};
+use super::reader::Reader;
 use super::{formula, pair, shipped};
 use crate::scene::System;
+use shadowstep_schemes::document::Section;
 
 /// The keys of which one says what moves.
 const WAYS: [&str; 3] = ["name", "potential", "pair"];
 
 /// What moves, and where from.
 pub(super) fn system(reader: &mut Reader<'_>, problem: &Section<'_, '_>, initial: &Section<'_, '_>) -> Option<System> {
-    let ways: Vec<_> = WAYS.into_iter().filter(|way| reader.get(problem, way).is_some()).collect();
-    let [name, potential, pair] = WAYS.map(|way| reader.get(problem, way).and_then(|value| reader.text(value)));
+    let ways: Vec<_> = WAYS.into_iter().filter(|way| problem.get(way).is_some()).collect();
+    let [name, potential, pair] = WAYS.map(|way| problem.get(way).and_then(|value| reader.toml.text(value)));
     let pair = pair.and_then(|text| PairFormula::read(reader, text));
     // where nothing says what moves, only that is a fault
     let given = Given::read(reader, problem, initial, ways.is_empty() || ways.contains(&"pair"));
@@ -33,13 +34,13 @@ pub(super) fn system(reader: &mut Reader<'_>, problem: &Section<'_, '_>, initial
             pair::system(reader, &given, pair)
         }
         [] => {
-            reader.all_missing(problem, &WAYS);
+            reader.toml.missing(problem, &WAYS);
             None
         }
         [first, second] => {
             let message = format!("{first} and {second} are both given");
-            reader.wrong(given.place(second)?, message, "keep one of the two")
+            reader.toml.wrong(given.place(second)?, message, "keep one of the two")
         }
-        _ => reader.wrong(given.place("pair")?, "name, potential and pair are all given", "keep one of the three"),
+        _ => reader.toml.wrong(given.place("pair")?, "name, potential and pair are all given", "keep one of the three"),
     }
 }

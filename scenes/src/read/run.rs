@@ -7,14 +7,15 @@ use shadowstep_schemes::First;
 use shadowstep_symbolic::decimal::to_text;
 use toml::de::DeValue;
 
-use super::reader::{Reader, Section, Text};
+use super::reader::Reader;
 use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS, OTHER_SCHEME};
 use crate::library::{self, LibraryError, NamedScheme};
 use crate::steps::{self, MOST_STEPS, WrongValue};
+use shadowstep_schemes::document::{Section, Text};
 
 /// The digits, which all values of the scene need.
 pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<Arithmetic> {
-    let digits = match reader.get(run, "digits") {
+    let digits = match run.get("digits") {
         None => DEFAULT_DIGITS,
         Some(value) if matches!(value.get_ref(), DeValue::String(_)) => {
             return reader.word(value, &Arithmetic::NAMED);
@@ -23,7 +24,7 @@ pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Opti
     };
     match Arithmetic::with_digits(digits) {
         Ok(arithmetic) => Some(arithmetic),
-        Err(error) => reader.wrong(&run.at, error.to_string(), "write digits = 120"),
+        Err(error) => reader.toml.wrong(&run.at, error.to_string(), "write digits = 120"),
     }
 }
 
@@ -38,12 +39,11 @@ pub(super) struct Steps {
 impl Steps {
     /// For a general T(p), or for a quadratic one.
     pub(super) fn read(reader: &mut Reader<'_>, run: &Section<'_, '_>, general: bool) -> Option<Steps> {
-        let first =
-            reader.get(run, "first").map(|value| reader.word(value, &[("kick", First::Kick), ("drift", First::Drift)]));
-        let scheme = match reader.get(run, "scheme") {
-            Some(value) => reader.text(value).and_then(|text| scheme(reader, &text, first.flatten(), general)),
+        let first = run.get("first").map(|value| reader.word(value, &[("kick", First::Kick), ("drift", First::Drift)]));
+        let scheme = match run.get("scheme") {
+            Some(value) => reader.toml.text(value).and_then(|text| scheme(reader, &text, first.flatten(), general)),
             None => {
-                reader.missing(run, "scheme");
+                reader.toml.missing(run, &["scheme"]);
                 None
             }
         };
@@ -57,18 +57,18 @@ impl Steps {
 }
 
 fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>, general: bool) -> Option<NamedScheme> {
-    let folder = Path::new(&reader.source.path).parent().unwrap_or(Path::new(""));
+    let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
     let named = match library::scheme_from(&word.value, folder, first) {
         Ok(named) => named,
-        Err(LibraryError::NotFound { message, hint }) => return reader.wrong(&word.at, message, hint),
+        Err(LibraryError::NotFound { message, hint }) => return reader.toml.wrong(&word.at, message, hint),
         Err(LibraryError::Faults(faults)) => {
-            reader.faults.extend(faults.0);
+            reader.toml.faults.extend(faults.0);
             return None;
         }
     };
     if general && let Err(error) = named.scheme.clone().for_every_kinetic() {
         // it says which one would do
-        reader.faults.push(reader.source.fault(&word.at, error.to_string()));
+        reader.toml.faults.push(reader.toml.source.fault(&word.at, error.to_string()));
         return None;
     }
     match reader.arithmetic.suits(&named) {
@@ -78,7 +78,7 @@ fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>, general: b
         }
         Err(error) => {
             let help = format!("write digits = {}, or use {OTHER_SCHEME}", error.most);
-            reader.wrong(&word.at, error.to_string(), help)
+            reader.toml.wrong(&word.at, error.to_string(), help)
         }
     }
 }
@@ -86,28 +86,28 @@ fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>, general: b
 /// h, the end and the number of steps.
 fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<(Rational, Rational, u64)> {
     let value = |reader: &mut Reader<'_>, key| {
-        let text = reader.get(run, key).and_then(|value| reader.number(value))?;
+        let text = run.get(key).and_then(|value| reader.number(value))?;
         let exact = reader.evaluate(&text)?;
         Some((text, exact.value))
     };
     let step = value(reader, "step");
     let until = value(reader, "until");
-    let steps = reader.get(run, "steps").map(|value| (value.span(), reader.whole(value, 1..=MOST_STEPS)));
-    if reader.get(run, "step").is_none() {
-        reader.missing(run, "step");
+    let steps = run.get("steps").map(|value| (value.span(), reader.whole(value, 1..=MOST_STEPS)));
+    if run.get("step").is_none() {
+        reader.toml.missing(run, &["step"]);
     }
-    if reader.get(run, "until").is_none() && steps.is_none() {
-        reader.all_missing(run, &["until", "steps"]);
+    if run.get("until").is_none() && steps.is_none() {
+        reader.toml.missing(run, &["until", "steps"]);
     }
-    if let (Some(_), Some((at, _))) = (reader.get(run, "until"), &steps) {
-        return reader.wrong(at, "until and steps are both given", "keep one of the two");
+    if let (Some(_), Some((at, _))) = (run.get("until"), &steps) {
+        return reader.toml.wrong(at, "until and steps are both given", "keep one of the two");
     }
     let (step, h) = step?;
     if let Some((_, steps)) = steps {
         let steps = steps?;
         // only a step of 0 is not within its own time
         return match steps::count((&h, &step.value), (&h, &step.value), "") {
-            Err(none) => reader.wrong(&step.at, none.message, none.hint),
+            Err(none) => reader.toml.wrong(&step.at, none.message, none.hint),
             Ok(_) => Some((h.clone(), h * Rational::from_integer(steps.into()), steps)),
         };
     }
@@ -116,7 +116,7 @@ fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<(Rational, Ra
         Ok(count) => Some((h, until, count)),
         Err(none) => {
             let at = if none.wrong == WrongValue::Step { &step.at } else { &end.at };
-            reader.wrong(at, none.message, none.hint)
+            reader.toml.wrong(at, none.message, none.hint)
         }
     }
 }

@@ -4,9 +4,10 @@ use shadowstep::problems::{ProblemError, Setup, problem};
 use shadowstep_symbolic::{evaluate, nearest, parse};
 
 use super::given::Given;
-use super::reader::{Reader, Text};
+use super::reader::Reader;
 use crate::arithmetic::{GUARD_DIGITS, MOST_VALUE_DIGITS};
 use crate::scene::{KineticEnergy, PotentialEnergy, System};
+use shadowstep_schemes::document::Text;
 
 /// The problem of this name.
 pub(super) fn system(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<System> {
@@ -30,7 +31,7 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Opt
         if let Some((value, _)) = short {
             let message = format!("{value} is irrational and computed to {MOST_VALUE_DIGITS} digits");
             let help = format!("use digits = {} or less, or other parameters", MOST_VALUE_DIGITS - GUARD_DIGITS);
-            reader.fault(&name.at, message, help);
+            reader.toml.fault(&name.at, message, help);
         }
     }
     Some(System {
@@ -49,9 +50,9 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
     let problem = match problem(&name.value) {
         Ok(problem) => problem,
         Err(ProblemError::UnknownProblem { hint, .. }) => {
-            return reader.wrong(&name.at, format!("there is no problem `{}`", name.value), hint);
+            return reader.toml.wrong(&name.at, format!("there is no problem `{}`", name.value), hint);
         }
-        Err(error) => return reader.wrong(&name.at, error.to_string(), "`shadowstep problems` lists all"),
+        Err(error) => return reader.toml.wrong(&name.at, error.to_string(), "`shadowstep problems` lists all"),
     };
     let parameters = problem.description().parameters;
     let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name).collect();
@@ -74,13 +75,13 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
     match problem.setup(&set, reader.arithmetic.value_digits()) {
         Ok(setup) => Some(setup),
         Err(ProblemError::OutOfRange { name, text, range }) => {
-            reader.wrong(&place(name), format!("{name} = {text} is out of range"), range)
+            reader.toml.wrong(&place(name), format!("{name} = {text} is out of range"), range)
         }
         Err(ProblemError::NoValue { name, text, why }) => {
             let help = "choose other parameters";
-            reader.wrong(&place(&name), format!("{name} = {text}: {why}"), help)
+            reader.toml.wrong(&place(&name), format!("{name} = {text}: {why}"), help)
         }
-        Err(error) => reader.wrong(&given.problem, error.to_string(), "see `shadowstep problems`"),
+        Err(error) => reader.toml.wrong(&given.problem, error.to_string(), "see `shadowstep problems`"),
     }
 }
 
@@ -91,6 +92,6 @@ fn refuse_unknown_parameters(reader: &mut Reader<'_>, given: &Given, problem: &s
             None if names.is_empty() => "it has no parameters; the initial state is set in [initial]".to_owned(),
             None => format!("it has {}; the initial state is set in [initial]", names.join(", ")),
         };
-        reader.fault(&key.at, format!("{problem} has no parameter `{}`", key.value), help);
+        reader.toml.fault(&key.at, format!("{problem} has no parameter `{}`", key.value), help);
     }
 }
