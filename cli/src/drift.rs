@@ -39,7 +39,7 @@ Example:
 pub(crate) struct Arguments {
     #[command(flatten)]
     run: RunArguments,
-    /// Leaves out what the estimator shows on the exact flow, where that is known: it takes longer than a run in double precision
+    /// Skips the estimate on the exact flow, where that is known: it takes longer than a run in double precision
     #[arg(long)]
     no_control: bool,
     /// One JSON object per run, a line each, in place of the table
@@ -47,7 +47,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-/// Runs all; a run that fails is told of, and the others go on.
+/// Makes all runs; one that fails is reported, and the others are made.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let selection = Selection::read(&arguments.run)?;
     let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
@@ -74,7 +74,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     Ok(status)
 }
 
-/// What the estimator shows on the exact flow, by the step; none where the flow is not known.
+/// The estimates on the exact flow by step size; `None` where the flow is not known.
 struct Controls {
     wanted: bool,
     bar: bool,
@@ -98,7 +98,7 @@ impl Controls {
         let found = match measure::<N>(selection, &Propagator::ExactFlow, run, context, self.bar) {
             Ok(found) => Some(Control { drift: found.drift.to_text(), permanent_change: Permanent::of(&found) }),
             Err(error) => {
-                report::note(format_args!("there is no control: {error}"));
+                report::note(format_args!("no estimate on the exact flow: {error}"));
                 None
             }
         };
@@ -124,7 +124,7 @@ fn measure<N: Rounded + 'static>(
     Ok(found)
 }
 
-/// A run that waits for its number type.
+/// The measurement of one run, in any number type.
 struct Measurement<'a> {
     selection: &'a Selection,
     propagator: &'a Propagator,

@@ -1,4 +1,4 @@
-//! Ctrl-C and a polite `kill`: a run ends after its present step.
+//! Ctrl-C and SIGTERM: a run ends after its present step.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,11 +14,11 @@ pub(crate) struct Interrupt {
 impl Interrupt {
     /// From now on the first signal asks the run to end, and the second ends the program.
     ///
-    /// A terminal that is closed (SIGHUP) is not listened to: `nohup` sees to that.
+    /// SIGHUP, from a closed terminal, is left to `nohup`.
     pub(crate) fn listen() -> Self {
         let asked = Arc::default();
         for signal in [SIGINT, SIGTERM] {
-            // without a handler the program ends at once, and files are whole nevertheless
+            // without a handler the program ends at once, which leaves files complete too
             let _ = flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(&asked));
             let _ = flag::register(signal, Arc::clone(&asked));
         }

@@ -65,9 +65,9 @@ commands! {
 
 const EXIT_CODES: &str = "\
 Exit codes:
-  0  done
-  1  the answer is no: a checked table has faults, a table cannot be polished
-  2  wrong usage: an unknown flag, name or file, a number out of range, a fault in a scene
+  0  success
+  1  negative answer: a checked table has faults, a table cannot be polished
+  2  usage error: an unknown flag, name or file, a number out of range, a fault in a scene
   3  a run failed: a state or an energy was not finite, the output could not be written, or it was interrupted";
 
 /// Splitting schemes and their modified energy, in any precision.

@@ -1,4 +1,4 @@
-//! Where lines go: stdout, or a file that gets its name when it is complete.
+//! The output of a command: stdout, or a file that gets its name when it is complete.
 
 use std::io::{self, StdoutLock, Write};
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::Serialize;
 use shadowstep_scenes::{Error, WholeFile};
 
-/// Takes lines.
+/// Where a command writes its lines.
 pub(crate) enum Output {
     Stdout(StdoutLock<'static>),
     File(WholeFile),

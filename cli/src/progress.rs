@@ -1,8 +1,8 @@
-//! How far a run is, on a terminal.
+//! The progress of a run, on a terminal.
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A bar on stderr while a run lasts; nothing where stderr is no terminal.
+/// A bar on stderr while a run lasts; nothing if stderr is not a terminal.
 pub(crate) struct Progress {
     bar: ProgressBar,
     shown: bool,

@@ -1,4 +1,4 @@
-//! How numbers and tables look to a person; machines get every digit.
+//! Numbers and tables for people; machines get every digit.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use comfy_table::{CellAlignment, LineStyle, Table, presets};
 pub(crate) use shadowstep_scenes::readable::{shortened, wrapped};
 use shadowstep_symbolic::decimal::{from_text, to_significant};
 
-/// A decimal text rounded to so many digits: `1.235e-110`.
+/// A decimal text rounded to `digits` significant digits: `1.235e-110`.
 pub(crate) fn rounded(text: &str, digits: usize) -> String {
     from_text(text).map_or_else(|_| text.to_owned(), |value| to_significant(&value, digits))
 }

@@ -16,16 +16,16 @@ Example:
   shadowstep scene kepler > scene.toml
   shadowstep run scene.toml
 
-A run that was stopped goes on from its last checkpoint when its scene is run again.";
+If a run is stopped, running its scene again resumes it from the last checkpoint.";
 
-/// Runs a scene: a file that says what is run and what is written.
+/// Runs a scene: a file that describes a run and its output.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
     /// The scene's file, such as scene.toml
     #[arg(value_name = "FILE")]
     scene: String,
-    /// Begins again where there is a checkpoint to go on from
+    /// Begins again at t = 0 even if there is a checkpoint
     #[arg(long)]
     restart: bool,
 }
@@ -54,8 +54,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         }
         Outcome::Stopped { n } => {
             let hint = match scene.output.checkpoint {
-                Some(_) => "run the scene again to go on from there",
-                None => "with `checkpoint = \"1 min\"` in [output] it could go on from there",
+                Some(_) => "run the scene again to resume it",
+                None => "with `checkpoint = \"1 min\"` in [output] it could be resumed",
             };
             Err(Error::run(format!("{}: interrupted at n = {n}", scene.source.path), hint))
         }

@@ -16,7 +16,8 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
     /// Shipped schemes or files of tables, such as yoshida4,mine.toml; `shadowstep schemes` lists the shipped ones.
-    /// exact-flow is the solution itself, for harmonic-oscillator, pendulum and kepler: on it an estimator shows its own error
+    /// exact-flow is the exact solution, known for harmonic-oscillator, pendulum and kepler; on it an estimator shows its own
+    /// error
     #[arg(long = "scheme", value_name = "NAME|FILE,…", required = true, value_delimiter = ',')]
     pub(crate) schemes: Vec<String>,
     /// Step sizes, exact, such as 1/10,0.05
@@ -34,23 +35,23 @@ pub(crate) struct RunArguments {
     /// How the modified energy is estimated
     #[arg(long, value_name = "NAME", default_value = "central")]
     pub(crate) estimator: EstimatorChoice,
-    /// The m of the central differences D_m or the k of E_k, such as 40, or auto for the best one of each state
+    /// The m of D_m or the k of E_k, such as 40, or auto for the best one of each state
     #[arg(long, default_value = "auto", value_name = "M|K|auto", value_parser = order)]
     pub(crate) order: OrderChoice,
     /// The largest m or k that --order auto tries, such as 100 [default: 200 of m, 64 of k]
     #[arg(long, value_name = "M|K", value_parser = clap::value_parser!(u32).range(2..=i64::from(HIGHEST_ORDER)))]
     pub(crate) max_order: Option<u32>,
-    /// When --order auto stops trying m: at the largest, or early, where the errors rise [default: full]
+    /// Where --order auto stops trying m: at the largest, or early, where the errors rise [default: full]
     #[arg(long, value_name = "WHEN")]
     pub(crate) stop: Option<StopChoice>,
-    /// Which m is the best for --order auto [default: least, by which the results of Moan & Niesen are found again]
+    /// Which m is the best for --order auto [default: least, which reproduces the results of Moan & Niesen]
     #[arg(long, value_name = "RULE")]
     pub(crate) rule: Option<RuleChoice>,
-    /// The largest error wanted of --estimator bilinear --order auto, which takes the least k for it, such as 1e-20; the
-    /// estimates tell where it is missed [default: the best that can be had]
+    /// Target error for --estimator bilinear --order auto, such as 1e-20; the smallest k that meets it is used. Where none
+    /// does, the best k is used, and the estimates show it [default: the best k of each state]
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
     pub(crate) accuracy: Option<String>,
-    /// Writes to a file, such as out.json, under a temporary name until all is done
+    /// Writes to a file, such as out.json, which gets its name when it is complete
     #[arg(long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 }
@@ -63,9 +64,9 @@ pub(crate) enum OrderChoice {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum EstimatorChoice {
-    /// Central differences D_m of the states: 2m + 1 of them, order 2m
+    /// Central differences D_m of 2m + 1 states, order 2m
     Central,
-    /// Products of the states in pairs: E_k from k + 1 of them, order 2k; for an odd k between two states
+    /// Products of k + 1 states in pairs, E_k, order 2k; for an odd k at times between the states
     Bilinear,
 }
 
@@ -77,9 +78,9 @@ pub(crate) enum StopChoice {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum RuleChoice {
-    /// That with the least term |T_m - T_(m-1)|
+    /// Minimises the term |T_m - T_(m-1)|
     Least,
-    /// That with the least largest of ten terms about it, which none makes small by chance; on no orbit measured worse
+    /// Minimises the maximum of ten neighbouring terms, so that no single term can be small by chance
     Robust,
 }
 

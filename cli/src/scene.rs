@@ -14,13 +14,13 @@ const EXAMPLE: &str = "\
 Example:
   shadowstep scene kepler > scene.toml";
 
-/// Writes a scene to begin with; lists the problems that have one; explains the keys of scenes.
+/// Writes the scene of a problem as a template, lists the problems, or explains the keys of scenes.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
     /// The problem, such as kepler
     name: Option<String>,
-    /// Says what every key of a scene means
+    /// Explains every key of a scene
     #[arg(long, conflicts_with = "name")]
     explain: bool,
 }
@@ -44,6 +44,6 @@ fn list() -> String {
     format!(
         "There is a scene for each of these problems:\n{names}\
          `shadowstep scene kepler > scene.toml` writes one, `shadowstep run scene.toml` runs it, and \
-         `shadowstep scene --explain` says what all keys mean.\n"
+         `shadowstep scene --explain` explains all keys.\n"
     )
 }

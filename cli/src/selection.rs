@@ -59,7 +59,7 @@ impl Selection {
         })
     }
 
-    /// The one run, where there is one only.
+    /// The run, if there is exactly one.
     pub(crate) fn single(&self) -> Option<(&Propagator, Run<'_>)> {
         let mut runs = self.runs();
         runs.next().filter(|_| runs.next().is_none())
@@ -132,12 +132,12 @@ fn setup(arguments: &RunArguments, arithmetic: Arithmetic) -> Result<Setup, Erro
     }
 }
 
-/// The list without what is in it twice, which a remark tells.
+/// The list without repetitions, which are reported.
 fn each_once<T: Clone>(list: &[T], name: impl Fn(&T) -> String, what: &str) -> Vec<T> {
     let mut kept: Vec<T> = Vec::new();
     for item in list {
         if kept.iter().any(|other| name(other) == name(item)) {
-            report::note(format_args!("the {what} {} is named twice; it is run once", name(item)));
+            report::note(format_args!("the {what} {} is given twice; it is run once", name(item)));
         } else {
             kept.push(item.clone());
         }

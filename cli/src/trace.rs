@@ -18,8 +18,9 @@ const EXAMPLE: &str = "\
 Example:
   shadowstep trace --problem pendulum --scheme yoshida4 --step 1/10 --until 20 --digits 40 --csv > pendulum.csv
 
-A line has n, t, energy, modified_energy, estimate and order: the m or k used. The estimate is of the error of modified_energy, and
-of the right size also near close encounters. Where none can be relied on, with --order 1, it is empty, in JSON null.";
+A line has n, t, energy, modified_energy, estimate and order: the m or k used. The estimate is the estimated error of
+modified_energy, of the right size also near close encounters. With --order 1 there is no reliable estimate: it is empty, in
+JSON null.";
 
 /// Energy and modified energy at each step of one run.
 #[derive(Debug, Args)]
@@ -27,7 +28,7 @@ of the right size also near close encounters. Where none can be relied on, with 
 pub(crate) struct Arguments {
     #[command(flatten)]
     run: RunArguments,
-    /// One JSON object per step, a line each (so it is without --csv)
+    /// One JSON object per step, one per line (the default)
     #[arg(long)]
     json: bool,
     /// CSV with a header
@@ -38,15 +39,15 @@ pub(crate) struct Arguments {
     states: bool,
 }
 
-/// A state of the run, as JSON has it; numbers are texts that read back to the same numbers.
+/// A state of the run in JSON; numbers are texts that give the same numbers when they are read.
 #[derive(Serialize)]
 struct Row {
     n: i64,
     t: String,
-    /// None for values between two states.
+    /// `None` for values between two states.
     energy: Option<String>,
     modified_energy: String,
-    /// Of the error; none where none can be relied on.
+    /// The estimated error; `None` if there is no reliable estimate.
     estimate: Option<String>,
     order: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -58,14 +59,14 @@ struct Row {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let selection = Selection::read(&arguments.run)?;
     let (propagator, run) = selection.single().ok_or_else(|| {
-        Error::usage("a trace is of one run: one scheme and one step", "`shadowstep drift` makes many runs")
+        Error::usage("a trace is one run: give one scheme and one step", "`shadowstep drift` makes several runs")
     })?;
     if arguments.states && selection.estimator.is_between() {
-        let sentence = "with --estimator bilinear and an odd --order the values belong to times between the states";
-        return Err(Error::usage(sentence, "take an even order, or leave out --states"));
+        let sentence = "with --estimator bilinear and an odd --order the values are at times between the states";
+        return Err(Error::usage(sentence, "use an even order, or remove --states"));
     }
     if !selection.estimator.tells_error() {
-        report::note("with --order 1 no estimate of the error can be relied on; the estimates are left empty");
+        report::note("no error estimate at --order 1: the estimates are empty");
     }
     let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
     let bar = arguments.run.output.is_some();
@@ -101,7 +102,7 @@ fn writer<'a>(selection: &Selection, arguments: &Arguments, output: &'a mut Outp
     }))
 }
 
-/// A run that waits for its number type, and then writes its rows.
+/// The run and its rows, in any number type.
 struct Following<'a, 'w> {
     selection: &'a Selection,
     propagator: &'a Propagator,

@@ -1,4 +1,4 @@
-//! The number type of a run and its digits: the one list of number types, and the one place that chooses by it.
+//! The number type of a run and its digits: the list of number types, and the one place that dispatches on them.
 
 use num_traits::Zero;
 use shadowstep::number::{Float, Number, Precision, Rounded};
@@ -64,7 +64,7 @@ impl Arithmetic {
     /// The number types that have names instead of digits.
     pub const NAMED: [(&'static str, Arithmetic); 1] = [("double", Arithmetic::Double)];
 
-    /// Multiprecision numbers of so many decimal digits.
+    /// Multiprecision numbers with this many decimal digits.
     ///
     /// # Errors
     /// More digits than MPFR has.

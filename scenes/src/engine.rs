@@ -1,4 +1,4 @@
-//! The run of a scene: what is asked for, and nothing else.
+//! The run of a scene: only what it asks for is computed.
 
 use std::time::Instant;
 
@@ -220,7 +220,7 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
 
     /// Makes a checkpoint where it is time for one, or where the run is stopped: then it ends.
     ///
-    /// `state` is what to go on from; `None` for the state at t = 0.
+    /// `state` is the one from which the run can be resumed; `None` for the state at t = 0.
     fn ends(&mut self, n: i64, state: Option<State<'_, N>>) -> Result<bool, Error> {
         let stops = self.observer.stops();
         let due = match self.scene.output.checkpoint {

@@ -54,14 +54,14 @@ impl Scene {
         match &outcome {
             Ok(Outcome::Complete { .. }) => rows.target.finish()?,
             Err(Error::Run { .. }) => rows.target.give_up(observer)?,
-            // stopped, or the disk is full: a later run may go on
+            // stopped, or the disk is full: a later run can resume it
             Ok(Outcome::Stopped { .. }) | Err(_) => {}
         }
         outcome
     }
 }
 
-/// A run that waits for its number type.
+/// The run of a scene in any number type.
 struct Following<'a, 'r> {
     scene: &'a Scene,
     rows: &'a mut Rows<'r>,
@@ -106,7 +106,7 @@ mod tests {
         Scene::open(path.to_str().unwrap()).unwrap()
     }
 
-    /// Stops a run at the last of so many states.
+    /// Stops a run after this many states.
     struct StopAfter(i64);
 
     impl Observer for StopAfter {
@@ -116,7 +116,7 @@ mod tests {
         }
     }
 
-    /// Stops after so many states, then after twice as many of those that are made from there, and so on; gives the
+    /// Stops after `each` states, then after twice as many states of the resumed run, and so on; gives the
     /// bytes of the file and the n of the stops.
     fn with_stops(system: &str, output: &str, each: usize) -> (String, Vec<i64>) {
         let folder = tempfile::tempdir().unwrap();
@@ -182,7 +182,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let scene = scene(folder.path(), KEPLER, "modified_energy = { order = 2 }");
         // each fifth state is kept, and the estimates after n need one at or before n - 5: D_2, and three states for its
-        // error; the run that goes on from 10 has its first estimate at 16, and so it keeps no state 15
+        // error; the run that is resumed from 10 has its first estimate at 16, and so it keeps no state 15
         let mut first = 0;
         for (n, kept) in [(4, None), (6, Some(0)), (16, Some(10)), (17, Some(10)), (19, Some(10)), (20, Some(10))] {
             let outcome = scene.run_to_file(false, &mut StopAfter(n - first + 1)).unwrap();
@@ -190,7 +190,7 @@ mod tests {
             let text = fs::read_to_string(folder.path().join("out.csv.checkpoint")).unwrap();
             let state = serde_json::from_str::<serde_json::Value>(&text).unwrap()["checkpoint"]["state"]["n"].as_i64();
             assert_eq!(state, kept, "at n = {n}");
-            // the first estimate of the run that goes on from there
+            // the first estimate of the run that is resumed from there
             first = kept.map_or(0, |kept| kept + 6);
         }
     }

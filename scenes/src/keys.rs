@@ -24,7 +24,7 @@ pub struct Key {
     pub default: Option<&'static str>,
 }
 
-/// All sections, in the order in which they are explained.
+/// All sections, in the order of the explanation.
 pub const SECTIONS: [Section; 7] = [
     section(
         "problem",

@@ -1,7 +1,7 @@
-//! Scenes: a TOML file says which system is run with which splitting scheme, and what is written; no more than that is
-//! computed.
+//! Scenes: a TOML file describes a system, the splitting scheme and the steps of its run, and what is written. Nothing
+//! else is computed.
 //!
-//! A scene is read with the place of everything that is wrong with it, and run into its file or into a writer:
+//! Reading a scene gives the scene, or all faults with their places. Its run writes to its file or to a writer:
 //!
 //! ```
 //! use shadowstep::tables::Source;
@@ -66,7 +66,7 @@
 //!
 //! | file | what it is |
 //! | --- | --- |
-//! | `scene` | what a scene says: plain data |
+//! | `scene` | the content of a scene: plain data |
 //! | [`keys`] | every key with its meaning; `explain` lists them, `template` writes scenes with them |
 //! | `read` | a scene's text → a scene, or all its faults |
 //! | `execute`, `engine`, `snapshots` | the run of a scene |

@@ -12,19 +12,19 @@ use thiserror::Error;
 
 use crate::error::Error;
 
-/// The word that stands in place of a scheme for the exact flow.
+/// The name of the exact flow in place of a scheme.
 pub const EXACT_FLOW: &str = "exact-flow";
 
-/// A scheme under the name by which it was asked for.
+/// A scheme with the name by which it was requested.
 #[derive(Clone, Debug)]
 pub struct NamedScheme {
-    /// The name of a shipped scheme or the path of a table, as the request has it.
+    /// The name of a shipped scheme or the path of a table, as requested.
     pub name: String,
     /// The scheme with its proof.
     pub scheme: TableScheme,
 }
 
-/// Why there is no such scheme.
+/// Why a scheme cannot be found or read.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum LibraryError {
     /// An unknown name, or a file that is missing or cannot be read.

@@ -1,4 +1,4 @@
-//! What a caller should know of a scene or a run that is not wrong.
+//! What the user should know about a scene or a run that is not an error.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -8,7 +8,7 @@ use shadowstep_symbolic::decimal::to_significant;
 
 use crate::readable::shortened;
 
-/// Something worth knowing that stops nothing.
+/// Something the user should know; it is not an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Note {
@@ -40,14 +40,14 @@ pub enum Note {
         /// Its formula.
         formula: String,
     },
-    /// The run goes on from a checkpoint.
+    /// The run is resumed from a checkpoint.
     Resumed {
         /// The last n with a row in the file.
         n: i64,
         /// The number of steps of the whole run.
         steps: u64,
     },
-    /// There is a checkpoint without rows: the run begins at t = 0.
+    /// There is a checkpoint without a partial file: the run begins at t = 0.
     CheckpointWithoutRows {
         /// The checkpoint.
         checkpoint: PathBuf,
@@ -71,7 +71,7 @@ impl Note {
     }
 }
 
-/// t = n h after so many steps.
+/// t = n h after n = `steps` steps.
 fn end(h: &Rational, steps: u64) -> Rational {
     h * Rational::from_integer(steps.into())
 }

@@ -1,4 +1,4 @@
-//! What takes a state on in time: a scheme, or the exact flow.
+//! What advances a state in time: a scheme, or the exact flow.
 
 use shadowstep::exact_flow::{ExactFlow, ExactFlowError};
 use shadowstep::number::{Number, Rounded};
@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme};
 use crate::run::Run;
 
-/// A scheme, or the exact flow as the control of an estimator.
+/// A scheme, or the exact flow, on which an estimator shows its own error.
 #[derive(Debug)]
 pub enum Propagator {
     /// A scheme.
@@ -30,7 +30,7 @@ impl Propagator {
         }
         shadowstep::exact_flow::has_exact_flow(setup).map_err(|error| {
             let hint = match error {
-                ExactFlowError::NoSolution { .. } => "take a scheme, or one of these problems",
+                ExactFlowError::NoSolution { .. } => "use a scheme, or one of these problems",
                 _ => "choose another initial state with --set",
             };
             Error::usage(error.to_string(), hint)
@@ -54,7 +54,7 @@ impl Propagator {
         }
     }
 
-    /// The drift of the modified energy over a run from the problem's initial state; `heard` gets the n of each value.
+    /// The drift of the modified energy over a run from the problem's initial state; `progress` gets the n of each value.
     ///
     /// # Errors
     /// A state or a modified energy that is not finite, an exact flow that cannot be followed.
@@ -64,16 +64,16 @@ impl Propagator {
         run: Run<'_>,
         method: &impl Method<N>,
         context: &N::Context,
-        heard: impl FnMut(i64),
+        progress: impl FnMut(i64),
     ) -> Result<EnergyDrift<N>, Error> {
         match self {
             Propagator::Scheme(named) => {
-                energy_drift(&named.scheme, motion(setup, context), run.h, run.steps, method, heard)
+                energy_drift(&named.scheme, motion(setup, context), run.h, run.steps, method, progress)
             }
             Propagator::ExactFlow => {
                 ShadowRun::<ExactFlow<N>, _>::of_exact_flow(setup, run.h, run.steps, method, context)
                     .map_err(|error| run.not_followed(&error))?
-                    .drift(heard)
+                    .drift(progress)
             }
         }
         .map_err(|error| run.failed(&error))

@@ -1,4 +1,4 @@
-//! A scene's text → all that it asks for, or all its faults. Each section has its file.
+//! The text of a scene → the scene, or all its faults. Each section has its file.
 
 mod bodies;
 mod formula;
@@ -48,7 +48,7 @@ impl Scene {
         }
     }
 
-    /// Reads a scene from its text; files that it names are seen from the folder of the path.
+    /// Reads a scene from its text; paths in it are relative to the folder of its own path.
     ///
     /// ```
     /// use shadowstep::tables::Source;
@@ -105,7 +105,7 @@ fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>) {
         };
         reader.toml.fault(&key.span(), format!("unknown section `{word}`"), help);
     }
-    // a shipped problem has a state of its own
+    // a shipped problem has an initial state
     let problem = root.get("problem").and_then(|problem| problem.get_ref().as_table());
     let own = problem.and_then(|problem| problem.get("potential").or(problem.get("pair")));
     let needed = ["problem", "run", "output"].into_iter().chain(own.map(|_| "initial"));

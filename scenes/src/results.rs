@@ -1,4 +1,4 @@
-//! What a run writes: rows under a head, into a file that is whole or can be resumed.
+//! What a run writes: a head and rows, to a writer, to a file that is complete or absent, or to one that can be resumed.
 
 mod checkpoint;
 mod metadata;

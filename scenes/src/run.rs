@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::estimator::Chosen;
 use crate::readable::shortened;
 
-const OTHER_START: &str = "a smaller step or another initial state may go on";
+const OTHER_START: &str = "try a smaller step size or another initial state";
 
 /// n = 0, …, steps at the times n h.
 #[derive(Clone, Copy, Debug)]
@@ -70,7 +70,7 @@ impl Run<'_> {
 
     /// The exact flow cannot be followed.
     pub fn not_followed(&self, error: &ExactFlowError) -> Error {
-        Error::run(format!("{}: {error}", self.name()), "an earlier --until or another initial state may go")
+        Error::run(format!("{}: {error}", self.name()), "try an earlier --until or another initial state")
     }
 
     /// All states are finite, an energy is not.

@@ -1,4 +1,4 @@
-//! What a scene says: plain data, all of it exact.
+//! The content of a scene: plain data, all of it exact.
 
 mod format;
 mod output;
@@ -21,10 +21,10 @@ use crate::library::NamedScheme;
 use crate::note::Note;
 use crate::run::{OrderSetting, Run};
 
-/// All that a scene asks for.
+/// A scene: the system, the scheme with its steps, and the output.
 #[derive(Debug)]
 pub struct Scene {
-    /// The text of the scene, and its path, from whose folder files are seen.
+    /// The text of the scene and its path; paths in the scene are relative to its folder.
     pub source: Source,
     /// The number type.
     pub arithmetic: Arithmetic,

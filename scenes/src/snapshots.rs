@@ -18,7 +18,7 @@ impl<N: Number> Snapshots<N> {
     /// The last state at or before n − reach is the newest kept one or the one before it.
     const KEPT: usize = 2;
 
-    /// For estimates that need so many states before their own.
+    /// For estimates that need `reach` states before their own.
     pub(crate) fn new(reach: i64) -> Self {
         Snapshots { reach, kept: VecDeque::new() }
     }

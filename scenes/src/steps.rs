@@ -1,4 +1,4 @@
-//! How many steps a run has.
+//! The number of steps of a run.
 
 use num_traits::{Signed, ToPrimitive, Zero};
 use shadowstep::Rational;
@@ -8,7 +8,7 @@ use thiserror::Error;
 /// The most steps of a run: more would take years.
 pub const MOST_STEPS: u64 = 10_000_000_000;
 
-/// A step size and a time between which there is no number of steps.
+/// A step size and an end of the run that give no valid number of steps.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{message}\n  hint: {hint}")]
 pub struct StepsError {
@@ -29,7 +29,8 @@ pub enum WrongValue {
     Until,
 }
 
-/// How many steps of size h end at or before `until`, both with their texts; `dashes` stand before the names of flags.
+/// The number of steps of size h that end at or before `until`, both with their texts. Messages write `dashes` before the
+/// names `step` and `until`: `--` for flags.
 ///
 /// ```
 /// use shadowstep::exact;

@@ -5,7 +5,7 @@ use shadowstep::problems::Description;
 use crate::keys;
 use crate::readable::wrapped;
 
-/// Lines of a scene; values that hold anyway are commented out.
+/// Lines of a scene; optional keys are commented out.
 struct Lines(String);
 
 impl Lines {
@@ -24,7 +24,7 @@ impl Lines {
     }
 }
 
-/// The text of a scene that runs a shipped problem; keys that have their defaults are commented out.
+/// The text of a scene that runs a shipped problem, with the meanings of its keys as comments.
 ///
 /// ```
 /// use shadowstep::problems::problem;

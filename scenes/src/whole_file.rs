@@ -66,7 +66,7 @@ impl Write for WholeFile {
 
 impl Drop for WholeFile {
     fn drop(&mut self) {
-        // after `finish` there is no such file any more
+        // after `finish` this file does not exist
         let _ = fs::remove_file(&self.temporary);
     }
 }

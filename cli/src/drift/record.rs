@@ -1,11 +1,11 @@
-//! What a run of `drift` gives, as JSON has it.
+//! The results of `drift` in JSON.
 
 use serde::{Serialize, Serializer};
 use shadowstep::number::Number;
 use shadowstep::run::{EnergyDrift, Seen};
 use shadowstep_scenes::arithmetic::DigitsLabel;
 
-/// What a run gives, as JSON has it; numbers of high precision are texts.
+/// The result of a run in JSON; numbers of high precision are texts.
 #[derive(Serialize)]
 pub(super) struct Record {
     /// The version of the program.
@@ -21,7 +21,7 @@ pub(super) struct Record {
     pub(super) digits: DigitsLabel,
     pub(super) estimator: &'static str,
     pub(super) order: OrderLabel,
-    /// How the order is chosen, as far as the estimator has such a setting; none where the order is fixed.
+    /// How the order is chosen, as far as the estimator has such a setting; `None` if the order is fixed.
     pub(super) max_order: Option<u32>,
     pub(super) stop: Option<&'static str>,
     pub(super) rule: Option<&'static str>,
@@ -42,7 +42,7 @@ pub(super) struct Record {
     pub(super) seconds: f64,
 }
 
-/// The change between quiet states, which the estimator's error hardly reaches.
+/// The change between states with small estimated errors.
 #[derive(Clone, Serialize)]
 pub(super) struct Permanent {
     pub(super) change: String,
@@ -57,7 +57,7 @@ pub(super) struct Permanent {
     pub(super) stretches: u64,
 }
 
-/// What the same estimator shows at the same times on the exact flow, whose energy does not change: its own error.
+/// The same estimates on the exact flow, whose energy does not change: the error of the estimator itself.
 #[derive(Clone, Serialize)]
 pub(super) struct Control {
     pub(super) drift: String,
@@ -89,7 +89,7 @@ fn as_word<S: Serializer>(seen: &Seen, serializer: S) -> Result<S::Ok, S::Error>
     })
 }
 
-/// All quiet states lie on one side of what is not quiet.
+/// All states with small errors are on one side of those with large errors.
 pub(super) const NOT_SEEN: &str = "not seen";
 
 #[derive(Serialize)]

@@ -1,4 +1,4 @@
-//! What `drift` gives as a table for people.
+//! The results of `drift` as a table.
 
 use shadowstep::run::Seen;
 use shadowstep_scenes::readable::shortened;
@@ -27,7 +27,7 @@ pub(super) fn row(run: Run<'_>, record: &Record) -> [String; 9] {
     ]
 }
 
-/// Where the estimator tells no errors, no state is known to be quiet.
+/// Without error estimates, no state is known to have a small error.
 const NOT_RELIABLE: &str = "not reliable here";
 
 impl Permanent {
@@ -41,21 +41,21 @@ impl Permanent {
     }
 }
 
-/// What marks in the column of the permanent change mean, where there are any.
+/// The meanings of the marks in the column of the permanent change, if there are any.
 fn marks(rows: &[[String; 9]]) -> String {
     let meanings = [
-        ("< ", "<: below what errors and round-off can feign"),
+        ("< ", "<: below the effect of estimation errors and round-off"),
         (
             NOT_SEEN,
-            "not seen: the states with small errors all lie on one side of those with large ones, such as an encounter",
+            "not seen: all states with small errors are on one side of those with large errors, such as an encounter",
         ),
-        (NOT_RELIABLE, "not reliable here: this order tells no errors"),
+        (NOT_RELIABLE, "not reliable: no error estimate at this order"),
     ];
     let used = meanings.iter().filter(|(mark, _)| rows.iter().any(|row| row[4].starts_with(mark)));
     used.map(|(_, meaning)| format!("{meaning}\n")).collect()
 }
 
-/// More parameters and initial values are not shown to people.
+/// The most parameters and initial values that the table shows.
 const MOST_VALUES: usize = 16;
 
 pub(super) fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String {

@@ -195,7 +195,7 @@ fn changed_rows_are_refused() {
     refused(&folder, "out.csv.partial was changed after its checkpoint was written");
     let folder = stopped(PLAIN, "out.csv");
     fs::OpenOptions::new().write(true).open(folder.path().join("out.csv.partial")).unwrap().set_len(9).unwrap();
-    refused(&folder, "out.csv.partial is shorter than its checkpoint says");
+    refused(&folder, "out.csv.partial is shorter than its checkpoint states");
 }
 
 #[test]

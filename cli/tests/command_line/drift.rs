@@ -275,8 +275,8 @@ fn what_is_named_twice_is_run_once() {
         "drift --problem kepler --scheme ruth3,ruth3 --step 1/10,0.1,1/5 --until 1 --double --order 2 --json",
     );
     assert_eq!((said.code, objects(&said.out).len()), (0, 2));
-    assert!(said.err.contains("the scheme ruth3 is named twice"), "{}", said.err);
-    assert!(said.err.contains("the step 1/10 is named twice"), "{}", said.err);
+    assert!(said.err.contains("the scheme ruth3 is given twice"), "{}", said.err);
+    assert!(said.err.contains("the step 1/10 is given twice"), "{}", said.err);
 }
 
 /// What the paper calls drift is the estimator's own on Kepler's problem; the permanent change is far below it.

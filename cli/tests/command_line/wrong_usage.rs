@@ -102,7 +102,7 @@ fn the_good_command_line_is_good() {
 #[test]
 fn help_tells_of_exit_codes_and_examples() {
     let help = quietly("--help");
-    for code in ["0  done", "1  the answer is no", "2  wrong usage", "3  a run failed"] {
+    for code in ["0  success", "1  negative answer", "2  usage error", "3  a run failed"] {
         assert!(help.contains(code), "{help}");
     }
     let example = quietly("drift --help");

@@ -1,4 +1,4 @@
-//! The bodies of a scene with their properties, and the numbers that each of them has.
+//! The bodies of a scene with their properties, and lists with a number for each of them.
 
 use std::ops::Range;
 
@@ -12,22 +12,22 @@ use super::numbers::Numbers;
 use super::reader::Reader;
 use shadowstep_schemes::document::{Text, Value};
 
-/// More bodies than anyone can wait for.
+/// The most bodies: with more, a step takes too long.
 const MOST_BODIES: u64 = 100_000;
 
-/// The key among the properties that says how many bodies there are.
+/// The key among the properties that gives the number of bodies.
 const COUNT: &str = "count";
 
-/// What formulas call the number of a body.
+/// The name of the number of a body in formulas.
 const NUMBER: &str = "i";
 
-/// The bodies, as the scene has them.
+/// The value of the key `bodies`.
 pub(super) enum GivenBodies {
     Count(u64),
     Properties(Vec<(Text, Property)>),
 }
 
-/// What stands in the table of properties.
+/// A value in the table of properties.
 pub(super) enum Property {
     Count(u64),
     Values(Numbers),
@@ -55,7 +55,7 @@ impl GivenBodies {
     }
 }
 
-/// How many bodies there are, and what they have.
+/// The number of bodies, and their properties.
 pub(super) struct Bodies {
     pub(super) count: usize,
     /// Names, with a value for each body.
@@ -138,7 +138,7 @@ impl Bodies {
         }
     }
 
-    /// The values at i = 1, 2, …, where the properties of body i have their names; only the first fault is told of.
+    /// The values at i = 1, 2, …; the formula can contain the properties of body i. Only the first fault is reported.
     fn formula(&self, reader: &mut Reader<'_>, formula: &Text) -> Option<Vec<Exact>> {
         let parameters = reader.known.clone();
         let mut values = Vec::new();
@@ -160,7 +160,7 @@ impl Bodies {
     }
 }
 
-/// How many bodies there are, by `count` or by the first list.
+/// The number of bodies, from `count` or from the first list.
 fn count(properties: &[(Text, Property)]) -> Option<usize> {
     let counted = properties.iter().find_map(|(_, property)| match property {
         Property::Count(count) => Some(*count as usize),
@@ -177,7 +177,7 @@ fn whole(n: usize) -> Exact {
     Exact { value: Rational::from_integer(n.into()), rounded: false }
 }
 
-/// The name of a property is a valid one, and no parameter has it in formulas.
+/// Refuses a name of a property that is not valid, or that a parameter has in formulas.
 fn check_property(reader: &mut Reader<'_>, name: &Text, parameters: &[(Text, Text)]) {
     check_name(reader, name);
     refuse_reserved(reader, name);
@@ -188,7 +188,7 @@ fn check_property(reader: &mut Reader<'_>, name: &Text, parameters: &[(Text, Tex
     }
 }
 
-/// Refuses the names that formulas have already.
+/// Refuses names that have a meaning in formulas for bodies.
 pub(super) fn refuse_reserved(reader: &mut Reader<'_>, name: &Text) {
     let meaning = match (Separation::named(&name.value), name.value.as_str()) {
         (Some(Separation::Difference), _) => Some("the difference q_j - q_i"),

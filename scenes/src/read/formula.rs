@@ -42,14 +42,14 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -
     Some(System { potential, kinetic, parameters, coordinates, momenta, q: q?, p: p? })
 }
 
-/// The names of the coordinates and of their momenta, all of them new.
+/// The names of the coordinates and of their momenta, each different from all other names.
 fn names(reader: &mut Reader<'_>, given: &Given, list: &Placed<Vec<Text>>) -> (Vec<String>, Vec<String>) {
     let mut taken: Vec<(String, String)> =
         COLUMNS.iter().map(|name| ((*name).to_owned(), "of a column of the output".to_owned())).collect();
     taken.extend(given.parameters.iter().map(|(name, _)| (name.value.clone(), "of a parameter".to_owned())));
     for name in &list.value {
         check_name(reader, name);
-        // without names of their own, momenta are named after the coordinates
+        // by default, momenta are named after the coordinates
         let momentum = given.place("momenta").is_none().then(|| format!("p{}", name.value));
         let is_its = |other: &String| *other == name.value || momentum.as_ref() == Some(other);
         if let Some((other, whose)) = taken.iter().find(|(other, _)| is_its(other)) {
@@ -73,7 +73,7 @@ fn names(reader: &mut Reader<'_>, given: &Given, list: &Placed<Vec<Text>>) -> (V
 
 const COORDINATE: &str = "of a coordinate";
 
-/// The names of the momenta, as many as there are coordinates, none of them taken by something else.
+/// The names of the momenta: one for each coordinate, and each different from all other names.
 fn own_momenta(
     reader: &mut Reader<'_>,
     list: &Placed<Vec<Text>>,

@@ -16,7 +16,7 @@ use super::reader::Reader;
 use crate::keys;
 use shadowstep_schemes::document::{Placed, Section, Text};
 
-/// What the scene says besides the problem's name, its potential or its pairs.
+/// The values of [problem] and [initial] besides the problem's name, its potential or its pairs.
 pub(super) struct Given {
     pub(super) coordinates: Option<Placed<Vec<Text>>>,
     pub(super) momenta: Option<Placed<Vec<Text>>>,
@@ -29,7 +29,7 @@ pub(super) struct Given {
     /// Names and values in the order of the text.
     pub(super) parameters: Vec<(Text, Text)>,
     pub(super) state: State,
-    /// Places of the values of all keys that there are, right or wrong.
+    /// Places of the values of all given keys, valid or not.
     places: Vec<(&'static str, Range<usize>)>,
     /// Places of the sections.
     pub(super) problem: Range<usize>,
@@ -64,7 +64,7 @@ impl Given {
         }
     }
 
-    /// Refuses that a key is left out.
+    /// Refuses a missing key.
     pub(super) fn needs(&self, reader: &mut Reader<'_>, problem: &Section<'_, '_>, key: &str) {
         if self.place(key).is_none() {
             reader.toml.missing(problem, &[key]);
@@ -76,7 +76,7 @@ impl Given {
         let mut parameters = Vec::new();
         for (name, text) in &self.parameters {
             check_name(reader, name);
-            // a parameter without a value stands as 1, so that its users add no faults of their own
+            // a parameter with a fault has the value 1, so that values that contain it add no more faults
             let value = reader.evaluate(text).unwrap_or(Exact { value: Rational::one(), rounded: false });
             reader.known.insert(name.value.clone(), value.clone());
             parameters.push((name.value.clone(), value));
@@ -84,12 +84,12 @@ impl Given {
         parameters
     }
 
-    /// Where the value of a key is, if the key is there.
+    /// The place of the value of a key, if the key is given.
     pub(super) fn place(&self, key: &str) -> Option<&Range<usize>> {
         self.places.iter().find(|(name, _)| *name == key).map(|(_, at)| at)
     }
 
-    /// Refuses keys that say nothing here, each with why and what would be right.
+    /// Refuses keys that have no meaning here, each with a message and a hint.
     pub(super) fn refuse(&self, reader: &mut Reader<'_>, keys: &[&str], why: impl Fn(&str) -> (String, String)) {
         for (key, at) in self.places.iter().filter(|(key, _)| keys.contains(key)) {
             let (message, help) = why(key);

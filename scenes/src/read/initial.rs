@@ -8,13 +8,13 @@ use super::numbers::Numbers;
 use super::reader::Reader;
 use shadowstep_schemes::document::Section;
 
-/// The state as the scene says it.
+/// The initial state in the form in which the scene gives it.
 pub(super) struct State {
     q: Option<Numbers>,
     p: Option<Numbers>,
     /// The place of `v`: then `p` is of velocities.
     velocities: Option<Range<usize>>,
-    /// How many of the lists are there, right or wrong.
+    /// Whether the lists are given, valid or not.
     has_q: bool,
     has_p: bool,
 }
@@ -33,7 +33,7 @@ impl State {
         State { q, p: v.or(p), velocities, has_q, has_p }
     }
 
-    /// Refuses a state that is left out.
+    /// Refuses a missing initial state.
     pub(super) fn all_there(&self, reader: &mut Reader<'_>, at: &Range<usize>) {
         for (there, key) in [(self.has_q, "q"), (self.has_p, "p")] {
             if !there {
@@ -43,7 +43,7 @@ impl State {
         }
     }
 
-    /// Refuses velocities, where T(p) is no sum over masses.
+    /// Refuses velocities: T(p) is not given by masses.
     pub(super) fn refuse_velocities(&self, reader: &mut Reader<'_>) {
         if let Some(at) = &self.velocities {
             reader.toml.fault(

@@ -7,12 +7,12 @@ use shadowstep_symbolic::{Expression, Kind, evaluate, parse};
 use super::reader::Reader;
 use shadowstep_schemes::document::Text;
 
-/// Refuses what formulas cannot have as a name.
+/// Refuses a name that formulas cannot contain.
 pub(super) fn check_name(reader: &mut Reader<'_>, name: &Text) {
     let is_name = |expression: &Expression| matches!(&expression.kind, Kind::Name(whole) if *whole == name.value);
     match parse(&name.value) {
         Ok(expression) if is_name(&expression) => {
-            // a name that has a value without being given one is that of a constant
+            // a name that has a value by itself is a constant
             if evaluate(&expression, &BTreeMap::new(), 1).is_ok() {
                 reader.toml.fault(&name.at, format!("`{}` is a constant", name.value), "give it another name");
             }

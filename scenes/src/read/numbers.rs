@@ -8,7 +8,7 @@ use toml::de::DeValue;
 use super::reader::Reader;
 use shadowstep_schemes::document::{Placed, Text, Value};
 
-/// Numbers as the scene has them.
+/// Numbers in the form in which the scene gives them.
 pub(super) enum Numbers {
     List(Placed<Vec<Text>>),
     /// A list for each body.
@@ -53,7 +53,7 @@ impl Numbers {
         }
     }
 
-    /// A number for each of so many coordinates that are of no bodies.
+    /// A number for each coordinate of a system without bodies.
     pub(super) fn values(&self, reader: &mut Reader<'_>, coordinates: usize) -> Option<Vec<Exact>> {
         match self {
             Numbers::List(list) => reader.values(list, coordinates, "coordinate"),

@@ -48,7 +48,7 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<
     Some(Outputs { file, format: format?, energy, modified_energy, trajectory, checkpoint })
 }
 
-/// `true`, `false`, or a table with a section's name: when something is written, and the table.
+/// The value of a key that is `true`, `false` or a table: the period, and the table.
 fn when<'t, 'i>(
     reader: &mut Reader<'_>,
     output: &Section<'t, 'i>,
@@ -114,7 +114,7 @@ fn order(reader: &mut Reader<'_>, value: &Value<'_>, kind: Kind) -> Option<u32> 
     }
     let order = up_to(reader, value, 1)?;
     if kind == Kind::Bilinear && order % 2 == 1 {
-        let message = "with estimator = \"bilinear\" and an odd order the values belong to times between the states";
+        let message = "with estimator = \"bilinear\" and an odd order the values are at times between the states";
         return reader.toml.wrong(&value.span(), message, "write an even order");
     }
     Some(order)

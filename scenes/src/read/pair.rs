@@ -13,14 +13,14 @@ use crate::scene::PairEnergy;
 use crate::scene::{KineticEnergy, PotentialEnergy, System};
 use shadowstep_schemes::document::Text;
 
-/// The energy of a pair, as the scene has it.
+/// The formula of the energy of a pair.
 pub(super) struct PairFormula {
     pub(super) text: Text,
     pub(super) separation: Separation,
 }
 
 impl PairFormula {
-    /// Finds out what the formula is in.
+    /// Reads the formula and finds the separation that it contains.
     pub(super) fn read(reader: &mut Reader<'_>, text: Text) -> Option<PairFormula> {
         let help =
             "r2 is the square of the distance, d = q_j - q_i the difference in one dimension: \"-g*m_i*m_j/sqrt(r2)\"";
@@ -127,7 +127,7 @@ fn pair_energy(
     energy
 }
 
-/// How many dimensions there are: on a line one.
+/// The number of dimensions; 1 for a formula in `d`.
 fn dimensions(reader: &mut Reader<'_>, given: &Given, pair: Option<&PairFormula>) -> Option<usize> {
     let on_a_line = pair.is_some_and(|pair| pair.separation == Separation::Difference);
     match (given.dimensions, given.place("dimensions")) {

@@ -1,4 +1,4 @@
-//! [problem]: what moves, said in one of several ways, each with its file.
+//! [problem]: the system, given in one of three ways, each with its file.
 
 use shadowstep::pairs::Separation;
 
@@ -9,15 +9,15 @@ use super::{formula, pair, shipped};
 use crate::scene::System;
 use shadowstep_schemes::document::Section;
 
-/// The keys of which one says what moves.
+/// The keys of which exactly one gives the potential.
 const WAYS: [&str; 3] = ["name", "potential", "pair"];
 
-/// What moves, and where from.
+/// The system with its initial state.
 pub(super) fn system(reader: &mut Reader<'_>, problem: &Section<'_, '_>, initial: &Section<'_, '_>) -> Option<System> {
     let ways: Vec<_> = WAYS.into_iter().filter(|way| problem.get(way).is_some()).collect();
     let [name, potential, pair] = WAYS.map(|way| problem.get(way).and_then(|value| reader.toml.text(value)));
     let pair = pair.and_then(|text| PairFormula::read(reader, text));
-    // where nothing says what moves, only that is a fault
+    // if none of the keys is given, only that is a fault
     let given = Given::read(reader, problem, initial, ways.is_empty() || ways.contains(&"pair"));
     match ways[..] {
         ["name"] => shipped::system(reader, &given, &name?),
@@ -27,7 +27,7 @@ pub(super) fn system(reader: &mut Reader<'_>, problem: &Section<'_, '_>, initial
         }
         ["pair"] => {
             given.needs(reader, problem, "bodies");
-            // a formula in d is for a line
+            // a formula in d has one dimension
             if pair.as_ref().is_some_and(|pair| pair.separation == Separation::SquaredDistance) {
                 given.needs(reader, problem, "dimensions");
             }

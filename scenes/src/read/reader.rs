@@ -13,7 +13,7 @@ use crate::keys;
 use crate::note::Note;
 
 /// Numbers in TOML.
-const NUMBERS: &str = "1, 0.05, or in quotes \"1/20\" or \"sqrt(2)/20\"";
+const NUMBERS: &str = "1, 0.05, or in quotes \"1/10\" or \"sqrt(2)/20\"";
 
 /// Reads the values of a scene.
 pub(super) struct Reader<'a> {
@@ -47,7 +47,7 @@ impl<'a> Reader<'a> {
         self.toml.table(table, value.span(), keys_of(name))
     }
 
-    /// A number as it is written: digits, or an expression in quotes.
+    /// The text of a number: digits, or an expression in quotes.
     pub(super) fn number(&mut self, value: &Value<'_>) -> Option<Text> {
         self.toml.number(value, NUMBERS)
     }

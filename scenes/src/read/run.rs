@@ -13,7 +13,7 @@ use crate::library::{self, LibraryError, NamedScheme};
 use crate::steps::{self, MOST_STEPS, WrongValue};
 use shadowstep_schemes::document::{Section, Text};
 
-/// The digits, which all values of the scene need.
+/// The number type, to whose digits all values of the scene are computed.
 pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<Arithmetic> {
     let digits = match run.get("digits") {
         None => DEFAULT_DIGITS,
@@ -67,7 +67,7 @@ fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>, general: b
         }
     };
     if general && let Err(error) = named.scheme.clone().for_every_kinetic() {
-        // it says which one would do
+        // the message names a valid scheme
         reader.toml.faults.push(reader.toml.source.fault(&word.at, error.to_string()));
         return None;
     }
@@ -105,7 +105,7 @@ fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<(Rational, Ra
     let (step, h) = step?;
     if let Some((_, steps)) = steps {
         let steps = steps?;
-        // only a step of 0 is not within its own time
+        // of these, only a step size of 0 is an error
         return match steps::count((&h, &step.value), (&h, &step.value), "") {
             Err(none) => reader.toml.wrong(&step.at, none.message, none.hint),
             Ok(_) => Some((h.clone(), h * Rational::from_integer(steps.into()), steps)),

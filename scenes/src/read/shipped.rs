@@ -1,4 +1,4 @@
-//! A shipped problem with parameters and a state that may be other ones.
+//! A shipped problem, with its own or other parameters and initial state.
 
 use shadowstep::problems::{ProblemError, Setup, problem};
 use shadowstep_symbolic::{evaluate, nearest, parse};
@@ -66,7 +66,7 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
                 default.and_then(|d| evaluate(&d, &reader.known, reader.arithmetic.value_digits()).ok())
             }
         };
-        // a default that has no value with the others is a fault of the setup below
+        // a default that cannot be evaluated is a fault of the setup below
         reader.known.extend(value.map(|value| (parameter.name.to_owned(), value)));
     }
     let set: Vec<_> =

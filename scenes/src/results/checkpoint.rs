@@ -1,4 +1,4 @@
-//! What a run needs to go on with the same bits: which scene it is, how much of its file is good, and a state.
+//! What a run needs to be resumed with the same bits: the identity of its scene, the length of its valid rows, a state.
 
 use num_traits::Zero;
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,7 @@ use shadowstep_symbolic::decimal::from_text;
 use crate::results::metadata::{platform, sha256, table_hashes};
 use crate::scene::Scene;
 
-/// All that decides about the numbers of a run.
+/// Everything that determines the numbers of a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Identity {
     version: String,
@@ -27,7 +27,7 @@ impl Identity {
         }
     }
 
-    /// What the other one was made with that differs from this.
+    /// The first difference of another identity, as the end of "was made with".
     fn differs(&self, other: &Identity) -> Option<String> {
         if self.scene_sha256 != other.scene_sha256 {
             return Some("a different text of the scene".to_owned());
@@ -46,17 +46,17 @@ impl Identity {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Checkpoint {
     pub(crate) identity: Identity,
-    /// All rows up to this n are in the partial file,
+    /// All rows up to this n are in the partial file.
     pub(crate) n: i64,
-    /// which is good up to here,
+    /// Their length in bytes.
     pub(crate) bytes: u64,
-    /// and these bytes have this hash.
+    /// The hash of these bytes.
     pub(crate) sha256: String,
-    /// The state from which to go on; `None` for the one at t = 0.
+    /// The state from which the run is resumed; `None` for the one at t = 0.
     pub(crate) state: Option<SavedState>,
 }
 
-/// A state as texts that read back to the same numbers.
+/// A state as texts that give the same numbers when they are read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct SavedState {
     pub(crate) n: i64,
@@ -64,7 +64,7 @@ pub(crate) struct SavedState {
     p: Vec<String>,
 }
 
-/// A checkpoint with its own hash, as it is on the disk.
+/// A checkpoint with its own hash: the content of the file.
 #[derive(Serialize, Deserialize)]
 struct Sealed {
     checkpoint: Checkpoint,
@@ -80,7 +80,7 @@ impl Checkpoint {
     /// Reads a checkpoint of this scene.
     ///
     /// # Errors
-    /// Why the run cannot go on from it, as the end of a sentence about it.
+    /// Why the run cannot be resumed from it, as the predicate of a sentence.
     pub(crate) fn read(text: &str, identity: &Identity) -> Result<Checkpoint, String> {
         let sealed: Sealed = serde_json::from_str(text).map_err(|_| "is damaged".to_owned())?;
         if seal(&sealed.checkpoint) != sealed.sha256 {
@@ -98,7 +98,7 @@ fn seal(checkpoint: &Checkpoint) -> String {
 }
 
 impl SavedState {
-    /// The state n; `None` if a number has an exponent that is not read back.
+    /// The state n; `None` if a number has an exponent that cannot be read.
     pub(crate) fn of<N: Number>(n: i64, q: &[N], p: &[N]) -> Option<SavedState> {
         let text = |x: &N| Some(x.to_text()).filter(|text| number(text, &x.context()).as_ref() == Some(x));
         let texts = |numbers: &[N]| numbers.iter().map(text).collect::<Option<_>>();

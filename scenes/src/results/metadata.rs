@@ -1,4 +1,4 @@
-//! The head of a file: all that made its numbers, and nothing that would differ in another run of the same scene.
+//! The head of a file: everything that determines its numbers, and nothing that differs in another run of the same scene.
 
 use std::path::Path;
 
@@ -108,14 +108,14 @@ pub(crate) fn table_hashes(scene: &Scene) -> Vec<String> {
     std::iter::once(&table.source).chain(&bases(table)).map(|source| sha256(&source.text)).collect()
 }
 
-/// The tables that a composition is made of, which were found when it was read.
+/// The base tables of a composition, which were found when it was read.
 fn bases(table: &Table) -> Vec<Source> {
     let mut bases: Vec<Source> = Vec::new();
     let mut above = table.clone();
     while let Some(Weights::Composition { base, .. }) = &above.weights {
         let Some(source) = library::beside_or_shipped(&base.value, &above.source) else { break };
         let (Some(table), _) = shadowstep_schemes::parse::table(&source) else { break };
-        // a file that was changed meanwhile may lead back
+        // a file that was changed in the meantime may form a circle
         if bases.contains(&source) {
             break;
         }
@@ -125,7 +125,7 @@ fn bases(table: &Table) -> Vec<Source> {
     bases
 }
 
-/// Double precision's functions come from it.
+/// The platform: it provides the functions of double precision.
 pub(crate) fn platform() -> String {
     format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS)
 }

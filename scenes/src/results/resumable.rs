@@ -1,9 +1,9 @@
-//! A file that a run can go on with after it was stopped at any moment.
+//! A file whose run can be resumed after it was stopped at any moment.
 //!
-//! Rows go to `FILE.partial`. `FILE.checkpoint` says how many of its bytes are good and what to go on from; it is
-//! written after those bytes are on the disk, and under another name until it is there as a whole. Once all rows are
-//! there, `FILE.partial` becomes `FILE` and the checkpoint goes away. A run holds a lock on `FILE.partial`, which the
-//! system takes off when the run ends in whatever way.
+//! Rows go to `FILE.partial`. `FILE.checkpoint` has the length of its valid bytes and the state from which the run is
+//! resumed. It is written after those bytes are on the disk, under another name until it is complete. When all rows are
+//! written, `FILE.partial` is renamed to `FILE` and the checkpoint is removed. A run holds a lock on `FILE.partial`,
+//! which the system releases however the run ends.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -18,7 +18,7 @@ use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity, SavedState};
 use crate::results::metadata::hexadecimal;
 
-/// The ending of a checkpoint that is being written.
+/// The extension of a checkpoint that is being written.
 const NEW_CHECKPOINT: &str = "checkpoint.new";
 
 /// The partial file of a run.
@@ -33,7 +33,7 @@ pub(crate) struct Resumable {
 }
 
 impl Resumable {
-    /// Begins the file, or opens it where its checkpoint is; `restart` begins in any case.
+    /// Creates the file, or opens it at its checkpoint. With `restart` it is always created.
     pub(crate) fn open(
         path: &Path,
         identity: Identity,
@@ -56,7 +56,7 @@ impl Resumable {
             Err(error) if error.kind() == ErrorKind::NotFound => None,
             Err(error) => return Err(error.into()),
             Ok(_) if restart => None,
-            // the run was complete, and stopped just before it could take the checkpoint away
+            // the run was complete, and ended just before it could remove the checkpoint
             Ok(_) if length == 0 => {
                 observer.note(&Note::CheckpointWithoutRows { checkpoint: resumable.checkpoint.clone() });
                 None
@@ -64,7 +64,7 @@ impl Resumable {
             Ok(bytes) => Some(resumable.resume(&String::from_utf8_lossy(&bytes), length)?),
         };
         if found.is_none() {
-            resumable.forget()?;
+            resumable.remove_checkpoint()?;
             resumable.file.get_ref().set_len(0)?;
         }
         Ok((resumable, found))
@@ -74,13 +74,13 @@ impl Resumable {
         let checkpoint = Checkpoint::read(text, &self.identity).map_err(|why| self.refused(&self.checkpoint, &why))?;
         let file = self.file.get_mut();
         if length < checkpoint.bytes {
-            return Err(self.refused(&self.partial, "is shorter than its checkpoint says"));
+            return Err(self.refused(&self.partial, "is shorter than its checkpoint states"));
         }
         io::copy(&mut BufReader::new(&*file).take(checkpoint.bytes), &mut Hashing(&mut self.hash))?;
         if hexadecimal(&self.hash.clone().finalize()) != checkpoint.sha256 {
             return Err(self.refused(&self.partial, "was changed after its checkpoint was written"));
         }
-        // rows after the checkpoint come again
+        // rows after the checkpoint are written again
         file.set_len(checkpoint.bytes)?;
         file.seek(SeekFrom::Start(checkpoint.bytes))?;
         self.bytes = checkpoint.bytes;
@@ -92,7 +92,7 @@ impl Resumable {
         Error::usage(format!("{} {why}, so the run cannot be resumed from it", file.display()), hint)
     }
 
-    /// Makes a checkpoint: all rows up to n are written, and the run can go on from a state.
+    /// Writes a checkpoint: all rows up to n are written, and the run can be resumed from `state`.
     pub(crate) fn keep(&mut self, n: i64, state: Option<SavedState>) -> Result<(), Error> {
         self.file.flush()?;
         self.file.get_ref().sync_data()?;
@@ -113,18 +113,18 @@ impl Resumable {
         self.file.get_ref().sync_all()?;
         fs::rename(&self.partial, &self.path)?;
         sync_folder(&self.path);
-        self.forget()
+        self.remove_checkpoint()
     }
 
-    /// After a run that ends before its time for a reason of its own: its rows stay in the partial file.
+    /// After a run that failed: its rows stay in the partial file.
     pub(crate) fn give_up(mut self, observer: &mut dyn Observer) -> Result<(), Error> {
         self.file.flush()?;
         observer.note(&Note::RowsKept { partial: self.partial.clone() });
-        self.forget()
+        self.remove_checkpoint()
     }
 
-    /// Takes the checkpoint away, and what is left of one that was never complete.
-    fn forget(&self) -> Result<(), Error> {
+    /// Removes the checkpoint, and an incomplete one.
+    fn remove_checkpoint(&self) -> Result<(), Error> {
         remove(&self.checkpoint)?;
         remove(&beside(&self.path, NEW_CHECKPOINT))
     }
@@ -138,13 +138,13 @@ impl Write for Resumable {
         Ok(written)
     }
 
-    /// Rows are of no use to anyone before the next checkpoint.
+    /// Rows are written out with the next checkpoint.
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }
 }
 
-/// Hashes what is written.
+/// Hashes the bytes that are written to it.
 struct Hashing<'a>(&'a mut Sha256);
 
 impl Write for Hashing<'_> {
@@ -158,7 +158,7 @@ impl Write for Hashing<'_> {
     }
 }
 
-/// The partial file, for this run alone.
+/// The partial file, locked by this run.
 fn locked(path: &Path, partial: &Path) -> Result<File, Error> {
     let cannot = |error: io::Error| {
         let message = format!("file {} cannot be written: {error}", path.display());

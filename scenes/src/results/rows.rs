@@ -9,7 +9,7 @@ use crate::results::metadata::Metadata;
 use crate::results::target::Target;
 use crate::scene::{COLUMNS, Format};
 
-/// A state of the run: what is due at its n. Numbers are texts that read back to the same numbers.
+/// A state of the run: what is written at its n. Numbers are texts that give the same numbers when they are read.
 #[derive(Serialize)]
 pub(crate) struct Row {
     pub(crate) n: i64,
@@ -31,11 +31,11 @@ pub(crate) struct ModifiedEnergy {
     pub(crate) order: u32,
 }
 
-/// The columns that a CSV file has besides n and t.
+/// The columns of a CSV file besides n and t.
 pub(crate) struct Columns {
     pub(crate) energy: bool,
     pub(crate) modified_energy: bool,
-    /// Names of positions and momenta, where they are asked for.
+    /// The names of positions and momenta, if they are written.
     pub(crate) state: Vec<String>,
 }
 
@@ -48,7 +48,7 @@ impl Columns {
         names
     }
 
-    /// The cells of a row; what is not due is empty.
+    /// The cells of a row; what is not written at this n is empty.
     fn cells(&self, row: &Row) -> Vec<String> {
         let mut cells = vec![row.n.to_string(), row.t.clone()];
         if self.energy {
@@ -76,7 +76,7 @@ pub(crate) struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// What was run, and in CSV the names of the columns.
+    /// The metadata, and in CSV the names of the columns.
     pub(crate) fn head(&mut self, metadata: &Metadata) -> Result<(), Error> {
         match self.format {
             Format::JsonLines => self.line(&serde_json::json!({ "metadata": metadata })),

@@ -1,4 +1,4 @@
-//! Where rows go: a writer of the caller, a file that has its name when it is complete, or one that a later run can go on with.
+//! Where rows go: a writer of the caller, a file that gets its name when it is complete, or one that can be resumed.
 
 use std::fs::File;
 use std::io::{self, Read, Write};
@@ -24,10 +24,10 @@ pub(crate) enum Target<'a> {
     Resumable(Box<Resumable>),
 }
 
-/// More than the head of any file.
+/// Longer than the metadata of any file.
 const LONGEST_HEAD: u64 = 1 << 20;
 
-/// Whether there is a file that is not the result of this scene; that is replaced, by the same bytes.
+/// Whether there is a file that is not the result of this scene. A result of this scene may be replaced: by the same bytes.
 fn is_of_another(path: &Path, scene: &Scene) -> bool {
     let Ok(file) = File::open(path) else { return false };
     let mut head = Vec::new();
@@ -45,7 +45,7 @@ fn at(scene: &Scene, place: &Range<usize>, error: Error) -> Error {
 }
 
 impl<'a> Target<'a> {
-    /// The file that the scene names, and the checkpoint to go on from.
+    /// The file of the scene, and the checkpoint from which the run is resumed.
     pub(crate) fn open(
         scene: &Scene,
         restart: bool,
@@ -87,7 +87,7 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// After a run that cannot go on.
+    /// After a run that failed.
     pub(crate) fn give_up(self, observer: &mut dyn Observer) -> Result<(), Error> {
         match self {
             Target::Writer(_) | Target::File(_) => Ok(()),

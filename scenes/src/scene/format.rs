@@ -1,4 +1,4 @@
-//! The kinds of files, and the columns that they have before positions and momenta.
+//! The formats of files, and the columns before positions and momenta.
 
 /// The columns before those of the trajectory; no coordinate has such a name.
 pub(crate) const COLUMNS: [&str; 6] = ["n", "t", "energy", "modified_energy", "estimate", "order"];
@@ -13,7 +13,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// What a file's name says.
+    /// The format that a file's name gives.
     pub(crate) fn of(file: &str) -> Option<Format> {
         match file.rsplit_once('.')?.1 {
             "csv" => Some(Format::Csv),
