@@ -48,6 +48,11 @@ impl Axis {
         Axis { label: label.to_owned(), scale: Scale::Linear, range: None }
     }
 
+    /// The axis of drifts over [0, 100].
+    pub(crate) fn drift() -> Self {
+        Axis::log10("drift of the modified energy over [0, 100]")
+    }
+
     /// An axis with decades, of the logarithms to the base 10.
     pub(crate) fn log10(label: &str) -> Self {
         Axis { label: label.to_owned(), scale: Scale::Log10, range: None }

@@ -103,6 +103,11 @@ pub(crate) fn decay_row(label: &str, fit: Option<&ExponentialDecay>) -> Vec<Stri
     ]
 }
 
+/// A row of a table of rates with a value of the theory.
+pub(crate) fn theory_row(label: &str, value: String) -> Vec<String> {
+    vec![label.to_owned(), value, String::new(), String::new()]
+}
+
 /// The header of a table of rates.
 pub(crate) const DECAY_HEADER: [&str; 4] = ["", "c in exp(−c/h)", "standard deviation (decades)", "fitted over"];
 

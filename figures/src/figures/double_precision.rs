@@ -10,7 +10,7 @@ use crate::results::Results;
 pub(super) const FIGURE: Figure =
     Figure { name: "double-precision", title: "The noise floor of double precision", draw };
 
-pub(super) fn draw(results: &Results) -> Drawing {
+fn draw(results: &Results) -> Drawing {
     let steps = if results.quick { 100_000 } else { 10_000_000 };
     let kinds = [
         (Differences::Sums, "β as a running sum"),
@@ -38,32 +38,37 @@ pub(super) fn draw(results: &Results) -> Drawing {
         (1..3).map(|n| curve(n, &|block| block.wander.abs().log10())).collect(),
         "The effect of the round-off of the steps, which no estimator can remove.",
     );
-    let last = |n: usize| blocks[n].1.last().cloned();
+    let last = |n: usize| blocks[n].1.last();
     if let (Some(sums), Some(beta), Some(increments)) = (last(0), last(1), last(2)) {
-        drawing.check(
-            "Increments keep the scatter at apocentre below 2e-15 to the end of the run.",
-            format!("{} after {} steps", scientific(increments.scatter), increments.steps),
-            increments.scatter < 2e-15,
-        );
-        drawing.check(
-            "A running sum of β loses digits in proportion to the length of the run.",
-            format!(
-                "{}, {:.0} times as much as with increments of β",
-                scientific(sums.scatter),
-                sums.scatter / beta.scatter
-            ),
-            sums.scatter > 100.0 * beta.scatter,
-        );
-        drawing.check(
-            "Differences of q and p from increments reduce the scatter a little more.",
-            format!("{} against {}", scientific(increments.scatter), scientific(beta.scatter)),
-            increments.scatter < beta.scatter,
-        );
-        drawing.found(format!(
-            "The mean wanders by {} in {} steps: this is the round-off of the states, which does not depend on how differences are taken.",
-            scientific(increments.wander.abs()),
-            increments.steps
-        ));
+        compare(&mut drawing, sums, beta, increments);
     }
     drawing
+}
+
+/// The last blocks, by a running sum of β, by increments of β, and by increments of q, p and β.
+fn compare(drawing: &mut Drawing, sums: &Block, beta: &Block, increments: &Block) {
+    drawing.check(
+        "Increments keep the scatter at apocentre below 2e-15 to the end of the run.",
+        format!("{} after {} steps", scientific(increments.scatter), increments.steps),
+        increments.scatter < 2e-15,
+    );
+    drawing.check(
+        "A running sum of β loses digits in proportion to the length of the run.",
+        format!(
+            "{}, {:.0} times as much as with increments of β",
+            scientific(sums.scatter),
+            sums.scatter / beta.scatter
+        ),
+        sums.scatter > 100.0 * beta.scatter,
+    );
+    drawing.check(
+        "Differences of q and p from increments reduce the scatter a little more.",
+        format!("{} against {}", scientific(increments.scatter), scientific(beta.scatter)),
+        increments.scatter < beta.scatter,
+    );
+    drawing.found(format!(
+        "The mean wanders by {} in {} steps: this is the round-off of the states, which does not depend on how differences are taken.",
+        scientific(increments.wander.abs()),
+        increments.steps
+    ));
 }

@@ -27,7 +27,7 @@ fn draw(results: &Results) -> Drawing {
         drawing.chart(
             &format!("{title}, h = 1/20"),
             Axis::log10(STATES),
-            Axis::log10("drift of the modified energy over [0, 100]"),
+            Axis::drift(),
             curves,
             "Where a curve departs from that of the exact flow, it shows the scheme.",
         );

@@ -12,8 +12,13 @@ pub(super) fn run(scheme: &'static str, n: u32) -> Run {
 }
 
 /// (1/h, log₁₀ drift) and (h, log₁₀ drift)
-pub(super) fn drifts(results: &Results, scheme: &'static str, steps: &[u32], by: Estimator) -> [Vec<(f64, f64)>; 2] {
-    let drift = |n: u32| results.log10_drift(&run(scheme, n), by);
+pub(super) fn drifts(
+    results: &Results,
+    scheme: &'static str,
+    steps: &[u32],
+    estimator: Estimator,
+) -> [Vec<(f64, f64)>; 2] {
+    let drift = |n: u32| results.log10_drift(&run(scheme, n), estimator);
     let of = |x: &dyn Fn(f64) -> f64| steps.iter().map(|&n| (x(f64::from(n)), drift(n))).collect();
     [of(&|n| n), of(&|n| 1.0 / n)]
 }

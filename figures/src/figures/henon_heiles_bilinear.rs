@@ -29,7 +29,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Störmer–Verlet, Hénon–Heiles, p₁(0) = 0.1",
         Axis::linear("1/h"),
-        Axis::log10("drift of the modified energy over [0, 100]"),
+        Axis::drift(),
         curves,
         "The exact flow of this problem is not known, so the estimator's own error is not shown.",
     );

@@ -40,7 +40,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Störmer–Verlet, Hénon–Heiles, q₁ = q₂ = p₂ = 0",
         Axis::linear("p₁(0)"),
-        Axis::log10("drift of the modified energy over [0, 100]"),
+        Axis::drift(),
         curves,
         "Chaos begins at p₁ = 1/√6 ≈ 0.408 (H = 1/12), escape at 1/√3 ≈ 0.577 (H = 1/6).",
     );

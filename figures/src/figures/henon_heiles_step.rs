@@ -26,7 +26,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Hénon–Heiles, p₁(0) = 0.1, the best m up to 200",
         Axis::linear("1/h"),
-        Axis::log10("drift of the modified energy over [0, 100]"),
+        Axis::drift(),
         curves.collect(),
         "At 120 digits.",
     );

@@ -24,8 +24,13 @@ pub(super) fn run(propagator: &'static str, n: u32) -> Run {
 }
 
 /// (1/h, log₁₀ drift)
-pub(super) fn drifts(results: &Results, propagator: &'static str, steps: &[u32], by: Estimator) -> Vec<(f64, f64)> {
-    steps.iter().map(|&n| (f64::from(n), results.log10_drift(&run(propagator, n), by))).collect()
+pub(super) fn drifts(
+    results: &Results,
+    propagator: &'static str,
+    steps: &[u32],
+    estimator: Estimator,
+) -> Vec<(f64, f64)> {
+    steps.iter().map(|&n| (f64::from(n), results.log10_drift(&run(propagator, n), estimator))).collect()
 }
 
 /// The rate over h ≤ 1/10, of points against 1/h.

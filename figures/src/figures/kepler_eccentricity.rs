@@ -67,7 +67,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Störmer–Verlet, Kepler",
         Axis::linear("eccentricity e"),
-        Axis::log10("drift of the modified energy over [0, 100]"),
+        Axis::drift(),
         curves,
         "The best m of each state, up to 200.",
     );

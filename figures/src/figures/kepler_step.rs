@@ -8,7 +8,7 @@ use super::kepler::{STEPS, apocentre, drifts, rate, run, singularity};
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::figure::Figure;
-use crate::fit::{DECAY_HEADER, decay_row};
+use crate::fit::{DECAY_HEADER, decay_row, theory_row};
 use crate::numbers::{number, power};
 use crate::results::Results;
 use crate::run::{BEST, EXACT_FLOW, Estimator};
@@ -30,7 +30,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Störmer–Verlet, Kepler, e = 0.6",
         Axis::linear("1/h"),
-        Axis::log10("drift of the modified energy over [0, 100]"),
+        Axis::drift(),
         curves,
         "The same m at every state, and the best m of each state.",
     );
@@ -48,12 +48,7 @@ fn draw(results: &Results) -> Drawing {
         &DECAY_HEADER,
         vec![
             decay_row("best m ≤ 200", fit.as_ref()),
-            vec![
-                "π ρ, from aliasing of differences of samples".to_owned(),
-                format!("{:.4}", PI * singularity(0.6)),
-                String::new(),
-                String::new(),
-            ],
+            theory_row("π ρ, from aliasing of differences of samples", format!("{:.4}", PI * singularity(0.6))),
         ],
     );
     drawing

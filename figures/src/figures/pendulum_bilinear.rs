@@ -1,13 +1,14 @@
 //! The pendulum by the bilinear estimator.
 
-use shadowstep::problems::Problem;
 use std::f64::consts::PI;
+
+use shadowstep::problems::Problem;
 
 use super::pendulum::{SCHEME, singularity};
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::figure::Figure;
-use crate::fit::{DECAY_HEADER, decay, decay_row};
+use crate::fit::{DECAY_HEADER, decay, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, Estimator, Run};
@@ -21,23 +22,25 @@ fn draw(results: &Results) -> Drawing {
          energy does not change.",
     );
     let steps = results.grid(&[2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20], &[2, 4, 7, 10]);
-    let drifts = |propagator: &'static str, by: Estimator| -> Vec<(f64, f64)> {
+    let drifts = |propagator: &'static str, estimator: Estimator| -> Vec<(f64, f64)> {
         let run = |n: u32| Run::of(Problem::Pendulum, propagator, format!("1/{n}"));
-        steps.iter().map(|&n| (f64::from(n), results.log10_drift(&run(n), by))).collect()
+        steps.iter().map(|&n| (f64::from(n), results.log10_drift(&run(n), estimator))).collect()
     };
     let central = Estimator::Central { m: 200 };
-    let linear_one = drifts(SCHEME, central);
+    let central_drifts = drifts(SCHEME, central);
     let orders = results.grid(&[8, 16, 40, 100, 200], &[8, 16, 40, 100]);
     let of: Vec<_> = orders.iter().map(|&k| (k, drifts(SCHEME, Estimator::Bilinear { k }))).collect();
     let [control, control_40] = [central, Estimator::Bilinear { k: 40 }].map(|by| drifts(EXACT_FLOW, by));
-    let mut curves =
-        vec![Curve::thick("m = 200", linear_one.clone(), 0), Curve::dashed("m = 200, exact flow", control.clone(), 1)];
+    let mut curves = vec![
+        Curve::thick("m = 200", central_drifts.clone(), 0),
+        Curve::dashed("m = 200, exact flow", control.clone(), 1),
+    ];
     curves.extend(of.iter().enumerate().map(|(i, (k, points))| Curve::line(format!("E_{k}"), points.clone(), i + 2)));
     curves.push(Curve::dashed("E_40, exact flow", control_40.clone(), 7));
     drawing.chart(
         "Störmer–Verlet, pendulum, p(0) = 1",
         Axis::linear("1/h"),
-        Axis::log10("drift of the modified energy over [0, 100]"),
+        Axis::drift(),
         curves,
         "An estimator cannot resolve what is below its curve.",
     );
@@ -45,12 +48,12 @@ fn draw(results: &Results) -> Drawing {
     let ten = |points: &[(f64, f64)]| power(points.iter().find(|(n, _)| *n == 10.0).map_or(f64::NAN, |(_, y)| *y));
     drawing.found(format!(
         "At h = 1/10: {} by m = 200 with 401 states, {} by E_40 with 41 states, {} by E_{}.",
-        ten(&linear_one),
+        ten(&central_drifts),
         ten(&of[2].1),
         ten(highest),
         orders[orders.len() - 1]
     ));
-    for (what, scheme, control) in [("m = 200", &linear_one, &control), ("E_40", &of[2].1, &control_40)] {
+    for (what, scheme, control) in [("m = 200", &central_drifts, &control), ("E_40", &of[2].1, &control_40)] {
         let off = scheme.iter().zip(control).map(|((_, a), (_, b))| (a - b).abs()).fold(0.0, f64::max);
         drawing.found(format!(
             "By {what} the drift of the exact flow is the same to within {off:.2} decades at every step size: the drift shown for the scheme belongs \
@@ -60,21 +63,26 @@ fn draw(results: &Results) -> Drawing {
     let checked = Run::of(Problem::Pendulum, SCHEME, "1/10");
     let held = results.digits_held(&checked, Estimator::Bilinear { k: 40 }, 200);
     drawing.digits_held("the drift at h = 1/10 by E_40", held);
-    let rho = singularity(1.0);
-    let coarse = |points: &[(f64, f64)]| {
-        points.iter().map(|(n, y)| (1.0 / n, *y)).filter(|(h, _)| *h > 0.12).collect::<Vec<_>>()
-    };
     let k = orders[orders.len() - 1];
     let control_highest = drifts(EXACT_FLOW, Estimator::Bilinear { k });
-    let row = |label: &str, points: &[(f64, f64)]| decay_row(label, decay(&coarse(points), 0.5).as_ref());
-    let mut rows = vec![
-        row("m = 200", &linear_one),
-        row("m = 200, exact flow", &control),
-        row(&format!("E_{k}"), highest),
-        row(&format!("E_{k}, exact flow"), &control_highest),
+    let curves = [
+        ("m = 200".to_owned(), &central_drifts),
+        ("m = 200, exact flow".to_owned(), &control),
+        (format!("E_{k}"), highest),
+        (format!("E_{k}, exact flow"), &control_highest),
     ];
-    let theory = format!("{:.3} and {:.3}", PI * rho, 2.0 * PI * rho);
-    rows.push(vec!["π ρ and 2π ρ".to_owned(), theory, String::new(), String::new()]);
-    drawing.table("Rates over h ≥ 1/8, where the orders do not limit them", &DECAY_HEADER, rows);
+    rates(&mut drawing, &curves);
     drawing
+}
+
+/// The rates at large steps, beside those of the theory.
+fn rates(drawing: &mut Drawing, curves: &[(String, &Vec<(f64, f64)>)]) {
+    let rate = |points: &[(f64, f64)]| {
+        let coarse: Vec<_> = points.iter().map(|(n, y)| (1.0 / n, *y)).filter(|(h, _)| *h > 0.12).collect();
+        decay(&coarse, 0.5)
+    };
+    let mut rows: Vec<_> = curves.iter().map(|(label, points)| decay_row(label, rate(points).as_ref())).collect();
+    let rho = singularity(1.0);
+    rows.push(theory_row("π ρ and 2π ρ", format!("{:.3} and {:.3}", PI * rho, 2.0 * PI * rho)));
+    drawing.table("Rates over h ≥ 1/8, where the orders do not limit them", &DECAY_HEADER, rows);
 }

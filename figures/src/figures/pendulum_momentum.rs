@@ -39,7 +39,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Störmer–Verlet, pendulum, q(0) = 0",
         Axis::linear("p(0)"),
-        Axis::log10("drift of the modified energy over [0, 100]"),
+        Axis::drift(),
         curves,
         "Best m up to 200. For p(0) > 2 the pendulum rotates; p(0) = 2 is the separatrix.",
     );

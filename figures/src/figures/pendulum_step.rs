@@ -1,13 +1,14 @@
 //! The pendulum: the drift against the step size.
 
-use shadowstep::problems::Problem;
 use std::f64::consts::PI;
+
+use shadowstep::problems::Problem;
 
 use super::pendulum::{SCHEME, singularity};
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::figure::Figure;
-use crate::fit::{DECAY_HEADER, ROUND_OFF, decay, decay_row};
+use crate::fit::{DECAY_HEADER, ROUND_OFF, decay, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{Estimator, Run};
@@ -42,29 +43,42 @@ fn draw(results: &Results) -> Drawing {
     let limit = drifts(&|n| limit(n, results.quick));
     let fixed = ORDERS.map(|m| (m, drifts(&|_| Estimator::Central { m })));
     let against = |points: &[(f64, f64)]| points.iter().map(|(h, y)| (1.0 / h, *y)).collect::<Vec<_>>();
-    let mut curves: Vec<_> = fixed
-        .iter()
-        .enumerate()
-        .map(|(i, (m, points))| Curve::line(format!("m = {m}"), against(points), i + 1))
-        .collect();
+    let curves = fixed.iter().enumerate();
+    let mut curves: Vec<_> =
+        curves.map(|(i, (m, points))| Curve::line(format!("m = {m}"), against(points), i + 1)).collect();
     curves.push(Curve::thick("limit", against(&limit), 0));
     drawing.chart(
         "Störmer–Verlet, pendulum, q(0) = 0, p(0) = 1",
         Axis::linear("1/h"),
-        Axis::log10("drift of the modified energy over [0, 100]"),
+        Axis::drift(),
         curves,
         "The limit is taken at m = 3 ρ²/h², but at least 200 and at most 1000.",
     );
-    converges(results, &mut drawing);
+    check_convergence(results, &mut drawing);
+    check_orders(&mut drawing, &fixed);
+    check_limit(&mut drawing, &limit);
+    let checked = (run(10), Estimator::Central { m: 20 });
+    drawing.digits_held("the drift at h = 1/10 by m = 20", results.digits_held(&checked.0, checked.1, 200));
+    drawing.found(format!(
+        "c is the rate of the estimator, π ρ, where ρ = {:.4} is the distance of the nearest singularity of q(t) from the real axis. The \
+         bilinear estimator, below, gives a modified energy that is conserved far better.",
+        singularity(1.0)
+    ));
+    drawing
+}
+
+/// The drifts by each m, which must not grow with m.
+fn check_orders(drawing: &mut Drawing, fixed: &[(u32, Vec<(f64, f64)>)]) {
     let falls = fixed.windows(2).all(|pair| {
         pair[0].1.iter().zip(&pair[1].1).all(|((_, lower), (_, higher))| *higher < lower + 0.05 || *higher < ROUND_OFF)
     });
-    drawing.check(
-        "A larger m does not give a larger drift.",
-        if falls { "at every step size" } else { "not at every step size" },
-        falls,
-    );
-    let fit = decay(&limit, 0.25);
+    let found = if falls { "at every step size" } else { "not at every step size" };
+    drawing.check("A larger m does not give a larger drift.", found, falls);
+}
+
+/// The limit must decay exponentially; its rate, beside that of the theory.
+fn check_limit(drawing: &mut Drawing, limit: &[(f64, f64)]) {
+    let fit = decay(limit, 0.25);
     if let Some(fit) = &fit {
         drawing.check(
             "The limit follows exp(−c/h).",
@@ -72,31 +86,14 @@ fn draw(results: &Results) -> Drawing {
             fit.deviation < 0.5 && fit.c > 0.0,
         );
     }
-    let rho = singularity(1.0);
-    drawing.table(
-        "The rate of the limit",
-        &DECAY_HEADER,
-        vec![
-            decay_row("limit", fit.as_ref()),
-            vec![
-                "π ρ, from aliasing of differences of samples".to_owned(),
-                format!("{:.4}", PI * rho),
-                String::new(),
-                String::new(),
-            ],
-        ],
-    );
-    let checked = (run(10), Estimator::Central { m: 20 });
-    drawing.digits_held("the drift at h = 1/10 by m = 20", results.digits_held(&checked.0, checked.1, 200));
-    drawing.found(format!(
-        "c is the rate of the estimator, π ρ, where ρ = {rho:.4} is the distance of the nearest singularity of q(t) from the real axis. The \
-         bilinear estimator, below, gives a modified energy that is conserved far better."
-    ));
-    drawing
+    let theory = format!("{:.4}", PI * singularity(1.0));
+    let rows =
+        vec![decay_row("limit", fit.as_ref()), theory_row("π ρ, from aliasing of differences of samples", theory)];
+    drawing.table("The rate of the limit", &DECAY_HEADER, rows);
 }
 
-/// Checks the limit with m far larger than those of the figure, at h = 1/4.
-fn converges(results: &Results, drawing: &mut Drawing) {
+/// The limit must be reached: drifts by m far larger than those of the figure, at h = 1/4.
+fn check_convergence(results: &Results, drawing: &mut Drawing) {
     let run = Run::of(Problem::Pendulum, SCHEME, "1/4");
     let many = [40, 80, 160, 320, 640].map(|m| results.log10_drift(&run, Estimator::Central { m }));
     let [.., last, most] = many;

@@ -4,7 +4,7 @@ use super::kepler::{self, run};
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::figure::Figure;
-use crate::fit::{DECAY_HEADER, decay_row};
+use crate::fit::{DECAY_HEADER, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{BEST, EXACT_FLOW, Estimator, SCHEMES};
@@ -22,7 +22,7 @@ fn drift_and_change(results: &Results, drawing: &mut Drawing, steps: &[u32], cha
     rows.extend(SCHEMES.iter().zip(&drifts).map(|((_, label), points)| row(&format!("drift, {label}"), points)));
     rows.push(row("drift, exact flow", &control));
     let rho = kepler::singularity(0.6) * std::f64::consts::PI;
-    rows.push(vec!["π ρ and 2π ρ".to_owned(), format!("{rho:.3} and {:.3}", 2.0 * rho), String::new(), String::new()]);
+    rows.push(theory_row("π ρ and 2π ρ", format!("{rho:.3} and {:.3}", 2.0 * rho)));
     drawing.table("Rates over h ≤ 1/10", &DECAY_HEADER, rows);
     let mut curves: Vec<_> = drifts
         .into_iter()

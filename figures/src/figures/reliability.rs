@@ -94,8 +94,8 @@ fn draw(results: &Results) -> Drawing {
     drawing
 }
 
-fn along_an_orbit(results: &Results, drawing: &mut Drawing, label: &str, by: Estimator) {
-    let Some(found) = results.energies(&run("6/10", "1/20", "7"), by) else { return };
+fn along_an_orbit(results: &Results, drawing: &mut Drawing, label: &str, estimator: Estimator) {
+    let Some(found) = results.energies(&run("6/10", "1/20", "7"), estimator) else { return };
     let against = |sizes: Vec<f64>| found.times.iter().copied().zip(sizes).collect::<Vec<_>>();
     let known = |sizes: &[Option<f64>]| against(sizes.iter().map(|size| size.unwrap_or(f64::NAN)).collect());
     drawing.chart(
