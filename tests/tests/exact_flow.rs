@@ -356,9 +356,9 @@ fn what_has_no_exact_flow_is_refused() {
         }
     }
     let refusal = |set: &[(&str, &str)]| has_exact_flow(&setup("kepler", set)).unwrap_err().to_string();
-    let unbound = "the exact flow of kepler is that of bound orbits, and this start has H = |p|^2/2 - 1/|q| >= 0";
-    let radial =
-        "the exact flow of kepler is that of ellipses, and this start has no angular momentum: x py - y px = 0";
+    let unbound =
+        "the exact flow of kepler is computed for bound orbits only: this initial state has H = |p|^2/2 - 1/|q| >= 0";
+    let radial = "the exact flow of kepler is computed for ellipses only: this initial state has no angular momentum, x py - y px = 0";
     assert_eq!(refusal(&[("x", "1"), ("py", "2")]), unbound);
     assert_eq!(refusal(&[("x", "2"), ("py", "1")]), unbound);
     assert_eq!(refusal(&[("px", "1"), ("py", "0")]), radial);

@@ -143,7 +143,7 @@ fn the_toda_lattice_keeps_its_third_invariant() {
         let next = |k: usize| (k + 1) % q.len();
         (0..q.len()).map(|k| p[k].powi(3) / 3.0 + sign * (p[k] + p[next(k)]) * (q[k] - q[next(k)]).exp()).sum::<f64>()
     };
-    // the shipped start is too symmetric to tell
+    // the shipped start is too symmetric for a distinction
     let set = [("p1", "2"), ("p8", "-1"), ("q50", "-0.7")].map(|(name, value)| (name.to_owned(), value.to_owned()));
     let motion = problem("toda").unwrap().setup(&set, 20).unwrap().motion(&()).unwrap();
     let (mut kept, mut wrong) = (Vec::new(), Vec::new());
@@ -151,8 +151,8 @@ fn the_toda_lattice_keeps_its_third_invariant() {
         kept.push(invariant(q, p, 1.0));
         wrong.push(invariant(q, p, -1.0));
     });
-    let spread = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max((value - values[0]).abs()));
+    let range = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max((value - values[0]).abs()));
     // of fourth order in h = 1/20
-    assert!(spread(&kept) < 1e-4, "{}", spread(&kept));
-    assert!(spread(&wrong) > 0.1, "{}", spread(&wrong));
+    assert!(range(&kept) < 1e-4, "{}", range(&kept));
+    assert!(range(&wrong) > 0.1, "{}", range(&wrong));
 }

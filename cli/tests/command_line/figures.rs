@@ -8,18 +8,18 @@ use tempfile::TempDir;
 
 use crate::program::shadowstep;
 
-/// Two figures, of which one asks for results after it has seen others.
+/// Two figures, of which one requests results that depend on others.
 const FAST: [&str; 2] = ["double-precision", "scattering"];
 
-/// What is said on stdout.
+/// Runs the command; returns its stdout.
 fn figures(folder: &Path, names: &[&str], threads: &str) -> String {
     let mut program = Command::cargo_bin("shadowstep").unwrap();
     let program = program.arg("figures").args(names).args(["--quick", "--out"]).arg(folder);
-    let said = program.env("RAYON_NUM_THREADS", threads).assert().success().stderr("");
-    String::from_utf8(said.get_output().stdout.clone()).unwrap()
+    let output = program.env("RAYON_NUM_THREADS", threads).assert().success().stderr("");
+    String::from_utf8(output.get_output().stdout.clone()).unwrap()
 }
 
-/// Names and contents, but for the results, whose order is that of the threads.
+/// Names and contents of all files but the results, whose order depends on the threads.
 fn files(folder: &Path) -> Vec<(String, String)> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<_> = entries.filter(|name| name != "results.jsonl").collect();
@@ -30,8 +30,8 @@ fn files(folder: &Path) -> Vec<(String, String)> {
 #[test]
 fn a_figure_is_pictures_data_and_a_section_of_the_report() {
     let folder = TempDir::new().unwrap();
-    let said = figures(folder.path(), &FAST, "2");
-    assert_eq!(said, format!("{}: 1 differs, 1 additional\n", folder.path().join("report.html").display()));
+    let output = figures(folder.path(), &FAST, "2");
+    assert_eq!(output, format!("{}: 1 differs, 1 additional\n", folder.path().join("report.html").display()));
     let files = files(folder.path());
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
@@ -101,8 +101,8 @@ fn a_report_keeps_the_figures_whose_results_are_there() {
     let path = folder.path();
     figures(path, &["scattering"], "2");
     let before = files(path);
-    let said = figures(path, &["double-precision"], "2");
-    assert!(said.ends_with("report.html: 1 differs, 1 additional\n"), "{said}");
+    let output = figures(path, &["double-precision"], "2");
+    assert!(output.ends_with("report.html: 1 differs, 1 additional\n"), "{output}");
     let now = files(path);
     let of = |name: &str| &now.iter().find(|(other, _)| other == name).unwrap().1;
     for (name, text) in before.iter().filter(|(name, _)| name != "report.html") {
@@ -110,17 +110,17 @@ fn a_report_keeps_the_figures_whose_results_are_there() {
     }
     let report = of("report.html");
     assert!(report.contains("<dt>from earlier runs</dt><dd>scattering --quick</dd>"));
-    // in the order in which all are, whichever were asked for
+    // in the order of the list, whichever are requested
     let places = ["id=\"figure-1\"><h2>Scattering", "id=\"figure-2\"><h2>The noise"].map(|part| report.find(part));
     assert!(places.iter().all(Option::is_some) && places.is_sorted(), "{places:?}");
-    // one result less, and nothing is computed for what was not asked for
+    // without one result, nothing is computed for a figure that is not requested
     let store = path.join("results.jsonl");
     let text = fs::read_to_string(&store).unwrap();
     let lost = text.lines().find(|line| line.contains("transit")).unwrap();
     let fewer = text.replace(&format!("{lost}\n"), "");
     fs::write(&store, &fewer).unwrap();
-    let said = figures(path, &["double-precision"], "2");
-    assert!(said.ends_with("report.html: 1 additional\n"), "{said}");
+    let output = figures(path, &["double-precision"], "2");
+    assert!(output.ends_with("report.html: 1 additional\n"), "{output}");
     assert_eq!(fs::read_to_string(&store).unwrap(), fewer);
 }
 
@@ -129,10 +129,10 @@ fn the_report_of_others_is_not_replaced() {
     let folder = TempDir::new().unwrap();
     let report = folder.path().join("report.html");
     fs::write(&report, "mine").unwrap();
-    let said = shadowstep(&format!("figures double-precision --quick --out {}", folder.path().display()));
-    assert_eq!((said.code, said.out.as_str()), (2, ""));
+    let output = shadowstep(&format!("figures double-precision --quick --out {}", folder.path().display()));
+    assert_eq!((output.code, output.out.as_str()), (2, ""));
     let expected = format!("error: {} exists, without results of this program beside it\n", report.display());
-    assert!(said.err.starts_with(&expected), "{}", said.err);
+    assert!(output.err.starts_with(&expected), "{}", output.err);
     assert_eq!(files(folder.path()), [("report.html".to_owned(), "mine".to_owned())]);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
@@ -140,12 +140,12 @@ fn the_report_of_others_is_not_replaced() {
 #[test]
 fn an_unknown_figure_is_refused_with_the_nearest() {
     let folder = TempDir::new().unwrap();
-    let said = shadowstep(&format!("figures kepler-step kepler-shcemes --out {}", folder.path().display()));
-    assert_eq!(said.code, 2);
-    assert_eq!(said.err, "error: there is no figure `kepler-shcemes`\n  hint: did you mean `kepler-schemes`?\n");
+    let output = shadowstep(&format!("figures kepler-step kepler-shcemes --out {}", folder.path().display()));
+    assert_eq!(output.code, 2);
+    assert_eq!(output.err, "error: there is no figure `kepler-shcemes`\n  hint: did you mean `kepler-schemes`?\n");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
-    let said = shadowstep(&format!("figures fourier --out {}", folder.path().display()));
-    assert!(said.err.contains("known are pendulum-step, pendulum-momentum, kepler-step"), "{}", said.err);
+    let output = shadowstep(&format!("figures fourier --out {}", folder.path().display()));
+    assert!(output.err.contains("known are pendulum-step, pendulum-momentum, kepler-step"), "{}", output.err);
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn a_folder_that_cannot_be_made_is_refused() {
     let folder = TempDir::new().unwrap();
     let file = folder.path().join("file");
     fs::write(&file, "").unwrap();
-    let said = shadowstep(&format!("figures double-precision --quick --out {}", file.display()));
-    assert_eq!(said.code, 2, "{}", said.err);
-    assert!(said.err.contains(&file.display().to_string()), "{}", said.err);
+    let output = shadowstep(&format!("figures double-precision --quick --out {}", file.display()));
+    assert_eq!(output.code, 2, "{}", output.err);
+    assert!(output.err.contains(&file.display().to_string()), "{}", output.err);
 }

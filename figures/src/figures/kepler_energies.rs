@@ -102,7 +102,7 @@ fn compare_schemes(drawing: &mut Drawing, of: &Labelled) {
         ),
         s6.2 < verlet.2 && srkn.2 < verlet.2,
     );
-    let rows = changes.iter().map(|(label, peak, quiet)| vec![label.clone(), power(*peak), power(*quiet)]).collect();
+    let rows = changes.iter().map(|(label, peak, far)| vec![label.clone(), power(*peak), power(*far)]).collect();
     let header = ["", "at all times", "where |q| > 1.5"];
     drawing.table("Largest difference from the first apocentre, h = 1/10, t ≤ 100", &header, rows);
 }

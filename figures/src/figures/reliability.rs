@@ -74,12 +74,14 @@ fn draw(results: &Results) -> Drawing {
                     .collect(),
             )
         };
-        let (ours, papers) = (of(|found| &found.errors), of(|found| &found.last_terms));
+        let (estimated, last_terms) = (of(|found| &found.errors), of(|found| &found.last_terms));
         let coarse = results.energies(&run("6/10", "2", "100"), by);
         let coarse = coarse.map_or(f64::NAN, |found| quantiles(ratios(&found, &found.errors))[2]);
         let few = if coarse > RELIABLE { "not reliable here".to_owned() } else { shown(coarse) };
-        worst_of_all = worst_of_all.max(ours[2]);
-        rows.push([label.to_owned()].into_iter().chain(ours.map(shown)).chain([shown(papers[2]), few]).collect());
+        worst_of_all = worst_of_all.max(estimated[2]);
+        rows.push(
+            [label.to_owned()].into_iter().chain(estimated.map(shown)).chain([shown(last_terms[2]), few]).collect(),
+        );
     }
     drawing.table(
         "True error / estimated error over orbits of e = 0 to 0.9, h = 1/10 to 1/40",

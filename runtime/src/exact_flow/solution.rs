@@ -17,20 +17,20 @@ const GUARD_BITS: f64 = 67.0;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ExactFlowError {
     /// No solution of the problem is known.
-    #[error("the exact flow of {problem} is not known; known are those of {known}")]
+    #[error("no exact flow of {problem} is known; it is known for {known}")]
     NoSolution {
         /// Its name.
         problem: &'static str,
         /// The names of the problems whose exact flow is known, with commas between them.
         known: String,
     },
-    /// An initial state that the solution does not cover; the sentence says which ones it covers.
+    /// An initial state that the solution does not cover, with the reason.
     #[error("{0}")]
     InitialState(&'static str),
     /// More digits would be lost than can be computed.
     #[error(
-        "the exact flow from this start to this time would need {bits} more bits than the run has, of which \
-         {most} can be had: it is too long, or too near to a separatrix or a collision"
+        "the exact flow from this initial state to this time needs {bits} more bits than the run has, and at most {most} \
+         are allowed: the time is too long, or the state is too near to a separatrix or a collision"
     )]
     TooSensitive {
         /// The bits needed.

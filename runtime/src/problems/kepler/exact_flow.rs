@@ -1,5 +1,5 @@
-//! Kepler's problem H = |p|²/2 − 1/|q|: the ellipse through any bound start, by the difference x = E − E₀ of eccentric
-//! anomalies from it.
+//! Kepler's problem H = |p|²/2 − 1/|q|: the ellipse through any bound initial state, by the difference x = E − E₀ of
+//! eccentric anomalies.
 //!
 //! With r = |q|, 1/a = 2/r₀ − |p₀|², ω = a^{−3/2}, σ = e cos E₀ = 1 − r₀/a and τ = e sin E₀ = q₀·p₀/√a, Kepler's equation is
 //!
@@ -10,8 +10,8 @@
 //! f = 1 − (a/r₀)(1 − cos x), g = ((1 − σ) sin x + τ(1 − cos x))/ω, f' = −√a sin x/(r r₀), g' = 1 − (a/r)(1 − cos x),
 //! r = a(1 − σ cos x + τ sin x)
 //!
-//! (J. M. A. Danby, *Fundamentals of Celestial Mechanics*, 2nd ed., sections 6.3 and 6.7). So neither the pericentre nor E₀ is
-//! needed, which a circle does not have. U is homogeneous of degree −1: β' = qᵀU_q − 2U = 3/r, and as dt = √a r dx, β = 3√a x.
+//! (J. M. A. Danby, *Fundamentals of Celestial Mechanics*, 2nd ed., sections 6.3 and 6.7). Neither the pericentre nor E₀ is
+//! needed; a circle has neither. U is homogeneous of degree −1: β' = qᵀU_q − 2U = 3/r, and as dt = √a r dx, β = 3√a x.
 
 use num_traits::Zero;
 use rug::Float;
@@ -22,10 +22,10 @@ use crate::number::{Number, Precision};
 use crate::problems::values::Values;
 
 const UNBOUND: ExactFlowError = ExactFlowError::InitialState(
-    "the exact flow of kepler is that of bound orbits, and this start has H = |p|^2/2 - 1/|q| >= 0",
+    "the exact flow of kepler is computed for bound orbits only: this initial state has H = |p|^2/2 - 1/|q| >= 0",
 );
 const RADIAL: ExactFlowError = ExactFlowError::InitialState(
-    "the exact flow of kepler is that of ellipses, and this start has no angular momentum: x py - y px = 0",
+    "the exact flow of kepler is computed for ellipses only: this initial state has no angular momentum, x py - y px = 0",
 );
 
 /// An ellipse and the time on it.
@@ -63,7 +63,7 @@ impl Ellipse {
         (sin, 1u32 - cos)
     }
 
-    /// How far x is off Kepler's equation, and r/a, the slope of that.
+    /// The residual of x in Kepler's equation, and its slope r/a.
     fn off(&self, x: &Float, mean: &Float) -> (Float, Float) {
         let (sin, versine) = self.sine_and_versine(x);
         let off = x.clone() - self.sigma.clone() * &sin + self.tau.clone() * &versine - mean;
@@ -86,7 +86,7 @@ impl Ellipse {
             *(if off.is_below_zero() { &mut low } else { &mut high }) = x.clone();
             let change = off / slope;
             let next = x.clone() - &change;
-            // the error becomes its square: two steps after half of the digits all are right
+            // convergence is quadratic: after a change below half of the digits, one more step gives all
             if log2(&change) < half {
                 let (off, slope) = self.off(&next, mean);
                 return next - off / slope;
@@ -113,7 +113,7 @@ impl Solution for Ellipse {
 
     fn new(request: &Request<'_>) -> Result<Self, ExactFlowError> {
         let rough = Ellipse::with(request, request.rough()?);
-        // a start as near to a parabola as this has no digits left
+        // the orbit is so close to a parabola that no digits of 1/a are left
         if !rough.a.is_finite() || rough.a.is_below_zero() {
             return Err(UNBOUND);
         }

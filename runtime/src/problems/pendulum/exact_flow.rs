@@ -1,13 +1,13 @@
-//! The pendulum H = p²/2 − cos q from any start, by its Taylor series.
+//! The pendulum H = p²/2 − cos q from any initial state, by its Taylor series.
 //!
 //! Jacobi's elliptic functions give q and p, but need a case each for libration, separatrix and rotation, and leave
-//! β' = q sin q + 2 cos q, which q makes no function of theirs, to a quadrature. The Taylor series of the flow is one method for
+//! β' = q sin q + 2 cos q, which is not a function of theirs because of its q, to a quadrature. The Taylor series of the flow is one method for
 //! all, at every precision: with s = sin q, c = cos q and upper indices for its coefficients,
 //!
 //! (k+1) q^{k+1} = p^k, (k+1) p^{k+1} = −s^k, k s^k = Σ_{j=1}^k j q^j c^{k−j}, k c^k = −Σ_{j=1}^k j q^j s^{k−j},
 //! (k+1) β^{k+1} = 2c^k + Σ_{j=0}^k q^j s^{k−j}.
 //!
-//! The order is as high as the digits take; where the step is too long for that, it is cut to ρ/e², with ρ the radius of
+//! The order is as high as the digits require; if the step is too long for that, it is cut to ρ/e², with ρ the radius of
 //! convergence, as À. Jorba and M. Zou do (Experiment. Math. 14 (2005) 99): for B bits K = ½B log 2 terms then suffice.
 
 use std::f64::consts::{LN_2, LOG2_E};
@@ -18,13 +18,14 @@ use crate::Rational;
 use crate::exact_flow::solution::{ExactFlowError, Point, Request, Solution, log2};
 use crate::number::{Number, Precision};
 
-/// Beyond so many bits for the growth of errors a run would take too long; on the separatrix they suffice to |t| = 2772.
+/// The largest number of bits for the growth of errors: with more a run takes too long. On the separatrix they suffice to
+/// |t| = 2772.
 const MOST_GROWTH: u32 = 4000;
 
-/// So many terms in a row are looked at: every second one may be 0.
+/// The number of consecutive terms that are examined, because every second one may be 0.
 const LAST_TERMS: usize = 4;
 
-/// A state of the pendulum, and the one that it began with.
+/// The present state of the pendulum, and the initial one.
 #[derive(Debug)]
 pub(super) struct TaylorSeries {
     h: Rational,
@@ -35,7 +36,7 @@ pub(super) struct TaylorSeries {
 }
 
 impl TaylorSeries {
-    /// Goes on by `rest`, or by as much of it as one series allows; returns what is left.
+    /// Advances by `rest`, or by the part of it that one series allows; returns the remainder.
     fn advance(&mut self, rest: Float) -> Float {
         let bits = f64::from(self.precision.in_bits());
         let most = (bits * LN_2 / 2.0).ceil() as usize + LAST_TERMS;
@@ -69,7 +70,7 @@ impl Solution for TaylorSeries {
         let exponential = request.longest * LOG2_E;
         let periods = (request.longest + 1.0).log2() + log2(p).max(0.0);
         let linear = 2.0 * (periods + (-log2(&(energy - 1u32))).max(0.0));
-        // q itself, which rotation makes large
+        // the size of q, which grows with rotation
         let size = log2(q).max(periods).max(0.0);
         let precision = request.precision(size + exponential.min(linear), MOST_GROWTH)?;
         let start = start(request, &precision);
@@ -77,7 +78,7 @@ impl Solution for TaylorSeries {
     }
 
     fn at(&mut self, n: i64) -> Point {
-        // from where it is, or from the start, which is then met exactly
+        // from the present state, or from the initial one if that is nearer
         if n.abs() <= (n - self.n).abs() {
             self.present = self.start.clone();
             self.n = 0;
@@ -125,7 +126,7 @@ impl Terms {
         self.weighted.push(last(&self.p));
         self.q.push(last(&self.p) / k as u32);
         self.p.push(-last(&self.sin) / k as u32);
-        // the 0 in front of `weighted` meets the coefficient that is not yet known
+        // the 0 in front of `weighted` multiplies the coefficient that is not known yet
         let sin = product(&self.weighted[1..], &self.cos) / k as u32;
         let cos = -product(&self.weighted[1..], &self.sin) / k as u32;
         self.sin.push(sin);
@@ -154,7 +155,7 @@ impl Terms {
     /// The state after a step.
     fn sum(&self, step: &Float) -> Point {
         let horner = |list: &[Float]| {
-            let (highest, others) = list.split_last().expect("a state is among them");
+            let (highest, others) = list.split_last().expect("the state is the first term");
             others.iter().rev().fold(highest.clone(), |sum, term| sum * step + term)
         };
         Point { q: vec![horner(&self.q)], p: vec![horner(&self.p)], beta: horner(&self.beta) }
