@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex};
 
 use num_bigint::BigInt;
+use num_integer::IterBinomial;
 
 use crate::Rational;
 
@@ -60,24 +61,13 @@ pub fn stirling(m: u32) -> Vec<Rational> {
 /// assert_eq!(bilinear(1), [[exact("-1").unwrap()]]);
 /// ```
 pub fn bilinear(k: u32) -> Vec<Vec<Rational>> {
-    let binomials = binomials(k);
+    let binomials: Vec<BigInt> = IterBinomial::new(BigInt::from(k)).collect();
     let of_2k: BigInt = binomials.iter().map(|c| c * c).sum();
     let weight = |lag: usize, j: usize| {
         let above = BigInt::from(if lag.is_multiple_of(2) { 2 } else { -2 }) * &binomials[j + lag] * &binomials[j];
         Rational::new(above, BigInt::from(lag) * &of_2k)
     };
     (1..=k as usize).map(|lag| (0..=k as usize - lag).map(|j| weight(lag, j)).collect()).collect()
-}
-
-/// C(k,0), …, C(k,k)
-fn binomials(k: u32) -> Vec<BigInt> {
-    let mut binomial = BigInt::from(1);
-    let mut all = vec![binomial.clone()];
-    for i in 0..k {
-        binomial = binomial * (k - i) / (i + 1);
-        all.push(binomial.clone());
-    }
-    all
 }
 
 #[cfg(test)]

@@ -4,8 +4,7 @@ use std::ops::{Deref, DerefMut};
 
 use super::Number;
 use crate::Rational;
-use num_integer::Integer;
-use num_traits::{Signed, Zero};
+use num_traits::ToPrimitive;
 
 /// A number of its own.
 #[derive(Debug)]
@@ -42,8 +41,7 @@ impl Number for f64 {
     }
 
     fn from_rational(value: &Rational, (): &()) -> f64 {
-        let magnitude = nearest(value);
-        if value.is_negative() { -magnitude } else { magnitude }
+        value.to_f64().expect("every rational has a nearest f64")
     }
 
     fn context(&self) {}
@@ -193,47 +191,6 @@ impl Number for f64 {
     fn to_text(&self) -> String {
         format!("{self:?}")
     }
-}
-
-/// The `f64` nearest to |value|.
-fn nearest(value: &Rational) -> f64 {
-    const SMALLEST: i64 = -1074; // the spacing of the subnormal numbers is 2^-1074
-    let mut n = value.numer().magnitude().clone();
-    let mut d = value.denom().magnitude().clone();
-
-    // 2^(size - 1) < n/d < 2^(size + 1); out of range, do not even shift
-    let mut size = n.bits() as i64 - d.bits() as i64;
-    if n.is_zero() || size < SMALLEST - 1 {
-        return 0.0;
-    }
-    if size > 1024 {
-        return f64::INFINITY;
-    }
-    let below = if size < 0 { &n << -size < d } else { n < &d << size };
-    if below {
-        size -= 1; // now 2^size <= n/d < 2^(size + 1)
-    }
-    let exponent = (size - 52).max(SMALLEST);
-    if exponent > 971 {
-        return f64::INFINITY;
-    }
-
-    // n/d = (quotient + rest/d) 2^exponent, and quotient has at most 53 bits
-    if exponent < 0 {
-        n <<= -exponent;
-    } else {
-        d <<= exponent;
-    }
-    let (quotient, rest) = n.div_rem(&d);
-    let mut quotient: u64 = quotient.try_into().expect("at most 53 bits");
-    let half = (rest << 1u8).cmp(&d);
-    if half.is_gt() || half.is_eq() && quotient % 2 == 1 {
-        quotient += 1;
-    }
-
-    // The hidden bit of a normal number's quotient adds 1 to the exponent field.  So does a
-    // carry into bit 53: from the subnormal to the normal numbers and to infinity, too.
-    f64::from_bits((((exponent - SMALLEST) as u64) << 52) + quotient)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 //! leaves no doubt of are used; where there is doubt, all is done again with more bits.
 
 use num_bigint::{BigInt, Sign};
-use num_integer::Integer;
+use num_integer::{Integer, IterBinomial};
 use num_traits::{One, Zero};
 
 use super::squarefree::odd_part;
@@ -93,8 +93,10 @@ impl Scaled {
     /// b_j = Σ_k C(j, k)/C(n, k) c_k
     fn bernstein(&self) -> Vec<BigInt> {
         let degree = self.coefficients.len() - 1;
-        let term = |j: usize, k: usize| (binomial(j, k) * &self.coefficients[k]).div_floor(&binomial(degree, k));
-        (0..=degree).map(|j| (0..=j).map(|k| term(j, k)).sum()).collect()
+        let binomials = |n: usize| IterBinomial::new(BigInt::from(n));
+        let of_degree: Vec<BigInt> = binomials(degree).collect();
+        let term = |((c_jk, c_nk), c_k): ((BigInt, &BigInt), &BigInt)| (c_jk * c_k).div_floor(c_nk);
+        (0..=degree).map(|j| binomials(j).zip(&of_degree).zip(&self.coefficients).map(term).sum()).collect()
     }
 
     /// A bound of the error of a sum of all terms, each off by less than a unit and rounded by less than another one.
@@ -144,10 +146,6 @@ impl Piece {
 /// The sign of a value that is off by at most `error`.
 fn decided(value: &BigInt, error: &BigInt) -> Option<Sign> {
     (value.magnitude() > error.magnitude()).then(|| value.sign())
-}
-
-fn binomial(n: usize, k: usize) -> BigInt {
-    (0..k).fold(BigInt::one(), |value, i| value * (n - i) / (i + 1))
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! The known words that are spelt most like a given one.
 
+use strsim::osa_distance;
+
 /// The known word that was probably meant by `word`: the one with the fewest typing errors
 /// between them, if these are at most a third of the word's letters, or one.
 ///
@@ -37,26 +39,9 @@ pub(crate) fn hint(word: &str, known: &[&str], unlisted: &[&str], title: &str, n
     }
 }
 
-/// The typing errors between two words (Damerau-Levenshtein distance, no letter moved twice).
+/// The typing errors between two words.
 fn distance(one: &str, other: &str) -> usize {
-    let one: Vec<char> = one.to_lowercase().chars().collect();
-    let other: Vec<char> = other.to_lowercase().chars().collect();
-    // table[i][j] is the distance of the first i letters of `one` from the first j of `other`.
-    let mut table = vec![vec![0; other.len() + 1]; one.len() + 1];
-    for i in 0..=one.len() {
-        for j in 0..=other.len() {
-            table[i][j] = if i == 0 || j == 0 {
-                i + j
-            } else {
-                let exchanged = table[i - 1][j - 1] + usize::from(one[i - 1] != other[j - 1]);
-                let removed_or_added = table[i - 1][j].min(table[i][j - 1]) + 1;
-                let swapped = i > 1 && j > 1 && one[i - 1] == other[j - 2] && one[i - 2] == other[j - 1];
-                let swap = if swapped { table[i - 2][j - 2] + 1 } else { usize::MAX };
-                exchanged.min(removed_or_added).min(swap)
-            };
-        }
-    }
-    table[one.len()][other.len()]
+    osa_distance(&one.to_lowercase(), &other.to_lowercase())
 }
 
 #[cfg(test)]
