@@ -15,7 +15,11 @@ fn main() {
         for (suffix, argument, first) in kinds {
             let Some(proved) = proved(name, !suffix.is_empty()) else { continue };
             let ident = camel(name) + suffix;
-            writeln!(code, "#[splitting_scheme(\"{name}.toml\"{argument})]\npub struct {ident};\n").unwrap();
+            writeln!(
+                code,
+                "#[derive(Clone, Copy, Debug)]\n#[splitting_scheme(\"{name}.toml\"{argument})]\npub struct {ident};\n"
+            )
+            .unwrap();
             let visit = format!("    visitor.visit({name:?}, {first}, &{ident});\n");
             if proved.holds_for_every_kinetic() {
                 visits_for_every_kinetic += &visit;

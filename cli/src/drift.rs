@@ -13,6 +13,7 @@ use shadowstep::Rational;
 use shadowstep::exact_flow::has_exact_flow;
 use shadowstep::number::Rounded;
 use shadowstep::run::EnergyDrift;
+use shadowstep::shadow::{SelectionRule, StoppingRule};
 use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::library::EXACT_FLOW;
 use shadowstep_scenes::propagator::Propagator;
@@ -115,8 +116,8 @@ fn measure<N: Rounded + 'static>(
     bar: bool,
 ) -> Result<EnergyDrift<N>, Error> {
     let progress = Progress::new(bar, run.name(), run.steps);
-    let method = selection.estimator.method(true);
-    let found = propagator.energy_drift::<N>(&selection.setup, run, &method, context, |n| progress.reach(n))?;
+    let settings = selection.estimator.clone().with_errors(true);
+    let found = propagator.energy_drift::<N>(&selection.setup, run, &settings, context, |n| progress.reach(n))?;
     // both extremes may be finite where their difference overflows
     if !found.drift.is_finite() {
         return Err(run.not_finite("the energy drift"));
@@ -152,7 +153,7 @@ fn record<N: Rounded>(
     control: Option<Control>,
     seconds: f64,
 ) -> Record {
-    let search = selection.estimator.stop_and_rule();
+    let options = selection.estimator.options();
     Record {
         shadowstep: env!("CARGO_PKG_VERSION"),
         problem: selection.setup.problem.name(),
@@ -163,11 +164,11 @@ fn record<N: Rounded>(
         end: to_text(&run.time_of_last()),
         digits: selection.arithmetic.label(),
         estimator: selection.estimator.name(),
-        order: selection.estimator.order().map_or(OrderLabel::Word("auto"), OrderLabel::Fixed),
-        max_order: selection.estimator.max_order(),
-        stop: search.map(|(stop, _)| stop),
-        rule: search.map(|(_, rule)| rule),
-        accuracy: selection.estimator.accuracy().map(to_text),
+        order: options.order.map_or(OrderLabel::Word("auto"), OrderLabel::Fixed),
+        max_order: options.max_order,
+        stop: options.stop.map(StoppingRule::name),
+        rule: options.rule.map(SelectionRule::name),
+        accuracy: options.accuracy.as_ref().map(to_text),
         drift: found.drift.to_text(),
         minimum: found.minimum.to_text(),
         maximum: found.maximum.to_text(),

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use shadowstep::shadow::{EstimatorSettings, HIGHEST_ORDER, SelectionRule, StoppingRule};
 use shadowstep_scenes::arithmetic::{DEFAULT_DIGITS, MOST_DIGITS};
-use shadowstep_scenes::estimator::HIGHEST_ORDER;
 
 /// What is run, and how.
 #[derive(Debug, Args)]
@@ -33,8 +34,8 @@ pub(crate) struct RunArguments {
     #[arg(long, conflicts_with = "digits")]
     pub(crate) double: bool,
     /// How the modified energy is estimated
-    #[arg(long, value_name = "NAME", default_value = "central")]
-    pub(crate) estimator: EstimatorChoice,
+    #[arg(long, value_name = "NAME", default_value = EstimatorSettings::NAMES[0], value_parser = words(EstimatorSettings::NAMES, EstimatorSettings::SUMMARIES))]
+    pub(crate) estimator: String,
     /// The m of D_m or the k of E_k, such as 40, or auto for the best one of each state
     #[arg(long, default_value = "auto", value_name = "M|K|auto", value_parser = order)]
     pub(crate) order: OrderChoice,
@@ -42,11 +43,11 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "M|K", value_parser = clap::value_parser!(u32).range(2..=i64::from(HIGHEST_ORDER)))]
     pub(crate) max_order: Option<u32>,
     /// Where --order auto stops trying m: at the largest, or early, where the errors rise [default: full]
-    #[arg(long, value_name = "WHEN")]
-    pub(crate) stop: Option<StopChoice>,
+    #[arg(long, value_name = "WHEN", value_parser = words(StoppingRule::NAMES, StoppingRule::SUMMARIES).try_map(|word| word.parse::<StoppingRule>()))]
+    pub(crate) stop: Option<StoppingRule>,
     /// Which m is the best for --order auto [default: least, which reproduces the results of Moan & Niesen]
-    #[arg(long, value_name = "RULE")]
-    pub(crate) rule: Option<RuleChoice>,
+    #[arg(long, value_name = "RULE", value_parser = words(SelectionRule::NAMES, SelectionRule::SUMMARIES).try_map(|word| word.parse::<SelectionRule>()))]
+    pub(crate) rule: Option<SelectionRule>,
     /// Target error for --estimator bilinear --order auto, such as 1e-20; the smallest k that meets it is used. Where none
     /// does, the best k is used, and the estimates show it [default: the best k of each state]
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
@@ -62,26 +63,9 @@ pub(crate) enum OrderChoice {
     Fixed(u32),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum EstimatorChoice {
-    /// Central differences D_m of 2m + 1 states, order 2m
-    Central,
-    /// Products of k + 1 states in pairs, E_k, order 2k; for an odd k at times between the states
-    Bilinear,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum StopChoice {
-    Full,
-    Early,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum RuleChoice {
-    /// Minimises the term |T_m - T_(m-1)|
-    Least,
-    /// Minimises the maximum of ten neighbouring terms, so that no single term can be small by chance
-    Robust,
+/// The words that a flag accepts, each with its help.
+fn words(names: &'static [&'static str], help: &'static [&'static str]) -> PossibleValuesParser {
+    names.iter().zip(help).map(|(name, help)| PossibleValue::new(name).help(help)).collect::<Vec<_>>().into()
 }
 
 fn order(text: &str) -> Result<OrderChoice, String> {

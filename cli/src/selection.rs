@@ -2,17 +2,17 @@
 
 use shadowstep::Rational;
 use shadowstep::problems::{Setup, problem};
-use shadowstep::shadow::{Rule, Stop};
+use shadowstep::shadow::{EstimatorOptions, EstimatorSettings, check_accuracy};
 use shadowstep_scenes::Note;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::quantity;
 use crate::quantity::problem_error;
 use crate::report;
-use crate::run_arguments::{EstimatorChoice, OrderChoice, RuleChoice, RunArguments, StopChoice};
+use crate::run_arguments::{OrderChoice, RunArguments};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
-use shadowstep_scenes::estimator::{Chosen, Kind, NO_ACCURACY, Wish, no_accuracy};
+use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::{OrderSetting, Run};
 use shadowstep_scenes::steps;
@@ -23,7 +23,7 @@ pub(crate) struct Selection {
     pub(crate) setup: Setup,
     pub(crate) until: Rational,
     pub(crate) arithmetic: Arithmetic,
-    pub(crate) estimator: Chosen,
+    pub(crate) estimator: EstimatorSettings,
     propagators: Vec<Propagator>,
     steps: Vec<(Rational, u64)>,
 }
@@ -51,8 +51,8 @@ impl Selection {
 
     /// The runs, all steps of a scheme together.
     pub(crate) fn runs(&self) -> impl Iterator<Item = (&Propagator, Run<'_>)> {
-        let (name, value) = self.estimator.order_setting();
-        let order = Some(OrderSetting { name: if name == "order" { "--order" } else { "--max-order" }, value });
+        let order = order_setting(&self.estimator)
+            .map(|(name, value)| OrderSetting { name: if name == "order" { "--order" } else { "--max-order" }, value });
         self.propagators.iter().flat_map(move |propagator| {
             let name = propagator.name();
             self.steps.iter().map(move |(h, steps)| (propagator, Run { propagator: name, h, steps: *steps, order }))
@@ -83,39 +83,33 @@ fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Error> {
     arithmetic.map_err(|error| Error::usage(error.to_string(), "use --digits 120"))
 }
 
-fn estimator(arguments: &RunArguments) -> Result<Chosen, Error> {
-    let wish = Wish {
-        kind: match arguments.estimator {
-            EstimatorChoice::Central => Kind::Central,
-            EstimatorChoice::Bilinear => Kind::Bilinear,
-        },
+fn estimator(arguments: &RunArguments) -> Result<EstimatorSettings, Error> {
+    let options = EstimatorOptions {
         order: match arguments.order {
             OrderChoice::Auto => None,
             OrderChoice::Fixed(order) => Some(order),
         },
-        largest: arguments.max_order,
-        stop: arguments.stop.map(|stop| match stop {
-            StopChoice::Full => Stop::Full,
-            StopChoice::Early => Stop::Early,
-        }),
-        rule: arguments.rule.map(|rule| match rule {
-            RuleChoice::Least => Rule::Least,
-            RuleChoice::Robust => Rule::Robust,
-        }),
+        max_order: arguments.max_order,
+        stop: arguments.stop,
+        rule: arguments.rule,
         accuracy: arguments.accuracy.as_deref().map(accuracy).transpose()?,
     };
-    wish.chosen().map_err(|misfit| {
-        let flag = |name: &str| format!("--{}", name.replace('_', "-"));
-        let (sentence, hint) = misfit.told(&flag(misfit.name), |name, value| format!("{} {value}", flag(name)));
-        Error::usage(sentence, hint)
-    })
+    match EstimatorSettings::from_options(&arguments.estimator, options) {
+        Ok(settings) => Ok(settings.expect("only names of estimators are accepted")),
+        Err(error) => {
+            let flag = |name: &str| format!("--{}", name.replace('_', "-"));
+            let (message, hint) =
+                conflict(&error, &flag(error.option), |name, value| format!("{} {value}", flag(name)));
+            Err(Error::usage(message, hint))
+        }
+    }
 }
 
 fn accuracy(text: &str) -> Result<Rational, Error> {
     let accuracy = quantity::number("--accuracy", text)?;
-    match no_accuracy(&accuracy) {
-        None => Ok(accuracy),
-        Some(why) => Err(Error::usage(format!("--accuracy {text} {why}"), NO_ACCURACY)),
+    match check_accuracy(&accuracy) {
+        Ok(()) => Ok(accuracy),
+        Err(error) => Err(Error::usage(format!("--accuracy {text} {error}"), ACCURACY_HINT)),
     }
 }
 

@@ -65,7 +65,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         let sentence = "with --estimator bilinear and an odd --order the values are at times between the states";
         return Err(Error::usage(sentence, "use an even order, or remove --states"));
     }
-    if !selection.estimator.tells_error() {
+    if !selection.estimator.gives_errors() {
         report::note("no error estimate at --order 1: the estimates are empty");
     }
     let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
@@ -117,11 +117,11 @@ impl Computation for Following<'_, '_> {
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         let Following { selection, propagator, run, states, bar, write } = self;
-        let (method, between) = (selection.estimator.method(true), selection.estimator.is_between());
+        let (settings, between) = (selection.estimator.clone().with_errors(true), selection.estimator.is_between());
         let progress = Progress::new(bar, run.name(), run.steps);
         let mut system = motion::<N>(&selection.setup, context);
-        propagator.estimates(&selection.setup, run, &method, context, |n, found| {
-            let energy = (!between).then(|| system.energy_of(found.q, found.p));
+        propagator.estimates(&selection.setup, run, &settings, context, |n, found| {
+            let energy = (!between).then(|| system.energy_at(found.q, found.p));
             if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
                 return Err(run.not_finite(&format!("the energy at n = {n}")));
             }

@@ -4,9 +4,9 @@ use rug::Float;
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Number;
 use shadowstep::problems::Setup;
-use shadowstep::run::{Seen, States, Trajectory};
+use shadowstep::run::{Finding, States, Trajectory};
 use shadowstep_scenes::library::EXACT_FLOW;
-use shadowstep_scenes::propagator::{Propagator, motion};
+use shadowstep_scenes::propagator::{Propagator, motion, stepper};
 use shadowstep_scenes::run::Run as Steps;
 
 use crate::Error;
@@ -124,27 +124,27 @@ fn with<T>(run: &Run, make: impl FnOnce(&Propagator, &Setup, Steps<'_>) -> Resul
 }
 
 fn drift(run: &Run, estimator: Estimator) -> Result<Drift, Error> {
-    let method = estimator.settings().method(estimator.needs_errors());
+    let settings = estimator.settings().with_errors(estimator.needs_errors());
     let context = run.precision();
     let found = with(run, |propagator, setup, steps| {
-        propagator.energy_drift::<Float>(setup, steps, &method, &context, |_| ())
+        propagator.energy_drift::<Float>(setup, steps, &settings, &context, |_| ())
     })?;
     let permanent = found.permanent.map(|permanent| Permanent {
         change: permanent.change.to_text(),
         largest_jump: permanent.largest_jump.to_text(),
         resolution: permanent.resolution.to_text(),
-        resolved: permanent.seen == Seen::Resolved,
+        resolved: permanent.finding == Finding::Resolved,
     });
     Ok(Drift { drift: found.drift.to_text(), permanent, orders: found.orders })
 }
 
 fn energies(run: &Run, estimator: Estimator) -> Result<Energies, Error> {
-    let method = estimator.settings().method(true);
+    let settings = estimator.settings().with_errors(true);
     let context = run.precision();
     let mut all = Energies::default();
     let size = |number: Option<&Float>| number.map(Number::log10_abs).filter(|size| size.is_finite());
     with(run, |propagator, setup, steps| {
-        propagator.estimates::<Float>(setup, steps, &method, &context, |n, estimate| {
+        propagator.estimates::<Float>(setup, steps, &settings, &context, |n, estimate| {
             all.times.push(f64::from_rational(&steps.time_of_value(n, &estimator.settings()), &()));
             all.distances.push(estimate.q.iter().map(|q| q.to_f64().powi(2)).sum::<f64>().sqrt());
             all.values.push(estimate.value.to_text());
@@ -170,19 +170,20 @@ fn transit(run: &Run) -> Result<Float, Error> {
     let mut system = motion::<Float>(&run.setup(), &run.precision());
     let first = system.energy();
     let (q, p) = states(run, |_| ())?;
-    Ok(system.energy_of(&q, &p) - first)
+    Ok(system.energy_at(&q, &p) - first)
 }
 
 /// Gives q of each state, without modified energies, to `take`; returns the last q and p.
 fn states(run: &Run, mut take: impl FnMut(&[Float])) -> Result<(Vec<Float>, Vec<Float>), Error> {
     with(run, |propagator, setup, steps| {
-        let scheme = &propagator.scheme().expect("states are those of schemes").scheme;
+        let scheme = propagator.scheme().expect("states are those of schemes");
+        let stepper = stepper(scheme, steps, &run.precision());
         let start = motion::<Float>(setup, &run.precision());
         let failed = |error| steps.failed(&error);
-        let mut trajectory = Trajectory::plain(scheme, start, steps.h, 0, steps.steps).map_err(failed)?;
+        let mut trajectory = Trajectory::plain(&stepper, start, 0, steps.steps).map_err(failed)?;
         while let Some(state) = trajectory.advance().map_err(failed)? {
             take(state.q);
         }
-        Ok((trajectory.motion().q().to_vec(), trajectory.motion().p().to_vec()))
+        Ok((trajectory.system().q().to_vec(), trajectory.system().p().to_vec()))
     })
 }

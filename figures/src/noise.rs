@@ -6,9 +6,9 @@ use std::collections::VecDeque;
 use serde::{Deserialize, Serialize};
 use shadowstep::problems::Kepler;
 use shadowstep::run::{States, Trajectory};
-use shadowstep::shadow::{Bilinear, Estimator, Method};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Estimator};
 use shadowstep::tables::shipped;
-use shadowstep::{Increments, Motion, UnitMasses, exact};
+use shadowstep::{Increments, Motion, Stepper, UnitMasses};
 
 use crate::Error;
 
@@ -48,11 +48,12 @@ struct Sums {
 
 /// Störmer–Verlet on Kepler's problem, e = 0.6, h = 1/20, by E_8: blocks that end at 10³, 10^3.5, … steps.
 pub(crate) fn blocks(steps: u64, differences: Differences) -> Result<Vec<Block>, Error> {
-    let (scheme, h) = (shipped("stormer-verlet").expect("a shipped scheme"), exact("1/20").expect("a number"));
-    let start = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]);
-    let mut estimator = Method::<f64>::estimator(&Bilinear::new(8), &h, 2, &());
+    let scheme = shipped("stormer-verlet").expect("it is shipped");
+    let stepper = Stepper::new(scheme, "1/20").expect("h is not 0");
+    let start = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]).expect("the dimensions agree");
+    let mut estimator = Bilinear::new(8).build(stepper.step_size(), 2, &()).expect("k = 8 is valid");
     let failed = |error: shadowstep::run::RunError| Error::run(error.to_string(), "this calculation has no options");
-    let mut trajectory = Trajectory::new(&scheme, start, &h, steps, estimator.states() / 2).map_err(failed)?;
+    let mut trajectory = Trajectory::new(&stepper, start, steps, estimator.states() / 2).map_err(failed)?;
     let mut near: VecDeque<(f64, f64)> = VecDeque::new();
     let (mut blocks, mut part, mut first, mut end, mut sum) = (Vec::new(), Sums::default(), None, 1000.0, 0.0);
     while let Some(state) = trajectory.advance().map_err(failed)? {

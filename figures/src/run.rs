@@ -3,10 +3,9 @@
 use serde::{Serialize, Serializer};
 use shadowstep::number::Precision;
 use shadowstep::problems::{Problem, Setup};
-use shadowstep::shadow::{Rule, Stop};
+use shadowstep::shadow::{Bilinear, Central, EstimatorSettings, StoppingRule};
 use shadowstep::{Rational, exact};
 use shadowstep_scenes::arithmetic::GUARD_DIGITS;
-use shadowstep_scenes::estimator::Chosen;
 pub(crate) use shadowstep_scenes::library::EXACT_FLOW;
 
 /// The schemes of the paper's figures, with their labels.
@@ -92,13 +91,13 @@ pub(crate) enum Estimator {
 }
 
 impl Estimator {
-    pub(crate) fn settings(self) -> Chosen {
+    pub(crate) fn settings(self) -> EstimatorSettings {
         match self {
-            Estimator::Central { m } => Chosen::Central(m),
+            Estimator::Central { m } => Central::fixed(m).into(),
             Estimator::Best { largest, early } => {
-                Chosen::Best(largest, if early { Stop::Early } else { Stop::Full }, Rule::Least)
+                Central::best(largest, if early { StoppingRule::Early } else { StoppingRule::Full }).into()
             }
-            Estimator::Bilinear { k } => Chosen::Bilinear(k),
+            Estimator::Bilinear { k } => Bilinear::new(k).into(),
         }
     }
 

@@ -9,11 +9,12 @@ use std::hint::black_box;
 use shadowstep::pairs::{PairPotential, Pairs};
 use shadowstep::problems::LennardJones;
 use shadowstep::shadow::{Bilinear, BilinearEstimator, ShadowEnergy};
-use shadowstep::{Motion, Rational, Scheme, UnitMasses, Weights, exact, potential, splitting_scheme};
+use shadowstep::{Motion, Stepper, UnitMasses, potential, splitting_scheme};
 
 use timing::{Contestant, compare};
 
 #[splitting_scheme("stormer-verlet.toml")]
+#[derive(Clone, Debug)]
 struct StormerVerlet;
 
 potential! {
@@ -31,72 +32,73 @@ fn bodies<P: PairPotential<f64>>(pair: P, distance: f64) -> Bodies<P> {
     let place = |i: usize| [i % 5, i / 5 % 5, i / 25].map(|n| n as f64);
     let disorder = |c: usize| (c as f64).sin() / 20.0;
     let q = (0..BODIES).flat_map(place).enumerate().map(|(c, x)| distance * (x + disorder(c))).collect();
-    Motion::new(Pairs::all(BODIES, pair), UnitMasses, q, vec![0.0; 3 * BODIES])
+    Motion::new(Pairs::all(BODIES, pair), UnitMasses, q, vec![0.0; 3 * BODIES]).expect("the dimensions agree")
 }
 
 /// Each run begins at the same state, in vectors of its own: so all make the same steps, and find them at like places.
 fn contestant<'a, P: PairPotential<f64> + Clone + 'a>(
     name: &'static str,
     start: Bodies<P>,
-    steps: impl Fn(&mut Bodies<P>, &Weights<[f64; 2]>, u32) + 'a,
+    steps: impl Fn(&mut Bodies<P>, &Verlet, u32) + 'a,
 ) -> Contestant<'a> {
-    let h = StormerVerlet.weights::<f64>(&step(), &());
+    let stepper = stepper();
     let run = move |repetitions| {
         let mut motion = start.clone();
-        steps(&mut motion, &h, repetitions);
+        steps(&mut motion, &stepper, repetitions);
         black_box(motion.q());
     };
     (name, Box::new(run))
 }
 
-fn step() -> Rational {
-    exact("1/1000").expect("exact")
+type Verlet = Stepper<StormerVerlet, f64>;
+
+fn stepper() -> Verlet {
+    Stepper::new(StormerVerlet, "1/1000").expect("h is not 0")
 }
 
 #[inline(never)]
-fn plain<P: PairPotential<f64>>(motion: &mut Bodies<P>, h: &Weights<[f64; 2]>, repetitions: u32) {
+fn plain<P: PairPotential<f64>>(motion: &mut Bodies<P>, stepper: &Verlet, repetitions: u32) {
     for _ in 0..repetitions {
-        StormerVerlet.step(h, motion);
+        stepper.step(motion);
     }
 }
 
 #[inline(never)]
-fn augmented<P: PairPotential<f64>>(motion: &mut Bodies<P>, h: &Weights<[f64; 2]>, repetitions: u32) {
+fn augmented<P: PairPotential<f64>>(motion: &mut Bodies<P>, stepper: &Verlet, repetitions: u32) {
     for _ in 0..repetitions {
-        StormerVerlet.step_augmented(h, motion);
+        stepper.step_augmented(motion);
     }
 }
 
 /// With a monitor that is made before.
 fn watched<P: PairPotential<f64> + Clone>(
     start: &Bodies<P>,
-    method: Bilinear,
+    settings: &Bilinear,
     every: u64,
-) -> impl Fn(&mut Bodies<P>, &Weights<[f64; 2]>, u32) {
-    let monitor = ShadowEnergy::new(&mut start.clone(), &step(), &method).expect("a finite state").every(every);
-    move |motion, h, repetitions| watched_steps(motion, h, monitor.clone(), repetitions)
+) -> impl Fn(&mut Bodies<P>, &Verlet, u32) {
+    let monitor = ShadowEnergy::new(stepper(), &mut start.clone(), settings).expect("a finite state").every(every);
+    move |motion, _, repetitions| watched_steps(motion, monitor.clone(), repetitions)
 }
 
 #[inline(never)]
 fn watched_steps<P: PairPotential<f64>>(
     motion: &mut Bodies<P>,
-    h: &Weights<[f64; 2]>,
-    mut monitor: ShadowEnergy<f64, BilinearEstimator<f64>>,
+    mut monitor: ShadowEnergy<StormerVerlet, f64, BilinearEstimator<f64>>,
     repetitions: u32,
 ) {
     for _ in 0..repetitions {
-        monitor.step(&StormerVerlet, h, motion).expect("finite states");
+        monitor.step(motion).expect("finite states");
     }
 }
 
 fn compare_for<P: PairPotential<f64> + Clone>(title: &str, pair: &P, distance: f64) {
     let start = bodies(pair.clone(), distance);
-    let with = |name, method, every| contestant(name, start.clone(), watched(&start, method, every));
-    let (value, with_error) = (Bilinear::new(8), Bilinear::with_error(8));
+    let with = |name, settings, every| contestant(name, start.clone(), watched(&start, settings, every));
+    let (fewer, value, with_error) = (&Bilinear::new(6), &Bilinear::new(8), &Bilinear::with_error(8));
     let contestants = vec![
         contestant("steps", start.clone(), plain),
         contestant("steps that carry β", start.clone(), augmented),
-        with("with E_6, a window in 100 steps", Bilinear::new(6), 100),
+        with("with E_6, a window in 100 steps", fewer, 100),
         with("with E_8, a window in 100 steps", value, 100),
         with("with E_8, a window in 200 steps", value, 200),
         with("with E_8 and its error, a window in 100 steps", with_error, 100),

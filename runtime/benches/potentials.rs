@@ -13,9 +13,7 @@ use shadowstep::kinetic::Quadratic;
 use shadowstep::number::Precision;
 use shadowstep::pairs::Pairs;
 use shadowstep::problems::{Gravity, HenonHeiles, Kepler, Pendulum, problem};
-use shadowstep::{
-    DiagonalMasses, Kinetic, Motion, Number, Potential, Scheme, UnitMasses, Weights, exact, splitting_scheme,
-};
+use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Stepper, UnitMasses, exact, splitting_scheme};
 
 use by_hand::{BODIES, ByHand, HenonHeilesStar, KeplerOrbit, PendulumBob, Planets};
 use timing::{Contestant, compare};
@@ -38,13 +36,13 @@ where
     P: Potential<N> + 'a,
     K: Kinetic<N, Class = Quadratic> + 'a,
 {
-    let h = StormerVerlet.weights::<N>(&exact(h).expect("exact"), &motion.context());
-    (name, Box::new(move |repetitions| steps(&mut motion, &h, repetitions)))
+    let stepper = Stepper::with_context(StormerVerlet, h, &motion.context()).expect("h is not 0");
+    (name, Box::new(move |repetitions| steps(&mut motion, &stepper, repetitions)))
 }
 
 /// A loop of its own, as a user has it; inlined into the timing it would be compiled differently for each contestant.
 #[inline(never)]
-fn steps<N, V, P, K>(motion: &mut Motion<N, V, P, K>, h: &Weights<[N; 2]>, repetitions: u32)
+fn steps<N, V, P, K>(motion: &mut Motion<N, V, P, K>, stepper: &Stepper<StormerVerlet, N>, repetitions: u32)
 where
     N: Number,
     V: shadowstep::Coordinates<N>,
@@ -52,7 +50,7 @@ where
     K: Kinetic<N, Class = Quadratic>,
 {
     for _ in 0..repetitions {
-        StormerVerlet.step(h, motion);
+        stepper.step(motion);
     }
     black_box(motion.q());
 }
@@ -64,7 +62,7 @@ fn orbit<'a, N: Number + 'a, P: Potential<N> + 'a, const D: usize>(
     context: &N::Context,
 ) -> Contestant<'a> {
     let (q, p) = (numbers::<N, D>(q, context), numbers::<N, D>(p, context));
-    contestant(name, Motion::new(potential, UnitMasses, q, p), "1/100")
+    contestant(name, Motion::new(potential, UnitMasses, q, p).expect("the dimensions agree"), "1/100")
 }
 
 /// The outer solar system, steps of 100 days.
@@ -79,7 +77,12 @@ fn planets<'a, N: Number + 'a, P: Potential<N> + 'a>(
     let m = masses.iter().step_by(3).map(|m| N::from_rational(m, context)).collect();
     let kinetic = DiagonalMasses::new(&masses, context).expect("positive");
     let potential = potential(N::from_rational(setup.values.value("g"), context), m);
-    contestant(name, Motion::new(potential, kinetic, setup.values.q(context), setup.values.p(context)), "100")
+    contestant(
+        name,
+        Motion::new(potential, kinetic, setup.values.q(context), setup.values.p(context))
+            .expect("the dimensions agree"),
+        "100",
+    )
 }
 
 const BY_HAND: &str = "potential by hand";

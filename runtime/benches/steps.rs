@@ -10,8 +10,8 @@ use rug::Float;
 use shadowstep::formula::FormulaPotential;
 use shadowstep::number::{Number as _, Precision};
 use shadowstep::problems::Kepler;
-use shadowstep::shadow::{Central, Estimator, Method, Stop};
-use shadowstep::{Motion, Potential, Scheme, UnitMasses, exact, splitting_scheme, tables};
+use shadowstep::shadow::{BuildEstimator, Central, Estimator, StoppingRule};
+use shadowstep::{Motion, Potential, Scheme, Stepper, UnitMasses, exact, splitting_scheme, tables};
 
 use timing::{Contestant, compare, measure};
 
@@ -32,7 +32,7 @@ fn number(text: &str) -> Float {
 type Big<P> = Motion<Float, [Float; 2], P, UnitMasses>;
 
 fn big<P: Potential<Float>>(potential: P, q: [&str; 2], p: [&str; 2]) -> Big<P> {
-    Motion::new(potential, UnitMasses, q.map(number), p.map(number))
+    Motion::new(potential, UnitMasses, q.map(number), p.map(number)).expect("the dimensions agree")
 }
 
 fn steps<'a, S: Scheme + 'a, N: shadowstep::Number + 'a, P: Potential<N> + 'a, const D: usize>(
@@ -40,10 +40,10 @@ fn steps<'a, S: Scheme + 'a, N: shadowstep::Number + 'a, P: Potential<N> + 'a, c
     scheme: S,
     mut motion: Motion<N, [N; D], P, UnitMasses>,
 ) -> Contestant<'a> {
-    let h = scheme.weights::<N>(&exact("1/100").expect("exact"), &motion.context());
+    let stepper = Stepper::with_context(scheme, "1/100", &motion.context()).expect("h is not 0");
     let run = move |repetitions| {
         for _ in 0..repetitions {
-            scheme.step(&h, &mut motion);
+            stepper.step(&mut motion);
         }
         black_box(motion.q());
     };
@@ -51,10 +51,10 @@ fn steps<'a, S: Scheme + 'a, N: shadowstep::Number + 'a, P: Potential<N> + 'a, c
 }
 
 fn augmented<'a, S: Scheme + 'a>(name: &'static str, scheme: S, mut motion: Big<Kepler>) -> Contestant<'a> {
-    let h = scheme.weights::<Float>(&exact("1/100").expect("exact"), &digits());
+    let stepper = Stepper::with_context(scheme, "1/100", &digits()).expect("h is not 0");
     let run = move |repetitions| {
         for _ in 0..repetitions {
-            scheme.step_augmented(&h, &mut motion);
+            stepper.step_augmented(&mut motion);
         }
         black_box(motion.q());
     };
@@ -74,9 +74,9 @@ struct Operands {
 /// 500 states around the orbit: the same two numbers again and again would teach the branch predictor.
 fn orbit() -> Vec<Operands> {
     let mut motion = big(Kepler, ["0.4", "0"], ["0", "2"]);
-    let h = StormerVerlet.weights::<Float>(&exact("1/80").expect("exact"), &digits());
+    let stepper = Stepper::with_context(StormerVerlet, "1/80", &digits()).expect("h is not 0");
     let state = |_| {
-        StormerVerlet.step(&h, &mut motion);
+        stepper.step(&mut motion);
         let (q, p) = ([motion.q()[0].clone(), motion.q()[1].clone()], [motion.p()[0].clone(), motion.p()[1].clone()]);
         let bits = q[0].prec();
         let square = Float::with_val(bits, &q[0] * &q[0]) + Float::with_val(bits, &q[1] * &q[1]);
@@ -157,14 +157,13 @@ fn kepler_by_hand() -> Contestant<'static> {
 }
 
 /// Takes a state a repetition; the states are those of Störmer–Verlet on Kepler, made before.
-fn estimates<'a>(name: &'static str, method: Central) -> Contestant<'a> {
+fn estimates<'a>(name: &'static str, settings: Central) -> Contestant<'a> {
     let mut motion = big(Kepler, ["0.4", "0"], ["0", "2"]);
-    let h = exact("1/20").expect("exact");
-    let mut estimator = method.estimator(&h, 2, &digits());
-    let h = StormerVerlet.weights::<Float>(&h, &digits());
+    let stepper = Stepper::with_context(StormerVerlet, "1/20", &digits()).expect("h is not 0");
+    let mut estimator = settings.build(stepper.step_size(), 2, &digits()).expect("valid settings");
     let run = move |repetitions| {
         for _ in 0..repetitions {
-            StormerVerlet.step_augmented(&h, &mut motion);
+            stepper.step_augmented(&mut motion);
             black_box(estimator.push(motion.q(), motion.p(), motion.increments()));
         }
     };
@@ -173,12 +172,12 @@ fn estimates<'a>(name: &'static str, method: Central) -> Contestant<'a> {
 
 fn main() {
     let table = |name| tables::shipped(name).expect("a shipped scheme");
-    let double = || Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]);
+    let double = || Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]).expect("the dimensions agree");
     let kepler = || big(Kepler, ["0.4", "0"], ["0", "2"]);
 
     let text = "-1/sqrt(x^2 + y^2)";
     let formula = FormulaPotential::new(text, &["x", "y"], &[]).expect("a formula");
-    let double_formula = Motion::new(formula, UnitMasses, [0.4, 0.0], [0.0, 2.0]);
+    let double_formula = Motion::new(formula, UnitMasses, [0.4, 0.0], [0.0, 2.0]).expect("the dimensions agree");
     let formula = FormulaPotential::new(text, &["x", "y"], &[]).expect("a formula");
     let kepler_formula = big(formula, ["0.4", "0"], ["0", "2"]);
 
@@ -214,8 +213,8 @@ fn main() {
             augmented("step with β alone", StormerVerlet, kepler()),
             estimates("D_20", Central::fixed(20)),
             estimates("D_200", Central::fixed(200)),
-            estimates("best m ≤ 200", Central::best(200, Stop::Full)),
-            estimates("best m ≤ 200, early stop", Central::best(200, Stop::Early)),
+            estimates("best m ≤ 200", Central::best(200, StoppingRule::Full)),
+            estimates("best m ≤ 200, early stop", Central::best(200, StoppingRule::Early)),
         ],
         150,
     );

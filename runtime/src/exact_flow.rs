@@ -5,13 +5,13 @@
 //!
 //! ```
 //! use shadowstep::number::{Float, Precision};
-//! use shadowstep::{exact, exact_flow::ExactFlow, problems::problem, run::ShadowRun, shadow::Bilinear};
+//! use shadowstep::{StepSize, exact_flow::ExactFlow, problems::problem, run::ShadowRun, shadow::Bilinear};
 //!
 //! let kepler = problem("kepler").unwrap().setup(&[], 80).unwrap(); // H = −1/2
-//! let (h, digits) = (exact("1/20").unwrap(), Precision::digits(60).unwrap());
-//! let method = Bilinear::new(16);
-//! let mut control = ShadowRun::<ExactFlow<Float>, _>::of_exact_flow(&kepler, &h, 126, &method, &digits).unwrap();
-//! let found = control.drift(|_| {}).unwrap();
+//! let (h, digits) = (StepSize::try_from("1/20").unwrap(), Precision::digits(60).unwrap());
+//! let settings = Bilinear::new(16);
+//! let mut control = ShadowRun::<ExactFlow<Float>, _>::of_exact_flow(&kepler, &h, 126, &settings, &digits).unwrap();
+//! let found = control.drift().unwrap();
 //! assert!(found.drift.to_f64() < 1e-11); // of E_16 itself
 //! ```
 //!
@@ -20,15 +20,14 @@
 
 pub(crate) mod solution;
 
-use num_traits::Zero;
 use rug::Float;
 
-use crate::Rational;
-use crate::motion::Increments;
 use crate::number::{Number, Rounded};
 use crate::problems::{PROBLEMS, Problem, Setup};
-use crate::run::{RunError, ShadowRun, State, States, check_finite, last};
-use crate::shadow::{Estimator, Method};
+use crate::run::{RunError, ShadowRun, State, States, last};
+use crate::shadow::{BuildEstimator, Estimator};
+use crate::step_size::StepSize;
+use crate::system::Increments;
 use solution::{Point, Request, Solution, Solver};
 
 pub use solution::ExactFlowError;
@@ -57,19 +56,16 @@ impl<N: Rounded> ExactFlow<N> {
     /// suffice.
     pub fn new(
         setup: &Setup,
-        h: &Rational,
+        h: &StepSize,
         steps: u64,
         reach: usize,
         context: &N::Context,
     ) -> Result<Self, ExactFlowError> {
         let solver = solver(setup)?;
-        if h.is_zero() {
-            return Err(RunError::ZeroStep.into());
-        }
         let last = last(steps, reach);
-        let longest = (f64::from_rational(h, &()) * (last as f64 + 1.0)).abs();
+        let longest = (f64::from_rational(h.exact(), &()) * (last as f64 + 1.0)).abs();
         let bits = N::precision(context).in_bits();
-        let solution = (solver.solve)(&Request { values: &setup.values, h, longest, bits })?;
+        let solution = (solver.solve)(&Request { values: &setup.values, h: h.exact(), longest, bits })?;
         let dimension = setup.values.positions().len();
         let zeros = || vec![N::zero(context); dimension];
         let (q, p, increments) = (zeros(), zeros(), Increments::zero(dimension, context));
@@ -109,7 +105,7 @@ impl<N: Rounded> States for ExactFlow<N> {
         self.increments.assign_differences(&present, &before);
         self.present = Some(present);
         let state = State { n: self.n, q: &self.q, p: &self.p, increments: &self.increments };
-        check_finite(&state)?;
+        state.check()?;
         Ok(Some(state))
     }
 }
@@ -122,16 +118,12 @@ impl<N: Rounded, E: Estimator<N>> ShadowRun<ExactFlow<N>, E> {
     /// As [`ExactFlow::new`].
     pub fn of_exact_flow(
         setup: &Setup,
-        h: &Rational,
+        h: &StepSize,
         steps: u64,
-        method: &impl Method<N, Estimator = E>,
+        settings: &impl BuildEstimator<N, Estimator = E>,
         context: &N::Context,
     ) -> Result<Self, ExactFlowError> {
-        // the estimator is known only where h is known to be no 0
-        if h.is_zero() {
-            return Err(RunError::ZeroStep.into());
-        }
-        let estimator = method.estimator(h, setup.values.positions().len(), context);
+        let estimator = settings.build(h, setup.values.positions().len(), context)?;
         let reach = (estimator.states() - 1) / 2;
         Ok(ShadowRun::of(ExactFlow::new(setup, h, steps, reach, context)?, estimator, h))
     }

@@ -18,13 +18,13 @@ use crate::interpreter::Interpreter;
 use crate::number::Number;
 use crate::potential::Potential;
 
-/// A potential whose operations are carried out one by one from a list; nothing is allocated per evaluation.
+/// A potential from a formula read at run time: a list of operations, executed without allocation.
 ///
 /// ```
 /// use shadowstep::{Motion, UnitMasses, formula::FormulaPotential};
 ///
 /// let well = FormulaPotential::<f64>::new("-depth * exp(-(x^2 + y^2))", &["x", "y"], &[("depth", 2.0)]).unwrap();
-/// let mut motion = Motion::new(well, UnitMasses, [0.0, 0.0], [1.0, 0.0]);
+/// let mut motion = Motion::new(well, UnitMasses, [0.0, 0.0], [1.0, 0.0]).unwrap();
 /// assert_eq!(motion.energy(), 0.5 - 2.0);
 /// ```
 #[derive(Clone, Debug)]
@@ -33,10 +33,10 @@ pub struct FormulaPotential<N> {
     interpreter: Interpreter<N>,
 }
 
-/// A text that is no potential or kinetic energy, and the place.
+/// A text that is not a valid potential or kinetic energy, with the place of the fault.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum FormulaError {
-    /// The text is no formula.
+    /// The text is not a formula.
     #[error(transparent)]
     Syntax(#[from] SyntaxError),
     /// The formula is none of these coordinates and parameters, or not smooth.
@@ -65,7 +65,7 @@ impl<N: Number> FormulaPotential<N> {
     /// The potential of a formula in these coordinates, with the values of its parameters.
     ///
     /// # Errors
-    /// A text that is no formula, unknown or repeated names, functions that are not smooth.
+    /// A text that is not a valid formula, unknown or repeated names, functions that are not smooth.
     pub fn new(formula: &str, coordinates: &[&str], parameters: &[(&str, N)]) -> Result<Self, FormulaError> {
         let (mut graph, energy) = build(formula, coordinates, parameters)?;
         let programs = graph.potential(energy, coordinates.len());

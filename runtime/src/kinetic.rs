@@ -8,7 +8,7 @@ use crate::Rational;
 use crate::number::Number;
 use num_traits::{Signed, Zero};
 
-/// The class of T = ½pᵀM⁻¹p. Every scheme has its order for these ([`crate::Moves`]).
+/// The class of T = ½pᵀM⁻¹p. Every scheme has its order for these ([`crate::ValidFor`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quadratic {}
 
@@ -18,7 +18,7 @@ pub enum General {}
 
 /// A kinetic energy T(p), for one kind of numbers or, written once, for all.
 ///
-/// As a potential it says how many numbers of scratch space it needs and is given so many with every call.
+/// Like a potential it declares how many numbers of scratch space it needs, and gets them with every call.
 ///
 /// ```
 /// use shadowstep::kinetic::{General, Kinetic};
@@ -54,18 +54,17 @@ pub trait Kinetic<N: Number> {
     /// [`Quadratic`], if T is a quadratic form in p, else [`General`].
     type Class;
 
-    /// How many coordinates there must be, where that is fixed.
+    /// The dimension, if it is fixed.
     fn dimension(&self) -> Option<usize> {
         None
     }
 
-    /// How many numbers of scratch space there must be for every call.
+    /// The number of scratch numbers that every call needs.
     fn scratch(&self) -> usize {
         0
     }
 
-    /// Puts into the scratch space what every call finds there: what does not depend on p. Called once, before all
-    /// others.
+    /// Prepares the scratch space: values that do not depend on p. Called once, before all other calls.
     fn prepare(&self, scratch: &mut [N], context: &N::Context) {
         let _ = (scratch, context);
     }
@@ -149,6 +148,31 @@ impl<N: Number> DiagonalMasses<N> {
             return Err(MassError::NotPositive { index, mass: shadowstep_symbolic::decimal::to_text(&masses[index]) });
         }
         Ok(DiagonalMasses { inverse: masses.iter().map(|m| N::from_rational(&m.recip(), context)).collect() })
+    }
+
+    /// Masses of the coordinates as numbers, such as `f64`; each 1/m_i is rounded once.
+    ///
+    /// ```
+    /// use shadowstep::DiagonalMasses;
+    ///
+    /// let masses = DiagonalMasses::from_numbers(&[1.0, 1.0, 39.95])?;
+    /// assert!(DiagonalMasses::from_numbers(&[1.0, -1.0]).is_err());
+    /// # Ok::<(), shadowstep::kinetic::MassError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A mass that is not a positive finite number.
+    pub fn from_numbers(masses: &[N]) -> Result<Self, MassError> {
+        let inverse = |(index, mass): (usize, &N)| {
+            let zero = N::zero(&mass.context());
+            if !(mass.is_finite() && *mass > zero) {
+                return Err(MassError::NotPositive { index, mass: mass.to_text() });
+            }
+            let mut inverse = zero;
+            inverse.assign_quotient(&N::from_rational(&Rational::from_integer(1.into()), &mass.context()), mass);
+            Ok(inverse)
+        };
+        Ok(DiagonalMasses { inverse: masses.iter().enumerate().map(inverse).collect::<Result<_, _>>()? })
     }
 }
 
@@ -259,11 +283,11 @@ fn dot<N: Number>(a: &[N], b: &[N], product: &mut N) {
     }
 }
 
-/// Masses that make no kinetic energy.
+/// Masses that are not valid.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum MassError {
     /// A mass (or a diagonal entry of M⁻¹) is 0 or negative.
-    #[error("mass {index} is {mass}; masses are positive")]
+    #[error("mass {index} is {mass}; masses must be positive and finite")]
     NotPositive {
         /// Which, from 0.
         index: usize,

@@ -1,85 +1,11 @@
-//! A state q, p, β, the maps that move it, and what a step adds to it.
+//! The system of a potential and a kinetic energy, with its state.
 
-use crate::kinetic::Kinetic;
+use thiserror::Error;
+
+use crate::kinetic::{Kinetic, MassError};
 use crate::number::Number;
 use crate::potential::Potential;
-
-/// What a scheme does to a system: kicks and drifts, with weights h·a_s and h·b_s.
-///
-/// [`Motion`] has these maps; a system with a storage of its own can have them too, and then every scheme moves it.
-pub trait Maps<N> {
-    /// What is known of its kinetic energy: [`Quadratic`](crate::kinetic::Quadratic) or
-    /// [`General`](crate::kinetic::General). Schemes whose order holds for quadratic T only do not move the latter.
-    type Class;
-
-    /// p ← p − weight·U_q(q)
-    fn kick(&mut self, weight: &N);
-
-    /// The kick, and β ← β + weight·(qᵀU_q − 2U).
-    ///
-    /// From β' = qᵀH_q + pᵀH_p − 2H with H = T(p) + U(q); the paper's eq. 2 has a wrong sign.
-    fn kick_augmented(&mut self, weight: &N);
-
-    /// q ← q + weight·T_p(p)
-    fn drift(&mut self, weight: &N);
-
-    /// The drift, and β ← β + weight·(pᵀT_p − 2T), which is nothing for quadratic T.
-    fn drift_augmented(&mut self, weight: &N);
-
-    /// β ← 0: β, and what else a system says of a step, counts from its beginning, so that it keeps its digits in long runs.
-    fn restart_beta(&mut self);
-}
-
-/// What a step added to q, p and β.
-///
-/// A number type that does not [keep increments](Number::KEEPS_INCREMENTS) has that of β only; q and p are empty.
-#[derive(Clone, Debug)]
-pub struct Increments<N> {
-    /// To q: the sum of the drifts, without the round-off of q itself.
-    pub q: Vec<N>,
-    /// To p: the sum of the kicks.
-    pub p: Vec<N>,
-    /// To β.
-    pub beta: N,
-}
-
-impl<N: Number> Increments<N> {
-    /// Zeros for states of `dimension` coordinates, as many as the number type keeps.
-    pub fn zero(dimension: usize, context: &N::Context) -> Self {
-        let kept = if N::KEEPS_INCREMENTS { dimension } else { 0 };
-        let zeros = || vec![N::zero(context); kept];
-        Increments { q: zeros(), p: zeros(), beta: N::zero(context) }
-    }
-
-    /// That of β alone: what is known of states that come from elsewhere.
-    pub fn of_beta(beta: N) -> Self {
-        Increments { q: Vec::new(), p: Vec::new(), beta }
-    }
-
-    /// Whether those of q and p are known.
-    pub fn has_vectors(&self) -> bool {
-        !self.q.is_empty()
-    }
-
-    pub(crate) fn assign_zero(&mut self) {
-        self.each(N::assign_zero);
-    }
-
-    pub(crate) fn negate(&mut self) {
-        self.each(N::negate);
-    }
-
-    pub(crate) fn assign(&mut self, other: &Self) {
-        self.q.clone_from(&other.q);
-        self.p.clone_from(&other.p);
-        self.beta.assign(&other.beta);
-    }
-
-    fn each(&mut self, change: impl Fn(&mut N)) {
-        self.q.iter_mut().chain(&mut self.p).for_each(&change);
-        change(&mut self.beta);
-    }
-}
+use crate::system::{Increments, System};
 
 /// Holds the coordinates of a state: an array `[N; D]`, or a `Vec<N>` or `Box<[N]>` where the dimension is known at run
 /// time only.
@@ -87,7 +13,7 @@ pub trait Coordinates<N>: AsRef<[N]> + AsMut<[N]> + Clone {}
 
 impl<N, V: AsRef<[N]> + AsMut<[N]> + Clone> Coordinates<N> for V {}
 
-/// What is known about the gradient at the present q.
+/// What is kept at the present q.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kept {
     Nothing,
@@ -109,8 +35,8 @@ pub struct Motion<N, V, P, K> {
     /// qᵀU_q − 2U
     rate: N,
     kept: Kept,
-    /// Whether every evaluation is to find the rate, too.
-    wants_rate: bool,
+    /// Whether plain kicks that evaluate the gradient find and keep the rate as well.
+    keeps_rate: bool,
     /// The potential's, with what it keeps there.
     scratch: Vec<N>,
     /// The kinetic energy's, likewise.
@@ -127,38 +53,31 @@ where
 {
     /// The system at q, p.
     ///
-    /// # Panics
-    /// If q, p, the potential and the kinetic energy do not have the same dimension, at least 1, or the numbers of q and p not
-    /// the same context.
-    pub fn new(potential: P, kinetic: K, q: V, p: V) -> Self {
+    /// # Errors
+    /// q, p, the potential and the kinetic energy that do not have the same dimension, at least 1; numbers of q and p of different
+    /// precision.
+    pub fn new(potential: P, kinetic: K, q: V, p: V) -> Result<Self, MotionError> {
+        let context = check(&potential, &kinetic, q.as_ref(), p.as_ref())?;
         let dimension = q.as_ref().len();
-        assert!(dimension > 0, "a motion has at least one coordinate");
-        assert_eq!(dimension, p.as_ref().len(), "q and p must have the same dimension");
-        assert_eq!(dimension, potential.dimension(), "q must have the potential's dimension");
-        let momenta = kinetic.dimension().unwrap_or(dimension);
-        assert_eq!(dimension, momenta, "p must have the kinetic energy's dimension");
-        let context = q.as_ref()[0].context();
-        let alike = q.as_ref().iter().chain(p.as_ref()).all(|x| x.context() == context);
-        assert!(alike, "the numbers of q and p must have the same precision");
         let zero = N::zero(&context);
         let mut scratch = vec![zero.clone(); potential.scratch()];
         potential.prepare(&mut scratch, &context);
         let mut kinetic_scratch = vec![zero.clone(); kinetic.scratch()];
         kinetic.prepare(&mut kinetic_scratch, &context);
-        Motion {
+        Ok(Motion {
             scratch,
             kinetic_scratch,
             gradient: p.clone(),
             rate: zero,
             increments: Increments::zero(dimension, &context),
             kept: Kept::Nothing,
-            wants_rate: false,
+            keeps_rate: false,
             evaluations: 0,
             potential,
             kinetic,
             q,
             p,
-        }
+        })
     }
 
     /// Positions.
@@ -206,7 +125,7 @@ where
         self.potential.prepare(&mut self.scratch, &context);
     }
 
-    /// How often the gradient U_q has been evaluated; that every drift evaluates T_p is not counted.
+    /// The number of evaluations of the gradient U_q; those of T_p in drifts are not counted.
     pub fn evaluations(&self) -> u64 {
         self.evaluations
     }
@@ -219,42 +138,17 @@ where
     /// H = T(p) + U(q) at the present state.
     pub fn energy(&mut self) -> N {
         let Motion { potential, kinetic, q, p, scratch, kinetic_scratch, increments, .. } = self;
-        energy_at(potential, kinetic, (q.as_ref(), p.as_ref()), (scratch, kinetic_scratch), increments.beta.clone())
+        let [mut energy, mut kinetic_energy] = [increments.beta.clone(), increments.beta.clone()];
+        let energies = (&mut energy, &mut kinetic_energy);
+        assign_energies(potential, kinetic, (q.as_ref(), p.as_ref()), (scratch, kinetic_scratch), energies);
+        energy
     }
 
     /// H = T(p) + U(q) at another state of the same system.
-    pub fn energy_of(&mut self, q: &[N], p: &[N]) -> N {
-        let Motion { potential, kinetic, scratch, kinetic_scratch, increments, .. } = self;
-        energy_at(potential, kinetic, (q, p), (scratch, kinetic_scratch), increments.beta.clone())
-    }
-
-    /// H, and T(p) alone, at another state of the same system, in numbers that exist.
-    pub(crate) fn assign_energies_of(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic_energy: &mut N) {
-        let Motion { potential, kinetic, scratch, kinetic_scratch, .. } = self;
-        kinetic.energy(p, kinetic_energy, kinetic_scratch);
-        potential.energy(q, energy, scratch);
-        energy.add(kinetic_energy);
-    }
-
-    /// H and T(p) at the present state. Where the gradient and the rate are kept, U = ½(qᵀU_q − rate) costs no evaluation.
-    pub(crate) fn assign_energies(&mut self, energy: &mut N, kinetic_energy: &mut N) {
-        let Motion { potential, kinetic, q, p, gradient, rate, kept, scratch, kinetic_scratch, .. } = self;
-        kinetic.energy(p.as_ref(), kinetic_energy, kinetic_scratch);
-        if *kept == Kept::GradientAndRate {
-            energy.assign_zero();
-            q.as_ref().iter().zip(gradient.as_ref()).for_each(|(q, u)| energy.add_product(q, u));
-            energy.subtract(rate);
-            energy.divide_integer(2);
-        } else {
-            potential.energy(q.as_ref(), energy, scratch);
-        }
-        energy.add(kinetic_energy);
-    }
-
-    /// Whether plain kicks that evaluate the gradient find and keep the rate as well: the last step before one that carries β
-    /// does so, as that would have to evaluate its first gradient again.
-    pub(crate) fn keep_rate(&mut self, wanted: bool) {
-        self.wants_rate = wanted;
+    pub fn energy_at(&mut self, q: &[N], p: &[N]) -> N {
+        let [mut energy, mut kinetic_energy] = [self.beta().clone(), self.beta().clone()];
+        self.assign_energies_at(q, p, &mut energy, &mut kinetic_energy);
+        energy
     }
 
     #[inline]
@@ -283,33 +177,113 @@ where
     }
 }
 
-fn energy_at<N: Number, P: Potential<N>, K: Kinetic<N>>(
+/// energy ← T(p) + U(q), kinetic_energy ← T(p)
+fn assign_energies<N: Number, P: Potential<N>, K: Kinetic<N>>(
     potential: &P,
     kinetic: &K,
     (q, p): (&[N], &[N]),
     (scratch, kinetic_scratch): (&mut [N], &mut [N]),
-    mut energy: N,
-) -> N {
-    let mut kinetic_energy = energy.clone();
-    kinetic.energy(p, &mut kinetic_energy, kinetic_scratch);
-    potential.energy(q, &mut energy, scratch);
-    energy.add(&kinetic_energy);
-    energy
+    (energy, kinetic_energy): (&mut N, &mut N),
+) {
+    kinetic.energy(p, kinetic_energy, kinetic_scratch);
+    potential.energy(q, energy, scratch);
+    energy.add(kinetic_energy);
 }
 
-impl<N, V, P, K> Maps<N> for Motion<N, V, P, K>
+/// Checks that dimensions and precisions agree; returns the context of the numbers.
+fn check<N: Number, P: Potential<N>, K: Kinetic<N>>(
+    potential: &P,
+    kinetic: &K,
+    q: &[N],
+    p: &[N],
+) -> Result<N::Context, MotionError> {
+    let coordinates = q.len();
+    let differs = |other: usize| other != coordinates;
+    let momenta = kinetic.dimension().unwrap_or(coordinates);
+    match () {
+        () if coordinates == 0 => Err(MotionError::NoCoordinates),
+        () if differs(p.len()) => Err(MotionError::Momenta { coordinates, momenta: p.len() }),
+        () if differs(potential.dimension()) => {
+            Err(MotionError::Potential { coordinates, dimension: potential.dimension() })
+        }
+        () if differs(momenta) => Err(MotionError::Kinetic { coordinates, dimension: momenta }),
+        () => {
+            let context = q[0].context();
+            let alike = q.iter().chain(p).all(|x| x.context() == context);
+            if alike { Ok(context) } else { Err(MotionError::Precision) }
+        }
+    }
+}
+
+/// A state, a potential and a kinetic energy that do not fit together.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum MotionError {
+    /// q is empty.
+    #[error("a motion needs at least one coordinate")]
+    NoCoordinates,
+    /// q and p have different dimensions.
+    #[error("q has {coordinates} coordinates, but p has {momenta}")]
+    Momenta {
+        /// The dimension of q.
+        coordinates: usize,
+        /// The dimension of p.
+        momenta: usize,
+    },
+    /// The potential has another dimension.
+    #[error("q has {coordinates} coordinates, but the potential is a function of {dimension}")]
+    Potential {
+        /// The dimension of q.
+        coordinates: usize,
+        /// The dimension of the potential.
+        dimension: usize,
+    },
+    /// The kinetic energy has another dimension.
+    #[error("p has {coordinates} components, but the kinetic energy is a function of {dimension}")]
+    Kinetic {
+        /// The dimension of q and p.
+        coordinates: usize,
+        /// The dimension of the kinetic energy.
+        dimension: usize,
+    },
+    /// The numbers have different precisions.
+    #[error("the numbers of q and p must have the same precision")]
+    Precision,
+    /// A mass is not valid.
+    #[error(transparent)]
+    Masses(#[from] MassError),
+}
+
+impl<N, V, P, K> System for Motion<N, V, P, K>
 where
     N: Number,
     V: Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N>,
 {
+    type Number = N;
     type Class = K::Class;
+
+    fn q(&self) -> &[N] {
+        self.q.as_ref()
+    }
+
+    fn p(&self) -> &[N] {
+        self.p.as_ref()
+    }
+
+    fn increments(&self) -> &Increments<N> {
+        &self.increments
+    }
+
+    fn set_state(&mut self, q: &[N], p: &[N]) {
+        self.q_mut().iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
+        self.p_mut().iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+    }
 
     #[inline]
     fn kick(&mut self, weight: &N) {
         if self.kept == Kept::Nothing {
-            self.evaluate(self.wants_rate);
+            self.evaluate(self.keeps_rate);
         }
         self.kick_with_kept_gradient(weight);
     }
@@ -343,7 +317,40 @@ where
     }
 
     #[inline]
-    fn restart_beta(&mut self) {
+    fn clear_increments(&mut self) {
         self.increments.assign_zero();
+    }
+
+    /// Where the gradient and the rate are kept, U = ½(qᵀU_q − rate) costs no evaluation.
+    fn assign_energies(&mut self, energy: &mut N, kinetic_energy: &mut N) {
+        let Motion { potential, kinetic, q, p, gradient, rate, kept, scratch, kinetic_scratch, .. } = self;
+        kinetic.energy(p.as_ref(), kinetic_energy, kinetic_scratch);
+        if *kept == Kept::GradientAndRate {
+            energy.assign_zero();
+            q.as_ref().iter().zip(gradient.as_ref()).for_each(|(q, u)| energy.add_product(q, u));
+            energy.subtract(rate);
+            energy.divide_integer(2);
+        } else {
+            potential.energy(q.as_ref(), energy, scratch);
+        }
+        energy.add(kinetic_energy);
+    }
+
+    fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic_energy: &mut N) {
+        let Motion { potential, kinetic, scratch, kinetic_scratch, .. } = self;
+        assign_energies(potential, kinetic, (q, p), (scratch, kinetic_scratch), (energy, kinetic_energy));
+    }
+
+    fn energy(&mut self) -> N {
+        Motion::energy(self)
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// Keeps the rate of the last gradient: an augmented step would have to evaluate that gradient again.
+    fn before_augmented_step(&mut self, follows: bool) {
+        self.keeps_rate = follows;
     }
 }

@@ -54,12 +54,12 @@ use std::ops::DerefMut;
 /// assert_eq!(potential.to_text(), "12.5");
 /// ```
 pub trait Number: Clone + PartialOrd + fmt::Debug + fmt::Display {
-    /// What a new number has to know: `()` for `f64`, the precision for MPFR.
+    /// What a new number needs: `()` for `f64`, the precision for MPFR.
     type Context: Clone + PartialEq + fmt::Debug;
 
-    /// Whether a motion keeps what a step adds to q and p, and estimators take differences of states from that.
+    /// Whether a system keeps the increments of q and p, from which estimators then take the differences of states.
     ///
-    /// It keeps the round-off of the states out of these differences. More digits do that, too; an `f64` has no more.
+    /// This keeps the round-off of the states out of the differences, which `f64` needs; with more digits it is not necessary.
     const KEEPS_INCREMENTS: bool = false;
 
     /// Holds an intermediate result: for a big number, `&mut Self`; for one of a few bytes a copy, which can stay in the
@@ -68,7 +68,7 @@ pub trait Number: Clone + PartialOrd + fmt::Debug + fmt::Display {
     where
         Self: 'a;
 
-    /// This number, or a copy of it, as a place for intermediate results: what it holds afterwards is lost.
+    /// This number, or a copy of it, as a place for an intermediate result: its value is lost.
     fn register(&mut self) -> Self::Register<'_>;
 
     /// A new 0.
@@ -195,7 +195,7 @@ pub trait Number: Clone + PartialOrd + fmt::Debug + fmt::Display {
     fn log10_abs(&self) -> f64;
 
     /// The shortest decimal text that reads back as the same number, as JSON writes numbers:
-    /// `0.1`, `-1.25e-30`.  The words `NaN`, `inf` and `-inf` stand for what is no number there.
+    /// `0.1`, `-1.25e-30`.  Values that are not finite are `NaN`, `inf` and `-inf`.
     /// (Of MPFR's numbers, some powers of two get one digit more than the shortest.)
     fn to_text(&self) -> String;
 }

@@ -48,7 +48,7 @@ pub trait PairPotential<N: Number>: Pair {
 /// let gravity = Pairs::<_, 3>::all(2, Gravity { g: 1.0, m: vec![4.0, 2.0] });
 /// let masses: Vec<_> = [4, 4, 4, 2, 2, 2].map(|m| Rational::from_integer(m.into())).into();
 /// let masses = DiagonalMasses::new(&masses, &()).unwrap();
-/// let mut motion = Motion::new(gravity, masses, vec![0.0, 0.0, 0.0, 1.0, 2.0, 2.0], vec![0.0; 6]);
+/// let mut motion = Motion::new(gravity, masses, vec![0.0, 0.0, 0.0, 1.0, 2.0, 2.0], vec![0.0; 6]).unwrap();
 /// assert_eq!(motion.energy(), -8.0 / 3.0);
 /// ```
 #[derive(Clone, Debug)]

@@ -1,11 +1,15 @@
 //! Potentials U(q).
 
+mod from_fn;
+
+pub use from_fn::{FromFn, from_fn};
+
 use crate::number::Number;
 
 /// A potential U(q) with its gradient, for one kind of numbers or, written once, for all.
 ///
-/// A potential says how many numbers of scratch space it needs and is given so many with every call: big numbers are
-/// made once, not per call.
+/// A potential declares how many numbers of scratch space it needs, and gets them with every call: big numbers are allocated
+/// once, not per call.
 ///
 /// ```
 /// use shadowstep::{Number, Potential};
@@ -28,16 +32,16 @@ use crate::number::Number;
 /// }
 /// ```
 pub trait Potential<N: Number> {
-    /// How many coordinates q has.
+    /// The dimension of q.
     fn dimension(&self) -> usize;
 
-    /// How many numbers of scratch space there must be for every call.
+    /// The number of scratch numbers that every call needs.
     fn scratch(&self) -> usize {
         0
     }
 
-    /// Puts into the scratch space what every call finds there: what depends on no coordinate. Called once, before all
-    /// others, and again when the potential has changed.
+    /// Prepares the scratch space: values that do not depend on q. Called once, before all other calls, and again when the
+    /// potential has changed.
     fn prepare(&self, scratch: &mut [N], context: &N::Context) {
         let _ = (scratch, context);
     }
@@ -51,8 +55,8 @@ pub trait Potential<N: Number> {
     /// gradient ← U_q(q), rate ← qᵀU_q − 2U
     ///
     /// The rate is what a kick adds to β (Moan & Niesen, eq. 2, whose printed sign is wrong). A term of U that is
-    /// homogeneous of degree k adds (k − 2) times itself, so a quadratic one nothing: written so, it costs less than
-    /// the definition, which is what is computed if it is not written at all.
+    /// homogeneous of degree k adds (k − 2) times itself, a quadratic one nothing; this costs less than the definition, which is the
+    /// default implementation.
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
         self.gradient(q, gradient, scratch);
         self.energy(q, rate, scratch);

@@ -45,8 +45,8 @@ use shadowstep_symbolic::{Exact, evaluate, meant, parse};
 use crate::Rational;
 #[cfg(feature = "mpfr")]
 use crate::exact_flow::solution::Solver;
-use crate::kinetic::{Kinetic, MassError, Quadratic};
-use crate::motion::Motion;
+use crate::kinetic::{Kinetic, Quadratic};
+use crate::motion::{Motion, MotionError};
 use crate::number::Number;
 use crate::potential::Potential;
 use definition::Definition;
@@ -193,8 +193,8 @@ impl Setup {
     ///
     /// # Errors
     /// A mass that is not positive.
-    pub fn motion<N: Number + 'static>(&self, context: &N::Context) -> Result<ProblemMotion<N>, MassError> {
+    pub fn motion<N: Number + 'static>(&self, context: &N::Context) -> Result<ProblemMotion<N>, MotionError> {
         let Setup { values, .. } = self;
-        Ok(Motion::new(self.potential(context), values.kinetic(context)?, values.q(context), values.p(context)))
+        Motion::new(self.potential(context), values.kinetic(context)?, values.q(context), values.p(context))
     }
 }

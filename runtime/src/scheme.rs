@@ -1,77 +1,76 @@
-//! What every scheme can do, written out by the compiler or read from a table.
+//! What every scheme can do: compiled from its table by [`crate::splitting_scheme`], or read from it at run time.
 
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::Rational;
 use crate::kinetic::Quadratic;
-use crate::motion::Maps;
 use crate::number::Number;
+use crate::system::System;
 
 /// A splitting scheme. [`crate::splitting_scheme`] implements it for a table at compile time, [`crate::tables`] at run
 /// time; both give the same bits.
+///
+/// A scheme with a step size is a [`Stepper`](crate::Stepper), which makes the steps. Only a stepper has [`StepWeights`], so weights
+/// of another scheme or step size cannot be used by mistake.
 pub trait Scheme {
     /// Holds the distinct weights, kicks first.
-    type Array<N: Number>: AsRef<[N]>;
+    type Array<N: Number>: AsRef<[N]> + Clone + std::fmt::Debug;
 
     /// Name and proved properties.
     fn summary(&self) -> Summary<'_>;
 
-    /// The weights h·a_s and h·b_s of a step of size h, each an exact product rounded once.
-    fn weights<N: Number>(&self, h: &Rational, context: &N::Context) -> Weights<Self::Array<N>>;
+    /// The distinct weights a_s, then b_s, each made a number by `scaled`.
+    fn weights<N: Number>(&self, scaled: impl FnMut(&Rational) -> N) -> Self::Array<N>;
 
     /// One step: t → t + h.
-    fn step<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M)
+    fn step<S: System>(&self, weights: &StepWeights<Self::Array<S::Number>>, system: &mut S)
     where
-        Self: Moves<M::Class>;
+        Self: ValidFor<S::Class>;
 
-    /// One step, with what it adds to β.
-    fn step_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M)
+    /// One step, with its increments of q, p and β.
+    fn step_augmented<S: System>(&self, weights: &StepWeights<Self::Array<S::Number>>, system: &mut S)
     where
-        Self: Moves<M::Class>;
+        Self: ValidFor<S::Class>;
 
     /// The exact inverse of [`Scheme::step`]: t → t − h, up to round-off.
-    fn step_back<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M)
+    fn step_back<S: System>(&self, weights: &StepWeights<Self::Array<S::Number>>, system: &mut S)
     where
-        Self: Moves<M::Class>;
+        Self: ValidFor<S::Class>;
 
-    /// The exact inverse of [`Scheme::step_augmented`]; β gets the negative of what that adds.
-    fn step_back_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Self::Array<N>>, motion: &mut M)
+    /// The exact inverse of [`Scheme::step_augmented`]; its increments are the negatives.
+    fn step_back_augmented<S: System>(&self, weights: &StepWeights<Self::Array<S::Number>>, system: &mut S)
     where
-        Self: Moves<M::Class>;
+        Self: ValidFor<S::Class>;
 }
 
-/// Schemes that have the order they claim for a class of kinetic energies: [`Quadratic`] or
+/// Schemes whose claimed order is proved for a class of kinetic energies: [`Quadratic`] or
 /// [`General`](crate::kinetic::General).
 ///
-/// Every scheme has it for quadratic T. [`crate::splitting_scheme`] says so of every T(p) where it is proved of the
-/// table; of a table read at run time [`crate::tables::TableScheme::for_every_kinetic`] says so. What steps a system of
-/// any class asks for it:
+/// Every scheme is valid for quadratic T. [`crate::splitting_scheme`] implements it for every T(p) where that is proved of the
+/// table; for a table read at run time, [`crate::tables::TableScheme::for_every_kinetic`] checks it. Code that advances a system of
+/// any class requires it:
 ///
 /// ```
-/// use shadowstep::{Maps, Moves, Number, Scheme, Weights};
+/// use shadowstep::{Scheme, Stepper, System, ValidFor};
 ///
-/// fn ten_steps<N: Number, S: Scheme + Moves<M::Class>, M: Maps<N>>(
-///     scheme: &S,
-///     weights: &Weights<S::Array<N>>,
-///     motion: &mut M,
-/// ) {
-///     (0..10).for_each(|_| scheme.step(weights, motion));
+/// fn ten_steps<S: Scheme + ValidFor<M::Class>, M: System>(stepper: &Stepper<S, M::Number>, system: &mut M) {
+///     (0..10).for_each(|_| stepper.step(system));
 /// }
 /// ```
 #[diagnostic::on_unimplemented(
     message = "the order of `{Self}` is known to hold for quadratic T only, but this T(p) is of the class `{Class}`",
-    note = "take a scheme whose table says `kinetic = \"any\"`, such as `yoshida4.toml`",
-    note = "ask a table read at run time by `for_every_kinetic`; in generic code write `S: Scheme + Moves<K::Class>`"
+    note = "use a scheme whose table states `kinetic = \"any\"`, such as `yoshida4.toml`",
+    note = "a table read at run time is checked by `for_every_kinetic`; in generic code write `S: Scheme + ValidFor<M::Class>`"
 )]
-pub trait Moves<Class> {}
+pub trait ValidFor<Class> {}
 
-impl<S: Scheme> Moves<Quadratic> for S {}
+impl<S: Scheme> ValidFor<Quadratic> for S {}
 
 /// No kinetic energy is of this class. From a single implementation the compiler would conclude which class is meant,
-/// and complain of types that differ, with no word of schemes.
+/// and report types that differ instead of a scheme that is not valid.
 enum NoClass {}
 
-impl<S: Scheme> Moves<NoClass> for S {}
+impl<S: Scheme> ValidFor<NoClass> for S {}
 
 /// Name and proved properties of a scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,36 +87,39 @@ pub struct Summary<'a> {
     pub evaluations: usize,
 }
 
-/// Weights times h, and their negatives for the inverse step.
+/// The weights of a scheme times h, and their negatives for the inverse step. Only a [`Stepper`](crate::Stepper) makes them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Weights<A> {
+pub struct StepWeights<A> {
+    forward: A,
+    back: A,
+}
+
+impl<A> StepWeights<A> {
+    /// h·w of each weight w of a scheme, an exact product rounded once.
+    pub(crate) fn of<N: Number, S: Scheme<Array<N> = A>>(scheme: &S, h: &Rational, context: &N::Context) -> Self {
+        StepWeights {
+            forward: scheme.weights(|weight| N::from_rational(&(h * weight), context)),
+            back: scheme.weights(|weight| N::from_rational(&-(h * weight), context)),
+        }
+    }
+
     /// h·w
-    pub forward: A,
+    #[inline]
+    pub fn forward(&self) -> &A {
+        &self.forward
+    }
+
     /// −h·w
-    pub back: A,
-}
-
-impl<N: Number, const K: usize> Weights<[N; K]> {
-    /// From exact weights in decimals or fractions, as the generated code has them.
-    ///
-    /// # Panics
-    /// If a text is not an exact number; generated texts are.
-    pub fn exact(weights: [&str; K], h: &Rational, context: &N::Context) -> Self {
-        let scaled = weights.map(|text| h * from_text(text).expect("generated weights are exact numbers"));
-        Weights {
-            forward: std::array::from_fn(|i| N::from_rational(&scaled[i], context)),
-            back: std::array::from_fn(|i| N::from_rational(&-&scaled[i], context)),
-        }
+    #[inline]
+    pub fn back(&self) -> &A {
+        &self.back
     }
 }
 
-impl<N: Number> Weights<Vec<N>> {
-    /// From exact weights.
-    pub fn of<'a>(weights: impl IntoIterator<Item = &'a Rational>, h: &Rational, context: &N::Context) -> Self {
-        let scaled: Vec<Rational> = weights.into_iter().map(|w| h * w).collect();
-        Weights {
-            forward: scaled.iter().map(|w| N::from_rational(w, context)).collect(),
-            back: scaled.iter().map(|w| N::from_rational(&-w, context)).collect(),
-        }
-    }
+/// The weights of generated code, from decimals or fractions.
+///
+/// # Panics
+/// If a text is not an exact number; generated texts are.
+pub fn exact_weights<const K: usize>(weights: [&str; K]) -> [Rational; K] {
+    weights.map(|text| from_text(text).expect("generated weights are exact numbers"))
 }

@@ -7,7 +7,7 @@
 //! # Double precision
 //!
 //! An estimate divides differences of states by h, and with them the round-off ε|q| of every state: an error of ε|q||p|/h. An
-//! `f64` has no digits to spare for that. So the differences are sums of what the steps added ([`Increments`]), which is known to
+//! `f64` has too few digits for that. So the differences are sums of what the steps added ([`Increments`]), which is known to
 //! ε h|p|, and the error is of size ε. Störmer–Verlet on Kepler, e = 0.6, the largest max − min of the estimates near an apocentre:
 //!
 //! | | differences of | E_4 | E_8 | E_16 | D_10 | D_20 | best m ≤ 20 |
@@ -19,11 +19,10 @@
 //!
 //! The modified energy of the states is another matter: the round-off of the steps moves it, in these 10⁶ steps by 3e-13. Exact
 //! products and sums in place of rounded ones were tried as well; they lessen the scatter by a quarter at most.
-
 //!
 //! # Errors
 //!
-//! The last term of a series, |T_{m,m} − T_{m−1,m−1}| or |E_k − E_{k−1}|, is no estimate of its error: near a close encounter the
+//! The last term of a series, |T_{m,m} − T_{m−1,m−1}| or |E_k − E_{k−1}|, is not an estimate of its error: near a close encounter the
 //! differences alias, and a term may be small by chance. With the values at a few states on either side it is one: the largest of
 //! their spread max − min, of their last terms, and of the last place of the value. The true error divided by this estimate, and for
 //! comparison by the last term alone, on the exact flow of Kepler's problem, where the modified energy is −1/2 (orbits of
@@ -37,72 +36,33 @@
 //! | last term, largest | 1e3 | 2e3 | 8e3 | 3e4 | 5e7 | 5e6 | 4e2 | 6e1 | 8e3 | 2e4 |
 //!
 //! 1.75 is round-off, which may be alike at some states one after the other; in double precision 3.5 was met, and 6.5 for
-//! k = 128 with 40 digits. So an estimate is no bound, but of the right size; where errors change fast it is too large.
+//! k = 128 with 40 digits. So an estimate is not a bound, but of the right size; where errors change fast it is too large.
 //!
-//! None can be relied on with few states a period: with 6 (h = 1, e = 0 to 0.99) errors were up to 4.6 times as large as estimated,
+//! None is reliable with few states a period: with 6 (h = 1, e = 0 to 0.99) errors were up to 4.6 times as large as estimated,
 //! with 3 (h = 2) up to 35 times, and a motion with fewer than 2 looks like a slower one.
 
 mod best_bilinear;
 mod bilinear;
 mod central;
 mod differences;
+mod error_estimate;
+mod estimator;
+mod family;
 mod form;
 mod monitor;
-mod spread;
+mod options;
+#[cfg(feature = "serde")]
+mod record;
+mod settings;
 mod walk;
+pub mod weights;
 mod window;
 
-pub use best_bilinear::{BestBilinear, BestBilinearEstimator};
 pub use bilinear::{Bilinear, BilinearEstimator};
 pub use central::{Central, CentralEstimator};
-pub use differences::{Rule, Stop};
-pub use monitor::{Course, Report, Sample, ShadowEnergy, Sign, Verdict};
+pub use differences::{SelectionRule, StoppingRule};
+pub use estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
+pub use monitor::{Criterion, Report, Sample, ShadowEnergy, Trend, Verdict};
+pub use options::{AccuracyError, EstimatorOptions, HIGHEST_ORDER, OptionConflict, UnknownWord, check_accuracy};
+pub use settings::EstimatorSettings;
 pub(crate) use walk::Walk;
-
-use crate::Rational;
-use crate::motion::Increments;
-use crate::number::Number;
-
-/// A way to estimate the modified energy, from which a run makes the estimator that fits it.
-pub trait Method<N: Number> {
-    /// The estimator.
-    type Estimator: Estimator<N>;
-
-    /// An estimator for steps of size h ≠ 0 and states of `dimension` coordinates.
-    fn estimator(&self, h: &Rational, dimension: usize, context: &N::Context) -> Self::Estimator;
-}
-
-/// Turns the states of a trajectory into modified energies.
-///
-/// States come in the order of time, each with what the step that led to it added to q, p and β. Once `states` of them have
-/// come, every one completes an estimate: of the middle of the newest `states`, which is a state if they are odd in number,
-/// and else half a step after one.
-pub trait Estimator<N: Number> {
-    /// How many states an estimate needs: at least 2.
-    fn states(&self) -> usize;
-
-    /// Takes the next state; gives the estimate that it completes.
-    ///
-    /// All states come with increments of q and p, or none of them does; the latter are subtracted from one another. A state that
-    /// comes without them after one with them begins anew: estimates that need states from before it mean nothing.
-    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>>;
-}
-
-/// The modified energy at a state.
-#[derive(Clone, Copy, Debug)]
-pub struct Estimate<'a, N> {
-    /// The modified energy.
-    pub value: &'a N,
-    /// Size of the last term, |T_{m,m} − T_{m−1,m−1}| or |E_k − E_{k−1}|, where it is known: by this the best m is chosen. It is
-    /// no estimate of the error, which can be larger by many orders of magnitude.
-    pub last_term: Option<&'a N>,
-    /// An estimate of the error, see [Errors](crate::shadow#errors); none where none was asked for, and where none can be relied
-    /// on: for m = 1 and k = 1.
-    pub error: Option<&'a N>,
-    /// The m of D_m, the k of the bilinear estimator.
-    pub order: u32,
-    /// Positions of the state in the middle, or just before it.
-    pub q: &'a [N],
-    /// Momenta of that state.
-    pub p: &'a [N],
-}

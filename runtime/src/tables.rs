@@ -1,6 +1,7 @@
 //! Schemes read from a table at run time: the twin of the attribute, with the same bits.
 
 use std::marker::PhantomData;
+use std::sync::Arc;
 
 pub use shadowstep_schemes::shipped as shipped_source;
 pub use shadowstep_schemes::{Analysis, Fault, Faults, Proved, Source, analysis, polish, shipped_names};
@@ -9,25 +10,36 @@ use thiserror::Error;
 
 use crate::Rational;
 use crate::kinetic::{General, Quadratic};
-use crate::motion::Maps;
 use crate::number::Number;
-use crate::scheme::{Moves, Scheme, Summary, Weights};
+use crate::scheme::{Scheme, StepWeights, Summary, ValidFor};
+use crate::system::System;
 
-/// A proved scheme with the plan of its step.
+/// A proved scheme with the plan of its step. A clone shares them.
 ///
-/// It moves systems with quadratic T; a `TableScheme<General>`, which [`TableScheme::for_every_kinetic`] makes, moves
+/// It is valid for systems with quadratic T; a `TableScheme<General>`, which [`TableScheme::for_every_kinetic`] makes, for
 /// all.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct TableScheme<Class = Quadratic> {
-    proved: Proved,
-    plan: Plan,
+    compiled: Arc<Compiled>,
     class: PhantomData<fn() -> Class>,
 }
 
-/// A scheme that has its order for quadratic T only, asked to move a general one.
+#[derive(Debug)]
+struct Compiled {
+    proved: Proved,
+    plan: Plan,
+}
+
+impl<Class> Clone for TableScheme<Class> {
+    fn clone(&self) -> Self {
+        TableScheme { compiled: Arc::clone(&self.compiled), class: PhantomData }
+    }
+}
+
+/// A scheme whose claimed order holds for quadratic T only, requested for a general T(p).
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
-    "{name} has order {order_quadratic} for quadratic T only, for a general T(p) order {order}; take a scheme such as \
+    "{name} has order {order_quadratic} for quadratic T only, for a general T(p) order {order}; use a scheme such as \
      {better}, which has order {better_order} for every T(p)"
 )]
 pub struct QuadraticOnly {
@@ -89,33 +101,32 @@ pub fn read(
 
 impl TableScheme {
     fn of(proved: Proved) -> TableScheme {
-        TableScheme { plan: proved.plan(), proved, class: PhantomData }
+        TableScheme { compiled: Arc::new(Compiled { plan: proved.plan(), proved }), class: PhantomData }
     }
 
     /// The scheme for systems with any T(p).
     ///
     /// ```
-    /// use shadowstep::{Motion, Scheme, exact, tables::shipped};
+    /// use shadowstep::{Motion, Stepper, tables::shipped};
     /// use shadowstep::formula::{FormulaKinetic, FormulaPotential};
     ///
     /// let relativistic = FormulaKinetic::new("sqrt(1 + p^2)", &["p"], &[]).unwrap();
     /// let spring = FormulaPotential::new("q^2/2", &["q"], &[]).unwrap();
-    /// let mut motion = Motion::new(spring, relativistic, [1.0], [0.0]);
+    /// let mut motion = Motion::new(spring, relativistic, [1.0], [0.0])?;
     ///
-    /// let verlet = shipped("stormer-verlet").unwrap().for_every_kinetic().unwrap();
-    /// let h = verlet.weights(&exact("1/10").unwrap(), &());
-    /// verlet.step(&h, &mut motion);
+    /// let verlet = shipped("stormer-verlet").unwrap().for_every_kinetic()?;
+    /// Stepper::new(verlet, "1/10")?.step(&mut motion);
     /// assert!((motion.energy() - 1.5).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
     /// # Errors
     /// The order that the table claims is proved for quadratic T only.
     pub fn for_every_kinetic(self) -> Result<TableScheme<General>, QuadraticOnly> {
-        let TableScheme { proved, plan, .. } = self;
-        if proved.holds_for_every_kinetic() {
-            return Ok(TableScheme { proved, plan, class: PhantomData });
+        if self.proved().holds_for_every_kinetic() {
+            return Ok(TableScheme { compiled: self.compiled, class: PhantomData });
         }
-        Err(QuadraticOnly::of(&proved))
+        Err(QuadraticOnly::of(self.proved()))
     }
 }
 
@@ -127,7 +138,7 @@ impl QuadraticOnly {
             order: proved.proof.general.order,
             order_quadratic: proved.proof.quadratic.order,
             better_order: better.summary().order,
-            better: better.proved.scheme.table.name.value,
+            better: better.proved().scheme.table.name.value.clone(),
         }
     }
 }
@@ -149,12 +160,12 @@ fn better(order: u32) -> TableScheme {
     best.map(|(_, scheme)| scheme).expect("there are shipped schemes for every T(p)")
 }
 
-impl Moves<General> for TableScheme<General> {}
+impl ValidFor<General> for TableScheme<General> {}
 
 impl<Class> TableScheme<Class> {
-    /// Everything that is known about the scheme.
+    /// The exact scheme with its proof.
     pub fn proved(&self) -> &Proved {
-        &self.proved
+        &self.compiled.proved
     }
 
     /// How good the scheme is: leading errors, stability, phase error.
@@ -166,30 +177,28 @@ impl<Class> TableScheme<Class> {
     /// assert_eq!(verlet.stability.limit, "2"); // a step of the harmonic oscillator is stable up to hω = 2
     /// ```
     pub fn analysis(&self) -> Analysis {
-        Analysis::of(&self.proved)
+        Analysis::of(self.proved())
     }
 
     /// The plan of its step.
     pub fn plan(&self) -> &Plan {
-        &self.plan
+        &self.compiled.plan
     }
 
-    fn run<'a, N: Number, M: Maps<N>>(
+    fn run<'a, M: System>(
         &self,
-        weights: &[N],
+        weights: &[M::Number],
         maps: impl Iterator<Item = &'a (MapKind, usize)>,
         augmented: bool,
-        motion: &mut M,
+        system: &mut M,
     ) {
-        let expected = self.plan.kicks.len() + self.plan.drifts.len();
-        assert_eq!(weights.len(), expected, "these are weights of another scheme");
-        let (kicks, drifts) = weights.split_at(self.plan.kicks.len());
+        let (kicks, drifts) = weights.split_at(self.plan().kicks.len());
         for &(kind, index) in maps {
             match (kind, augmented) {
-                (MapKind::Kick, false) => motion.kick(&kicks[index]),
-                (MapKind::Kick, true) => motion.kick_augmented(&kicks[index]),
-                (MapKind::Drift, false) => motion.drift(&drifts[index]),
-                (MapKind::Drift, true) => motion.drift_augmented(&drifts[index]),
+                (MapKind::Kick, false) => system.kick(&kicks[index]),
+                (MapKind::Kick, true) => system.kick_augmented(&kicks[index]),
+                (MapKind::Drift, false) => system.drift(&drifts[index]),
+                (MapKind::Drift, true) => system.drift_augmented(&drifts[index]),
             }
         }
     }
@@ -199,46 +208,47 @@ impl<Class> Scheme for TableScheme<Class> {
     type Array<N: Number> = Vec<N>;
 
     fn summary(&self) -> Summary<'_> {
+        let Compiled { proved, plan } = &*self.compiled;
         Summary {
-            name: &self.proved.scheme.table.name.value,
-            order: self.proved.proof.general.order,
-            order_quadratic: self.proved.proof.quadratic.order,
-            symmetric: self.proved.proof.symmetric,
-            evaluations: self.plan.evaluations,
+            name: &proved.scheme.table.name.value,
+            order: proved.proof.general.order,
+            order_quadratic: proved.proof.quadratic.order,
+            symmetric: proved.proof.symmetric,
+            evaluations: plan.evaluations,
         }
     }
 
-    fn weights<N: Number>(&self, h: &Rational, context: &N::Context) -> Weights<Vec<N>> {
-        Weights::of(self.plan.kicks.iter().chain(&self.plan.drifts), h, context)
+    fn weights<N: Number>(&self, scaled: impl FnMut(&Rational) -> N) -> Vec<N> {
+        self.plan().kicks.iter().chain(&self.plan().drifts).map(scaled).collect()
     }
 
-    fn step<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M)
+    fn step<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
     where
-        Self: Moves<M::Class>,
+        Self: ValidFor<M::Class>,
     {
-        self.run(&weights.forward, self.plan.maps.iter(), false, motion);
+        self.run(weights.forward(), self.plan().maps.iter(), false, system);
     }
 
-    fn step_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M)
+    fn step_augmented<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
     where
-        Self: Moves<M::Class>,
+        Self: ValidFor<M::Class>,
     {
-        motion.restart_beta();
-        self.run(&weights.forward, self.plan.maps.iter(), true, motion);
+        system.clear_increments();
+        self.run(weights.forward(), self.plan().maps.iter(), true, system);
     }
 
-    fn step_back<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M)
+    fn step_back<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
     where
-        Self: Moves<M::Class>,
+        Self: ValidFor<M::Class>,
     {
-        self.run(&weights.back, self.plan.maps.iter().rev(), false, motion);
+        self.run(weights.back(), self.plan().maps.iter().rev(), false, system);
     }
 
-    fn step_back_augmented<N: Number, M: Maps<N>>(&self, weights: &Weights<Vec<N>>, motion: &mut M)
+    fn step_back_augmented<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
     where
-        Self: Moves<M::Class>,
+        Self: ValidFor<M::Class>,
     {
-        motion.restart_beta();
-        self.run(&weights.back, self.plan.maps.iter().rev(), true, motion);
+        system.clear_increments();
+        self.run(weights.back(), self.plan().maps.iter().rev(), true, system);
     }
 }

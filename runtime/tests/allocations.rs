@@ -15,10 +15,11 @@ use shadowstep::formula::{FormulaKinetic, FormulaPair, FormulaPotential};
 use shadowstep::number::{Number, Precision};
 use shadowstep::pairs::{Ends, Pairs, Separation};
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::shadow::{BestBilinear, Bilinear, Central, Estimator, Method, Rule, ShadowEnergy, Stop};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimator, SelectionRule, ShadowEnergy, StoppingRule};
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
 use shadowstep::{
-    DiagonalMasses, FullMasses, Kinetic, Motion, Moves, Potential, Scheme, UnitMasses, exact, kinetic, potential,
+    DiagonalMasses, FullMasses, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, exact, kinetic,
+    potential,
 };
 
 static RUST: AtomicU64 = AtomicU64::new(0);
@@ -91,7 +92,7 @@ fn of_all_schemes<P: Potential<Float> + Clone, K: Kinetic<Float> + Clone>(
     motion: &Motion<Float, Vec<Float>, P, K>,
     report: impl FnMut(&str, u64, (u64, u64)),
 ) where
-    TableScheme: Moves<K::Class>,
+    TableScheme: ValidFor<K::Class>,
 {
     of_schemes(shipped_names().into_iter().filter_map(shipped), motion, report);
 }
@@ -101,22 +102,23 @@ fn of_schemes<C, P: Potential<Float> + Clone, K: Kinetic<Float> + Clone>(
     motion: &Motion<Float, Vec<Float>, P, K>,
     mut report: impl FnMut(&str, u64, (u64, u64)),
 ) where
-    TableScheme<C>: Moves<K::Class>,
+    TableScheme<C>: ValidFor<K::Class>,
 {
     for scheme in schemes {
-        let h = scheme.weights::<Float>(&exact("1/50").unwrap(), &motion.context());
+        let name = scheme.summary().name.to_owned();
+        let stepper = Stepper::with_context(scheme, "1/50", &motion.context()).unwrap();
         let mut motion = motion.clone();
-        scheme.step_augmented(&h, &mut motion);
+        stepper.step_augmented(&mut motion);
         let evaluations = motion.evaluations();
         let found = allocations(|| {
             for _ in 0..STEPS {
-                scheme.step(&h, &mut motion);
-                scheme.step_augmented(&h, &mut motion);
-                scheme.step_back(&h, &mut motion);
-                scheme.step_back_augmented(&h, &mut motion);
+                stepper.step(&mut motion);
+                stepper.step_augmented(&mut motion);
+                stepper.step_back(&mut motion);
+                stepper.step_back_augmented(&mut motion);
             }
         });
-        report(scheme.summary().name, motion.evaluations() - evaluations, found);
+        report(&name, motion.evaluations() - evaluations, found);
     }
 }
 
@@ -142,39 +144,39 @@ fn steps_and_estimators_do_not_allocate() {
 
     // polynomials only: nothing at all
     let nothing = |name: &str, _: u64, found: (u64, u64)| assert_eq!(found, (0, 0), "{name} on Hénon–Heiles");
-    of_all_schemes(&Motion::new(HenonHeiles, UnitMasses, q.clone(), p.clone()), nothing);
-    of_all_schemes(&Motion::new(HenonHeiles, diagonal, q.clone(), p.clone()), nothing);
-    of_all_schemes(&Motion::new(HenonHeiles, full, q, p), nothing);
+    of_all_schemes(&Motion::new(HenonHeiles, UnitMasses, q.clone(), p.clone()).unwrap(), nothing);
+    of_all_schemes(&Motion::new(HenonHeiles, diagonal, q.clone(), p.clone()).unwrap(), nothing);
+    of_all_schemes(&Motion::new(HenonHeiles, full, q, p).unwrap(), nothing);
 
     // a formula read at run time
     let formula = FormulaPotential::new("(x^2 + y^2)/2 + x^2*y - y^3/3", &["x", "y"], &[]).unwrap();
     let (q_too, p_too) = (numbers(["0.1", "0.2"], &digits), numbers(["0.1", "0"], &digits));
-    of_all_schemes(&Motion::new(formula, UnitMasses, q_too, p_too), nothing);
+    of_all_schemes(&Motion::new(formula, UnitMasses, q_too, p_too).unwrap(), nothing);
 
     // neighbours, compiled and read
     let state = || (numbers(["0.1", "0.2"], &digits), numbers(["0.1", "0"], &digits));
     let (q, p) = state();
-    of_all_schemes(&Motion::new(Pairs::<_, 1>::neighbours(2, Spring, Ends::Fixed), UnitMasses, q, p), nothing);
+    of_all_schemes(&Motion::new(Pairs::<_, 1>::neighbours(2, Spring, Ends::Fixed), UnitMasses, q, p).unwrap(), nothing);
     let spring = FormulaPair::new("d^2/2 + d^4/4", Separation::Difference, &[], &[]).unwrap();
     let (q, p) = state();
-    of_all_schemes(&Motion::new(Pairs::<_, 1>::neighbours(2, spring, Ends::Fixed), UnitMasses, q, p), nothing);
+    of_all_schemes(&Motion::new(Pairs::<_, 1>::neighbours(2, spring, Ends::Fixed), UnitMasses, q, p).unwrap(), nothing);
 
     // kinetic energies from formulas, compiled and read
     let any: Vec<_> = shipped_names().into_iter().filter_map(|name| shipped(name)?.for_every_kinetic().ok()).collect();
     assert!(!any.is_empty(), "schemes for every T(p)");
     let state = || (numbers(["0.1", "0.2"], &digits), numbers(["0.1", "0.3"], &digits));
     let (q, p) = state();
-    of_schemes(any.clone(), &Motion::new(HenonHeiles, Quartic, q, p), nothing);
+    of_schemes(any.clone(), &Motion::new(HenonHeiles, Quartic, q, p).unwrap(), nothing);
     let formula = FormulaKinetic::new("(px^4 + py^4)/4 + px^2*py", &["px", "py"], &[]).unwrap();
     let (q, p) = state();
-    of_schemes(any, &Motion::new(HenonHeiles, formula, q, p), nothing);
+    of_schemes(any, &Motion::new(HenonHeiles, formula, q, p).unwrap(), nothing);
 
     // Kepler: what its reciprocal square roots allocate, and nothing else
     let root = {
         let (mut x, a) = (Float::new(400), Float::with_val(400, 0.7));
         allocations(|| x.assign_reciprocal_sqrt(&a)).1
     };
-    let kepler = Motion::new(Kepler, UnitMasses, numbers(["0.4", "0"], &digits), numbers(["0", "2"], &digits));
+    let kepler = Motion::new(Kepler, UnitMasses, numbers(["0.4", "0"], &digits), numbers(["0", "2"], &digits)).unwrap();
     of_all_schemes(&kepler, |name, evaluations, found| {
         assert_eq!(found, (0, evaluations * root), "{name} on Kepler: Rust, GMP");
     });
@@ -186,21 +188,19 @@ fn steps_and_estimators_do_not_allocate() {
 fn estimators_do_not_allocate(digits: &Precision) {
     does_not_allocate(&Central::fixed(5), digits);
     does_not_allocate(&Central::fixed_with_error(5), digits);
-    does_not_allocate(&Central::best(20, Stop::Full), digits);
-    does_not_allocate(&Central::best_with_error(20, Stop::Early, Rule::Robust), digits);
+    does_not_allocate(&Central::best(20, StoppingRule::Full), digits);
+    does_not_allocate(&Central::best_with_error(20, StoppingRule::Early, SelectionRule::Robust), digits);
     does_not_allocate(&Bilinear::with_error(5), digits);
-    does_not_allocate(&BestBilinear::new(12), digits);
+    does_not_allocate(&Bilinear::best(12), digits);
 }
 
-fn does_not_allocate(method: &impl Method<Float>, digits: &Precision) {
-    let h = exact("1/50").unwrap();
-    let scheme = shipped("stormer-verlet").unwrap();
-    let weights = scheme.weights::<Float>(&h, digits);
-    let mut estimator = method.estimator(&h, 2, digits);
+fn does_not_allocate(settings: &impl BuildEstimator<Float>, digits: &Precision) {
+    let stepper = Stepper::with_context(shipped("stormer-verlet").unwrap(), "1/50", digits).unwrap();
+    let mut estimator = settings.build(stepper.step_size(), 2, digits).unwrap();
     let mut motion =
-        Motion::new(HenonHeiles, UnitMasses, numbers(["0.1", "0.2"], digits), numbers(["0.1", "0"], digits));
+        Motion::new(HenonHeiles, UnitMasses, numbers(["0.1", "0.2"], digits), numbers(["0.1", "0"], digits)).unwrap();
     let mut advance = || {
-        scheme.step_augmented(&weights, &mut motion);
+        stepper.step_augmented(&mut motion);
         estimator.push(motion.q(), motion.p(), motion.increments()).is_some()
     };
     while !advance() {}
@@ -209,14 +209,12 @@ fn does_not_allocate(method: &impl Method<Float>, digits: &Precision) {
 
 /// Neither between windows nor in one, nor where it merges its blocks, after 64 windows.
 fn a_monitor_does_not_allocate(digits: &Precision) {
-    let h = exact("1/50").unwrap();
-    let scheme = shipped("stormer-verlet").unwrap();
-    let weights = scheme.weights::<Float>(&h, digits);
+    let stepper = Stepper::with_context(shipped("stormer-verlet").unwrap(), "1/50", digits).unwrap();
     let mut motion =
-        Motion::new(HenonHeiles, UnitMasses, numbers(["0.1", "0.2"], digits), numbers(["0.1", "0"], digits));
-    let mut monitor = ShadowEnergy::new(&mut motion, &h, &Bilinear::with_error(4)).unwrap().every(20);
+        Motion::new(HenonHeiles, UnitMasses, numbers(["0.1", "0.2"], digits), numbers(["0.1", "0"], digits)).unwrap();
+    let mut monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(4)).unwrap().every(20);
     let mut windows = |steps| {
-        let samples = (0..steps).map(|_| monitor.step(&scheme, &weights, &mut motion).unwrap().is_some());
+        let samples = (0..steps).map(|_| monitor.step(&mut motion).unwrap().is_some());
         samples.filter(|is_some| *is_some).count()
     };
     windows(40);

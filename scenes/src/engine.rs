@@ -3,10 +3,10 @@
 use std::time::Instant;
 
 use shadowstep::run::{RunError, ShadowRun, States, Trajectory};
-use shadowstep::{Kinetic, Motion, Moves, Number, Potential, Scheme};
+use shadowstep::shadow::EstimatorSettings;
+use shadowstep::{Motion, MotionError, Number, Scheme, Stepper, System, ValidFor};
 
 use crate::error::Error;
-use crate::estimator::Chosen;
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::{Checkpoint, ModifiedEnergy, Row, Rows, SavedState};
@@ -53,14 +53,27 @@ pub(crate) fn follow<N: Number + 'static>(
     };
     let from = saved.map(|saved| saved.n);
     let potential = scene.system.potential(context);
-    let scheme = &scene.scheme.scheme;
+    let scheme = scene.scheme.scheme.clone();
     match scene.system.kinetic(context) {
-        ClassifiedKinetic::Quadratic(kinetic) => recorder.record(scheme, Motion::new(potential, kinetic, q, p), from),
+        ClassifiedKinetic::Quadratic(kinetic) => {
+            let motion = Motion::new(potential, kinetic, q, p).map_err(|error| inconsistent(&error))?;
+            recorder.record(&stepper(scheme, scene, context), motion, from)
+        }
         ClassifiedKinetic::General(kinetic) => {
-            let scheme = scheme.clone().for_every_kinetic().expect("the scheme was read for this T");
-            recorder.record(&scheme, Motion::new(potential, kinetic, q, p), from)
+            let motion = Motion::new(potential, kinetic, q, p).map_err(|error| inconsistent(&error))?;
+            let scheme = scheme.for_every_kinetic().expect("the scheme was read for this T");
+            recorder.record(&stepper(scheme, scene, context), motion, from)
         }
     }
+}
+
+fn stepper<S: Scheme, N: Number>(scheme: S, scene: &Scene, context: &N::Context) -> Stepper<S, N> {
+    Stepper::with_context(scheme, &scene.h, context).expect("the step size was read as nonzero")
+}
+
+/// Dimensions that do not agree, such as those of the state in a checkpoint.
+fn inconsistent(error: &MotionError) -> Error {
+    Error::usage(error.to_string(), "--restart begins again")
 }
 
 fn unreadable(n: i64) -> Error {
@@ -79,88 +92,72 @@ struct Recorder<'a, 'r, N: Number> {
     observer: &'a mut dyn Observer,
 }
 
-/// The fault with the scene's names for the coordinates and momenta, which the runtime numbers.
-fn renamed(error: RunError, scene: &Scene) -> RunError {
-    let RunError::NotFinite { step, what } = &error else { return error };
-    let name = what.split_once(" = ").and_then(|(name, value)| {
-        let names = match name.get(..1)? {
-            "q" => &scene.system.coordinates,
-            "p" => &scene.system.momenta,
-            _ => return None,
-        };
-        let number: usize = name.get(1..)?.parse().ok()?;
-        Some(format!("{} = {value}", names.get(number.checked_sub(1)?)?))
-    });
-    RunError::NotFinite { step: *step, what: name.unwrap_or_else(|| what.clone()) }
-}
-
-/// What moves, with a kinetic energy of any class.
-type Moving<N, K> = Motion<N, Vec<N>, Box<dyn Potential<N>>, K>;
-
 impl<N: Number + 'static> Recorder<'_, '_, N> {
     /// Records the run from its beginning, or after the state `from`.
-    fn record<K, S>(mut self, scheme: &S, motion: Moving<N, K>, from: Option<i64>) -> Result<Outcome, Error>
+    fn record<S, M>(mut self, stepper: &Stepper<S, N>, system: M, from: Option<i64>) -> Result<Outcome, Error>
     where
-        K: Kinetic<N>,
-        S: Scheme + Moves<K::Class>,
+        S: Scheme + ValidFor<M::Class>,
+        M: System<Number = N>,
     {
         match &self.scene.output.modified_energy {
-            None => self.plain(scheme, motion, from.unwrap_or(0)),
-            Some((estimator, _)) => self.shadowed(scheme, motion, from, estimator),
+            None => self.plain(stepper, system, from.unwrap_or(0)),
+            Some((settings, _)) => self.shadowed(stepper, system, from, settings),
         }
     }
 
-    /// Without β, thus without states beyond both ends.
-    fn plain<K, S>(&mut self, scheme: &S, motion: Moving<N, K>, from: i64) -> Result<Outcome, Error>
+    /// The error of the run, with the scene's names of coordinates and momenta.
+    fn failed(&self, error: &RunError) -> Error {
+        let system = &self.scene.system;
+        self.run.failed_naming(error, &system.coordinates, &system.momenta)
+    }
+
+    /// Without increments, thus without states beyond both ends.
+    fn plain<S, M>(&mut self, stepper: &Stepper<S, N>, system: M, from: i64) -> Result<Outcome, Error>
     where
-        K: Kinetic<N>,
-        S: Scheme + Moves<K::Class>,
+        S: Scheme + ValidFor<M::Class>,
+        M: System<Number = N>,
     {
-        let run = self.run;
-        let scene = self.scene;
-        let failed = |error| run.failed(&renamed(error, scene));
-        let mut trajectory = Trajectory::plain(scheme, motion, run.h, from, run.steps).map_err(failed)?;
-        while let Some(n) = trajectory.advance().map_err(failed)?.map(|state| state.n) {
-            let motion = trajectory.motion();
-            let energy = self.is_due(self.scene.output.energy, n).then(|| motion.energy());
-            self.row(n, motion.q(), motion.p(), energy.as_ref(), None)?;
-            if self.ends(n, Some((n, motion.q(), motion.p())))? {
+        let steps = self.run.steps;
+        let mut trajectory = Trajectory::plain(stepper, system, from, steps).map_err(|error| self.failed(&error))?;
+        while let Some(n) = trajectory.advance().map_err(|error| self.failed(&error))?.map(|state| state.n) {
+            let system = trajectory.system();
+            let energy = self.is_due(self.scene.output.energy, n).then(|| system.energy());
+            self.row(n, system.q(), system.p(), energy.as_ref(), None)?;
+            if self.ends(n, Some((n, system.q(), system.p())))? {
                 return Ok(Outcome::Stopped { n });
             }
         }
-        let motion = trajectory.motion();
-        let energy = motion.energy();
+        let system = trajectory.system();
+        let energy = system.energy();
         self.ends_in_the_domain(&energy)?;
-        Ok(Outcome::Complete { force_evaluations: motion.evaluations() })
+        Ok(Outcome::Complete { force_evaluations: system.evaluations() })
     }
 
-    /// With β and an estimate at each state; resumed after the state `from`.
-    fn shadowed<K, S>(
+    /// With increments and an estimate at each state; resumed after the state `from`.
+    fn shadowed<S, M>(
         &mut self,
-        scheme: &S,
-        motion: Moving<N, K>,
+        stepper: &Stepper<S, N>,
+        system: M,
         from: Option<i64>,
-        estimator: &Chosen,
+        settings: &EstimatorSettings,
     ) -> Result<Outcome, Error>
     where
-        K: Kinetic<N>,
-        S: Scheme + Moves<K::Class>,
+        S: Scheme + ValidFor<M::Class>,
+        M: System<Number = N>,
     {
-        let run = self.run;
-        let scene = self.scene;
-        let failed = |error| run.failed(&renamed(error, scene));
-        let (mut q, mut p) = (motion.q().to_vec(), motion.p().to_vec());
-        let method = estimator.method(true);
+        let steps = self.run.steps;
+        let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
+        let settings = settings.clone().with_errors(true);
         let mut shadow = match from {
-            None => ShadowRun::new(scheme, motion, run.h, run.steps, &method),
-            Some(from) => ShadowRun::resume(scheme, motion, run.h, from, run.steps, &method),
+            None => ShadowRun::new(stepper, system, steps, &settings),
+            Some(from) => ShadowRun::resume(stepper, system, from, steps, &settings),
         }
-        .map_err(failed)?;
+        .map_err(|error| self.failed(&error))?;
         let mut snapshots = Snapshots::new(shadow.reach());
         if let Some(from) = from {
             snapshots.begin(from, &q, &p);
         }
-        while let Some((n, found)) = shadow.advance().map_err(failed)? {
+        while let Some((n, found)) = shadow.advance().map_err(|error| self.failed(&error))? {
             q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
             p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
             let every = self.scene.output.modified_energy.as_ref().map(|(_, every)| *every);
@@ -169,16 +166,16 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
                 estimate: found.error.map(N::to_text),
                 order: found.order,
             });
-            let energy = self.is_due(self.scene.output.energy, n).then(|| shadow.motion().energy_of(&q, &p));
+            let energy = self.is_due(self.scene.output.energy, n).then(|| shadow.system().energy_at(&q, &p));
             self.row(n, &q, &p, energy.as_ref(), modified)?;
             snapshots.offer(n, &q, &p);
             if self.ends(n, snapshots.for_those_after(n))? {
                 return Ok(Outcome::Stopped { n });
             }
         }
-        let energy = shadow.motion().energy_of(&q, &p);
+        let energy = shadow.system().energy_at(&q, &p);
         self.ends_in_the_domain(&energy)?;
-        Ok(Outcome::Complete { force_evaluations: shadow.motion().evaluations() })
+        Ok(Outcome::Complete { force_evaluations: shadow.system().evaluations() })
     }
 
     /// The gradient may have values where the potential has none, as that of log(x) for x < 0: a run that got there is

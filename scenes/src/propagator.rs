@@ -3,8 +3,10 @@
 use shadowstep::exact_flow::{ExactFlow, ExactFlowError};
 use shadowstep::number::{Number, Rounded};
 use shadowstep::problems::{ProblemMotion, Setup};
-use shadowstep::run::{EnergyDrift, RunError, ShadowRun, States, energy_drift};
-use shadowstep::shadow::{Estimate, Estimator, Method};
+use shadowstep::run::{EnergyDrift, RunError, ShadowRun, States};
+use shadowstep::shadow::{BuildEstimator, Estimate, Estimator};
+use shadowstep::tables::TableScheme;
+use shadowstep::{StepSize, Stepper};
 
 use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme};
@@ -62,21 +64,24 @@ impl Propagator {
         &self,
         setup: &Setup,
         run: Run<'_>,
-        method: &impl Method<N>,
+        settings: &impl BuildEstimator<N>,
         context: &N::Context,
         progress: impl FnMut(i64),
     ) -> Result<EnergyDrift<N>, Error> {
+        let failed = |error: RunError| run.failed(&error);
         match self {
             Propagator::Scheme(named) => {
-                energy_drift(&named.scheme, motion(setup, context), run.h, run.steps, method, progress)
+                let stepper = stepper(named, run, context);
+                let mut shadow =
+                    ShadowRun::new(&stepper, motion(setup, context), run.steps, settings).map_err(failed)?;
+                let mut found = shadow.drift_with_progress(progress).map_err(failed)?;
+                found.evaluations = shadow.system().evaluations();
+                Ok(found)
             }
             Propagator::ExactFlow => {
-                ShadowRun::<ExactFlow<N>, _>::of_exact_flow(setup, run.h, run.steps, method, context)
-                    .map_err(|error| run.not_followed(&error))?
-                    .drift(progress)
+                exact_flow(setup, run, settings, context)?.drift_with_progress(progress).map_err(failed)
             }
         }
-        .map_err(|error| run.failed(&error))
     }
 
     /// Gives each estimate of a run with its n to `take`.
@@ -87,23 +92,38 @@ impl Propagator {
         &self,
         setup: &Setup,
         run: Run<'_>,
-        method: &impl Method<N>,
+        settings: &impl BuildEstimator<N>,
         context: &N::Context,
         take: impl FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let failed = |error: RunError| run.failed(&error);
         match self {
             Propagator::Scheme(named) => {
-                let motion = motion(setup, context);
-                let shadow = ShadowRun::new(&named.scheme, motion, run.h, run.steps, method).map_err(failed)?;
+                let stepper = stepper(named, run, context);
+                let shadow = ShadowRun::new(&stepper, motion(setup, context), run.steps, settings).map_err(failed)?;
                 take_all(shadow, run, take)
             }
-            Propagator::ExactFlow => {
-                let shadow = ShadowRun::<ExactFlow<N>, _>::of_exact_flow(setup, run.h, run.steps, method, context);
-                take_all(shadow.map_err(|error| run.not_followed(&error))?, run, take)
-            }
+            Propagator::ExactFlow => take_all(exact_flow(setup, run, settings, context)?, run, take),
         }
     }
+}
+
+/// The stepper of a run.
+///
+/// # Panics
+/// If the step size is 0, which runs exclude.
+pub fn stepper<N: Number>(named: &NamedScheme, run: Run<'_>, context: &N::Context) -> Stepper<TableScheme, N> {
+    Stepper::with_context(named.scheme.clone(), run.h, context).expect("runs have a nonzero step size")
+}
+
+fn exact_flow<N: Rounded, B: BuildEstimator<N>>(
+    setup: &Setup,
+    run: Run<'_>,
+    settings: &B,
+    context: &N::Context,
+) -> Result<ShadowRun<ExactFlow<N>, B::Estimator>, Error> {
+    let h = StepSize::try_from(run.h).expect("runs have a nonzero step size");
+    ShadowRun::of_exact_flow(setup, &h, run.steps, settings, context).map_err(|error| run.not_followed(&error))
 }
 
 /// The problem at its initial state.

@@ -2,10 +2,10 @@
 
 use shadowstep::Rational;
 use shadowstep::exact_flow::ExactFlowError;
-use shadowstep::run::RunError;
+use shadowstep::run::{NotFinite, Quantity, RunError};
+use shadowstep::shadow::EstimatorSettings;
 
 use crate::error::Error;
-use crate::estimator::Chosen;
 use crate::readable::shortened;
 
 const OTHER_START: &str = "try a smaller step size or another initial state";
@@ -45,7 +45,7 @@ impl Run<'_> {
 
     /// The time of the n-th value of an estimator: n h, or for one whose values belong to the middle between two states
     /// (n + 1/2) h.
-    pub fn time_of_value(&self, n: i64, estimator: &Chosen) -> Rational {
+    pub fn time_of_value(&self, n: i64, estimator: &EstimatorSettings) -> Rational {
         if estimator.is_between() { self.h * Rational::new((2 * n + 1).into(), 2.into()) } else { self.time(n) }
     }
 
@@ -54,17 +54,21 @@ impl Run<'_> {
         format!("{}, step {}", self.propagator, shortened(self.h, 20))
     }
 
-    /// A state is not finite.
+    /// The run stopped; coordinates and momenta are numbered.
     pub fn failed(&self, error: &RunError) -> Error {
-        match error {
-            RunError::NotFinite { step, what } if *step < 0 => {
-                self.ended_beyond(*step, what, "states before t = 0 are made for the modified energies near it")
-            }
-            RunError::NotFinite { step, what } if step.unsigned_abs() > self.steps => {
-                self.ended_beyond(*step, what, "states after the last one are made for the modified energies near it")
-            }
-            RunError::NotFinite { step, what } => self.ended(&format!("the run ends at n = {step} with {what}")),
-            RunError::ZeroStep => self.ended(&error.to_string()),
+        self.failed_naming(error, &[], &[])
+    }
+
+    /// The run stopped; coordinates and momenta have these names.
+    pub fn failed_naming(&self, error: &RunError, coordinates: &[String], momenta: &[String]) -> Error {
+        let RunError::NotFinite { step, value } = error else { return self.ended(&error.to_string()) };
+        let value = named(value, coordinates, momenta);
+        if *step < 0 {
+            self.ended_beyond(*step, &value, "states before t = 0 are made for the modified energies near it")
+        } else if step.unsigned_abs() > self.steps {
+            self.ended_beyond(*step, &value, "states after the last one are made for the modified energies near it")
+        } else {
+            self.ended(&format!("the run stopped at n = {step}: {value}"))
         }
     }
 
@@ -84,8 +88,8 @@ impl Run<'_> {
     }
 
     /// At a state that only the estimator needs: the lower its order, the fewer there are.
-    fn ended_beyond(&self, n: i64, what: &str, why: &str) -> Error {
-        let message = format!("{}: the run ends at n = {n} with {what}; {why}", self.name());
+    fn ended_beyond(&self, n: i64, value: &str, why: &str) -> Error {
+        let message = format!("{}: the run stopped at n = {n}: {value}; {why}", self.name());
         let hint = match self.order {
             Some(OrderSetting { name, value }) => {
                 format!("a lower {name} (here {value}) needs fewer of them; {OTHER_START}")
@@ -94,4 +98,14 @@ impl Run<'_> {
         };
         Error::run(message, hint)
     }
+}
+
+/// The value that is not finite, with the name of its coordinate or momentum if it has one.
+fn named(value: &NotFinite, coordinates: &[String], momenta: &[String]) -> String {
+    let name = match value.quantity {
+        Quantity::Position(index) => coordinates.get(index),
+        Quantity::Momentum(index) => momenta.get(index),
+        _ => None,
+    };
+    name.map_or_else(|| value.to_string(), |name| format!("{name} = {}", value.value))
 }

@@ -17,6 +17,7 @@ use shadowstep::Rational;
 use shadowstep::tables::Source;
 
 use crate::arithmetic::Arithmetic;
+use crate::estimator::order_setting;
 use crate::library::NamedScheme;
 use crate::note::Note;
 use crate::run::{OrderSetting, Run};
@@ -47,10 +48,8 @@ pub struct Scene {
 impl Scene {
     /// The steps of the run, with the order of the estimator as the scene sets it.
     pub fn as_run(&self) -> Run<'_> {
-        let order = self.output.modified_energy.as_ref().map(|modified| {
-            let (name, value) = modified.0.order_setting();
-            OrderSetting { name, value }
-        });
+        let setting = self.output.modified_energy.as_ref().and_then(|(settings, _)| order_setting(settings));
+        let order = setting.map(|(name, value)| OrderSetting { name, value });
         Run { propagator: &self.scheme.name, h: &self.h, steps: self.steps, order }
     }
 }

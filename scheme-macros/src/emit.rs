@@ -25,8 +25,8 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
     let step_augmented = self::step("step_augmented", "forward", &names, &forth, true);
     let step_back = self::step("step_back", "back", &names, &back, false);
     let step_back_augmented = self::step("step_back_augmented", "back", &names, &back, true);
-    let moves = proved.holds_for_every_kinetic().then(|| {
-        quote! { impl ::shadowstep::Moves<::shadowstep::kinetic::General> for #ident {} }
+    let valid_for_general = proved.holds_for_every_kinetic().then(|| {
+        quote! { impl ::shadowstep::ValidFor<::shadowstep::kinetic::General> for #ident {} }
     });
     quote! {
         #(#attrs)*
@@ -44,11 +44,9 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
 
             fn weights<N: ::shadowstep::Number>(
                 &self,
-                h: &::shadowstep::Rational,
-                context: &N::Context,
-            ) -> ::shadowstep::Weights<[N; #count]> {
-                // h·w, rounded once
-                ::shadowstep::Weights::exact([#(#weights),*], h, context)
+                scaled: impl ::core::ops::FnMut(&::shadowstep::Rational) -> N,
+            ) -> [N; #count] {
+                ::shadowstep::scheme::exact_weights([#(#weights),*]).each_ref().map(scaled)
             }
 
             #step
@@ -57,7 +55,7 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
             #step_back_augmented
         }
 
-        #moves
+        #valid_for_general
     }
 }
 
@@ -69,13 +67,13 @@ pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &
     let steps = ["step", "step_augmented", "step_back", "step_back_augmented"].map(|name| {
         let name = format_ident!("{name}");
         quote! {
-            fn #name<N: ::shadowstep::Number, M: ::shadowstep::Maps<N>>(
+            fn #name<M: ::shadowstep::System>(
                 &self,
-                _: &::shadowstep::Weights<[N; 0]>,
+                _: &::shadowstep::StepWeights<[M::Number; 0]>,
                 _: &mut M,
             )
             where
-                Self: ::shadowstep::Moves<M::Class>,
+                Self: ::shadowstep::ValidFor<M::Class>,
             {
             }
         }
@@ -94,15 +92,14 @@ pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &
             }
             fn weights<N: ::shadowstep::Number>(
                 &self,
-                _: &::shadowstep::Rational,
-                _: &N::Context,
-            ) -> ::shadowstep::Weights<[N; 0]> {
+                _: impl ::core::ops::FnMut(&::shadowstep::Rational) -> N,
+            ) -> [N; 0] {
                 ::core::unreachable!()
             }
             #(#steps)*
         }
 
-        impl ::shadowstep::Moves<::shadowstep::kinetic::General> for #ident {}
+        impl ::shadowstep::ValidFor<::shadowstep::kinetic::General> for #ident {}
     }
 }
 
@@ -145,24 +142,24 @@ fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)],
     let maps = maps.iter().map(|&map| {
         let weight = weight_name(map);
         match (map.0, augmented) {
-            (MapKind::Kick, false) => quote! { motion.kick(#weight); },
-            (MapKind::Kick, true) => quote! { motion.kick_augmented(#weight); },
-            (MapKind::Drift, false) => quote! { motion.drift(#weight); },
-            (MapKind::Drift, true) => quote! { motion.drift_augmented(#weight); },
+            (MapKind::Kick, false) => quote! { system.kick(#weight); },
+            (MapKind::Kick, true) => quote! { system.kick_augmented(#weight); },
+            (MapKind::Drift, false) => quote! { system.drift(#weight); },
+            (MapKind::Drift, true) => quote! { system.drift_augmented(#weight); },
         }
     });
-    let begin = augmented.then(|| quote! { motion.restart_beta(); });
+    let begin = augmented.then(|| quote! { system.clear_increments(); });
     quote! {
         #[inline]
-        fn #name<N: ::shadowstep::Number, M: ::shadowstep::Maps<N>>(
+        fn #name<M: ::shadowstep::System>(
             &self,
-            weights: &::shadowstep::Weights<[N; #count]>,
-            motion: &mut M,
+            weights: &::shadowstep::StepWeights<[M::Number; #count]>,
+            system: &mut M,
         )
         where
-            Self: ::shadowstep::Moves<M::Class>,
+            Self: ::shadowstep::ValidFor<M::Class>,
         {
-            let [#(#names),*] = &weights.#direction;
+            let [#(#names),*] = weights.#direction();
             #begin
             #(#maps)*
         }

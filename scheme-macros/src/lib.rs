@@ -79,7 +79,7 @@ fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
 /// }
 ///
 /// let well = Well { depth: 2.0, width: 0.5 };
-/// let mut motion = Motion::new(well, UnitMasses, [0.0, 0.0], [1.0, 0.0]);
+/// let mut motion = Motion::new(well, UnitMasses, [0.0, 0.0], [1.0, 0.0]).unwrap();
 /// assert_eq!(motion.energy(), 0.5 - 2.0);
 /// ```
 ///
@@ -101,7 +101,7 @@ fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
 /// }
 ///
 /// let ring = Pairs::<_, 1>::neighbours(3, Toda, Ends::Periodic);
-/// let mut motion = Motion::new(ring, UnitMasses, [0.0; 3], [1.0, -1.0, 2.0]);
+/// let mut motion = Motion::new(ring, UnitMasses, [0.0; 3], [1.0, -1.0, 2.0]).unwrap();
 /// assert_eq!(motion.energy(), 3.0);
 /// ```
 #[proc_macro]
@@ -113,7 +113,7 @@ pub fn potential(input: TokenStream) -> TokenStream {
 /// A kinetic energy T(p) from its formula: T_p and pᵀT_p − 2T are derived, for every type of numbers.
 ///
 /// ```
-/// use shadowstep::{Motion, exact, kinetic, potential, Scheme, splitting_scheme};
+/// use shadowstep::{Motion, Stepper, kinetic, potential, splitting_scheme};
 ///
 /// kinetic! {
 ///     /// With the speed of light c and mass 1.
@@ -126,10 +126,10 @@ pub fn potential(input: TokenStream) -> TokenStream {
 /// #[splitting_scheme("yoshida4.toml")]
 /// pub struct Yoshida4;
 ///
-/// let h = Yoshida4.weights(&exact("1/20").unwrap(), &());
-/// let mut motion = Motion::new(Spring, Relativistic { c: 2.0 }, [0.0], [1.5]);
+/// let stepper = Stepper::new(Yoshida4, "1/20").unwrap();
+/// let mut motion = Motion::new(Spring, Relativistic { c: 2.0 }, [0.0], [1.5]).unwrap();
 /// assert_eq!(motion.energy(), 5.0);
-/// (0..1000).for_each(|_| Yoshida4.step(&h, &mut motion));
+/// (0..1000).for_each(|_| stepper.step(&mut motion));
 /// assert!((motion.energy() - 5.0).abs() < 1e-5);
 /// ```
 ///

@@ -1,8 +1,8 @@
-//! A run by a table that was not asked whether it moves a T that is not quadratic.
+//! A run by a table that was not checked for a T that is not quadratic.
 
 use shadowstep::run::energy_drift;
 use shadowstep::shadow::Central;
-use shadowstep::{Motion, exact, kinetic, potential, tables};
+use shadowstep::{Motion, Stepper, kinetic, potential, tables};
 
 kinetic! {
     pub struct Relativistic;
@@ -16,9 +16,9 @@ potential! {
 
 fn main() {
     let yoshida = tables::shipped("yoshida4").unwrap();
-    let motion = || Motion::new(Spring, Relativistic, [1.0], [0.0]);
-    let h = exact("1/20").unwrap();
-    let asked = yoshida.clone().for_every_kinetic().unwrap();
-    let _ = energy_drift(&asked, motion(), &h, 100, &Central::fixed(5), |_| {});
-    let _ = energy_drift(&yoshida, motion(), &h, 100, &Central::fixed(5), |_| {});
+    let motion = || Motion::new(Spring, Relativistic, [1.0], [0.0]).unwrap();
+    let checked = Stepper::new(yoshida.clone().for_every_kinetic().unwrap(), "1/20").unwrap();
+    let unchecked = Stepper::new(yoshida, "1/20").unwrap();
+    let _ = energy_drift(&checked, motion(), 100, &Central::fixed(5));
+    let _ = energy_drift(&unchecked, motion(), 100, &Central::fixed(5));
 }

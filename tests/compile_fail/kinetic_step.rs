@@ -1,6 +1,6 @@
 //! A step of a scheme whose order holds for quadratic T only, for a T that is not.
 
-use shadowstep::{Motion, Scheme, exact, kinetic, potential, splitting_scheme};
+use shadowstep::{Motion, Stepper, kinetic, potential, splitting_scheme};
 
 #[splitting_scheme("nystrom.toml")]
 pub struct Nystrom;
@@ -21,9 +21,9 @@ potential! {
 }
 
 fn main() {
-    let h = Nystrom.weights(&exact("1/20").unwrap(), &());
-    let mut quadratic = Motion::new(Spring, Masses, [1.0], [0.0]);
-    Nystrom.step(&h, &mut quadratic);
-    let mut motion = Motion::new(Spring, Relativistic, [1.0], [0.0]);
-    Nystrom.step(&h, &mut motion);
+    let stepper = Stepper::new(Nystrom, "1/20").unwrap();
+    let mut quadratic = Motion::new(Spring, Masses, [1.0], [0.0]).unwrap();
+    stepper.step(&mut quadratic);
+    let mut motion = Motion::new(Spring, Relativistic, [1.0], [0.0]).unwrap();
+    stepper.step(&mut motion);
 }

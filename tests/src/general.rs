@@ -59,7 +59,7 @@ pub enum Problem {
 }
 
 /// A system whose parts are chosen at run time.
-pub type System<N, C = General> = Motion<N, Vec<N>, Box<dyn Potential<N>>, Box<dyn Kinetic<N, Class = C>>>;
+pub type AnyMotion<N, C = General> = Motion<N, Vec<N>, Box<dyn Potential<N>>, Box<dyn Kinetic<N, Class = C>>>;
 
 impl Problem {
     /// All of them.
@@ -97,9 +97,10 @@ impl Problem {
     }
 
     /// The problem at its start.
-    pub fn system<N: Number + 'static>(self, context: &N::Context) -> System<N> {
+    pub fn system<N: Number + 'static>(self, context: &N::Context) -> AnyMotion<N> {
         let [q, p] = self.start();
         Motion::new(self.potential(), self.kinetic(context), numbers(q, context), numbers(p, context))
+            .expect("the dimensions agree")
     }
 
     /// T_p, written once more, in plain formulas.

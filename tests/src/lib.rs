@@ -12,7 +12,8 @@ pub mod systems;
 
 use rug::Float;
 use shadowstep::number::{Number, Precision};
-use shadowstep::{Potential, Rational, exact};
+use shadowstep::tables::{self, TableScheme};
+use shadowstep::{Potential, Rational, StepSize, Stepper, exact};
 
 /// The precision of `digits` decimal digits.
 pub fn precision(digits: u32) -> Precision {
@@ -32,6 +33,17 @@ pub fn number(text: &str, digits: u32) -> Float {
 /// Exact expressions, rounded once to numbers of any kind.
 pub fn numbers<N: Number>(texts: &[&str], context: &N::Context) -> Vec<N> {
     texts.iter().map(|text| N::from_rational(&rational(text), context)).collect()
+}
+
+/// A step size such as `1/20`.
+pub fn step_size(text: &str) -> StepSize {
+    text.try_into().expect("tests use valid step sizes")
+}
+
+/// A shipped scheme, read at run time, with a step size such as `1/20`.
+pub fn stepper<N: Number>(scheme: &str, h: &str, context: &N::Context) -> Stepper<TableScheme, N> {
+    let scheme = tables::shipped(scheme).expect("tests use shipped schemes");
+    Stepper::with_context(scheme, h, context).expect("tests use valid step sizes")
 }
 
 /// log₁₀|a − b|, −∞ if they are equal.
@@ -97,3 +109,7 @@ pub fn same_bits<N: Bits>(a: &[N], b: &[N]) -> bool {
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;
+
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/library.md")]
+struct LibraryPage;

@@ -5,17 +5,17 @@ use std::sync::{Mutex, PoisonError};
 
 use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::tables::{self, TableScheme};
-use shadowstep::{Moves, Rational, Scheme, Summary, splitting_scheme};
+use shadowstep::{Rational, Scheme, Summary, ValidFor, splitting_scheme};
 use shadowstep_schemes::First;
 use shadowstep_schemes::scheme::Held;
 
 use crate::Bits;
 use crate::steps::Steps;
 
-/// Does something with every shipped scheme that moves a class of kinetic energies.
+/// Does something with every shipped scheme that is valid for a class of kinetic energies.
 pub trait Visitor<C = Quadratic> {
     /// Takes the generated scheme of one table. `first` is what the attribute was given.
-    fn visit<S: Scheme + Moves<C>>(&mut self, name: &str, first: Option<First>, scheme: &'static S);
+    fn visit<S: Scheme + ValidFor<C> + Copy + 'static>(&mut self, name: &str, first: Option<First>, scheme: &'static S);
 }
 
 include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
@@ -24,10 +24,10 @@ include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
 pub struct Shipped<N: 'static, C: 'static = Quadratic> {
     /// Name, and whether the roles of kick and drift are exchanged.
     pub name: String,
-    /// What the generated code says of itself.
+    /// What the generated code states of itself.
     pub summary: Summary<'static>,
     /// What the attribute wrote.
-    pub generated: Steps<'static, N, C>,
+    pub generated: Steps<N, C>,
     /// The same table read at run time.
     pub twin: TableScheme<C>,
 }
@@ -55,11 +55,16 @@ struct Collect<'a, N: Bits, C: 'static> {
 }
 
 impl<N: Bits, C: 'static> Visitor<C> for Collect<'_, N, C> {
-    fn visit<S: Scheme + Moves<C>>(&mut self, name: &str, first: Option<First>, scheme: &'static S) {
+    fn visit<S: Scheme + ValidFor<C> + Copy + 'static>(
+        &mut self,
+        name: &str,
+        first: Option<First>,
+        scheme: &'static S,
+    ) {
         self.found.push(Shipped {
             name: format!("{name} (first: {first:?})"),
             summary: scheme.summary(),
-            generated: Steps::of(scheme, self.h, self.context),
+            generated: Steps::of(*scheme, self.h, self.context),
             twin: (self.twin)(name, first),
         });
     }
@@ -72,7 +77,7 @@ pub fn all<N: Bits>(h: &Rational, context: &N::Context) -> Vec<Shipped<N>> {
     collect.found
 }
 
-/// Those whose order holds for every T(p), as schemes that move any.
+/// Those whose order holds for every T(p), as schemes that are valid for any.
 pub fn all_for_every_kinetic<N: Bits>(h: &Rational, context: &N::Context) -> Vec<Shipped<N, General>> {
     let twin = |name: &str, first| twin(name, first).for_every_kinetic().expect("it is listed");
     let mut collect = Collect { found: Vec::new(), h, context, twin };

@@ -1,31 +1,43 @@
-//! The four maps of a scheme with their weights, as values: one check serves every scheme without being compiled for
-//! each.
+//! The four kinds of steps of a stepper, as values: one check serves every scheme without being compiled for each.
 
 use std::rc::Rc;
 
 use shadowstep::kinetic::Quadratic;
-use shadowstep::{Maps, Moves, Number, Rational, Scheme};
+use shadowstep::{Increments, Number, Rational, Scheme, Stepper, System, ValidFor};
 
-/// A map that moves any system with a kinetic energy of one class.
-type Map<'a, N, C> = Box<dyn Fn(&mut dyn Maps<N, Class = C>) + 'a>;
+/// A step of any system of one class.
+type Step<N, C> = Box<dyn Fn(&mut dyn System<Number = N, Class = C>)>;
 
-/// The maps of a scheme at one step size.
-pub struct Steps<'a, N, C = Quadratic> {
-    step: Map<'a, N, C>,
-    augmented: Map<'a, N, C>,
-    back: Map<'a, N, C>,
-    back_augmented: Map<'a, N, C>,
+/// The steps of a scheme at one step size.
+pub struct Steps<N, C = Quadratic> {
+    step: Step<N, C>,
+    augmented: Step<N, C>,
+    back: Step<N, C>,
+    back_augmented: Step<N, C>,
     /// The weights of a step, each times h.
     pub forward: Vec<N>,
     /// The weights of a step back.
     pub backward: Vec<N>,
 }
 
-/// Lets a scheme, which wants to know the type of what it moves, move anything.
-struct Any<'a, N, C>(&'a mut dyn Maps<N, Class = C>);
+/// Any system as one type, since a stepper requires a type of known size.
+struct Any<'a, N, C>(&'a mut dyn System<Number = N, Class = C>);
 
-impl<N, C> Maps<N> for Any<'_, N, C> {
+impl<N: Number, C> System for Any<'_, N, C> {
+    type Number = N;
     type Class = C;
+    fn q(&self) -> &[N] {
+        self.0.q()
+    }
+    fn p(&self) -> &[N] {
+        self.0.p()
+    }
+    fn increments(&self) -> &Increments<N> {
+        self.0.increments()
+    }
+    fn set_state(&mut self, q: &[N], p: &[N]) {
+        self.0.set_state(q, p);
+    }
     fn kick(&mut self, weight: &N) {
         self.0.kick(weight);
     }
@@ -38,43 +50,59 @@ impl<N, C> Maps<N> for Any<'_, N, C> {
     fn drift_augmented(&mut self, weight: &N) {
         self.0.drift_augmented(weight);
     }
-    fn restart_beta(&mut self) {
-        self.0.restart_beta();
+    fn clear_increments(&mut self) {
+        self.0.clear_increments();
+    }
+    fn assign_energies(&mut self, energy: &mut N, kinetic: &mut N) {
+        self.0.assign_energies(energy, kinetic);
+    }
+    fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic: &mut N) {
+        self.0.assign_energies_at(q, p, energy, kinetic);
+    }
+    fn evaluations(&self) -> u64 {
+        self.0.evaluations()
+    }
+    fn before_augmented_step(&mut self, follows: bool) {
+        self.0.before_augmented_step(follows);
+    }
+    fn context(&self) -> N::Context {
+        self.0.context()
     }
 }
 
-impl<'a, N: Number + 'a, C: 'a> Steps<'a, N, C> {
+impl<N: Number + 'static, C: 'static> Steps<N, C> {
     /// The steps of size h.
-    pub fn of<S: Scheme + Moves<C>>(scheme: &'a S, h: &Rational, context: &N::Context) -> Self {
-        let weights = Rc::new(scheme.weights::<N>(h, context));
-        let [a, b, c, d] = std::array::from_fn(|_| Rc::clone(&weights));
+    pub fn of<S: Scheme + ValidFor<C> + 'static>(scheme: S, h: &Rational, context: &N::Context) -> Self {
+        let stepper = Stepper::<S, N>::with_context(scheme, h, context).expect("the step size is not 0");
+        let stepper = Rc::new(stepper);
+        let [a, b, c, d] = std::array::from_fn(|_| Rc::clone(&stepper));
         Steps {
-            forward: weights.forward.as_ref().to_vec(),
-            backward: weights.back.as_ref().to_vec(),
-            step: Box::new(move |motion| scheme.step(&a, &mut Any(motion))),
-            augmented: Box::new(move |motion| scheme.step_augmented(&b, &mut Any(motion))),
-            back: Box::new(move |motion| scheme.step_back(&c, &mut Any(motion))),
-            back_augmented: Box::new(move |motion| scheme.step_back_augmented(&d, &mut Any(motion))),
+            forward: stepper.weights().to_vec(),
+            backward: stepper.weights_back().to_vec(),
+            step: Box::new(move |system| a.step(&mut Any(system))),
+            augmented: Box::new(move |system| b.step_augmented(&mut Any(system))),
+            back: Box::new(move |system| c.step_back(&mut Any(system))),
+            back_augmented: Box::new(move |system| d.step_back_augmented(&mut Any(system))),
         }
     }
 
     /// One step.
-    pub fn step(&self, motion: &mut dyn Maps<N, Class = C>) {
-        (self.step)(motion);
+    pub fn step(&self, system: &mut dyn System<Number = N, Class = C>) {
+        (self.step)(system);
     }
 
     /// One step that carries β.
-    pub fn step_augmented(&self, motion: &mut dyn Maps<N, Class = C>) {
-        (self.augmented)(motion);
+    pub fn step_augmented(&self, system: &mut dyn System<Number = N, Class = C>) {
+        (self.augmented)(system);
     }
 
     /// One step back.
-    pub fn step_back(&self, motion: &mut dyn Maps<N, Class = C>) {
-        (self.back)(motion);
+    pub fn step_back(&self, system: &mut dyn System<Number = N, Class = C>) {
+        (self.back)(system);
     }
 
     /// One step back that carries β.
-    pub fn step_back_augmented(&self, motion: &mut dyn Maps<N, Class = C>) {
-        (self.back_augmented)(motion);
+    pub fn step_back_augmented(&self, system: &mut dyn System<Number = N, Class = C>) {
+        (self.back_augmented)(system);
     }
 }

@@ -114,16 +114,16 @@ impl<N: Number> Kinetic<N> for Masses<N> {
 }
 
 /// A system in which everything is chosen at run time.
-pub type System<N> = Motion<N, Vec<N>, Problem, Masses<N>>;
+pub type AnyMotion<N> = Motion<N, Vec<N>, Problem, Masses<N>>;
 
 /// A problem at its start.
-pub fn system<N: Number + 'static>(problem: Problem, masses: Masses<N>, context: &N::Context) -> System<N> {
+pub fn system<N: Number + 'static>(problem: Problem, masses: Masses<N>, context: &N::Context) -> AnyMotion<N> {
     let [q, p] = problem.start();
-    Motion::new(problem, masses, numbers(q, context), numbers(p, context))
+    Motion::new(problem, masses, numbers(q, context), numbers(p, context)).expect("the dimensions agree")
 }
 
 /// All problems with all masses.
-pub fn systems<N: Number + 'static>(context: &N::Context) -> Vec<System<N>> {
+pub fn systems<N: Number + 'static>(context: &N::Context) -> Vec<AnyMotion<N>> {
     let of = |problem: Problem| {
         let dimension = problem.start()[0].len();
         Masses::all(dimension, context).map(|masses| system(problem, masses, context))

@@ -8,11 +8,11 @@ use num_traits::Zero;
 use rug::Float;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
 use shadowstep::run::{ShadowRun, energy_drift};
-use shadowstep::shadow::{Bilinear, Central, Estimator, Method};
-use shadowstep::tables::shipped;
-use shadowstep::weights::{bilinear, central};
-use shadowstep::{Motion, Number, Potential, Rational, UnitMasses};
-use shadowstep_tests::{log10_distance, number, numbers, precision, rational};
+use shadowstep::shadow::weights::{bilinear, central};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimator};
+use shadowstep::tables::TableScheme;
+use shadowstep::{Motion, Number, Potential, Rational, Stepper, UnitMasses};
+use shadowstep_tests::{log10_distance, number, numbers, precision, rational, stepper};
 
 fn integer(n: impl Into<BigInt>) -> Rational {
     Rational::from_integer(n.into())
@@ -139,25 +139,25 @@ fn written_out(states: &[(Vec<Float>, Vec<Float>, Float)], h: &Rational, digits:
 #[test]
 fn values_are_the_formula_written_out() {
     const DIGITS: u32 = 60;
-    let (h, context) = (rational("1/20"), precision(DIGITS));
+    let context = precision(DIGITS);
     for name in ["stormer-verlet", "symplectic-euler", "ruth3"] {
-        let scheme = shipped(name).unwrap();
+        let stepper = stepper::<Float>(name, "1/20", &context);
         for k in [1, 2, 3, 7, 12] {
             let start = [numbers(&["0", "0.1"], &context), numbers(&["0.3", "0"], &context)];
-            let mut motion = Motion::new(HenonHeiles, UnitMasses, start[0].clone(), start[1].clone());
-            let mut estimator = Method::<Float>::estimator(&Bilinear::new(k), &h, 2, &context);
-            let weights = shadowstep::Scheme::weights::<Float>(&scheme, &h, &context);
+            let mut motion = Motion::new(HenonHeiles, UnitMasses, start[0].clone(), start[1].clone()).unwrap();
+            let settings = Bilinear::new(k);
+            let mut estimator = BuildEstimator::<Float>::build(&settings, stepper.step_size(), 2, &context).unwrap();
             let (mut states, mut beta) = (Vec::new(), Float::new(context.in_bits()));
             for n in 0..=40 {
                 if n > 0 {
-                    shadowstep::Scheme::step_augmented(&scheme, &weights, &mut motion);
+                    stepper.step_augmented(&mut motion);
                     beta += motion.beta();
                 }
                 states.push((motion.q().to_vec(), motion.p().to_vec(), beta.clone()));
                 let found = estimator.push(motion.q(), motion.p(), motion.increments()).map(|e| e.value.clone());
                 assert_eq!(found.is_some(), n >= k as usize, "{name}, k = {k}, n = {n}");
                 if let Some(found) = found {
-                    let expected = written_out(&states[n - k as usize..], &h, DIGITS);
+                    let expected = written_out(&states[n - k as usize..], stepper.h(), DIGITS);
                     // the sums of β lose a digit or two
                     let off = log10_distance(&found, &expected);
                     assert!(off < -55.0, "{name}, k = {k}, n = {n}: off by 10^{off}");
@@ -171,7 +171,6 @@ fn values_are_the_formula_written_out() {
 #[test]
 fn harmonic_oscillator_has_its_closed_form() {
     const DIGITS: u32 = 120;
-    let verlet = shipped("stormer-verlet").unwrap();
     for (omega, step, k) in [("1", "1/20", 39), ("3/2", "1/30", 40), ("1", "1/2", 100)] {
         let (omega, h, context) = (rational(omega), rational(step), precision(DIGITS));
         let potential = HarmonicOscillator { omega: Float::from_rational(&omega, &context) };
@@ -182,8 +181,9 @@ fn harmonic_oscillator_has_its_closed_form() {
             p.clone().square() + rest.clone() * q.clone().square() * Float::from_rational(&omega, &context).square();
         let expected = kinetic * (x.clone().asin() / (x * rest.sqrt())) / 2;
 
-        let motion = Motion::new(potential, UnitMasses, vec![q], vec![p]);
-        let mut run = ShadowRun::new(&verlet, motion, &h, 50, &Bilinear::new(k)).unwrap();
+        let motion = Motion::new(potential, UnitMasses, vec![q], vec![p]).unwrap();
+        let verlet = stepper("stormer-verlet", step, &context);
+        let mut run = ShadowRun::new(&verlet, motion, 50, &Bilinear::new(k)).unwrap();
         let mut count = 0;
         while let Some((n, estimate)) = run.advance().unwrap() {
             // the remainder is of the size (hω/2)^{2k}, below 1e-120; round-off leaves 118 digits
@@ -198,13 +198,11 @@ fn harmonic_oscillator_has_its_closed_form() {
 }
 
 fn first_value<P: Potential<Float>>(
-    scheme: &str,
+    stepper: &Stepper<TableScheme, Float>,
     motion: Motion<Float, Vec<Float>, P, UnitMasses>,
-    h: &Rational,
     k: u32,
 ) -> Float {
-    let scheme = shipped(scheme).unwrap();
-    let mut run = ShadowRun::new(&scheme, motion, h, 1, &Bilinear::new(k)).unwrap();
+    let mut run = ShadowRun::new(stepper, motion, 1, &Bilinear::new(k)).unwrap();
     let (_, estimate) = run.advance().unwrap().unwrap();
     estimate.value.clone()
 }
@@ -214,13 +212,14 @@ fn first_value<P: Potential<Float>>(
 fn the_order_is_2k() {
     const DIGITS: u32 = 100;
     let context = precision(DIGITS);
-    let pendulum = || Motion::new(Pendulum, UnitMasses, numbers(&["0.4"], &context), numbers(&["1"], &context));
+    let pendulum =
+        || Motion::new(Pendulum, UnitMasses, numbers(&["0.4"], &context), numbers(&["1"], &context)).unwrap();
     for scheme in ["stormer-verlet", "symplectic-euler", "ruth3", "blanes-moan-srkn6b"] {
         for k in [1, 2, 3, 4, 7] {
             let off = |h: &str| {
-                let h = rational(h);
+                let stepper = stepper(scheme, h, &context);
                 // with k = 40 the error is far below all that is measured
-                let [found, right] = [k, 40].map(|k| first_value(scheme, pendulum(), &h, k));
+                let [found, right] = [k, 40].map(|k| first_value(&stepper, pendulum(), k));
                 log10_distance(&found, &right) / std::f64::consts::LOG10_2
             };
             let order = off("1/64") - off("1/128");
@@ -234,11 +233,11 @@ fn the_order_is_2k() {
 /// Nine states beat what hundreds of central differences find near a close encounter.
 #[test]
 fn the_modified_energy_of_kepler_is_conserved() {
-    let (context, h) = (precision(60), rational("1/20"));
-    let motion =
-        || Motion::new(Kepler, UnitMasses, numbers::<Float>(&["0.4", "0"], &context), numbers(&["0", "2"], &context));
-    let verlet = shipped("stormer-verlet").unwrap();
-    let drift = |k| energy_drift(&verlet, motion(), &h, 400, &Bilinear::new(k), |_| ()).unwrap().drift.to_f64();
+    let context = precision(60);
+    let [q, p] = [["0.4", "0"], ["0", "2"]].map(|texts| numbers::<Float>(&texts, &context));
+    let motion = Motion::new(Kepler, UnitMasses, q, p).unwrap();
+    let verlet = stepper("stormer-verlet", "1/20", &context);
+    let drift = |k| energy_drift(&verlet, motion.clone(), 400, &Bilinear::new(k)).unwrap().drift.to_f64();
     let [four, eight, sixteen] = [4, 8, 16].map(drift);
     println!("{four:e} {eight:e} {sixteen:e}");
     assert!(sixteen < eight / 10.0 && eight < four / 10.0 && eight < 1e-8, "{four:e} {eight:e} {sixteen:e}");
@@ -248,10 +247,10 @@ fn the_modified_energy_of_kepler_is_conserved() {
 #[test]
 fn the_error_is_its_rule_written_out() {
     for (k, around) in [(2, 3), (3, 3), (6, 4), (9, 4)] {
-        let run = |method: Bilinear| {
-            let motion = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]);
-            let verlet = shipped("stormer-verlet").unwrap();
-            let mut run = ShadowRun::new(&verlet, motion, &rational("1/20"), 60, &method).unwrap();
+        let run = |settings: Bilinear| {
+            let motion = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]).unwrap();
+            let verlet = stepper("stormer-verlet", "1/20", &());
+            let mut run = ShadowRun::new(&verlet, motion, 60, &settings).unwrap();
             let mut all = BTreeMap::new();
             while let Some((n, found)) = run.advance().unwrap() {
                 all.insert(n, (*found.value, found.last_term.copied(), found.error.copied()));
@@ -284,12 +283,11 @@ fn the_error_is_its_rule_written_out() {
 
 /// The error of E_1 on a circle is the same at all states, and it has no term before its last.
 #[test]
-fn the_first_orders_tell_no_error() {
-    let motion = || Motion::new(Kepler, UnitMasses, vec![1.0, 0.0], vec![0.0, 1.0]);
-    let verlet = shipped("stormer-verlet").unwrap();
-    let h = rational("1/20");
-    let mut run = ShadowRun::new(&verlet, motion(), &h, 10, &Bilinear::with_error(1)).unwrap();
+fn the_first_orders_have_no_error() {
+    let motion = || Motion::new(Kepler, UnitMasses, vec![1.0, 0.0], vec![0.0, 1.0]).unwrap();
+    let verlet = stepper("stormer-verlet", "1/20", &());
+    let mut run = ShadowRun::new(&verlet, motion(), 10, &Bilinear::with_error(1)).unwrap();
     assert!(run.advance().unwrap().unwrap().1.error.is_none());
-    let mut run = ShadowRun::new(&verlet, motion(), &h, 10, &Central::fixed_with_error(1)).unwrap();
+    let mut run = ShadowRun::new(&verlet, motion(), 10, &Central::fixed_with_error(1)).unwrap();
     assert!(run.advance().unwrap().unwrap().1.error.is_none());
 }

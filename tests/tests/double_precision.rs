@@ -4,26 +4,21 @@ use std::iter::repeat_n;
 
 use shadowstep::problems::Kepler;
 use shadowstep::run::{ShadowRun, States, Trajectory};
-use shadowstep::shadow::{Bilinear, Central, Estimator, Method, Stop};
-use shadowstep::tables::{TableScheme, shipped};
-use shadowstep::{Increments, Motion, Number, Scheme, UnitMasses};
-use shadowstep_tests::{precision, rational};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimator, StoppingRule};
+use shadowstep::{Increments, Motion, Number, UnitMasses};
+use shadowstep_tests::{precision, stepper};
 
 type Double = Motion<f64, Vec<f64>, Kepler, UnitMasses>;
 
 /// Eccentricity 0.6, from the pericentre; the period is 2π.
 fn kepler() -> Double {
-    Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0])
-}
-
-fn verlet() -> TableScheme {
-    shipped("stormer-verlet").unwrap()
+    Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]).unwrap()
 }
 
 /// The distance from the centre and the modified energy of every state n = 0..=steps.
-fn estimates(h: &str, steps: u64, method: &impl Method<f64>) -> Vec<(f64, f64)> {
-    let scheme = verlet();
-    let mut run = ShadowRun::new(&scheme, kepler(), &rational(h), steps, method).unwrap();
+fn estimates(h: &str, steps: u64, settings: &impl BuildEstimator<f64>) -> Vec<(f64, f64)> {
+    let verlet = stepper("stormer-verlet", h, &());
+    let mut run = ShadowRun::new(&verlet, kepler(), steps, settings).unwrap();
     let mut all = Vec::new();
     while let Some((_, estimate)) = run.advance().unwrap() {
         all.push((estimate.q[0].hypot(estimate.q[1]), *estimate.value));
@@ -64,22 +59,22 @@ fn scatter_at_apocentre_is_below_2e_15_after_a_million_steps() {
 
 #[test]
 fn scatter_at_apocentre_is_below_2e_15_with_every_estimator() {
-    fn check(method: &(impl Method<f64> + std::fmt::Debug)) {
-        let scatter = largest(scatters(&estimates("1/20", 20_000, method), 10, 100));
-        println!("{method:?}: {scatter:e}");
-        assert!(scatter > 1e-16 && scatter < 2e-15, "{method:?}: {scatter:e}");
+    fn check(settings: &(impl BuildEstimator<f64> + std::fmt::Debug)) {
+        let scatter = largest(scatters(&estimates("1/20", 20_000, settings), 10, 100));
+        println!("{settings:?}: {scatter:e}");
+        assert!(scatter > 1e-16 && scatter < 2e-15, "{settings:?}: {scatter:e}");
     }
     [4, 6, 10, 12, 16].into_iter().for_each(|k| check(&Bilinear::new(k)));
     // D_5 itself is off by as much as that, in exact arithmetic
     [10, 20].into_iter().for_each(|m| check(&Central::fixed(m)));
-    check(&Central::best(20, Stop::Full));
+    check(&Central::best(20, StoppingRule::Full));
 }
 
 /// The estimates of the states of a run, with what each step added or with β's increments only.
-fn estimates_of_states(h: &str, steps: u64, method: &impl Method<f64>, vectors: bool) -> Vec<(f64, f64)> {
-    let (scheme, h) = (verlet(), rational(h));
-    let mut estimator = method.estimator(&h, 2, &());
-    let mut trajectory = Trajectory::new(&scheme, kepler(), &h, steps, estimator.states() / 2).unwrap();
+fn estimates_of_states(h: &str, steps: u64, settings: &impl BuildEstimator<f64>, vectors: bool) -> Vec<(f64, f64)> {
+    let verlet = stepper("stormer-verlet", h, &());
+    let mut estimator = settings.build(verlet.step_size(), 2, &()).unwrap();
+    let mut trajectory = Trajectory::new(&verlet, kepler(), steps, estimator.states() / 2).unwrap();
     let mut all = Vec::new();
     while let Some(state) = trajectory.advance().unwrap() {
         let of_beta = Increments::of_beta(state.increments.beta);
@@ -93,33 +88,32 @@ fn estimates_of_states(h: &str, steps: u64, method: &impl Method<f64>, vectors: 
 /// The round-off of states is divided by h in an estimate; that of increments is not.
 #[test]
 fn increments_keep_the_round_off_of_states_out_of_small_steps() {
-    fn check(method: &(impl Method<f64> + std::fmt::Debug)) {
+    fn check(settings: &(impl BuildEstimator<f64> + std::fmt::Debug)) {
         // an eighth of the period on both sides of two apocentres
         let scatter = |vectors| {
-            let all = estimates_of_states("1/1000", 12_000, method, vectors);
+            let all = estimates_of_states("1/1000", 12_000, settings, vectors);
             largest(scatters(&all, 785, 2))
         };
         let [states, increments] = [false, true].map(scatter);
-        println!("{method:?}: {states:e} from states, {increments:e} from increments");
-        assert!(increments < 4e-15 && 20.0 * increments < states, "{method:?}: {states:e}, {increments:e}");
+        println!("{settings:?}: {states:e} from states, {increments:e} from increments");
+        assert!(increments < 4e-15 && 20.0 * increments < states, "{settings:?}: {states:e}, {increments:e}");
     }
     check(&Bilinear::new(8));
     check(&Central::fixed(10));
-    check(&Central::best(10, Stop::Full));
+    check(&Central::best(10, StoppingRule::Full));
 }
 
 #[test]
 fn increments_are_what_steps_add() {
     for name in ["stormer-verlet", "ruth3", "yoshida4"] {
-        let scheme = shipped(name).unwrap();
+        let stepper = stepper(name, "1/20", &());
         let mut motion = kepler();
-        let weights = scheme.weights::<f64>(&rational("1/20"), &());
         for forth in repeat_n(true, 100).chain(repeat_n(false, 100)) {
             let before: Vec<f64> = motion.q().iter().chain(motion.p()).copied().collect();
             if forth {
-                scheme.step_augmented(&weights, &mut motion);
+                stepper.step_augmented(&mut motion);
             } else {
-                scheme.step_back_augmented(&weights, &mut motion);
+                stepper.step_back_augmented(&mut motion);
             }
             let Increments { q, p, beta } = motion.increments();
             assert_eq!((q.len(), p.len(), beta), (2, 2, motion.beta()));
@@ -137,9 +131,8 @@ fn increments_are_what_steps_add() {
 fn numbers_of_many_digits_keep_no_vectors() {
     let context = precision(40);
     let numbers = |texts: &[&str]| shadowstep_tests::numbers::<rug::Float>(texts, &context);
-    let mut motion = Motion::new(Kepler, UnitMasses, numbers(&["0.4", "0"]), numbers(&["0", "2"]));
-    let scheme = verlet();
-    scheme.step_augmented(&scheme.weights(&rational("1/20"), &context), &mut motion);
+    let mut motion = Motion::new(Kepler, UnitMasses, numbers(&["0.4", "0"]), numbers(&["0", "2"])).unwrap();
+    stepper("stormer-verlet", "1/20", &context).step_augmented(&mut motion);
     let Increments { q, p, beta } = motion.increments();
     assert!(q.is_empty() && p.is_empty() && beta.log10_abs() > -2.0);
 }

@@ -13,11 +13,11 @@ use shadowstep::run::{EnergyDrift, ShadowRun, energy_drift};
 use shadowstep::shadow::Central;
 use shadowstep::tables::{QuadraticOnly, Source, TableScheme, read, shipped};
 use shadowstep::{
-    DiagonalMasses, Kinetic, Maps, Motion, Moves, Number, Potential, Rational, Scheme, UnitMasses, kinetic, potential,
-    splitting_scheme,
+    DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, Scheme, Stepper, System, UnitMasses, ValidFor,
+    kinetic, potential, splitting_scheme,
 };
 use shadowstep_schemes::First;
-use shadowstep_tests::general::{Problem, Spring, System};
+use shadowstep_tests::general::{AnyMotion, Problem, Spring};
 use shadowstep_tests::reference::Separable;
 use shadowstep_tests::shipped::{all, all_for_every_kinetic, twin};
 use shadowstep_tests::steps::Steps;
@@ -26,7 +26,7 @@ use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, number, num
 const DIGITS: u32 = 80;
 
 /// log₂ of the error of one step of size 2^−k from the start of a problem. The solution is off by about h^25, far less.
-fn error(problem: Problem, k: u32, step: impl FnOnce(&mut System<Float>)) -> f64 {
+fn error(problem: Problem, k: u32, step: impl FnOnce(&mut AnyMotion<Float>)) -> f64 {
     let context = precision(DIGITS);
     let mut system = problem.system::<Float>(&context);
     let start = [system.q(), system.p()].concat();
@@ -50,12 +50,17 @@ fn halved(k: u32) -> Rational {
 }
 
 /// McLachlan and Atela's scheme: order 4 for quadratic T, 3 for every T(p).
+#[derive(Clone, Copy)]
 #[splitting_scheme("compile_fail/nystrom.toml")]
 struct Nystrom;
 
 fn nystrom() -> TableScheme {
     let (path, text) = ("compile_fail/nystrom.toml".into(), include_str!("../compile_fail/nystrom.toml").into());
     read(&Source { path, text }, &|_, _| None, None).unwrap()
+}
+
+fn for_every_kinetic(name: &str) -> TableScheme<General> {
+    shipped(name).unwrap().for_every_kinetic().unwrap()
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -80,7 +85,7 @@ fn the_order_measured_is_the_order_proved_for_every_kinetic_energy() {
     }
 }
 
-/// Takes the kinetic energy for a quadratic one, so that every scheme moves it.
+/// Takes the kinetic energy for a quadratic one, so that every scheme is valid for it.
 struct Pretended<K>(K);
 
 impl<N: Number, K: Kinetic<N>> Kinetic<N> for Pretended<K> {
@@ -119,7 +124,7 @@ fn schemes_for_quadratic_kinetic_energies_lose_their_order() {
             error(problem, k, |system| {
                 let (q, p) = (system.q().to_vec(), system.p().to_vec());
                 let kinetic = Pretended(problem.kinetic::<Float>(&context));
-                let mut pretended = Motion::new(problem.potential::<Float>(), kinetic, q, p);
+                let mut pretended = Motion::new(problem.potential::<Float>(), kinetic, q, p).unwrap();
                 schemes[(k - 9) as usize][i].generated.step(&mut pretended);
                 system.q_mut().clone_from_slice(pretended.q());
                 system.p_mut().clone_from_slice(pretended.p());
@@ -137,11 +142,11 @@ fn a_table_with_an_order_for_quadratic_energies_only_is_refused() {
     let refused = nystrom().for_every_kinetic().unwrap_err();
     let QuadraticOnly { better, better_order, .. } = &refused;
     let sentence = format!(
-        "nystrom has order 4 for quadratic T only, for a general T(p) order 3; take a scheme such as {better}, which \
+        "nystrom has order 4 for quadratic T only, for a general T(p) order 3; use a scheme such as {better}, which \
          has order {better_order} for every T(p)"
     );
     assert_eq!(refused.to_string(), sentence);
-    let better = shipped(better).unwrap().for_every_kinetic().unwrap();
+    let better = for_every_kinetic(better);
     assert_eq!((better.summary().order, *better_order), (4, 4));
 }
 
@@ -181,13 +186,13 @@ impl<N: Number, K: Kinetic<N>> Kinetic<N> for WrongSign<K> {
 /// Over the time 20 with steps of 1/n; differences with so many terms.
 fn drift_of<K: Kinetic<Float>>(problem: Problem, kinetic: K, name: &str, n: u64, m: u32) -> EnergyDrift<Float>
 where
-    TableScheme<General>: Moves<K::Class>,
+    TableScheme<General>: ValidFor<K::Class>,
 {
     let context = precision(40);
     let [q, p] = problem.start().map(|texts| numbers(texts, &context));
-    let motion = Motion::new(problem.potential::<Float>(), kinetic, q, p);
-    let scheme = shipped(name).unwrap().for_every_kinetic().unwrap();
-    energy_drift(&scheme, motion, &rational(&format!("1/{n}")), 20 * n, &Central::fixed(m), |_| {}).unwrap()
+    let motion = Motion::new(problem.potential::<Float>(), kinetic, q, p).unwrap();
+    let stepper = Stepper::with_context(for_every_kinetic(name), &*format!("1/{n}"), &context).unwrap();
+    energy_drift(&stepper, motion, 20 * n, &Central::fixed(m)).unwrap()
 }
 
 fn drift(problem: Problem, name: &str, n: u64, m: u32) -> f64 {
@@ -197,11 +202,10 @@ fn drift(problem: Problem, name: &str, n: u64, m: u32) -> f64 {
 /// max − min of H itself over the same run.
 fn energy_variation(problem: Problem, name: &str, n: u64) -> f64 {
     let mut system = problem.system::<f64>(&());
-    let scheme = shipped(name).unwrap().for_every_kinetic().unwrap();
-    let weights = scheme.weights::<f64>(&rational(&format!("1/{n}")), &());
+    let stepper = Stepper::new(for_every_kinetic(name), &*format!("1/{n}")).unwrap();
     let energies: Vec<f64> = (0..20 * n)
         .map(|_| {
-            scheme.step(&weights, &mut system);
+            stepper.step(&mut system);
             system.energy()
         })
         .collect();
@@ -263,15 +267,16 @@ kinetic! {
 }
 
 /// The modified energies of 50 steps.
-fn modified_energies<P: Potential<Float>, K: Kinetic<Float>, S: Scheme + Moves<K::Class>>(
-    scheme: &S,
+fn modified_energies<P: Potential<Float>, K: Kinetic<Float>, S: Scheme + ValidFor<K::Class>>(
+    scheme: S,
     potential: P,
     kinetic: K,
     [q, p]: [&str; 2],
 ) -> Vec<Float> {
     let [q, p] = [q, p].map(|text| vec![number(text, 60)]);
-    let motion = Motion::new(potential, kinetic, q, p);
-    let mut run = ShadowRun::new(scheme, motion, &rational("1/20"), 50, &Central::fixed(8)).unwrap();
+    let motion = Motion::new(potential, kinetic, q, p).unwrap();
+    let stepper = Stepper::with_context(scheme, "1/20", &motion.context()).unwrap();
+    let mut run = ShadowRun::new(&stepper, motion, 50, &Central::fixed(8)).unwrap();
     let mut all = Vec::new();
     while let Some((_, estimate)) = run.advance().unwrap() {
         all.push(estimate.value.clone());
@@ -283,9 +288,9 @@ fn modified_energies<P: Potential<Float>, K: Kinetic<Float>, S: Scheme + Moves<K
 #[test]
 fn the_pendulum_with_exchanged_roles_has_the_same_modified_energy() {
     for name in ["stormer-verlet", "symplectic-euler", "yoshida4"] {
-        let one = modified_energies(&twin(name, None), Pendulum, UnitMasses, ["0.7", "1.1"]);
+        let one = modified_energies(twin(name, None), Pendulum, UnitMasses, ["0.7", "1.1"]);
         let exchanged = twin(name, Some(First::Drift)).for_every_kinetic().unwrap();
-        let other = modified_energies(&exchanged, Spring, Cosine, ["1.1", "-0.7"]);
+        let other = modified_energies(exchanged, Spring, Cosine, ["1.1", "-0.7"]);
         assert_eq!((one.len(), other.len()), (51, 51));
         let off = log10_largest_distance(&one, &other);
         // 60 digits, less what the differences of order 8, divided by h, make of round-off
@@ -297,7 +302,7 @@ fn the_pendulum_with_exchanged_roles_has_the_same_modified_energy() {
 #[test]
 fn a_drift_of_a_quadratic_formula_costs_the_same_with_beta() {
     let stiff = Stiff { omega: Counting(1.5) };
-    let mut motion = Motion::new(Spring, stiff, [Counting(0.7)], [Counting(1.1)]);
+    let mut motion = Motion::new(Spring, stiff, [Counting(0.7)], [Counting(1.1)]).unwrap();
     let weight = Counting(0.1);
     let plain = count(|| motion.drift(&weight)).1;
     assert_eq!(plain, Operations { additions: 1, multiplications: 2, ..Operations::default() });
@@ -306,7 +311,7 @@ fn a_drift_of_a_quadratic_formula_costs_the_same_with_beta() {
 
 /// ω = 3/2 has an exact square, so that nothing is rounded differently.
 #[test]
-fn a_quadratic_formula_is_moved_as_masses_are() {
+fn a_quadratic_formula_has_the_bits_of_masses() {
     let context = precision(60);
     let stiff = || Stiff { omega: number("3/2", 60) };
     let read = FormulaKinetic::new("omega^2 * p^2/2", &["p"], &[("omega", number("3/2", 60))]).unwrap();
@@ -314,9 +319,9 @@ fn a_quadratic_formula_is_moved_as_masses_are() {
     let masses = DiagonalMasses::<Float>::new(&[rational("4/9")], &context).unwrap();
     // for quadratic T only: these three do get it
     let start = ["0.7", "1.1"];
-    let of_masses = modified_energies(&Nystrom, Spring, masses, start);
-    assert!(same_bits(&of_masses, &modified_energies(&Nystrom, Spring, stiff(), start)));
-    assert!(same_bits(&of_masses, &modified_energies(&nystrom(), Spring, read, start)));
+    let of_masses = modified_energies(Nystrom, Spring, masses, start);
+    assert!(same_bits(&of_masses, &modified_energies(Nystrom, Spring, stiff(), start)));
+    assert!(same_bits(&of_masses, &modified_energies(nystrom(), Spring, read, start)));
     let general = FormulaKinetic::new("p^4/4", &["p"], &[] as &[(&str, Float)]).unwrap();
     assert!(general.into_quadratic().is_err());
 }
@@ -327,14 +332,14 @@ fn a_quadratic_formula_is_moved_as_masses_are() {
 /// A step with which nothing is special.
 const STEP: &str = "1/53";
 
-fn same_state<N: Bits, C>(one: &System<N, C>, other: &System<N, C>) -> bool {
+fn same_state<N: Bits, C>(one: &AnyMotion<N, C>, other: &AnyMotion<N, C>) -> bool {
     same_bits(one.q(), other.q()) && same_bits(one.p(), other.p()) && one.beta().same_bits(other.beta())
 }
 
 fn unrolled_steps_have_the_bits_of_their_twins<N: Bits>(context: &N::Context) {
     let h = rational(STEP);
     for scheme in all_for_every_kinetic::<N>(&h, context) {
-        let twin = Steps::of(&scheme.twin, &h, context);
+        let twin = Steps::of(scheme.twin.clone(), &h, context);
         for problem in Problem::ALL {
             let [mut one, mut other, mut plain] = array::from_fn(|_| problem.system::<N>(context));
             for _ in 0..3 {
@@ -395,9 +400,8 @@ fn assert_twins<N: Bits>(
     let read: Box<dyn Kinetic<N, Class = General>> =
         Box::new(FormulaKinetic::new(formula, momenta, parameters).unwrap());
     let mut one = problem.system::<N>(context);
-    let mut other = Motion::new(problem.potential(), read, q, p);
-    let scheme = shipped("yoshida4").unwrap().for_every_kinetic().unwrap();
-    let steps = Steps::of(&scheme, &rational(STEP), context);
+    let mut other = Motion::new(problem.potential(), read, q, p).unwrap();
+    let steps = Steps::of(for_every_kinetic("yoshida4"), &rational(STEP), context);
     for _ in 0..3 {
         assert!(one.energy().same_bits(&other.energy()), "{problem:?}");
         steps.step(&mut one);

@@ -5,24 +5,24 @@ use num_traits::{One, Signed};
 use rug::Float;
 use shadowstep::number::counting::{Counting, Operations, count};
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::{Motion, Number, Potential, Rational, Scheme, UnitMasses};
+use shadowstep::{Motion, Number, Potential, Rational, Scheme, Stepper, UnitMasses};
 use shadowstep_schemes::scheme::Held;
 use shadowstep_tests::shipped::{all, for_each};
 use shadowstep_tests::steps::Steps;
-use shadowstep_tests::systems::{System, systems};
+use shadowstep_tests::systems::{AnyMotion, systems};
 use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits};
 
 /// A step with which nothing is special: in no number type is it exact.
 const STEP: &str = "1/53";
 
-type Move<N> = fn(&Steps<'_, N>, &mut System<N>);
+type Step<N> = fn(&Steps<N>, &mut AnyMotion<N>);
 
 /// Every kind of step after every other one.
-fn mixed_moves<N: Number + 'static>() -> [(&'static str, Move<N>); 12] {
-    let step: (_, Move<N>) = ("step", |s, m| s.step(m));
-    let augmented: (_, Move<N>) = ("step_augmented", |s, m| s.step_augmented(m));
-    let back: (_, Move<N>) = ("step_back", |s, m| s.step_back(m));
-    let back_augmented: (_, Move<N>) = ("step_back_augmented", |s, m| s.step_back_augmented(m));
+fn mixed_steps<N: Number + 'static>() -> [(&'static str, Step<N>); 12] {
+    let step: (_, Step<N>) = ("step", |s, m| s.step(m));
+    let augmented: (_, Step<N>) = ("step_augmented", |s, m| s.step_augmented(m));
+    let back: (_, Step<N>) = ("step_back", |s, m| s.step_back(m));
+    let back_augmented: (_, Step<N>) = ("step_back_augmented", |s, m| s.step_back_augmented(m));
     [
         step,
         step,
@@ -39,12 +39,12 @@ fn mixed_moves<N: Number + 'static>() -> [(&'static str, Move<N>); 12] {
     ]
 }
 
-fn describe<N: Number + 'static>(system: &System<N>) -> String {
+fn describe<N: Number + 'static>(system: &AnyMotion<N>) -> String {
     format!("{:?}, {} coordinates", system.potential(), system.q().len())
 }
 
 /// q, p and β of two systems have the same bits.
-fn assert_same<N: Bits>(one: &System<N>, other: &System<N>, what: &str) {
+fn assert_same<N: Bits>(one: &AnyMotion<N>, other: &AnyMotion<N>, what: &str) {
     assert!(same_bits(one.q(), other.q()), "q differs: {what}\n{:?}\n{:?}", one.q(), other.q());
     assert!(same_bits(one.p(), other.p()), "p differs: {what}\n{:?}\n{:?}", one.p(), other.p());
     assert!(one.beta().same_bits(other.beta()), "β differs: {what}\n{:?}\n{:?}", one.beta(), other.beta());
@@ -53,16 +53,16 @@ fn assert_same<N: Bits>(one: &System<N>, other: &System<N>, what: &str) {
 fn unrolled_steps_have_the_bits_of_their_twins<N: Bits>(context: &N::Context) {
     let h = rational(STEP);
     for scheme in all::<N>(&h, context) {
-        let twin = Steps::of(&scheme.twin, &h, context);
+        let twin = Steps::of(scheme.twin.clone(), &h, context);
         assert!(same_bits(&scheme.generated.forward, &twin.forward), "{}", scheme.name);
         assert!(same_bits(&scheme.generated.backward, &twin.backward), "{}", scheme.name);
         assert_eq!(scheme.summary, scheme.twin.summary());
         for system in systems::<N>(context) {
             let (mut one, mut other) = (system.clone(), system);
-            for (i, (name, step)) in mixed_moves().into_iter().enumerate() {
+            for (i, (name, step)) in mixed_steps().into_iter().enumerate() {
                 step(&scheme.generated, &mut one);
                 step(&twin, &mut other);
-                let what = format!("{}, {name} as move {i}, {}", scheme.name, describe(&one));
+                let what = format!("{}, {name} as step {i}, {}", scheme.name, describe(&one));
                 assert_same(&one, &other, &what);
                 assert_eq!(one.evaluations(), other.evaluations(), "{what}");
             }
@@ -80,32 +80,27 @@ fn unrolled_steps_have_the_bits_of_their_twins_at_120_digits() {
     unrolled_steps_have_the_bits_of_their_twins::<Float>(&precision(120));
 }
 
-/// Two storages of the same system, moved by the generated steps without any indirection.
+/// Two storages of the same system, advanced by the generated steps without any indirection.
 #[test]
 fn arrays_and_vectors_have_the_same_bits() {
     struct Storages;
     impl shadowstep_tests::shipped::Visitor for Storages {
-        fn visit<S: Scheme>(&mut self, name: &str, _: Option<shadowstep_schemes::First>, scheme: &'static S) {
-            compare::<S, f64, _>(name, scheme, Kepler, &());
-            compare::<S, Float, _>(name, scheme, HenonHeiles, &precision(120));
+        fn visit<S: Scheme + Copy>(&mut self, name: &str, _: Option<shadowstep_schemes::First>, scheme: &'static S) {
+            compare::<S, f64, _>(name, *scheme, Kepler, &());
+            compare::<S, Float, _>(name, *scheme, HenonHeiles, &precision(120));
         }
     }
-    fn compare<S: Scheme, N: Bits, P: Potential<N> + Clone>(
-        name: &str,
-        scheme: &S,
-        potential: P,
-        context: &N::Context,
-    ) {
-        let weights = scheme.weights::<N>(&rational(STEP), context);
+    fn compare<S: Scheme, N: Bits, P: Potential<N> + Clone>(name: &str, scheme: S, potential: P, context: &N::Context) {
+        let stepper = Stepper::with_context(scheme, STEP, context).unwrap();
         let [q, p] = [["0.4", "0.1"], ["0.2", "-1.3"]].map(|texts| numbers::<N>(&texts, context));
         let array = |v: &[N]| [v[0].clone(), v[1].clone()];
-        let mut arrays = Motion::new(potential.clone(), UnitMasses, array(&q), array(&p));
-        let mut vectors = Motion::new(potential, UnitMasses, q, p);
+        let mut arrays = Motion::new(potential.clone(), UnitMasses, array(&q), array(&p)).unwrap();
+        let mut vectors = Motion::new(potential, UnitMasses, q, p).unwrap();
         for _ in 0..3 {
-            scheme.step(&weights, &mut arrays);
-            scheme.step(&weights, &mut vectors);
-            scheme.step_augmented(&weights, &mut arrays);
-            scheme.step_augmented(&weights, &mut vectors);
+            stepper.step(&mut arrays);
+            stepper.step(&mut vectors);
+            stepper.step_augmented(&mut arrays);
+            stepper.step_augmented(&mut vectors);
             assert!(same_bits(arrays.q(), vectors.q()) && same_bits(arrays.p(), vectors.p()), "{name}");
             assert!(arrays.beta().same_bits(vectors.beta()), "{name}");
         }
@@ -159,7 +154,7 @@ fn a_kept_gradient_changes_no_bit<N: Bits>(context: &N::Context) {
     for scheme in all::<N>(&rational(STEP), context) {
         for system in systems::<N>(context) {
             let (mut keeps, mut forgets) = (system.clone(), system);
-            for (name, step) in mixed_moves() {
+            for (name, step) in mixed_steps() {
                 let _ = forgets.q_mut(); // drops the kept gradient
                 step(&scheme.generated, &mut keeps);
                 step(&scheme.generated, &mut forgets);
@@ -187,7 +182,7 @@ fn augmented_steps_move_as_plain_ones<N: Bits>(context: &N::Context) {
         for system in systems::<N>(context) {
             let (mut plain, mut augmented) = (system.clone(), system);
             let what = format!("{}, {}", scheme.name, describe(&plain));
-            let same = |plain: &System<N>, augmented: &System<N>| {
+            let same = |plain: &AnyMotion<N>, augmented: &AnyMotion<N>| {
                 same_bits(plain.q(), augmented.q()) && same_bits(plain.p(), augmented.p())
             };
             for _ in 0..3 {
@@ -221,7 +216,7 @@ fn a_step_evaluates_as_often_as_its_summary_says() {
     for scheme in all::<f64>(&rational(STEP), &()) {
         let said = scheme.summary.evaluations as u64;
         assert!(said > 0);
-        for (name, step) in mixed_moves::<f64>() {
+        for (name, step) in mixed_steps::<f64>() {
             let mut system = systems::<f64>(&()).swap_remove(0);
             step(&scheme.generated, &mut system);
             let first = system.evaluations();
@@ -259,21 +254,26 @@ impl<N: Number> Potential<N> for Free {
 fn a_step_costs_what_its_documentation_says() {
     struct Costs;
     impl shadowstep_tests::shipped::Visitor for Costs {
-        fn visit<S: Scheme>(&mut self, name: &str, first: Option<shadowstep_schemes::First>, scheme: &'static S) {
+        fn visit<S: Scheme + Copy>(
+            &mut self,
+            name: &str,
+            first: Option<shadowstep_schemes::First>,
+            scheme: &'static S,
+        ) {
             let cost = shadowstep_tests::shipped::twin(name, first).plan().cost();
             for dimension in 1..=3 {
                 let state = || vec![Counting(0.5); dimension];
-                let mut motion = Motion::new(Free(dimension), UnitMasses, state(), state());
-                let weights = scheme.weights::<Counting<f64>>(&rational(STEP), &());
+                let mut motion = Motion::new(Free(dimension), UnitMasses, state(), state()).unwrap();
+                let stepper = Stepper::new(*scheme, STEP).unwrap();
                 let products =
                     |n: usize| Operations { additions: n as u64, multiplications: n as u64, ..Operations::default() };
                 let plain = products(cost.products_per_dimension * dimension);
                 let augmented = products(cost.products_per_dimension * dimension + cost.products_for_beta);
                 for _ in 0..2 {
-                    assert_eq!(count(|| scheme.step(&weights, &mut motion)).1, plain, "{name}");
-                    assert_eq!(count(|| scheme.step_augmented(&weights, &mut motion)).1, augmented, "{name}");
-                    assert_eq!(count(|| scheme.step_back(&weights, &mut motion)).1, plain, "{name}");
-                    assert_eq!(count(|| scheme.step_back_augmented(&weights, &mut motion)).1, augmented, "{name}");
+                    assert_eq!(count(|| stepper.step(&mut motion)).1, plain, "{name}");
+                    assert_eq!(count(|| stepper.step_augmented(&mut motion)).1, augmented, "{name}");
+                    assert_eq!(count(|| stepper.step_back(&mut motion)).1, plain, "{name}");
+                    assert_eq!(count(|| stepper.step_back_augmented(&mut motion)).1, augmented, "{name}");
                 }
             }
         }

@@ -4,16 +4,15 @@
 use rug::Float;
 use shadowstep::kinetic::Quadratic;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
-use shadowstep::run::{EnergyDrift, RunError, ShadowRun, energy_drift};
-use shadowstep::shadow::{Central, Rule, Stop};
-use shadowstep::tables::shipped;
-use shadowstep::{Kinetic, Motion, Number, Potential, Scheme, UnitMasses};
-use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, rational};
+use shadowstep::run::{EnergyDrift, Quantity, RunError, ShadowRun, energy_drift};
+use shadowstep::shadow::{Central, SelectionRule, StoppingRule};
+use shadowstep::{Kinetic, Motion, MotionError, Number, Potential, UnitMasses};
+use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, stepper};
 
 type State<P, N> = Motion<N, Vec<N>, P, UnitMasses>;
 
 fn state<P: Potential<N>, N: Number>(potential: P, q: &[&str], p: &[&str], context: &N::Context) -> State<P, N> {
-    Motion::new(potential, UnitMasses, numbers(q, context), numbers(p, context))
+    Motion::new(potential, UnitMasses, numbers(q, context), numbers(p, context)).unwrap()
 }
 
 /// The orbit of eccentricity e = 1 − gap, from its pericentre.
@@ -28,13 +27,12 @@ fn drift<P: Potential<N>, K: Kinetic<N, Class = Quadratic>, N: Number>(
     steps: u64,
     m: u32,
 ) -> Result<EnergyDrift<N>, RunError> {
-    let h = rational(h);
-    let estimator = Central::fixed(m);
-    energy_drift(&shipped(scheme).unwrap(), motion, &h, steps, &estimator, |_| {})
+    let stepper = stepper(scheme, h, &motion.context());
+    energy_drift(&stepper, motion, steps, &Central::fixed(m))
 }
 
 // ---------------------------------------------------------------------------------------------------------------
-// Values that are no numbers
+// Values that are not finite
 
 /// Straight into the centre, with a step that hits it exactly.
 #[test]
@@ -43,15 +41,17 @@ fn a_head_on_collision_names_its_step() {
     for reach in [1, 3] {
         let start = state::<_, f64>(Kepler, &["2", "0"], &["-7/4", "0"], &());
         let error = drift("symplectic-euler", start, "1", 20, reach).unwrap_err();
-        let RunError::NotFinite { step, what } = &error else { panic!("the step has a size") };
+        let RunError::NotFinite { step, value } = &error else { panic!("the settings are valid") };
         assert_eq!(*step, 2, "{error}");
+        assert!(matches!(value.quantity, Quantity::Position(0) | Quantity::Momentum(0)), "{error}");
+        let what = value.to_string();
         assert!(what.starts_with("q1 = ") || what.starts_with("p1 = "), "{error}");
-        let said = error.to_string();
-        assert!(said.starts_with(&format!("the run ends at step 2 with {what}; ")), "{said}");
+        let sentence = error.to_string();
+        assert!(sentence.starts_with(&format!("the run stopped at step 2: {what}; ")), "{sentence}");
     }
     let start = state::<_, Float>(Kepler, &["2", "0"], &["-7/4", "0"], &precision(120));
     let RunError::NotFinite { step, .. } = drift("symplectic-euler", start, "1", 20, 3).unwrap_err() else {
-        panic!("the step has a size")
+        panic!("the settings are valid")
     };
     assert_eq!(step, 2, "the same at 120 digits");
 }
@@ -61,10 +61,10 @@ fn a_head_on_collision_names_its_step() {
 fn a_collision_before_the_start_has_a_negative_step() {
     // the inverse of symplectic Euler drifts first: from q = 1 back to 1 − 1·1 = 0
     let start = state::<_, f64>(Kepler, &["1", "0"], &["1", "0"], &());
-    let RunError::NotFinite { step, what } = drift("symplectic-euler", start, "1", 5, 2).unwrap_err() else {
-        panic!("the step has a size")
+    let RunError::NotFinite { step, value } = drift("symplectic-euler", start, "1", 5, 2).unwrap_err() else {
+        panic!("the settings are valid")
     };
-    assert_eq!(step, -1, "{what}");
+    assert_eq!(step, -1, "{value}");
 }
 
 /// H = 1/6 is where Hénon–Heiles opens: far above it q runs away and overflows within a few dozen steps.
@@ -72,19 +72,18 @@ fn a_collision_before_the_start_has_a_negative_step() {
 fn an_escape_ends_with_its_step() {
     let start = state::<_, f64>(HenonHeiles, &["0", "0"], &["0", "2"], &());
     let error = drift("yoshida4", start.clone(), "1/4", 1000, 2).unwrap_err();
-    let RunError::NotFinite { step, .. } = &error else { panic!("the step has a size") };
+    let RunError::NotFinite { step, .. } = &error else { panic!("the settings are valid") };
     assert!((1..100).contains(step), "{error}");
 
     // the states before that one are finite, the one after the last of them is not
-    let (scheme, h) = (shipped("yoshida4").unwrap(), rational("1/4"));
-    let weights = scheme.weights::<f64>(&h, &());
+    let stepper = stepper("yoshida4", "1/4", &());
     let mut motion = start;
     for _ in 1..*step {
-        scheme.step_augmented(&weights, &mut motion);
+        stepper.step_augmented(&mut motion);
         assert!(motion.is_finite());
     }
     assert!(motion.q()[1].abs() > 1e10, "it ran away before it overflowed: {:?}", motion.q());
-    scheme.step_augmented(&weights, &mut motion);
+    stepper.step_augmented(&mut motion);
     assert!(!motion.is_finite());
 
     // below 1/6 the same run stays
@@ -100,9 +99,8 @@ fn an_escape_ends_with_its_step() {
 fn eccentric_orbits_run_through() {
     for (gap, least) in [("0.1", 1e-3), ("0.01", 1e-1)] {
         let start = kepler::<f64>(gap, &());
-        let h = rational("1/20");
-        let best = Central::best(30, Stop::Full);
-        let found = energy_drift(&shipped("stormer-verlet").unwrap(), start, &h, 2000, &best, |_| {}).unwrap();
+        let best = Central::best(30, StoppingRule::Full);
+        let found = energy_drift(&stepper("stormer-verlet", "1/20", &()), start, 2000, &best).unwrap();
         assert!(found.drift.is_finite() && found.drift > least, "1 − e = {gap}: {:e}", found.drift);
         assert!(found.minimum <= found.first && found.last <= found.maximum);
     }
@@ -118,14 +116,13 @@ fn eccentric_orbits_run_through() {
 /// Störmer–Verlet on the oscillator is stable up to hω = 2: its step has trace 2 − (hω)².
 #[test]
 fn stability_ends_at_two() {
-    let scheme = shipped("stormer-verlet").unwrap();
     let largest = |h: &str| {
-        let weights = scheme.weights::<f64>(&rational(h), &());
+        let stepper = stepper("stormer-verlet", h, &());
         let potential = HarmonicOscillator { omega: 1.0 };
         let mut motion = state(potential, &["1"], &["0"], &());
         let mut largest = 0.0_f64;
         for _ in 0..20_000 {
-            scheme.step(&weights, &mut motion);
+            stepper.step(&mut motion);
             largest = largest.max(motion.q()[0].abs());
         }
         largest
@@ -140,12 +137,12 @@ fn stability_ends_at_two() {
 fn above_the_limit_the_run_says_so() {
     let potential = HarmonicOscillator { omega: 1.0 };
     let start: State<_, f64> = state(potential, &["1"], &["0"], &());
-    let RunError::NotFinite { step, what } = drift("stormer-verlet", start, "2.1", 100_000, 2).unwrap_err() else {
-        panic!("the step has a size")
+    let RunError::NotFinite { step, value } = drift("stormer-verlet", start, "2.1", 100_000, 2).unwrap_err() else {
+        panic!("the settings are valid")
     };
     // growth per step: μ with μ + 1/μ = 2.1² − 2, μ = 1.88; the squares in the modified energy overflow at
     // q = 1e154 = 1.88^563, and each estimate needs two states on
-    assert!((555..575).contains(&step) && what.starts_with("a modified energy of "), "{step}: {what}");
+    assert!((555..575).contains(&step) && value.quantity == Quantity::ModifiedEnergy, "{step}: {value}");
 }
 
 /// On the separatrix every error decides whether the pendulum turns over; the modified energy stays.
@@ -161,24 +158,21 @@ fn separatrix_of_the_pendulum() {
 #[test]
 fn negative_steps_go_back() {
     let context = precision(60);
-    let (scheme, forth, back) = (shipped("yoshida4").unwrap(), rational("1/20"), rational("-1/20"));
+    let [forth, back] = ["1/20", "-1/20"].map(|h| stepper::<Float>("yoshida4", h, &context));
     let start = state::<_, Float>(HenonHeiles, &["0.1", "0"], &["0.2", "0.3"], &context);
-    let [forth_weights, back_weights] = [&forth, &back].map(|h| scheme.weights::<Float>(h, &context));
     let mut motion = start.clone();
     for _ in 0..100 {
-        scheme.step(&forth_weights, &mut motion);
+        forth.step(&mut motion);
     }
     let turned = motion.clone();
     for _ in 0..100 {
-        scheme.step(&back_weights, &mut motion);
+        back.step(&mut motion);
     }
     // round-off of two hundred steps
     assert!(log10_largest_distance(motion.q(), start.q()) < -56.0);
 
-    let [one, other] = [(start, &forth), (turned, &back)].map(|(motion, h)| {
-        let fixed = Central::fixed(15);
-        energy_drift(&scheme, motion, h, 100, &fixed, |_| {}).unwrap()
-    });
+    let [one, other] = [(start, &forth), (turned, &back)]
+        .map(|(motion, stepper)| energy_drift(stepper, motion, 100, &Central::fixed(15)).unwrap());
     // the same states in the other direction
     for (a, b) in [(&one.first, &other.last), (&one.last, &other.first), (&one.drift, &other.drift)] {
         let off = shadowstep_tests::log10_distance(a, b);
@@ -202,9 +196,9 @@ where
     N::Context: Send + Sync,
 {
     let values = || -> Vec<(N, N, u32)> {
-        let (scheme, h) = (shipped("blanes-moan-s6").unwrap(), rational("1/20"));
-        let best = Central::best_with_error(20, Stop::Early, Rule::Least);
-        let mut run = ShadowRun::new(&scheme, kepler::<N>("0.4", context), &h, 100, &best).unwrap();
+        let stepper = stepper("blanes-moan-s6", "1/20", context);
+        let best = Central::best_with_error(20, StoppingRule::Early, SelectionRule::Least);
+        let mut run = ShadowRun::new(&stepper, kepler::<N>("0.4", context), 100, &best).unwrap();
         let mut values = Vec::new();
         while let Some((_, estimate)) = run.advance().unwrap() {
             values.push((estimate.value.clone(), estimate.error.expect("it was asked for").clone(), estimate.order));
@@ -234,11 +228,9 @@ fn the_same_run_gives_the_same_bits_on_every_thread() {
 #[test]
 fn long_runs_keep_the_digits_of_beta() {
     const STEPS: u64 = 300_000;
-    let scheme = shipped("stormer-verlet").unwrap();
-    let h = rational("1/20");
-    let fixed = Central::fixed(10);
+    let stepper = stepper("stormer-verlet", "1/20", &());
     let start = state::<_, f64>(Pendulum, &["0"], &["1"], &());
-    let mut run = ShadowRun::new(&scheme, start, &h, STEPS, &fixed).unwrap();
+    let mut run = ShadowRun::new(&stepper, start, STEPS, &Central::fixed(10)).unwrap();
     let mut values = Vec::new();
     while let Some((_, estimate)) = run.advance().unwrap() {
         values.push(*estimate.value);
@@ -256,26 +248,18 @@ fn long_runs_keep_the_digits_of_beta() {
     assert!(early < 5e-15 && late < 5e-15, "{early:e}, {late:e}");
 }
 
-/// Mistakes of a caller that would otherwise give numbers.
+/// At the singularity already.
 #[test]
-fn what_cannot_be_meant_is_refused() {
-    assert_eq!(drift("stormer-verlet", kepler::<f64>("0.4", &()), "0", 10, 3), Err(RunError::ZeroStep));
-    // at the singularity already
+fn a_start_that_is_not_finite_is_refused() {
     let start = state::<_, f64>(Kepler, &["0", "0"], &["1", "0"], &());
     assert!(matches!(drift("stormer-verlet", start, "1/10", 10, 3), Err(RunError::NotFinite { step: 0, .. })));
 }
 
 #[test]
-#[should_panic(expected = "the same precision")]
 fn numbers_of_two_precisions_make_no_motion() {
-    let q = shadowstep_tests::numbers::<Float>(&["0.4", "0"], &precision(60));
-    let p = shadowstep_tests::numbers::<Float>(&["0", "2"], &precision(16));
-    Motion::new(Kepler, UnitMasses, q, p);
-}
-
-#[test]
-#[should_panic(expected = "weights of another scheme")]
-fn weights_of_another_scheme_make_no_step() {
-    let weights = shipped("yoshida4").unwrap().weights::<f64>(&rational("1/10"), &());
-    shipped("stormer-verlet").unwrap().step(&weights, &mut kepler::<f64>("0.4", &()));
+    let q = numbers::<Float>(&["0.4", "0"], &precision(60));
+    let p = numbers::<Float>(&["0", "2"], &precision(16));
+    let error = Motion::new(Kepler, UnitMasses, q, p).map(drop).unwrap_err();
+    assert_eq!(error, MotionError::Precision);
+    assert!(error.to_string().contains("the same precision"), "{error}");
 }

@@ -5,11 +5,12 @@ use rug::Float;
 use shadowstep::kinetic::{DiagonalMasses, FullMasses, Quadratic};
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
 use shadowstep::run::{EnergyDrift, ShadowRun, States, Trajectory, energy_drift};
-use shadowstep::shadow::{Central, Estimator, Method, Rule, Stop};
-use shadowstep::tables::shipped;
-use shadowstep::weights::central;
-use shadowstep::{Increments, Kinetic, Motion, Moves, Number, Potential, Rational, Scheme, UnitMasses};
-use shadowstep_tests::{log10_distance, number, numbers, precision, rational};
+use shadowstep::shadow::weights::central;
+use shadowstep::shadow::{BuildEstimator, Central, Estimator, SelectionRule, StoppingRule};
+use shadowstep::{
+    Increments, Kinetic, Motion, Number, Potential, Rational, Scheme, Stepper, System, UnitMasses, ValidFor,
+};
+use shadowstep_tests::{log10_distance, number, numbers, precision, rational, step_size, stepper};
 
 type Vector<P, K, N> = Motion<N, Vec<N>, P, K>;
 
@@ -20,26 +21,25 @@ type State = (Vec<Float>, Vec<Float>, Float);
 type Estimated<N> = (i64, N, Option<N>, u32);
 
 fn kepler<N: Number>(context: &N::Context) -> Vector<Kepler, UnitMasses, N> {
-    Motion::new(Kepler, UnitMasses, numbers(&["0.4", "0"], context), numbers(&["0", "2"], context))
+    Motion::new(Kepler, UnitMasses, numbers(&["0.4", "0"], context), numbers(&["0", "2"], context)).unwrap()
 }
 
 fn pendulum<N: Number>(context: &N::Context) -> Vector<Pendulum, UnitMasses, N> {
-    Motion::new(Pendulum, UnitMasses, numbers(&["0"], context), numbers(&["1"], context))
+    Motion::new(Pendulum, UnitMasses, numbers(&["0"], context), numbers(&["1"], context)).unwrap()
 }
 
 fn henon_heiles<N: Number>(context: &N::Context) -> Vector<HenonHeiles, UnitMasses, N> {
-    Motion::new(HenonHeiles, UnitMasses, numbers(&["0", "0.1"], context), numbers(&["0.3", "0"], context))
+    Motion::new(HenonHeiles, UnitMasses, numbers(&["0", "0.1"], context), numbers(&["0.3", "0"], context)).unwrap()
 }
 
 /// n, value, last term and m of every estimate of a run.
-fn estimates<S: Scheme + Moves<K::Class>, N: Number, P: Potential<N>, K: Kinetic<N>>(
-    scheme: &S,
-    motion: Vector<P, K, N>,
-    h: &Rational,
+fn estimates<S: Scheme + ValidFor<M::Class>, M: System>(
+    stepper: &Stepper<S, M::Number>,
+    system: M,
     steps: u64,
-    method: &impl Method<N>,
-) -> Vec<Estimated<N>> {
-    let mut run = ShadowRun::new(scheme, motion, h, steps, method).expect("it can begin");
+    settings: &impl BuildEstimator<M::Number>,
+) -> Vec<Estimated<M::Number>> {
+    let mut run = ShadowRun::new(stepper, system, steps, settings).expect("it can begin");
     let mut all = Vec::new();
     while let Some((n, estimate)) = run.advance().expect("it can go on") {
         all.push((n, estimate.value.clone(), estimate.last_term.cloned(), estimate.order));
@@ -48,17 +48,15 @@ fn estimates<S: Scheme + Moves<K::Class>, N: Number, P: Potential<N>, K: Kinetic
 }
 
 /// max − min of the energy itself over n = 0..=steps.
-fn energy_variation<S: Scheme + Moves<K::Class>, P: Potential<Float>, K: Kinetic<Float>>(
-    scheme: &S,
+fn energy_variation<S: Scheme + ValidFor<K::Class>, P: Potential<Float>, K: Kinetic<Float>>(
+    stepper: &Stepper<S, Float>,
     mut motion: Vector<P, K, Float>,
-    h: &Rational,
     steps: u64,
 ) -> f64 {
-    let weights = scheme.weights::<Float>(h, &motion.context());
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     for n in 0..=steps {
         if n > 0 {
-            scheme.step(&weights, &mut motion);
+            stepper.step(&mut motion);
         }
         let energy = motion.energy().to_f64();
         (least, most) = (least.min(energy), most.max(energy));
@@ -81,17 +79,17 @@ fn closed_form(q: &Float, p: &Float, omega: &Float, h: &Float) -> Float {
 #[test]
 fn harmonic_oscillator_has_its_closed_form() {
     const DIGITS: u32 = 120;
-    let verlet = shipped("stormer-verlet").unwrap();
     for (omega, step, m) in [("1", "1/20", 40), ("3/2", "1/30", 40), ("1/7", "1/5", 40), ("1", "1/2", 100)] {
         let (omega, h) = (rational(omega), rational(step));
         let context = precision(DIGITS);
         let potential = HarmonicOscillator { omega: Float::from_rational(&omega, &context) };
         let (q, p) = (number("0.8", DIGITS), number("-0.3", DIGITS));
-        let motion = Motion::new(potential, UnitMasses, vec![q.clone()], vec![p.clone()]);
+        let motion = Motion::new(potential, UnitMasses, vec![q.clone()], vec![p.clone()]).unwrap();
+        let verlet = stepper("stormer-verlet", step, &context);
         let [omega, step] = [&omega, &h].map(|r| Float::from_rational(r, &context));
         let expected = closed_form(&q, &p, &omega, &step);
 
-        let found = estimates(&verlet, motion, &h, 100, &Central::fixed(m));
+        let found = estimates(&verlet, motion, 100, &Central::fixed(m));
         assert_eq!(found.len(), 101);
         for (n, value, ..) in found {
             // D_m is off by (hω̃/2)^{2m}, below 1e-120 here; round-off of a hundred steps leaves 118 digits
@@ -136,10 +134,9 @@ impl<N: Number, P: Potential<N>> Potential<N> for PrintedSign<P> {
 
 fn drift_over<P: Potential<Float>>(potential: P, q: &[&str], p: &[&str]) -> EnergyDrift<Float> {
     let context = precision(40);
-    let motion = Motion::new(potential, UnitMasses, numbers(q, &context), numbers(p, &context));
-    let (verlet, h) = (shipped("stormer-verlet").unwrap(), rational("1/20"));
-    let estimator = Central::fixed(10);
-    energy_drift(&verlet, motion, &h, 400, &estimator, |_| {}).unwrap()
+    let motion = Motion::new(potential, UnitMasses, numbers(q, &context), numbers(p, &context)).unwrap();
+    let verlet = stepper("stormer-verlet", "1/20", &context);
+    energy_drift(&verlet, motion, 400, &Central::fixed(10)).unwrap()
 }
 
 /// The first value is near H under both signs; only the drift tells them apart.
@@ -167,14 +164,13 @@ fn printed_sign_of_beta_drifts_and_the_right_one_does_not() {
 // The definition of T_{m,m}, written out
 
 /// The states of a trajectory with the increments of β, n = −reach..=steps + reach.
-fn states<S: Scheme + Moves<K::Class>, P: Potential<Float>, K: Kinetic<Float>>(
-    scheme: &S,
-    motion: Vector<P, K, Float>,
-    h: &Rational,
+fn states<S: Scheme + ValidFor<M::Class>, M: System<Number = Float>>(
+    stepper: &Stepper<S, Float>,
+    system: M,
     steps: u64,
     reach: usize,
 ) -> Vec<State> {
-    let mut trajectory = Trajectory::new(scheme, motion, h, steps, reach).unwrap();
+    let mut trajectory = Trajectory::new(stepper, system, steps, reach).unwrap();
     let mut all = Vec::new();
     while let Some(state) = trajectory.advance().unwrap() {
         all.push((state.q.to_vec(), state.p.to_vec(), state.increments.beta.clone()));
@@ -235,28 +231,28 @@ fn term_sizes(diagonal: &[Float]) -> Vec<Option<Float>> {
 
 const TRIANGLE_DIGITS: u32 = 120;
 
-/// Both problems, with schemes of different kinds: what `check` is told is the scheme's name, the states, where the
-/// state 0 is among them, and the estimates of `method`.
-fn against_the_triangle(reach: usize, method: Central, mut check: impl FnMut(&str, &[Float], &Estimated<Float>)) {
+/// Three problems, with schemes of different kinds: `check` gets the scheme's name, the diagonal of the triangle, and the
+/// estimate with these settings.
+fn against_the_triangle(reach: usize, settings: Central, mut check: impl FnMut(&str, &[Float], &Estimated<Float>)) {
     let context = precision(TRIANGLE_DIGITS);
-    let h = rational("1/20");
-    let step = Float::from_rational(&h, &context);
+    let h = step_size("1/20");
+    let step = Float::from_rational(h.exact(), &context);
     const STEPS: u64 = 24;
     fn both<P: Potential<Float> + Clone>(
         name: &str,
         motion: &Vector<P, UnitMasses, Float>,
-        h: &Rational,
         reach: usize,
-        method: Central,
+        settings: Central,
     ) -> (Vec<State>, Vec<Estimated<Float>>) {
-        let scheme = shipped(name).unwrap();
-        assert_eq!(Method::<Float>::estimator(&method, h, 1, &precision(TRIANGLE_DIGITS)).states(), 2 * reach + 1);
-        (states(&scheme, motion.clone(), h, STEPS, reach), estimates(&scheme, motion.clone(), h, STEPS, &method))
+        let stepper = stepper(name, "1/20", &precision(TRIANGLE_DIGITS));
+        (states(&stepper, motion.clone(), STEPS, reach), estimates(&stepper, motion.clone(), STEPS, &settings))
     }
+    let estimator = BuildEstimator::<Float>::build(&settings, &h, 1, &context).unwrap();
+    assert_eq!(estimator.states(), 2 * reach + 1);
     for (name, (states, found)) in [
-        ("stormer-verlet", both("stormer-verlet", &kepler(&context), &h, reach, method)),
-        ("ruth3", both("ruth3", &pendulum(&context), &h, reach, method)),
-        ("yoshida4", both("yoshida4", &henon_heiles(&context), &h, reach, method)),
+        ("stormer-verlet", both("stormer-verlet", &kepler(&context), reach, settings)),
+        ("ruth3", both("ruth3", &pendulum(&context), reach, settings)),
+        ("yoshida4", both("yoshida4", &henon_heiles(&context), reach, settings)),
     ] {
         assert_eq!(found.len() as u64, STEPS + 1);
         for one in &found {
@@ -287,11 +283,11 @@ fn fixed_m_is_the_diagonal_of_the_triangle() {
 }
 
 /// The first m of 2..=last with the smallest term, or with the smallest largest one of e_{m−5}, …, e_{m+4}.
-fn best(sizes: &[Option<Float>], last: usize, rule: Rule) -> usize {
+fn best(sizes: &[Option<Float>], last: usize, rule: SelectionRule) -> usize {
     let size = |m: usize| -> &Float { sizes[m].as_ref().expect("known from 2") };
     let judged = |m: usize| match rule {
-        Rule::Least => size(m),
-        Rule::Robust => {
+        SelectionRule::Least => size(m),
+        SelectionRule::Robust => {
             (m.saturating_sub(5).max(2)..=(m + 4).min(last)).map(size).reduce(|a, b| if b > a { b } else { a }).unwrap()
         }
     };
@@ -302,7 +298,7 @@ fn best(sizes: &[Option<Float>], last: usize, rule: Rule) -> usize {
 fn assert_chosen(
     name: &str,
     diagonal: &[Float],
-    (last, rule): (usize, Rule),
+    (last, rule): (usize, SelectionRule),
     found: &Estimated<Float>,
     tolerance: f64,
 ) {
@@ -318,9 +314,9 @@ fn assert_chosen(
 
 #[test]
 fn best_m_is_its_rule_written_out() {
-    for rule in [Rule::Least, Rule::Robust] {
+    for rule in [SelectionRule::Least, SelectionRule::Robust] {
         let mut orders = Vec::new();
-        let best = Central::Best { largest: 30, stop: Stop::Full, rule, with_error: false };
+        let best = Central::Best { largest: 30, stop: StoppingRule::Full, rule, with_error: false };
         against_the_triangle(30, best, |name, diagonal, one| {
             assert_chosen(name, diagonal, (30, rule), one, -110.0);
             orders.push(one.3);
@@ -346,23 +342,24 @@ fn first_stop(sizes: &[Option<Float>], first: usize) -> usize {
 #[test]
 fn early_stop_is_its_rule_written_out() {
     let mut stopped = 0;
-    let early = Central::best(40, Stop::Early);
+    let early = Central::best(40, StoppingRule::Early);
     against_the_triangle(40, early, |name, diagonal, one| {
         let sizes = term_sizes(diagonal);
         let stop = first_stop(&sizes, 13);
         stopped += usize::from(stop < 40);
-        assert_chosen(name, diagonal, (stop, Rule::Least), one, -110.0);
+        assert_chosen(name, diagonal, (stop, SelectionRule::Least), one, -110.0);
     });
     assert!(stopped > 0, "the rule never stopped anything, so nothing is shown");
 }
 
-/// What the paper says of the early stop: its results are nearly those of the full search.
+/// The paper's claim about the early stop: its results are nearly those of the full search.
 #[test]
 fn early_stop_is_nearly_as_good_as_the_full_search() {
-    let (verlet, h, context) = (shipped("stormer-verlet").unwrap(), rational("1/20"), precision(120));
-    let [full, early] = [Stop::Full, Stop::Early].map(|stop| {
+    let context = precision(120);
+    let verlet = stepper("stormer-verlet", "1/20", &context);
+    let [full, early] = [StoppingRule::Full, StoppingRule::Early].map(|stop| {
         let best = Central::best(200, stop);
-        energy_drift(&verlet, kepler::<Float>(&context), &h, 1000, &best, |_| {}).unwrap()
+        energy_drift(&verlet, kepler::<Float>(&context), 1000, &best).unwrap()
     });
     let ratio = early.drift.to_f64() / full.drift.to_f64();
     println!("drift: full {:e}, early {:e}", full.drift.to_f64(), early.drift.to_f64());
@@ -376,8 +373,8 @@ fn early_stop_is_nearly_as_good_as_the_full_search() {
 fn all_rules_hold_for_terms_of_any_size() {
     const LARGEST: usize = 20;
     let context = precision(TRIANGLE_DIGITS);
-    let h = rational("1/20");
-    let step = Float::from_rational(&h, &context);
+    let h = step_size("1/20");
+    let step = Float::from_rational(h.exact(), &context);
     let zero = Float::new(context.in_bits());
     let mut seed = 1_u64;
     let mut random = |range: u64| {
@@ -410,10 +407,12 @@ fn all_rules_hold_for_terms_of_any_size() {
         assert!(log10_distance(&diagonal[LARGEST - 1], &value) < -90.0, "the states are not what they should be");
         let sizes = term_sizes(&diagonal);
         let stop = first_stop(&sizes, 13);
-        let ends = [(Stop::Full, LARGEST), (Stop::Early, stop)];
-        for ((stop, last), rule) in ends.into_iter().flat_map(|end| [(end, Rule::Least), (end, Rule::Robust)]) {
-            let method = Central::Best { largest: LARGEST as u32, stop, rule, with_error: false };
-            let mut estimator = method.estimator(&h, 1, &context);
+        let ends = [(StoppingRule::Full, LARGEST), (StoppingRule::Early, stop)];
+        for ((stop, last), rule) in
+            ends.into_iter().flat_map(|end| [(end, SelectionRule::Least), (end, SelectionRule::Robust)])
+        {
+            let settings = Central::Best { largest: LARGEST as u32, stop, rule, with_error: false };
+            let mut estimator = BuildEstimator::<Float>::build(&settings, &h, 1, &context).unwrap();
             for (q, p, beta) in &states {
                 if let Some(e) = estimator.push(q, p, &Increments::of_beta(beta.clone())) {
                     let found = (window, e.value.clone(), e.last_term.cloned(), e.order);
@@ -423,8 +422,9 @@ fn all_rules_hold_for_terms_of_any_size() {
                 }
             }
         }
-        at_thirteen +=
-            usize::from(best(&sizes, stop, Rule::Least) != best(&sizes, first_stop(&sizes, 14), Rule::Least));
+        at_thirteen += usize::from(
+            best(&sizes, stop, SelectionRule::Least) != best(&sizes, first_stop(&sizes, 14), SelectionRule::Least),
+        );
     }
     assert!(at_two > 0 && at_thirteen > 0, "{at_two}, {at_thirteen}: nothing is shown");
 }
@@ -432,14 +432,13 @@ fn all_rules_hold_for_terms_of_any_size() {
 // ---------------------------------------------------------------------------------------------------------------
 // Digits
 
-/// What 120 digits say is what 200 digits say: the last ten are lost to round-off at most.
+/// The values at 120 digits are those at 200 digits: the last ten are lost to round-off at most.
 #[test]
-fn more_digits_tell_the_same() {
-    let h = rational("1/20");
-    let verlet = shipped("stormer-verlet").unwrap();
+fn more_digits_give_the_same_values() {
     let [few, many] = [120, 200].map(|digits| {
         let context = precision(digits);
-        estimates(&verlet, kepler::<Float>(&context), &h, 200, &Central::fixed(20))
+        let verlet = stepper("stormer-verlet", "1/20", &context);
+        estimates(&verlet, kepler::<Float>(&context), 200, &Central::fixed(20))
     });
     for ((n, few, ..), (_, many, ..)) in few.iter().zip(&many) {
         let off = Number::log10_abs(&Float::with_val(700, few - many));
@@ -452,12 +451,11 @@ fn more_digits_tell_the_same() {
 /// In double precision the drift is round-off and nothing else.
 #[test]
 fn drift_in_double_precision_is_round_off() {
-    let h = rational("1/20");
-    let verlet = shipped("stormer-verlet").unwrap();
-    let context = precision(120);
-    let double = energy_drift(&verlet, pendulum::<f64>(&()), &h, 1000, &Central::fixed(20), |_| {}).unwrap();
-    let fixed = Central::fixed(20);
-    let precise = energy_drift(&verlet, pendulum::<Float>(&context), &h, 1000, &fixed, |_| {}).unwrap();
+    fn drift<N: Number>(context: &N::Context) -> EnergyDrift<N> {
+        let verlet = stepper("stormer-verlet", "1/20", context);
+        energy_drift(&verlet, pendulum::<N>(context), 1000, &Central::fixed(20)).unwrap()
+    }
+    let (double, precise) = (drift::<f64>(&()), drift::<Float>(&precision(120)));
     println!("drift {:e} in double precision, {:e} at 120 digits", double.drift, precise.drift.to_f64());
     // q and p are of size 1: differences of them are off by 1e-16 and are divided by h
     assert!(double.drift > 1e-16 && double.drift < 1e-13, "{:e}", double.drift);
@@ -472,15 +470,14 @@ fn drift_in_double_precision_is_round_off() {
 /// Kepler, e = 0.6: the energy varies like h², the drift of the modified energy falls like exp(−c/h).
 #[test]
 fn kepler_drift_is_exponentially_small() {
-    let verlet = shipped("stormer-verlet").unwrap();
     let context = precision(120);
     let mut energies = Vec::new();
     let mut drifts = Vec::new();
     for inverse in [10_u64, 20, 40] {
-        let h = rational(&format!("1/{inverse}"));
-        energies.push(energy_variation(&verlet, kepler::<Float>(&context), &h, 20 * inverse).ln());
-        let best = Central::best(120, Stop::Full);
-        let found = energy_drift(&verlet, kepler::<Float>(&context), &h, 20 * inverse, &best, |_| {}).unwrap();
+        let verlet = stepper("stormer-verlet", &format!("1/{inverse}"), &context);
+        energies.push(energy_variation(&verlet, kepler::<Float>(&context), 20 * inverse).ln());
+        let best = Central::best(120, StoppingRule::Full);
+        let found = energy_drift(&verlet, kepler::<Float>(&context), 20 * inverse, &best).unwrap();
         println!("h = 1/{inverse}: drift {:e}, m = {:?}", found.drift.to_f64(), found.orders);
         drifts.push(Number::log10_abs(&found.drift));
     }
@@ -500,13 +497,12 @@ fn kepler_drift_is_exponentially_small() {
 /// Neither symmetry nor a high order is needed for a modified energy.
 #[test]
 fn schemes_that_are_no_palindromes_conserve_their_modified_energy() {
-    let (h, context) = (rational("1/40"), precision(60));
+    let context = precision(60);
     for (name, least_variation) in [("symplectic-euler", 1e-3), ("ruth3", 1e-8)] {
-        let scheme = shipped(name).unwrap();
-        assert!(!scheme.summary().symmetric);
-        let energy = energy_variation(&scheme, pendulum(&context), &h, 400);
-        let fixed = Central::fixed(25);
-        let found = energy_drift(&scheme, pendulum::<Float>(&context), &h, 400, &fixed, |_| {}).unwrap();
+        let stepper = stepper(name, "1/40", &context);
+        assert!(!stepper.scheme().summary().symmetric);
+        let energy = energy_variation(&stepper, pendulum(&context), 400);
+        let found = energy_drift(&stepper, pendulum::<Float>(&context), 400, &Central::fixed(25)).unwrap();
         println!("{name}: H varies by {energy:e}, the modified energy by {:e}", found.drift.to_f64());
         assert!(energy > least_variation, "{name}: {energy:e}");
         // D_25 is off by about (25!)² (h/ρ)^50 = 4e-47, ρ = 2.16 the distance of the singularities in complex time
@@ -564,7 +560,6 @@ impl<P: Potential<Float>> Potential<Float> for Changed<P> {
 /// P = A⁻ᵀ p, M⁻¹ = A Aᵀ.
 fn assert_same_energies<K: Kinetic<Float, Class = Quadratic> + Clone>(a: [[&str; 2]; 2], kinetic: K) {
     let context = precision(120);
-    let h = rational("1/20");
     let [[a, b], [c, d]] = a.map(|row| row.map(rational));
     let determinant = &a * &d - &b * &c;
     let float = |r: Rational| Float::from_rational(&r, &context);
@@ -578,13 +573,12 @@ fn assert_same_energies<K: Kinetic<Float, Class = Quadratic> + Clone>(a: [[&str;
     let mut new_p = p;
     let potential = Changed { potential: HenonHeiles, inverse };
     potential.turn(&mut new_p);
-    let changed = Motion::new(potential, kinetic, new_q, new_p);
+    let changed = Motion::new(potential, kinetic, new_q, new_p).unwrap();
 
     for name in ["stormer-verlet", "ruth3", "blanes-moan-srkn6b"] {
-        let scheme = shipped(name).unwrap();
-        let fixed = || Central::fixed(12);
-        let expected = estimates(&scheme, plain.clone(), &h, 60, &fixed());
-        let found = estimates(&scheme, changed.clone(), &h, 60, &fixed());
+        let stepper = stepper(name, "1/20", &context);
+        let expected = estimates(&stepper, plain.clone(), 60, &Central::fixed(12));
+        let found = estimates(&stepper, changed.clone(), 60, &Central::fixed(12));
         for ((n, expected, ..), (_, found, ..)) in expected.iter().zip(&found) {
             let off = log10_distance(expected, found);
             // round-off of sixty steps, divided by h

@@ -3,11 +3,10 @@
 use rug::Float;
 use shadowstep::exact_flow::ExactFlow;
 use shadowstep::problems::{Setup, problem};
-use shadowstep::run::{EnergyDrift, PermanentChange, Seen, ShadowRun, energy_drift};
-use shadowstep::shadow::{Bilinear, Central, Method, Rule, Stop};
-use shadowstep::tables::shipped;
+use shadowstep::run::{EnergyDrift, Finding, PermanentChange, ShadowRun, energy_drift};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Central, SelectionRule, StoppingRule};
 use shadowstep::{Number, Rational};
-use shadowstep_tests::{precision, rational};
+use shadowstep_tests::{precision, step_size, stepper};
 
 const DIGITS: u32 = 80;
 
@@ -21,16 +20,17 @@ fn steps(h: &Rational) -> u64 {
     (100.0 / f64::from_rational(h, &())) as u64
 }
 
-fn on_the_exact_flow(setup: &Setup, h: &str, method: &impl Method<Float>) -> EnergyDrift<Float> {
-    let h = rational(h);
-    let mut run =
-        ShadowRun::<ExactFlow<Float>, _>::of_exact_flow(setup, &h, steps(&h), method, &precision(DIGITS)).unwrap();
-    run.drift(|_| ()).unwrap()
+fn on_the_exact_flow(setup: &Setup, h: &str, settings: &impl BuildEstimator<Float>) -> EnergyDrift<Float> {
+    let (h, context) = (step_size(h), precision(DIGITS));
+    let steps = steps(h.exact());
+    let mut run = ShadowRun::<ExactFlow<Float>, _>::of_exact_flow(setup, &h, steps, settings, &context).unwrap();
+    run.drift().unwrap()
 }
 
-fn of(scheme: &str, setup: &Setup, h: &str, method: &impl Method<Float>) -> EnergyDrift<Float> {
-    let (h, motion) = (rational(h), setup.motion(&precision(DIGITS)).unwrap());
-    energy_drift(&shipped(scheme).unwrap(), motion, &h, steps(&h), method, |_| ()).unwrap()
+fn of(scheme: &str, setup: &Setup, h: &str, settings: &impl BuildEstimator<Float>) -> EnergyDrift<Float> {
+    let context = precision(DIGITS);
+    let (stepper, motion) = (stepper(scheme, h, &context), setup.motion(&context).unwrap());
+    energy_drift(&stepper, motion, steps(stepper.h()), settings).unwrap()
 }
 
 fn change(found: &EnergyDrift<Float>) -> (f64, f64) {
@@ -57,8 +57,8 @@ fn the_exact_flow_has_none() {
                 found.drift.log10_abs()
             );
             assert_ne!(
-                found.permanent.unwrap().seen,
-                Seen::Resolved,
+                found.permanent.unwrap().finding,
+                Finding::Resolved,
                 "{name}, h = {h}, k = {k}: 1e{change} of 1e{resolution}"
             );
         }
@@ -74,10 +74,11 @@ fn every_estimator_finds_the_same() {
         for k in [16, 24, 50] {
             let drift = of(scheme, &kepler, "1/20", &Bilinear::with_error(k));
             println!("{scheme}, k = {k}: drift 1e{:.2}, change 1e{:.4}", drift.drift.log10_abs(), change(&drift).0);
-            assert_eq!(drift.permanent.as_ref().unwrap().seen, Seen::Resolved);
+            assert_eq!(drift.permanent.as_ref().unwrap().finding, Finding::Resolved);
             found.push(change(&drift).0);
         }
-        let drift = of(scheme, &kepler, "1/20", &Central::best_with_error(100, Stop::Full, Rule::Least));
+        let drift =
+            of(scheme, &kepler, "1/20", &Central::best_with_error(100, StoppingRule::Full, SelectionRule::Least));
         println!("{scheme}, central: drift 1e{:.2}, change 1e{:.4}", drift.drift.log10_abs(), change(&drift).0);
         found.push(change(&drift).0);
         // three digits: the drifts themselves are nine decades apart
@@ -94,7 +95,7 @@ fn the_page_says_what_is_found() {
         row.split('|').map(str::trim).skip(2).take(3).collect()
     };
     let kepler = setup("kepler", &[]);
-    let (best, e50) = (Central::best(200, Stop::Full), Bilinear::with_error(50));
+    let (best, e50) = (Central::best(200, StoppingRule::Full), Bilinear::with_error(50));
     let shown = |value: &Float| format!("{:.2e}", value.to_f64());
     for (label, scheme) in [
         ("Störmer–Verlet", "stormer-verlet"),

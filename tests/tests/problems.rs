@@ -5,7 +5,7 @@ use num_traits::{One, Zero};
 use rug::Float;
 use shadowstep::number::Precision;
 use shadowstep::problems::{PROBLEMS, ProblemMotion, Setup, problem};
-use shadowstep::{Number, Potential, Rational, Scheme, exact, splitting_scheme};
+use shadowstep::{Number, Potential, Rational, Stepper, splitting_scheme};
 use shadowstep_tests::{log10_distance, number, precision};
 
 #[splitting_scheme("yoshida4.toml")]
@@ -29,9 +29,9 @@ fn energy(name: &str) -> Float {
 
 /// Steps of Yoshida's scheme in double precision; `look` sees q and p after each.
 fn follow(mut motion: ProblemMotion<f64>, h: &str, steps: u32, mut look: impl FnMut(&[f64], &[f64])) {
-    let h = Yoshida4.weights(&exact(h).unwrap(), &());
+    let stepper = Stepper::new(Yoshida4, h).unwrap();
     for _ in 0..steps {
-        Yoshida4.step(&h, &mut motion);
+        stepper.step(&mut motion);
         look(motion.q(), motion.p());
     }
 }

@@ -41,15 +41,14 @@ impl Project {
         fs::write(self.path(name), text).expect("the folder can be written");
     }
 
-    /// The program prints where a step of size 1/2 leads and what is known of the scheme.
+    /// The program prints the state after a step of size 1/2 and what is known of the scheme.
     fn name_table(&self, table: &str) {
         let program = format!(
-            "use shadowstep::{{problems::Pendulum, Motion, Scheme, UnitMasses}};\n\n\
+            "use shadowstep::{{problems::Pendulum, Motion, Scheme, Stepper, UnitMasses}};\n\n\
              #[shadowstep::splitting_scheme({table:?})]\npub struct Mine;\n\n\
              fn main() {{\n    \
-                 let weights = Mine.weights::<f64>(&shadowstep::exact(\"1/2\").unwrap(), &());\n    \
-                 let mut motion = Motion::new(Pendulum, UnitMasses, [0.0], [1.0]);\n    \
-                 Mine.step(&weights, &mut motion);\n    \
+                 let mut motion = Motion::new(Pendulum, UnitMasses, [0.0], [1.0]).unwrap();\n    \
+                 Stepper::new(Mine, \"1/2\").unwrap().step(&mut motion);\n    \
                  println!(\"{{}} {{}} {{}}\", Mine.summary().name, Mine.summary().order, motion.q()[0]);\n}}\n"
         );
         self.write("src/main.rs", &program);

@@ -1,4 +1,4 @@
-//! Protects what estimators say of their own errors, on the exact flow of Kepler's problem: the energy is −1/2, so every error is
+//! Protects the errors that estimators report, on the exact flow of Kepler's problem: the energy is −1/2, so every error is
 //! known.
 
 use rug::Float;
@@ -7,8 +7,8 @@ use shadowstep::exact_flow::ExactFlow;
 use shadowstep::number::Rounded;
 use shadowstep::problems::problem;
 use shadowstep::run::ShadowRun;
-use shadowstep::shadow::{Bilinear, Central, Estimate, Method, Rule, Stop};
-use shadowstep_tests::{precision, rational};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimate, SelectionRule, StoppingRule};
+use shadowstep_tests::{precision, rational, step_size};
 
 /// A true error with the estimated one and the last term.
 struct Found {
@@ -17,13 +17,17 @@ struct Found {
     last_term: f64,
 }
 
-/// What an estimator says over an orbit and its close encounters, from a pericentre on.
-fn over_an_orbit<N: Rounded, M: Method<N>>((e, h): (&str, &str), method: &M, context: &N::Context) -> Vec<Found> {
+/// What an estimator gives over an orbit and its close encounters, from a pericentre on.
+fn over_an_orbit<N: Rounded, M: BuildEstimator<N>>(
+    (e, h): (&str, &str),
+    settings: &M,
+    context: &N::Context,
+) -> Vec<Found> {
     let set = [("eccentricity".to_owned(), e.to_owned())];
     let setup = problem("kepler").unwrap().setup(&set, 200).unwrap();
-    let h = rational(h);
-    let steps = (std::f64::consts::TAU / f64::from_rational(&h, &())) as u64;
-    let mut run = ShadowRun::<ExactFlow<N>, _>::of_exact_flow(&setup, &h, steps, method, context).unwrap();
+    let h = step_size(h);
+    let steps = (std::f64::consts::TAU / f64::from_rational(h.exact(), &())) as u64;
+    let mut run = ShadowRun::<ExactFlow<N>, _>::of_exact_flow(&setup, &h, steps, settings, context).unwrap();
     let (mut all, half) = (Vec::new(), N::from_rational(&rational("1/2"), context));
     while let Some((_, Estimate { value, last_term, error, .. })) = run.advance().unwrap() {
         let mut off = value.clone();
@@ -48,8 +52,13 @@ fn orbits() -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 /// True error/estimate over all orbits, and for comparison true error/last term: how both are spread is printed.
-fn ratios<N: Rounded, M: Method<N>>(name: &str, method: &M, context: &N::Context, check: impl Fn(&Found)) -> [f64; 3] {
-    let found: Vec<Found> = orbits().flat_map(|orbit| over_an_orbit(orbit, method, context)).collect();
+fn ratios<N: Rounded, M: BuildEstimator<N>>(
+    name: &str,
+    settings: &M,
+    context: &N::Context,
+    check: impl Fn(&Found),
+) -> [f64; 3] {
+    let found: Vec<Found> = orbits().flat_map(|orbit| over_an_orbit(orbit, settings, context)).collect();
     found.iter().for_each(check);
     let [median, most, worst] = quantiles(found.iter().map(|found| found.error / found.estimate));
     let old = quantiles(found.iter().map(|found| found.error / found.last_term));
@@ -66,25 +75,25 @@ fn assert_reliable(name: &str, digits: u32, found: &Found) {
     let is_round_off = found.error < 10_f64.powi(2 - digits as i32);
     let allowed = if is_round_off { 4.0 } else { 1.1 };
     let Found { error, estimate, .. } = found;
-    assert!(error < &(allowed * estimate), "{name}: an error of {error:e} is told as {estimate:e}");
+    assert!(error < &(allowed * estimate), "{name}: an error of {error:e} is estimated as {estimate:e}");
 }
 
 #[test]
-fn the_error_of_central_differences_is_hardly_more_than_they_tell() {
+fn the_error_of_central_differences_is_hardly_more_than_estimated() {
     const DIGITS: u32 = 160;
     let fixed = [2, 5, 10, 20, 40].map(|m| (format!("m = {m}"), Central::fixed_with_error(m)));
-    let best = [Rule::Least, Rule::Robust]
-        .map(|rule| (format!("the best m <= 100, {rule:?}"), Central::best_with_error(100, Stop::Full, rule)));
-    for (name, method) in fixed.iter().chain(&best) {
+    let best = [SelectionRule::Least, SelectionRule::Robust]
+        .map(|rule| (format!("the best m <= 100, {rule:?}"), Central::best_with_error(100, StoppingRule::Full, rule)));
+    for (name, settings) in fixed.iter().chain(&best) {
         let check = |found: &Found| assert_reliable(name, DIGITS, found);
-        let [.., worst] = ratios::<Float, _>(name, method, &precision(DIGITS), check);
-        // what the last term alone would tell
+        let [.., worst] = ratios::<Float, _>(name, settings, &precision(DIGITS), check);
+        // by the last term alone
         assert!(name == "m = 2" || worst > 1e3, "{name}: {worst:e}");
     }
 }
 
 #[test]
-fn the_error_of_bilinear_estimates_is_hardly_more_than_they_tell() {
+fn the_error_of_bilinear_estimates_is_hardly_more_than_estimated() {
     const DIGITS: u32 = 160;
     for k in [2, 3, 4, 8, 16, 32] {
         let name = format!("k = {k}");
@@ -96,11 +105,11 @@ fn the_error_of_bilinear_estimates_is_hardly_more_than_they_tell() {
 /// In double precision nearly all errors are round-off, and values may agree in all their digits.
 #[test]
 fn so_is_round_off() {
-    fn check<M: Method<f64>>(name: &str, method: &M) {
-        ratios(&format!("{name}, double precision"), method, &(), |found| assert_reliable(name, 16, found));
+    fn check<M: BuildEstimator<f64>>(name: &str, settings: &M) {
+        ratios(&format!("{name}, double precision"), settings, &(), |found| assert_reliable(name, 16, found));
     }
     check("m = 20", &Central::fixed_with_error(20));
-    check("the best m <= 40", &Central::best_with_error(40, Stop::Full, Rule::Least));
+    check("the best m <= 40", &Central::best_with_error(40, StoppingRule::Full, SelectionRule::Least));
     check("k = 16", &Bilinear::with_error(16));
 }
 
@@ -109,9 +118,9 @@ fn so_is_round_off() {
 fn the_robust_rule_is_no_worse() {
     let mut gains = Vec::new();
     for orbit in orbits().filter(|(e, _)| *e != "0") {
-        let [least, robust] = [Rule::Least, Rule::Robust].map(|rule| {
-            let method = Central::best_with_error(100, Stop::Full, rule);
-            over_an_orbit::<Float, _>(orbit, &method, &precision(100))
+        let [least, robust] = [SelectionRule::Least, SelectionRule::Robust].map(|rule| {
+            let settings = Central::best_with_error(100, StoppingRule::Full, rule);
+            over_an_orbit::<Float, _>(orbit, &settings, &precision(100))
                 .iter()
                 .map(|found| found.error)
                 .fold(0.0, f64::max)

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 use shadowstep::number::Number;
-use shadowstep::run::{EnergyDrift, Seen};
+use shadowstep::run::{EnergyDrift, Finding};
 use shadowstep_scenes::arithmetic::DigitsLabel;
 
 /// The result of a run in JSON; numbers of high precision are texts.
@@ -50,7 +50,7 @@ pub(super) struct Permanent {
     pub(super) largest_jump: String,
     pub(super) resolution: String,
     #[serde(serialize_with = "as_word")]
-    pub(super) seen: Seen,
+    pub(super) seen: Finding,
     pub(super) from: i64,
     pub(super) to: i64,
     pub(super) states: u64,
@@ -72,20 +72,20 @@ impl Permanent {
             first_to_last: permanent.first_to_last.to_text(),
             largest_jump: permanent.largest_jump.to_text(),
             resolution: permanent.resolution.to_text(),
-            seen: permanent.seen,
+            seen: permanent.finding,
             from: permanent.between.0,
             to: permanent.between.1,
             states: permanent.states,
-            stretches: permanent.stretches,
+            stretches: permanent.intervals,
         })
     }
 }
 
-fn as_word<S: Serializer>(seen: &Seen, serializer: S) -> Result<S::Ok, S::Error> {
+fn as_word<S: Serializer>(seen: &Finding, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(match seen {
-        Seen::Resolved => "resolved",
-        Seen::Below => "below",
-        Seen::OneSide => NOT_SEEN,
+        Finding::Resolved => "resolved",
+        Finding::BelowResolution => "below",
+        Finding::OneSided => NOT_SEEN,
     })
 }
 

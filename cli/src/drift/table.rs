@@ -1,6 +1,6 @@
 //! The results of `drift` as a table.
 
-use shadowstep::run::Seen;
+use shadowstep::run::Finding;
 use shadowstep_scenes::readable::shortened;
 use shadowstep_scenes::run::Run;
 
@@ -34,9 +34,9 @@ impl Permanent {
     /// The change, or what it is below.
     fn shown(&self) -> String {
         match self.seen {
-            Seen::Resolved => rounded(&self.change, 4),
-            Seen::Below => format!("< {}", rounded(&self.resolution, 2)),
-            Seen::OneSide => NOT_SEEN.to_owned(),
+            Finding::Resolved => rounded(&self.change, 4),
+            Finding::BelowResolution => format!("< {}", rounded(&self.resolution, 2)),
+            Finding::OneSided => NOT_SEEN.to_owned(),
         }
     }
 }
@@ -78,7 +78,7 @@ pub(super) fn readable(selection: &Selection, rows: Vec<[String; 9]>) -> String 
         values.join(", "),
         shortened(&selection.until, 20),
         selection.arithmetic.described(),
-        selection.estimator.described(),
+        selection.estimator,
         table(columns, rows, 1..9)
     )
 }

@@ -248,7 +248,7 @@ fn a_run_that_fails_keeps_its_rows_and_no_checkpoint() {
     );
     let said = run(folder.path(), "");
     assert_eq!(said.code, 3);
-    assert!(said.err.contains("out.csv.partial") && said.err.contains("the run ends at n = "), "{}", said.err);
+    assert!(said.err.contains("out.csv.partial") && said.err.contains("the run stopped at n = "), "{}", said.err);
     assert_eq!(names(folder.path()), ["out.csv.partial", "scene.toml"]);
 }
 

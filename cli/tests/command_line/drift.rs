@@ -215,7 +215,7 @@ fn a_run_that_fails_lets_the_others_go_on() {
                  --order 2 --json";
     let said = shadowstep(words);
     assert_eq!(said.code, 3);
-    assert!(said.err.starts_with("error: stormer-verlet, step 10: the run ends at n = "), "{}", said.err);
+    assert!(said.err.starts_with("error: stormer-verlet, step 10: the run stopped at n = "), "{}", said.err);
     let runs = objects(&said.out);
     assert_eq!(runs.len(), 1);
     assert_eq!(text(&runs[0], "step"), "1/10");
@@ -246,7 +246,7 @@ fn an_energy_that_is_not_finite_fails_though_the_states_are_finite() {
                  --double --order 2 --json";
     let said = shadowstep(words);
     assert_eq!((said.code, said.out.as_str()), (3, ""));
-    assert!(said.err.contains("an energy of inf"), "{}", said.err);
+    assert!(said.err.contains("the energy is inf"), "{}", said.err);
 }
 
 #[test]

@@ -116,13 +116,13 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     (
         "energy = true",
         "modified_energy = { estimator = \"bilinear\", accuracy = 0 }",
-        "15:56: accuracy 0 is no size of an error",
+        "15:56: accuracy 0 is not a valid target error",
         "such as 1e-20",
     ),
     (
         "energy = true",
         "modified_energy = { estimator = \"bilinear\", accuracy = \"1e400\" }",
-        "15:56: accuracy 1e400 is more than 1e100, an error larger than any energy",
+        "15:56: accuracy 1e400 is above 1e100, an error larger than any energy",
         "such as 1e-20",
     ),
     (

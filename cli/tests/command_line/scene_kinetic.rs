@@ -86,7 +86,7 @@ fn a_scheme_for_quadratic_t_moves_no_other() {
     let refused = scene("sqrt(1 + px^2)");
     let said = run(refused.path(), "");
     assert_eq!((said.code, said.out.as_str()), (2, ""));
-    let sentence = "scene.toml:10:10: nystrom has order 4 for quadratic T only, for a general T(p) order 3; take a scheme \
+    let sentence = "scene.toml:10:10: nystrom has order 4 for quadratic T only, for a general T(p) order 3; use a scheme \
                     such as ";
     assert!(said.err.contains(sentence), "{}", said.err);
     for quadratic in ["px^2/2", "px*px"] {

@@ -229,7 +229,7 @@ fn a_run_that_fails_leaves_the_old_file() {
     fs::write(folder.path().join("out.csv"), "old").unwrap();
     let said = run(folder.path(), "--restart");
     assert_eq!(said.code, 3);
-    assert!(said.err.contains("the run ends at n = "), "{}", said.err);
+    assert!(said.err.contains("the run stopped at n = "), "{}", said.err);
     assert_eq!(fs::read_to_string(folder.path().join("out.csv")).unwrap(), "old");
     assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
 }
@@ -382,7 +382,7 @@ fn a_failure_has_the_names_of_the_scene() {
                  trajectory = true\n";
     let said = run(folder(scene).path(), "");
     assert_eq!(said.code, 3);
-    assert!(said.err.contains("with px = ") || said.err.contains("with x = "), "{}", said.err);
+    assert!(said.err.contains(": px = ") || said.err.contains(": x = "), "{}", said.err);
 }
 
 #[test]

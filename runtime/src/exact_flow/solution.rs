@@ -8,7 +8,7 @@ use thiserror::Error;
 use crate::Rational;
 use crate::number::{Number, Precision};
 use crate::problems::values::Values;
-use crate::run::RunError;
+use crate::shadow::EstimatorError;
 
 /// 20 digits beyond those of the run.
 const GUARD_BITS: f64 = 67.0;
@@ -38,9 +38,9 @@ pub enum ExactFlowError {
         /// The largest number of additional bits that is allowed.
         most: u64,
     },
-    /// A step size of 0.
+    /// The settings of the estimator are not valid.
     #[error(transparent)]
-    Run(#[from] RunError),
+    Estimator(#[from] EstimatorError),
 }
 
 /// q and p at a time, and β since t = 0.

@@ -7,17 +7,17 @@ use crate::interpreter::Interpreter;
 use crate::kinetic::{General, Kinetic, Quadratic};
 use crate::number::Number;
 
-/// A kinetic energy whose operations are carried out one by one from a list; nothing is allocated per call.
+/// A kinetic energy from a formula read at run time: a list of operations, executed without allocation.
 ///
 /// It is taken as a general T(p), which schemes for quadratic T only do not move;
-/// [`into_quadratic`](FormulaKinetic::into_quadratic) says so of a formula that is a quadratic form.
+/// [`into_quadratic`](FormulaKinetic::into_quadratic) turns one that is a quadratic form into a quadratic kinetic energy.
 ///
 /// ```
 /// use shadowstep::{Motion, formula::{FormulaKinetic, FormulaPotential}};
 ///
 /// let relativistic = FormulaKinetic::new("sqrt(c^4 + c^2*p^2)", &["p"], &[("c", 2.0)]).unwrap();
 /// let spring = FormulaPotential::new("q^2/2", &["q"], &[]).unwrap();
-/// let mut motion = Motion::new(spring, relativistic, [0.0], [1.5]);
+/// let mut motion = Motion::new(spring, relativistic, [0.0], [1.5]).unwrap();
 /// assert_eq!(motion.energy(), 5.0);
 /// ```
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ impl<N: Number> FormulaKinetic<N> {
     /// The kinetic energy of a formula in these momenta, with the values of its parameters.
     ///
     /// # Errors
-    /// A text that is no formula, unknown or repeated names, functions that are not smooth.
+    /// A text that is not a valid formula, unknown or repeated names, functions that are not smooth.
     pub fn new(formula: &str, momenta: &[&str], parameters: &[(&str, N)]) -> Result<Self, FormulaError> {
         let (mut graph, energy) = build(formula, momenta, parameters)?;
         let quadratic = graph.is_quadratic(energy, momenta.len());
@@ -45,7 +45,7 @@ impl<N: Number> FormulaKinetic<N> {
     /// The same, as one that every scheme moves.
     ///
     /// # Errors
-    /// The formula is no quadratic form; it is given back.
+    /// The formula is not a quadratic form; it is returned.
     #[expect(clippy::result_large_err, reason = "both are the same value; neither is an error")]
     pub fn into_quadratic(self) -> Result<FormulaKinetic<N, Quadratic>, Self> {
         if !self.quadratic {

@@ -35,7 +35,7 @@ impl<N: Number> FormulaPair<N> {
     /// with the values of each property for all bodies, and the values of parameters.
     ///
     /// # Errors
-    /// A text that is no formula, unknown or repeated names, functions that are not smooth.
+    /// A text that is not a valid formula, unknown or repeated names, functions that are not smooth.
     pub fn new(
         formula: &str,
         separation: Separation,

@@ -1,18 +1,19 @@
 //! The drift of the modified energy over a run: the paper's max − min, and the permanent change.
 
-use super::{PermanentChange, Quiet, RunError, ShadowRun, States};
-use crate::Rational;
-use crate::kinetic::Kinetic;
-use crate::motion::{Coordinates, Motion};
 use crate::number::Number;
-use crate::potential::Potential;
-use crate::scheme::{Moves, Scheme};
-use crate::shadow::{Estimate, Estimator, Method};
+use crate::run::error::RunError;
+use crate::run::permanent::{LowErrorStates, PermanentChange};
+use crate::run::shadow_run::ShadowRun;
+use crate::run::state::States;
+use crate::scheme::{Scheme, ValidFor};
+use crate::shadow::{BuildEstimator, Estimate, Estimator};
+use crate::stepper::Stepper;
+use crate::system::System;
 
 /// The modified energy over a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnergyDrift<N> {
-    /// maximum − minimum over n = 0..=steps: the paper's drift, in which is the estimator's own error.
+    /// maximum − minimum over n = 0..=steps: the paper's drift, which includes the error of the estimator.
     pub drift: N,
     /// The least modified energy.
     pub minimum: N,
@@ -26,7 +27,7 @@ pub struct EnergyDrift<N> {
     pub first: N,
     /// At n = steps.
     pub last: N,
-    /// By how much it changed for good, if the estimator tells errors.
+    /// Its permanent change, if the estimator gives errors.
     pub permanent: Option<PermanentChange<N>>,
     /// The least and the largest m used.
     pub orders: (u32, u32),
@@ -34,56 +35,63 @@ pub struct EnergyDrift<N> {
     pub evaluations: u64,
 }
 
-/// Runs over n = 0..=steps and keeps the extremes of the modified energy; `progress` hears of each n.
+/// The energy drift over n = 0..=steps from the system's present state.
+///
+/// [`ShadowRun::drift_with_progress`] reports each n on the way.
 ///
 /// # Errors
-/// A step of size 0, a state or a modified energy that is not finite.
-pub fn energy_drift<S, N, V, P, K>(
-    scheme: &S,
-    motion: Motion<N, V, P, K>,
-    h: &Rational,
+/// A state or a modified energy that is not finite; settings of the estimator that are not valid.
+pub fn energy_drift<S, M>(
+    stepper: &Stepper<S, M::Number>,
+    system: M,
     steps: u64,
-    method: &impl Method<N>,
-    progress: impl FnMut(i64),
-) -> Result<EnergyDrift<N>, RunError>
+    settings: &impl BuildEstimator<M::Number>,
+) -> Result<EnergyDrift<M::Number>, RunError>
 where
-    S: Scheme + Moves<K::Class>,
-    N: Number,
-    V: Coordinates<N>,
-    P: Potential<N>,
-    K: Kinetic<N>,
+    S: Scheme + ValidFor<M::Class>,
+    M: System,
 {
-    let mut run = ShadowRun::new(scheme, motion, h, steps, method)?;
-    let mut found = run.drift(progress)?;
-    found.evaluations = run.motion().evaluations();
+    let mut run = ShadowRun::new(stepper, system, steps, settings)?;
+    let mut found = run.drift()?;
+    found.evaluations = run.system().evaluations();
     Ok(found)
 }
 
 impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
-    /// Runs to the end and keeps the extremes of the modified energy; `progress` hears of each n. Evaluations are not counted
-    /// here: [`energy_drift`] does.
+    /// Runs to the end and keeps the extremes of the modified energy. The evaluations are left 0; [`energy_drift`] counts them.
     ///
     /// # Errors
     /// As [`advance`](ShadowRun::advance).
     ///
     /// # Panics
     /// If there is no estimate, as after the last one.
-    pub fn drift(&mut self, mut progress: impl FnMut(i64)) -> Result<EnergyDrift<T::Number>, RunError> {
+    pub fn drift(&mut self) -> Result<EnergyDrift<T::Number>, RunError> {
+        self.drift_with_progress(|_| ())
+    }
+
+    /// As [`drift`](ShadowRun::drift), and calls `progress` with each n.
+    ///
+    /// # Errors
+    /// As [`advance`](ShadowRun::advance).
+    ///
+    /// # Panics
+    /// If there is no estimate, as after the last one.
+    pub fn drift_with_progress(&mut self, mut progress: impl FnMut(i64)) -> Result<EnergyDrift<T::Number>, RunError> {
         let mut found: Option<EnergyDrift<T::Number>> = None;
-        let h = self.h.clone();
-        let mut quiet = None;
+        let h = self.step_size().clone();
+        let mut low_error = None;
         while let Some((n, estimate)) = self.advance()? {
             match &mut found {
                 None => found = Some(EnergyDrift::begin(&estimate)),
                 Some(found) => found.include(n, &estimate),
             }
-            let quiet = quiet.get_or_insert_with(|| Quiet::new(&h, &estimate.value.context()));
-            quiet.include(n, &estimate);
+            let states = low_error.get_or_insert_with(|| LowErrorStates::new(&h, &estimate.value.context()));
+            states.include(n, &estimate);
             progress(n);
         }
         let mut found = found.expect("a run has the state 0");
         found.drift.assign_difference(&found.maximum, &found.minimum);
-        found.permanent = quiet.and_then(|quiet| quiet.change());
+        found.permanent = low_error.and_then(|states| states.change());
         Ok(found)
     }
 }

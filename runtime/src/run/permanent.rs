@@ -1,17 +1,17 @@
-//! By how much the modified energy changed for good.
+//! The permanent change of the modified energy.
 //!
-//! Where a motion is fast, as in a close encounter, an estimate is off by a bump that goes again. The modified energy itself
-//! changes there, too, for good and by far less. Between encounters the estimate is right to many more digits: a change is seen
-//! from one such *quiet* state to another. Quiet are those whose estimated error is at most the geometric mean of the least
-//! and the largest error of the run; so turning points need not be known, and where all errors are alike about half of the
-//! states are quiet.
+//! Where a motion is fast, as in a close encounter, an estimate has a large error for a few steps. The modified energy itself
+//! changes there, too, permanently and by far less. Between encounters the estimates are right to many more digits: a change is
+//! measured from one such *low-error state* to another. These are the states whose estimated error is at most the geometric mean of
+//! the smallest and the largest error of the run; turning points need not be known, and where all errors are alike about half of the
+//! states have low errors.
 //!
-//! A change is *seen* where quiet states lie on both sides of what is not quiet, and where it is more than errors and round-off
-//! can feign. It is the range of what the encounters add, one after the other: each adds an amount that depends, like a sine,
-//! on where within a step it comes, so the sum wanders to and fro (a beat of the step with the period) and may come back. The
+//! A change is *resolved* where low-error states lie on both sides of a peak of the error, and where it exceeds what errors and
+//! round-off can produce. It is the range of what the encounters add, one after the other: each adds an amount that depends, like a
+//! sine, on its phase within a step, so the sum oscillates (a beat of the step with the period) and may return. The
 //! largest of these amounts is the largest *jump*.
 //!
-//! Three ways were tried on the exact flow, where all they find is their own error, and on Störmer–Verlet (Kepler, e = 0.6,
+//! Three definitions were compared on the exact flow, where all they find is their own error, and on Störmer–Verlet (Kepler, e = 0.6,
 //! h = 1/20, t = 0 to 100, 80 digits; averages with the weights exp(−1/(1 − x²)) over the first and the last 252 steps, two
 //! periods):
 //!
@@ -20,56 +20,57 @@
 //! | max − min of all estimates | 4.3e-7 | 1.5e-12 | 9.7e-14 | 1.0e-7 | 1.7e-12 | 2.8e-13 |
 //! | from smooth average to smooth average | 7e-10 | 2e-17 | 3e-18 | 7e-11 | 1.2e-14 | 1.7e-15 |
 //! | max − min over the apocentres | 2e-48 | 7e-44 | 2e-56 | 1.227e-14 | 1.227e-14 | 1.227e-14 |
-//! | max − min over the quiet states | 1e-28 | 3e-31 | 5e-38 | 1.227e-14 | 1.227e-14 | 1.227e-14 |
+//! | max − min over the low-error states | 1e-28 | 3e-31 | 5e-38 | 1.227e-14 | 1.227e-14 | 1.227e-14 |
 
 use std::collections::BTreeMap;
 
-use crate::Rational;
 use crate::number::Number;
-use crate::run::stretches::Stretches;
+use crate::run::intervals::Intervals;
 use crate::shadow::{Estimate, Walk};
+use crate::step_size::StepSize;
 
-/// The change of the modified energy between quiet states.
+/// The change of the modified energy between low-error states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PermanentChange<N> {
-    /// maximum − minimum over the quiet states.
+    /// maximum − minimum over the low-error states.
     pub change: N,
-    /// From the first quiet state to the last one.
+    /// From the first low-error state to the last one.
     pub first_to_last: N,
-    /// The largest change from one quiet stretch to the next, over what is loud between them; 0 if there is one stretch only.
+    /// The largest change from one low-error interval to the next, across the peak of the error between them; 0 if there is one
+    /// interval only.
     pub largest_jump: N,
-    /// What a change has to exceed to be seen: four times the largest estimated error of a quiet state, or eight times the
-    /// walk that the round-off of so many steps is expected to make (Brouwer's law), whichever is larger.
+    /// What a change has to exceed to be resolved: four times the largest estimated error of a low-error state, or eight times the
+    /// random walk that the round-off of the steps is expected to make (Brouwer's law), whichever is larger.
     pub resolution: N,
-    /// Whether it is more than that.
-    pub seen: Seen,
-    /// The n of the first quiet state and of the last.
+    /// Whether the change is resolved.
+    pub finding: Finding,
+    /// The n of the first low-error state and of the last.
     pub between: (i64, i64),
-    /// How many states are quiet.
+    /// The number of low-error states.
     pub states: u64,
-    /// How many stretches of quiet states there are, with loud ones between them.
-    pub stretches: u64,
+    /// The number of low-error intervals, which peaks of the error separate.
+    pub intervals: u64,
 }
 
-/// What is known of a change.
+/// What is known of a permanent change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Seen {
-    /// It is more than errors and round-off can feign.
+pub enum Finding {
+    /// It exceeds what errors and round-off can produce.
     Resolved,
-    /// It is less than the resolution.
-    Below,
-    /// The quiet states all lie on one side of the loud ones: nothing is known of what happens there.
-    OneSide,
+    /// It is below the resolution.
+    BelowResolution,
+    /// The low-error states all lie on one side of a peak of the error: the change across the peak is unknown.
+    OneSided,
 }
 
-/// The estimates of a run by the sizes of their errors.
+/// The estimates of a run, sorted by the sizes of their errors.
 ///
-/// Its memory does not grow with the run: of each power of two the extremes are kept.
+/// Its memory does not grow with the run: for each power of two of the error the extremes are kept.
 #[derive(Clone, Debug)]
-pub struct Quiet<N> {
+pub struct LowErrorStates<N> {
     /// By ⌊log₂ error⌋; an error of 0, where nothing changes from state to state, comes first.
     by_error: BTreeMap<i32, Extremes<N>>,
-    stretches: Stretches<N>,
+    intervals: Intervals<N>,
     walk: Walk<N>,
 }
 
@@ -83,11 +84,11 @@ struct Extremes<N> {
     states: u64,
 }
 
-impl<N: Number> Quiet<N> {
+impl<N: Number> LowErrorStates<N> {
     /// For steps of size h.
-    pub fn new(h: &Rational, context: &N::Context) -> Self {
-        let (stretches, walk) = (Stretches::new(context), Walk::new(h, context));
-        Quiet { by_error: BTreeMap::new(), stretches, walk }
+    pub fn new(h: &StepSize, context: &N::Context) -> Self {
+        let (intervals, walk) = (Intervals::new(context), Walk::new(h.exact(), context));
+        LowErrorStates { by_error: BTreeMap::new(), intervals, walk }
     }
 
     /// Takes the estimate of the state n; one without an error is left out.
@@ -96,47 +97,53 @@ impl<N: Number> Quiet<N> {
         let size = (error.log10_abs() * std::f64::consts::LOG2_10).floor() as i32;
         let one = || Extremes::of(n, estimate.value, error);
         self.by_error.entry(size).and_modify(|known| known.include(n, estimate.value, error)).or_insert_with(one);
-        self.stretches.include(size, estimate.value, error);
+        self.intervals.include(size, estimate.value, error);
         self.walk.include(estimate.q, estimate.p);
     }
 
-    /// The change between the quiet ones of them; none if there is no estimate with an error.
+    /// The change between those with low errors; `None` if no estimate has an error.
     pub fn change(&self) -> Option<PermanentChange<N>> {
         let mut sizes = self.by_error.keys().filter(|size| **size > i32::MIN);
         let least = *sizes.next().unwrap_or(&i32::MIN);
         let largest = *sizes.next_back().unwrap_or(&least);
-        let quiet = i32::midpoint(least, largest);
-        let mut groups = self.by_error.range(..=quiet).map(|(_, extremes)| extremes);
+        let low = i32::midpoint(least, largest);
+        let mut groups = self.by_error.range(..=low).map(|(_, extremes)| extremes);
         let mut all = groups.next()?.clone();
         groups.for_each(|other| all.merge(other));
-        let difference = |a: &N, b: &N| {
-            let mut difference = a.clone();
-            difference.subtract(b);
-            difference
-        };
         let change = difference(&all.maximum, &all.minimum);
         let first_to_last = difference(&all.last.1, &all.first.1);
-        let mut walk = self.walk.expected();
-        walk.multiply_integer(8);
-        all.error.multiply_integer(4);
-        let resolution = if walk > all.error { walk } else { all.error };
-        let stretches = self.stretches.count(quiet);
-        let seen = match change > resolution {
-            _ if stretches < 2 && !Stretches::<N>::are_alike(least, largest) => Seen::OneSide,
-            true => Seen::Resolved,
-            false => Seen::Below,
+        let resolution = self.resolution(all.error);
+        let intervals = self.intervals.count(low);
+        let finding = match change > resolution {
+            _ if intervals < 2 && !Intervals::<N>::is_one(least, largest) => Finding::OneSided,
+            true => Finding::Resolved,
+            false => Finding::BelowResolution,
         };
         Some(PermanentChange {
             change,
             first_to_last,
-            largest_jump: self.stretches.largest_jump(quiet),
+            largest_jump: self.intervals.largest_jump(low),
             resolution,
-            seen,
+            finding,
             between: (all.first.0, all.last.0),
             states: all.states,
-            stretches,
+            intervals,
         })
     }
+
+    /// 4 largest errors or 8 random walks.
+    fn resolution(&self, mut largest_error: N) -> N {
+        let mut walk = self.walk.expected();
+        walk.multiply_integer(8);
+        largest_error.multiply_integer(4);
+        if walk > largest_error { walk } else { largest_error }
+    }
+}
+
+fn difference<N: Number>(a: &N, b: &N) -> N {
+    let mut difference = a.clone();
+    difference.subtract(b);
+    difference
 }
 
 impl<N: Number> Extremes<N> {

@@ -3,32 +3,37 @@
 use num_traits::Zero;
 
 use crate::Rational;
-use crate::motion::Increments;
 use crate::number::Number;
 use crate::shadow::differences::AllOrders;
-use crate::shadow::spread::{Point, Spread};
+use crate::shadow::differences::{SelectionRule, StoppingRule};
+use crate::shadow::error_estimate::{ErrorEstimate, Point};
+use crate::shadow::estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
+use crate::shadow::family::Family;
+use crate::shadow::options::EstimatorOptions;
+use crate::shadow::weights::central;
 use crate::shadow::window::Window;
-use crate::shadow::{Estimate, Estimator, Method, Rule, Stop};
-use crate::weights::central;
+use crate::step_size::StepSize;
+use crate::system::Increments;
 
 /// Central differences (Moan & Niesen): T_{m,m} = ½(−qᵀD_m p + pᵀD_m q − D_m β).
 ///
-/// **Its error** is estimated by the larger of two: its spread, max − min of the values at the state and at three states on either
+/// **Its error** is estimated by the larger of two: the range, max − min of the values at the state and at three states on either
 /// side, and the largest of their last terms |T_{m,m} − T_{m−1,m−1}|. That needs three states more on each side; see
 /// [Errors](crate::shadow#errors). For m = 1 there is no term before the last, and no estimate.
 ///
 /// ```
-/// use shadowstep::{Motion, UnitMasses, exact, problems::Kepler, run::ShadowRun, tables::shipped};
-/// use shadowstep::shadow::{Central, Rule, Stop};
+/// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, run::ShadowRun, tables::shipped};
+/// use shadowstep::shadow::{Central, SelectionRule, StoppingRule};
 ///
-/// let start = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]); // eccentricity 0.6
-/// let (verlet, h) = (shipped("stormer-verlet").unwrap(), exact("1/20").unwrap());
-/// let best = Central::best_with_error(40, Stop::Full, Rule::Robust);
-/// let mut run = ShadowRun::new(&verlet, start, &h, 100, &best).unwrap();
-/// while let Some((_, found)) = run.advance().unwrap() {
+/// let start = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?; // eccentricity 0.6
+/// let verlet = Stepper::new(shipped("stormer-verlet").unwrap(), "1/20")?;
+/// let best = Central::best_with_error(40, StoppingRule::Full, SelectionRule::Robust);
+/// let mut run = ShadowRun::new(&verlet, start, 100, &best)?;
+/// while let Some((_, found)) = run.advance()? {
 ///     assert!((found.value + 0.490_943_1).abs() < 1e-6);
 ///     assert!(*found.error.unwrap() < 1e-6); // the largest is near the pericentre
 /// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Central {
@@ -36,23 +41,23 @@ pub enum Central {
     Fixed {
         /// The m of D_m.
         m: u32,
-        /// Whether the last term and the error are wanted as well.
+        /// Whether the last term and the error are computed as well.
         with_error: bool,
     },
     /// The best m of each state.
     Best {
         /// The largest m allowed, at least 2.
         largest: u32,
-        /// When the search ends.
-        stop: Stop,
+        /// Where the search ends.
+        stop: StoppingRule,
         /// Which m is the best.
-        rule: Rule,
-        /// Whether the error is wanted as well; the last term is known anyway.
+        rule: SelectionRule,
+        /// Whether the error is computed as well; the last term always is.
         with_error: bool,
     },
 }
 
-/// How many values on either side the error is estimated from.
+/// The number of values on either side from which the error is estimated.
 ///
 /// Near a close encounter errors alternate in sign, so that a few are enough. On the orbits of the table in `shadow`, at 150 digits,
 /// the largest true error/estimate of the best m ≤ 20 by the least term is 4.0 with one, 1.0 with two and 0.98 with three. With five it
@@ -72,29 +77,83 @@ impl Central {
 
     /// The paper's best: at each state the m of 2..=`largest` with the smallest |T_{m,m} − T_{m−1,m−1}|, the first of equal ones; no
     /// estimate of the error.
-    pub fn best(largest: u32, stop: Stop) -> Self {
-        Central::Best { largest, stop, rule: Rule::Least, with_error: false }
+    pub fn best(largest: u32, stop: StoppingRule) -> Self {
+        Central::Best { largest, stop, rule: SelectionRule::Least, with_error: false }
     }
 
     /// At each state the m of 2..=`largest` that is the best by a rule, with an estimate of its error.
-    pub fn best_with_error(largest: u32, stop: Stop, rule: Rule) -> Self {
+    pub fn best_with_error(largest: u32, stop: StoppingRule, rule: SelectionRule) -> Self {
         Central::Best { largest, stop, rule, with_error: true }
     }
 }
 
-impl<N: Number> Method<N> for Central {
+impl Family for Central {
+    const NAME: &'static str = "central";
+    const SUMMARY: &'static str = "Central differences D_m: 2m + 1 states, order 2m";
+    const LETTER: &'static str = "m";
+    const AUTO_OPTIONS: &'static [&'static str] = &["max_order", "stop", "rule"];
+    const DEFAULT_LARGEST: u32 = 200;
+
+    fn from_options(options: EstimatorOptions) -> Self {
+        match options.order {
+            Some(m) => Central::fixed(m),
+            None => Central::Best {
+                largest: options.max_order.unwrap_or(Self::DEFAULT_LARGEST),
+                stop: options.stop.unwrap_or(StoppingRule::Full),
+                rule: options.rule.unwrap_or(SelectionRule::Least),
+                with_error: false,
+            },
+        }
+    }
+
+    fn options(&self) -> EstimatorOptions {
+        match *self {
+            Central::Fixed { m, .. } => EstimatorOptions { order: Some(m), ..Default::default() },
+            Central::Best { largest, stop, rule, .. } => {
+                EstimatorOptions { max_order: Some(largest), stop: Some(stop), rule: Some(rule), ..Default::default() }
+            }
+        }
+    }
+
+    fn set_errors(&mut self, wanted: bool) {
+        let (Central::Fixed { with_error, .. } | Central::Best { with_error, .. }) = self;
+        *with_error = wanted;
+    }
+
+    fn is_between(&self) -> bool {
+        false
+    }
+
+    fn description(&self) -> String {
+        match self {
+            Central::Fixed { m, .. } => format!("central differences, m = {m}"),
+            Central::Best { largest, stop, rule, .. } => {
+                let by = if *rule == SelectionRule::Robust { " by the robust rule" } else { "" };
+                let end = if *stop == StoppingRule::Early { " before errors rise" } else { "" };
+                format!("central differences, the best m of 2–{largest}{by}{end}")
+            }
+        }
+    }
+}
+
+impl<N: Number> BuildEstimator<N> for Central {
     type Estimator = CentralEstimator<N>;
 
-    /// # Panics
-    /// If m is 0, or the largest m less than 2.
-    fn estimator(&self, h: &Rational, dimension: usize, context: &N::Context) -> CentralEstimator<N> {
-        CentralEstimator(match *self {
-            Central::Fixed { m, with_error } => Kind::Fixed(FixedOrder::new(m, with_error, h, dimension, context)),
+    /// # Errors
+    /// m = 0, or a largest m below 2.
+    fn build(&self, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self::Estimator, EstimatorError> {
+        let h = h.exact();
+        Ok(CentralEstimator(match *self {
+            Central::Fixed { m, with_error } => {
+                EstimatorError::check_order("m", m, 1)?;
+                Kind::Fixed(FixedOrder::new(m, with_error, h, dimension, context))
+            }
             Central::Best { largest, stop, rule, with_error } => {
+                EstimatorError::check_order("the largest m", largest, 2)?;
                 let around = with_error.then_some(AROUND);
                 Kind::Best(AllOrders::new((largest, stop, rule), around, h, dimension, context))
             }
-        })
+        }))
     }
 }
 
@@ -133,7 +192,7 @@ struct FixedOrder<N> {
     m: usize,
     /// d_{m,j}/(2h)
     weights: Vec<N>,
-    /// (d_{m,j} − d_{m−1,j})/(2h), for the last term alone; empty where no error is asked for
+    /// (d_{m,j} − d_{m−1,j})/(2h), for the last term alone; empty where no error is computed
     last_term: Vec<N>,
     /// The newest m + 1 states, and those whose values are there already; and what their values are so far.
     window: Window<N>,
@@ -141,7 +200,7 @@ struct FixedOrder<N> {
     /// B(n−j, n) for the newest state n
     pairs: Vec<N>,
     product: N,
-    spread: Spread<N>,
+    error_estimate: ErrorEstimate<N>,
 }
 
 #[derive(Clone, Debug)]
@@ -152,7 +211,6 @@ struct Sums<N> {
 
 impl<N: Number> FixedOrder<N> {
     fn new(m: u32, with_error: bool, h: &Rational, dimension: usize, context: &N::Context) -> Self {
-        assert!(m >= 1, "a central difference has m ≥ 1");
         let twice_h = h * Rational::from_integer(2.into());
         let zero = N::zero(context);
         let number = |weight: Rational| N::from_rational(&(weight / &twice_h), context);
@@ -167,7 +225,7 @@ impl<N: Number> FixedOrder<N> {
             sums: vec![Sums { value: zero.clone(), last_term: zero.clone() }; states],
             pairs: vec![zero.clone(); m],
             product: zero,
-            spread: Spread::new(around, context),
+            error_estimate: ErrorEstimate::new(around, context),
         }
     }
 
@@ -186,7 +244,7 @@ impl<N: Number> FixedOrder<N> {
 
 impl<N: Number> Estimator<N> for FixedOrder<N> {
     fn states(&self) -> usize {
-        2 * (self.m + self.spread.around()) + 1
+        2 * (self.m + self.error_estimate.around()) + 1
     }
 
     fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
@@ -201,20 +259,20 @@ impl<N: Number> Estimator<N> for FixedOrder<N> {
             return None;
         }
         let sums = &self.sums[self.window.place(self.m)];
-        let point = self.spread.next();
+        let point = self.error_estimate.next();
         point.value.assign(&sums.value);
         point.last_term.assign(&sums.last_term);
         point.last_term.make_absolute();
-        if !self.spread.estimate() {
+        if !self.error_estimate.update() {
             return None;
         }
-        let Point { value, last_term, .. } = self.spread.middle();
+        let Point { value, last_term, .. } = self.error_estimate.middle();
         let known = !self.last_term.is_empty();
-        let (q, p) = self.window.state(self.m + self.spread.around());
+        let (q, p) = self.window.state(self.m + self.error_estimate.around());
         Some(Estimate {
             value,
             last_term: known.then_some(last_term),
-            error: known.then(|| self.spread.error()),
+            error: known.then(|| self.error_estimate.error()),
             order: self.m as u32,
             q,
             p,

@@ -5,37 +5,37 @@
 //! subtractions a step; with that of the state before it completes one term of each of M states.
 
 use crate::Rational;
-use crate::motion::Increments;
 use crate::number::Number;
-use crate::shadow::spread::{Point, Spread};
-use crate::shadow::{Estimate, Estimator};
-use crate::weights::stirling;
+use crate::shadow::error_estimate::{ErrorEstimate, Point};
+use crate::shadow::estimator::{Estimate, Estimator};
+use crate::shadow::weights::stirling;
+use crate::system::Increments;
 
-/// When the search for the best m ends.
+/// Where the search for the best m ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
+pub enum StoppingRule {
     /// At the largest m allowed.
     Full,
     /// At the first m ≥ 13 with max_{j=m−11..m−1} e_j < max_{j=m−10..m} e_j, e_j = |T_{j,j} − T_{j−1,j−1}|: the newest
     /// of twelve terms is the largest.
     ///
     /// Moan & Niesen, section 5.2, print ≤, which also stops where the oldest of the terms is not the largest, thus at
-    /// the first ripple, and say that the result can hardly be told from the full search. That is true of < only: for
+    /// the first ripple, and state that the result can hardly be distinguished from the full search. That is true of < only: for
     /// Störmer–Verlet on the pendulum, h = 1/10, 120 digits, the drift over [0, 100] is 1.6e-25 by the full search,
     /// 2.8e-25 with < and 7.3e-17 with ≤; on Kepler, e = 0.6, h = 1/20, it is 1.0e-7, 1.2e-7 and 2.8e-6.
     Early,
 }
 
-/// How many successive terms the early stop looks at.
+/// The number of successive terms in the early stopping rule.
 const STOP_WINDOW: usize = 11;
 
-/// Which m is the best, by the sizes e_j = |T_{j,j} − T_{j−1,j−1}| of the terms. Of equal ones it is the first.
+/// The rule that selects the best m, by the sizes e_j = |T_{j,j} − T_{j−1,j−1}| of the terms. Of equal ones it is the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rule {
-    /// That with the least e_m (Moan & Niesen), with which their results are found again. A term may be small by chance, far from
-    /// the m where the series is at its best.
+pub enum SelectionRule {
+    /// The smallest e_m (Moan & Niesen), which reproduces their results. A term may be small by chance, far from the m where the
+    /// series is most accurate.
     Least,
-    /// That with the least largest of the ten terms e_{m−5}, …, e_{m+4}, as far as there are such among those tried.
+    /// Minimises the maximum of the ten neighbouring terms e_{m−5}, …, e_{m+4}, as far as they are among those computed.
     ///
     /// On the exact flow of Kepler's problem, whose energy is known, e = 0.3, 0.6 and 0.9, h = 1/10, 3/31, 2/21, 1/20 and 1/40,
     /// m ≤ 100, the largest error of an orbit is on none of the 15 more than by the other rule; it is less by a factor of 1.6 in
@@ -44,15 +44,15 @@ pub enum Rule {
     Robust,
 }
 
-/// The terms before e_m, and after it, that the robust rule looks at.
+/// The number of terms before e_m, and after it, in the robust rule.
 const ROBUST: (usize, usize) = (5, 4);
 
 /// The best m of each state.
 #[derive(Clone, Debug)]
 pub(super) struct AllOrders<N> {
     largest: usize,
-    stop: Stop,
-    rule: Rule,
+    stop: StoppingRule,
+    rule: SelectionRule,
     /// c_k/(4h): the halves of μ and of H̄ are in it.
     coefficients: Vec<N>,
     /// ∇^r of (q, p, β) at the newest state, r = 0..2M−1, and at the one before.
@@ -66,7 +66,7 @@ pub(super) struct AllOrders<N> {
     /// e_1, …, e_M and T_{1,1}, …, T_{M,M} of a state, up to where the search ended.
     sizes: Vec<N>,
     sums: Vec<N>,
-    spread: Spread<N>,
+    error_estimate: ErrorEstimate<N>,
     with_error: bool,
 }
 
@@ -81,14 +81,13 @@ struct Place<N> {
 impl<N: Number> AllOrders<N> {
     /// With the error from this many values on either side, or without.
     pub(super) fn new(
-        (largest, stop, rule): (u32, Stop, Rule),
+        (largest, stop, rule): (u32, StoppingRule, SelectionRule),
         around: Option<usize>,
         h: &Rational,
         dimension: usize,
         context: &N::Context,
     ) -> Self {
-        assert!(largest >= 2, "the best m is looked for among 2, 3, …");
-        let spread = Spread::new(around.unwrap_or(0), context);
+        let error_estimate = ErrorEstimate::new(around.unwrap_or(0), context);
         let size = largest as usize;
         let zero = N::zero(context);
         let numbers = |count| vec![zero.clone(); count];
@@ -103,11 +102,11 @@ impl<N: Number> AllOrders<N> {
             previous: table.clone(),
             mean: numbers(2 * dimension + 1),
             table,
-            ring: vec![place; size + 1 + spread.around()],
+            ring: vec![place; size + 1 + error_estimate.around()],
             pushed: 0,
             sizes: numbers(size),
             sums: numbers(size),
-            spread,
+            error_estimate,
             with_error: around.is_some(),
         }
     }
@@ -160,7 +159,7 @@ impl<N: Number> AllOrders<N> {
                 None => sum[0].assign(size),
             }
             size.make_absolute();
-            if self.stop == Stop::Early && self.stops_at(m) {
+            if self.stop == StoppingRule::Early && self.stops_at(m) {
                 return m;
             }
         }
@@ -177,17 +176,17 @@ impl<N: Number> AllOrders<N> {
     fn add_value(&mut self, place: usize) {
         let last = self.sum_up(place);
         let best = self.rule.best(&self.sizes[..last]);
-        let Point { value, last_term, order } = self.spread.next();
+        let Point { value, last_term, order } = self.error_estimate.next();
         value.assign(&self.sums[best - 1]);
         last_term.assign(&self.sizes[best - 1]);
         *order = best as u32;
     }
 }
 
-impl Rule {
+impl SelectionRule {
     /// The best m for e_1, e_2, …
     fn best<N: PartialOrd>(self, sizes: &[N]) -> usize {
-        let (before, after) = if self == Rule::Robust { ROBUST } else { (0, 0) };
+        let (before, after) = if self == SelectionRule::Robust { ROBUST } else { (0, 0) };
         let terms = |m: usize| &sizes[(m - 1).saturating_sub(before).max(1)..(m + after).min(sizes.len())];
         let (mut best, mut least) = (2, largest(terms(2)));
         for m in 3..=sizes.len() {
@@ -226,7 +225,7 @@ impl<N: Number> Place<N> {
 
 impl<N: Number> Estimator<N> for AllOrders<N> {
     fn states(&self) -> usize {
-        2 * (self.largest + self.spread.around()) + 1
+        2 * (self.largest + self.error_estimate.around()) + 1
     }
 
     fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
@@ -238,12 +237,12 @@ impl<N: Number> Estimator<N> for AllOrders<N> {
         }
         let size = self.ring.len();
         self.add_value((newest + size - self.largest) % size);
-        if !self.spread.estimate() {
+        if !self.error_estimate.update() {
             return None;
         }
-        let Point { value, last_term, order } = self.spread.middle();
+        let Point { value, last_term, order } = self.error_estimate.middle();
         let Place { q, p, .. } = &self.ring[(newest + 1) % size];
-        let error = self.with_error.then(|| self.spread.error());
+        let error = self.with_error.then(|| self.error_estimate.error());
         Some(Estimate { value, last_term: Some(last_term), error, order: *order, q, p })
     }
 }

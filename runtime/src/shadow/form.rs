@@ -1,11 +1,12 @@
 //! E_k as a form in the products of the newest states in pairs.
 
 use crate::Rational;
-use crate::motion::Increments;
 use crate::number::Number;
-use crate::shadow::spread::{Point, Spread};
+use crate::shadow::error_estimate::{ErrorEstimate, Point};
+use crate::shadow::estimator::Estimate;
+use crate::shadow::weights::bilinear;
 use crate::shadow::window::Window;
-use crate::weights::bilinear;
+use crate::system::Increments;
 
 /// The newest states, and the products of each with those before it.
 #[derive(Clone, Debug)]
@@ -17,7 +18,7 @@ pub(super) struct Products<N> {
 }
 
 impl<N: Number> Products<N> {
-    /// Of so many states, each with so many before it.
+    /// For windows of `states` states, each with `lags` states before it.
     pub(super) fn new(states: usize, lags: usize, dimension: usize, context: &N::Context) -> Self {
         let zero = N::zero(context);
         Products { window: Window::new(states, dimension, context), pairs: vec![vec![zero; lags]; states] }
@@ -50,9 +51,9 @@ impl<N: Number> Products<N> {
 pub(super) struct Form<N> {
     /// P_{j+ℓ,j}/(2h) in row ℓ − 1, for the first half of the j's; P_{k−j,k−j−ℓ} is the same.
     weights: Vec<Vec<N>>,
-    /// The same for the last term; empty where no error is asked for, and for k = 1.
+    /// The same for the last term; empty where no error is computed, and for k = 1.
     last_term: Vec<Vec<N>>,
-    pub(super) spread: Spread<N>,
+    pub(super) error_estimate: ErrorEstimate<N>,
     sum: N,
 }
 
@@ -66,7 +67,7 @@ impl<N: Number> Form<N> {
         Form {
             weights: bilinear(k).iter().map(half).collect(),
             last_term: if has_error { last_term_weights(k).iter().map(half).collect() } else { Vec::new() },
-            spread: Spread::new(if has_error { around(k) } else { 0 }, context),
+            error_estimate: ErrorEstimate::new(if has_error { around(k) } else { 0 }, context),
             sum: N::zero(context),
         }
     }
@@ -83,12 +84,20 @@ impl<N: Number> Form<N> {
     /// How many states before the newest one of a value the state in the middle is to which its error is known; for an odd k
     /// the one just before the middle.
     pub(super) fn delay(&self) -> usize {
-        self.k().div_ceil(2) + self.spread.around()
+        self.k().div_ceil(2) + self.error_estimate.around()
+    }
+
+    /// The estimate of the state in the middle of the newest values, which has these q and p.
+    pub(super) fn estimate<'a>(&'a self, (q, p): (&'a [N], &'a [N])) -> Estimate<'a, N> {
+        let Point { value, last_term, order } = self.error_estimate.middle();
+        let known = self.has_error();
+        let (last_term, error) = (known.then_some(last_term), known.then(|| self.error_estimate.error()));
+        Estimate { value, last_term, error, order: *order, q, p }
     }
 
     /// The value from the k + 1 states that end `back` places before the newest one.
     pub(super) fn add_value(&mut self, products: &Products<N>, back: usize) {
-        let Point { value, last_term, order } = self.spread.next();
+        let Point { value, last_term, order } = self.error_estimate.next();
         sum_up(&self.weights, products, back, &mut self.sum, value);
         sum_up(&self.last_term, products, back, &mut self.sum, last_term);
         last_term.make_absolute();

@@ -1,7 +1,7 @@
 //! The newest states of a trajectory, and the products of the newest one with those before it.
 
-use crate::motion::Increments;
 use crate::number::Number;
+use crate::system::Increments;
 
 /// The newest states, as many as an estimator needs.
 #[derive(Clone, Debug)]
@@ -11,7 +11,7 @@ pub(super) struct Window<N> {
     pushed: usize,
     /// The increments added up.
     sum: Increments<N>,
-    /// Pairs while they are added up, in places of their own: those of `f64` stay in registers of the processor.
+    /// The pairs that are being summed, in separate places: those of `f64` stay in registers of the processor.
     places: [N; AT_ONCE],
 }
 
@@ -80,7 +80,7 @@ impl<N: Number> Window<N> {
         count
     }
 
-    /// Whether no step is known to have led to a state, while one is to the state before it.
+    /// Whether a state has no increments, while the state before it has.
     fn begins_anew(&self, back: usize) -> bool {
         let known = |back| self.ring[self.place(back)].increments.has_vectors();
         !known(back) && known(back + 1)

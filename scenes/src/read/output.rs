@@ -4,11 +4,13 @@ use std::path::Path;
 use std::time::Duration;
 
 use shadowstep::Rational;
-use shadowstep::shadow::{Rule, Stop};
+use shadowstep::shadow::{
+    EstimatorOptions, EstimatorSettings, HIGHEST_ORDER, SelectionRule, StoppingRule, check_accuracy,
+};
 use toml::de::DeValue;
 
 use super::reader::Reader;
-use crate::estimator::{Chosen, HIGHEST_ORDER, Kind, NO_ACCURACY, Wish, no_accuracy};
+use crate::estimator::{ACCURACY_HINT, conflict};
 use crate::scene::{CheckpointInterval, Format, Outputs};
 use crate::steps::MOST_STEPS;
 use shadowstep_schemes::document::{Section, Value};
@@ -75,45 +77,56 @@ fn every(reader: &mut Reader<'_>, output: &Section<'_, '_>, key: &'static str, s
     when(reader, output, key, section).map(|(every, _)| every)
 }
 
-fn modified_energy(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(Chosen, u64)> {
+fn modified_energy(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<(EstimatorSettings, u64)> {
     let (every, table) = when(reader, output, "modified_energy", "output.modified_energy")?;
-    let mut wish = Wish { kind: Kind::Central, order: None, largest: None, stop: None, rule: None, accuracy: None };
-    let Some(table) = table else { return Some((wish.chosen().ok()?, every)) };
-    let before = reader.toml.faults.len();
-    let kinds = [("central", Kind::Central), ("bilinear", Kind::Bilinear)];
-    wish.kind = table.get("estimator").map_or(Some(Kind::Central), |value| reader.word(value, &kinds))?;
-    wish.order = table.get("order").and_then(|value| order(reader, value, wish.kind));
-    wish.largest = table.get("max_order").and_then(|value| up_to(reader, value, 2));
-    let stops = [("full", Stop::Full), ("early", Stop::Early)];
-    wish.stop = table.get("stop").and_then(|value| reader.word(value, &stops));
-    let rules = [("least", Rule::Least), ("robust", Rule::Robust)];
-    wish.rule = table.get("rule").and_then(|value| reader.word(value, &rules));
-    wish.accuracy = table.get("accuracy").and_then(|value| accuracy(reader, value));
-    if reader.toml.faults.len() > before {
-        return None;
+    let mut options = EstimatorOptions::default();
+    let mut name = EstimatorSettings::NAMES[0];
+    if let Some(table) = &table {
+        let before = reader.toml.faults.len();
+        if let Some(value) = table.get("estimator") {
+            name = reader.word(value, &words(EstimatorSettings::NAMES))?;
+        }
+        options.order = table.get("order").and_then(|value| order(reader, value, name));
+        options.max_order = table.get("max_order").and_then(|value| up_to(reader, value, 2));
+        let stop = table.get("stop").and_then(|value| reader.word(value, &words(StoppingRule::NAMES)));
+        options.stop = stop.and_then(|word| word.parse().ok());
+        let rule = table.get("rule").and_then(|value| reader.word(value, &words(SelectionRule::NAMES)));
+        options.rule = rule.and_then(|word| word.parse().ok());
+        options.accuracy = table.get("accuracy").and_then(|value| accuracy(reader, value));
+        if reader.toml.faults.len() > before {
+            return None;
+        }
     }
-    match wish.chosen() {
-        Ok(chosen) => Some((chosen, every)),
-        Err(misfit) => {
-            let spelt = |name: &str, value: &str| match value.parse::<u32>() {
+    match EstimatorSettings::from_options(name, options) {
+        Ok(settings) => settings.map(|settings| (settings, every)),
+        Err(error) => {
+            let assigned = |name: &str, value: &str| match value.parse::<u32>() {
                 Ok(number) => format!("{name} = {number}"),
                 Err(_) => format!("{name} = \"{value}\""),
             };
-            let (message, help) = misfit.told(misfit.name, spelt);
-            let at = table.get(misfit.name).map_or(table.at.clone(), |value| value.span());
+            let (message, help) = conflict(&error, error.option, assigned);
+            let table = table?;
+            let at = table.get(error.option).map_or(table.at.clone(), |value| value.span());
             reader.toml.wrong(&at, message, help)
         }
     }
 }
 
+/// Words that stand for themselves.
+fn words(names: &[&'static str]) -> Vec<(&'static str, &'static str)> {
+    names.iter().map(|name| (*name, *name)).collect()
+}
+
 /// A fixed order; none for "auto".
-fn order(reader: &mut Reader<'_>, value: &Value<'_>, kind: Kind) -> Option<u32> {
+fn order(reader: &mut Reader<'_>, value: &Value<'_>, estimator: &str) -> Option<u32> {
     if !matches!(value.get_ref(), DeValue::Integer(_)) {
         reader.word(value, &[("auto", ())]);
         return None;
     }
     let order = up_to(reader, value, 1)?;
-    if kind == Kind::Bilinear && order % 2 == 1 {
+    let options = EstimatorOptions { order: Some(order), ..Default::default() };
+    let settings = EstimatorSettings::from_options(estimator, options).ok().flatten();
+    if settings.is_some_and(|settings| settings.is_between()) {
         let message = "with estimator = \"bilinear\" and an odd order the values are at times between the states";
         return reader.toml.wrong(&value.span(), message, "write an even order");
     }
@@ -128,9 +141,9 @@ fn up_to(reader: &mut Reader<'_>, value: &Value<'_>, least: u64) -> Option<u32> 
 fn accuracy(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Rational> {
     let text = reader.number(value)?;
     let accuracy = reader.evaluate(&text)?.value;
-    match no_accuracy(&accuracy) {
-        None => Some(accuracy),
-        Some(why) => reader.toml.wrong(&text.at, format!("accuracy {} {why}", text.value), NO_ACCURACY),
+    match check_accuracy(&accuracy) {
+        Ok(()) => Some(accuracy),
+        Err(error) => reader.toml.wrong(&text.at, format!("accuracy {} {error}", text.value), ACCURACY_HINT),
     }
 }
 

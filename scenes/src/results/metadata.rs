@@ -49,7 +49,7 @@ impl Metadata {
             ("steps", json!(scene.steps)),
         ]);
         all.extend(
-            scene.output.modified_energy.iter().map(|(chosen, _)| ("modified_energy_by", json!(chosen.described()))),
+            scene.output.modified_energy.iter().map(|(chosen, _)| ("modified_energy_by", json!(chosen.to_string()))),
         );
         Metadata(all)
     }

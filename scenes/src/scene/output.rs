@@ -4,7 +4,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use crate::estimator::Chosen;
+use shadowstep::shadow::EstimatorSettings;
+
 use crate::scene::format::Format;
 
 /// What is to be written, and where. Periods are in steps: something is written at each n that is a multiple of its own.
@@ -17,7 +18,7 @@ pub struct Outputs {
     /// The period of the energy.
     pub energy: Option<u64>,
     /// The estimator of the modified energy, and the period.
-    pub modified_energy: Option<(Chosen, u64)>,
+    pub modified_energy: Option<(EstimatorSettings, u64)>,
     /// The period of positions and momenta.
     pub trajectory: Option<u64>,
     /// How often a checkpoint is made.

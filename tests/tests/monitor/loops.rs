@@ -1,71 +1,68 @@
-//! Loops that are not what the monitor was told.
+//! Loops whose steps are not those of the monitor's stepper.
 
 use super::*;
 
 /// Eccentricity 0.6.
 fn comet<N: Number>(context: &N::Context) -> Start<N, Kepler> {
-    Motion::new(Kepler, UnitMasses, numbers(&["0.4", "0"], context), numbers(&["0", "2"], context))
+    Motion::new(Kepler, UnitMasses, numbers(&["0.4", "0"], context), numbers(&["0", "2"], context)).unwrap()
 }
 
 #[test]
 fn a_forgotten_beta_is_seen() {
-    let plain =
-        watch_loop::<f64, _>(comet(&()), TWENTIETH, 4000, |scheme, weights, motion, _| scheme.step(weights, motion));
-    assert_eq!((plain.verdict, plain.misfits), (Verdict::Inconsistent, plain.windows), "{plain}");
-    assert!(plain.reason().contains("needs_beta()"), "{plain}");
-    // asked for the step before: the first step of each window has no β, and the first window's second
-    let mut asked = true;
-    let late = watch_loop::<f64, _>(comet(&()), TWENTIETH, 4000, |scheme, weights, motion, needs_beta| {
-        as_asked(scheme, weights, motion, std::mem::replace(&mut asked, needs_beta));
+    let plain = watch_loop::<f64, _>(comet(&()), TWENTIETH, 4000, |stepper, motion, _| stepper.step(motion));
+    assert_eq!((plain.verdict, plain.mismatches), (Verdict::Inconsistent, plain.windows), "{plain}");
+    assert!(plain.reason().contains("needs_increments()"), "{plain}");
+    // needed by the step before: the first step of each window has no β, and the first window's second
+    let mut needed = true;
+    let late = watch_loop::<f64, _>(comet(&()), TWENTIETH, 4000, |stepper, motion, needs_increments| {
+        as_needed(stepper, motion, std::mem::replace(&mut needed, needs_increments));
     });
     assert_eq!(late.verdict, Verdict::Inconsistent, "{late}");
     // other numbers keep no increments of q and p, and H̄ has to show it
     let context = precision(30);
-    let kepler = watch_loop::<Float, _>(comet(&context), TWENTIETH, 1000, |scheme, weights, motion, _| {
-        scheme.step(weights, motion);
+    let kepler = watch_loop::<Float, _>(comet(&context), TWENTIETH, 1000, |stepper, motion, _| {
+        stepper.step(motion);
     });
-    assert_eq!((kepler.verdict, kepler.misfits), (Verdict::Inconsistent, 0), "{kepler}");
-    assert!(kepler.reason().starts_with("the states do not come from steps of this h that carry β"), "{kepler}");
+    assert_eq!((kepler.verdict, kepler.mismatches), (Verdict::Inconsistent, 0), "{kepler}");
+    assert!(kepler.reason().starts_with("the states do not belong to the increments"), "{kepler}");
     let tenth = ("1/10", "1/10");
-    let henon = watch_loop::<Float, _>(henon_heiles(&context), tenth, 1000, |scheme, weights, motion, _| {
-        scheme.step(weights, motion);
+    let henon = watch_loop::<Float, _>(henon_heiles(&context), tenth, 1000, |stepper, motion, _| {
+        stepper.step(motion);
     });
-    assert_eq!(henon.verdict, Verdict::TooLarge(Sign::NotResolved), "{henon}");
-    assert!(henon.reason().ends_with("or β was not carried"), "{henon}");
+    assert_eq!(henon.verdict, Verdict::TooLarge(Criterion::NotResolved), "{henon}");
+    assert!(henon.reason().ends_with("or increments are missing"), "{henon}");
 }
 
 #[test]
-fn another_step_size_than_told_is_seen() {
-    for told in ["1/10", "1/40", "1/19", "1/22"] {
-        let report = watch_loop::<f64, _>(comet(&()), ("1/20", told), 4000, as_asked);
-        assert_eq!((report.verdict, report.misfits), (Verdict::Inconsistent, 0), "told {told}: {report}");
+fn steps_of_another_size_are_seen() {
+    for monitored in ["1/10", "1/40", "1/19", "1/22"] {
+        let report = watch_loop::<f64, _>(comet(&()), ("1/20", monitored), 4000, as_needed);
+        assert_eq!((report.verdict, report.mismatches), (Verdict::Inconsistent, 0), "{monitored}: {report}");
     }
-    let circle = Motion::new(Kepler, UnitMasses, vec![1.0, 0.0], vec![0.0, 1.0]);
-    let report = watch_loop(circle, ("1/20", "1/19"), 4000, as_asked);
+    let circle = Motion::new(Kepler, UnitMasses, vec![1.0, 0.0], vec![0.0, 1.0]).unwrap();
+    let report = watch_loop(circle, ("1/20", "1/19"), 4000, as_needed);
     assert_eq!(report.verdict, Verdict::Inconsistent, "{report}");
 }
 
 /// H − H̄ of a circular orbit never is 0, while H stays: by whatever scheme, and by estimators that are themselves off.
 #[test]
 fn a_circle_is_not_taken_for_another_loop() {
-    let watch_circle = |scheme_name: &str, h: &str, method: &Bilinear| {
-        let (scheme, h) = (scheme(scheme_name), rational(h));
-        let mut motion = Motion::new(Kepler, UnitMasses, [1.0, 0.0], [0.0, 1.0]);
-        let mut monitor = ShadowEnergy::new(&mut motion, &h, method).unwrap().every(20);
-        let weights = scheme.weights::<f64>(&h, &());
+    let watch_circle = |scheme: &str, h: &str, settings: &Bilinear| {
+        let mut motion = Motion::new(Kepler, UnitMasses, [1.0, 0.0], [0.0, 1.0]).unwrap();
+        let mut monitor = ShadowEnergy::new(stepper(scheme, h, &()), &mut motion, settings).unwrap().every(20);
         for _ in 0..1000 {
-            monitor.step(&scheme, &weights, &mut motion).unwrap();
+            monitor.step(&mut motion).unwrap();
         }
         let report = monitor.report();
-        assert_ne!(report.verdict, Verdict::Inconsistent, "{scheme_name}, h = {h}, {method:?}: {report}");
+        assert_ne!(report.verdict, Verdict::Inconsistent, "{scheme}, h = {h}, {settings:?}: {report}");
         report.verdict
     };
     for h in ["1/20", "1/5", "2/5"] {
         for name in ["symplectic-euler", "stormer-verlet", "ruth3", "yoshida4", "mclachlan-s2", "mclachlan-atela2"] {
             assert_eq!(watch_circle(name, h, &Bilinear::with_error(8)), FINE, "{name}, h = {h}");
         }
-        for method in [1, 2, 3, 4, 5].into_iter().flat_map(|k| [Bilinear::new(k), Bilinear::with_error(k)]) {
-            watch_circle("stormer-verlet", h, &method);
+        for settings in [1, 2, 3, 4, 5].into_iter().flat_map(|k| [Bilinear::new(k), Bilinear::with_error(k)]) {
+            watch_circle("stormer-verlet", h, &settings);
         }
     }
 }
@@ -74,17 +71,17 @@ fn a_circle_is_not_taken_for_another_loop() {
 #[test]
 fn a_weak_drag_is_a_drift() {
     for drag in [1e-9, 1e-6] {
-        let report = watch_loop::<f64, _>(comet(&()), TWENTIETH, 20_000, |scheme, weights, motion, needs_beta| {
-            as_asked(scheme, weights, motion, needs_beta);
+        let report = watch_loop::<f64, _>(comet(&()), TWENTIETH, 20_000, |stepper, motion, needs_increments| {
+            as_needed(stepper, motion, needs_increments);
             motion.p_mut().iter_mut().for_each(|p| *p *= 1.0 - drag);
         });
-        assert_eq!((report.verdict, report.course), (Verdict::Drifts, Some(Course::Drift)), "{drag}: {report}");
+        assert_eq!((report.verdict, report.trend), (Verdict::Drifts, Some(Trend::Linear)), "{drag}: {report}");
         let reason = report.reason();
-        assert!(reason.contains("steadily") && !reason.contains("bounded"), "{reason}");
+        assert!(reason.contains("linearly in time") && !reason.contains("bounded"), "{reason}");
     }
     // within windows changes of a thousandth of a step and more are seen at once
-    let strong = watch_loop::<f64, _>(comet(&()), TWENTIETH, 2000, |scheme, weights, motion, needs_beta| {
-        as_asked(scheme, weights, motion, needs_beta);
+    let strong = watch_loop::<f64, _>(comet(&()), TWENTIETH, 2000, |stepper, motion, needs_increments| {
+        as_needed(stepper, motion, needs_increments);
         motion.p_mut().iter_mut().for_each(|p| *p *= 1.0 - 1e-3);
     });
     assert_eq!(strong.verdict, Verdict::Inconsistent, "{strong}");
@@ -98,7 +95,7 @@ fn a_slow_oscillation_is_no_push() {
     {
         let report = watch("outer-solar-system", &[], "stormer-verlet", h, steps);
         assert_eq!(report.verdict, Verdict::Fine, "h = {h}, {steps} steps: {report}");
-        if report.course == Some(Course::Drift) {
+        if report.trend == Some(Trend::Linear) {
             assert!(!report.reason().contains("bounded"), "{report}");
         }
     }
@@ -108,39 +105,39 @@ fn a_slow_oscillation_is_no_push() {
 #[test]
 fn a_moved_state_is_named_as_a_cause() {
     let (mut n, mut kicked) = (0, false);
-    let report = watch_loop::<f64, _>(comet(&()), TWENTIETH, 4000, |scheme, weights, motion, needs_beta| {
-        as_asked(scheme, weights, motion, needs_beta);
+    let report = watch_loop::<f64, _>(comet(&()), TWENTIETH, 4000, |stepper, motion, needs_increments| {
+        as_needed(stepper, motion, needs_increments);
         n += 1;
-        if n >= 2000 && !needs_beta && !kicked {
+        if n >= 2000 && !needs_increments && !kicked {
             motion.p_mut()[0] += 0.02;
             kicked = true;
         }
     });
-    assert!(kicked && report.misfits == 0, "{report}");
+    assert!(kicked && report.mismatches == 0, "{report}");
     assert_eq!(report.verdict, MOVES, "{report}");
-    assert!(report.reason().contains("something other than the scheme moved the state"), "{report}");
+    assert!(report.reason().contains("something other than the scheme changed the state"), "{report}");
 }
 
 /// An angle that is wrapped leaves H and its gradient as they are, but not β, nor H̄ as the estimator sees it.
 #[test]
 fn a_wrapped_angle_is_seen() {
-    let rotor = Motion::new(Pendulum, UnitMasses, vec![0.0], vec![2.5]);
-    let report = watch_loop::<f64, _>(rotor, TWENTIETH, 4000, |scheme, weights, motion, needs_beta| {
-        as_asked(scheme, weights, motion, needs_beta);
+    let rotor = Motion::new(Pendulum, UnitMasses, vec![0.0], vec![2.5]).unwrap();
+    let report = watch_loop::<f64, _>(rotor, TWENTIETH, 4000, |stepper, motion, needs_increments| {
+        as_needed(stepper, motion, needs_increments);
         let turns = (motion.q()[0] / std::f64::consts::TAU).round();
         motion.q_mut()[0] -= turns * std::f64::consts::TAU;
     });
     assert_eq!(report.verdict, Verdict::Inconsistent, "{report}");
-    assert!((1..report.windows).contains(&report.misfits), "{report}");
+    assert!((1..report.windows).contains(&report.mismatches), "{report}");
     assert!(report.reason().ends_with("or q or p were changed between the steps"), "{report}");
 }
 
-/// E_1 has no errors, with or without: what it does not know it says.
+/// E_1 has no errors, with or without: the report names what it does not know.
 #[test]
 fn unknown_errors_are_named() {
-    for method in [Bilinear::new(1), Bilinear::with_error(1)] {
-        let report = watch_by(&method, "kepler", &[], "stormer-verlet", "1/20", 4000);
+    for settings in [Bilinear::new(1), Bilinear::with_error(1)] {
+        let report = watch_by(&settings, "kepler", &[], "stormer-verlet", "1/20", 4000);
         assert_eq!(report.verdict, MOVES, "{report}");
-        assert!(report.reason().contains("this estimator gives no errors"), "{report}");
+        assert!(report.reason().contains("which this estimator does not give"), "{report}");
     }
 }

@@ -9,20 +9,18 @@ mod words;
 use rug::Float;
 use shadowstep::number::counting::{Counting, count};
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum, ProblemMotion, problem};
-use shadowstep::run::{RunError, ShadowRun};
-use shadowstep::shadow::{Bilinear, Central, Course, Method, Report, ShadowEnergy, Sign, Stop, Verdict};
+use shadowstep::run::{Quantity, RunError, ShadowRun};
+use shadowstep::shadow::{
+    Bilinear, BuildEstimator, Central, Criterion, Report, ShadowEnergy, StoppingRule, Trend, Verdict,
+};
 use shadowstep::tables::{TableScheme, shipped};
-use shadowstep::{Motion, Number, Potential, Scheme, UnitMasses, Weights, kinetic, potential};
-use shadowstep_tests::{Bits, log10_distance, number, numbers, precision, rational, same_bits};
+use shadowstep::{Motion, Number, Potential, Stepper, UnitMasses, kinetic, potential};
+use shadowstep_tests::{Bits, log10_distance, number, numbers, precision, same_bits, stepper};
 
 type Start<N, P> = Motion<N, Vec<N>, P, UnitMasses>;
 
 fn henon_heiles<N: Number>(context: &N::Context) -> Start<N, HenonHeiles> {
-    Motion::new(HenonHeiles, UnitMasses, numbers(&["0.1", "-0.3"], context), numbers(&["0.2", "0.1"], context))
-}
-
-fn scheme(name: &str) -> TableScheme {
-    shipped(name).unwrap()
+    Motion::new(HenonHeiles, UnitMasses, numbers(&["0.1", "-0.3"], context), numbers(&["0.2", "0.1"], context)).unwrap()
 }
 
 /// A shipped problem with a window in 20 steps, by E_8 and its error.
@@ -30,54 +28,44 @@ fn watch(name: &str, set: &[(&str, &str)], scheme: &str, h: &str, steps: u64) ->
     watch_by(&Bilinear::with_error(8), name, set, scheme, h, steps)
 }
 
-fn watch_by(
-    method: &Bilinear,
-    name: &str,
-    set: &[(&str, &str)],
-    scheme_name: &str,
-    h: &str,
-    steps: u64,
-) -> Report<f64> {
+fn watch_by(settings: &Bilinear, name: &str, set: &[(&str, &str)], scheme: &str, h: &str, steps: u64) -> Report<f64> {
     let set: Vec<_> = set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
     let mut motion: ProblemMotion<f64> = problem(name).unwrap().setup(&set, 30).unwrap().motion(&()).unwrap();
-    let (scheme, h) = (scheme(scheme_name), rational(h));
-    let mut monitor = ShadowEnergy::new(&mut motion, &h, method).unwrap().every(20);
-    let weights = scheme.weights::<f64>(&h, &());
+    let mut monitor = ShadowEnergy::new(stepper(scheme, h, &()), &mut motion, settings).unwrap().every(20);
     for _ in 0..steps {
-        monitor.step(&scheme, &weights, &mut motion).unwrap();
+        monitor.step(&mut motion).unwrap();
     }
     monitor.report()
 }
 
 const FINE: Verdict = Verdict::Fine;
-const MOVES: Verdict = Verdict::TooLarge(Sign::Moved);
-const ENERGY_ERROR: Verdict = Verdict::TooLarge(Sign::EnergyError);
+const MOVES: Verdict = Verdict::TooLarge(Criterion::Moved);
+const ENERGY_ERROR: Verdict = Verdict::TooLarge(Criterion::EnergyError);
 
-/// Steps of the size h, watched by a monitor that was told `told`; each step is made by `step`, which is told whether β is needed.
+/// Steps of the size h, which `step` makes, watched by a monitor with a stepper of the size `monitored`; `step` gets whether the
+/// monitor needs increments.
 fn watch_loop<N: Number, P: Potential<N>>(
     mut motion: Start<N, P>,
-    (h, told): (&str, &str),
+    (h, monitored): (&str, &str),
     steps: u64,
-    mut step: impl FnMut(&TableScheme, &Weights<Vec<N>>, &mut Start<N, P>, bool),
+    mut step: impl FnMut(&Stepper<TableScheme, N>, &mut Start<N, P>, bool),
 ) -> Report<N> {
-    let (context, scheme) = (motion.context(), scheme("stormer-verlet"));
-    let mut monitor = ShadowEnergy::new(&mut motion, &rational(told), &Bilinear::with_error(8)).unwrap().every(20);
-    let weights = scheme.weights::<N>(&rational(h), &context);
+    let [stepper, of_monitor] = [h, monitored].map(|h| stepper("stormer-verlet", h, &motion.context()));
+    let mut monitor = ShadowEnergy::new(of_monitor, &mut motion, &Bilinear::with_error(8)).unwrap().every(20);
     for _ in 0..steps {
-        step(&scheme, &weights, &mut motion, monitor.needs_beta());
+        step(&stepper, &mut motion, monitor.needs_increments());
         monitor.observe(&mut motion).unwrap();
     }
     monitor.report()
 }
 
-/// As the monitor asks.
-fn as_asked<N: Number, P: Potential<N>>(
-    scheme: &TableScheme,
-    weights: &Weights<Vec<N>>,
+/// With increments where the monitor needs them.
+fn as_needed<N: Number, P: Potential<N>>(
+    stepper: &Stepper<TableScheme, N>,
     motion: &mut Start<N, P>,
-    needs_beta: bool,
+    needs_increments: bool,
 ) {
-    if needs_beta { scheme.step_augmented(weights, motion) } else { scheme.step(weights, motion) }
+    if needs_increments { stepper.step_augmented(motion) } else { stepper.step(motion) }
 }
 
 const TWENTIETH: (&str, &str) = ("1/20", "1/20");

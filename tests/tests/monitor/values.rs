@@ -4,14 +4,13 @@ use super::*;
 
 fn keeps_all_bits<N: Bits>(context: &N::Context) {
     for name in ["symplectic-euler", "stormer-verlet", "ruth3", "yoshida4", "blanes-moan-srkn6b"] {
-        let (scheme, h) = (scheme(name), rational("1/10"));
-        let weights = scheme.weights::<N>(&h, context);
+        let stepper = stepper(name, "1/10", context);
         for every in [1, 4, 9, 30, 100] {
             let (mut plain, mut watched) = (henon_heiles::<N>(context), henon_heiles(context));
-            let mut monitor = ShadowEnergy::new(&mut watched, &h, &Bilinear::new(8)).unwrap().every(every);
+            let mut monitor = ShadowEnergy::new(stepper.clone(), &mut watched, &Bilinear::new(8)).unwrap().every(every);
             for n in 1..=250 {
-                scheme.step(&weights, &mut plain);
-                monitor.step(&scheme, &weights, &mut watched).unwrap();
+                stepper.step(&mut plain);
+                monitor.step(&mut watched).unwrap();
                 let same = same_bits(plain.q(), watched.q()) && same_bits(plain.p(), watched.p());
                 assert!(same && monitor.n() == n, "{name}, a window in {every} steps, n = {n}");
             }
@@ -30,20 +29,19 @@ fn a_watched_trajectory_has_all_its_bits() {
 fn steps_between_windows_cost_what_plain_steps_cost() {
     let start = || {
         let q = [0.1, -0.3].map(Counting);
-        Motion::new(HenonHeiles, UnitMasses, q, [0.2, 0.1].map(Counting))
+        Motion::new(HenonHeiles, UnitMasses, q, [0.2, 0.1].map(Counting)).unwrap()
     };
     for name in ["stormer-verlet", "yoshida4"] {
-        let (scheme, h) = (scheme(name), rational("1/10"));
-        let weights = scheme.weights::<Counting<f64>>(&h, &());
+        let stepper = stepper(name, "1/10", &());
         let (mut plain, mut watched) = (start(), start());
-        let mut monitor = ShadowEnergy::new(&mut watched, &h, &Bilinear::new(8)).unwrap().every(100);
+        let mut monitor = ShadowEnergy::new(stepper.clone(), &mut watched, &Bilinear::new(8)).unwrap().every(100);
         let (mut with_beta, mut as_plain, mut kept_rates) = (0, 0, 0);
         for _ in 0..5000 {
-            let needs_beta = monitor.needs_beta();
-            let ((), cost) = count(|| scheme.step(&weights, &mut plain));
-            let (result, watched_cost) = count(|| monitor.step(&scheme, &weights, &mut watched).map(drop));
+            let needs_increments = monitor.needs_increments();
+            let ((), cost) = count(|| stepper.step(&mut plain));
+            let (result, watched_cost) = count(|| monitor.step(&mut watched).map(drop));
             result.unwrap();
-            if needs_beta {
+            if needs_increments {
                 with_beta += 1;
             } else if watched_cost == cost {
                 as_plain += 1;
@@ -61,26 +59,24 @@ fn steps_between_windows_cost_what_plain_steps_cost() {
 // Values
 
 /// One window in each `every` steps, with the bits of a run that estimates everywhere.
-fn has_the_values_of_a_run<N: Bits>(method: &(impl Method<N> + std::fmt::Debug), context: &N::Context) {
+fn has_the_values_of_a_run<N: Bits>(settings: &(impl BuildEstimator<N> + std::fmt::Debug), context: &N::Context) {
     const STEPS: u64 = 400;
-    let h = rational("1/10");
     for name in ["stormer-verlet", "ruth3"] {
-        let scheme = scheme(name);
-        let mut run = ShadowRun::new(&scheme, henon_heiles::<N>(context), &h, STEPS, method).unwrap();
+        let stepper = stepper(name, "1/10", context);
+        let mut run = ShadowRun::new(&stepper, henon_heiles::<N>(context), STEPS, settings).unwrap();
         let mut expected = Vec::new();
         let mut energies = henon_heiles::<N>(context);
         while let Some((n, estimate)) = run.advance().unwrap() {
             assert_eq!(n, expected.len() as i64);
-            let energy = energies.energy_of(estimate.q, estimate.p);
+            let energy = energies.energy_at(estimate.q, estimate.p);
             expected.push((estimate.value.clone(), estimate.error.cloned(), energy));
         }
-        let weights = scheme.weights::<N>(&h, context);
         for every in [1, 5, 60] {
             let mut motion = henon_heiles::<N>(context);
-            let mut monitor = ShadowEnergy::new(&mut motion, &h, method).unwrap().every(every);
+            let mut monitor = ShadowEnergy::new(stepper.clone(), &mut motion, settings).unwrap().every(every);
             let mut windows = 0;
             for _ in 0..STEPS {
-                let Some(sample) = monitor.step(&scheme, &weights, &mut motion).unwrap() else { continue };
+                let Some(sample) = monitor.step(&mut motion).unwrap() else { continue };
                 let (value, error, energy) = &expected[sample.n as usize];
                 let mut off = sample.energy.clone();
                 off.subtract(energy);
@@ -90,7 +86,7 @@ fn has_the_values_of_a_run<N: Bits>(method: &(impl Method<N> + std::fmt::Debug),
                     (Some(found), Some(error)) => found.same_bits(error),
                     (found, error) => found.is_none() && error.is_none(),
                 };
-                assert!(same && same_error, "{name}, {method:?}, a window in {every} steps, n = {}", sample.n);
+                assert!(same && same_error, "{name}, {settings:?}, a window in {every} steps, n = {}", sample.n);
                 windows += 1;
             }
             assert_eq!(monitor.report().windows, windows);
@@ -107,9 +103,9 @@ fn values_are_those_of_a_run() {
         has_the_values_of_a_run::<f64>(&Bilinear::with_error(k), &());
     }
     has_the_values_of_a_run::<f64>(&Central::fixed_with_error(5), &());
-    has_the_values_of_a_run::<f64>(&Central::best(10, Stop::Full), &());
+    has_the_values_of_a_run::<f64>(&Central::best(10, StoppingRule::Full), &());
     has_the_values_of_a_run::<Float>(&Bilinear::with_error(6), &precision(40));
-    has_the_values_of_a_run::<Float>(&Central::best(8, Stop::Full), &precision(40));
+    has_the_values_of_a_run::<Float>(&Central::best(8, StoppingRule::Full), &precision(40));
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -119,12 +115,11 @@ fn values_are_those_of_a_run() {
 /// and H̄ = ½ I c with c = arcsin x/(x √(1 − x²)).
 #[test]
 fn the_parts_of_the_oscillator_are_in_closed_form() {
-    let (h, scheme) = (rational("3/10"), scheme("stormer-verlet"));
-    let mut motion = Motion::new(HarmonicOscillator { omega: 1.0 }, UnitMasses, [1.0], [0.0]);
-    let mut monitor = ShadowEnergy::new(&mut motion, &h, &Bilinear::with_error(8)).unwrap().every(20);
-    let weights = scheme.weights::<f64>(&h, &());
+    let verlet = stepper("stormer-verlet", "3/10", &());
+    let mut motion = Motion::new(HarmonicOscillator { omega: 1.0 }, UnitMasses, [1.0], [0.0]).unwrap();
+    let mut monitor = ShadowEnergy::new(verlet, &mut motion, &Bilinear::with_error(8)).unwrap().every(20);
     for _ in 0..40_000 {
-        monitor.step(&scheme, &weights, &mut motion).unwrap();
+        monitor.step(&mut motion).unwrap();
     }
     let report = monitor.report();
     let x: f64 = 0.15;
@@ -146,7 +141,7 @@ fn the_parts_of_the_oscillator_are_in_closed_form() {
     ] {
         assert!((found - right).abs() < tolerance * right.abs(), "{found:e} and {right:e}: {report:?}");
     }
-    assert!(report.resolution.unwrap() < 1e-11 && report.wander < 1e-12, "{report:?}");
+    assert!(report.resolution.unwrap() < 1e-11 && report.range < 1e-12, "{report:?}");
     let turn = std::f64::consts::PI / x.asin();
     assert!((report.steps_per_turn.unwrap() - turn).abs() < 1e-6 * turn && report.irregular.unwrap().abs() < 1e-6);
 }
@@ -155,14 +150,13 @@ fn the_parts_of_the_oscillator_are_in_closed_form() {
 #[test]
 fn many_digits_are_kept() {
     const DIGITS: u32 = 400;
-    let (context, h, scheme) = (precision(DIGITS), rational("1/100000"), scheme("stormer-verlet"));
+    let verlet = stepper("stormer-verlet", "1/100000", &precision(DIGITS));
     let start = |text: &str| vec![number(text, DIGITS)];
     let potential = HarmonicOscillator { omega: number("1", DIGITS) };
-    let mut motion = Motion::new(potential, UnitMasses, start("1"), start("0"));
-    let mut monitor = ShadowEnergy::new(&mut motion, &h, &Bilinear::with_error(40)).unwrap().every(100);
-    let weights = scheme.weights::<Float>(&h, &context);
+    let mut motion = Motion::new(potential, UnitMasses, start("1"), start("0")).unwrap();
+    let mut monitor = ShadowEnergy::new(verlet, &mut motion, &Bilinear::with_error(40)).unwrap().every(100);
     for _ in 0..2000 {
-        monitor.step(&scheme, &weights, &mut motion).unwrap();
+        monitor.step(&mut motion).unwrap();
     }
     let report = monitor.report();
     let x = number("1/200000", DIGITS);
@@ -182,10 +176,10 @@ fn many_digits_are_kept() {
 fn round_off_walks_as_expected() {
     for (name, set, h) in [("kepler", "0.6", "1/40"), ("kepler", "0.1", "1/200"), ("kepler", "0.3", "1/20")] {
         let report = watch(name, &[("eccentricity", set)], "stormer-verlet", h, 100_000);
-        let ratio = report.wander / report.round_off;
+        let ratio = report.range / report.round_off;
         // a walk ranges over 1.6 √n in the mean; measured are 0.6 to 6.5
         assert!((0.5..7.0).contains(&ratio), "{name} {set}, {h}: {ratio}");
-        assert_ne!(report.course, Some(Course::Drift), "{name} {set}, {h}");
+        assert_ne!(report.trend, Some(Trend::Linear), "{name} {set}, {h}");
         assert_eq!(report.verdict, Verdict::Fine);
     }
 }
@@ -193,19 +187,18 @@ fn round_off_walks_as_expected() {
 /// p ← (1 + δ)p at every step: H̄ grows by nδ of itself in the mean.
 #[test]
 fn a_steady_push_is_a_drift() {
-    let (h, scheme) = (rational("1/10"), scheme("stormer-verlet"));
-    let mut motion = Motion::new(HarmonicOscillator { omega: 1.0 }, UnitMasses, [1.0], [0.0]);
-    let mut monitor = ShadowEnergy::new(&mut motion, &h, &Bilinear::with_error(8)).unwrap().every(50);
-    let weights = scheme.weights::<f64>(&h, &());
+    let verlet = stepper("stormer-verlet", "1/10", &());
+    let mut motion = Motion::new(HarmonicOscillator { omega: 1.0 }, UnitMasses, [1.0], [0.0]).unwrap();
+    let mut monitor = ShadowEnergy::new(verlet, &mut motion, &Bilinear::with_error(8)).unwrap().every(50);
     const STEPS: u32 = 40_000;
     for _ in 0..STEPS {
-        monitor.step(&scheme, &weights, &mut motion).unwrap();
+        monitor.step(&mut motion).unwrap();
         motion.p_mut()[0] *= 1.0 + 1e-8;
     }
     let report = monitor.report();
     let expected = report.modified * f64::from(STEPS) * 1e-8;
-    // the quiet estimates begin and end within the first and the last 1/32 of the run
+    // the accurate estimates begin and end within the first and the last 1/32 of the run
     assert!((0.9..1.01).contains(&(report.change / expected)), "{:e} and {expected:e}", report.change);
-    assert_eq!(report.course, Some(Course::Drift));
+    assert_eq!(report.trend, Some(Trend::Linear));
     assert!(report.change > 1e3 * report.round_off, "{report:?}");
 }

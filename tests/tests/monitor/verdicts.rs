@@ -24,7 +24,7 @@ fn the_pendulum_and_its_resonances() {
     verdicts(Verdict::NearResonance { turns: 1, steps: 4 }, "pendulum", &[(&of("0.3"), "1.42")]);
     verdicts(ENERGY_ERROR, "pendulum", &[(&of("0.3"), "0.95"), (&of("0.3"), "1.2"), (&of("0.3"), "1.73")]);
     verdicts(MOVES, "pendulum", &[(&of("1"), "1.5"), (&of("2.5"), "1.5")]);
-    verdicts(Verdict::TooLarge(Sign::NotResolved), "pendulum", &[(&of("1"), "1.25")]);
+    verdicts(Verdict::TooLarge(Criterion::NotResolved), "pendulum", &[(&of("1"), "1.25")]);
     // a weak resonance: seen with more states, and gone at a step that is a little larger
     let by_sixteen = |h| watch_by(&Bilinear::with_error(16), "pendulum", &[("p", "0.3")], "stormer-verlet", h, 20_000);
     assert_eq!(by_sixteen("1.01").verdict, Verdict::NearResonance { turns: 1, steps: 6 });
@@ -80,12 +80,11 @@ fn many_bodies() {
 #[test]
 fn free_motion_is_fine() {
     potential! { struct Nothing; U(x) = 0*x }
-    let (scheme, h) = (scheme("stormer-verlet"), rational("1/4"));
-    let mut motion = Motion::new(Nothing, UnitMasses, [0.0], [1.0]);
-    let mut monitor = ShadowEnergy::new(&mut motion, &h, &Bilinear::with_error(4)).unwrap();
-    let weights = scheme.weights::<f64>(&h, &());
+    let mut motion = Motion::new(Nothing, UnitMasses, [0.0], [1.0]).unwrap();
+    let verlet = stepper("stormer-verlet", "1/4", &());
+    let mut monitor = ShadowEnergy::new(verlet, &mut motion, &Bilinear::with_error(4)).unwrap();
     for n in 1..=100 {
-        monitor.step(&scheme, &weights, &mut motion).unwrap();
+        monitor.step(&mut motion).unwrap();
         // with windows of 11 states the 16th ends at n = 25
         let report = monitor.report();
         assert_eq!(report.verdict == Verdict::Undecided, n < 25, "n = {n}");
@@ -99,13 +98,11 @@ fn free_motion_is_fine() {
 fn any_kinetic_energy() {
     kinetic! { struct Relativistic; T(p) = sqrt(1 + p^2) }
     potential! { struct Spring; U(q) = q^2/2 }
-    let scheme = scheme("yoshida4").for_every_kinetic().unwrap();
-    let h = rational("1/10");
-    let mut motion = Motion::new(Spring, Relativistic, [1.0], [0.0]);
-    let mut monitor = ShadowEnergy::new(&mut motion, &h, &Bilinear::with_error(8)).unwrap().every(40);
-    let weights = scheme.weights::<f64>(&h, &());
+    let yoshida = Stepper::new(shipped("yoshida4").unwrap().for_every_kinetic().unwrap(), "1/10").unwrap();
+    let mut motion = Motion::new(Spring, Relativistic, [1.0], [0.0]).unwrap();
+    let mut monitor = ShadowEnergy::new(yoshida, &mut motion, &Bilinear::with_error(8)).unwrap().every(40);
     for _ in 0..8000 {
-        monitor.step(&scheme, &weights, &mut motion).unwrap();
+        monitor.step(&mut motion).unwrap();
     }
     let report = monitor.report();
     assert!(report.verdict == Verdict::Fine && report.moved < 1e-4 * report.energy_error, "{report}");

@@ -1,21 +1,21 @@
-//! The modified energies of a run in fixed memory: the quietest of each of at most 64 equal parts.
+//! The modified energies of a run in fixed memory: the most accurate one of each of at most 64 equal parts.
 
 use crate::number::Number;
 
-/// How many parts are told apart: from half as many on, once the run is long enough.
+/// The largest number of blocks; a long run has at least half as many.
 const BLOCKS: usize = 64;
 
 /// An estimate of the modified energy, and its error.
 #[derive(Clone, Debug)]
-pub(super) struct Quiet<N> {
+pub(super) struct Estimated<N> {
     pub(super) value: N,
     /// 0 where the estimator gives none.
     pub(super) error: N,
 }
 
-impl<N: Number> Quiet<N> {
+impl<N: Number> Estimated<N> {
     pub(super) fn zero(context: &N::Context) -> Self {
-        Quiet { value: N::zero(context), error: N::zero(context) }
+        Estimated { value: N::zero(context), error: N::zero(context) }
     }
 
     fn assign(&mut self, other: &Self) {
@@ -27,12 +27,11 @@ impl<N: Number> Quiet<N> {
 /// Of each block of successive estimates the one with the smallest error.
 ///
 /// The modified energy is constant while the error of its estimates is not: near a close encounter it can be larger by many
-/// orders of magnitude. So the quietest estimate of a block says the most of it. When all blocks are full, they are merged
-/// in pairs.
+/// orders of magnitude. When all blocks are full, they are merged in pairs.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks<N> {
     /// `full` complete ones, then the one that grows.
-    blocks: Vec<Quiet<N>>,
+    blocks: Vec<Estimated<N>>,
     full: usize,
     /// Estimates in a block.
     size: u64,
@@ -42,14 +41,14 @@ pub(super) struct Blocks<N> {
 
 impl<N: Number> Blocks<N> {
     pub(super) fn new(context: &N::Context) -> Self {
-        Blocks { blocks: vec![Quiet::zero(context); BLOCKS + 1], full: 0, size: 1, count: 0 }
+        Blocks { blocks: vec![Estimated::zero(context); BLOCKS + 1], full: 0, size: 1, count: 0 }
     }
 
-    /// Takes an estimate, and gives the quietest one of its block so far.
-    pub(super) fn push(&mut self, newest: &Quiet<N>) -> &Quiet<N> {
+    /// Takes an estimate, and returns the most accurate one of its block so far.
+    pub(super) fn push(&mut self, newest: &Estimated<N>) -> &Estimated<N> {
         let place = self.full;
         let own = &mut self.blocks[place];
-        // of those that are equally quiet the newest
+        // of equal errors the newest
         if self.count == 0 || newest.error <= own.error {
             own.assign(newest);
         }
@@ -68,24 +67,24 @@ impl<N: Number> Blocks<N> {
 
     fn merge(&mut self) {
         for pair in 0..BLOCKS / 2 {
-            let quieter = if self.blocks[2 * pair].error <= self.blocks[2 * pair + 1].error { 0 } else { 1 };
-            self.blocks.swap(pair, 2 * pair + quieter);
+            let better = if self.blocks[2 * pair].error <= self.blocks[2 * pair + 1].error { 0 } else { 1 };
+            self.blocks.swap(pair, 2 * pair + better);
         }
         self.full = BLOCKS / 2;
         self.size *= 2;
     }
 
     /// The blocks in the order of time; the one that grows as soon as it is half full.
-    pub(super) fn all(&self) -> &[Quiet<N>] {
+    pub(super) fn all(&self) -> &[Estimated<N>] {
         let growing = usize::from(2 * self.count >= self.size && self.count > 0);
         &self.blocks[..self.full + growing]
     }
 
-    /// The quieter half of the blocks, in the order of time.
-    pub(super) fn quiet(&self) -> Vec<&Quiet<N>> {
+    /// The half of the blocks with the smaller errors, in the order of time.
+    pub(super) fn accurate(&self) -> Vec<&Estimated<N>> {
         let all = self.all();
         let mut errors: Vec<&N> = all.iter().map(|block| &block.error).collect();
-        errors.sort_by(|a, b| a.partial_cmp(b).expect("estimates that are no numbers are refused"));
+        errors.sort_by(|a, b| a.partial_cmp(b).expect("estimates that are not finite are refused"));
         let Some(median) = errors.get(all.len().saturating_sub(1) / 2) else { return Vec::new() };
         all.iter().filter(|block| block.error <= **median).collect()
     }
@@ -95,15 +94,15 @@ impl<N: Number> Blocks<N> {
 mod tests {
     use super::*;
 
-    fn values(estimates: &[&Quiet<f64>]) -> Vec<f64> {
-        estimates.iter().map(|quiet| quiet.value).collect()
+    fn values(estimates: &[&Estimated<f64>]) -> Vec<f64> {
+        estimates.iter().map(|estimated| estimated.value).collect()
     }
 
-    /// Every tenth estimate is quiet, the value is its number.
+    /// Every tenth estimate is accurate, the value is its number.
     fn blocks(count: u32) -> Blocks<f64> {
         let mut blocks = Blocks::new(&());
         for i in 0..count {
-            blocks.push(&Quiet { value: f64::from(i), error: if i % 10 == 3 { 1e-9 } else { 1.0 } });
+            blocks.push(&Estimated { value: f64::from(i), error: if i % 10 == 3 { 1e-9 } else { 1.0 } });
         }
         blocks
     }
@@ -111,17 +110,21 @@ mod tests {
     #[test]
     fn few_estimates_are_blocks_of_their_own() {
         assert_eq!(blocks(63).all().len(), 63);
-        assert_eq!(values(&blocks(63).quiet()), (0..63).map(f64::from).collect::<Vec<_>>(), "the median is loud");
-        assert!(blocks(0).quiet().is_empty());
+        assert_eq!(
+            values(&blocks(63).accurate()),
+            (0..63).map(f64::from).collect::<Vec<_>>(),
+            "the median has a large error"
+        );
+        assert!(blocks(0).accurate().is_empty());
     }
 
     #[test]
-    fn merged_blocks_keep_the_quietest() {
-        // 64 of 16 estimates become 32 of 32, of which each has quiet ones; ties go to the newest of a block, to the first of
+    fn merged_blocks_keep_the_most_accurate() {
+        // 64 of 16 estimates become 32 of 32, each with accurate ones; ties go to the newest of a block, to the first of
         // two blocks
         let all = blocks(1024);
         assert_eq!((all.all().len(), all.size), (32, 32));
-        let found = values(&all.quiet());
+        let found = values(&all.accurate());
         assert_eq!(found.len(), 32);
         for (i, value) in found.into_iter().enumerate() {
             assert_eq!(value % 10.0, 3.0);
@@ -136,9 +139,9 @@ mod tests {
     }
 
     #[test]
-    fn the_quietest_of_the_present_block_is_given() {
+    fn the_most_accurate_of_the_present_block_is_returned() {
         let mut blocks = blocks(1024);
-        let mut push = |value, error| blocks.push(&Quiet { value, error }).value;
+        let mut push = |value, error| blocks.push(&Estimated { value, error }).value;
         assert_eq!([push(1.0, 0.5), push(2.0, 0.9), push(3.0, 0.1), push(4.0, 0.1)], [1.0, 1.0, 3.0, 4.0]);
     }
 }

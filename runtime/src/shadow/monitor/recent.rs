@@ -1,15 +1,13 @@
-//! What the newest states of a window say besides H̄: how much energy round-off moves, how far the fastest motion turns, and
-//! whether they come from steps that carry β.
+//! What follows from the newest states of a window besides H̄: the effect of round-off on the energy, the angle by which the fastest
+//! motion turns, and whether the states belong to the increments.
 
 use std::f64::consts::TAU;
 
 use crate::Rational;
-use crate::kinetic::Kinetic;
-use crate::motion::{Coordinates, Increments, Motion};
 use crate::number::Number;
-use crate::potential::Potential;
-use crate::shadow::spread::epsilon;
+use crate::shadow::error_estimate::epsilon;
 use crate::shadow::walk::{add_squares, kick_factor};
+use crate::system::{Increments, System};
 
 /// States that the turning needs: three second differences.
 const STATES: usize = 5;
@@ -27,10 +25,10 @@ pub(super) struct Recent<N> {
     sums: Sums<N>,
     /// (10⁶ ε)²
     rounding: N,
-    /// Whether a step of this window added something else than its increments say.
-    misfit: bool,
-    /// In how many windows there was such a step.
-    misfits: u64,
+    /// Whether a state of this window differs from its increments.
+    mismatch: bool,
+    /// The number of windows with such a state.
+    mismatches: u64,
     /// Whether q has changed in a last step of a window.
     moves: bool,
     /// Intermediate results.
@@ -57,7 +55,7 @@ struct Sums<N> {
 pub(super) struct Turning {
     /// θ, from one step to the next.
     pub(super) angle: f64,
-    /// What of δ²p_0 + δ²p_2 is not 2 cos θ δ²p_1: 0 for one oscillation, 1 for noise.
+    /// The part of δ²p_0 + δ²p_2 that is not 2 cos θ δ²p_1: 0 for one oscillation, 1 for noise.
     pub(super) irregular: f64,
 }
 
@@ -77,8 +75,8 @@ impl<N: Number> Recent<N> {
             factor,
             sums: Sums { kicks: zero(), squares: zero(), products: zero(), neighbours: zero() },
             rounding,
-            misfit: false,
-            misfits: 0,
+            mismatch: false,
+            mismatches: 0,
             moves: false,
             x: zero(),
             y: zero(),
@@ -87,23 +85,19 @@ impl<N: Number> Recent<N> {
     }
 
     /// Takes the next state of a window, and what the step to it added, where that is known.
-    pub(super) fn push<V: Coordinates<N>, P: Potential<N>, K: Kinetic<N>>(
-        &mut self,
-        motion: &Motion<N, V, P, K>,
-        added: Option<&Increments<N>>,
-    ) {
+    pub(super) fn push<M: System<Number = N>>(&mut self, system: &M, added: Option<&Increments<N>>) {
         self.q.rotate_left(1);
         self.p.rotate_left(1);
         let ([_, q], [.., p]) = (&mut self.q, &mut self.p);
-        q.iter_mut().zip(motion.q()).for_each(|(own, q)| own.assign(q));
-        p.iter_mut().zip(motion.p()).for_each(|(own, p)| own.assign(p));
-        self.evaluations = [self.evaluations[1], motion.evaluations()];
+        q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
+        p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
+        self.evaluations = [self.evaluations[1], system.evaluations()];
         if let Some(added) = added.filter(|added| added.has_vectors()) {
-            self.misfit |= self.differs_from(added);
+            self.mismatch |= self.differs_from(added);
         }
     }
 
-    /// Whether the newest state is off the one before and what a step added, by more than 1/1000 of that and 1000 ε of q and p.
+    /// Whether the newest state differs from the one before plus its increments, by more than 1/1000 of these and 1000 ε of q and p.
     ///
     /// Increments that a plain step left behind are those of an earlier step, or 0.
     fn differs_from(&mut self, added: &Increments<N>) -> bool {
@@ -120,14 +114,14 @@ impl<N: Number> Recent<N> {
                 x.assign_product(after, rounding);
                 z.add_product(x, after);
             }
-            // not if they are no numbers, which is found elsewhere
+            // false for NaN, which is found elsewhere
             *y > *z
         })
     }
 
-    /// Ends a window of so many states.
+    /// Ends a window of `states` states.
     pub(super) fn end(&mut self, states: usize) {
-        self.misfits += u64::from(std::mem::take(&mut self.misfit));
+        self.mismatches += u64::from(std::mem::take(&mut self.mismatch));
         self.moves |= self.q[0] != self.q[1];
         self.add_kick();
         if states >= STATES {
@@ -158,24 +152,24 @@ impl<N: Number> Recent<N> {
         }
     }
 
-    /// In how many windows a step added something else than its increments say.
-    pub(super) fn misfits(&self) -> u64 {
-        self.misfits
+    /// The number of windows in which a state differs from its increments.
+    pub(super) fn mismatches(&self) -> u64 {
+        self.mismatches
     }
 
-    /// Whether a window has seen q change.
+    /// Whether q has changed in a window.
     pub(super) fn moves(&self) -> bool {
         self.moves
     }
 
-    /// The mean of kick² over so many windows.
+    /// The mean of kick² over the windows.
     pub(super) fn mean_square_kick(&self, windows: &N) -> N {
         let mut mean = self.sums.kicks.clone();
         mean.divide(windows);
         mean
     }
 
-    /// None where the windows are too short, or nothing moves.
+    /// `None` where the windows are too short, or nothing moves.
     pub(super) fn turning(&self) -> Option<Turning> {
         let Sums { squares, products, neighbours, .. } = &self.sums;
         let ratio = |a: &N| {

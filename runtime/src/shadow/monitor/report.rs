@@ -1,20 +1,21 @@
-//! What a monitor has seen, in numbers.
+//! The report of a monitor in numbers.
 
 use super::ShadowEnergy;
-use super::blocks::Quiet;
+use super::blocks::Estimated;
 use super::recent::Turning;
 use super::statistics::{Range, difference, integer, quotient, root};
 use super::verdict::{Evidence, Verdict};
 use crate::number::Number;
+use crate::scheme::Scheme;
 use crate::shadow::Estimator;
 
-/// What a run has done to its energy.
+/// The energies of a run.
 ///
 /// The energy error is split: H − H̄ is the method's part, and bounded; H̄ itself moves only by round-off and by what the
 /// method does not conserve.
 ///
-/// Near a close encounter the estimates of H̄ can be off by more than it ever moves. So H̄ is followed by the quietest estimate of each of 32 to
-/// 64 equal parts of the run, that with the smallest error, and by the quieter half of these.
+/// Near a close encounter the errors of the estimates of H̄ can exceed all its changes. So H̄ is followed by the most accurate estimate of
+/// each of 32 to 64 equal parts of the run, that with the smallest error, and by the half of these with the smaller errors.
 ///
 /// It is printed as some lines with the numbers and [a sentence](Report::reason).
 #[derive(Clone, Debug)]
@@ -27,85 +28,85 @@ pub struct Report<N> {
     pub energy_error: N,
     /// The mean kinetic energy, over the middles of the windows.
     pub kinetic: N,
-    /// The least H − H̄, with the quietest H̄ so far of the same part of the run.
+    /// The least H − H̄, with the most accurate H̄ so far of the same part of the run.
     pub method_least: N,
     /// The largest H − H̄.
     pub method_largest: N,
     /// The root mean square of H − H̄.
     pub method_rms: N,
-    /// The newest quiet H̄.
+    /// The newest accurate H̄.
     pub modified: N,
-    /// How far H̄ wanders: max − min of the quiet estimates. Where H̄ oscillates with the estimates' errors, as near a resonance,
-    /// these may all be of the same phase; `moved` sees more.
-    pub wander: N,
-    /// The permanent change of H̄: the newest quiet estimate less the first one.
+    /// The range of H̄: max − min of the accurate estimates. Where H̄ oscillates with the estimates' errors, as near a resonance,
+    /// these may all be of the same phase; `moved` includes all windows.
+    pub range: N,
+    /// The permanent change of H̄: the newest accurate estimate less the first one.
     pub change: N,
-    /// How far H̄ surely moved: max (H̄ − 3e) − min (H̄ + 3e) over all windows with their errors e, or 0.
+    /// How far H̄ moved beyond its errors: max (H̄ − 3e) − min (H̄ + 3e) over all windows with their errors e, or 0.
     pub moved: N,
-    /// How H̄ goes with time, from 16 quiet estimates on.
-    pub course: Option<Course>,
-    /// What can be resolved: the largest error of the quiet estimates; none where the estimator gives no errors.
+    /// How H̄ depends on time, from 16 accurate estimates on.
+    pub trend: Option<Trend>,
+    /// The resolution: the largest error of the accurate estimates; `None` where the estimator gives no errors.
     pub resolution: Option<N>,
-    /// The largest error of the quietest estimate of a part of the run, that of the loudest part.
+    /// The largest error of the most accurate estimate of a part of the run.
     pub worst_error: Option<N>,
-    /// What round-off does to the energy in one step, rms.
+    /// The effect of round-off on the energy in one step, rms.
     ///
     /// δH = U_qᵀδq + T_pᵀδp with δq and δp a rounding of each coordinate, 0.2123 ε|q_i| and 0.2123 ε|p_i| rms, once for each
     /// evaluation of the gradient that a step needs; U_q and T_p are taken from the last step of each window.
     pub kick: N,
-    /// What round-off is expected to have moved H̄ by: √steps times the kick (Brouwer's law).
+    /// The expected effect of round-off on H̄: √steps times the kick (Brouwer's law).
     ///
-    /// Where nothing else moves H̄, the wander was 0.5 to 6.5 times this in `f64`; that of a random walk is 1.6 times its √n in the
+    /// Where nothing else moves H̄, the range was 0.5 to 6.5 times this in `f64`; that of a random walk is 1.6 times its √n in the
     /// mean.
     pub round_off: N,
-    /// In how many steps the fastest motion turns once; none where nothing turns, or windows have fewer than 5 states.
+    /// In how many steps the fastest motion turns once; `None` where nothing turns, or windows have fewer than 5 states.
     ///
     /// From second differences δ²p of the last states of each window, which an oscillation by θ a step makes so that
     /// δ²p_{n+1} + δ²p_{n−1} = 2 cos θ δ²p_n; by least squares over all coordinates and windows.
     pub steps_per_turn: Option<f64>,
-    /// What that equation leaves, as a part: 0 for one oscillation, 1 for noise.
+    /// The relative residual of that equation: 0 for one oscillation, 1 for noise.
     pub irregular: Option<f64>,
-    /// In how many windows a step added something else to the state than it says: it was a plain step where β was needed, or q or p
-    /// were changed from outside, by more than 1/1000 of what a step adds. Seen in `f64` only, where steps that carry β
-    /// [keep what they add](crate::Increments).
-    pub misfits: u64,
+    /// In how many windows a state differs from the increments: there was a plain step where an augmented one was needed, or q or p
+    /// were changed from outside, by more than 1/1000 of what a step adds. Detected in `f64` only, where augmented steps
+    /// [keep the increments](crate::Increments) of q and p.
+    pub mismatches: u64,
     /// The first state that was not finite, or whose energy was not.
     pub not_finite: Option<u64>,
-    /// What it comes to.
+    /// The conclusion about the step size.
     pub verdict: Verdict,
 }
 
-/// How the modified energy goes with time: by (max − min)²/Σ(differences)² of successive quiet estimates.
+/// How the modified energy depends on time: by (max − min)²/Σ(differences)² of successive accurate estimates.
 ///
 /// Of 64 numbers of noise 999 of 1000 samples are below 0.4 (of 16 numbers 95 of 100 below 0.8), and of random walks 98 of 100
 /// between 0.5 and 8. A drift of the size of its noise is above 8 from 32 numbers on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Course {
-    /// It stays, or scatters: below 0.5.
+pub enum Trend {
+    /// Constant but for scatter: below 0.5.
     Steady,
-    /// Like √t: a random walk, or a slow oscillation.
-    Walk,
-    /// Like t: above 8.
-    Drift,
+    /// A random walk, like √t, or a slow oscillation.
+    RandomWalk,
+    /// Linear in time: above 8.
+    Linear,
 }
 
-impl<N: Number, E: Estimator<N>> ShadowEnergy<N, E> {
-    /// What has been seen so far.
+impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
+    /// The report on the run so far.
     pub fn report(&self) -> Report<N> {
         let (statistics, context) = (&self.statistics, self.method.context());
-        let (all, quiet) = (self.blocks.all(), self.blocks.quiet());
+        let (all, accurate) = (self.blocks.all(), self.blocks.accurate());
         let newest = &self.newest.modified.value;
         let (first, last) =
-            (quiet.first().map_or(newest, |first| &first.value), quiet.last().map_or(newest, |last| &last.value));
+            (accurate.first().map_or(newest, |first| &first.value), accurate.last().map_or(newest, |last| &last.value));
         let mut values = Range::of(first);
-        quiet.iter().for_each(|quiet| values.include(&quiet.value));
-        let (wander, moved) = (values.width(), statistics.moved());
+        accurate.iter().for_each(|accurate| values.include(&accurate.value));
+        let (range, moved) = (values.width(), statistics.moved());
         let known = |error: N| self.newest.has_error.then_some(error);
         let kick = root(&self.recent.mean_square_kick(&statistics.count()));
         let mut round_off: N = root(&integer(self.n, &context));
         round_off.multiply(&kick);
         let turning = self.recent.turning();
-        let spread = spread(&quiet, &wander);
+        let trend_ratio = trend_ratio(&accurate, &range);
         let mut report = Report {
             steps: self.n,
             windows: statistics.windows,
@@ -116,28 +117,28 @@ impl<N: Number, E: Estimator<N>> ShadowEnergy<N, E> {
             method_rms: statistics.method_rms(),
             modified: last.clone(),
             change: difference(last, first),
-            course: spread.map(Spread::course),
-            wander,
+            trend: trend_ratio.map(TrendRatio::trend),
+            range,
             moved,
-            resolution: known(largest_error(quiet.iter().copied(), &context)),
+            resolution: known(largest_error(accurate.iter().copied(), &context)),
             worst_error: known(largest_error(all.iter(), &context)),
             kick,
             round_off,
             steps_per_turn: turning.map(Turning::steps),
             irregular: turning.map(|turning| turning.irregular),
-            misfits: self.recent.misfits(),
+            mismatches: self.recent.mismatches(),
             not_finite: self.not_finite,
             verdict: Verdict::Undecided,
         };
-        let straight = spread.is_some_and(Spread::is_straight);
+        let straight = trend_ratio.is_some_and(TrendRatio::is_straight);
         report.verdict = Evidence { straight, turning, moves: self.recent.moves(), ..report.evidence() }.verdict();
         report
     }
 }
 
-fn largest_error<'a, N: Number + 'a>(estimates: impl Iterator<Item = &'a Quiet<N>>, context: &N::Context) -> N {
+fn largest_error<'a, N: Number + 'a>(estimates: impl Iterator<Item = &'a Estimated<N>>, context: &N::Context) -> N {
     let mut largest = N::zero(context);
-    for Quiet { error, .. } in estimates {
+    for Estimated { error, .. } in estimates {
         if *error > largest {
             largest.assign(error);
         }
@@ -145,29 +146,29 @@ fn largest_error<'a, N: Number + 'a>(estimates: impl Iterator<Item = &'a Quiet<N
     largest
 }
 
-/// (max − min)²/Σ(differences)² of so many successive quiet estimates.
+/// (max − min)²/Σ(differences)² of `count` successive accurate estimates.
 #[derive(Clone, Copy)]
-struct Spread {
+struct TrendRatio {
     ratio: f64,
     count: usize,
 }
 
-fn spread<N: Number>(quiet: &[&Quiet<N>], wander: &N) -> Option<Spread> {
-    if quiet.len() < 16 {
+fn trend_ratio<N: Number>(accurate: &[&Estimated<N>], range: &N) -> Option<TrendRatio> {
+    if accurate.len() < 16 {
         return None;
     }
-    let part = |pair: &[&Quiet<N>]| quotient(&difference(&pair[1].value, &pair[0].value), wander).to_f64();
-    let squares: f64 = quiet.windows(2).map(|pair| part(pair).powi(2)).sum();
-    Some(Spread { ratio: 1.0 / squares, count: quiet.len() })
+    let part = |pair: &[&Estimated<N>]| quotient(&difference(&pair[1].value, &pair[0].value), range).to_f64();
+    let squares: f64 = accurate.windows(2).map(|pair| part(pair).powi(2)).sum();
+    Some(TrendRatio { ratio: 1.0 / squares, count: accurate.len() })
 }
 
-impl Spread {
-    fn course(self) -> Course {
+impl TrendRatio {
+    fn trend(self) -> Trend {
         match self.ratio {
-            ratio if ratio > 8.0 => Course::Drift,
-            ratio if ratio > 0.5 => Course::Walk,
+            ratio if ratio > 8.0 => Trend::Linear,
+            ratio if ratio > 0.5 => Trend::RandomWalk,
             // also if nothing moved at all
-            _ => Course::Steady,
+            _ => Trend::Steady,
         }
     }
 
@@ -192,7 +193,7 @@ impl<N: Number> Report<N> {
             straight: false,
             has_errors: self.worst_error.is_some(),
             moves: true,
-            misfits: self.misfits > 0,
+            mismatches: self.mismatches > 0,
             finite: self.not_finite.is_none() && numbers.into_iter().all(N::is_finite),
             windows: self.windows,
         }
@@ -238,11 +239,11 @@ mod tests {
         (0..count).map(|_| next()).collect()
     }
 
-    fn course_of(values: &[f64]) -> Option<Course> {
-        let all: Vec<_> = values.iter().map(|&value| Quiet { value, error: 0.0 }).collect();
+    fn trend_of(values: &[f64]) -> Option<Trend> {
+        let all: Vec<_> = values.iter().map(|&value| Estimated { value, error: 0.0 }).collect();
         let most = values.iter().fold(f64::MIN, |a, b| a.max(*b));
         let least = values.iter().fold(f64::MAX, |a, b| a.min(*b));
-        spread(&all.iter().collect::<Vec<_>>(), &(most - least)).map(Spread::course)
+        trend_ratio(&all.iter().collect::<Vec<_>>(), &(most - least)).map(TrendRatio::trend)
     }
 
     fn sums(values: Vec<f64>, drift: f64) -> Vec<f64> {
@@ -251,26 +252,26 @@ mod tests {
     }
 
     /// How many of 1000 samples have a course.
-    fn count(course: Course, sample: impl Fn(u64) -> Vec<f64>) -> usize {
-        (1..=1000).filter(|seed| course_of(&sample(seed * 7919)) == Some(course)).count()
+    fn count(trend: Trend, sample: impl Fn(u64) -> Vec<f64>) -> usize {
+        (1..=1000).filter(|seed| trend_of(&sample(seed * 7919)) == Some(trend)).count()
     }
 
     #[test]
-    fn noise_walks_and_drifts_are_told_apart() {
-        assert!(count(Course::Steady, |seed| noise(64, seed)) >= 995);
-        assert!(count(Course::Walk, |seed| sums(noise(64, seed), 0.0)) >= 970);
+    fn noise_random_walks_and_linear_trends_are_distinguished() {
+        assert!(count(Trend::Steady, |seed| noise(64, seed)) >= 995);
+        assert!(count(Trend::RandomWalk, |seed| sums(noise(64, seed), 0.0)) >= 970);
         // the root mean square of the noise is 0.29
-        assert!(count(Course::Drift, |seed| sums(noise(32, seed), 0.29)) >= 970);
-        assert_eq!(course_of(&[1.0; 40]), Some(Course::Steady), "nothing moves");
-        assert_eq!(course_of(&noise(15, 1)), None);
+        assert!(count(Trend::Linear, |seed| sums(noise(32, seed), 0.29)) >= 970);
+        assert_eq!(trend_of(&[1.0; 40]), Some(Trend::Steady), "nothing moves");
+        assert_eq!(trend_of(&noise(15, 1)), None);
     }
 
     #[test]
-    fn a_straight_line_is_told_from_a_bend_and_from_noise() {
+    fn a_straight_line_is_distinguished_from_a_bend_and_from_noise() {
         let is_straight = |value: fn(f64) -> f64| {
-            let values: Vec<Quiet<f64>> =
-                (0..40).map(|i| Quiet { value: value(f64::from(i) / 39.0), error: 0.0 }).collect();
-            spread(&values.iter().collect::<Vec<_>>(), &1.0).unwrap().is_straight()
+            let values: Vec<Estimated<f64>> =
+                (0..40).map(|i| Estimated { value: value(f64::from(i) / 39.0), error: 0.0 }).collect();
+            trend_ratio(&values.iter().collect::<Vec<_>>(), &1.0).unwrap().is_straight()
         };
         assert!(is_straight(|x| x) && is_straight(|x| -x));
         // one period, which ranges from −1/2 to 1/2

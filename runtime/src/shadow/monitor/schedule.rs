@@ -5,7 +5,7 @@ const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// One window of `states` states in every `every` steps, the first of them from the state 0.
 ///
-/// A window begins at a place among its steps that wanders: windows at equal distances would see an oscillation whose
+/// A window begins at a place among its steps that changes from window to window: windows at equal distances would see an oscillation whose
 /// period divides the distance always in the same phase, and take it for a constant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Schedule {
@@ -30,11 +30,11 @@ impl Schedule {
 
     /// Whether the state n is the first one of a window that follows plain steps.
     pub(super) fn begins(&self, n: u64) -> bool {
-        self.takes(n) && !self.needs_beta(n)
+        self.takes(n) && !self.needs_increments(n)
     }
 
-    /// Whether the step to the state n has to carry β: not to the first one of a window, of which only q and p are used.
-    pub(super) fn needs_beta(&self, n: u64) -> bool {
+    /// Whether the step to the state n must be augmented: not to the first one of a window, of which only q and p are used.
+    pub(super) fn needs_increments(&self, n: u64) -> bool {
         self.overlaps() || n + self.states > self.end + 1
     }
 
@@ -112,7 +112,7 @@ mod tests {
 
     /// A period that divides the distance of the windows is seen in all its phases.
     #[test]
-    fn places_wander() {
+    fn places_change() {
         let mut phases = [0; 4];
         windows(9, 100, 100_000).iter().for_each(|(first, _)| phases[(first % 4) as usize] += 1);
         assert!(phases.iter().all(|count| *count > 200), "{phases:?}");

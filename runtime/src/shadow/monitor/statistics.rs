@@ -1,11 +1,11 @@
 //! Sums over the windows of a run.
 
-use super::blocks::Quiet;
+use super::blocks::Estimated;
 use crate::Rational;
 use crate::number::Number;
 
-/// How many times its error an estimate may be off.
-const MARGIN: i32 = 3;
+/// An estimate may be wrong by this many times its error.
+const ERROR_FACTOR: i32 = 3;
 
 /// The least and the largest number so far.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ pub(super) struct Statistics<N> {
     /// H − H̄, where there has been a window.
     pub(super) method: Range<N>,
     /// The largest H̄ − 3e and the least H̄ + 3e, e its error.
-    surely: Range<N>,
+    beyond_errors: Range<N>,
     bound: N,
     sum_of_squares: N,
     sum_of_kinetic: N,
@@ -55,7 +55,7 @@ impl<N: Number> Statistics<N> {
             windows: 0,
             energy: Range::of(energy),
             method: Range::of(&zero),
-            surely: Range::of(&zero),
+            beyond_errors: Range::of(&zero),
             bound: zero.clone(),
             sum_of_squares: zero.clone(),
             sum_of_kinetic: zero,
@@ -63,7 +63,7 @@ impl<N: Number> Statistics<N> {
     }
 
     /// Takes a window: H, T, H − H̄ and H̄.
-    pub(super) fn add(&mut self, energy: &N, kinetic: &N, method: &N, modified: &Quiet<N>) {
+    pub(super) fn add(&mut self, energy: &N, kinetic: &N, method: &N, modified: &Estimated<N>) {
         self.energy.include(energy);
         self.include_bounds(modified);
         if self.windows == 0 {
@@ -76,9 +76,9 @@ impl<N: Number> Statistics<N> {
         self.windows += 1;
     }
 
-    fn include_bounds(&mut self, Quiet { value, error }: &Quiet<N>) {
-        let Range { least, largest } = &mut self.surely;
-        for (sign, bound) in [(-MARGIN, largest), (MARGIN, least)] {
+    fn include_bounds(&mut self, Estimated { value, error }: &Estimated<N>) {
+        let Range { least, largest } = &mut self.beyond_errors;
+        for (sign, bound) in [(-ERROR_FACTOR, largest), (ERROR_FACTOR, least)] {
             self.bound.assign(error);
             self.bound.multiply_integer(sign);
             self.bound.add(value);
@@ -89,9 +89,9 @@ impl<N: Number> Statistics<N> {
         }
     }
 
-    /// max (H̄ − 3e) − min (H̄ + 3e), or 0: by how much H̄ has surely moved.
+    /// max (H̄ − 3e) − min (H̄ + 3e), or 0: how far H̄ has moved beyond its errors.
     pub(super) fn moved(&self) -> N {
-        let mut moved = self.surely.width();
+        let mut moved = self.beyond_errors.width();
         if moved.is_below_zero() {
             moved.assign_zero();
         }

@@ -1,13 +1,13 @@
-//! What a monitor has seen, in words.
+//! The report of a monitor as text.
 
 use std::fmt;
 
-use super::report::{Course, Report};
-use super::verdict::{LEAST_WINDOWS, Sign, Verdict};
+use super::report::{Report, Trend};
+use super::verdict::{Criterion, LEAST_WINDOWS, Verdict};
 use crate::number::Number;
 
 impl<N: Number> Report<N> {
-    /// An energy as a part of the energy error, in words; alone where that is 0.
+    /// An energy as a part of the energy error; its value where that is 0.
     fn in_parts(&self, energy: &N) -> String {
         match self.part(energy) {
             part if part.is_finite() => format!("{part:.1e} of the energy error"),
@@ -15,85 +15,84 @@ impl<N: Number> Report<N> {
         }
     }
 
-    /// Why the verdict is what it is, in a sentence with numbers.
+    /// The reason for the verdict, a sentence with numbers.
     pub fn reason(&self) -> String {
         let steps = self.steps;
         let moved = format!("the modified energy moved by {} in {steps} steps", self.in_parts(&self.moved));
         match self.verdict {
             Verdict::Undecided => {
-                format!("{LEAST_WINDOWS} windows make a verdict, and there are {}", self.windows)
+                format!("a verdict needs {LEAST_WINDOWS} windows, and there are {}", self.windows)
             }
             Verdict::Inconsistent => self.why_inconsistent(),
             Verdict::RoundOff => format!(
-                "{moved}, and round-off makes {}: a larger step would do, or more digits are needed",
+                "{moved}, and round-off makes {}: a larger step size is sufficient, or more digits are needed",
                 self.in_parts(&self.round_off)
             ),
             Verdict::NearResonance { turns, steps } => format!(
                 "{moved}, and the fastest motion turns once in {:.3} steps, near {turns}/{steps} turns a step: \
-                 another step size does better",
+                 use another step size",
                 self.steps_per_turn.unwrap_or_default()
             ),
             Verdict::Drifts => format!(
-                "{moved}, steadily: by {} on the whole, where round-off makes {}. The scheme conserves it, so a force that is not \
-                 −U_q, or a state that is changed between the steps, or a resonance is at work",
+                "{moved}, linearly in time: by {} in all, where round-off makes {}. The scheme conserves it, so the cause is a force \
+                 that is not −U_q, a state that is changed between the steps, or a resonance",
                 short(&self.change),
                 short(&self.round_off)
             ),
-            Verdict::TooLarge(sign) => self.why_too_large(sign, &moved),
+            Verdict::TooLarge(criterion) => self.why_too_large(criterion, &moved),
             Verdict::Fine if self.has_no_energy_error() => {
                 format!("the energy is the same in all windows of {steps} steps")
             }
-            Verdict::Fine if self.course == Some(Course::Drift) && self.evidence().moved_beyond_round_off() > 0.0 => {
-                format!("{moved}, like t, which is no round-off: the energy error is the method's so far")
+            Verdict::Fine if self.trend == Some(Trend::Linear) && self.evidence().moved_beyond_round_off() > 0.0 => {
+                format!("{moved}, linearly in time, which is not round-off: the energy error is the method's so far")
             }
             Verdict::Fine => format!("{moved}: the energy error is the method's, and bounded"),
         }
     }
 
     fn why_inconsistent(&self) -> String {
-        if self.misfits > 0 {
+        if self.mismatches > 0 {
             return format!(
-                "in {} of {} windows the states are not where the steps that carry β have left them: plain steps were made where \
-                 needs_beta() asks for β, or q or p were changed between the steps",
-                self.misfits, self.windows
+                "in {} of {} windows the states differ from the increments of the steps: plain steps were made where needs_increments() \
+                 is true, or q or p were changed between the steps",
+                self.mismatches, self.windows
             );
         }
         format!(
-            "the states do not come from steps of this h that carry β: H − H̄ is {} rms, and H̄ moved by {}, too much beside an \
-             energy error of {}",
+            "the states do not belong to the increments: H − H̄ is {} rms, and H̄ moved by {}, too much beside an energy error of {}",
             short(&self.method_rms),
             short(&self.moved),
             short(&self.energy_error)
         )
     }
 
-    fn why_too_large(&self, sign: Sign, moved: &str) -> String {
-        // of a wrapped angle or a kicked momentum H̄ knows nothing
-        let other = "or something other than the scheme moved the state";
-        match sign {
-            Sign::Moved if self.worst_error.is_none() => format!(
-                "{moved}, where round-off makes {}: nothing near the energy is conserved, {other}, or the estimates are off by as \
-                 much, as this estimator gives no errors",
+    fn why_too_large(&self, criterion: Criterion, moved: &str) -> String {
+        // a wrapped angle or a changed momentum changes H̄, too
+        let other = "or something other than the scheme changed the state";
+        match criterion {
+            Criterion::Moved if self.worst_error.is_none() => format!(
+                "{moved}, where round-off makes {}: no modified energy is conserved, {other}, or the estimates have errors of this \
+                 size, which this estimator does not give",
                 self.in_parts(&self.round_off)
             ),
-            Sign::Moved => format!(
-                "{moved}, where round-off makes {}: nothing near the energy is conserved, {other}",
+            Criterion::Moved => format!(
+                "{moved}, where round-off makes {}: no modified energy is conserved, {other}",
                 self.in_parts(&self.round_off)
             ),
-            Sign::NotResolved => format!(
+            Criterion::NotResolved => format!(
                 "in a part of the run no estimate is better than {}: there is no modified energy near the energy, or the estimator \
-                 needs more states, {other}, or β was not carried",
+                 needs more states, {other}, or increments are missing",
                 self.worst_error.as_ref().map(|error| self.in_parts(error)).unwrap_or_default()
             ),
-            Sign::EnergyError if self.of_kinetic().is_finite() => {
+            Criterion::EnergyError if self.of_kinetic().is_finite() => {
                 format!("the energy error is {:.1e} of the mean kinetic energy", self.of_kinetic())
             }
-            Sign::EnergyError => {
+            Criterion::EnergyError => {
                 "the mean kinetic energy is 0 while the positions change: half a turn a step, or more".to_owned()
             }
-            Sign::NotFinite => match self.not_finite {
-                Some(n) => format!("a state or its energy is not finite since step {n}: the steps blow up"),
-                None => "the energies outgrow the numbers: the steps blow up".to_owned(),
+            Criterion::NotFinite => match self.not_finite {
+                Some(n) => format!("a state or its energy is not finite from step {n} on: the steps diverge"),
+                None => "the energies overflow: the steps diverge".to_owned(),
             },
         }
     }
@@ -106,7 +105,7 @@ impl<N: Number> fmt::Display for Report<N> {
         let part = |energy: &N| match self.part(energy) {
             part if part.is_finite() => format!("{part:.1e} of the energy error"),
             _ if self.has_no_energy_error() => "where the energy error is 0".to_owned(),
-            _ => "more than the numbers hold".to_owned(),
+            _ => "overflow".to_owned(),
         };
         let line = |f: &mut fmt::Formatter<'_>, name: &str, value: &N, text: &str| {
             // the bar of H̄ is a character, and takes no column
@@ -121,9 +120,9 @@ impl<N: Number> fmt::Display for Report<N> {
         let range =
             format!("rms of H − H̄, which is from {} to {}", short(&self.method_least), short(&self.method_largest));
         line(f, "the method's part", &self.method_rms, &range)?;
-        let course = self.course.map_or(String::new(), |course| format!(", {course}"));
-        line(f, "H̄ wanders by", &self.wander, &format!("{}{course}", part(&self.wander)))?;
-        line(f, "it changed by", &self.change, &format!("and surely moved by {}", short(&self.moved)))?;
+        let trend = self.trend.map_or(String::new(), |trend| format!(", {trend}"));
+        line(f, "H̄ ranges over", &self.range, &format!("{}{trend}", part(&self.range)))?;
+        line(f, "it changed by", &self.change, &format!("it moved by {} beyond its errors", short(&self.moved)))?;
         if let Some(resolution) = &self.resolution {
             line(f, "it is known to", resolution, &part(resolution))?;
         }
@@ -135,17 +134,17 @@ impl<N: Number> fmt::Display for Report<N> {
     }
 }
 
-impl fmt::Display for Course {
+impl fmt::Display for Trend {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Course::Steady => "and stays",
-            Course::Walk => "like √t",
-            Course::Drift => "like t",
+            Trend::Steady => "steady",
+            Trend::RandomWalk => "a random walk",
+            Trend::Linear => "linear in time",
         })
     }
 }
 
-/// Three digits, also of a number that is no `f64`.
+/// Three digits, also of a number outside the range of `f64`.
 fn short<N: Number>(number: &N) -> String {
     if !number.is_finite() {
         return "not finite".to_owned();
@@ -170,7 +169,7 @@ mod tests {
     #[test]
     fn short_texts_of_long_numbers() {
         assert_eq!([0.0, -1.5, 123456.0].map(|x| short(&x)), ["0.00e0", "-1.50e0", "1.23e5"]);
-        // 5e-324 is no normal number
+        // 5e-324 is subnormal
         assert_eq!(short(&-5e-324), "-4.94e-324");
         assert_eq!([f64::INFINITY, f64::NAN].map(|x| short(&x)), ["not finite"; 2]);
     }

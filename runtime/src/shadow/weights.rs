@@ -16,7 +16,7 @@ use crate::Rational;
 /// d_{m,1}, …, d_{m,m}; computed once for each m and shared.
 ///
 /// ```
-/// use shadowstep::{exact, weights::central};
+/// use shadowstep::{exact, shadow::weights::central};
 /// assert_eq!(central(2)[..], [exact("2/3").unwrap(), exact("-1/12").unwrap()]);
 /// ```
 pub fn central(m: u32) -> Arc<[Rational]> {
@@ -56,7 +56,7 @@ pub fn stirling(m: u32) -> Vec<Rational> {
 /// P_ij = 2 (−1)^{i−j} C(k,i) C(k,j) / ((i−j) C(2k,k)), and P_ji = −P_ij.
 ///
 /// ```
-/// use shadowstep::{exact, weights::bilinear};
+/// use shadowstep::{exact, shadow::weights::bilinear};
 /// // k = 1: one pair
 /// assert_eq!(bilinear(1), [[exact("-1").unwrap()]]);
 /// ```

@@ -1,8 +1,8 @@
-//! The error of an estimate, from the estimates beside it.
+//! The estimated error of an estimate, from the neighbouring estimates.
 //!
 //! The modified energy is constant along a trajectory, so what changes from one estimate to the next is the estimator's error, or
 //! round-off. What is the same in all of them, as on a circular orbit, only the last term of the series shows. Neither is enough:
-//! the spread has no size on a circle, and the last term is far too small where the differences alias, near a close encounter.
+//! the spread vanishes on a circle, and the last term is far too small where the differences alias, near a close encounter.
 
 use std::collections::VecDeque;
 
@@ -12,7 +12,7 @@ use crate::number::Number;
 /// The newest 2·`around` + 1 values of an estimator. The one in the middle has an error: the largest of max − min of them all, of
 /// their last terms, and of the last place of the value, as on a circle all values may agree by chance in all their digits.
 #[derive(Clone, Debug)]
-pub(super) struct Spread<N> {
+pub(super) struct ErrorEstimate<N> {
     around: usize,
     /// The newest last.
     points: VecDeque<Point<N>>,
@@ -22,7 +22,7 @@ pub(super) struct Spread<N> {
     error: N,
 }
 
-/// What an estimator says of a state.
+/// The value of an estimator at a state.
 #[derive(Clone, Debug)]
 pub(super) struct Point<N> {
     pub(super) value: N,
@@ -31,10 +31,10 @@ pub(super) struct Point<N> {
     pub(super) order: u32,
 }
 
-impl<N: Number> Spread<N> {
-    /// With so many values on either side.
+impl<N: Number> ErrorEstimate<N> {
+    /// With `around` values on either side.
     pub(super) fn new(around: usize, context: &N::Context) -> Self {
-        Spread {
+        ErrorEstimate {
             around,
             points: VecDeque::with_capacity(2 * around + 1),
             epsilon: epsilon(context),
@@ -56,7 +56,7 @@ impl<N: Number> Spread<N> {
     }
 
     /// Finds the error of the value in the middle; `false` as long as there are too few values.
-    pub(super) fn estimate(&mut self) -> bool {
+    pub(super) fn update(&mut self) -> bool {
         if !self.is_complete() {
             return false;
         }
@@ -74,7 +74,7 @@ impl<N: Number> Spread<N> {
         true
     }
 
-    /// The value that [`estimate`](Self::estimate) was about.
+    /// The value that [`update`](Self::update) was about.
     pub(super) fn middle(&self) -> &Point<N> {
         &self.points[self.around]
     }

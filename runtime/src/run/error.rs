@@ -1,0 +1,82 @@
+//! Why a run cannot begin or cannot continue.
+
+use std::fmt;
+
+use thiserror::Error;
+
+use crate::number::Number;
+use crate::shadow::EstimatorError;
+
+/// A run that cannot begin or cannot continue.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum RunError {
+    /// A value is infinite or NaN.
+    #[error("the run stopped at step {step}: {value}; try a smaller step size or other initial values")]
+    NotFinite {
+        /// n of the state that is not finite (negative before the start).
+        step: i64,
+        /// The first such value.
+        value: NotFinite,
+    },
+    /// The settings of the estimator are not valid.
+    #[error(transparent)]
+    Estimator(#[from] EstimatorError),
+}
+
+/// A value that is infinite or NaN.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NotFinite {
+    /// What it is a value of.
+    pub quantity: Quantity,
+    /// The value as text: `NaN`, `inf` or `-inf`.
+    pub value: String,
+}
+
+/// What a run computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// A coordinate of q, counted from 0.
+    Position(usize),
+    /// A component of p, counted from 0.
+    Momentum(usize),
+    /// What a step added to β.
+    Beta,
+    /// H
+    Energy,
+    /// H̄
+    ModifiedEnergy,
+    /// The estimated error of H̄.
+    ModifiedEnergyError,
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Quantity::Position(index) => write!(f, "q{}", index + 1),
+            Quantity::Momentum(index) => write!(f, "p{}", index + 1),
+            Quantity::Beta => f.write_str("beta"),
+            Quantity::Energy => f.write_str("the energy"),
+            Quantity::ModifiedEnergy => f.write_str("the modified energy"),
+            Quantity::ModifiedEnergyError => f.write_str("the estimated error of the modified energy"),
+        }
+    }
+}
+
+impl fmt::Display for NotFinite {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.quantity {
+            Quantity::Position(_) | Quantity::Momentum(_) | Quantity::Beta => {
+                write!(f, "{} = {}", self.quantity, self.value)
+            }
+            _ => write!(f, "{} is {}", self.quantity, self.value),
+        }
+    }
+}
+
+/// Refuses a value that is not finite. States may be finite where their products overflow.
+pub(crate) fn check_value<N: Number>(value: &N, quantity: Quantity, step: i64) -> Result<(), RunError> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(RunError::NotFinite { step, value: NotFinite { quantity, value: value.to_text() } })
+}

@@ -1,0 +1,184 @@
+//! States with their modified energies.
+
+use crate::run::error::{Quantity, RunError, check_value};
+use crate::run::state::{State, States};
+use crate::run::trajectory::Trajectory;
+use crate::scheme::{Scheme, ValidFor};
+use crate::shadow::{BuildEstimator, Estimate, Estimator};
+use crate::step_size::StepSize;
+use crate::stepper::Stepper;
+use crate::system::System;
+
+/// An estimate and its n: the state n, or the middle between it and the next one.
+pub type Estimated<'a, N> = (i64, Estimate<'a, N>);
+
+/// States with the modified energies of n = 0, …, steps, or between them.
+pub struct ShadowRun<T, E> {
+    states: T,
+    estimator: E,
+    h: StepSize,
+    reach: i64,
+    /// How many states after the n of an estimate it needs: as many, or one more where it belongs to n + 1/2.
+    after: i64,
+    /// How many states must still come before the one that completes the first estimate.
+    missing: usize,
+}
+
+impl<'s, S, M, E> ShadowRun<Trajectory<'s, S, M>, E>
+where
+    S: Scheme + ValidFor<M::Class>,
+    M: System,
+    E: Estimator<M::Number>,
+{
+    /// Begins at the system's present state; makes the states before it that the estimator needs.
+    ///
+    /// # Errors
+    /// As [`Trajectory::new`]; settings of the estimator that are not valid.
+    pub fn new(
+        stepper: &'s Stepper<S, M::Number>,
+        system: M,
+        steps: u64,
+        settings: &impl BuildEstimator<M::Number, Estimator = E>,
+    ) -> Result<Self, RunError> {
+        let mut run = Self::resume(stepper, system, 0, steps, settings)?;
+        run.states.step_back(run.reach as usize)?;
+        Ok(run)
+    }
+
+    /// Resumes a run: the estimates of n = `from` + reach + 1, …, steps, with the bits of the run from 0.
+    ///
+    /// The system is at the state `from` of that run. An estimate depends only on the states n − reach, …, n + reach and
+    /// the increments between them. States after 0 are all made by steps forward; those before 0 are not, so the estimates of
+    /// n ≤ reach cannot be computed this way.
+    ///
+    /// # Errors
+    /// An energy at `from` that is not finite; settings of the estimator that are not valid.
+    pub fn resume(
+        stepper: &'s Stepper<S, M::Number>,
+        system: M,
+        from: i64,
+        steps: u64,
+        settings: &impl BuildEstimator<M::Number, Estimator = E>,
+    ) -> Result<Self, RunError> {
+        let estimator = settings.build(stepper.step_size(), system.q().len(), &system.context())?;
+        let mut run = ShadowRun::of(Trajectory::after(stepper, system, from)?, estimator, stepper.step_size());
+        run.states.extend(steps, run.reach as usize);
+        Ok(run)
+    }
+
+    /// The system, for energies and counts.
+    pub fn system(&mut self) -> &mut M {
+        self.states.system()
+    }
+}
+
+impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
+    /// The states begin as many before the first estimate as the estimator needs.
+    pub(crate) fn of(states: T, estimator: E, h: &StepSize) -> Self {
+        let missing = estimator.states() - 1;
+        let reach = missing / 2;
+        ShadowRun { states, estimator, h: h.clone(), reach: reach as i64, after: (missing - reach) as i64, missing }
+    }
+
+    /// The step size.
+    pub fn step_size(&self) -> &StepSize {
+        &self.h
+    }
+
+    /// How many states before 0, and after the last one, the estimator needs.
+    pub fn reach(&self) -> i64 {
+        self.reach
+    }
+
+    /// Whether the estimates belong to the times between the states, (n + 1/2)h, n = 0, …, steps − 1.
+    pub fn is_between(&self) -> bool {
+        self.after > self.reach
+    }
+
+    /// The next n with its estimate, of the state n or of the middle between it and the next one; `None` after the last.
+    ///
+    /// # Errors
+    /// A state that is not finite, up to the last one that the estimator needs, or a modified energy that is not.
+    pub fn advance(&mut self) -> Result<Option<Estimated<'_, T::Number>>, RunError> {
+        loop {
+            let Some(State { n, q, p, increments }) = self.states.advance()? else { return Ok(None) };
+            if self.missing > 0 {
+                self.missing -= 1;
+                self.estimator.push(q, p, increments);
+                continue;
+            }
+            let Some(estimate) = self.estimator.push(q, p, increments) else { return Ok(None) };
+            let n = n - self.after;
+            check_value(estimate.value, Quantity::ModifiedEnergy, n)?;
+            return Ok(Some((n, estimate)));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinetic::UnitMasses;
+    use crate::motion::Motion;
+    use crate::problems::Kepler;
+    use crate::shadow::{Central, SelectionRule, StoppingRule};
+    use crate::tables::{TableScheme, shipped};
+
+    type Comet = Motion<f64, Vec<f64>, Kepler, UnitMasses>;
+
+    fn motion(q: &[f64], p: &[f64]) -> Comet {
+        Motion::new(Kepler, UnitMasses, q.to_vec(), p.to_vec()).unwrap()
+    }
+
+    fn start() -> Comet {
+        motion(&[0.4, 0.0], &[0.0, 2.0])
+    }
+
+    /// n, value, error and m.
+    type Owned = (i64, f64, Option<f64>, u32);
+
+    fn estimates<E: Estimator<f64>>(mut run: ShadowRun<Trajectory<'_, TableScheme, Comet>, E>) -> Vec<Owned> {
+        let mut all = Vec::new();
+        while let Some((n, found)) = run.advance().unwrap() {
+            all.push((n, *found.value, found.error.copied(), found.order));
+        }
+        all
+    }
+
+    /// q and p of the states from 0 on.
+    fn states(stepper: &Stepper<TableScheme, f64>, steps: u64) -> Vec<(Vec<f64>, Vec<f64>)> {
+        let mut trajectory = Trajectory::plain(stepper, start(), 0, steps).unwrap();
+        let mut states = Vec::new();
+        while let Some(State { q, p, .. }) = trajectory.advance().unwrap() {
+            states.push((q.to_vec(), p.to_vec()));
+        }
+        states
+    }
+
+    #[test]
+    fn resumed_modified_energies_are_the_same() {
+        let all_settings = [
+            Central::fixed_with_error(4),
+            Central::fixed(1),
+            Central::best(9, StoppingRule::Full),
+            Central::best(20, StoppingRule::Early),
+            Central::best_with_error(9, StoppingRule::Full, SelectionRule::Robust),
+        ];
+        for name in ["stormer-verlet", "yoshida4", "ruth3"] {
+            let stepper = Stepper::new(shipped(name).unwrap(), "1/20").unwrap();
+            let states = states(&stepper, 60);
+            for settings in &all_settings {
+                let run = ShadowRun::new(&stepper, start(), 60, settings).unwrap();
+                let reach = run.reach() as usize;
+                let all = estimates(run);
+                assert_eq!(all.len(), 61);
+                for from in [0, 1, 17, 59] {
+                    let system = motion(&states[from].0, &states[from].1);
+                    let run = ShadowRun::resume(&stepper, system, from as i64, 60, settings).unwrap();
+                    let expected = all.get(from + reach + 1..).unwrap_or_default();
+                    assert_eq!(estimates(run), expected, "{name}, {settings:?}, from {from}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! States in the order of time, wherever they come from.
+
+use crate::number::Number;
+use crate::run::error::{Quantity, RunError, check_value};
+use crate::system::{Increments, System};
+
+/// A state of a trajectory.
+#[derive(Clone, Copy, Debug)]
+pub struct State<'a, N> {
+    /// Its number: t = n h.
+    pub n: i64,
+    /// Positions.
+    pub q: &'a [N],
+    /// Momenta.
+    pub p: &'a [N],
+    /// What the step to it added to q, p and β.
+    pub increments: &'a Increments<N>,
+}
+
+impl<'a, N: Number> State<'a, N> {
+    /// The present state of a system.
+    pub(crate) fn of<S: System<Number = N>>(system: &'a S, n: i64) -> Self {
+        State { n, q: system.q(), p: system.p(), increments: system.increments() }
+    }
+
+    /// Refuses a state with a value that is not finite.
+    pub(crate) fn check(&self) -> Result<(), RunError> {
+        let State { n, q, p, increments } = *self;
+        for (index, position) in q.iter().enumerate() {
+            check_value(position, Quantity::Position(index), n)?;
+        }
+        for (index, momentum) in p.iter().enumerate() {
+            check_value(momentum, Quantity::Momentum(index), n)?;
+        }
+        check_value(&increments.beta, Quantity::Beta, n)
+    }
+}
+
+/// A source of states for an estimator: a [`Trajectory`](crate::run::Trajectory), or the exact flow.
+pub trait States {
+    /// The type of their numbers.
+    type Number: Number;
+
+    /// Goes to the next state in the order of time; `None` at the end.
+    ///
+    /// # Errors
+    /// A state that is not finite.
+    fn advance(&mut self) -> Result<Option<State<'_, Self::Number>>, RunError>;
+}
+
+/// The number of the last state that the estimate of the state `steps` needs.
+pub(crate) fn last(steps: u64, reach: usize) -> i64 {
+    i64::try_from(steps).unwrap_or(i64::MAX).saturating_add(reach as i64)
+}

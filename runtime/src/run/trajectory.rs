@@ -1,0 +1,199 @@
+//! The states of a trajectory in the order of time, with those that an estimator needs on both sides.
+
+use crate::run::error::{Quantity, RunError, check_value};
+use crate::run::state::{State, States, last};
+use crate::scheme::{Scheme, ValidFor};
+use crate::stepper::Stepper;
+use crate::system::{Increments, System};
+
+/// The states of a trajectory in the order of time: for an estimator n = −reach, …, steps + reach with the increments of each
+/// step, or [plain](Trajectory::plain) ones without them.
+///
+/// States before 0 are made with the scheme's exact inverse from the state 0.
+pub struct Trajectory<'s, S: Scheme, M: System> {
+    stepper: &'s Stepper<S, M::Number>,
+    system: M,
+    augmented: bool,
+    /// States that are computed before their turn, the earliest last.
+    before: Vec<Stored<M::Number>>,
+    present: Option<Stored<M::Number>>,
+    n: i64,
+    last: i64,
+}
+
+/// A state that is computed before its turn.
+#[derive(Clone)]
+struct Stored<N> {
+    q: Vec<N>,
+    p: Vec<N>,
+    increments: Increments<N>,
+}
+
+impl<N: crate::Number> Stored<N> {
+    fn of<M: System<Number = N>>(system: &M) -> Self {
+        Stored { q: system.q().to_vec(), p: system.p().to_vec(), increments: system.increments().clone() }
+    }
+}
+
+impl<'s, S: Scheme + ValidFor<M::Class>, M: System> Trajectory<'s, S, M> {
+    /// Begins at the system's present state.
+    ///
+    /// # Errors
+    /// An initial energy, or a state before 0, that is not finite.
+    pub fn new(stepper: &'s Stepper<S, M::Number>, system: M, steps: u64, reach: usize) -> Result<Self, RunError> {
+        let mut trajectory = Self::after(stepper, system, 0)?;
+        trajectory.extend(steps, reach);
+        trajectory.step_back(reach)?;
+        Ok(trajectory)
+    }
+
+    /// The states n = `from`, …, steps, whose increments are all 0; the system is at the state `from`.
+    ///
+    /// They have the bits of the states with increments, and the bits of a trajectory from 0 where `from` is one of its states.
+    ///
+    /// # Errors
+    /// An energy at `from` that is not finite.
+    pub fn plain(stepper: &'s Stepper<S, M::Number>, system: M, from: i64, steps: u64) -> Result<Self, RunError> {
+        let mut trajectory = Self::after(stepper, system, from)?;
+        trajectory.extend(steps, 0);
+        trajectory.augmented = false;
+        trajectory.before.push(Stored::of(&trajectory.system));
+        trajectory.n -= 1;
+        Ok(trajectory)
+    }
+
+    /// The states after `from`, with increments, up to a last one that [`extend`](Self::extend) sets; the system is at the state
+    /// `from`.
+    pub(super) fn after(stepper: &'s Stepper<S, M::Number>, mut system: M, from: i64) -> Result<Self, RunError> {
+        check_value(&system.energy(), Quantity::Energy, from)?;
+        Ok(Trajectory { stepper, system, augmented: true, before: Vec::new(), present: None, n: from, last: from })
+    }
+
+    /// Sets the last state, which the estimate of the state `steps` needs.
+    pub(super) fn extend(&mut self, steps: u64, reach: usize) {
+        self.last = last(steps, reach);
+    }
+
+    /// Makes the states −reach, …, 0 from the present one, which is 0, and returns to it.
+    pub(super) fn step_back(&mut self, reach: usize) -> Result<(), RunError> {
+        let Trajectory { stepper, system, before, .. } = self;
+        let start = Stored::of(system);
+        let mut later = start.clone();
+        for n in 1..=reach as i64 {
+            stepper.step_back_augmented(system);
+            State::of(system, -n).check()?;
+            // the step from −n to −n + 1 adds what the step back took
+            later.increments.assign(system.increments());
+            later.increments.negate();
+            let earlier = Stored::of(system);
+            before.push(std::mem::replace(&mut later, earlier));
+        }
+        later.increments.assign_zero();
+        before.push(later);
+        system.set_state(&start.q, &start.p);
+        self.n = -(reach as i64) - 1;
+        Ok(())
+    }
+}
+
+impl<S: Scheme, M: System> Trajectory<'_, S, M> {
+    /// The system, for energies and counts.
+    pub fn system(&mut self) -> &mut M {
+        &mut self.system
+    }
+}
+
+impl<S: Scheme + ValidFor<M::Class>, M: System> States for Trajectory<'_, S, M> {
+    type Number = M::Number;
+
+    fn advance(&mut self) -> Result<Option<State<'_, M::Number>>, RunError> {
+        if self.n >= self.last {
+            return Ok(None);
+        }
+        self.n += 1;
+        let n = self.n;
+        self.present = self.before.pop();
+        if let Some(Stored { q, p, increments }) = &self.present {
+            return Ok(Some(State { n, q, p, increments }));
+        }
+        if self.augmented {
+            self.stepper.step_augmented(&mut self.system);
+        } else {
+            self.stepper.step(&mut self.system);
+        }
+        let state = State::of(&self.system, n);
+        state.check()?;
+        Ok(Some(state))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinetic::UnitMasses;
+    use crate::motion::Motion;
+    use crate::problems::Kepler;
+    use crate::tables::{TableScheme, shipped};
+
+    type Comet = Motion<f64, Vec<f64>, Kepler, UnitMasses>;
+
+    fn motion(q: Vec<f64>, p: Vec<f64>) -> Comet {
+        Motion::new(Kepler, UnitMasses, q, p).unwrap()
+    }
+
+    fn start() -> Comet {
+        motion(vec![0.4, 0.0], vec![0.0, 2.0])
+    }
+
+    fn steppers() -> impl Iterator<Item = Stepper<TableScheme, f64>> {
+        ["stormer-verlet", "yoshida4", "ruth3"]
+            .into_iter()
+            .map(|name| Stepper::new(shipped(name).unwrap(), "1/20").unwrap())
+    }
+
+    /// n, q and p of the states from 0 on.
+    fn plain(stepper: &Stepper<TableScheme, f64>, steps: u64) -> Vec<(i64, Vec<f64>, Vec<f64>)> {
+        let mut trajectory = Trajectory::plain(stepper, start(), 0, steps).unwrap();
+        let mut states = Vec::new();
+        while let Some(state) = trajectory.advance().unwrap() {
+            states.push((state.n, state.q.to_vec(), state.p.to_vec()));
+        }
+        states
+    }
+
+    #[test]
+    fn a_plain_trajectory_has_the_states_of_one_with_increments() {
+        for stepper in steppers() {
+            let states = plain(&stepper, 50);
+            assert_eq!(states.len(), 51);
+            let mut augmented = Trajectory::new(&stepper, start(), 50, 3).unwrap();
+            while let Some(State { n, q, p, .. }) = augmented.advance().unwrap() {
+                if (0..=50).contains(&n) {
+                    assert_eq!((n, q, p), (states[n as usize].0, &*states[n as usize].1, &*states[n as usize].2));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_plain_trajectory_costs_its_steps_only() {
+        let stepper = Stepper::new(shipped("stormer-verlet").unwrap(), "1/20").unwrap();
+        let mut trajectory = Trajectory::plain(&stepper, start(), 0, 40).unwrap();
+        while trajectory.advance().unwrap().is_some() {}
+        assert_eq!(trajectory.system().evaluations(), 41);
+    }
+
+    #[test]
+    fn a_resumed_plain_trajectory_has_the_same_states() {
+        for stepper in steppers() {
+            let states = plain(&stepper, 50);
+            let (n, q, p) = states[20].clone();
+            let mut resumed = Trajectory::plain(&stepper, motion(q, p), n, 50).unwrap();
+            for (n, q, p) in &states[20..] {
+                let state = resumed.advance().unwrap().unwrap();
+                assert_eq!((state.n, state.q, state.p), (*n, &**q, &**p), "{:?}", stepper.scheme());
+            }
+            assert!(resumed.advance().unwrap().is_none());
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! The options that select an estimator, as flags, scenes and JSON name them.
+
+use std::fmt;
+use std::str::FromStr;
+
+use num_traits::Signed;
+use thiserror::Error;
+
+use crate::Rational;
+use crate::shadow::differences::{SelectionRule, StoppingRule};
+
+/// Above this order the exact weights take longer than any run.
+pub const HIGHEST_ORDER: u32 = 1000;
+
+/// The power of ten of the largest valid target error.
+const LARGEST_ACCURACY: i32 = 100;
+
+/// Options that select an estimator; omitted ones have their defaults.
+///
+/// The names of the fields are those of the keys of a scene and, with hyphens, of the flags.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct EstimatorOptions {
+    /// The m of D_m or the k of E_k; `None` for the best one of each state (`auto`).
+    pub order: Option<u32>,
+    /// The largest order that is tried.
+    pub max_order: Option<u32>,
+    /// Where the search for the best m ends.
+    pub stop: Option<StoppingRule>,
+    /// Which m is the best.
+    pub rule: Option<SelectionRule>,
+    /// The target error, in the units of the energy: the smallest k that meets it is used.
+    pub accuracy: Option<Rational>,
+}
+
+impl EstimatorOptions {
+    /// Names and values of the options that are set, in the order of the fields.
+    pub fn names(&self) -> Vec<&'static str> {
+        let all = [
+            ("order", self.order.is_some()),
+            ("max_order", self.max_order.is_some()),
+            ("stop", self.stop.is_some()),
+            ("rule", self.rule.is_some()),
+            ("accuracy", self.accuracy.is_some()),
+        ];
+        all.into_iter().filter(|(_, is_set)| *is_set).map(|(name, _)| name).collect()
+    }
+}
+
+/// Two options that exclude each other.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{option} requires {setting} = {required}, not {setting} = {found}")]
+pub struct OptionConflict {
+    /// The option that cannot be used: `max_order`, `stop`, `rule` or `accuracy`.
+    pub option: &'static str,
+    /// The option that it depends on: `estimator` or `order`.
+    pub setting: &'static str,
+    /// The value of that one which it requires.
+    pub required: &'static str,
+    /// The value that it has.
+    pub found: String,
+}
+
+/// A target error that is not valid: it is absolute, in the units of the energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum AccuracyError {
+    /// 0 or negative.
+    #[error("is not a valid target error: it must be positive")]
+    NotPositive,
+    /// Larger than any energy.
+    #[error("is above 1e100, an error larger than any energy")]
+    TooLarge,
+}
+
+/// Checks a target error.
+///
+/// # Errors
+/// One that is not positive, or above 1e100.
+pub fn check_accuracy(accuracy: &Rational) -> Result<(), AccuracyError> {
+    let largest = Rational::from_integer(10.into()).pow(LARGEST_ACCURACY);
+    match () {
+        () if !accuracy.is_positive() => Err(AccuracyError::NotPositive),
+        () if *accuracy > largest => Err(AccuracyError::TooLarge),
+        () => Ok(()),
+    }
+}
+
+/// A word that is not a value of an option.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("expected {}", .known.join(" or "))]
+pub struct UnknownWord {
+    /// The values that exist.
+    pub known: &'static [&'static str],
+}
+
+impl StoppingRule {
+    /// The words for them.
+    pub const NAMES: &'static [&'static str] = &["full", "early"];
+
+    /// Where each of them stops.
+    pub const SUMMARIES: &'static [&'static str] = &["At the largest m", "Where the terms begin to grow"];
+
+    /// Its word.
+    pub fn name(self) -> &'static str {
+        match self {
+            StoppingRule::Full => "full",
+            StoppingRule::Early => "early",
+        }
+    }
+}
+
+impl SelectionRule {
+    /// The words for them.
+    pub const NAMES: &'static [&'static str] = &["least", "robust"];
+
+    /// What each of them selects.
+    pub const SUMMARIES: &'static [&'static str] = &[
+        "The smallest term |T_m - T_(m-1)|",
+        "The smallest maximum of ten neighbouring terms, none of which is small by chance; no worse on any orbit measured",
+    ];
+
+    /// Its word.
+    pub fn name(self) -> &'static str {
+        match self {
+            SelectionRule::Least => "least",
+            SelectionRule::Robust => "robust",
+        }
+    }
+}
+
+impl fmt::Display for StoppingRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for StoppingRule {
+    type Err = UnknownWord;
+    fn from_str(word: &str) -> Result<Self, UnknownWord> {
+        match word {
+            "full" => Ok(StoppingRule::Full),
+            "early" => Ok(StoppingRule::Early),
+            _ => Err(UnknownWord { known: Self::NAMES }),
+        }
+    }
+}
+
+impl fmt::Display for SelectionRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for SelectionRule {
+    type Err = UnknownWord;
+    fn from_str(word: &str) -> Result<Self, UnknownWord> {
+        match word {
+            "least" => Ok(SelectionRule::Least),
+            "robust" => Ok(SelectionRule::Robust),
+            _ => Err(UnknownWord { known: Self::NAMES }),
+        }
+    }
+}

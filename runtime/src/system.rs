@@ -1,0 +1,144 @@
+//! What a splitting scheme advances: a system with its state, its kicks and its drifts.
+
+use crate::number::Number;
+
+/// A Hamiltonian system H = A + B with its state q, p and β, where the flows of A (*drifts*) and of B (*kicks*) are known.
+///
+/// Mostly A = T(p) and B = U(q): [`Motion`](crate::Motion) is such a system, made of a kinetic energy and a potential. A system
+/// with a storage of its own, or with other flows, implements this trait; then schemes, trajectories, energy drifts and the
+/// [monitor](crate::shadow::ShadowEnergy) work on it.
+///
+/// Along each flow β grows by the integral of qᵀH_q + pᵀH_p − 2H, H being A or B (Moan & Niesen, eq. 2, whose printed sign is
+/// wrong): by weight·(qᵀU_q − 2U) in a kick, and by weight·(pᵀT_p − 2T) in a drift, which is 0 for quadratic T.
+pub trait System {
+    /// The type of its numbers.
+    type Number: Number;
+
+    /// What is known of A: [`Quadratic`](crate::kinetic::Quadratic) if A = ½pᵀM⁻¹p and B = U(q), else
+    /// [`General`](crate::kinetic::General). Schemes whose order holds for quadratic T only do not advance the latter.
+    type Class;
+
+    /// Positions.
+    fn q(&self) -> &[Self::Number];
+
+    /// Momenta, as many as positions.
+    fn p(&self) -> &[Self::Number];
+
+    /// What the last augmented step added to q, p and β.
+    fn increments(&self) -> &Increments<Self::Number>;
+
+    /// Sets q and p. Where the state is changed in another way, the system has to drop all that it keeps of it, such as a
+    /// gradient.
+    fn set_state(&mut self, q: &[Self::Number], p: &[Self::Number]);
+
+    /// The flow of B for the time `weight`: p ← p − weight·U_q(q) for B = U(q).
+    fn kick(&mut self, weight: &Self::Number);
+
+    /// The kick with the same bits of q and p, and its part of the [increments](System::increments).
+    fn kick_augmented(&mut self, weight: &Self::Number);
+
+    /// The flow of A for the time `weight`: q ← q + weight·T_p(p) for A = T(p). Another A may change p as well.
+    fn drift(&mut self, weight: &Self::Number);
+
+    /// The drift with the same bits of q and p, and its part of the [increments](System::increments).
+    fn drift_augmented(&mut self, weight: &Self::Number);
+
+    /// Sets the increments to 0: an augmented step begins with it, so that β keeps its digits in long runs.
+    fn clear_increments(&mut self);
+
+    /// energy ← H, and kinetic ← T, at the present state.
+    ///
+    /// The monitor compares the error of H with T: for an A that is not a kinetic energy, `kinetic` is any energy of the size of
+    /// those exchanged in the motion.
+    fn assign_energies(&mut self, energy: &mut Self::Number, kinetic: &mut Self::Number);
+
+    /// energy ← H, and kinetic ← T, at another state of the same system.
+    fn assign_energies_at(
+        &mut self,
+        q: &[Self::Number],
+        p: &[Self::Number],
+        energy: &mut Self::Number,
+        kinetic: &mut Self::Number,
+    );
+
+    /// How often the forces have been evaluated so far; the monitor counts the stages of a step by it.
+    fn evaluations(&self) -> u64;
+
+    /// Announces whether the next augmented step follows the next plain step: what that evaluates last, such as the rate
+    /// qᵀU_q − 2U beside the gradient, can then be kept. The default does nothing.
+    fn before_augmented_step(&mut self, follows: bool) {
+        let _ = follows;
+    }
+
+    /// H at the present state.
+    fn energy(&mut self) -> Self::Number {
+        let [mut energy, mut kinetic] = [self.increments().beta.clone(), self.increments().beta.clone()];
+        self.assign_energies(&mut energy, &mut kinetic);
+        energy
+    }
+
+    /// H at another state of the same system.
+    fn energy_at(&mut self, q: &[Self::Number], p: &[Self::Number]) -> Self::Number {
+        let [mut energy, mut kinetic] = [self.increments().beta.clone(), self.increments().beta.clone()];
+        self.assign_energies_at(q, p, &mut energy, &mut kinetic);
+        energy
+    }
+
+    /// The context of the numbers.
+    fn context(&self) -> <Self::Number as Number>::Context {
+        self.increments().beta.context()
+    }
+}
+
+/// What a step added to q, p and β.
+///
+/// For a number type that does not [keep increments](Number::KEEPS_INCREMENTS), q and p are empty.
+#[derive(Clone, Debug)]
+pub struct Increments<N> {
+    /// To q: the sum of what its flows added, without the round-off of q itself. For an exact flow it must be computed without
+    /// cancellation, not as a difference of states.
+    pub q: Vec<N>,
+    /// To p, likewise.
+    pub p: Vec<N>,
+    /// To β.
+    pub beta: N,
+}
+
+impl<N: Number> Increments<N> {
+    /// Zeros for states of `dimension` coordinates, as many as the number type keeps.
+    pub fn zero(dimension: usize, context: &N::Context) -> Self {
+        let kept = if N::KEEPS_INCREMENTS { dimension } else { 0 };
+        let zeros = || vec![N::zero(context); kept];
+        Increments { q: zeros(), p: zeros(), beta: N::zero(context) }
+    }
+
+    /// The increment of β alone, for states whose increments of q and p are unknown.
+    pub fn of_beta(beta: N) -> Self {
+        Increments { q: Vec::new(), p: Vec::new(), beta }
+    }
+
+    /// Whether those of q and p are known.
+    pub fn has_vectors(&self) -> bool {
+        !self.q.is_empty()
+    }
+
+    /// All increments ← 0.
+    pub fn assign_zero(&mut self) {
+        self.each(N::assign_zero);
+    }
+
+    pub(crate) fn negate(&mut self) {
+        self.each(N::negate);
+    }
+
+    pub(crate) fn assign(&mut self, other: &Self) {
+        self.q.clone_from(&other.q);
+        self.p.clone_from(&other.p);
+        self.beta.assign(&other.beta);
+    }
+
+    fn each(&mut self, change: impl Fn(&mut N)) {
+        self.q.iter_mut().chain(&mut self.p).for_each(&change);
+        change(&mut self.beta);
+    }
+}

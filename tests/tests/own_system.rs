@@ -1,0 +1,375 @@
+//! Protects the trait `System` for systems with a storage and flows of their own: all schemes that are valid for every T(p) advance
+//! one, and runs and the monitor follow its modified energy.
+//!
+//! H = A + B with A = (q² + p²)²/4, which is no T(p), and B = q³/10. The flow of A turns (q, p) by the angle r²t, r² = q² + p². Along it
+//! β grows by qA_q + pA_p − 2A = 2A, as A is of degree 4; along that of B by qB_q − 2B = B.
+
+use rug::Float;
+use shadowstep::kinetic::General;
+use shadowstep::run::{ShadowRun, energy_drift};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Criterion, ShadowEnergy, Verdict};
+use shadowstep::{Increments, Number, Stepper, System, splitting_scheme};
+use shadowstep_tests::shipped::all_for_every_kinetic;
+use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, precision, rational, same_bits};
+
+#[derive(Clone, Copy)]
+#[splitting_scheme("yoshida4.toml")]
+struct Yoshida4;
+
+#[derive(Clone, Copy)]
+#[splitting_scheme("stormer-verlet.toml")]
+struct StormerVerlet;
+
+/// The system with its state.
+#[derive(Clone)]
+struct Rotor<N> {
+    /// q and p in one array.
+    state: [N; 2],
+    increments: Increments<N>,
+    evaluations: u64,
+    /// The degree of A, 4: along its flow β grows by (degree − 2) A.
+    degree: i32,
+    /// q(t) − q and p(t) − p along the flow of A.
+    turn: [N; 2],
+    /// Intermediate results.
+    scratch: [N; 3],
+}
+
+impl<N: Number> Rotor<N> {
+    fn new(start: [&str; 2], context: &N::Context) -> Self {
+        let zero = || N::zero(context);
+        Rotor {
+            state: start.map(|text| N::from_rational(&rational(text), context)),
+            increments: Increments::zero(1, context),
+            evaluations: 0,
+            degree: 4,
+            turn: [zero(), zero()],
+            scratch: [zero(), zero(), zero()],
+        }
+    }
+
+    fn energies(&mut self) -> [N; 2] {
+        let [mut energy, mut kinetic] = [N::zero(&self.context()), N::zero(&self.context())];
+        self.assign_energies(&mut energy, &mut kinetic);
+        [energy, kinetic]
+    }
+
+    /// turn ← (p sin θ − 2q sin²(θ/2), −q sin θ − 2p sin²(θ/2)) with θ = r² weight; the first scratch ← r²
+    fn assign_turn(&mut self, weight: &N) {
+        let Rotor { state: [q, p], turn: [to_q, to_p], scratch: [square, sine, versine], .. } = self;
+        assign_squared_radius(square, q, p);
+        versine.assign_product(square, weight);
+        sine.assign_sin(versine);
+        versine.divide_integer(2);
+        to_q.assign_sin(versine);
+        versine.assign_square(to_q);
+        versine.multiply_integer(2);
+        to_q.assign_product(p, sine);
+        to_q.subtract_product(q, versine);
+        to_p.assign_product(q, sine);
+        to_p.negate();
+        to_p.subtract_product(p, versine);
+    }
+
+    /// The first scratch ← 3q²/10
+    fn assign_slope(&mut self) {
+        let Rotor { state: [q, _], scratch: [slope, ..], .. } = self;
+        slope.assign_square(q);
+        slope.multiply_integer(3);
+        slope.divide_integer(10);
+        self.evaluations += 1;
+    }
+}
+
+fn assign_squared_radius<N: Number>(square: &mut N, q: &N, p: &N) {
+    square.assign_square(q);
+    square.add_product(p, p);
+}
+
+/// b ← q³/10
+fn assign_b<N: Number>(b: &mut N, q: &N) {
+    b.assign_square(q);
+    b.multiply(q);
+    b.divide_integer(10);
+}
+
+impl<N: Number> System for Rotor<N> {
+    type Number = N;
+    type Class = General;
+
+    fn q(&self) -> &[N] {
+        &self.state[..1]
+    }
+
+    fn p(&self) -> &[N] {
+        &self.state[1..]
+    }
+
+    fn increments(&self) -> &Increments<N> {
+        &self.increments
+    }
+
+    fn set_state(&mut self, q: &[N], p: &[N]) {
+        self.state[0].assign(&q[0]);
+        self.state[1].assign(&p[0]);
+    }
+
+    fn kick(&mut self, weight: &N) {
+        self.assign_slope();
+        self.state[1].subtract_product(weight, &self.scratch[0]);
+    }
+
+    fn kick_augmented(&mut self, weight: &N) {
+        self.kick(weight);
+        let Rotor { state: [q, _], increments, scratch: [slope, b, _], .. } = self;
+        assign_b(b, q);
+        increments.beta.add_product(weight, b);
+        increments.p.iter_mut().for_each(|p| p.subtract_product(weight, slope));
+    }
+
+    fn drift(&mut self, weight: &N) {
+        self.assign_turn(weight);
+        self.state.iter_mut().zip(&self.turn).for_each(|(state, turn)| state.add(turn));
+    }
+
+    fn drift_augmented(&mut self, weight: &N) {
+        self.drift(weight);
+        let Rotor { turn: [to_q, to_p], increments, degree, scratch: [square, rate, _], .. } = self;
+        rate.assign_square(square);
+        rate.multiply_integer(*degree - 2);
+        rate.divide_integer(4);
+        increments.beta.add_product(weight, rate);
+        increments.q.iter_mut().for_each(|q| q.add(to_q));
+        increments.p.iter_mut().for_each(|p| p.add(to_p));
+    }
+
+    fn clear_increments(&mut self) {
+        self.increments.assign_zero();
+    }
+
+    fn assign_energies(&mut self, energy: &mut N, kinetic: &mut N) {
+        let [q, p] = self.state.clone();
+        self.assign_energies_at(&[q], &[p], energy, kinetic);
+    }
+
+    /// A is taken for the kinetic energy.
+    fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic: &mut N) {
+        let square = &mut self.scratch[0];
+        assign_squared_radius(square, &q[0], &p[0]);
+        kinetic.assign_square(square);
+        kinetic.divide_integer(4);
+        assign_b(energy, &q[0]);
+        energy.add(kinetic);
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+}
+
+const START: [&str; 2] = ["0.9", "-0.3"];
+
+/// A step with which nothing is special.
+const STEP: &str = "1/53";
+
+/// q' = H_p and p' = −H_q in plain formulas, by the classical Runge–Kutta scheme of order 4.
+fn reference([mut q, mut p]: [f64; 2], until: f64, steps: u32, with_b: bool) -> [f64; 2] {
+    let h = until / f64::from(steps);
+    let slope = if with_b { 0.3 } else { 0.0 };
+    let f = |q: f64, p: f64| [(q * q + p * p) * p, -(q * q + p * p) * q - slope * q * q];
+    for _ in 0..steps {
+        let a = f(q, p);
+        let b = f(q + h / 2.0 * a[0], p + h / 2.0 * a[1]);
+        let c = f(q + h / 2.0 * b[0], p + h / 2.0 * b[1]);
+        let d = f(q + h * c[0], p + h * c[1]);
+        q += h / 6.0 * (a[0] + 2.0 * b[0] + 2.0 * c[0] + d[0]);
+        p += h / 6.0 * (a[1] + 2.0 * b[1] + 2.0 * c[1] + d[1]);
+    }
+    [q, p]
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// Flows and steps
+
+#[test]
+fn the_drift_is_the_flow_of_a() {
+    let mut rotor = Rotor::<f64>::new(START, &());
+    let start = rotor.state;
+    let [_, a] = rotor.energies();
+    // (0.9² + 0.3²)²/4
+    assert!((a - 0.2025).abs() < 1e-15);
+    rotor.drift_augmented(&2.5);
+    let exact = reference(start, 2.5, 2000, false);
+    // the reference is off by some (2.5/2000)⁴ = 2e-12 and less
+    assert!((rotor.state[0] - exact[0]).hypot(rotor.state[1] - exact[1]) < 1e-12, "{:?}, {exact:?}", rotor.state);
+    let Increments { q, p, beta } = rotor.increments().clone();
+    assert!((beta - 2.0 * a * 2.5).abs() < 1e-15 && (rotor.energies()[1] - a).abs() < 1e-15);
+    assert_eq!([start[0] + q[0], start[1] + p[0]], rotor.state);
+}
+
+/// Every scheme for every T(p), generated and read at run time: back is the inverse of forth, augmented steps have the bits of plain
+/// ones, and increments are what the states change by.
+fn steps_are_steps<N: Bits>(context: &N::Context) {
+    for scheme in all_for_every_kinetic::<N>(&rational(STEP), context) {
+        let (steps, start) = (&scheme.generated, Rotor::<N>::new(START, context));
+        let (mut plain, mut augmented) = (start.clone(), start.clone());
+        for _ in 0..3 {
+            steps.step(&mut plain);
+            steps.step_augmented(&mut augmented);
+            assert!(same_bits(&plain.state, &augmented.state), "{}", scheme.name);
+        }
+        let there = augmented.increments().clone();
+        let reached = augmented.state.clone();
+        steps.step_back_augmented(&mut augmented);
+        let tolerance = start.state[0].log10_epsilon() + 2.5;
+        let added = there.q.iter().chain(&there.p).zip(reached.iter().zip(&augmented.state));
+        for (added, (later, earlier)) in added {
+            let mut difference = later.clone();
+            difference.subtract(earlier);
+            let off = log10_distance(added, &difference);
+            assert!(off < tolerance, "{}: 10^{off}", scheme.name);
+        }
+        let mut back = augmented.increments().beta.clone();
+        back.negate();
+        let off = log10_distance(&there.beta, &back);
+        assert!(there.beta.log10_abs() > -3.0 && off < tolerance, "{}, β: {} and {back}", scheme.name, there.beta);
+        for _ in 0..3 {
+            steps.step_back(&mut plain);
+        }
+        let moved = log10_largest_distance(&reached, &start.state);
+        let off = log10_largest_distance(&plain.state, &start.state);
+        assert!(moved > -2.0 && off < tolerance, "{}: 10^{off} after steps and steps back", scheme.name);
+    }
+}
+
+#[test]
+fn steps_are_steps_in_both_kinds_of_numbers() {
+    steps_are_steps::<f64>(&());
+    steps_are_steps::<Float>(&precision(60));
+}
+
+#[test]
+fn yoshida_has_order_4() {
+    let start = Rotor::<f64>::new(START, &()).state;
+    let [good, better] = [16_000, 32_000].map(|steps| reference(start, 8.0, steps, true));
+    assert!((good[0] - better[0]).hypot(good[1] - better[1]) < 1e-12);
+    let errors = [4, 8, 16, 32].map(|n: u32| {
+        let stepper = Stepper::new(Yoshida4, 1.0 / f64::from(n)).unwrap();
+        let mut rotor = Rotor::<f64>::new(START, &());
+        (0..8 * n).for_each(|_| stepper.step(&mut rotor));
+        (rotor.state[0] - better[0]).hypot(rotor.state[1] - better[1])
+    });
+    let orders: Vec<f64> = errors.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect();
+    println!("{errors:?}, {orders:?}");
+    assert!(errors[3] > 1e-9 && orders[1..].iter().all(|order| (order - 4.0).abs() < 0.1), "{errors:?}, {orders:?}");
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// The modified energy
+
+/// max − min of H over n = 0, …, steps.
+fn energy_variation<N: Number>(stepper: &Stepper<StormerVerlet, N>, steps: u64, context: &N::Context) -> f64 {
+    let mut rotor = Rotor::<N>::new(START, context);
+    let energies: Vec<f64> = (0..=steps)
+        .map(|n| {
+            if n > 0 {
+                stepper.step(&mut rotor);
+            }
+            rotor.energies()[0].to_f64()
+        })
+        .collect();
+    energies.iter().copied().fold(f64::MIN, f64::max) - energies.iter().copied().fold(f64::MAX, f64::min)
+}
+
+fn the_modified_energy_is_conserved<N: Number>(context: &N::Context, most: f64) {
+    fn check<N: Number>(
+        stepper: &Stepper<StormerVerlet, N>,
+        settings: &(impl BuildEstimator<N> + std::fmt::Debug),
+        context: &N::Context,
+        most: f64,
+    ) {
+        let energy = energy_variation(stepper, 1000, context);
+        let found = energy_drift(stepper, Rotor::<N>::new(START, context), 1000, settings).unwrap();
+        println!("{settings:?}: H varies by {energy:e}, the modified energy by {:e}", found.drift.to_f64());
+        assert!(energy > 1e-5 && found.drift.to_f64() < most, "{settings:?}: {energy:e}, {:e}", found.drift.to_f64());
+        assert!((found.first.to_f64() - Rotor::<f64>::new(START, &()).energies()[0]).abs() < energy);
+    }
+    let stepper = Stepper::<_, N>::with_context(StormerVerlet, "1/20", context).unwrap();
+    check(&stepper, &Bilinear::new(12), context, most);
+    check(&stepper, &Central::fixed(20), context, most);
+}
+
+#[test]
+fn the_modified_energy_is_conserved_in_double() {
+    the_modified_energy_is_conserved::<f64>(&(), 1e-14);
+}
+
+#[test]
+fn the_modified_energy_is_conserved_at_60_digits() {
+    the_modified_energy_is_conserved::<Float>(&precision(60), 1e-20);
+}
+
+/// With the β of a quadratic A it is not.
+#[test]
+fn with_the_wrong_beta_it_is_not_conserved() {
+    let stepper = Stepper::new(StormerVerlet, "1/20").unwrap();
+    let energy = energy_variation::<f64>(&stepper, 1000, &());
+    for degree in [2, 3, 5] {
+        let wrong = Rotor { degree, ..Rotor::<f64>::new(START, &()) };
+        let found = energy_drift(&stepper, wrong, 1000, &Bilinear::new(12)).unwrap();
+        assert!(found.drift > 10.0 * energy, "degree {degree}: {:e}, and H itself {energy:e}", found.drift);
+    }
+}
+
+/// One estimate for each state, with the states of the steps.
+#[test]
+fn a_run_has_the_states_of_its_steps() {
+    let stepper = Stepper::new(Yoshida4, STEP).unwrap();
+    let mut run = ShadowRun::new(&stepper, Rotor::<f64>::new(START, &()), 200, &Bilinear::new(8)).unwrap();
+    let mut rotor = Rotor::<f64>::new(START, &());
+    let mut n = 0;
+    while let Some((found, estimate)) = run.advance().unwrap() {
+        assert_eq!((found, estimate.q, estimate.p), (n, rotor.q(), rotor.p()));
+        stepper.step(&mut rotor);
+        n += 1;
+    }
+    assert_eq!(n, 201);
+    // 4 kicks a step, and 4 + 200 + 4 steps; the initial state is returned to without one
+    assert_eq!(run.system().evaluations(), 208 * 4);
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// The monitor
+
+fn watch<N: Number>(h: &str, steps: u64, context: &N::Context) -> shadowstep::shadow::Report<N> {
+    let mut rotor = Rotor::<N>::new(START, context);
+    let stepper = Stepper::with_context(StormerVerlet, h, context).unwrap();
+    let mut monitor = ShadowEnergy::new(stepper, &mut rotor, &Bilinear::with_error(8)).unwrap().every(20);
+    for _ in 0..steps {
+        // a state that is not finite is reported as well
+        if monitor.step(&mut rotor).is_err() {
+            break;
+        }
+    }
+    monitor.report()
+}
+
+#[test]
+fn the_monitor_follows_it() {
+    let fine = watch::<f64>("1/20", 20_000, &());
+    println!("{fine}");
+    assert_eq!((fine.verdict, fine.mismatches), (Verdict::Fine, 0), "{fine}");
+    assert!(fine.energy_error > 1e-5 && fine.moved < 1e-8 * fine.energy_error, "{fine}");
+    // r² = 0.9 turns once in 2π/0.9 = 7.0, or 140 steps; B makes it slower or faster by less than a third
+    assert!((100.0..200.0).contains(&fine.steps_per_turn.unwrap()), "{fine}");
+    let precise = watch::<Float>("1/20", 2000, &precision(40));
+    assert_eq!(precise.verdict, Verdict::Fine, "{precise}");
+}
+
+#[test]
+fn the_monitor_refuses_hopeless_steps() {
+    for (h, criterion) in [("1", Criterion::Moved), ("11/10", Criterion::NotResolved), ("3/2", Criterion::NotFinite)] {
+        let report = watch::<f64>(h, 20_000, &());
+        assert_eq!(report.verdict, Verdict::TooLarge(criterion), "h = {h}: {report}");
+    }
+}
