@@ -32,7 +32,8 @@ fn bodies<P: PairPotential<f64>>(pair: P, distance: f64) -> Bodies<P> {
     let place = |i: usize| [i % 5, i / 5 % 5, i / 25].map(|n| n as f64);
     let disorder = |c: usize| (c as f64).sin() / 20.0;
     let q = (0..BODIES).flat_map(place).enumerate().map(|(c, x)| distance * (x + disorder(c))).collect();
-    Motion::new(Pairs::all(BODIES, pair), UnitMasses, q, vec![0.0; 3 * BODIES]).expect("the dimensions agree")
+    Motion::new(Pairs::all(BODIES, pair).expect("the pairs fit"), UnitMasses, q, vec![0.0; 3 * BODIES])
+        .expect("the dimensions agree")
 }
 
 /// Each run begins at the same state, in vectors of its own: so all make the same steps, and find them at like places.

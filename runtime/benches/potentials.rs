@@ -115,7 +115,11 @@ where
     compare(&format!("Pendulum, {numbers}"), contestants, repetitions);
     let contestants = vec![
         planets::<N, _>(BY_HAND, |g, m| ByHand(Planets { g, m }), context),
-        planets::<N, _>(BY_FORMULA, |g, m| Pairs::<_, 3>::all(BODIES, Gravity { g, m }), context),
+        planets::<N, _>(
+            BY_FORMULA,
+            |g, m| Pairs::<_, 3>::all(BODIES, Gravity { g, m }).expect("the pairs fit"),
+            context,
+        ),
     ];
     compare(&format!("The Sun and five planets, {numbers}"), contestants, repetitions / 20);
 }

@@ -2,6 +2,8 @@
 
 pub use shadowstep_symbolic::Separation;
 
+use thiserror::Error;
+
 use crate::number::Number;
 use crate::potential::Potential;
 
@@ -45,7 +47,7 @@ pub trait PairPotential<N: Number>: Pair {
 ///     pair U(r2; m_i, m_j) = -g * m_i * m_j / sqrt(r2)
 /// }
 ///
-/// let gravity = Pairs::<_, 3>::all(2, Gravity { g: 1.0, m: vec![4.0, 2.0] });
+/// let gravity = Pairs::<_, 3>::all(2, Gravity { g: 1.0, m: vec![4.0, 2.0] }).unwrap();
 /// let masses: Vec<_> = [4, 4, 4, 2, 2, 2].map(|m| Rational::from_integer(m.into())).into();
 /// let masses = DiagonalMasses::new(&masses, &()).unwrap();
 /// let mut motion = Motion::new(gravity, masses, vec![0.0, 0.0, 0.0, 1.0, 2.0, 2.0], vec![0.0; 6]).unwrap();
@@ -79,29 +81,34 @@ pub enum Ends {
 impl<P: Pair, const D: usize> Pairs<P, D> {
     /// Every body interacts with every other one.
     ///
-    /// # Panics
-    /// If there are no bodies, no dimensions, properties of more or fewer bodies, or if the pair's formula is in d and
-    /// D is not 1.
-    pub fn all(bodies: usize, pair: P) -> Self {
+    /// # Errors
+    /// No bodies, no dimensions, properties of more or fewer bodies, a pair's formula in d where D is not 1.
+    pub fn all(bodies: usize, pair: P) -> Result<Self, PairsError> {
         Self::checked(bodies, pair, Which::All)
     }
 
     /// Each body interacts with the next one.
     ///
-    /// # Panics
-    /// As [`Pairs::all`]; and if the ends are fixed and the bodies have properties, which walls have not.
-    pub fn neighbours(bodies: usize, pair: P, ends: Ends) -> Self {
-        assert!(ends != Ends::Fixed || pair.properties().is_empty(), "walls have no properties");
+    /// # Errors
+    /// As [`Pairs::all`]; fixed ends where the bodies have properties, as walls have none.
+    pub fn neighbours(bodies: usize, pair: P, ends: Ends) -> Result<Self, PairsError> {
+        if ends == Ends::Fixed && !pair.properties().is_empty() {
+            return Err(PairsError::WallsWithoutProperties);
+        }
         Self::checked(bodies, pair, Which::Neighbours(ends))
     }
 
-    fn checked(bodies: usize, pair: P, which: Which) -> Self {
-        assert!(bodies > 0 && D > 0, "there is at least one body, in at least one dimension");
-        let fits = D == 1 || pair.separation() == Separation::SquaredDistance;
-        assert!(fits, "a formula in d is for bodies on a line, D = 1; in more dimensions it is in r2");
-        let given = pair.properties().into_iter().all(|count| count == bodies);
-        assert!(given, "each property must be given for each of the {bodies} bodies");
-        Pairs { pair, bodies, which }
+    fn checked(bodies: usize, pair: P, which: Which) -> Result<Self, PairsError> {
+        if bodies == 0 || D == 0 {
+            return Err(PairsError::Empty);
+        }
+        if D > 1 && pair.separation() != Separation::SquaredDistance {
+            return Err(PairsError::Separation { dimensions: D });
+        }
+        match pair.properties().into_iter().find(|count| *count != bodies) {
+            Some(values) => Err(PairsError::Property { values, bodies }),
+            None => Ok(Pairs { pair, bodies, which }),
+        }
     }
 
     /// How many bodies there are.
@@ -113,6 +120,31 @@ impl<P: Pair, const D: usize> Pairs<P, D> {
     pub fn pair(&self) -> &P {
         &self.pair
     }
+}
+
+/// Bodies and a pair's energy that do not fit together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum PairsError {
+    /// There is nothing to sum over.
+    #[error("a sum over pairs needs at least one body and one dimension")]
+    Empty,
+    /// A formula in d for bodies that are not on a line.
+    #[error("a formula in d is for bodies on a line, not in {dimensions} dimensions; write it in r2")]
+    Separation {
+        /// The dimensions.
+        dimensions: usize,
+    },
+    /// A property with too few or too many values.
+    #[error("a property has {values} values for {bodies} bodies; give one for each body")]
+    Property {
+        /// The number of its values.
+        values: usize,
+        /// The number of bodies.
+        bodies: usize,
+    },
+    /// Walls at the ends of a chain of bodies with properties.
+    #[error("fixed ends are for pairs without properties, as walls have none")]
+    WallsWithoutProperties,
 }
 
 /// The scratch space of a call.

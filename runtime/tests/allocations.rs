@@ -156,10 +156,16 @@ fn steps_and_estimators_do_not_allocate() {
     // neighbours, compiled and read
     let state = || (numbers(["0.1", "0.2"], &digits), numbers(["0.1", "0"], &digits));
     let (q, p) = state();
-    of_all_schemes(&Motion::new(Pairs::<_, 1>::neighbours(2, Spring, Ends::Fixed), UnitMasses, q, p).unwrap(), nothing);
+    of_all_schemes(
+        &Motion::new(Pairs::<_, 1>::neighbours(2, Spring, Ends::Fixed).unwrap(), UnitMasses, q, p).unwrap(),
+        nothing,
+    );
     let spring = FormulaPair::new("d^2/2 + d^4/4", Separation::Difference, &[], &[]).unwrap();
     let (q, p) = state();
-    of_all_schemes(&Motion::new(Pairs::<_, 1>::neighbours(2, spring, Ends::Fixed), UnitMasses, q, p).unwrap(), nothing);
+    of_all_schemes(
+        &Motion::new(Pairs::<_, 1>::neighbours(2, spring, Ends::Fixed).unwrap(), UnitMasses, q, p).unwrap(),
+        nothing,
+    );
 
     // kinetic energies from formulas, compiled and read
     let any: Vec<_> = shipped_names().into_iter().filter_map(|name| shipped(name)?.for_every_kinetic().ok()).collect();

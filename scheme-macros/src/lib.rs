@@ -100,7 +100,7 @@ fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
 ///     pair U(d) = exp(-d) + d - 1
 /// }
 ///
-/// let ring = Pairs::<_, 1>::neighbours(3, Toda, Ends::Periodic);
+/// let ring = Pairs::<_, 1>::neighbours(3, Toda, Ends::Periodic).unwrap();
 /// let mut motion = Motion::new(ring, UnitMasses, [0.0; 3], [1.0, -1.0, 2.0]).unwrap();
 /// assert_eq!(motion.energy(), 3.0);
 /// ```

@@ -18,7 +18,7 @@ use crate::pairs::{Pair, PairPotential};
 /// let gravity = "-g * m_i * m_j / sqrt(r2)";
 /// let (masses, g) = (("m", vec![4.0, 2.0]), ("g", 1.0));
 /// let pair = FormulaPair::new(gravity, Separation::SquaredDistance, &[masses], &[g]).unwrap();
-/// let gravity = Pairs::<_, 2>::all(2, pair);
+/// let gravity = Pairs::<_, 2>::all(2, pair).unwrap();
 /// assert_eq!(Potential::<f64>::dimension(&gravity), 4);
 /// ```
 #[derive(Clone, Debug)]

@@ -55,6 +55,6 @@ impl Definition for Entry {
     fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
         let number = |name| values.number(name, context);
         let pair = LennardJones { epsilon: number("epsilon"), sigma: number("sigma") };
-        Box::new(Pairs::<_, 2>::all(ATOMS, pair))
+        Box::new(Pairs::<_, 2>::all(ATOMS, pair).expect("the pairs fit"))
     }
 }

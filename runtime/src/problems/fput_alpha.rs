@@ -35,6 +35,6 @@ impl Definition for Entry {
 
     fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
         let pair = CubicSpring { alpha: values.number("alpha", context) };
-        Box::new(Pairs::<_, 1>::neighbours(BODIES, pair, Ends::Fixed))
+        Box::new(Pairs::<_, 1>::neighbours(BODIES, pair, Ends::Fixed).expect("the pairs fit"))
     }
 }

@@ -35,5 +35,5 @@ pub(super) fn gravity<N: Number + 'static, const D: usize>(
 ) -> Box<dyn Potential<N>> {
     let number = |name: &str| values.number(name, context);
     let m: Vec<N> = masses.iter().map(|name| number(name)).collect();
-    Box::new(Pairs::<_, D>::all(m.len(), Gravity { g: number("g"), m }))
+    Box::new(Pairs::<_, D>::all(m.len(), Gravity { g: number("g"), m }).expect("the pairs fit"))
 }

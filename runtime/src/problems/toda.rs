@@ -33,6 +33,6 @@ impl Definition for Entry {
     };
 
     fn potential<N: Number + 'static>(_: &Values, _: &N::Context) -> Box<dyn Potential<N>> {
-        Box::new(Pairs::<_, 1>::neighbours(BODIES, TodaSpring, Ends::Periodic))
+        Box::new(Pairs::<_, 1>::neighbours(BODIES, TodaSpring, Ends::Periodic).expect("the pairs fit"))
     }
 }

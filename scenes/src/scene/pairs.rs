@@ -53,9 +53,10 @@ impl PairEnergy {
     }
 
     fn sum<N: Number + 'static, const D: usize>(&self, pair: FormulaPair<N>) -> Box<dyn Potential<N>> {
-        Box::new(match self.ends {
+        let pairs = match self.ends {
             None => Pairs::<_, D>::all(self.bodies, pair),
             Some(ends) => Pairs::<_, D>::neighbours(self.bodies, pair, ends),
-        })
+        };
+        Box::new(pairs.expect("the numbers of bodies and properties were read with the scene"))
     }
 }
