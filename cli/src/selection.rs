@@ -45,7 +45,7 @@ impl Selection {
             })?;
             note.iter().for_each(report::note);
         }
-        selection.remark_on_ends();
+        selection.note_ends();
         Ok(selection)
     }
 
@@ -70,7 +70,7 @@ impl Selection {
         self.setup.values.named().iter().map(|(name, exact)| (name.clone(), self.arithmetic.text(exact))).collect()
     }
 
-    fn remark_on_ends(&self) {
+    fn note_ends(&self) {
         self.steps.iter().filter_map(|(h, count)| Note::of_end(h, *count, &self.until)).for_each(report::note);
     }
 }

@@ -103,7 +103,7 @@ mod tests {
         );
         let path = folder.join("scene.toml");
         fs::write(&path, text).unwrap();
-        Scene::open(path.to_str().unwrap()).unwrap()
+        Scene::open(&path).unwrap()
     }
 
     /// Stops a run after this many states.
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn so_has_that_of_pairs_of_bodies_and_of_a_general_kinetic_energy() {
+    fn so_has_a_file_of_pairs_or_of_a_general_kinetic_energy() {
         let pairs = "[problem]\npair = \"-m_i*m_j/sqrt(r2)\"\ndimensions = 2\nbodies = { m = [1, 2, \"sqrt(3)\"] }\n\
                      masses = \"m\"\n[initial]\nq = [0, 0, 1, 0, 0, 2]\nv = [0, \"1/3\", 1, 0, 0, 0]";
         let kinetic = "[problem]\npotential = \"q^2/2\"\ncoordinates = [\"q\"]\nkinetic = \"sqrt(1 + pq^2)\"\n\
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn no_more_is_done_again_than_an_estimate_needs() {
+    fn a_resumed_run_repeats_only_the_steps_that_an_estimate_needs() {
         let folder = tempfile::tempdir().unwrap();
         let scene = scene(folder.path(), KEPLER, "modified_energy = { order = 2 }");
         // each fifth state is kept, and the estimates after n need one at or before n - 5: D_2, and three states for its

@@ -56,7 +56,7 @@
 //! run = { scheme = "yoshida4", step = "1/10", steps = 30, digits = "double" }
 //! output = { trajectory = true, file = "pendulum.csv", checkpoint = 10 }
 //! "#)?;
-//! let scene = Scene::open(path.to_str().unwrap())?;
+//! let scene = Scene::open(&path)?;
 //! assert_eq!(scene.run_to_file(false, &mut StopAt(12))?, Outcome::Stopped { n: 12 });
 //! assert!(matches!(scene.run_to_file(false, &mut ())?, Outcome::Complete { .. }));
 //! let csv = std::fs::read_to_string(folder.path().join("pendulum.csv"))?;

@@ -16,6 +16,7 @@ mod shipped;
 
 use std::fs;
 use std::io::ErrorKind;
+use std::path::Path;
 
 use shadowstep::tables::{Faults, Source};
 use shadowstep_schemes::document::document;
@@ -33,18 +34,19 @@ impl Scene {
     ///
     /// # Errors
     /// A file that cannot be read; all faults of its text.
-    pub fn open(path: &str) -> Result<Scene, Error> {
+    pub fn open(path: impl AsRef<Path>) -> Result<Scene, Error> {
+        let shown = path.as_ref().display().to_string();
         let refuse = |message: String| {
             Error::usage(message, "give the path of a scene; `shadowstep scene kepler > scene.toml` writes one")
         };
         match fs::read_to_string(path) {
-            Ok(text) if text.trim().is_empty() => Err(refuse(format!("{path} is empty"))),
-            Ok(text) => Ok(Scene::read(Source { path: path.to_owned(), text })?),
-            Err(error) if error.kind() == ErrorKind::NotFound => Err(refuse(format!("there is no file {path}"))),
+            Ok(text) if text.trim().is_empty() => Err(refuse(format!("{shown} is empty"))),
+            Ok(text) => Ok(Scene::read(Source { path: shown, text })?),
+            Err(error) if error.kind() == ErrorKind::NotFound => Err(refuse(format!("there is no file {shown}"))),
             Err(error) if error.kind() == ErrorKind::InvalidData => {
-                Err(refuse(format!("{path} is not a text in UTF-8")))
+                Err(refuse(format!("{shown} is not a text in UTF-8")))
             }
-            Err(error) => Err(refuse(format!("{path} cannot be read: {error}"))),
+            Err(error) => Err(refuse(format!("{shown} cannot be read: {error}"))),
         }
     }
 
@@ -144,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_explained_is_refused() {
+    fn keys_that_are_not_explained_are_refused() {
         for section in &SECTIONS {
             let text = format!("[{}]\nfrobnicate = 1", section.name);
             assert!(faults(&text).contains(&"2:1: unknown key `frobnicate`".to_owned()), "{text}: {:?}", faults(&text));
@@ -160,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn the_examples_are_values_that_can_be_read() {
+    fn the_examples_are_readable_values() {
         for key in &KEYS {
             let text = format!("[{}]\n{} = {}", key.section, key.name, key.example);
             let faults = faults(&text);

@@ -1,4 +1,4 @@
-//! A run that is stopped at any moment goes on from its checkpoint, and its file has the bytes of one that was not.
+//! A run that is stopped at any moment is resumed from its checkpoint, and its file has the bytes of an undisturbed run.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 use crate::scenes::{folder, names, run};
 
-/// In double precision, without modified energies; too long for any test.
+/// In double precision, without modified energies; too long to complete in a test.
 const PLAIN: &str = r#"
 [problem]
 potential = "-1/sqrt(x^2 + y^2)"
@@ -29,7 +29,7 @@ file = "out.csv"
 checkpoint = 1000
 "#;
 
-/// A run that ends before one can be bored.
+/// The same with fewer steps.
 fn short(scene: &str) -> String {
     scene.replace("steps = 100000000", "steps = 3000")
 }
@@ -50,7 +50,7 @@ file = "out.jsonl"
 checkpoint = 50
 "#;
 
-/// The file of a run that nobody disturbs.
+/// The file of an undisturbed run.
 fn undisturbed(scene: &str, file: &str) -> String {
     let folder = folder(scene);
     assert_eq!(run(folder.path(), "").code, 0);
@@ -66,7 +66,7 @@ fn begin(folder: &Path) -> Child {
         .unwrap()
 }
 
-/// Waits until there is a checkpoint other than `before`, and ends the run with no time to tidy up.
+/// Waits until there is a checkpoint other than `before`, and ends the run without a chance to clean up.
 fn kill_after_checkpoint(folder: &Path, file: &str, before: &str) -> String {
     let checkpoint = folder.join(format!("{file}.checkpoint"));
     let mut child = begin(folder);
@@ -92,25 +92,25 @@ fn survives_kills(scene: &str, file: &str) {
     for _ in 0..3 {
         checkpoint = kill_after_checkpoint(folder.path(), file, &checkpoint);
     }
-    let said = run(folder.path(), "");
-    assert_eq!(said.code, 0, "{}", said.err);
-    assert!(said.err.starts_with("note: resumed at n = "), "{}", said.err);
+    let result = run(folder.path(), "");
+    assert_eq!(result.code, 0, "{}", result.err);
+    assert!(result.err.starts_with("note: resumed at n = "), "{}", result.err);
     assert_eq!(names(folder.path()), [file, "scene.toml"]);
     assert!(fs::read_to_string(folder.path().join(file)).unwrap() == undisturbed(scene, file), "other bytes");
 }
 
 #[test]
-fn a_killed_run_in_double_precision_goes_on_with_the_same_bytes() {
+fn a_killed_run_in_double_precision_is_resumed_with_the_same_bytes() {
     survives_kills(&PLAIN.replace("steps = 100000000", "steps = 1000000"), "out.csv");
 }
 
 #[test]
-fn a_killed_run_with_modified_energies_goes_on_with_the_same_bytes() {
+fn a_killed_run_with_modified_energies_is_resumed_with_the_same_bytes() {
     survives_kills(SHADOWED, "out.jsonl");
 }
 
 #[test]
-fn a_killed_run_with_the_best_k_goes_on_with_the_same_bytes() {
+fn a_killed_run_with_the_best_k_is_resumed_with_the_same_bytes() {
     let keys = "estimator = \"bilinear\", max_order = 12, accuracy = 1e-15";
     survives_kills(&SHADOWED.replace("order = \"auto\", max_order = 12", keys), "out.jsonl");
 }
@@ -124,23 +124,23 @@ fn stopped(scene: &str, file: &str) -> TempDir {
 
 /// Whether the run of a folder is refused with this sentence, and begins again with --restart.
 fn refused(folder: &TempDir, sentence: &str) {
-    let said = run(folder.path(), "");
-    assert_eq!(said.code, 2, "{}", said.err);
+    let result = run(folder.path(), "");
+    assert_eq!(result.code, 2, "{}", result.err);
     assert!(
-        said.err.contains(sentence) && said.err.contains("hint: discard it and begin again with --restart"),
+        result.err.contains(sentence) && result.err.contains("hint: discard it and begin again with --restart"),
         "{}",
-        said.err
+        result.err
     );
-    // what is discarded may be of any scene
+    // --restart also discards a checkpoint of another scene
     let scene = fs::read_to_string(folder.path().join("scene.toml")).unwrap();
     fs::write(folder.path().join("scene.toml"), short(&scene)).unwrap();
-    let said = run(folder.path(), "--restart");
-    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    let result = run(folder.path(), "--restart");
+    assert_eq!((result.code, result.err.as_str()), (0, ""));
     assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
 }
 
 #[test]
-fn another_scene_is_not_gone_on_with() {
+fn a_checkpoint_of_another_scene_is_refused() {
     let folder = stopped(PLAIN, "out.csv");
     fs::write(folder.path().join("scene.toml"), PLAIN.replace("0.4", "0.5")).unwrap();
     refused(
@@ -152,7 +152,7 @@ fn another_scene_is_not_gone_on_with() {
 }
 
 #[test]
-fn another_table_is_not_gone_on_with() {
+fn a_checkpoint_of_another_table_is_refused() {
     let scene = PLAIN.replace("stormer-verlet", "mine.toml");
     let euler =
         "name = \"euler\"\norder = 1\nkinetic = \"any\"\nreference = \"Euler\"\n[stages]\nkick = [1]\ndrift = [1]\n";
@@ -160,9 +160,9 @@ fn another_table_is_not_gone_on_with() {
     fs::write(folder.path().join("mine.toml"), euler).unwrap();
     kill_after_checkpoint(folder.path(), "out.csv", "");
     fs::write(folder.path().join("mine.toml"), format!("{euler}\n# a word more")).unwrap();
-    let said = run(folder.path(), "");
-    assert_eq!(said.code, 2);
-    assert!(said.err.contains("was made with a different table of the scheme"), "{}", said.err);
+    let result = run(folder.path(), "");
+    assert_eq!(result.code, 2);
+    assert!(result.err.contains("was made with a different table of the scheme"), "{}", result.err);
 }
 
 #[test]
@@ -199,25 +199,25 @@ fn changed_rows_are_refused() {
 }
 
 #[test]
-fn rows_without_a_checkpoint_are_begun_again() {
+fn rows_without_a_checkpoint_are_replaced() {
     let scene = short(PLAIN);
     let folder = folder(&scene);
     fs::write(folder.path().join("out.csv.partial"), "of a run that was killed before its first checkpoint").unwrap();
-    let said = run(folder.path(), "");
-    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    let result = run(folder.path(), "");
+    assert_eq!((result.code, result.err.as_str()), (0, ""));
     assert!(fs::read_to_string(folder.path().join("out.csv")).unwrap() == undisturbed(&scene, "out.csv"));
     assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
 }
 
 #[test]
-fn a_checkpoint_that_a_complete_run_left_is_no_obstacle() {
+fn a_checkpoint_left_by_a_complete_run_is_ignored() {
     let folder = stopped(PLAIN, "out.csv");
-    // its rows have got their name, and were taken away
+    // its partial file was renamed, and the result removed
     fs::remove_file(folder.path().join("out.csv.partial")).unwrap();
     fs::write(folder.path().join("scene.toml"), short(PLAIN)).unwrap();
-    let said = run(folder.path(), "");
-    assert_eq!(said.code, 0, "{}", said.err);
-    assert!(said.err.contains("has no partial file: the run begins again"), "{}", said.err);
+    let result = run(folder.path(), "");
+    assert_eq!(result.code, 0, "{}", result.err);
+    assert!(result.err.contains("has no partial file: the run begins again"), "{}", result.err);
     assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
 }
 
@@ -230,13 +230,13 @@ fn two_runs_do_not_write_one_file() {
         assert!(begun.elapsed() < Duration::from_secs(60), "no checkpoint comes");
         std::thread::sleep(Duration::from_millis(1));
     }
-    let said = run(folder.path(), "");
+    let result = run(folder.path(), "");
     let restarted = run(folder.path(), "--restart");
     child.kill().unwrap();
     child.wait().unwrap();
-    for said in [said, restarted] {
-        assert_eq!(said.code, 2);
-        assert!(said.err.contains("another run is writing"), "{}", said.err);
+    for result in [result, restarted] {
+        assert_eq!(result.code, 2);
+        assert!(result.err.contains("another run is writing"), "{}", result.err);
     }
 }
 
@@ -246,9 +246,9 @@ fn a_run_that_fails_keeps_its_rows_and_no_checkpoint() {
         "[problem]\nname = \"harmonic-oscillator\"\n[run]\nscheme = \"stormer-verlet\"\nstep = 10\nuntil = 10000\n\
          digits = \"double\"\n[output]\ntrajectory = true\nfile = \"out.csv\"\ncheckpoint = 10\n",
     );
-    let said = run(folder.path(), "");
-    assert_eq!(said.code, 3);
-    assert!(said.err.contains("out.csv.partial") && said.err.contains("the run stopped at n = "), "{}", said.err);
+    let result = run(folder.path(), "");
+    assert_eq!(result.code, 3);
+    assert!(result.err.contains("out.csv.partial") && result.err.contains("the run stopped at n = "), "{}", result.err);
     assert_eq!(names(folder.path()), ["out.csv.partial", "scene.toml"]);
 }
 

@@ -47,7 +47,7 @@ fn a_record_has_its_fields_in_order() {
 }
 
 #[test]
-fn a_record_says_what_was_run() {
+fn a_record_contains_the_run() {
     let words = "drift --problem kepler --set eccentricity=1/3 --scheme ruth3 --step 0.05 --until 4/2 --digits 20 \
                  --order 3 --json";
     let record = &objects(&quietly(words))[0];
@@ -68,7 +68,7 @@ fn a_record_says_what_was_run() {
 }
 
 #[test]
-fn a_record_says_how_the_order_was_chosen() {
+fn a_record_contains_how_the_order_was_chosen() {
     let words = "drift --problem kepler --scheme stormer-verlet --step 1/10 --until 1 --digits 20 --no-control --json";
     let settings = |flags: &str| {
         let record = objects(&quietly(&format!("{words} {flags}"))).remove(0);
@@ -126,7 +126,7 @@ fn auto_chooses_among_the_orders_allowed() {
 }
 
 #[test]
-fn the_early_stop_is_content_with_lower_orders_and_hardly_worse() {
+fn the_early_stop_uses_lower_orders_with_almost_the_same_error() {
     let words =
         "drift --problem kepler --scheme stormer-verlet --step 1/10 --until 14 --digits 60 --max-order 100 --json";
     let record = |stop: &str| objects(&quietly(&format!("{words} --stop {stop}"))).remove(0);
@@ -149,7 +149,7 @@ fn the_robust_rule_is_another_one() {
 }
 
 #[test]
-fn backwards_in_time_goes_as_well() {
+fn a_scene_can_run_backwards_in_time() {
     let words = FAST.replace("--until 2", "--until -2");
     let record = &objects(&quietly(&format!("{words} --step -1/10 --json")))[0];
     assert_eq!((text(record, "step"), text(record, "until")), ("-1/10", "-2"));
@@ -192,31 +192,31 @@ fn drifts_below_the_range_of_f64_are_shown() {
 }
 
 #[test]
-fn a_remark_says_where_an_unfinished_interval_ends() {
-    let said = shadowstep(&format!("{} --step 3/10 --json", FAST.replace("--until 2", "--until 100")));
-    assert_eq!(said.err, "note: 100 is not a multiple of 3/10: the run ends at n = 333, t = 99.9\n");
-    let record = &objects(&said.out)[0];
+fn a_note_gives_the_end_of_an_incomplete_interval() {
+    let result = shadowstep(&format!("{} --step 3/10 --json", FAST.replace("--until 2", "--until 100")));
+    assert_eq!(result.err, "note: 100 is not a multiple of 3/10: the run ends at n = 333, t = 99.9\n");
+    let record = &objects(&result.out)[0];
     assert_eq!((text(record, "until"), text(record, "end"), &record["steps"]), ("100", "999/10", &333.into()));
-    assert_eq!(said.code, 0);
+    assert_eq!(result.code, 0);
 }
 
 #[test]
-fn a_remark_says_how_far_published_digits_hold() {
+fn a_note_gives_the_digits_to_which_an_order_holds() {
     let words = "drift --problem pendulum --scheme blanes-moan-s6 --step 1/10,1/20 --until 1 --order 2";
-    let said = shadowstep(&format!("{words} --digits 300"));
-    assert!(said.err.starts_with("note: blanes-moan-s6 has order 4 to 25"), "{}", said.err);
-    assert_eq!(said.err.lines().count(), 1, "once per scheme: {}", said.err);
+    let result = shadowstep(&format!("{words} --digits 300"));
+    assert!(result.err.starts_with("note: blanes-moan-s6 has order 4 to 25"), "{}", result.err);
+    assert_eq!(result.err.lines().count(), 1, "once per scheme: {}", result.err);
     quietly(&format!("{words} --digits 200"));
 }
 
 #[test]
-fn a_run_that_fails_lets_the_others_go_on() {
+fn a_run_that_fails_does_not_stop_the_others() {
     let words = "drift --problem harmonic-oscillator --scheme stormer-verlet --step 10,1/10 --until 4000 --double \
                  --order 2 --json";
-    let said = shadowstep(words);
-    assert_eq!(said.code, 3);
-    assert!(said.err.starts_with("error: stormer-verlet, step 10: the run stopped at n = "), "{}", said.err);
-    let runs = objects(&said.out);
+    let result = shadowstep(words);
+    assert_eq!(result.code, 3);
+    assert!(result.err.starts_with("error: stormer-verlet, step 10: the run stopped at n = "), "{}", result.err);
+    let runs = objects(&result.out);
     assert_eq!(runs.len(), 1);
     assert_eq!(text(&runs[0], "step"), "1/10");
 }
@@ -231,11 +231,11 @@ fn where_only_the_estimators_states_fail_a_lower_order_is_the_hint() {
         ("--set y=1 --set py=1", "--order 40", after, "--order (here 40)"),
     ] {
         let words = format!("drift --problem henon-heiles --scheme stormer-verlet --step 1/10 --until 3 {start}");
-        let said = shadowstep(&format!("{words} {order}"));
-        assert_eq!((said.code, said.out.as_str()), (3, ""), "{start} {order}");
+        let result = shadowstep(&format!("{words} {order}"));
+        assert_eq!((result.code, result.out.as_str()), (3, ""), "{start} {order}");
         let expected =
             format!("; {why} for the modified energies near it\n  hint: a lower {here} needs fewer of them; ");
-        assert!(said.err.contains(&expected), "{}", said.err);
+        assert!(result.err.contains(&expected), "{}", result.err);
         quietly(&format!("{words} --order 8"));
     }
 }
@@ -244,17 +244,17 @@ fn where_only_the_estimators_states_fail_a_lower_order_is_the_hint() {
 fn an_energy_that_is_not_finite_fails_though_the_states_are_finite() {
     let words = "drift --problem harmonic-oscillator --set q=1e200 --scheme stormer-verlet --step 1/10 --until 1 \
                  --double --order 2 --json";
-    let said = shadowstep(words);
-    assert_eq!((said.code, said.out.as_str()), (3, ""));
-    assert!(said.err.contains("the energy is inf"), "{}", said.err);
+    let result = shadowstep(words);
+    assert_eq!((result.code, result.out.as_str()), (3, ""));
+    assert!(result.err.contains("the energy is inf"), "{}", result.err);
 }
 
 #[test]
 fn output_goes_to_a_file_that_is_complete() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("out.json");
-    let said = quietly(&format!("{FAST} --step 1/10 --json --output {}", file.display()));
-    assert_eq!(said, "");
+    let result = quietly(&format!("{FAST} --step 1/10 --json --output {}", file.display()));
+    assert_eq!(result, "");
     assert_eq!(objects(&std::fs::read_to_string(&file).unwrap()).len(), 1);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left");
 }
@@ -270,16 +270,16 @@ fn set_takes_the_exact_values_of_expressions() {
 }
 
 #[test]
-fn what_is_named_twice_is_run_once() {
-    let said = shadowstep(
+fn a_scheme_or_step_given_twice_is_run_once() {
+    let result = shadowstep(
         "drift --problem kepler --scheme ruth3,ruth3 --step 1/10,0.1,1/5 --until 1 --double --order 2 --json",
     );
-    assert_eq!((said.code, objects(&said.out).len()), (0, 2));
-    assert!(said.err.contains("the scheme ruth3 is given twice"), "{}", said.err);
-    assert!(said.err.contains("the step 1/10 is given twice"), "{}", said.err);
+    assert_eq!((result.code, objects(&result.out).len()), (0, 2));
+    assert!(result.err.contains("the scheme ruth3 is given twice"), "{}", result.err);
+    assert!(result.err.contains("the step 1/10 is given twice"), "{}", result.err);
 }
 
-/// What the paper calls drift is the estimator's own on Kepler's problem; the permanent change is far below it.
+/// The paper's drift is the error of the estimator on Kepler's problem; the permanent change is far below it.
 #[test]
 fn the_drift_stands_beside_the_estimators_own_and_the_permanent_change() {
     let words = "drift --problem kepler --scheme blanes-moan-srkn6b,exact-flow --step 1/20 --until 30 --digits 50 \
@@ -291,7 +291,7 @@ fn the_drift_stands_beside_the_estimators_own_and_the_permanent_change() {
         (text(flow, "scheme"), &flow["control"], &flow["force_evaluations"]),
         ("exact-flow", &Value::Null, &0.into())
     );
-    // the control of the scheme is the other run
+    // the estimate on the exact flow is the other run
     assert_eq!(scheme["control"]["drift"], flow["drift"]);
     assert_eq!(scheme["control"]["permanent_change"], flow["permanent_change"]);
     let (drift, own) = (value(&scheme["drift"]), value(&flow["drift"]));
@@ -307,7 +307,7 @@ fn the_drift_stands_beside_the_estimators_own_and_the_permanent_change() {
 }
 
 #[test]
-fn exact_flows_that_are_not_known_are_refused() {
+fn unknown_exact_flows_are_refused() {
     let refused = |words: &str| {
         let found = shadowstep(words);
         assert_eq!(found.code, 2, "{words}");
@@ -318,14 +318,14 @@ fn exact_flows_that_are_not_known_are_refused() {
     assert!(other.contains("it is known for harmonic-oscillator, pendulum, kepler"), "{other}");
     let unbound = refused(&format!("{words} kepler --set py=5"));
     assert!(unbound.contains("bound orbits"), "{unbound}");
-    // without a control the scheme runs all the same
+    // without it the scheme runs too
     let record = &objects(&quietly(
         "drift --scheme stormer-verlet --step 1/100 --until 1 --problem kepler --set py=5 --order 4 --json",
     ))[0];
     assert_eq!(record["control"], Value::Null);
 }
 
-/// Escape after one encounter, and a run that ends in the second one: quiet states on one side only.
+/// Escape after one encounter, and a run that ends in the second one: states with small errors on one side only.
 #[test]
 fn a_change_that_nothing_bounds_is_not_seen() {
     let words =
@@ -343,11 +343,11 @@ fn a_change_that_nothing_bounds_is_not_seen() {
     );
     let [change, jump] = ["change", "largest_jump"]
         .map(|field| record["permanent_change"][field].as_str().unwrap().parse::<f64>().unwrap());
-    // two stretches: the change is over all their states, the jump between the quietest ones
+    // two intervals: the change is over all their states, the jump between those with the smallest errors
     assert!((change / jump - 1.0).abs() < 1e-9, "{change:e} {jump:e}");
 }
 
-/// Round-off is no change of the method's: in double precision, with few digits, and on the exact flow.
+/// Round-off is not a change of the scheme: in double precision, with few digits, and on the exact flow.
 #[test]
 fn round_off_is_not_resolved() {
     let words = "drift --problem kepler --no-control --estimator bilinear --order auto --json";

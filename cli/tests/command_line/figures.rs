@@ -28,7 +28,7 @@ fn files(folder: &Path) -> Vec<(String, String)> {
 }
 
 #[test]
-fn a_figure_is_pictures_data_and_a_section_of_the_report() {
+fn a_figure_is_charts_data_and_a_section_of_the_report() {
     let folder = TempDir::new().unwrap();
     let output = figures(folder.path(), &FAST, "2");
     assert_eq!(output, format!("{}: 1 differs, 1 additional\n", folder.path().join("report.html").display()));
@@ -125,7 +125,7 @@ fn a_report_keeps_the_figures_whose_results_are_there() {
 }
 
 #[test]
-fn the_report_of_others_is_not_replaced() {
+fn a_report_of_another_program_is_not_replaced() {
     let folder = TempDir::new().unwrap();
     let report = folder.path().join("report.html");
     fs::write(&report, "mine").unwrap();

@@ -39,14 +39,14 @@ fn printed(text: &str) -> (TempDir, String) {
 }
 
 #[test]
-fn the_polished_table_is_proved_to_the_digits_asked_for() {
+fn the_polished_table_is_proved_to_the_requested_digits() {
     let (folder, path) = printed(PRINTED);
     let output = folder.path().join("polished.toml").display().to_string();
-    let said = shadowstep(&format!("schemes polish {path} --output {output}"));
-    assert_eq!((said.code, said.out.as_str()), (0, ""));
+    let result = shadowstep(&format!("schemes polish {path} --output {output}"));
+    assert_eq!((result.code, result.out.as_str()), (0, ""));
     // stderr: what was done, and what the printed digits were worth
-    assert!(said.err.contains("order 8 for every T(p), symmetric: 8 conditions in the γ's"), "{}", said.err);
-    assert!(said.err.contains("up to 9 of the printed digits are wrong; conditions off by"), "{}", said.err);
+    assert!(result.err.contains("order 8 for every T(p), symmetric: 8 conditions in the γ's"), "{}", result.err);
+    assert!(result.err.contains("up to 9 of the printed digits are wrong; conditions off by"), "{}", result.err);
 
     let proved = quietly(&format!("schemes check {output}"));
     let digits = proved.split("to ").nth(1).unwrap().split(' ').next().unwrap();
@@ -63,33 +63,33 @@ fn the_polished_table_is_proved_to_the_digits_asked_for() {
 }
 
 #[test]
-fn what_cannot_be_polished_is_told_with_exit_code_1_and_no_table() {
+fn a_table_that_cannot_be_polished_gives_exit_code_1_and_no_output() {
     let (folder, path) = printed(&PRINTED.replace("order = 8", "order = 10"));
     let output = folder.path().join("polished.toml").display().to_string();
-    let said = shadowstep(&format!("schemes polish {path} --output {output}"));
-    assert_eq!((said.code, said.out.as_str()), (1, ""));
-    assert!(said.err.starts_with("error: ") && said.err.contains("16 conditions for 7 decimals"), "{}", said.err);
-    assert!(said.err.contains("condition number"), "{}", said.err);
+    let result = shadowstep(&format!("schemes polish {path} --output {output}"));
+    assert_eq!((result.code, result.out.as_str()), (1, ""));
+    assert!(result.err.starts_with("error: ") && result.err.contains("16 conditions for 7 decimals"), "{}", result.err);
+    assert!(result.err.contains("condition number"), "{}", result.err);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "the printed table only");
 
     let (_folder, path) = printed(&PRINTED.replace("\"w6\", \"w7\"]", "\"w6\", \"w6\"]"));
-    let said = shadowstep(&format!("schemes polish {path}"));
-    assert_eq!(said.code, 1);
-    assert!(said.err.contains("a palindrome is claimed, this weight is not what it mirrors"), "{}", said.err);
+    let result = shadowstep(&format!("schemes polish {path}"));
+    assert_eq!(result.code, 1);
+    assert!(result.err.contains("a palindrome is claimed, this weight is not what it mirrors"), "{}", result.err);
 }
 
 #[test]
-fn near_integrable_orders_are_met_too() {
+fn near_integrable_orders_are_solved_too() {
     // McLachlan's (8, 4) method: order 4 alone leaves 2 of its 6 decimals free
     let table = "name = \"aba84\"\norder = 4\nkinetic = \"any\"\nsymmetric = true\nreference = \"McLachlan 1995\"\n\
                  [stages]\n\
                  kick = [0, 0.1901, 0.8468, -1.0738, 0.8468, 0.1901]\n\
                  drift = [0.0753, 0.5179, -0.0932, -0.0932, 0.5179, 0.0753]\n";
     let (_folder, path) = printed(&table.replace("[stages]", "near_integrable = [8, 4]\n[stages]"));
-    let said = shadowstep(&format!("schemes polish {path} --digits 30"));
-    assert_eq!(said.code, 0, "{}", said.err);
-    assert!(said.err.contains("order 4 for every T(p), (8,4) for A + εB, symmetric: 6 conditions"), "{}", said.err);
-    assert!(said.err.lines().all(|line| !line.contains("leave it free")), "{}", said.err);
+    let result = shadowstep(&format!("schemes polish {path} --digits 30"));
+    assert_eq!(result.code, 0, "{}", result.err);
+    assert!(result.err.contains("order 4 for every T(p), (8,4) for A + εB, symmetric: 6 conditions"), "{}", result.err);
+    assert!(result.err.lines().all(|line| !line.contains("leave it free")), "{}", result.err);
     let (_folder, path) = printed(table);
     let alone = shadowstep(&format!("schemes polish {path} --digits 30"));
     assert_eq!(alone.err.lines().filter(|line| line.contains("leave it free")).count(), 2, "{}", alone.err);
@@ -97,76 +97,76 @@ fn near_integrable_orders_are_met_too() {
 
 const REMARK: &str = "seems to be misprinted";
 
-/// What is said of a published table with other digits in one place.
+/// The report on a published table with other digits in one place.
 fn with_misprint(name: &str, right: &str, wrong: &str) -> String {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../schemes/tests/published");
     let text = fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
     assert!(text.contains(right), "{name}: {right}");
     let (_folder, path) = printed(&text.replace(right, wrong));
-    let said = shadowstep(&format!("schemes polish {path} --digits 40"));
-    assert_eq!(said.code, 0, "{}", said.err);
-    said.err
+    let result = shadowstep(&format!("schemes polish {path} --digits 40"));
+    assert_eq!(result.code, 0, "{}", result.err);
+    result.err
 }
 
 #[test]
 fn a_misprinted_weight_is_named() {
     let (_folder, path) = printed(&PRINTED.replace("0.25369333", "0.25639333"));
-    let said = shadowstep(&format!("schemes polish {path}"));
-    assert_eq!(said.code, 0, "{}", said.err);
-    assert!(said.err.contains("note: w6 seems to be misprinted: 2 of its 21 digits are right"), "{}", said.err);
-    assert!(said.err.contains(": w6 has 19 wrong digits, the others up to 9"), "{}", said.err);
+    let result = shadowstep(&format!("schemes polish {path}"));
+    assert_eq!(result.code, 0, "{}", result.err);
+    assert!(result.err.contains("note: w6 seems to be misprinted: 2 of its 21 digits are right"), "{}", result.err);
+    assert!(result.err.contains(": w6 has 19 wrong digits, the others up to 9"), "{}", result.err);
     // two digits transposed far behind
-    let said = with_misprint("yoshida6-a", "0.235573213359358", "0.235573213395358");
-    assert!(said.contains("note: g2 seems to be misprinted: 10 of its 20 digits are right"), "{said}");
-    assert!(said.contains(": g2 has 10 wrong digits, the others up to 1"), "{said}");
-    let said = with_misprint("aba864", "0.31078285989857486", "0.31078285989857846");
-    assert!(said.contains("note: kick[3] seems to be misprinted: 14 of its"), "{said}");
+    let result = with_misprint("yoshida6-a", "0.235573213359358", "0.235573213395358");
+    assert!(result.contains("note: g2 seems to be misprinted: 10 of its 20 digits are right"), "{result}");
+    assert!(result.contains(": g2 has 10 wrong digits, the others up to 1"), "{result}");
+    let result = with_misprint("aba864", "0.31078285989857486", "0.31078285989857846");
+    assert!(result.contains("note: kick[3] seems to be misprinted: 14 of its"), "{result}");
 }
 
 /// Yoshida's C and D are wrong throughout, and the small weight of his 6C was printed to digits that were not computed.
 #[test]
-fn what_is_as_wrong_as_the_others_is_no_misprint() {
+fn an_error_as_large_as_the_others_is_not_a_misprint() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../schemes/tests/published");
     for file in fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()) {
         let name = file.file_stem().unwrap().to_str().unwrap();
         if name.starts_with("yoshida") {
-            let said = shadowstep(&format!("schemes polish {} --digits 40", file.display()));
-            assert!(said.code == 0 && !said.err.contains(REMARK), "{name}: {}", said.err);
+            let result = shadowstep(&format!("schemes polish {} --digits 40", file.display()));
+            assert!(result.code == 0 && !result.err.contains(REMARK), "{name}: {}", result.err);
         }
     }
 }
 
 #[test]
-fn wrong_usage_is_told_in_a_sentence() {
+fn usage_errors_have_a_message() {
     let (_folder, path) = printed(PRINTED);
     for (words, told) in [
         ("--free w8", "the table has no printed decimal `w8`"),
         ("--free w0", "`w0` is no printed decimal"),
         ("--digits 301", "301 is not in 1..=300"),
     ] {
-        let said = shadowstep(&format!("schemes polish {path} {words}"));
-        assert_eq!(said.code, 2, "{}", said.err);
-        assert!(said.err.contains(told), "{words}: {}", said.err);
+        let result = shadowstep(&format!("schemes polish {path} {words}"));
+        assert_eq!(result.code, 2, "{}", result.err);
+        assert!(result.err.contains(told), "{words}: {}", result.err);
     }
     assert_eq!(shadowstep("schemes polish no-such.toml").code, 2);
 }
 
 #[test]
-fn sentences_have_their_numbers_right() {
+fn messages_use_singular_and_plural() {
     let verlet = "name = \"v\"\norder = 2\nkinetic = \"any\"\nreference = \"a test\"\n[constants]\na = 0.5\n\
                   [stages]\nkick = [\"a\", \"a\"]\ndrift = [1, 0]\n";
     let (_folder, path) = printed(verlet);
     let few = shadowstep(&format!("schemes polish {path} --digits 1"));
     assert_eq!(few.code, 1);
     assert!(few.err.starts_with("error: 1 digit is too few to prove that the conditions hold"), "{}", few.err);
-    let said = shadowstep(&format!("schemes polish {path}"));
-    assert!(said.code == 0 && said.out.contains("digits = 300\n"), "{}", said.err);
+    let result = shadowstep(&format!("schemes polish {path}"));
+    assert!(result.code == 0 && result.out.contains("digits = 300\n"), "{}", result.err);
     let none = shadowstep(&format!("schemes polish {path} --free b"));
     assert!(none.err.contains("the table has no printed decimal `b`"), "{}", none.err);
     let composed = PRINTED.replace("\"stormer-verlet\"", "\"yoshida4\"").replace("order = 8", "order = 4");
     let (_folder, path) = printed(&composed);
-    let said = shadowstep(&format!("schemes polish {path}"));
-    assert_eq!(said.code, 0, "as many digits as can be: {}", said.err);
-    assert!(said.err.contains("order 4 for every T(p), symmetric: 1 condition in the γ's"), "{}", said.err);
-    assert!(said.err.contains(": formulas meet the conditions, whatever the decimals are"), "{}", said.err);
+    let result = shadowstep(&format!("schemes polish {path}"));
+    assert_eq!(result.code, 0, "as many digits as can be: {}", result.err);
+    assert!(result.err.contains("order 4 for every T(p), symmetric: 1 condition in the γ's"), "{}", result.err);
+    assert!(result.err.contains(": formulas meet the conditions, whatever the decimals are"), "{}", result.err);
 }

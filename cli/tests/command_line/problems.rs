@@ -4,7 +4,7 @@ use crate::program::{objects, quietly, shadowstep, text};
 use shadowstep::problems::PROBLEMS;
 
 #[test]
-fn every_problem_is_told_with_all_that_can_be_set() {
+fn every_problem_is_listed_with_its_parameters_and_initial_values() {
     let all = quietly("problems");
     let records = objects(&quietly("problems --json"));
     assert_eq!(records.len(), PROBLEMS.len());
@@ -49,7 +49,7 @@ fn every_problem_runs() {
 
 #[test]
 fn an_unknown_problem_gets_a_hint() {
-    let said = shadowstep("problems pendulun");
-    assert_eq!((said.code, said.out.as_str()), (2, ""));
-    assert_eq!(said.err, "error: there is no problem `pendulun`\n  hint: did you mean `pendulum`?\n");
+    let result = shadowstep("problems pendulun");
+    assert_eq!((result.code, result.out.as_str()), (2, ""));
+    assert_eq!(result.err, "error: there is no problem `pendulun`\n  hint: did you mean `pendulum`?\n");
 }

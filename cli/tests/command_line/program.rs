@@ -1,27 +1,27 @@
-//! Running the program and reading what it says.
+//! Runs the program and reads its output.
 
 use assert_cmd::Command;
 use serde_json::Value;
 
 /// How a run of the program ended.
-pub(crate) struct Said {
+pub(crate) struct Finished {
     pub(crate) code: i32,
     pub(crate) out: String,
     pub(crate) err: String,
 }
 
 /// Runs `shadowstep` with these words, separated by blanks.
-pub(crate) fn shadowstep(words: &str) -> Said {
+pub(crate) fn shadowstep(words: &str) -> Finished {
     let output = Command::cargo_bin("shadowstep").unwrap().args(words.split_whitespace()).output().unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
-    Said { code: output.status.code().unwrap(), out: text(output.stdout), err: text(output.stderr) }
+    Finished { code: output.status.code().unwrap(), out: text(output.stdout), err: text(output.stderr) }
 }
 
-/// As [`shadowstep`]; all must go well, without a word on stderr.
+/// As [`shadowstep`]; it must succeed with nothing on stderr.
 pub(crate) fn quietly(words: &str) -> String {
-    let said = shadowstep(words);
-    assert_eq!((said.code, said.err.as_str()), (0, ""), "{words}");
-    said.out
+    let result = shadowstep(words);
+    assert_eq!((result.code, result.err.as_str()), (0, ""), "{words}");
+    result.out
 }
 
 /// The objects of lines of JSON.

@@ -1,4 +1,4 @@
-//! What is wrong in a scene has its line and column, a sentence and what would be right; the exit code is 2.
+//! A fault of a scene has its line and column, a message and a hint; the exit code is 2.
 
 use std::fs;
 
@@ -22,7 +22,7 @@ digits = 30
 energy = true
 "#;
 
-/// What is replaced in the good scene, by what; then place and sentence, and what would be right.
+/// A text of the valid scene and its replacement; then place and message of the fault, and its hint.
 const WRONG: &[(&str, &str, &str, &str)] = &[
     ("scheme =", "shceme =", "10:1: unknown key `shceme`", "did you mean `scheme`?"),
     ("digits = 30\n[output]", "[output]\ndigits = 30", "14:1: unknown key `digits`", "`digits` is a key of [run]"),
@@ -170,14 +170,14 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
 ];
 
 #[test]
-fn each_has_its_place_and_sentence() {
+fn each_fault_has_its_place_and_message() {
     for (part, replacement, sentence, help) in WRONG {
         assert!(GOOD.contains(part), "{part}");
         complains(&GOOD.replacen(part, replacement, 1), sentence, help);
     }
 }
 
-/// What is replaced in the good scene, where T is given.
+/// The same for a scene with a kinetic energy.
 const WRONG_KINETIC: &[(&str, &str, &str, &str)] = &[
     ("p = [0, 1]", "v = [0, 1]", "8:5: velocities `v` require masses, but T is given by `kinetic`", "the momenta `p`"),
     ("sqrt(k", "sqrt(x", "5:17: unknown name `x`", "px, py and the parameters; `momenta`"),
@@ -194,7 +194,7 @@ const WRONG_KINETIC: &[(&str, &str, &str, &str)] = &[
 ];
 
 #[test]
-fn so_have_those_of_kinetic_energies() {
+fn each_fault_of_a_kinetic_energy_has_its_place_and_message() {
     let good = GOOD.replace("masses = [1, 2]", "kinetic = \"sqrt(k^2 + px^2 + py^2)\"");
     for (part, replacement, sentence, help) in WRONG_KINETIC {
         assert!(good.contains(part), "{part}");
@@ -221,7 +221,7 @@ digits = 30
 energy = true
 "#;
 
-/// What is replaced in that scene.
+/// The same for that scene.
 const WRONG_PAIRS: &[(&str, &str, &str, &str)] = &[
     ("pair = \"-g*m_i*m_j/sqrt(r2)\"\n", "", "1:1: one of the keys `name`, `potential`, `pair` is needed", "`pair ="),
     ("pair =", "pairs =", "2:1: unknown key `pairs`", "did you mean `pair`?"),
@@ -295,7 +295,7 @@ const WRONG_PAIRS: &[(&str, &str, &str, &str)] = &[
 ];
 
 #[test]
-fn so_have_those_of_pairs() {
+fn each_fault_of_pairs_has_its_place_and_message() {
     assert_eq!(run(folder(PAIRS).path(), "").code, 0);
     for (part, replacement, sentence, help) in WRONG_PAIRS {
         assert!(PAIRS.contains(part), "{part}");
@@ -312,7 +312,7 @@ const NAMED: &str = "[problem]\nname = \"kepler\"\nparameters = { eccentricity =
                      [run]\nscheme = \"ruth3\"\nsteps = 2\nstep = 0.1\n[output]\nenergy = true\n";
 
 #[test]
-fn so_have_those_of_shipped_problems() {
+fn each_fault_of_a_shipped_problem_has_its_place_and_message() {
     for (part, replacement, sentence, help) in [
         ("\"kepler\"", "\"keppler\"", "2:8: there is no problem `keppler`", "did you mean `kepler`?"),
         ("eccentricity", "ecentricity", "3:16: kepler has no parameter `ecentricity`", "did you mean `eccentricity`?"),
@@ -372,10 +372,10 @@ fn so_have_those_of_shipped_problems() {
 
 fn complains(scene: &str, sentence: &str, help: &str) {
     let folder = folder(scene);
-    let said = run(folder.path(), "");
-    assert_eq!((said.code, said.out.as_str()), (2, ""), "{scene}");
+    let result = run(folder.path(), "");
+    assert_eq!((result.code, result.out.as_str()), (2, ""), "{scene}");
     let place = format!("{}:{sentence}", folder.path().join("scene.toml").display());
-    let message = said.err.strip_prefix("error: ").unwrap();
+    let message = result.err.strip_prefix("error: ").unwrap();
     let at = message.find(&place).unwrap_or_else(|| panic!("{sentence}: {scene}\n{message}"));
     assert!(message[at..].contains(help), "{help}: {message}");
     assert_eq!(names(folder.path()), ["scene.toml"], "{scene}");
@@ -390,23 +390,23 @@ fn irrational_values_of_a_problem_have_the_digits_of_the_run() {
 #[test]
 fn the_line_is_shown() {
     let folder = folder(&GOOD.replace("sqrt(x^2", "sqrt(z^2"));
-    let said = run(folder.path(), "");
+    let result = run(folder.path(), "");
     assert!(
-        said.err.contains("  2 | potential = \"k/sqrt(z^2 + y^2)\"\n    |                     ^\n  hint: "),
+        result.err.contains("  2 | potential = \"k/sqrt(z^2 + y^2)\"\n    |                     ^\n  hint: "),
         "{}",
-        said.err
+        result.err
     );
 }
 
 #[test]
-fn all_faults_are_told_of_at_once() {
+fn all_faults_are_reported_at_once() {
     let folder = folder(&GOOD.replace("yoshida4", "yoshida5").replace("masses = [1, 2]", "masses = [1, -2]"));
-    let said = run(folder.path(), "");
-    assert!(said.err.contains(":5:14: ") && said.err.contains(":10:10: "), "{}", said.err);
+    let result = run(folder.path(), "");
+    assert!(result.err.contains(":5:14: ") && result.err.contains(":10:10: "), "{}", result.err);
 }
 
 #[test]
-fn the_good_scenes_are_good() {
+fn the_valid_scenes_are_accepted() {
     for scene in [GOOD, NAMED] {
         let folder = folder(scene);
         assert_eq!(run(folder.path(), "").code, 0);
@@ -414,15 +414,19 @@ fn the_good_scenes_are_good() {
 }
 
 #[test]
-fn a_scene_that_is_none_is_told_of() {
+fn a_file_that_is_not_a_scene_is_refused() {
     let folder = folder("");
     fs::write(folder.path().join("bytes.toml"), [0xff, 0xfe]).unwrap();
     for (file, sentence) in
         [("none.toml", "there is no file"), ("scene.toml", "is empty"), ("bytes.toml", "UTF-8"), ("", "cannot be read")]
     {
-        let said = shadowstep(&format!("run {}", folder.path().join(file).display()));
-        assert_eq!(said.code, 2);
-        assert!(said.err.contains(sentence) && said.err.contains("hint: give the path of a scene"), "{}", said.err);
+        let result = shadowstep(&format!("run {}", folder.path().join(file).display()));
+        assert_eq!(result.code, 2);
+        assert!(
+            result.err.contains(sentence) && result.err.contains("hint: give the path of a scene"),
+            "{}",
+            result.err
+        );
     }
     assert_eq!(shadowstep("run").code, 2);
 }

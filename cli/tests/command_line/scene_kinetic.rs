@@ -1,4 +1,4 @@
-//! Scenes with a kinetic energy of one's own: what is conserved, and which schemes move it.
+//! Scenes with a custom kinetic energy: conservation, and valid schemes.
 
 use std::fs;
 
@@ -67,7 +67,7 @@ fn masses_and_their_formula_give_the_same_energies() {
 }
 
 #[test]
-fn momenta_have_the_names_they_are_given() {
+fn momenta_can_be_named() {
     let own = RELATIVISTIC.replace("px", "p").replace("[initial]", "momenta = [\"p\"]\n[initial]");
     let asking = |scene: &str| scene.replace("[output]", "[output]\ntrajectory = true");
     let (header, rows) = table(&printed(&asking(&own)));
@@ -84,15 +84,15 @@ fn a_scheme_for_quadratic_t_moves_no_other() {
         folder
     };
     let refused = scene("sqrt(1 + px^2)");
-    let said = run(refused.path(), "");
-    assert_eq!((said.code, said.out.as_str()), (2, ""));
+    let result = run(refused.path(), "");
+    assert_eq!((result.code, result.out.as_str()), (2, ""));
     let sentence = "scene.toml:10:10: nystrom has order 4 for quadratic T only, for a general T(p) order 3; use a scheme \
                     such as ";
-    assert!(said.err.contains(sentence), "{}", said.err);
+    assert!(result.err.contains(sentence), "{}", result.err);
     for quadratic in ["px^2/2", "px*px"] {
-        let said = run(scene(quadratic).path(), "");
-        assert_eq!((said.code, said.err.as_str()), (0, ""));
-        assert!(said.out.contains("# scheme_order: 4\n"), "{}", said.out);
+        let result = run(scene(quadratic).path(), "");
+        assert_eq!((result.code, result.err.as_str()), (0, ""));
+        assert!(result.out.contains("# scheme_order: 4\n"), "{}", result.out);
     }
 }
 
@@ -103,8 +103,8 @@ fn the_order_in_the_head_is_that_for_this_t() {
     for (kinetic, order) in [("sqrt(1 + px^2)", 3), ("px^2/2", 4)] {
         let folder = folder(&RELATIVISTIC.replace("sqrt(1 + px^2)", kinetic).replace("yoshida4", "nystrom.toml"));
         fs::write(folder.path().join("nystrom.toml"), &table).unwrap();
-        let said = run(folder.path(), "");
-        assert_eq!(said.code, 0, "{}", said.err);
-        assert!(said.out.contains(&format!("# scheme_order: {order}\n")), "{}", said.out);
+        let result = run(folder.path(), "");
+        assert_eq!(result.code, 0, "{}", result.err);
+        assert!(result.out.contains(&format!("# scheme_order: {order}\n")), "{}", result.out);
     }
 }

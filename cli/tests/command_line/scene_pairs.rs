@@ -100,7 +100,7 @@ fn pairs_have_the_bits_of_the_shipped_problems() {
 }
 
 #[test]
-fn bodies_and_momenta_have_names_by_themselves() {
+fn bodies_have_fixed_names_of_coordinates_and_momenta() {
     let names = |scene: &str| table(&printed(&whole(scene, "30"))).0[6..].to_vec();
     let figure = names(FIGURE_EIGHT);
     assert_eq!(figure, ["x1", "y1", "x2", "y2", "x3", "y3", "px1", "py1", "px2", "py2", "px3", "py3"]);
@@ -110,7 +110,7 @@ fn bodies_and_momenta_have_names_by_themselves() {
 }
 
 #[test]
-fn the_head_tells_of_the_bodies() {
+fn the_metadata_contain_the_bodies() {
     let head = |scene: &str| printed(&whole(scene, "30"));
     let (figure, chain) = (head(FIGURE_EIGHT), head(FPUT_ALPHA));
     let lines = "# pair: -m_i*m_j/sqrt(r2)\n# dimensions: 2\n# bodies: {\"m\":[\"1\",\"1\",\"1\"]}\n";
@@ -144,7 +144,7 @@ fn a_list_may_be_flat_or_of_lists_or_a_formula() {
 }
 
 #[test]
-fn bodies_that_repel_move_apart_and_masses_tell_how_fast() {
+fn bodies_that_repel_move_apart_at_speeds_given_by_their_masses() {
     let scene = "[problem]\npair = \"1/sqrt(r2)\"\ndimensions = 1\nbodies = 2\nmasses = [1, 3]\n[initial]\n\
                  q = [0, 1]\np = [0, 0]\n[run]\nstep = \"1/100\"\n";
     let rows = run_of(scene);
@@ -169,15 +169,15 @@ fn a_general_kinetic_energy_moves_bodies() {
 }
 
 #[test]
-fn masses_that_are_forgotten_are_remarked_on() {
+fn missing_masses_are_noted() {
     let scene = whole(&FIGURE_EIGHT.replace("masses = \"m\"\n", ""), "30");
-    let said = run(folder(&scene).path(), "");
+    let result = run(folder(&scene).path(), "");
     let remark = "note: all masses of T are 1; `masses = \"m\"` uses the property m\n";
-    assert_eq!((said.code, said.err.as_str()), (0, remark));
+    assert_eq!((result.code, result.err.as_str()), (0, remark));
 }
 
 #[test]
-fn a_pair_that_is_not_symmetric_is_told_of() {
+fn an_asymmetric_pair_is_noted() {
     let scene = |pair: &str| {
         format!(
             "[problem]\npair = \"{pair}\"\ndimensions = 2\nbodies = {{ m = [1, 2] }}\nmasses = \"m\"\n[initial]\n\
@@ -186,8 +186,8 @@ fn a_pair_that_is_not_symmetric_is_told_of() {
         )
     };
     assert_eq!(run(folder(&scene("-m_i*m_j/sqrt(r2)")).path(), "").err, "");
-    let said = run(folder(&scene("-m_i*m_i/sqrt(r2)")).path(), "").err;
+    let result = run(folder(&scene("-m_i*m_i/sqrt(r2)")).path(), "").err;
     let expected =
         "note: -m_i*m_i/sqrt(r2) changes if bodies are exchanged; body i is the one with the smaller number\n";
-    assert_eq!(said, expected);
+    assert_eq!(result, expected);
 }

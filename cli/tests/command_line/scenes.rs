@@ -1,4 +1,4 @@
-//! `shadowstep run` and `shadowstep scene`: what a scene asks for is written, and nothing else.
+//! `shadowstep run` and `shadowstep scene`: the output that a scene selects is written, and nothing else.
 
 use std::fs;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::program::{Said, objects, quietly, shadowstep, text};
+use crate::program::{Finished, objects, quietly, shadowstep, text};
 
 /// The scene of the documentation, over a shorter time.
 const KEPLER: &str = r#"
@@ -36,11 +36,11 @@ pub(crate) fn folder(scene: &str) -> TempDir {
 }
 
 /// Runs the scene of a folder.
-pub(crate) fn run(folder: &Path, flags: &str) -> Said {
+pub(crate) fn run(folder: &Path, flags: &str) -> Finished {
     shadowstep(&format!("run {} {flags}", folder.join("scene.toml").display()))
 }
 
-/// Runs a scene without a file; all must go well, and stderr be silent.
+/// Runs a scene without a file; it must succeed with nothing on stderr.
 pub(crate) fn printed(scene: &str) -> String {
     let folder = folder(scene);
     quietly(&format!("run {}", folder.path().join("scene.toml").display()))
@@ -65,8 +65,8 @@ pub(crate) fn names(folder: &Path) -> Vec<String> {
 #[test]
 fn the_scene_of_the_documentation_runs() {
     let folder = folder(KEPLER);
-    let said = run(folder.path(), "");
-    assert_eq!((said.code, said.out.as_str(), said.err.as_str()), (0, "", ""));
+    let result = run(folder.path(), "");
+    assert_eq!((result.code, result.out.as_str(), result.err.as_str()), (0, "", ""));
     assert_eq!(names(folder.path()), ["kepler.csv", "scene.toml"]);
     let (header, rows) = table(&fs::read_to_string(folder.path().join("kepler.csv")).unwrap());
     assert_eq!(header, ["n", "t", "energy", "modified_energy", "estimate", "order"]);
@@ -126,7 +126,7 @@ fn asking(outputs: &str) -> String {
 }
 
 #[test]
-fn only_what_is_asked_for_is_written() {
+fn only_the_selected_output_is_written() {
     for (outputs, columns) in [
         ("energy = true", "n,t,energy"),
         ("modified_energy = { order = 2 }", "n,t,modified_energy,estimate,order"),
@@ -148,7 +148,7 @@ fn only_what_is_asked_for_is_written() {
 }
 
 #[test]
-fn a_row_is_there_where_something_is_due() {
+fn a_row_is_written_where_a_column_is_due() {
     let outputs = "energy = { every = 2 }\ntrajectory = { every = 3 }";
     let (_, rows) = table(&printed(&asking(outputs)));
     let due: Vec<_> = rows.iter().map(|row| (row[0].as_str(), !row[2].is_empty(), !row[3].is_empty())).collect();
@@ -159,14 +159,14 @@ fn a_row_is_there_where_something_is_due() {
 }
 
 #[test]
-fn every_tells_which_estimates_are_written_and_not_which_are_right() {
+fn every_selects_the_rows_and_does_not_change_the_estimates() {
     let all = table(&printed(&asking("modified_energy = { order = 2 }"))).1;
     let some = table(&printed(&asking("modified_energy = { order = 2, every = 2 }"))).1;
     assert_eq!(some, [all[0].clone(), all[2].clone(), all[4].clone()]);
 }
 
 #[test]
-fn the_head_says_what_was_run() {
+fn the_metadata_contain_the_run() {
     let csv = printed(&KEPLER.replace("file = \"kepler.csv\"", ""));
     let head: Vec<&str> = csv.lines().map_while(|line| line.strip_prefix("# ")).collect();
     for line in [
@@ -227,9 +227,9 @@ fn a_run_that_fails_leaves_the_old_file() {
          digits = \"double\"\n[output]\ntrajectory = true\nfile = \"out.csv\"\n",
     );
     fs::write(folder.path().join("out.csv"), "old").unwrap();
-    let said = run(folder.path(), "--restart");
-    assert_eq!(said.code, 3);
-    assert!(said.err.contains("the run stopped at n = "), "{}", said.err);
+    let result = run(folder.path(), "--restart");
+    assert_eq!(result.code, 3);
+    assert!(result.err.contains("the run stopped at n = "), "{}", result.err);
     assert_eq!(fs::read_to_string(folder.path().join("out.csv")).unwrap(), "old");
     assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
 }
@@ -245,27 +245,27 @@ fn where_only_the_estimators_states_fail_a_lower_order_is_the_hint() {
     for (modified, hint) in
         [("true", "a lower max_order (here 200) "), ("{ order = 150 }", "a lower order (here 150) ")]
     {
-        let said = run(folder(&scene(modified)).path(), "");
-        assert_eq!(said.code, 3);
-        assert!(said.err.contains(&format!("\n  hint: {hint}needs fewer of them; ")), "{}", said.err);
+        let result = run(folder(&scene(modified)).path(), "");
+        assert_eq!(result.code, 3);
+        assert!(result.err.contains(&format!("\n  hint: {hint}needs fewer of them; ")), "{}", result.err);
     }
     assert_eq!(run(folder(&scene("{ order = 8 }")).path(), "").code, 0);
 }
 
 #[test]
-fn the_file_of_another_scene_is_replaced_only_if_that_is_said() {
+fn the_file_of_another_scene_is_replaced_only_with_restart() {
     for output in ["energy = true\nfile = \"out.csv\"", "energy = true\nfile = \"out.csv\"\ncheckpoint = 2"] {
         let folder = folder(&asking(output));
         let read = || fs::read_to_string(folder.path().join("out.csv")).unwrap();
         fs::write(folder.path().join("out.csv"), "precious").unwrap();
-        let said = run(folder.path(), "");
-        assert_eq!(said.code, 2, "{}", said.err);
-        assert!(said.err.contains("out.csv already exists and is not from this unchanged scene"), "{}", said.err);
-        assert!(said.err.contains("replace it with --restart"), "{}", said.err);
+        let result = run(folder.path(), "");
+        assert_eq!(result.code, 2, "{}", result.err);
+        assert!(result.err.contains("out.csv already exists and is not from this unchanged scene"), "{}", result.err);
+        assert!(result.err.contains("replace it with --restart"), "{}", result.err);
         assert_eq!(read(), "precious");
         assert_eq!(run(folder.path(), "--restart").code, 0);
         let whole = read();
-        // its own it replaces by the same
+        // the result of this scene is replaced by the same bytes
         assert_eq!(run(folder.path(), "").code, 0);
         assert_eq!(read(), whole);
         fs::write(folder.path().join("scene.toml"), asking(output).replace("steps = 4", "steps = 5")).unwrap();
@@ -284,18 +284,18 @@ fn a_run_that_left_the_domain_of_the_potential_is_not_complete() {
         )
     };
     for output in ["energy = true", "energy = { every = 100 }", "trajectory = true"] {
-        let said = run(folder(&scene(output)).path(), "");
-        assert_eq!(said.code, 3, "{output}: {}", said.err);
-        assert!(said.err.contains("the energy at "), "{}", said.err);
+        let result = run(folder(&scene(output)).path(), "");
+        assert_eq!(result.code, 3, "{output}: {}", result.err);
+        assert!(result.err.contains("the energy at "), "{}", result.err);
     }
 }
 
 #[test]
-fn an_end_that_is_no_multiple_of_the_step_is_told_of() {
+fn an_end_that_is_not_a_multiple_of_the_step_is_noted() {
     let folder = folder(&asking("energy = true").replace("steps = 4", "until = \"1/3\""));
-    let said = run(folder.path(), "");
-    assert_eq!(said.code, 0);
-    assert_eq!(said.err, "note: 1/3 is not a multiple of 1/8: the run ends at n = 2, t = 0.25\n");
+    let result = run(folder.path(), "");
+    assert_eq!(result.code, 0);
+    assert_eq!(result.err, "note: 1/3 is not a multiple of 1/8: the run ends at n = 2, t = 0.25\n");
 }
 
 #[test]
@@ -309,8 +309,8 @@ fn every_shipped_problem_has_a_scene_that_runs() {
         assert!(scene.contains(&until), "{scene}");
         let scene = scene.replace(&until, "steps = 20");
         let folder = folder(&scene);
-        let said = run(folder.path(), "");
-        assert_eq!((said.code, said.err.as_str()), (0, ""), "{scene}");
+        let result = run(folder.path(), "");
+        assert_eq!((result.code, result.err.as_str()), (0, ""), "{scene}");
         let file = format!("{name}.csv");
         assert_eq!(names(folder.path()).iter().filter(|found| **found == file).count(), 1);
         let (header, rows) = table(&fs::read_to_string(folder.path().join(file)).unwrap());
@@ -343,9 +343,9 @@ fn scene_lists_and_explains() {
     {
         assert!(explained.lines().any(|l| l == line), "{line}: {explained}");
     }
-    let said = shadowstep("scene keppler");
-    assert_eq!(said.code, 2);
-    assert!(said.err.contains("did you mean `kepler`?"), "{}", said.err);
+    let result = shadowstep("scene keppler");
+    assert_eq!(result.code, 2);
+    assert!(result.err.contains("did you mean `kepler`?"), "{}", result.err);
 }
 
 #[test]
@@ -357,7 +357,7 @@ fn json_has_its_head_first() {
 }
 
 #[test]
-fn numbers_of_a_formula_that_double_precision_has_not_are_refused() {
+fn numbers_of_a_formula_that_overflow_in_double_precision_are_refused() {
     let scene = |potential: &str, digits: &str| {
         format!(
             "[problem]\npotential = \"{potential}\"\ncoordinates = [\"x\"]\nparameters = {{ k = 1e300 }}\n\
@@ -365,12 +365,12 @@ fn numbers_of_a_formula_that_double_precision_has_not_are_refused() {
              digits = {digits}\n[output]\nenergy = true\n"
         )
     };
-    // each factor is a double, their product is none
+    // each factor is a double; their product overflows
     for potential in ["k*1e-300*1e-100*x", "1e-400*x + x^2", "1e400*x"] {
-        let said = run(folder(&scene(potential, "\"double\"")).path(), "");
-        assert_eq!(said.code, 2, "{potential}: {}", said.err);
-        assert!(said.err.contains("scene.toml:2:13: the number 1e"), "{}", said.err);
-        assert!(said.err.contains("in the formula overflows or underflows in double precision"), "{}", said.err);
+        let result = run(folder(&scene(potential, "\"double\"")).path(), "");
+        assert_eq!(result.code, 2, "{potential}: {}", result.err);
+        assert!(result.err.contains("scene.toml:2:13: the number 1e"), "{}", result.err);
+        assert!(result.err.contains("in the formula overflows or underflows in double precision"), "{}", result.err);
         assert_eq!(run(folder(&scene(potential, "17")).path(), "").code, 0, "{potential}");
     }
 }
@@ -380,14 +380,14 @@ fn a_failure_has_the_names_of_the_scene() {
     let scene = "[problem]\npotential = \"-x^4\"\ncoordinates = [\"x\"]\n[initial]\nq = [1]\np = [1]\n[run]\n\
                  scheme = \"stormer-verlet\"\nstep = \"1/10\"\nsteps = 100\ndigits = \"double\"\n[output]\n\
                  trajectory = true\n";
-    let said = run(folder(scene).path(), "");
-    assert_eq!(said.code, 3);
-    assert!(said.err.contains(": px = ") || said.err.contains(": x = "), "{}", said.err);
+    let result = run(folder(scene).path(), "");
+    assert_eq!(result.code, 3);
+    assert!(result.err.contains(": px = ") || result.err.contains(": x = "), "{}", result.err);
 }
 
 #[test]
-fn a_folder_is_no_file() {
-    let said = run(folder(&asking("energy = true\nfile = \"bad/\"\nformat = \"csv\"")).path(), "");
-    assert_eq!(said.code, 2);
-    assert!(said.err.contains("`bad/` is a folder"), "{}", said.err);
+fn a_folder_is_refused_as_a_file() {
+    let result = run(folder(&asking("energy = true\nfile = \"bad/\"\nformat = \"csv\"")).path(), "");
+    assert_eq!(result.code, 2);
+    assert!(result.err.contains("`bad/` is a folder"), "{}", result.err);
 }

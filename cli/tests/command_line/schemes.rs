@@ -50,7 +50,7 @@ fn listed(flags: &str) -> Vec<serde_json::Value> {
 }
 
 #[test]
-fn the_list_is_sorted_by_what_is_asked_for() {
+fn the_list_is_sorted_by_the_key() {
     let number = |record: &serde_json::Value, field: &str| record[field].as_f64().unwrap();
     let rises = |flags: &str, value: &dyn Fn(&serde_json::Value) -> f64| {
         let values: Vec<f64> = listed(flags).iter().map(value).collect();
@@ -95,7 +95,7 @@ fn for_any_kinetic_energy_only_schemes_that_move_any_are_listed() {
 }
 
 #[test]
-fn wrong_words_for_the_list_are_told() {
+fn unknown_words_for_the_list_are_refused() {
     for (flags, sentence) in [
         ("--order 11", "11 is not in 1..=10"),
         ("--order four", "invalid value 'four' for '--order <ORDER>'"),
@@ -103,16 +103,16 @@ fn wrong_words_for_the_list_are_told() {
         ("--for cubic", "[possible values: any, quadratic]"),
         ("--order 4 show ruth3", "the subcommand 'show' cannot be used with '--order <ORDER>'"),
     ] {
-        let said = shadowstep(&format!("schemes {flags}"));
-        assert_eq!((said.code, said.out.as_str()), (2, ""), "{flags}");
-        assert!(said.err.contains(sentence), "{flags}: {}", said.err);
+        let result = shadowstep(&format!("schemes {flags}"));
+        assert_eq!((result.code, result.out.as_str()), (2, ""), "{flags}");
+        assert!(result.err.contains(sentence), "{flags}: {}", result.err);
     }
-    let said = shadowstep("schemes --order 9 --json");
-    assert_eq!((said.code, said.out.as_str()), (0, ""));
+    let result = shadowstep("schemes --order 9 --json");
+    assert_eq!((result.code, result.out.as_str()), (0, ""));
     assert!(
-        said.err.starts_with("note: no shipped scheme has order 9 for every T(p) (--for quadratic"),
+        result.err.starts_with("note: no shipped scheme has order 9 for every T(p) (--for quadratic"),
         "{}",
-        said.err
+        result.err
     );
 }
 
@@ -201,7 +201,7 @@ fn exact_weights_sum_to_one() {
 }
 
 #[test]
-fn show_tells_what_is_proved() {
+fn show_lists_what_is_proved() {
     let record = &objects(&quietly("schemes show ruth3 --json"))[0];
     assert_eq!((&record["order"], &record["order_digits"]), (&3.into(), &serde_json::Value::Null));
     assert_eq!(record["fails"]["order"], 4);
@@ -226,19 +226,19 @@ fn long_weights_are_shortened_for_people_only() {
 fn check_proves_a_good_table() {
     let folder = tempfile::tempdir().unwrap();
     let path = write(folder.path(), "mine.toml", GOOD);
-    let said = quietly(&format!("schemes check {path}"));
-    assert!(said.starts_with(&format!("{path}: proved: order 4 for every T(p), to ")), "{said}");
+    let result = quietly(&format!("schemes check {path}"));
+    assert!(result.starts_with(&format!("{path}: proved: order 4 for every T(p), to ")), "{result}");
     let shipped = quietly("schemes check LF8_6_4");
     assert!(shipped.starts_with("LF8_6_4: proved: order 4 for every T(p), (8,6,4) for A + εB, to "), "{shipped}");
 }
 
 #[test]
-fn check_remarks_on_claims_that_say_too_little() {
+fn check_notes_claims_below_the_proved_order() {
     let folder = tempfile::tempdir().unwrap();
     let path = write(folder.path(), "mine.toml", &GOOD.replace("order = 4", "order = 3"));
-    let said = quietly(&format!("schemes check {path}"));
-    assert!(said.contains("order 3 is claimed, order 4 holds"), "{said}");
-    assert!(said.contains(&format!("remark: {path}:2:9:")), "{said}");
+    let result = quietly(&format!("schemes check {path}"));
+    assert!(result.contains("order 3 is claimed, order 4 holds"), "{result}");
+    assert!(result.contains(&format!("remark: {path}:2:9:")), "{result}");
 }
 
 #[test]
@@ -246,21 +246,21 @@ fn check_shows_the_place_of_each_fault() {
     let folder = tempfile::tempdir().unwrap();
     let good = write(folder.path(), "good.toml", GOOD);
     let wrong = write(folder.path(), "wrong.toml", &GOOD.replace("2^(1/3)", "2^(1/2)"));
-    let said = shadowstep(&format!("schemes check {wrong} {good}"));
-    assert_eq!(said.code, 1, "{}", said.err);
-    assert!(said.out.starts_with(&format!("{wrong}:2:9: order 4 is claimed, order 2 holds")), "{}", said.out);
-    assert!(said.out.contains("  2 | order = 4\n    |         ^\n  found "), "{}", said.out);
-    assert!(said.out.contains(&format!("{good}: proved")), "the others are checked too: {}", said.out);
+    let result = shadowstep(&format!("schemes check {wrong} {good}"));
+    assert_eq!(result.code, 1, "{}", result.err);
+    assert!(result.out.starts_with(&format!("{wrong}:2:9: order 4 is claimed, order 2 holds")), "{}", result.out);
+    assert!(result.out.contains("  2 | order = 4\n    |         ^\n  found "), "{}", result.out);
+    assert!(result.out.contains(&format!("{good}: proved")), "the others are checked too: {}", result.out);
 }
 
 #[test]
 fn a_file_that_cannot_be_read_weighs_more_than_a_fault() {
     let folder = tempfile::tempdir().unwrap();
     let wrong = write(folder.path(), "wrong.toml", "order = 4\n");
-    let said = shadowstep(&format!("schemes check nowhere.toml {wrong}"));
-    assert_eq!(said.code, 2);
-    assert!(said.err.starts_with("error: there is no file nowhere.toml\n  hint: "), "{}", said.err);
-    assert!(said.out.contains("the key `name` is missing"), "{}", said.out);
+    let result = shadowstep(&format!("schemes check nowhere.toml {wrong}"));
+    assert_eq!(result.code, 2);
+    assert!(result.err.starts_with("error: there is no file nowhere.toml\n  hint: "), "{}", result.err);
+    assert!(result.out.contains("the key `name` is missing"), "{}", result.out);
 }
 
 #[test]
@@ -268,9 +268,9 @@ fn show_takes_files_and_names_only() {
     let folder = tempfile::tempdir().unwrap();
     let path = write(folder.path(), "mine.toml", GOOD);
     assert!(quietly(&format!("schemes show {path}")).starts_with("mine\n"));
-    let said = shadowstep("schemes show yoshda4");
-    assert_eq!(said.code, 2);
-    assert!(said.err.contains("did you mean `yoshida4`?"), "{}", said.err);
+    let result = shadowstep("schemes show yoshda4");
+    assert_eq!(result.code, 2);
+    assert!(result.err.contains("did you mean `yoshida4`?"), "{}", result.err);
 }
 
 fn run(scheme: &str) -> String {
@@ -304,7 +304,7 @@ drift = [\"1/2\", \"1/2\"]
     let path = write(folder.path(), "mine.toml", GOOD);
     let show = &objects(&quietly(&format!("schemes show {path} --json")))[0];
     assert_eq!(text(show, "first"), "drift");
-    // what is shipped takes nothing from here
+    // a shipped table has no base from here
     let composed = GOOD.replace("\"stormer-verlet\"", "\"yoshida4\"").replace("2^(1/3)", "2^(1/5)");
     let path = write(folder.path(), "deeper.toml", &composed.replace("order = 4", "order = 6"));
     let show = &objects(&quietly(&format!("schemes show {path} --json")))[0];
@@ -316,18 +316,18 @@ fn cyclic_and_far_bases_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let mine = write(folder.path(), "mine.toml", &GOOD.replace("stormer-verlet", "other"));
     write(folder.path(), "other.toml", &GOOD.replace("stormer-verlet", "mine"));
-    let said = shadowstep(&format!("schemes check {mine}"));
-    assert!(said.code == 1 && said.out.contains("this composition is cyclic"), "{}", said.out);
+    let result = shadowstep(&format!("schemes check {mine}"));
+    assert!(result.code == 1 && result.out.contains("this composition is cyclic"), "{}", result.out);
     let far = write(folder.path(), "far.toml", &GOOD.replace("stormer-verlet", "../far"));
-    let said = shadowstep(&format!("schemes check {far}"));
-    assert!(said.code == 1 && said.out.contains("there is no table `../far`"), "{}", said.out);
+    let result = shadowstep(&format!("schemes check {far}"));
+    assert!(result.code == 1 && result.out.contains("there is no table `../far`"), "{}", result.out);
 }
 
 #[test]
 fn a_faulty_table_does_not_run() {
     let folder = tempfile::tempdir().unwrap();
     let path = write(folder.path(), "mine.toml", &GOOD.replace("order = 4", "order = 5"));
-    let said = shadowstep(&run(&path));
-    assert_eq!((said.code, said.out.as_str()), (2, ""));
-    assert!(said.err.starts_with(&format!("error: {path}:2:9: order 5 is claimed, order 4 holds")), "{}", said.err);
+    let result = shadowstep(&run(&path));
+    assert_eq!((result.code, result.out.as_str()), (2, ""));
+    assert!(result.err.starts_with(&format!("error: {path}:2:9: order 5 is claimed, order 4 holds")), "{}", result.err);
 }

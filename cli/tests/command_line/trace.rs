@@ -38,7 +38,7 @@ fn the_extremes_are_those_of_drift() {
 }
 
 #[test]
-fn states_are_there_if_asked_for() {
+fn states_are_written_on_request() {
     let lines = objects(&quietly(&format!("{RUN} --states")));
     assert_eq!(lines[0]["q"], serde_json::json!(["0.4", "0.0"]));
     assert_eq!(lines[0]["p"], serde_json::json!(["0.0", "2.0"]));
@@ -66,20 +66,20 @@ fn csv_has_a_header_and_the_same_numbers() {
 #[test]
 fn a_trace_is_of_one_run() {
     for several in ["--step 1/10,1/20 --scheme ruth3", "--step 1/10 --scheme ruth3,yoshida4"] {
-        let said = shadowstep(&format!("trace --problem kepler --until 1 --double {several}"));
-        assert_eq!((said.code, said.out.as_str()), (2, ""));
-        assert!(said.err.starts_with("error: a trace is one run"), "{}", said.err);
+        let result = shadowstep(&format!("trace --problem kepler --until 1 --double {several}"));
+        assert_eq!((result.code, result.out.as_str()), (2, ""));
+        assert!(result.err.starts_with("error: a trace is one run"), "{}", result.err);
     }
 }
 
 #[test]
-fn a_trace_that_fails_leaves_no_file() {
+fn a_failed_trace_leaves_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("out.csv");
     let words =
         "trace --problem harmonic-oscillator --scheme stormer-verlet --step 10 --until 10000 --double --order 2";
-    let said = shadowstep(&format!("{words} --csv --output {}", file.display()));
-    assert_eq!(said.code, 3, "{}", said.err);
+    let result = shadowstep(&format!("{words} --csv --output {}", file.display()));
+    assert_eq!(result.code, 3, "{}", result.err);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
@@ -111,12 +111,12 @@ fn the_bilinear_estimator_belongs_to_the_middle_of_its_states() {
     let value = |line: &serde_json::Value| text(line, "modified_energy").parse::<f64>().unwrap();
     assert!((value(&even[3]) - value(&odd[3])).abs() < 1e-9, "one modified energy, two orders");
 
-    let said = shadowstep(&format!("{} --states", run("7")));
-    assert_eq!((said.code, said.out.as_str()), (2, ""));
-    assert!(said.err.contains("are at times between the states"), "{}", said.err);
+    let result = shadowstep(&format!("{} --states", run("7")));
+    assert_eq!((result.code, result.out.as_str()), (2, ""));
+    assert!(result.err.contains("are at times between the states"), "{}", result.err);
 }
 
-/// On the exact flow the modified energy is −1/2, and the accuracy wanted is met wherever the estimate says so.
+/// On the exact flow the modified energy is −1/2, and the target error is met wherever the estimate is below it.
 #[test]
 fn the_best_k_is_the_least_one_for_an_accuracy() {
     let run = "trace --problem kepler --scheme exact-flow --step 1/20 --until 3.15 --digits 40 --estimator bilinear";
@@ -166,11 +166,11 @@ fn estimates_are_of_the_error() {
 }
 
 #[test]
-fn where_no_estimate_can_be_relied_on_there_is_none() {
+fn without_a_reliable_estimate_the_estimate_is_empty() {
     for order in ["1", "1 --estimator bilinear"] {
-        let said = shadowstep(&RUN.replace("--order 5", &format!("--order {order}")));
-        assert_eq!(said.code, 0);
-        assert!(said.err.starts_with("note: no error estimate at --order 1"), "{}", said.err);
-        assert!(objects(&said.out).iter().all(|line| line["estimate"].is_null() && line["order"] == 1));
+        let result = shadowstep(&RUN.replace("--order 5", &format!("--order {order}")));
+        assert_eq!(result.code, 0);
+        assert!(result.err.starts_with("note: no error estimate at --order 1"), "{}", result.err);
+        assert!(objects(&result.out).iter().all(|line| line["estimate"].is_null() && line["order"] == 1));
     }
 }

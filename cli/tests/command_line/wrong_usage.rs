@@ -1,8 +1,8 @@
-//! What is wrong is said in one sentence with a hint, and the exit code is 2.
+//! A usage error has one message with a hint, and the exit code is 2.
 
 use crate::program::{quietly, shadowstep};
 
-/// Flags that replace or complete a good command line, what the sentence says, and what the hint says.
+/// Flags that replace or complete a valid command line; parts of the message and of the hint.
 const WRONG: &[(&str, &str, &str)] = &[
     ("--problem keppler", "there is no problem `keppler`", "did you mean `kepler`?"),
     ("--set ecentricity=0.1", "kepler has no parameter or initial value `ecentricity`", "`eccentricity`"),
@@ -59,19 +59,19 @@ const WRONG: &[(&str, &str, &str)] = &[
 ];
 
 #[test]
-fn each_gets_its_sentence_and_hint() {
+fn each_wrong_flag_has_its_message_and_hint() {
     for (flags, sentence, hint) in WRONG {
-        let said = shadowstep(&completed(flags));
-        assert_eq!((said.code, said.out.as_str()), (2, ""), "{flags}: {}", said.err);
-        let lines: Vec<&str> = said.err.lines().collect();
-        let [error, help] = lines[..] else { panic!("{flags}: {}", said.err) };
+        let result = shadowstep(&completed(flags));
+        assert_eq!((result.code, result.out.as_str()), (2, ""), "{flags}: {}", result.err);
+        let lines: Vec<&str> = result.err.lines().collect();
+        let [error, help] = lines[..] else { panic!("{flags}: {}", result.err) };
         assert!(error.strip_prefix("error: ").is_some_and(|error| error.contains(sentence)), "{flags}: {error}");
         assert!(help.strip_prefix("  hint: ").is_some_and(|help| help.contains(hint)), "{flags}: {help}");
     }
 }
 
 #[test]
-fn flags_are_judged_by_their_own_rules() {
+fn invalid_values_of_flags_are_refused() {
     for (flags, sentence) in [
         ("--digits 0", "0 is not in 1..=100000"),
         ("--digits 100001", "100001 is not in 1..=100000"),
@@ -83,15 +83,15 @@ fn flags_are_judged_by_their_own_rules() {
         ("--rule best", "invalid value 'best'"),
         ("--frobnicate", "unexpected argument '--frobnicate'"),
     ] {
-        let said = shadowstep(&completed(flags));
-        assert_eq!((said.code, said.out.as_str()), (2, ""), "{flags}");
-        assert!(said.err.contains(sentence), "{flags}: {}", said.err);
+        let result = shadowstep(&completed(flags));
+        assert_eq!((result.code, result.out.as_str()), (2, ""), "{flags}");
+        assert!(result.err.contains(sentence), "{flags}: {}", result.err);
     }
     assert_eq!(shadowstep("frobnicate").code, 2);
     assert_eq!(shadowstep("drift").code, 2);
 }
 
-/// A command line that is good but for these flags.
+/// A command line that is valid except for these flags.
 fn completed(flags: &str) -> String {
     let good = ["--problem kepler", "--scheme stormer-verlet", "--step 1/10", "--until 2"];
     let kept = good.into_iter().filter(|flag| !flags.contains(flag.split_once(' ').unwrap().0));
@@ -99,12 +99,12 @@ fn completed(flags: &str) -> String {
 }
 
 #[test]
-fn the_good_command_line_is_good() {
+fn the_valid_command_line_is_accepted() {
     assert_eq!(quietly(&completed("--double --order 2 --json")).lines().count(), 1);
 }
 
 #[test]
-fn help_tells_of_exit_codes_and_examples() {
+fn help_shows_exit_codes_and_examples() {
     let help = quietly("--help");
     for code in ["0  success", "1  negative answer", "2  usage error", "3  a run failed"] {
         assert!(help.contains(code), "{help}");

@@ -128,7 +128,7 @@ mod tests {
     use shadowstep::number::{Float, Precision};
 
     #[test]
-    fn numbers_read_back_with_their_sign() {
+    fn numbers_are_read_with_their_sign() {
         let precision = Precision::digits(60).unwrap();
         for text in ["-0.0", "0.0", "0.1", "-1e-300", "5e-324", "1.7976931348623157e308"] {
             let x: f64 = text.parse().unwrap();
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_read_back_is_not_saved() {
+    fn numbers_that_cannot_be_read_are_not_saved() {
         let precision = Precision::digits(30).unwrap();
         let mut tiny = number::<Float>("1e-9999", &precision).unwrap();
         let same = tiny.clone();
