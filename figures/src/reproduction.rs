@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use shadowstep_scenes::WholeFile;
-use shadowstep_symbolic::meant;
+use shadowstep_symbolic::suggestion;
 
 use crate::data;
 use crate::figure::Figure;
@@ -102,7 +102,7 @@ fn kept(figure: &Figure, store: &Store) -> Option<Results> {
 fn requested(wanted: &[String]) -> Result<Vec<&'static Figure>, Error> {
     let known: Vec<&str> = names().collect();
     if let Some(name) = wanted.iter().find(|name| !known.contains(&name.as_str())) {
-        return Err(Error::usage(format!("there is no figure `{name}`"), meant(name, &known)));
+        return Err(Error::usage(format!("there is no figure `{name}`"), suggestion(name, &known)));
     }
     let is_wanted = |figure: &&Figure| wanted.is_empty() || wanted.iter().any(|name| name == figure.name);
     Ok(FIGURES.iter().filter(is_wanted).collect())

@@ -40,7 +40,7 @@ pub use values::Values;
 
 use std::collections::BTreeMap;
 
-use shadowstep_symbolic::{Exact, evaluate, meant, parse};
+use shadowstep_symbolic::{Exact, evaluate, parse, suggestion};
 
 use crate::Rational;
 #[cfg(feature = "mpfr")]
@@ -106,7 +106,7 @@ registry! {
 pub fn problem(name: &str) -> Result<Problem, ProblemError> {
     let names: Vec<_> = PROBLEMS.iter().map(|problem| problem.name()).collect();
     let found = PROBLEMS.iter().find(|problem| problem.name() == name);
-    found.copied().ok_or_else(|| ProblemError::UnknownProblem { name: name.to_owned(), hint: meant(name, &names) })
+    found.copied().ok_or_else(|| ProblemError::UnknownProblem { name: name.to_owned(), hint: suggestion(name, &names) })
 }
 
 /// The system of a problem, chosen at run time.
@@ -157,7 +157,7 @@ impl Problem {
         let names: Vec<_> = all.iter().map(|(name, _)| name.as_str()).collect();
         for (i, (name, _)) in set.iter().enumerate() {
             if !names.contains(&name.as_str()) {
-                let (problem, hint) = (self.name(), meant(name, &names));
+                let (problem, hint) = (self.name(), suggestion(name, &names));
                 return Err(ProblemError::UnknownParameter { problem, name: name.clone(), hint });
             }
             if set[..i].iter().any(|(other, _)| other == name) {

@@ -15,7 +15,7 @@ use num_traits::{One, Zero};
 
 use crate::evaluation::domain::Attempt;
 use crate::evaluation::evaluator::Evaluator;
-use crate::evaluation::value::{Exact, Stop, Value};
+use crate::evaluation::value::{AttemptError, Exact, Value};
 use crate::number::interval::Interval;
 use crate::number::rational::Rational;
 use crate::number::rounding::at_places;
@@ -23,7 +23,7 @@ use crate::text::decimal::round_significant;
 use crate::text::error::{SemanticError, SemanticFault};
 use crate::text::syntax::Expression;
 
-/// More digits would take long and meet the limits on the size of numbers.
+/// More digits would take long and exceed the largest size of numbers.
 const MOST_DIGITS: u32 = 5000;
 
 /// Digits beyond those asked for in the first attempt.
@@ -42,10 +42,9 @@ const ATTEMPTS: u32 = 4;
 /// The functions are sqrt, cbrt, exp, log (the natural logarithm), sin, cos, tan, sinh, cosh, tanh,
 /// atan, asin and acos. They are enclosed rigorously, in integer arithmetic alone.
 ///
-/// An irrational expression that cannot be told from zero with eight times these digits counts as
-/// zero, so that `sin(pi)` is 0; one that cannot be told from the middle between two decimals counts
-/// as being there; and the argument of a root or function that cannot be told from the border of
-/// the domain counts as the border: `asin(sin(pi/2))` is pi/2, `log(sin(pi))` and `tan(pi/2)` have no value.
+/// Numbers that cannot be distinguished with eight times these digits count as equal: an irrational expression and zero,
+/// so that `sin(pi)` is 0; an expression and the middle between two decimals; the argument of a root or function and the
+/// boundary of its domain, so that `asin(sin(pi/2))` is pi/2 and `log(sin(pi))` and `tan(pi/2)` have no value.
 ///
 /// # Errors
 /// A [`SemanticError`] for an unknown name or function, a division by zero, `0^0`, an even root
@@ -63,14 +62,14 @@ pub fn evaluate(expression: &Expression, names: &BTreeMap<String, Exact>, digits
                     return Ok(Exact { value, rounded: true });
                 }
             }
-            Err(Stop::Fault(error)) => return Err(error),
-            Err(Stop::Undecided) => {}
+            Err(AttemptError::Fault(error)) => return Err(error),
+            Err(AttemptError::Undecided) => {}
         }
     }
     Err(SemanticError::new(SemanticFault::Cancellation(digits), &expression.range))
 }
 
-/// The one decimal that all numbers in the interval round to.
+/// The decimal that all numbers in the interval round to, if it is one.
 fn settled(interval: &Interval, digits: u32, last: bool) -> Option<Rational> {
     let rounded = |digits| {
         let low = round_significant(&interval.low, digits);
@@ -79,7 +78,7 @@ fn settled(interval: &Interval, digits: u32, last: bool) -> Option<Rational> {
     if !last {
         return rounded(digits);
     }
-    // A number this close to zero, or to the middle between two decimals, counts as being there.
+    // A number this close to zero, or to the middle between two decimals, counts as equal to it.
     let tiny = at_places(BigInt::one(), 4 * i64::from(digits));
     let width = &interval.high - &interval.low;
     if interval.contains_zero() && width < tiny {

@@ -1,7 +1,7 @@
 //! Formulas as a directed acyclic graph without repetitions: equal parts are one node.
 //!
-//! A node can only be made of nodes that exist, so the nodes below a node have smaller numbers. Whoever
-//! needs the parts before the whole walks through the numbers in order, without recursion.
+//! A node is made of existing nodes, so the nodes below a node have smaller numbers. An algorithm that needs the parts
+//! before the whole goes through the numbers in order, without recursion.
 
 pub(crate) mod build;
 mod degree;
@@ -19,13 +19,13 @@ use num_traits::Zero;
 use crate::number::function::Function;
 use crate::number::rational::Rational;
 
-/// A formula in a [`Graph`]: a handle that is cheap to copy and means nothing elsewhere.
+/// A formula in a [`Graph`]: an index, valid in this graph only.
 ///
 /// Two nodes of one graph are equal if, and only if, their simplified formulas are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Node(u32);
 
-/// What a node is made of.
+/// The formula of a node in terms of other nodes.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Form {
     /// An exact number.
@@ -34,8 +34,8 @@ pub enum Form {
     Coordinate(usize),
     /// The parameter with this index.
     Parameter(usize),
-    /// The property with this index of the bodies at hand, such as a mass: given anew with every evaluation, as a
-    /// coordinate is, and not differentiated, as a parameter is not.
+    /// The property of the bodies with this index, such as a mass. Like a coordinate it has a new value in every
+    /// evaluation; like a parameter it is not differentiated.
     Property(usize),
     /// constant + Σ coefficient · node, sorted by node. No node is a sum or a number, none occurs twice, no
     /// coefficient is 0. A multiple c·node is a sum of one term.
@@ -94,7 +94,7 @@ impl Graph {
         Self::default()
     }
 
-    /// How many nodes there are.
+    /// The number of nodes.
     pub fn len(&self) -> usize {
         self.forms.len()
     }
@@ -104,7 +104,7 @@ impl Graph {
         self.forms.is_empty()
     }
 
-    /// What a node of this graph is made of.
+    /// The form of a node of this graph.
     ///
     /// # Panics
     /// If the node is from a larger graph.
@@ -117,7 +117,7 @@ impl Graph {
         Arc::clone(&self.forms[node.0 as usize])
     }
 
-    /// The node with this form, which must be simplified already.
+    /// The node with this form, which must be simplified.
     pub(crate) fn intern(&mut self, form: Form) -> Node {
         if let Some(node) = self.nodes.get(&form) {
             return *node;
@@ -129,7 +129,7 @@ impl Graph {
         Node(number)
     }
 
-    /// The exact numbers in the formula of a node, as it stands when it is simplified: constants and coefficients.
+    /// The exact numbers in the simplified formula of a node: constants and coefficients.
     pub fn numbers(&self, node: Node) -> Vec<&Rational> {
         let of = |part: Node| match self.form(part) {
             Form::Number(value) => vec![value],
@@ -156,7 +156,7 @@ impl Graph {
         self.below_unless(nodes, |_| false)
     }
 
-    /// As [`Graph::below`], but neither a node that is `known` nor what is below it alone.
+    /// As [`Graph::below`], without `known` nodes and the nodes that are only below these.
     pub(crate) fn below_unless(&self, nodes: &[Node], known: impl Fn(Node) -> bool) -> BTreeSet<Node> {
         let mut found = BTreeSet::new();
         let mut waiting = nodes.to_vec();
@@ -168,7 +168,7 @@ impl Graph {
         found
     }
 
-    /// The number of a node that is one.
+    /// The value of a node that is a number.
     pub fn as_number(&self, node: Node) -> Option<&Rational> {
         match self.form(node) {
             Form::Number(value) => Some(value),

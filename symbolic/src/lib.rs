@@ -6,7 +6,7 @@
 //! * [`Graph::build`] simplifies it into a graph without repetitions, where [`Graph::derivative`] and [`Graph::rate`]
 //!   (qᵀU_q − 2U) find formulas, and [`Graph::program`] computes them with few operations in place.
 //! * [`decimal`] writes rationals as text and reads them back.
-//! * [`nearest`](nearest()) finds the word that was probably meant by a misspelt one.
+//! * [`nearest`](nearest()) corrects a misspelt word.
 //!
 //! ```
 //! use shadowstep_symbolic::{Exact, Rational, decimal, evaluate, exact, parse};
@@ -19,13 +19,13 @@
 //! assert!(g1.rounded);
 //! assert_eq!(decimal::to_significant(&g1.value, 12), "1.35120719196");
 //!
-//! // A name stands for a number; from there on the arithmetic is exact again.
+//! // A name stands for a number; the arithmetic with it is exact.
 //! let names = BTreeMap::from([("g1".to_string(), g1.clone())]);
 //! let g0 = evaluate(&parse("1 - 2*g1")?, &names, 50)?;
 //! let two = Rational::from_integer(2.into());
 //! assert_eq!(g0.value + two * g1.value, Rational::from_integer(1.into()));
 //!
-//! // Errors know the place they are about.
+//! // Errors have a place in the text.
 //! let error = exact("2 * (1 - 1/1)^-1").unwrap_err();
 //! assert_eq!(error.to_string(), "division by zero");
 //! assert_eq!(error.range(), 4..13);
@@ -48,13 +48,13 @@
 //! | `text` | **text in and out** |
 //! | `text/literal` | decimal literals, `2.5e-7` |
 //! | [`decimal`] | rationals → text → rationals |
-//! | `text/near_names` | the word that was probably meant |
-//! | `text/error` | all that can be wrong with a formula |
+//! | `text/near_names` | the known word that is nearest to a misspelt one |
+//! | `text/error` | errors of formulas |
 //! | `text/token`, `text/syntax` | text → tokens → syntax tree |
-//! | `text/names` | what the names in a formula stand for |
+//! | `text/names` | the names in a formula: functions, π, unknown names |
 //! | `evaluation` | **syntax tree → value** |
 //! | `evaluation/value` | exact or enclosed values |
-//! | `evaluation/domain` | where roots, quotients and functions have values |
+//! | `evaluation/domain` | the domains of roots, quotients and functions |
 //! | `evaluation/evaluator` | one computation with a given number of digits |
 //! | `graph` | **syntax tree → formulas without repetitions** |
 //! | `graph/simplify` | how nodes are made |
@@ -62,9 +62,9 @@
 //! | `graph/pair` | formulas of a pair of bodies |
 //! | `graph/degree`, `graph/derivative`, `graph/rate`, `graph/quadratic` | homogeneity, ∂/∂q, qᵀU_q − 2U, quadratic forms |
 //! | `program` | **formulas → straight-line programs** |
-//! | `program/instruction`, `program/cost` | one operation in place, numbers of operations |
+//! | `program/instruction`, `program/operations` | one operation in place, numbers of operations |
 //! | `program/lower/…` | nodes → operations, with common parts shared → places and instructions |
-//! | `program/factor` | the search for a cheaper form of the formulas |
+//! | `program/factor` | the search for a form of the formulas with fewer operations |
 //! | `program/potential` | the programs of a potential |
 
 mod evaluation;
@@ -84,12 +84,12 @@ pub use number::ratio::Ratio;
 pub use number::rational::Rational;
 
 pub use program::Program;
-pub use program::cost::Cost;
 pub use program::instruction::{Instruction, Place};
+pub use program::operations::Operations;
 pub use program::potential::PotentialPrograms;
 pub use text::decimal;
 pub use text::error::{Error, SemanticError, SemanticFault, SyntaxError};
-pub use text::near_names::{meant, nearest, nearest_few};
+pub use text::near_names::{nearest, nearest_few, suggestion};
 pub use text::syntax::{Expression, Kind, Operation, parse};
 
 /// Computes a formula without names; an irrational value is rounded to 300 significant digits.

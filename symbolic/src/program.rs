@@ -1,16 +1,16 @@
 //! Straight-line programs of in-place arithmetic.
 
-pub(crate) mod cost;
 mod factor;
 pub(crate) mod instruction;
 mod lower;
+pub(crate) mod operations;
 pub(crate) mod potential;
 
 use std::fmt;
 
 use crate::number::function::Function;
-use crate::program::cost::Cost;
 use crate::program::instruction::{Instruction, Place};
+use crate::program::operations::Operations;
 
 /// A list of operations that computes formulas.
 ///
@@ -32,13 +32,13 @@ pub struct Program {
 }
 
 impl Program {
-    /// What `instructions` costs; what `prepare` costs is not in it.
-    pub fn cost(&self) -> Cost {
-        Cost::of(&self.instructions)
+    /// The numbers of operations of `instructions`, without those of `prepare`.
+    pub fn cost(&self) -> Operations {
+        Operations::of(&self.instructions)
     }
 
-    /// The program without its last output: what only that needs is left out, all else stays as it is, so that the
-    /// other outputs keep every bit. Where the output served for intermediate results, a scratch place does.
+    /// The program without its last output. Operations that only this output needs are removed and all others kept, so
+    /// that the other outputs have the same bits. Intermediate results in the removed output move to a scratch place.
     pub fn without_last_output(&self) -> Program {
         let outputs = self.outputs.saturating_sub(1);
         let (dropped, spare) = (Place::Output(outputs), Place::Scratch(self.scratch));
@@ -50,7 +50,7 @@ impl Program {
                 continue;
             }
             let instruction = match *instruction {
-                // both are rounded correctly, or as the platform does it: one alone has the same bits
+                // sine and cosine are rounded separately: one alone has the same bits
                 Instruction::AssignSinCos(sin, cos, a) if !needed.contains(&cos) => {
                     Instruction::AssignFunction(Function::Sin, sin, a)
                 }

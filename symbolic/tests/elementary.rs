@@ -1,4 +1,4 @@
-//! The functions and π in [`evaluate`]: correctly rounded, exact where they can be, refused where they have no value.
+//! The functions and π in [`evaluate`]: correctly rounded, exact where possible, rejected where they have no value.
 
 use std::collections::BTreeMap;
 
@@ -245,7 +245,7 @@ fn tiny_arguments_and_results_keep_their_digits() {
 }
 
 #[test]
-fn an_exact_argument_next_to_a_zero_is_no_zero() {
+fn an_exact_argument_next_to_a_zero_is_not_zero() {
     // The name holds pi to 300 digits, and its sine is the error of that, whatever the digits asked for.
     let pi = value("pi", 300);
     let error = value("pi", 400) - &pi;
@@ -281,10 +281,10 @@ fn huge_arguments() {
     assert_eq!(value("sin(10^1000)", 50), round_significant(&sin, 50));
 }
 
-// ---- where only more digits could tell ----
+// ---- where more digits are needed ----
 
 #[test]
-fn what_cannot_be_told_from_zero_is_zero() {
+fn what_cannot_be_distinguished_from_zero_counts_as_zero() {
     let zero = Exact { value: Rational::from_integer(0.into()), rounded: true };
     for text in [
         "sin(pi)",
@@ -308,7 +308,7 @@ fn what_cannot_be_told_from_zero_is_zero() {
 }
 
 #[test]
-fn what_cannot_be_told_from_the_border_of_a_domain_is_there() {
+fn what_cannot_be_distinguished_from_a_boundary_counts_as_the_boundary() {
     let table = [
         ("asin(sin(pi/2))", "pi/2"),
         ("asin(-sin(pi/2))", "-pi/2"),
@@ -323,7 +323,7 @@ fn what_cannot_be_told_from_the_border_of_a_domain_is_there() {
 }
 
 #[test]
-fn more_digits_tell_what_is_near() {
+fn more_digits_distinguish_near_numbers() {
     // inside, and the distance is known
     assert_eq!(value("acos(1 - 1e-60*sin(1)^2/sin(1)^2)", 5), value("sqrt(2)*1e-30", 5));
     assert_eq!(value("exp(log(1e-70 + sin(pi)))", 10), ten_to_minus(70));
@@ -352,8 +352,8 @@ fn faults_have_a_message_and_a_place() {
     let known = "known functions: sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin, acos";
     let positive = "the argument must be positive";
     let within = "the argument must be from -1 to 1";
-    let size = "a number of absurd size: more than about 30000 digits";
-    let vague = "cannot be told to a unit: it is too large, or its parts almost cancel";
+    let size = "a number is too long: it has more than about 30000 digits";
+    let vague = "is not known to within 1: it is too large, or its terms almost cancel";
     let table = [
         ("log(0)", 4..5, format!("log(0) has no real value: {positive}")),
         ("1 + log(1/3 - 2)", 8..15, format!("log(-1.66666666667) has no real value: {positive}")),
@@ -366,7 +366,8 @@ fn faults_have_a_message_and_a_place() {
         (
             "2*tan(pi/2)",
             6..10,
-            "tan(1.57079632679) has no real value: the argument cannot be told from an odd multiple of pi/2".into(),
+            "tan(1.57079632679) has no real value: the argument cannot be distinguished from an odd multiple of pi/2"
+                .into(),
         ),
         ("1/sin(pi)", 2..9, "division by zero".into()),
         ("exp(10^6)", 0..9, size.into()),
@@ -390,7 +391,7 @@ fn faults_have_a_message_and_a_place() {
         ("abs(-1)", 0..7, format!("unknown function `abs`; {known}")),
         ("1 + atan(1, 2)", 4..14, "`atan` takes one argument, not 2".into()),
         ("exp()", 0..5, "`exp` takes one argument, not 0".into()),
-        ("2*Pi", 2..4, "unknown name `Pi`; did you mean `pi`? no names are known here but `pi`".into()),
+        ("2*Pi", 2..4, "unknown name `Pi`; did you mean `pi`? the only known name is `pi`".into()),
         ("pi(2)", 0..5, format!("unknown function `pi`; {known}")),
     ];
     for (text, range, message) in table {

@@ -93,8 +93,8 @@ fn every_part_knows_its_bytes() {
 #[test]
 fn errors_say_what_was_found_and_what_is_right() {
     let table = [
-        ("", 0..0, "there is nothing here: write a number or a formula"),
-        ("  ", 0..0, "there is nothing here: write a number or a formula"),
+        ("", 0..0, "the formula is empty: write a number or a formula"),
+        ("  ", 0..0, "the formula is empty: write a number or a formula"),
         ("2 * ", 3..3, "unexpected end: a number, a name or `(` should follow `*`"),
         ("(", 1..1, "unexpected end: a number, a name or `(` should follow `(`"),
         ("-", 1..1, "unexpected end: a number, a name or `(` should follow `-`"),
@@ -119,9 +119,9 @@ fn errors_say_what_was_found_and_what_is_right() {
         (")", 0..1, "unexpected `)`: a formula begins with a number, a name, a sign or `(`"),
         ("2*(1+(3)", 2..3, "unexpected end: this `(` has no `)`"),
         ("f(1", 1..2, "unexpected end: this `(` has no `)`"),
-        ("0,5", 1..2, "`,` stands only between the arguments of a function; the decimal point is `.`"),
-        ("1e10001", 0..7, "the exponent of this number is beyond 10000"),
-        ("1e-99999999999999999999", 0..23, "the exponent of this number is beyond 10000"),
+        ("0,5", 1..2, "`,` is only allowed between the arguments of a function; the decimal point is `.`"),
+        ("1e10001", 0..7, "the exponent of this number is out of range: -10000 to 10000 is allowed"),
+        ("1e-99999999999999999999", 0..23, "the exponent of this number is out of range: -10000 to 10000 is allowed"),
     ];
     for (text, range, message) in table {
         let error = parse(text).expect_err(text);
@@ -141,7 +141,7 @@ fn depth_and_length_are_limited() {
         assert!(parse(&form(199)).is_ok(), "{}", form(3));
         for depth in [201, 3000] {
             let error = parse(&form(depth)).expect_err(&form(3));
-            let message = "nested more than 200 deep; group a long chain of operators by parentheses";
+            let message = "nested more than 200 levels deep: group a long chain of operators by parentheses";
             assert_eq!(error.message, message);
         }
     }
@@ -151,7 +151,7 @@ fn depth_and_length_are_limited() {
 
     assert!(parse(&"1".repeat(10_000)).is_ok());
     let error = parse(&"1".repeat(10_001)).unwrap_err();
-    assert_eq!(error.message, "a text of 10001 bytes is too long; at most 10000 are read");
+    assert_eq!(error.message, "a formula of 10001 bytes is too long: at most 10000 are allowed");
 }
 
 fn ranges_nest(expression: &Expression) -> bool {

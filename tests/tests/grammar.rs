@@ -122,13 +122,13 @@ mine.toml:13:37: unexpected end: this `(` has no `)`
 mine.toml:13:43: `2 3`: an operator is missing between `2` and `3`
   13 | kick = ["gama1", "(-3)^(1/4)", "1 - (2", "2 3"]
      |                                           ^^^
-mine.toml:14:11: the exponent of this number is beyond 10000
+mine.toml:14:11: the exponent of this number is out of range: -10000 to 10000 is allowed
   14 | drift = ["1e400000", "foo(2)", "0^0", 5000]
      |           ^^^^^^^^
 mine.toml:14:23: unknown function `foo`; known functions: sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin, acos
   14 | drift = ["1e400000", "foo(2)", "0^0", 5000]
      |                       ^^^^^^
-mine.toml:14:33: 0^0 has no value
+mine.toml:14:33: 0^0 is undefined
   14 | drift = ["1e400000", "foo(2)", "0^0", 5000]
      |                                 ^^^
 mine.toml:14:39: a weight of 5000 is an absurd size

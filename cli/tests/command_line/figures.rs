@@ -145,7 +145,7 @@ fn an_unknown_figure_is_refused_with_the_nearest() {
     assert_eq!(output.err, "error: there is no figure `kepler-shcemes`\n  hint: did you mean `kepler-schemes`?\n");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     let output = shadowstep(&format!("figures fourier --out {}", folder.path().display()));
-    assert!(output.err.contains("known are pendulum-step, pendulum-momentum, kepler-step"), "{}", output.err);
+    assert!(output.err.contains("known: pendulum-step, pendulum-momentum, kepler-step"), "{}", output.err);
 }
 
 #[test]

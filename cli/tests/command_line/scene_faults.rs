@@ -59,7 +59,12 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ("q = [1, 0]", "q = [\"1 + z\", 0]", "7:11: unknown name `z`", "known names: k"),
     ("q = [1, 0]", "q = [inf, 0]", "7:6: inf is not a finite number", "1/10"),
     ("q = [1, 0]", "q = [-nan, 0]", "7:6: -nan is not a finite number", "1/10"),
-    ("q = [1, 0]", "q = [1e99999, 0]", "7:6: the exponent of this number is beyond 10000", "1/10"),
+    (
+        "q = [1, 0]",
+        "q = [1e99999, 0]",
+        "7:6: the exponent of this number is out of range: -10000 to 10000 is allowed",
+        "1/10",
+    ),
     ("q = [1, 0]", "q = [0x10, 0]", "7:6: this value is of the wrong kind", "decimal digits"),
     ("p = [0, 1]", "p = [0, 1]\nv = [0, 1]", "9:5: p and v are both given", "keep one of the two"),
     ("step = \"1/20\"", "step = 0", "11:8: step 0: the step size must be nonzero", "such as 1/10"),

@@ -7,7 +7,7 @@ use std::fmt;
 
 /// Numbers of operations on [`Counting`] numbers: what a program of `shadowstep-symbolic` says that it costs is counted in
 /// the same way.
-pub use shadowstep_symbolic::Cost as Operations;
+pub use shadowstep_symbolic::Operations;
 
 thread_local! {
     /// all operations of this thread so far

@@ -1,13 +1,13 @@
-//! Where roots, quotients and functions have values.
+//! The domains of roots, quotients and functions.
 //!
-//! A number that is enclosed may be on either side of a border. Then more digits are needed; at the last attempt it
-//! counts as the border.
+//! An enclosed number may be on either side of a boundary. Then more digits are needed; at the last attempt the number
+//! counts as the boundary.
 
 use std::ops::Range;
 
 use num_traits::{One, Signed, Zero};
 
-use crate::evaluation::value::{Stop, fault};
+use crate::evaluation::value::{AttemptError, fault};
 use crate::number::elementary::sin_and_cos;
 use crate::number::function::Function;
 use crate::number::interval::Interval;
@@ -15,7 +15,7 @@ use crate::number::rational::Rational;
 use crate::text::decimal::to_significant;
 use crate::text::error::SemanticFault;
 
-/// How a number is computed.
+/// How precisely a number is computed.
 #[derive(Clone, Copy)]
 pub(super) struct Attempt {
     /// The significant digits of the ends of intervals.
@@ -25,61 +25,61 @@ pub(super) struct Attempt {
 }
 
 impl Attempt {
-    /// Refuses zero, and at the last attempt what cannot be told from zero.
+    /// Rejects zero, and at the last attempt what cannot be distinguished from zero.
     pub(super) fn without_zero(
         self,
         interval: &Interval,
-        refusal: SemanticFault,
+        otherwise: SemanticFault,
         range: &Range<usize>,
-    ) -> Result<(), Stop> {
+    ) -> Result<(), AttemptError> {
         match interval.contains_zero() {
-            true if self.last => Err(fault(refusal, range)),
-            true => Err(Stop::Undecided),
+            true if self.last => Err(fault(otherwise, range)),
+            true => Err(AttemptError::Undecided),
             false => Ok(()),
         }
     }
 
-    /// Refuses a negative number; at the last attempt, what cannot be told from zero begins there.
-    pub(super) fn not_negative(self, interval: Interval, range: &Range<usize>) -> Result<Interval, Stop> {
+    /// Rejects a negative number; at the last attempt, an interval around zero is cut off at zero.
+    pub(super) fn not_negative(self, interval: Interval, range: &Range<usize>) -> Result<Interval, AttemptError> {
         if interval.high.is_negative() {
             return Err(fault(SemanticFault::EvenRoot(to_significant(&interval.high, 12)), range));
         }
         match interval.low.is_negative() {
             false => Ok(interval),
             true if self.last => Ok(Interval { low: Rational::zero(), ..interval }),
-            true => Err(Stop::Undecided),
+            true => Err(AttemptError::Undecided),
         }
     }
 
-    /// The part of an enclosed argument where the function has a value. At the last attempt, an argument that cannot be
-    /// told from the border of the domain is there.
+    /// The part of an enclosed argument inside the function's domain. At the last attempt, an argument that cannot be
+    /// distinguished from the boundary of the domain counts as the boundary.
     pub(super) fn in_domain(
         self,
         function: Function,
         argument: Interval,
         range: &Range<usize>,
-    ) -> Result<Interval, Stop> {
-        let refusal =
+    ) -> Result<Interval, AttemptError> {
+        let otherwise =
             |number: &Rational| SemanticFault::OutsideDomain { function, argument: to_significant(number, 12) };
         match function {
-            Function::Log if !argument.high.is_positive() => return Err(fault(refusal(&argument.high), range)),
-            Function::Log => self.without_zero(&argument, refusal(&Rational::zero()), range)?,
+            Function::Log if !argument.high.is_positive() => return Err(fault(otherwise(&argument.high), range)),
+            Function::Log => self.without_zero(&argument, otherwise(&Rational::zero()), range)?,
             Function::Exp | Function::Sinh | Function::Cosh if argument.is_wide() && !self.last => {
-                return Err(Stop::Undecided);
+                return Err(AttemptError::Undecided);
             }
             Function::Sin | Function::Cos | Function::Tan if argument.is_wide() => match self.last {
-                true => return Err(fault(SemanticFault::VagueArgument(function), range)),
-                false => return Err(Stop::Undecided),
+                true => return Err(fault(SemanticFault::ImpreciseArgument(function), range)),
+                false => return Err(AttemptError::Undecided),
             },
             Function::Tan => {
                 let cos = sin_and_cos(&argument, self.digits).1;
-                self.without_zero(&cos, refusal(&argument.low), range)?;
+                self.without_zero(&cos, otherwise(&argument.low), range)?;
             }
             Function::Asin | Function::Acos => {
-                let refusal = || SemanticFault::OutsideDomain { function, argument: beyond_one(&argument.low) };
-                let inside = argument.within_one().ok_or_else(|| fault(refusal(), range))?;
+                let otherwise = || SemanticFault::OutsideDomain { function, argument: beyond_one(&argument.low) };
+                let inside = argument.within_one().ok_or_else(|| fault(otherwise(), range))?;
                 if !self.last && inside != argument {
-                    return Err(Stop::Undecided);
+                    return Err(AttemptError::Undecided);
                 }
                 return Ok(inside);
             }
@@ -89,7 +89,7 @@ impl Attempt {
     }
 }
 
-/// A number beyond ±1, to few digits but not as ±1.
+/// A number outside ±1, to few digits but not as ±1.
 fn beyond_one(number: &Rational) -> String {
     match to_significant(number, 12) {
         text if text == "1" => format!("1 + {}", to_significant(&(number - Rational::one()), 3)),

@@ -7,7 +7,7 @@ use num_integer::Integer;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 use crate::evaluation::domain::Attempt;
-use crate::evaluation::value::{Exact, Stop, Value, fault};
+use crate::evaluation::value::{AttemptError, Exact, Value, fault};
 use crate::number::elementary::{image, pi};
 use crate::number::function::{Function, exact_value};
 use crate::number::interval::Interval;
@@ -24,7 +24,7 @@ pub(super) struct Evaluator<'a> {
 }
 
 impl Evaluator<'_> {
-    pub(super) fn value(&self, expression: &Expression) -> Result<Value, Stop> {
+    pub(super) fn value(&self, expression: &Expression) -> Result<Value, AttemptError> {
         let range = &expression.range;
         match &expression.kind {
             Kind::Number(value) => Ok(Value::Exact(Exact { value: value.clone(), rounded: false })),
@@ -46,14 +46,14 @@ impl Evaluator<'_> {
         Err(unknown_name(name, &known))
     }
 
-    fn call(&self, name: &str, arguments: &[Expression], range: &Range<usize>) -> Result<Value, Stop> {
-        match callee(name, arguments).map_err(|refusal| fault(refusal, range))? {
+    fn call(&self, name: &str, arguments: &[Expression], range: &Range<usize>) -> Result<Value, AttemptError> {
+        match callee(name, arguments).map_err(|invalid| fault(invalid, range))? {
             (Callee::Root(order), argument) => self.power(argument, &Rational::new(1.into(), order.into()), range),
             (Callee::Function(function), argument) => self.function(function, argument, range),
         }
     }
 
-    fn function(&self, function: Function, argument: &Expression, range: &Range<usize>) -> Result<Value, Stop> {
+    fn function(&self, function: Function, argument: &Expression, range: &Range<usize>) -> Result<Value, AttemptError> {
         let value = self.value(argument)?;
         if let Value::Exact(Exact { value, rounded }) = &value
             && let Some(value) = exact_value(function, value)
@@ -71,7 +71,7 @@ impl Evaluator<'_> {
         left: &Expression,
         right: &Expression,
         range: &Range<usize>,
-    ) -> Result<Value, Stop> {
+    ) -> Result<Value, AttemptError> {
         let value = |part| self.value(part);
         match operation {
             Operation::Add => self.sum(&value(left)?, &value(right)?, range),
@@ -89,22 +89,22 @@ impl Evaluator<'_> {
         }
     }
 
-    fn sum(&self, a: &Value, b: &Value, range: &Range<usize>) -> Result<Value, Stop> {
+    fn sum(&self, a: &Value, b: &Value, range: &Range<usize>) -> Result<Value, AttemptError> {
         match (a, b) {
-            (Value::Exact(a), Value::Exact(b)) => sized(&a.value + &b.value, a.rounded || b.rounded, range),
+            (Value::Exact(a), Value::Exact(b)) => exact(&a.value + &b.value, a.rounded || b.rounded, range),
             _ => self.enclosed(a.interval().add(&b.interval()).outward(self.attempt.digits), range),
         }
     }
 
-    fn product(&self, a: &Value, b: &Value, range: &Range<usize>) -> Result<Value, Stop> {
+    fn product(&self, a: &Value, b: &Value, range: &Range<usize>) -> Result<Value, AttemptError> {
         match (a, b) {
-            (Value::Exact(a), Value::Exact(b)) => sized(&a.value * &b.value, a.rounded || b.rounded, range),
+            (Value::Exact(a), Value::Exact(b)) => exact(&a.value * &b.value, a.rounded || b.rounded, range),
             _ => self.enclosed(a.interval().multiply(&b.interval()).outward(self.attempt.digits), range),
         }
     }
 
     /// The base to a rational power p/q: its q-th root, or one over it, to the power |p|.
-    fn power(&self, base: &Expression, exponent: &Rational, range: &Range<usize>) -> Result<Value, Stop> {
+    fn power(&self, base: &Expression, exponent: &Rational, range: &Range<usize>) -> Result<Value, AttemptError> {
         let value = self.value(base)?;
         if exponent.is_zero() {
             self.not_zero(&value, SemanticFault::ZeroToTheZero, range)?;
@@ -117,18 +117,18 @@ impl Evaluator<'_> {
             root = root.reciprocal();
         }
         let count = exponent.numer().magnitude().to_u32();
-        let count = count.ok_or_else(|| fault(SemanticFault::AbsurdSize, range))?;
+        let count = count.ok_or_else(|| fault(SemanticFault::TooLong, range))?;
         match root {
             Value::Exact(Exact { value, rounded }) => {
-                let power = rational_power(&value, count).ok_or_else(|| fault(SemanticFault::AbsurdSize, range))?;
-                sized(power, rounded, range)
+                let power = rational_power(&value, count).ok_or_else(|| fault(SemanticFault::TooLong, range))?;
+                exact(power, rounded, range)
             }
             Value::Enclosed(root) => self.enclosed(root.power(count, self.attempt.digits), range),
         }
     }
 
-    /// The real root of a base, which stands at `range`.
-    fn root(&self, base: Value, order: u32, range: &Range<usize>) -> Result<Value, Stop> {
+    /// The real root of a base at `range`.
+    fn root(&self, base: Value, order: u32, range: &Range<usize>) -> Result<Value, AttemptError> {
         if order == 1 {
             return Ok(base);
         }
@@ -144,24 +144,24 @@ impl Evaluator<'_> {
         Ok(Value::Enclosed(interval.root(order, self.attempt.digits)))
     }
 
-    /// Refuses zero, and at the last attempt what cannot be told from zero.
-    fn not_zero(&self, value: &Value, refusal: SemanticFault, range: &Range<usize>) -> Result<(), Stop> {
+    /// Rejects zero, and at the last attempt what cannot be distinguished from zero.
+    fn not_zero(&self, value: &Value, otherwise: SemanticFault, range: &Range<usize>) -> Result<(), AttemptError> {
         match value {
-            Value::Exact(exact) if exact.value.is_zero() => Err(fault(refusal, range)),
+            Value::Exact(exact) if exact.value.is_zero() => Err(fault(otherwise, range)),
             Value::Exact(_) => Ok(()),
-            Value::Enclosed(interval) => self.attempt.without_zero(interval, refusal, range),
+            Value::Enclosed(interval) => self.attempt.without_zero(interval, otherwise, range),
         }
     }
 
-    fn enclosed(&self, interval: Option<Interval>, range: &Range<usize>) -> Result<Value, Stop> {
-        interval.map(Value::Enclosed).ok_or_else(|| fault(SemanticFault::AbsurdSize, range))
+    fn enclosed(&self, interval: Option<Interval>, range: &Range<usize>) -> Result<Value, AttemptError> {
+        interval.map(Value::Enclosed).ok_or_else(|| fault(SemanticFault::TooLong, range))
     }
 }
 
-/// An exact value, unless it is absurdly long.
-fn sized(value: Rational, rounded: bool, range: &Range<usize>) -> Result<Value, Stop> {
+/// An exact value, unless it is too long.
+fn exact(value: Rational, rounded: bool, range: &Range<usize>) -> Result<Value, AttemptError> {
     match value.numer().bits().max(value.denom().bits()) <= MOST_BITS {
         true => Ok(Value::Exact(Exact { value, rounded })),
-        false => Err(fault(SemanticFault::AbsurdSize, range)),
+        false => Err(fault(SemanticFault::TooLong, range)),
     }
 }

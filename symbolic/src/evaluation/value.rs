@@ -11,8 +11,7 @@ use crate::text::error::{SemanticError, SemanticFault};
 pub struct Exact {
     /// The number, or the decimal that stands for it.
     pub value: Rational,
-    /// Whether something irrational went into it, a root, a value of a function or π, here or in a name it was computed
-    /// from.
+    /// Whether it depends on an irrational number (a root, a value of a function or π), directly or through a name.
     pub rounded: bool,
 }
 
@@ -47,13 +46,13 @@ impl Value {
     }
 }
 
-/// Why an attempt gave no value.
-pub(super) enum Stop {
+/// Why an attempt has no result.
+pub(super) enum AttemptError {
     Fault(SemanticError),
-    /// Whether a number is zero or negative shows only with more digits.
+    /// More digits are needed to decide whether a number is zero or negative.
     Undecided,
 }
 
-pub(super) fn fault(fault: SemanticFault, range: &Range<usize>) -> Stop {
-    Stop::Fault(SemanticError::new(fault, range))
+pub(super) fn fault(fault: SemanticFault, range: &Range<usize>) -> AttemptError {
+    AttemptError::Fault(SemanticError::new(fault, range))
 }

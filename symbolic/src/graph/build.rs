@@ -1,4 +1,4 @@
-//! From a syntax tree to the graph, with every fault at its place in the text.
+//! From a syntax tree to the graph; faults have their places in the text.
 
 use std::ops::Range;
 
@@ -18,11 +18,11 @@ impl Graph {
     /// The formula of an expression whose names are coordinates and parameters, known by their index.
     ///
     /// The functions are sqrt, cbrt, exp, log, sin, cos, tan, sinh, cosh, tanh, atan, asin and acos; `pi` is π, unless a
-    /// coordinate or parameter has that name; exponents are rational numbers. The tree is walked by recursion, which the heights that [`parse`](crate::parse) allows suit.
+    /// coordinate or parameter has that name; exponents are rational numbers.
     ///
     /// # Errors
     /// A [`SemanticError`] at the first unknown name, unknown or not smooth function, wrong number of arguments, exponent
-    /// that is not rational or too large, and constant part that has no real value or absurdly many digits.
+    /// that is not rational or too large, and constant part that has no real value or too many digits.
     pub fn build(
         &mut self,
         expression: &Expression,
@@ -92,11 +92,11 @@ impl Builder<'_> {
         Err(unknown_name(name, &known))
     }
 
-    /// All terms of a chain of additions at once, so that long sums cost no more than their length.
+    /// All terms of a chain of additions at once: the time is proportional to their number.
     fn sum(&mut self, expression: &Expression) -> Result<Node, SemanticError> {
         let mut terms = Vec::new();
         self.terms(expression, &Rational::one(), &mut terms)?;
-        self.sized(&terms, &expression.range)?;
+        self.check_size(&terms, &expression.range)?;
         Ok(self.graph.sum(&terms))
     }
 
@@ -124,9 +124,9 @@ impl Builder<'_> {
     fn product(&mut self, expression: &Expression) -> Result<Node, SemanticError> {
         let mut factors = Vec::new();
         self.factors(expression, &Rational::one(), &mut factors)?;
-        self.sized(&factors, &expression.range)?;
+        self.check_size(&factors, &expression.range)?;
         let node = self.graph.product(&factors);
-        self.moderate(node, &expression.range)
+        self.checked_product(node, &expression.range)
     }
 
     fn factors(
@@ -155,10 +155,15 @@ impl Builder<'_> {
         if too_large(&value) {
             return Err(SemanticError::new(SemanticFault::LargeExponent(value.to_string()), &exponent.range));
         }
-        self.raised(base, &value, range)
+        self.power_of(base, &value, range)
     }
 
-    fn raised(&mut self, base: &Expression, exponent: &Rational, range: &Range<usize>) -> Result<Node, SemanticError> {
+    fn power_of(
+        &mut self,
+        base: &Expression,
+        exponent: &Rational,
+        range: &Range<usize>,
+    ) -> Result<Node, SemanticError> {
         let node = self.node(base)?;
         if let Some(number) = self.graph.as_number(node) {
             let problem = match exponent {
@@ -172,13 +177,13 @@ impl Builder<'_> {
             if let Some(problem) = problem {
                 return Err(SemanticError::new(problem, &base.range));
             }
-            // Its whole part must be computed, even if the rest is irrational.
+            // The power with the integer part of the exponent is computed, even if the rest is irrational.
             if exact_power(number, &exponent.floor()).is_none() {
-                return Err(SemanticError::new(SemanticFault::AbsurdSize, range));
+                return Err(SemanticError::new(SemanticFault::TooLong, range));
             }
         }
         let node = self.graph.power(node, exponent);
-        self.moderate(node, range)
+        self.checked_product(node, range)
     }
 
     fn call(&mut self, name: &str, arguments: &[Expression], range: &Range<usize>) -> Result<Node, SemanticError> {
@@ -187,7 +192,7 @@ impl Builder<'_> {
         }
         let (function, argument) = match callee(name, arguments).map_err(|fault| SemanticError::new(fault, range))? {
             (Callee::Root(order), argument) => {
-                return self.raised(argument, &Rational::new(BigInt::one(), order.into()), range);
+                return self.power_of(argument, &Rational::new(BigInt::one(), order.into()), range);
             }
             (Callee::Function(function), argument) => (function, argument),
         };
@@ -199,8 +204,8 @@ impl Builder<'_> {
         Ok(self.graph.call(function, node))
     }
 
-    /// Refuses long numbers before they are multiplied or brought to one denominator.
-    fn sized(&self, parts: &[(Node, Rational)], range: &Range<usize>) -> Result<(), SemanticError> {
+    /// Rejects long numbers before they are multiplied or brought to a common denominator.
+    fn check_size(&self, parts: &[(Node, Rational)], range: &Range<usize>) -> Result<(), SemanticError> {
         let bits = |value: &Rational| value.numer().bits() + value.denom().bits();
         let size = |node| match self.graph.form(node) {
             Form::Number(value) => bits(value),
@@ -208,11 +213,11 @@ impl Builder<'_> {
             _ => 0,
         };
         let total: u64 = parts.iter().map(|(node, _)| size(*node)).sum();
-        if total <= MOST_BITS { Ok(()) } else { Err(SemanticError::new(SemanticFault::AbsurdSize, range)) }
+        if total <= MOST_BITS { Ok(()) } else { Err(SemanticError::new(SemanticFault::TooLong, range)) }
     }
 
-    /// Refuses products that are too long, and exponents that became too large.
-    fn moderate(&self, node: Node, range: &Range<usize>) -> Result<Node, SemanticError> {
+    /// Rejects products that are too long, and exponents that became too large.
+    fn checked_product(&self, node: Node, range: &Range<usize>) -> Result<Node, SemanticError> {
         let product = match self.graph.form(node) {
             Form::Sum { terms, .. } if terms.len() == 1 => terms[0].0,
             _ => node,

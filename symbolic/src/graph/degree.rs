@@ -8,7 +8,7 @@ use crate::graph::{Form, Graph, Node};
 use crate::number::rational::Rational;
 
 impl Graph {
-    /// The k with f(λq) = λᵏ f(q) for all λ > 0, if the form of the node shows that there is one; 0 for the number 0.
+    /// The k with f(λq) = λᵏ f(q) for all λ > 0, if the form of the node shows it; 0 for the number 0.
     pub fn degree(&self, node: Node) -> Option<Rational> {
         self.degrees(node).remove(&node).flatten()
     }

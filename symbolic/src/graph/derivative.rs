@@ -10,12 +10,13 @@ use crate::number::rational::Rational;
 impl Graph {
     /// ∂(node)/∂q_i for the coordinate q_i with index i.
     ///
-    /// A derivative that exists nowhere, as that of asin(√(x²)/x), is a formula without a value, such as 0^(−1/2).
+    /// A derivative that is not defined anywhere, such as that of asin(√(x²)/x), becomes a formula without a value, such
+    /// as 0^(−1/2).
     pub fn derivative(&mut self, node: Node, coordinate: usize) -> Node {
         self.derived(node, Derivation::Along(coordinate))
     }
 
-    /// D(node), and D of all that is below it, each once.
+    /// D(node), and D of all nodes below it, each once.
     pub(crate) fn derived(&mut self, node: Node, derivation: Derivation) -> Node {
         let unknown = self.below_unless(&[node], |part| self.derivatives.contains_key(&(part, derivation)));
         let degrees = match derivation {
@@ -62,7 +63,7 @@ impl Graph {
         }
     }
 
-    /// D(Π b^n) = Σ n b^(n−1) D(b) · (the other factors). Nothing is divided by b, which may be zero.
+    /// D(Π b^n) = Σ n b^(n−1) D(b) · (the other factors). There is no division by b, which may be zero.
     fn product_rule(&mut self, factors: &[(Node, Rational)], derivation: Derivation) -> Node {
         let mut terms = Vec::new();
         for (index, (base, exponent)) in factors.iter().enumerate() {

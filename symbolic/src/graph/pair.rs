@@ -1,9 +1,9 @@
-//! Formulas of a pair of bodies: what they are in, and whether they stay what they are when the bodies are exchanged.
+//! Formulas of a pair of bodies: their variable, and whether they are symmetric.
 
 use crate::graph::Graph;
 use crate::text::syntax::Expression;
 
-/// What the formula of a pair of bodies i < j is in.
+/// The variable in the formula of a pair of bodies i < j.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Separation {
     /// d = q_j − q_i, on a line
@@ -13,7 +13,7 @@ pub enum Separation {
 }
 
 impl Separation {
-    /// What formulas call it: `d`, `r2`.
+    /// Its name in formulas: `d`, `r2`.
     pub fn name(self) -> &'static str {
         match self {
             Separation::Difference => "d",
@@ -35,8 +35,8 @@ impl Separation {
     }
 }
 
-/// Whether the formula of a pair in r² stays what it is when the bodies i and j are exchanged, as far as its simplified
-/// form shows; `None` for a text that is no such formula, and for one in d, which has a direction.
+/// Whether the formula of a pair in r² is symmetric in the bodies i and j, as far as its simplified form shows; `None` for
+/// an invalid formula, and for one in d, which has a direction.
 pub fn is_symmetric(
     expression: &Expression,
     separation: Separation,
@@ -48,7 +48,7 @@ pub fn is_symmetric(
         (_, Some(stem)) => format!("{stem}_i"),
         _ => name.clone(),
     };
-    // a property that the other body does not have in the list keeps an index of its own
+    // a property without a counterpart in the list gets a separate index
     let mut all = properties.to_vec();
     for name in properties.iter().map(exchanged) {
         if !all.contains(&name) {

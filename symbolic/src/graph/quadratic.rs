@@ -3,10 +3,10 @@
 use crate::graph::{Form, Graph, Node};
 
 impl Graph {
-    /// Whether f = ½xᵀAx in the first so many coordinates x, where A does not depend on x.
+    /// Whether f = ½xᵀAx in the first `coordinates` coordinates x, where A does not depend on x.
     ///
-    /// So it is if f is homogeneous of degree 2 (xᵀf_x − 2f = 0) and no second derivative depends on x. Both are seen in
-    /// simplified formulas; where the rules do not simplify far enough, the answer is no.
+    /// This holds if f is homogeneous of degree 2 (xᵀf_x − 2f = 0) and no second derivative depends on x. Both are checked
+    /// on simplified formulas; where the rules do not simplify far enough, the result is false.
     ///
     /// ```
     /// use shadowstep_symbolic::{Graph, parse};
@@ -19,7 +19,7 @@ impl Graph {
     /// };
     /// assert!(is_quadratic("(x - y)^2/(2*m) + x*y"));
     /// assert!(!is_quadratic("x^2/2 + y")); // not homogeneous
-    /// assert!(!is_quadratic("x^3/y")); // of degree 2, but no polynomial
+    /// assert!(!is_quadratic("x^3/y")); // of degree 2, but not a polynomial
     /// ```
     pub fn is_quadratic(&mut self, node: Node, coordinates: usize) -> bool {
         let rate = self.rate(node);

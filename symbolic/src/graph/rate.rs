@@ -9,8 +9,8 @@ use crate::number::rational::Rational;
 impl Graph {
     /// qᵀU_q − 2U over all coordinates q.
     ///
-    /// A term of U that is homogeneous of degree k gives (k − 2) times itself, so a quadratic one nothing. In other
-    /// terms the same holds for their parts: qᵀ∂/∂q of exp(−x² − y²) is exp(−x² − y²) times 2(−x² − y²).
+    /// A homogeneous term of degree k contributes (k − 2) times itself, a quadratic term nothing. The same rule is used
+    /// inside other terms: qᵀ∂/∂q of exp(−x² − y²) is exp(−x² − y²) times 2(−x² − y²).
     pub fn rate(&mut self, potential: Node) -> Node {
         let minus_two = Rational::from_integer(BigInt::from(-2));
         let radial = self.derived(potential, Derivation::Radial);

@@ -1,4 +1,4 @@
-//! How nodes are made: simplified at once, by rules that hold for all real numbers for which both sides are defined.
+//! Construction of simplified nodes, by rules that hold for all real numbers for which both sides are defined.
 //!
 //! A rule may widen the domain (x/x becomes 1, √x² becomes x) but never changes a value: (x²)^(1/2) is |x| and stays.
 
@@ -14,11 +14,11 @@ use crate::graph::{Form, Graph, Node};
 use crate::number::function::{Function, Parity, exact_value};
 use crate::number::power::exact_power;
 
-/// c · Π node^exponent: what a power turned out to be.
-type Opened = (Rational, Vec<(Node, Rational)>);
+/// c · Π node^exponent: an expanded power.
+type Expanded = (Rational, Vec<(Node, Rational)>);
 
 impl Graph {
-    /// Σ coefficient · node: sums in it are dissolved, like terms collected.
+    /// Σ coefficient · node: nested sums are flattened, like terms collected.
     pub fn sum(&mut self, terms: &[(Node, Rational)]) -> Node {
         let mut total = Rational::zero();
         let mut collected: BTreeMap<Node, Rational> = BTreeMap::new();
@@ -42,8 +42,8 @@ impl Graph {
         }
     }
 
-    /// Π node^exponent: products in it are dissolved where that is allowed, powers of one base collected, numbers
-    /// taken out in front. Sums are not multiplied out.
+    /// Π node^exponent: nested products are flattened where the rules allow it, powers of one base collected, numbers
+    /// moved to the front. Sums are not multiplied out.
     pub fn product(&mut self, factors: &[(Node, Rational)]) -> Node {
         let mut coefficient = Rational::one();
         let mut collected: BTreeMap<Node, Rational> = BTreeMap::new();
@@ -53,7 +53,7 @@ impl Graph {
             if exponent.is_zero() {
                 continue;
             }
-            match self.opened(node, &exponent) {
+            match self.expanded(node, &exponent) {
                 Some((number, parts)) => {
                     coefficient *= number;
                     waiting.extend(parts);
@@ -90,20 +90,20 @@ impl Graph {
         self.sum(&[(left, Rational::one()), (right, Rational::one())])
     }
 
-    /// node^exponent taken apart; `None` if it must stay as it is.
-    fn opened(&mut self, node: Node, exponent: &Rational) -> Option<Opened> {
+    /// node^exponent as a number times powers of other nodes; `None` if no rule applies.
+    fn expanded(&mut self, node: Node, exponent: &Rational) -> Option<Expanded> {
         match &*self.shared_form(node) {
-            Form::Number(value) => self.opened_number(value, exponent),
-            Form::Sum { constant, terms } => self.opened_sum(node, constant, terms, exponent),
-            Form::Product(factors) => opened_product(factors, exponent).map(|parts| (Rational::one(), parts)),
+            Form::Number(value) => self.expanded_number(value, exponent),
+            Form::Sum { constant, terms } => self.expanded_sum(node, constant, terms, exponent),
+            Form::Product(factors) => expanded_product(factors, exponent).map(|parts| (Rational::one(), parts)),
             _ => None,
         }
     }
 
-    /// v^n is a number if it is rational; else the exponent is brought between 0 and 1 and the base made positive.
+    /// v^n is a number if it is rational; otherwise the exponent is reduced to 0 < n < 1 and the base made positive.
     ///
-    /// 0^-1 and √-1 stay: as parts of a derivative they mean that it is defined nowhere.
-    fn opened_number(&mut self, value: &Rational, exponent: &Rational) -> Option<Opened> {
+    /// 0^-1 and √-1 are kept: a derivative with such a part is not defined anywhere.
+    fn expanded_number(&mut self, value: &Rational, exponent: &Rational) -> Option<Expanded> {
         if let Some(number) = exact_power(value, exponent) {
             return Some((number, Vec::new()));
         }
@@ -118,14 +118,14 @@ impl Graph {
         Some((number, vec![(self.number(value.clone()), exponent - whole)]))
     }
 
-    /// (c·s)^n = c^n s^n, where c is the size that all coefficients share, with the sign of the first of them.
-    fn opened_sum(
+    /// (c·s)^n = c^n s^n, where |c| is the common absolute value of all coefficients and c has the sign of the first.
+    fn expanded_sum(
         &mut self,
         node: Node,
         constant: &Rational,
         terms: &[(Node, Rational)],
         exponent: &Rational,
-    ) -> Option<Opened> {
+    ) -> Option<Expanded> {
         let mut factor = Rational::one();
         let mut number = Rational::one();
         if let Some(size) = common_size(constant, terms)
@@ -144,14 +144,14 @@ impl Graph {
         Some((number, vec![(rest, exponent.clone())]))
     }
 
-    /// π as 4 arctan 1: a constant, which programs compute once for their numbers.
+    /// π as 4 arctan 1, a constant that programs compute once.
     pub fn pi(&mut self) -> Node {
         let one = self.number(Rational::one());
         let quarter = self.call(Function::Atan, one);
         self.scaled(quarter, &Rational::from_integer(4.into()))
     }
 
-    /// function(node), with f(−x) = ±f(x) where it is, and the few arguments with rational values.
+    /// function(node); f(−x) = ±f(x) and rational values are used.
     pub fn call(&mut self, function: Function, node: Node) -> Node {
         if let Some(value) = self.as_number(node).and_then(|argument| exact_value(function, argument)) {
             return self.number(value);
@@ -165,7 +165,7 @@ impl Graph {
         if function.parity() == Parity::Odd { self.scaled(call, &minus) } else { call }
     }
 
-    /// Whether the number, or the first coefficient of the sum, is negative: of x and −x it is one.
+    /// Whether the number, or the first coefficient of the sum, is negative: this holds for one of x and −x.
     fn begins_with_minus(&self, node: Node) -> bool {
         match self.form(node) {
             Form::Number(value) => value.is_negative(),
@@ -175,7 +175,7 @@ impl Graph {
     }
 }
 
-/// The size that all coefficients of a sum share, if they do; a constant 0 does not count.
+/// The absolute value of all coefficients of a sum, if it is the same; a constant 0 does not count.
 pub(crate) fn common_size(constant: &Rational, terms: &[(Node, Rational)]) -> Option<Rational> {
     let size = terms[0].1.abs();
     let shared =
@@ -184,8 +184,8 @@ pub(crate) fn common_size(constant: &Rational, terms: &[(Node, Rational)]) -> Op
 }
 
 /// (Π b^a)^n = Π b^(a n): for an n with an odd denominator always; else only for one factor, whose power a must have the
-/// sign of b, lest √(x²) become x.
-fn opened_product(factors: &[(Node, Rational)], exponent: &Rational) -> Option<Vec<(Node, Rational)>> {
+/// sign of b, so that √(x²) does not become x.
+fn expanded_product(factors: &[(Node, Rational)], exponent: &Rational) -> Option<Vec<(Node, Rational)>> {
     let allowed = match factors {
         _ if exponent.denom().is_odd() => true,
         [(_, inner)] => inner.numer().is_odd(),

@@ -1,4 +1,4 @@
-//! Fixed-point numbers that know how far they may be off: every operation adds its own error to those it was given.
+//! Fixed-point numbers with error bounds: every operation adds its own error to those of its operands.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -7,10 +7,10 @@ use num_traits::{One, Signed, Zero};
 use crate::number::interval::Interval;
 use crate::number::rational::Rational;
 
-/// Some number between (middle − radius)/2^bits and (middle + radius)/2^bits.
+/// A number between (middle − radius)/2^bits and (middle + radius)/2^bits.
 ///
-/// Balls that meet in an operation have the same bits. Shifts and quotients of the middle lose less than one unit, which
-/// the radius gains, and another for its own.
+/// The operands of an operation have the same bits. Shifts and quotients of the middle and of the radius are each off by
+/// less than one unit, so the radius grows by two.
 #[derive(Debug, Clone)]
 pub(crate) struct Ball {
     middle: BigInt,
@@ -33,7 +33,7 @@ impl Ball {
         Ball { middle, radius: BigInt::from(u8::from(!rest.is_zero())), bits }
     }
 
-    /// The bits behind the point.
+    /// The bits after the point.
     pub(crate) fn bits(&self) -> u64 {
         self.bits
     }
@@ -43,7 +43,7 @@ impl Ball {
         self.bits.saturating_sub(self.middle.bits())
     }
 
-    /// How many bits of the number are certain.
+    /// The number of correct bits.
     pub(crate) fn certain_bits(&self) -> u64 {
         self.middle.bits().saturating_sub(self.radius.bits())
     }
@@ -58,7 +58,7 @@ impl Ball {
         self.middle.bits() <= 1
     }
 
-    /// The same number with other bits behind the point.
+    /// The same number with other bits after the point.
     pub(crate) fn with_bits(&self, bits: u64) -> Self {
         if bits >= self.bits {
             let more = bits - self.bits;
@@ -75,7 +75,7 @@ impl Ball {
         Ball { middle: &self.middle >> count, radius: (&self.radius >> count) + 2, bits: self.bits }
     }
 
-    /// The sum with something unknown of at most so many units.
+    /// The sum with an unknown number of at most this many units.
     pub(crate) fn widened(self, units: BigInt) -> Self {
         Ball { radius: self.radius + units, ..self }
     }

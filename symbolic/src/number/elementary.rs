@@ -1,7 +1,7 @@
 //! The elementary functions of enclosed numbers.
 //!
-//! Each function takes a rational number into the range where its [series](crate::number::series) is short. Where it is
-//! monotone, an interval is enclosed by the values at its ends.
+//! Each function reduces a rational number to the range where its [series](crate::number::series) is short. The image of
+//! an interval under a monotone function is enclosed by the values at its ends.
 
 use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -13,7 +13,7 @@ use crate::number::rational::Rational;
 use crate::number::rounding::at_places;
 use crate::number::series::{Curve, half_pi, inverse_tangent, log_two, sine_and_versine};
 
-/// Beyond this argument, up or down, exp is larger or smaller than any number that is computed with.
+/// For arguments of larger magnitude exp is out of the range of enclosed numbers.
 const LARGEST_EXPONENT: u32 = 70_000;
 
 /// The decimal places in which tanh of such an argument agrees with 1: 2/(e^2x + 1) is less than 10^-60000.
@@ -24,8 +24,8 @@ pub(crate) fn pi(digits: u32) -> Interval {
     half_pi(bits(digits)).to_interval(1)
 }
 
-/// What the function makes of the numbers in an interval, with the ends known to about so many significant digits;
-/// `None` for numbers of absurd size.
+/// The image of an interval, with ends to about `digits` significant digits; `None` for numbers that are too large or
+/// too small.
 ///
 /// The interval must be inside the domain: positive for log, from −1 to 1 for asin and acos, and without a pole of tan.
 pub(crate) fn image(function: Function, interval: &Interval, digits: u32) -> Option<Interval> {
@@ -47,7 +47,7 @@ pub(crate) fn image(function: Function, interval: &Interval, digits: u32) -> Opt
     }
 }
 
-/// sin and cos: their values in the middle of the interval, give or take its half width, as no slope exceeds 1.
+/// sin and cos: their values in the middle of the interval ± its half width, as no slope exceeds 1.
 pub(crate) fn sin_and_cos(interval: &Interval, digits: u32) -> (Interval, Interval) {
     if interval.is_point() {
         return sin_and_cos_of_number(&interval.low, digits);
@@ -72,18 +72,18 @@ fn increasing(interval: &Interval, function: impl Fn(&Rational) -> Option<Interv
 
 // ---- of a number ----
 
-/// The bits of so many digits and a few more: 10/3 exceeds log2 10.
+/// The bits of `digits` digits and a few more: 10/3 exceeds log2 10.
 fn bits(digits: u32) -> u64 {
     u64::from(digits) * 10 / 3 + 32
 }
 
 /// −log2 |numerator/denominator|, rounded up, if that is positive.
-fn smallness(numerator: &BigInt, denominator: &BigInt) -> u64 {
+fn zero_bits(numerator: &BigInt, denominator: &BigInt) -> u64 {
     (denominator.bits() + 1).saturating_sub(numerator.bits())
 }
 
 /// log2 |x|, rounded up, if that is positive.
-fn largeness(x: &Rational) -> u64 {
+fn integer_bits(x: &Rational) -> u64 {
     (x.numer().bits() + 1).saturating_sub(x.denom().bits())
 }
 
@@ -91,7 +91,7 @@ fn is_huge(x: &Rational) -> bool {
     *x.numer().magnitude() > x.denom().magnitude() * LARGEST_EXPONENT
 }
 
-/// e^x = 2^k e^(x − k log 2); so many digits behind the point, too, where e^x is near 1.
+/// e^x = 2^k e^(x − k log 2), to `digits` significant digits, and to as many after the point where e^x is near 1.
 fn exp(x: &Rational, digits: u32) -> Option<Interval> {
     if is_huge(x) {
         return None;
@@ -120,14 +120,14 @@ fn log(x: &Rational, digits: u32) -> Interval {
     }
     (n, d) = scaled(k);
     let (difference, sum) = (&n - &d, n + d);
-    let near_one = if k == 0 { smallness(&difference, &sum) } else { 0 };
+    let near_one = if k == 0 { zero_bits(&difference, &sum) } else { 0 };
     let fine = bits(digits) + near_one + u64::from(k.unsigned_abs().checked_ilog2().unwrap_or(0));
     let half = inverse_tangent(Curve::Hyperbola, &Ball::ratio(&difference, &sum, fine));
     let log = half.times(&2.into());
     if k == 0 { log.to_interval(0) } else { log.add(&log_two(fine).times(&k.into())).to_interval(0) }
 }
 
-/// sin x and cos x, both to so many significant digits, from those of the distance to the next multiple of π/2.
+/// sin x and cos x, both to `digits` significant digits, from the distance to the nearest multiple of π/2.
 fn sin_and_cos_of_number(x: &Rational, digits: u32) -> (Interval, Interval) {
     if x.is_zero() {
         return (Interval::point(x), Interval::point(&Rational::one()));
@@ -144,20 +144,21 @@ fn sin_and_cos_of_number(x: &Rational, digits: u32) -> (Interval, Interval) {
     (sin.to_interval(0), cos.to_interval(0))
 }
 
-/// k mod 4 and x − k π/2 for the nearest k, or a near one, so many bits of it: as x is rational and not 0, they are found in the end.
+/// k mod 4 and x − k π/2 to `certain` bits, for the nearest k or one next to it. The loop ends, as x is rational and not
+/// 0.
 fn reduced(x: &Rational, certain: u64) -> (u8, Ball) {
-    if largeness(x) == 0 {
+    if integer_bits(x) == 0 {
         // between -1 and 1: the series needs no more
-        return (0, Ball::ratio(x.numer(), x.denom(), certain + smallness(x.numer(), x.denom())));
+        return (0, Ball::ratio(x.numer(), x.denom(), certain + zero_bits(x.numer(), x.denom())));
     }
-    let mut fine = certain + largeness(x) + 16;
+    let mut fine = certain + integer_bits(x) + 16;
     loop {
         let quarter = half_pi(fine);
         let number = Ball::ratio(x.numer(), x.denom(), fine);
         let k = number.nearest_quotient(&quarter);
         let distance = number.subtract(&quarter.times(&k));
         if let Some(excess) = distance.certain_bits().checked_sub(certain) {
-            // The last of them would only cost time.
+            // More bits would only take time.
             let distance = distance.with_bits(distance.bits() - excess);
             return ((k & BigInt::from(3)).to_u8().expect("a number below 4"), distance);
         }
@@ -202,7 +203,7 @@ fn tanh(x: &Rational, digits: u32) -> Option<Interval> {
 
 /// The decimal places between the point and the first digit of x, about.
 fn cancelled(x: &Rational) -> u32 {
-    u32::try_from(smallness(x.numer(), x.denom()) / 3).unwrap_or(u32::MAX)
+    u32::try_from(zero_bits(x.numer(), x.denom()) / 3).unwrap_or(u32::MAX)
 }
 
 fn half(interval: &Interval) -> Interval {
@@ -222,7 +223,7 @@ fn atan(x: &Rational, digits: u32) -> Interval {
         let fine = bits(digits);
         return half_pi(fine).subtract(&inverse_tangent(Curve::Circle, &Ball::ratio(d, n, fine))).to_interval(0);
     }
-    let fine = bits(digits) + smallness(n, d);
+    let fine = bits(digits) + zero_bits(n, d);
     inverse_tangent(Curve::Circle, &Ball::ratio(n, d, fine)).to_interval(0)
 }
 

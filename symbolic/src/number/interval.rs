@@ -1,4 +1,4 @@
-//! Intervals with rational ends that enclose a real number which has no short exact form.
+//! Intervals with rational ends that enclose a real number.
 
 use num_bigint::BigInt;
 use num_traits::{One, Signed};
@@ -81,9 +81,9 @@ impl Interval {
         Interval { low: root(&self.low, q, digits, Direction::Down), high: root(&self.high, q, digits, Direction::Up) }
     }
 
-    /// Rounds the ends outward to `digits` significant digits, lest they grow with every operation.
+    /// Rounds the ends outward to `digits` significant digits, so that they do not grow with every operation.
     ///
-    /// `None` if the number in the interval is absurdly large or small.
+    /// `None` if the number in the interval is too large or too small.
     pub(crate) fn outward(&self, digits: u32) -> Option<Self> {
         let sizes = [magnitude(&self.low), magnitude(&self.high)];
         let too_large = sizes.iter().any(|size| *size > LARGEST_MAGNITUDE);
@@ -91,7 +91,7 @@ impl Interval {
         if too_large || too_small {
             return None;
         }
-        // Around zero, ends much closer to it than the digits go would only cost time.
+        // Around zero, more places than this would only take time.
         let finest = if self.contains_zero() { 2 * i64::from(digits) } else { i64::MAX };
         let round = |end, direction| rounding::to_places(end, rounding::places(end, digits).min(finest), direction);
         Some(Interval { low: round(&self.low, Direction::Down), high: round(&self.high, Direction::Up) })

@@ -1,4 +1,4 @@
-//! Powers and roots that are rational, and how long a number may be.
+//! Rational powers and roots, and the largest size of numbers.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -9,7 +9,7 @@ use crate::number::rational::Rational;
 /// The most bits of an exact numerator or denominator.
 pub(crate) const MOST_BITS: u64 = 100_000;
 
-/// The integer power; `None` if it would be absurdly long.
+/// The integer power; `None` if it would be too long.
 pub(crate) fn rational_power(value: &Rational, exponent: u32) -> Option<Rational> {
     let bits = value.numer().bits().max(value.denom().bits());
     let least = (bits - 1).checked_mul(exponent.into())?;
@@ -35,7 +35,7 @@ pub(crate) fn exact_power(value: &Rational, exponent: &Rational) -> Option<Ratio
     let order = exponent.denom().to_u32()?;
     let root = if order == 1 { value.clone() } else { perfect_root(value, order)? };
     let count = exponent.numer().magnitude().to_u32();
-    // The powers of these have no size to be too large.
+    // The powers of these are never too long.
     let count = if root.is_zero() || root.is_one() { Some(1) } else { count };
     let power = rational_power(&root, count?)?;
     Some(if exponent.is_negative() { power.recip() } else { power })

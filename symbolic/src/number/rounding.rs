@@ -1,4 +1,4 @@
-//! Rounding of rationals to decimal numbers, in integers only: no step loses a digit.
+//! Rounding of rationals to decimal numbers, in exact integer arithmetic.
 
 use std::cmp::Ordering;
 
@@ -9,12 +9,12 @@ use num_traits::Zero;
 use crate::number::ratio::Ratio;
 use crate::number::rational::Rational;
 
-/// Which of the neighbouring decimals a number becomes.
+/// The direction of rounding.
 #[derive(Clone, Copy)]
 pub(crate) enum Direction {
     Down,
     Up,
-    /// The nearer one; of two equally near ones that with an even last digit.
+    /// To the nearer decimal; of two equally near ones to that with an even last digit.
     Nearest,
 }
 

@@ -1,14 +1,14 @@
 //! sin, cos, sinh, cosh, arctan and artanh by their power series, and with them π and log 2, as balls.
 //!
-//! A series is short for a small argument. So the argument is halved some √bits times before, and the sum doubled as
-//! often after it; working bits make up for the errors that the doublings magnify.
+//! A series is short for a small argument. So the argument is halved about √bits times, and the result doubled as often;
+//! extra bits compensate for the errors that the doublings magnify.
 
 use num_bigint::BigInt;
 use num_traits::One;
 
 use crate::number::ball::Ball;
 
-/// What the point (cos t, sin t) runs on, or (cosh t, sinh t): the formulas differ in signs only.
+/// The curve of the points (cos t, sin t) or (cosh t, sinh t): the formulas differ in signs only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Curve {
     Circle,
@@ -25,14 +25,14 @@ impl Curve {
     }
 }
 
-/// How often an argument is halved, if that costs about so many products: the series takes bits/halvings of them.
+/// The number of halvings, if one takes as long as `products` products: the series takes about bits/halvings products.
 fn halvings(argument: &Ball, products: u64) -> u64 {
     (argument.bits() / products).isqrt().saturating_sub(argument.leading_zeros())
 }
 
 /// sin x and 1 − cos x, or sinh x and cosh x − 1, for an x between −1 and 1.
 ///
-/// 1 − cos x is small with x: doubling it keeps its bits, where doubling cos x would lose them.
+/// 1 − cos x is small with x: doubling it keeps its bits, whereas doubling cos x would lose them.
 pub(crate) fn sine_and_versine(curve: Curve, x: &Ball) -> (Ball, Ball) {
     let halvings = halvings(x, 2);
     let bits = x.bits() + 2 * halvings + 16;
@@ -61,7 +61,7 @@ pub(crate) fn sine_and_versine(curve: Curve, x: &Ball) -> (Ball, Ball) {
 
 /// arctan x for an x between −1 and 1, or artanh x for one between −1/2 and 1/2.
 pub(crate) fn inverse_tangent(curve: Curve, x: &Ball) -> Ball {
-    // A root and a quotient take as long as some ten products, and the series has every other power only.
+    // A root and a quotient take as long as about ten products, and the series has odd powers only.
     let halvings = halvings(x, 20);
     let bits = x.bits() + halvings + 16;
     let one = Ball::one(bits);

@@ -1,7 +1,7 @@
-//! The search for a form of the formulas that costs less: common factors of the terms of a sum are taken out, and constant
-//! factors of a sum multiplied into its terms, where that makes the whole program cheaper.
+//! The search for a form of the formulas with fewer operations: common factors of the terms of a sum are factored out,
+//! and constant factors of a sum are multiplied into its terms.
 //!
-//! Whether it does depends on what else needs the products, so each is tried.
+//! The effect of a change depends on what else needs the products, so each change is tried.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -12,15 +12,15 @@ use crate::number::rational::Rational;
 use crate::program::Program;
 use crate::program::lower;
 
-/// How many parts the nodes of all programs tried may have together; beyond it only absurdly long formulas go.
+/// The largest total number of parts of the nodes of all programs that are tried: only very long formulas exceed it.
 const MOST_WORK: usize = 20_000;
 
 impl Graph {
     /// A program that computes all outputs together, such as the components of a gradient and the rate.
     ///
-    /// What several outputs need is computed once. Sums and products of parameters and numbers alone are constants, to be
-    /// prepared once, beside those rationals that are neither integers nor one over an integer. Common factors are taken
-    /// out of sums where that saves time. The graph itself stays as it is.
+    /// Common parts of the outputs are computed once. Sums and products of parameters and numbers are constants, which are
+    /// prepared once, and so are rationals that are neither integers nor 1 over an integer. Common factors are factored
+    /// out of sums where that saves time. The graph is not changed.
     ///
     /// ```
     /// use shadowstep_symbolic::{Graph, parse};
@@ -44,8 +44,8 @@ impl Graph {
     }
 }
 
-/// How a program compares: by time, then by length, then by room.
-fn price(program: &Program) -> (u64, usize, usize) {
+/// The cost of a program: time, then length, then scratch places.
+fn cost(program: &Program) -> (u64, usize, usize) {
     (program.cost().weight(), program.instructions.len(), program.scratch)
 }
 
@@ -68,22 +68,22 @@ fn improvement(
         };
         let changed = rebuilt(graph, outputs, old, new);
         let candidate = lower::program(graph, &changed);
-        if price(&candidate) < price(program) {
+        if cost(&candidate) < cost(program) {
             return Some((changed, candidate));
         }
     }
     None
 }
 
-/// A form that a node could have as well.
+/// An equal form of a node.
 enum Change {
-    /// Take a power out of the terms of a sum that have it.
+    /// Factor a power out of the terms of a sum that have it.
     TakeOut { sum: Node, base: Node, exponent: Rational },
     /// Multiply the constant factors of a product into a sum that is another factor.
     MultiplyIn { product: Node, sum: Node },
 }
 
-/// What could be changed below the outputs.
+/// The possible changes below the outputs.
 fn changes(graph: &Graph, outputs: &[Node]) -> Vec<Change> {
     let mut changes = Vec::new();
     let varying = varying(graph, outputs);
@@ -143,7 +143,7 @@ fn distributed(graph: &mut Graph, product: Node, sum: Node) -> Node {
     graph.product(&rest)
 }
 
-/// Powers that are in two terms at least, each with the exponent nearest to 0 that it has there.
+/// Powers in at least two terms, each with its exponent that is nearest to 0.
 fn common_factors(graph: &Graph, terms: &[(Node, Rational)]) -> Vec<(Node, Rational)> {
     let mut found: BTreeMap<(Node, bool), (usize, Rational)> = BTreeMap::new();
     for (term, _) in terms {

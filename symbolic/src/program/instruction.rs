@@ -1,11 +1,11 @@
-//! One operation in place, and the places it is about.
+//! Operations in place, and the places of numbers.
 
 use std::fmt;
 
 use crate::number::function::Function;
 use crate::number::rational::Rational;
 
-/// Where a program finds or leaves a number.
+/// The place of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Place {
     /// The coordinate with this index; never written.
@@ -22,10 +22,10 @@ pub enum Place {
     Output(usize),
 }
 
-/// One operation, which writes into the place that it names first; places are [`Place`]s, or what stands for them.
+/// One operation. Its first place is its target; `P` is [`Place`], or another type for places.
 ///
-/// Nothing is read from the place that an `Assign…` writes to, and what another operation reads beside its target is
-/// elsewhere, so that the target may be borrowed mutably and the rest not.
+/// An `Assign…` does not read its target. The other operands of an operation are never at its target, so that the target
+/// can be borrowed mutably and the operands immutably.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Instruction<P = Place> {
     /// x ← an exact number, rounded once; in [`Program::prepare`](crate::Program::prepare) only
@@ -75,10 +75,10 @@ pub enum Instruction<P = Place> {
 }
 
 impl<P: Copy> Instruction<P> {
-    /// The name of the method of the number that is written to, as in `target.assign_sum(a, b)`.
+    /// The name of the method of the target, as in `target.assign_sum(a, b)`.
     ///
-    /// `assign_sin_cos` writes to two numbers, and for [`AssignRational`](Instruction::AssignRational) there is a
-    /// constructor, `from_rational`.
+    /// `assign_sin_cos` writes to two numbers; [`AssignRational`](Instruction::AssignRational) has a constructor,
+    /// `from_rational`.
     pub fn method(&self) -> String {
         let name = match self {
             Instruction::AssignRational(..) => "from_rational",
@@ -107,7 +107,7 @@ impl<P: Copy> Instruction<P> {
         name.to_string()
     }
 
-    /// The place that it names first, which it writes to.
+    /// The target: the first place.
     pub fn target(&self) -> P {
         use Instruction as I;
         match *self {
@@ -127,13 +127,13 @@ impl<P: Copy> Instruction<P> {
         self.places()[..written].to_vec()
     }
 
-    /// The places it reads beside its target.
+    /// The places it reads, without its target.
     pub fn operands(&self) -> Vec<P> {
         let written = if matches!(self, Instruction::AssignSinCos(..)) { 2 } else { 1 };
         self.places()[written..].to_vec()
     }
 
-    /// Whether it forgets what its target held.
+    /// Whether it overwrites its target without reading it.
     pub fn overwrites(&self) -> bool {
         use Instruction::{Add, AddProduct, Divide, DivideInteger, Multiply, MultiplyInteger, Negate, Subtract};
         let changes = matches!(self, Add(..) | AddProduct(..) | Divide(..) | DivideInteger(..) | Multiply(..))
@@ -170,7 +170,7 @@ impl<P: Copy> Instruction<P> {
         }
     }
 
-    /// All places in the order in which they stand.
+    /// All places in their order.
     fn places(&self) -> Vec<P> {
         use Instruction as I;
         match *self {

@@ -1,8 +1,8 @@
 //! From nodes to a program.
 //!
-//! [`collect`] states what has to be computed: sums, products of atoms, functions. [`products`] and [`sums`] find what
-//! these share. [`sequence`] splits all into operations with two operands, in order. [`places`] decides where each
-//! result lives, and writes the instructions.
+//! [`collect`] lists what is computed: sums, products of atoms, functions. [`products`] and [`sums`] find their common
+//! parts. [`sequence`] splits them into operations with two operands, in order. [`places`] assigns a place to each result
+//! and writes the instructions.
 
 mod collect;
 mod places;
@@ -14,7 +14,7 @@ use crate::graph::{Graph, Node};
 use crate::program::Program;
 use crate::program::instruction::{Instruction, Place};
 
-/// The program for the outputs as they stand, without looking for a better form of the formulas.
+/// The program for the outputs, without a search for a better form of the formulas.
 pub(crate) fn program(graph: &mut Graph, outputs: &[Node]) -> Program {
     let plan = collect::plan(graph, outputs, collect::Stage::Main);
     let hoisted = plan.hoisted.clone();
@@ -31,7 +31,7 @@ pub(crate) fn program(graph: &mut Graph, outputs: &[Node]) -> Program {
     }
 }
 
-/// The instruction with constants for outputs and, behind them, for scratch places.
+/// The instruction with outputs, and after them scratch places, replaced by constants.
 fn to_constants(instruction: Instruction, kept: usize) -> Instruction {
     instruction.with_places(|place| match place {
         Place::Output(index) => Place::Constant(index),

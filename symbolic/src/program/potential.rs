@@ -1,4 +1,4 @@
-//! A potential's formula → the programs that compute it.
+//! The programs of a potential, from its formula.
 
 use num_traits::One;
 
@@ -12,15 +12,15 @@ use crate::program::Program;
 pub struct PotentialPrograms {
     /// One output: U.
     pub energy: Program,
-    /// An output per coordinate: U_q. The same operations as in `gradient_and_rate`, so that a trajectory has the same
-    /// bits whether qᵀU_q − 2U is computed or not; it keeps the same constants.
+    /// An output per coordinate: U_q. The operations are those of `gradient_and_rate`, so that a trajectory has the same
+    /// bits whether qᵀU_q − 2U is computed or not; the constants are the same.
     pub gradient: Program,
     /// U_q, and as the last output qᵀU_q − 2U.
     pub gradient_and_rate: Program,
 }
 
 impl Graph {
-    /// The programs of the potential `energy` of so many coordinates.
+    /// The programs of the potential `energy` of this many coordinates.
     pub fn potential(&mut self, energy: Node, coordinates: usize) -> PotentialPrograms {
         let mut outputs: Vec<Node> = (0..coordinates).map(|i| self.derivative(energy, i)).collect();
         outputs.push(self.rate(energy));
@@ -48,12 +48,12 @@ impl Graph {
 }
 
 impl PotentialPrograms {
-    /// How many constants there are to keep: those of the energy, then those of the gradient.
+    /// The number of kept constants: those of the energy, then those of the gradient.
     pub fn kept(&self) -> usize {
         self.energy.kept + self.gradient_and_rate.kept
     }
 
-    /// How many scratch places the programs use at most.
+    /// The largest number of scratch places of the programs.
     pub fn scratch(&self) -> usize {
         [&self.energy, &self.gradient, &self.gradient_and_rate]
             .map(|program| program.scratch)

@@ -9,7 +9,7 @@ use crate::number::rational::Rational;
 use crate::number::rounding::{self, Direction};
 use crate::text::literal;
 
-/// Up to this denominator a fraction is easier to read than its decimals.
+/// The largest denominator of a number that is written as a fraction rather than as a decimal.
 const LARGEST_SHORT_DENOMINATOR: u32 = 10_000;
 
 /// The most decimal places of a number that is written as a decimal.

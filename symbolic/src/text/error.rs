@@ -1,4 +1,4 @@
-//! What can be wrong with a formula.
+//! Errors of formulas.
 
 use std::ops::Range;
 
@@ -15,7 +15,7 @@ pub(crate) const LARGEST_POWER: u32 = 10_000;
 /// The most factors of a product that is differentiated: its gradient has as many terms, each as long as the product.
 pub(crate) const MOST_FACTORS: usize = 64;
 
-/// What keeps a text from having a value.
+/// Why a text has no value.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
     /// The text is not a formula.
@@ -27,7 +27,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// The bytes of the text that the error is about.
+    /// The place of the error in the text, in bytes.
     pub fn range(&self) -> Range<usize> {
         match self {
             Error::Syntax(error) => error.range.clone(),
@@ -36,13 +36,13 @@ impl Error {
     }
 }
 
-/// A text that is not a formula.
+/// A text that is not a valid formula.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct SyntaxError {
     /// One sentence: what was found, and what would be right.
     pub message: String,
-    /// The bytes of the text it is about; empty at the place where something is missing.
+    /// The place in the text, in bytes; empty where something is missing.
     pub range: Range<usize>,
 }
 
@@ -52,7 +52,7 @@ pub struct SyntaxError {
 pub struct SemanticError {
     /// What is wrong.
     pub fault: SemanticFault,
-    /// The bytes of the text it is about.
+    /// The place in the text, in bytes.
     pub range: Range<usize>,
 }
 
@@ -65,23 +65,23 @@ impl SemanticError {
 /// Why a formula has no value, or is not a smooth function.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SemanticFault {
-    /// A name that stands for nothing.
+    /// An unknown name.
     #[error("unknown name `{name}`; {hint}")]
     UnknownName {
         /// The name.
         name: String,
-        /// The names there are, and the one that was probably meant.
+        /// The known names, and the nearest of them.
         hint: String,
     },
-    /// A function that does not exist.
+    /// An unknown function.
     #[error("unknown function `{name}`; {hint}")]
     UnknownFunction {
         /// The name.
         name: String,
-        /// The functions there are, and the one that was probably meant.
+        /// The known functions, and the nearest of them.
         hint: String,
     },
-    /// A function of one argument with another number of them.
+    /// A function with a number of arguments other than one.
     #[error("`{function}` takes one argument, not {found}")]
     ArgumentCount {
         /// The function.
@@ -89,11 +89,11 @@ pub enum SemanticFault {
         /// How many arguments were found.
         found: usize,
     },
-    /// A divisor that is zero, or cannot be told from zero.
+    /// A divisor that is zero, or cannot be distinguished from zero.
     #[error("division by zero")]
     DivisionByZero,
     /// The power 0^0.
-    #[error("0^0 has no value")]
+    #[error("0^0 is undefined")]
     ZeroToTheZero,
     /// An even root of the negative number given.
     #[error("even root of the negative number {0}: it has no real value")]
@@ -107,44 +107,46 @@ pub enum SemanticFault {
         argument: String,
     },
     /// A number with too many digits.
-    #[error("a number of absurd size: more than about 30000 digits")]
-    AbsurdSize,
+    #[error("a number is too long: it has more than about 30000 digits")]
+    TooLong,
 
-    /// Of a value: a periodic function of a number that is not even known to a unit.
-    #[error("the argument of {0} cannot be told to a unit: it is too large, or its parts almost cancel")]
-    VagueArgument(Function),
-    /// Of a value: an exponent that is irrational or was rounded.
+    /// In [`evaluate`](crate::evaluate()): a periodic function of a number that is not known to within 1.
+    #[error("the argument of {0} is not known to within 1: it is too large, or its terms almost cancel")]
+    ImpreciseArgument(Function),
+    /// In [`evaluate`](crate::evaluate()): an exponent that is irrational or was rounded.
     #[error("an exponent must be an exact rational, not an irrational or rounded number; write exp(y*log(x)) for x^y")]
     InexactExponent,
-    /// Of a value: an exponent with the large denominator given.
-    #[error("a root of order {0} is too high; at most {HIGHEST_ROOT} are computed")]
+    /// In [`evaluate`](crate::evaluate()): an exponent with this large denominator.
+    #[error("a root of order {0} is too high: at most {HIGHEST_ROOT} is allowed")]
     HighRoot(BigInt),
-    /// Of a value: a sum of large numbers that almost cancel.
-    #[error("the value cannot be told to {0} digits: its parts almost cancel")]
+    /// In [`evaluate`](crate::evaluate()): large terms that almost cancel.
+    #[error("the value cannot be computed to {0} digits: its terms almost cancel")]
     Cancellation(u32),
 
-    /// Of a smooth function: a function with a kink or a jump.
+    /// In [`Graph::build`](crate::Graph::build): a function with a kink or a jump.
     #[error(
-        "`{0}` is not smooth, but the formula must be: it is differentiated, and its modified energy exists only then"
+        "`{0}` is not smooth: the formula is differentiated, and the modified energy exists only for smooth functions"
     )]
     NotSmooth(String),
-    /// Of a smooth function: an exponent that is not a rational number.
+    /// In [`Graph::build`](crate::Graph::build): an exponent that is not a rational number.
     #[error("an exponent must be a rational number; write exp(y*log(x)) for x^y")]
     VariableExponent,
-    /// Of a smooth function: an exponent with a large numerator or denominator.
-    #[error("an exponent is at most {LARGEST_POWER}, and a root at most of order {HIGHEST_ROOT}; here it is {0}")]
+    /// In [`Graph::build`](crate::Graph::build): an exponent with a large numerator or denominator.
+    #[error(
+        "the exponent {0} is out of range: numerators up to {LARGEST_POWER} and roots up to order {HIGHEST_ROOT} are allowed"
+    )]
     LargeExponent(String),
-    /// Of a smooth function: a long product.
-    #[error("a product of {0} different factors is too long; at most {MOST_FACTORS} are differentiated")]
+    /// In [`Graph::build`](crate::Graph::build): a product of this many factors.
+    #[error("a product of {0} different factors is too long: at most {MOST_FACTORS} are allowed")]
     LongProduct(usize),
 }
 
-/// What the function's argument must be.
+/// The domain of a function, in words.
 fn domain(function: Function) -> &'static str {
     match function {
         Function::Log => "the argument must be positive",
         Function::Asin | Function::Acos => "the argument must be from -1 to 1",
-        // of the others only tan has no value somewhere
-        _ => "the argument cannot be told from an odd multiple of pi/2",
+        // of the other functions only tan has poles
+        _ => "the argument cannot be distinguished from an odd multiple of pi/2",
     }
 }

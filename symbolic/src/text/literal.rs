@@ -5,7 +5,7 @@ use num_bigint::BigInt;
 use crate::number::rational::Rational;
 use crate::number::rounding::at_places;
 
-/// The largest magnitude of a literal's exponent: beyond it, the digits would fill the memory.
+/// The largest magnitude of a literal's exponent, which limits the memory of its digits.
 pub(crate) const LARGEST_EXPONENT: i64 = 10_000;
 
 /// The length of the literal at the start of `text`; zero if there is none.
@@ -46,7 +46,7 @@ fn digits(text: &str) -> usize {
     end
 }
 
-/// The length of an exponent part; zero if no digits follow the `e`, which then begins a name.
+/// The length of an exponent part; zero if no digits follow the `e`: then it is the start of a name.
 fn exponent(text: &str) -> usize {
     let Some(rest) = text.strip_prefix(['e', 'E']) else {
         return 0;

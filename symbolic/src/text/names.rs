@@ -1,11 +1,11 @@
-//! What the names in a formula stand for, and what to say about those that stand for nothing.
+//! The names in a formula: functions, roots and π, and the faults of unknown names.
 
 use crate::number::function::Function;
 use crate::text::error::SemanticFault;
 use crate::text::near_names::hint;
 use crate::text::syntax::Expression;
 
-/// The name of the circle's number, unless something else has that name.
+/// The name of π, unless a coordinate or parameter has that name.
 pub(crate) const PI: &str = "pi";
 
 /// The names of functions that are powers.
@@ -14,14 +14,14 @@ const ROOTS: [(&str, u32); 2] = [("sqrt", 2), ("cbrt", 3)];
 /// The names of functions with a kink or a jump.
 pub(crate) const NOT_SMOOTH: [&str; 10] = ["abs", "sign", "sgn", "min", "max", "floor", "ceil", "round", "mod", "step"];
 
-/// What a name with arguments stands for.
+/// A function of a formula.
 pub(crate) enum Callee {
     /// The root of this order.
     Root(u32),
     Function(Function),
 }
 
-/// What is called, and its argument.
+/// The function with this name, and its only argument.
 pub(crate) fn callee<'a>(name: &str, arguments: &'a [Expression]) -> Result<(Callee, &'a Expression), SemanticFault> {
     let root = ROOTS.into_iter().find(|(root, _)| *root == name).map(|(_, order)| Callee::Root(order));
     let Some(callee) = root.or_else(|| Function::named(name).map(Callee::Function)) else {
@@ -33,16 +33,16 @@ pub(crate) fn callee<'a>(name: &str, arguments: &'a [Expression]) -> Result<(Cal
     }
 }
 
-/// The fault that a name is none of the known ones, nor `pi`.
+/// The fault of a name that is neither known nor `pi`.
 pub(crate) fn unknown_name(name: &str, known: &[&str]) -> SemanticFault {
-    let hint = hint(name, known, &[PI], "known names", "no names are known here but `pi`");
+    let hint = hint(name, known, &[PI], "known names", "the only known name is `pi`");
     SemanticFault::UnknownName { name: name.to_string(), hint }
 }
 
-/// The known functions, and the one that was probably meant by an unknown name.
+/// The known functions, and the nearest of them.
 fn hint_at_functions(name: &str) -> String {
     let known: Vec<&str> = ROOTS.map(|(root, _)| root).into_iter().chain(Function::ALL.map(Function::name)).collect();
-    // Who writes `min` does not mean `sin`.
-    let meant = if NOT_SMOOTH.contains(&name) { "" } else { name };
-    hint(meant, &known, &[], "known functions", "")
+    // `min` is not a misspelt `sin`
+    let misspelt = if NOT_SMOOTH.contains(&name) { "" } else { name };
+    hint(misspelt, &known, &[], "known functions", "")
 }

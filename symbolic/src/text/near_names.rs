@@ -1,12 +1,12 @@
-//! The known words that are spelt most like a given one.
+//! Known words that are spelt like a given one.
 
 use strsim::osa_distance;
 
-/// The known word that was probably meant by `word`: the one with the fewest typing errors
-/// between them, if these are at most a third of the word's letters, or one.
+/// The known word with the smallest distance from `word`; `None` if the distance exceeds a third of the word's letters
+/// and 1.
 ///
-/// A typing error is a letter missing, added, exchanged, or swapped with its neighbour; case does
-/// not matter. Of equally near words the first is chosen.
+/// The distance is the number of typing errors: letters missing, added, replaced, or swapped with their neighbours
+/// (optimal string alignment). Case does not matter. Of equally near words the first is chosen.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = (word.chars().count() / 3).max(1);
     let with_distance = known.into_iter().map(|other| (distance(word, other), other));
@@ -14,15 +14,15 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     (errors <= allowed).then_some(found)
 }
 
-/// What to say of a word that is none of the known ones: the one that was probably meant, or all of them.
-pub fn meant(word: &str, known: &[&str]) -> String {
+/// A hint for an unknown word: the nearest known word, or a list of all of them.
+pub fn suggestion(word: &str, known: &[&str]) -> String {
     match nearest(word, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("known are {}", known.join(", ")),
+        None => format!("known: {}", known.join(", ")),
     }
 }
 
-/// At most `count` known words, the nearest first; equally near ones keep their order.
+/// The `count` nearest known words, the nearest first; equally near ones keep their order.
 pub fn nearest_few<'a>(word: &str, known: impl IntoIterator<Item = &'a str>, count: usize) -> Vec<&'a str> {
     let mut words: Vec<&str> = known.into_iter().collect();
     words.sort_by_cached_key(|other| distance(word, other));
@@ -30,11 +30,11 @@ pub fn nearest_few<'a>(word: &str, known: impl IntoIterator<Item = &'a str>, cou
     words
 }
 
-/// The known words, and the one that was probably meant, which may also be one of those that are not listed.
+/// A list of the known words after the nearest one, which may also be one of the `unlisted`.
 pub(crate) fn hint(word: &str, known: &[&str], unlisted: &[&str], title: &str, none: &str) -> String {
     let list = if known.is_empty() { none.to_string() } else { format!("{title}: {}", known.join(", ")) };
     match nearest(word, known.iter().chain(unlisted).copied()) {
-        Some(meant) => format!("did you mean `{meant}`? {list}"),
+        Some(near) => format!("did you mean `{near}`? {list}"),
         None => list,
     }
 }
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn nearest_refuses_what_is_too_far() {
+    fn distant_words_are_not_suggested() {
         let known = ["strang", "yoshida4", "ruth"];
         assert_eq!(nearest("Strnag", known), Some("strang"));
         assert_eq!(nearest("yoshida6", known), Some("yoshida4"));

@@ -17,8 +17,8 @@ use crate::text::token::{Token, tokens};
 /// The longest text in bytes.
 const LONGEST_TEXT: usize = 10_000;
 
-/// The deepest nesting of parentheses and signs, and the greatest height of a tree: whoever walks
-/// the tree by recursion stays well inside the stack.
+/// The deepest nesting of parentheses and signs, and the greatest height of a tree: a recursion over the tree does not
+/// overflow the stack.
 const DEEPEST: usize = 200;
 
 /// A formula, or a part of one.
@@ -76,7 +76,7 @@ pub enum Operation {
 /// literal with an exponent beyond 10000.
 pub fn parse(text: &str) -> Result<Expression, SyntaxError> {
     if text.len() > LONGEST_TEXT {
-        let message = format!("a text of {} bytes is too long; at most {LONGEST_TEXT} are read", text.len());
+        let message = format!("a formula of {} bytes is too long: at most {LONGEST_TEXT} are allowed", text.len());
         return Err(SyntaxError { message, range: 0..text.len() });
     }
     let mut parser = Parser { text, tokens: tokens(text)?, next: 0, depth: 0 };
@@ -113,7 +113,7 @@ impl Parser<'_> {
         Ok(left)
     }
 
-    /// Every way to nest passes through here, so that the depth is counted here.
+    /// Counts the depth: every nesting passes through here.
     fn signed(&mut self) -> Result<Expression, SyntaxError> {
         if self.depth == DEEPEST {
             return Err(too_deep(self.here()));
@@ -162,7 +162,7 @@ impl Parser<'_> {
         }
     }
 
-    /// What begins with a name: the name alone, or a call.
+    /// A name, or a call of a function.
     fn name(&mut self, range: Range<usize>) -> Result<Expression, SyntaxError> {
         let name = self.text[range.clone()].to_string();
         if self.symbol() != Some('(') {
@@ -188,7 +188,7 @@ impl Parser<'_> {
         Ok(Expression { range, ..inner })
     }
 
-    /// Reads the `)` that belongs to `open`; gives the byte after it.
+    /// Reads the `)` that belongs to `open`; returns the byte after it.
     fn close(&mut self, open: Range<usize>) -> Result<usize, SyntaxError> {
         match self.symbol() {
             Some(')') => Ok(self.take().end),
@@ -200,7 +200,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads the next symbol if it is in the list; gives the operation it stands for.
+    /// Reads the next symbol if it is in the list; returns its operation.
     fn operation(&mut self, list: &[(char, Operation)]) -> Option<Operation> {
         let symbol = self.symbol()?;
         let (_, operation) = list.iter().find(|(known, _)| *known == symbol)?;
@@ -228,7 +228,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads a token; gives its bytes.
+    /// Reads a token; returns its bytes.
     fn take(&mut self) -> Range<usize> {
         let range = self.here();
         self.next += 1;
@@ -248,7 +248,7 @@ impl Parser<'_> {
         Some(self.tokens[self.next.checked_sub(1)?].1.clone())
     }
 
-    /// The error where an operand should stand.
+    /// The error where an operand is expected.
     fn no_operand(&self) -> SyntaxError {
         let found = match &self.text[self.here()] {
             "" => "end".to_string(),
@@ -259,7 +259,7 @@ impl Parser<'_> {
                 let before = &self.text[before];
                 format!("unexpected {found}: a number, a name or `(` should follow `{before}`")
             }
-            None if self.tokens.is_empty() => "there is nothing here: write a number or a formula".to_string(),
+            None if self.tokens.is_empty() => "the formula is empty: write a number or a formula".to_string(),
             None => {
                 format!("unexpected {found}: a formula begins with a number, a name, a sign or `(`")
             }
@@ -267,13 +267,13 @@ impl Parser<'_> {
         SyntaxError { message, range: self.here() }
     }
 
-    /// The error at a token after a complete operand that cannot go on from there.
+    /// The error where an operator or the end is expected.
     fn no_operator(&self) -> SyntaxError {
         let here = self.here();
         let (message, range) = match self.symbol() {
             Some(')') => ("`)` has no `(`".to_string(), here),
             Some(',') => {
-                let message = "`,` stands only between the arguments of a function; the decimal point is `.`";
+                let message = "`,` is only allowed between the arguments of a function; the decimal point is `.`";
                 (message.to_string(), here)
             }
             _ => {
@@ -287,7 +287,7 @@ impl Parser<'_> {
     }
 }
 
-/// An expression with parts, unless it is too high.
+/// An expression with parts, unless its tree is too high.
 fn node(kind: Kind, range: Range<usize>) -> Result<Expression, SyntaxError> {
     let expression = Expression { kind, range };
     match height(&expression) <= DEEPEST {
@@ -306,6 +306,6 @@ fn height(expression: &Expression) -> usize {
 }
 
 fn too_deep(range: Range<usize>) -> SyntaxError {
-    let message = format!("nested more than {DEEPEST} deep; group a long chain of operators by parentheses");
+    let message = format!("nested more than {DEEPEST} levels deep: group a long chain of operators by parentheses");
     SyntaxError { message, range }
 }

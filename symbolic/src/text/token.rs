@@ -38,7 +38,9 @@ fn token(first: char, text: &str, at: usize) -> Result<(Token, usize), SyntaxErr
         return match literal::value(&rest[..number]) {
             Some(value) => Ok((Token::Number(value), number)),
             None => {
-                let message = format!("the exponent of this number is beyond {LARGEST_EXPONENT}");
+                let message = format!(
+                    "the exponent of this number is out of range: -{LARGEST_EXPONENT} to {LARGEST_EXPONENT} is allowed"
+                );
                 Err(SyntaxError { message, range: at..at + number })
             }
         };
@@ -57,9 +59,9 @@ fn token(first: char, text: &str, at: usize) -> Result<(Token, usize), SyntaxErr
     }
 }
 
-/// The message about a character that begins no token, with what was probably meant.
+/// The message for an invalid character, with the ASCII text for it.
 fn unknown(character: char) -> String {
-    let meant = match character {
+    let ascii = match character {
         '×' | '·' | '⋅' | '∗' => "*",
         '÷' | '∕' | ':' => "/",
         '−' | '–' | '—' => "-",
@@ -73,5 +75,5 @@ fn unknown(character: char) -> String {
         '.' => return "a `.` without digits".to_string(),
         _ => return format!("unknown character `{}`", character.escape_debug()),
     };
-    format!("unknown character `{character}`; write `{meant}`")
+    format!("unknown character `{character}`; write `{ascii}`")
 }

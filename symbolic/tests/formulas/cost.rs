@@ -1,12 +1,12 @@
 //! What programs cost: never more than what a careful person writes by hand.
 
 use crate::support::program;
-use shadowstep_symbolic::Cost;
+use shadowstep_symbolic::Operations;
 
 /// Additions, multiplications, divisions, roots, elementary functions.
 type Columns = [u64; 5];
 
-fn columns(cost: Cost) -> Columns {
+fn columns(cost: Operations) -> Columns {
     [cost.additions, cost.multiplications, cost.divisions, cost.roots, cost.elementary]
 }
 

@@ -1,4 +1,4 @@
-//! Formulas as nodes: what is equal is one node, what is wrong is refused at its place, nothing blows up.
+//! Formulas as nodes: equal formulas are one node, invalid ones are rejected with their place, sizes stay moderate.
 
 use crate::support::{names, program};
 use shadowstep_symbolic::{Graph, Node, Place, Rational, parse};
@@ -8,7 +8,7 @@ fn build(graph: &mut Graph, text: &str) -> Node {
     graph.build(&tree, &names("x y z"), &names("a m_1 omega")).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
-fn refusal(text: &str) -> (String, std::ops::Range<usize>) {
+fn error(text: &str) -> (String, std::ops::Range<usize>) {
     let error = Graph::new().build(&parse(text).unwrap(), &names("x y z"), &names("a m_1 omega")).expect_err(text);
     (error.to_string(), error.range)
 }
@@ -72,7 +72,7 @@ fn equal_formulas_are_one_node() {
 }
 
 #[test]
-fn what_is_not_equal_stays_apart() {
+fn different_formulas_are_different_nodes() {
     let table = [
         // |x|, and not for all signs
         ("sqrt(x^2)", "x"),
@@ -116,7 +116,7 @@ fn derivatives_by_hand() {
 }
 
 #[test]
-fn a_derivative_that_exists_nowhere_is_no_fault() {
+fn a_derivative_that_is_not_defined_anywhere_is_allowed() {
     let mut graph = Graph::new();
     let node = build(&mut graph, "asin(sqrt(x^2)/x)");
     let derivative = graph.derivative(node, 0);
@@ -170,7 +170,7 @@ fn degrees() {
 #[test]
 fn faults_have_a_message_and_a_place() {
     let smooth =
-        "is not smooth, but the formula must be: it is differentiated, and its modified energy exists only then";
+        "is not smooth: the formula is differentiated, and the modified energy exists only for smooth functions";
     let exponent = "an exponent must be a rational number; write exp(y*log(x)) for x^y";
     let table = [
         ("x + w", 4..5, "unknown name `w`; did you mean `x`? known names: x, y, z, a, m_1, omega".to_string()),
@@ -199,28 +199,28 @@ fn faults_have_a_message_and_a_place() {
         ("2^pi", 2..4, exponent.into()),
         ("x^a", 2..3, exponent.into()),
         ("x^sqrt(2)", 2..9, exponent.into()),
-        ("x^20000", 2..7, "an exponent is at most 10000, and a root at most of order 100; here it is 20000".into()),
-        ("x^(1/101)", 2..9, "an exponent is at most 10000, and a root at most of order 100; here it is 1/101".into()),
+        ("x^20000", 2..7, "the exponent 20000 is out of range: numerators up to 10000 and roots up to order 100 are allowed".into()),
+        ("x^(1/101)", 2..9, "the exponent 1/101 is out of range: numerators up to 10000 and roots up to order 100 are allowed".into()),
         (
             "y + (x^1000)^1000",
             4..17,
-            "an exponent is at most 10000, and a root at most of order 100; here it is 1000000".into(),
+            "the exponent 1000000 is out of range: numerators up to 10000 and roots up to order 100 are allowed".into(),
         ),
         ("x/(a - a)", 2..9, "division by zero".into()),
         ("x + (2-2)^-1", 4..9, "division by zero".into()),
-        ("(x-x)^0", 0..5, "0^0 has no value".into()),
+        ("(x-x)^0", 0..5, "0^0 is undefined".into()),
         ("x*sqrt(1-3)", 7..10, "even root of the negative number -2: it has no real value".into()),
         ("log(2 - 2)", 0..10, "log(0) has no real value: the argument must be positive".into()),
         ("x + asin(3/2)", 4..13, "asin(3/2) has no real value: the argument must be from -1 to 1".into()),
         ("acos(-2)", 0..8, "acos(-2) has no real value: the argument must be from -1 to 1".into()),
-        ("x*10^10000*10^10000*10^10000*10^10000", 0..37, "a number of absurd size: more than about 30000 digits".into()),
-        ("x + (10^9000)^9", 4..15, "a number of absurd size: more than about 30000 digits".into()),
+        ("x*10^10000*10^10000*10^10000*10^10000", 0..37, "a number is too long: it has more than about 30000 digits".into()),
+        ("x + (10^9000)^9", 4..15, "a number is too long: it has more than about 30000 digits".into()),
     ];
     for (text, range, message) in table {
-        assert_eq!(refusal(text), (message, range), "{text}");
+        assert_eq!(error(text), (message, range), "{text}");
     }
     let error = Graph::new().build(&parse("x").unwrap(), &[], &[]).unwrap_err();
-    assert_eq!(error.to_string(), "unknown name `x`; no names are known here but `pi`");
+    assert_eq!(error.to_string(), "unknown name `x`; the only known name is `pi`");
 }
 
 #[test]
@@ -254,13 +254,13 @@ fn deep_formulas_need_no_stack() {
 }
 
 #[test]
-fn long_products_are_refused_and_shorter_ones_stay_small() {
+fn long_products_are_rejected_and_shorter_ones_stay_small() {
     let product = |count: usize| {
         let factors: Vec<String> = (1..=count).map(|index| format!("sin({index}*x)")).collect();
         factors.join("*")
     };
-    let (message, range) = refusal(&product(65));
-    assert_eq!(message, "a product of 65 different factors is too long; at most 64 are differentiated");
+    let (message, range) = error(&product(65));
+    assert_eq!(message, "a product of 65 different factors is too long: at most 64 are allowed");
     assert_eq!(range, 0..product(65).len());
 
     let mut graph = Graph::new();
@@ -287,7 +287,7 @@ fn hostile_texts_end_soon() {
     for text in texts {
         let mut graph = Graph::new();
         let tree = parse(&text).unwrap();
-        // Whether it is refused or not, it must not take long.
+        // Rejected or not, it must not take long.
         if let Ok(node) = graph.build(&tree, &names("x y"), &[]) {
             let outputs = [graph.derivative(node, 0), graph.derivative(node, 1), graph.rate(node)];
             let program = graph.program(&outputs);

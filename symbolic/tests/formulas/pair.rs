@@ -1,7 +1,7 @@
 //! Pairs of bodies: slope and rate of u(r²), u(d) against the derivatives of the same formula in coordinates.
 
 use num_traits::Zero;
-use shadowstep_symbolic::{Cost, Graph, PotentialPrograms, Rational, Separation, is_symmetric, parse};
+use shadowstep_symbolic::{Graph, Operations, PotentialPrograms, Rational, Separation, is_symmetric, parse};
 
 use crate::support::{Point, names, of_node, of_program};
 
@@ -44,7 +44,7 @@ fn slope_and_rate_are_those_of_the_formula_in_coordinates() {
         let [Some(slope), rate] = &of_program(&programs.gradient_and_rate, &at)[..] else { panic!("two outputs") };
         assert_eq!(of_program(&programs.gradient, &at), [Some(slope.clone())], "{text}");
 
-        // these letters stand in no other name
+        // these letters are in no other name
         let text = text.replace(separation.name(), written);
         let mut graph = Graph::new();
         let tree = parse(&text).unwrap();
@@ -89,7 +89,8 @@ fn exchanged_bodies_have_the_same_energy_or_not() {
 
 #[test]
 fn pairs_cost_what_they_cost_by_hand() {
-    let cost = |additions, multiplications, roots| Cost { additions, multiplications, roots, ..Cost::default() };
+    let cost =
+        |additions, multiplications, roots| Operations { additions, multiplications, roots, ..Operations::default() };
     // 1/√r², square, cube, m m G; with the rate m m G/√r² three times
     let gravity = pair("-G*m_i*m_j/sqrt(r2)", Separation::SquaredDistance, "m_i m_j", "G");
     assert_eq!(gravity.gradient.cost(), cost(0, 5, 1), "{}", gravity.gradient);

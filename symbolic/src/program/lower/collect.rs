@@ -1,4 +1,4 @@
-//! What has to be computed for some nodes: sums, products of atoms, functions, each once.
+//! What is computed for some nodes: sums, products of atoms, functions, each once.
 //!
 //! A product is a multiset of atoms. The powers of one base are expressed by few atoms: if the base is under a root and
 //! in a denominator, by 1/√base alone, so that neither a second root nor a division is needed.
@@ -39,7 +39,7 @@ pub(super) enum Quantity {
     Call(Function, Id),
 }
 
-/// ± Π atom^multiplicity; a negative multiplicity stands in the denominator.
+/// ± Π atom^multiplicity; atoms with a negative multiplicity are in the denominator.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Product {
     pub(super) negative: bool,
@@ -65,12 +65,12 @@ pub(super) enum Atom {
     Pair(usize, usize),
 }
 
-/// All that has to be computed.
+/// All that is computed.
 #[derive(Debug)]
 pub(super) struct Plan {
     pub(super) quantities: Vec<Quantity>,
     pub(super) atoms: Vec<Atom>,
-    /// The quantities that are asked for; `None` for 0.
+    /// The requested quantities; `None` for 0.
     pub(super) outputs: Vec<Option<Id>>,
     /// The constants.
     pub(super) hoisted: Vec<Node>,
@@ -145,7 +145,7 @@ impl Collector<'_> {
         (!self.graph.is_zero(node)).then(|| self.exact(node))
     }
 
-    /// Defines what is waiting, and what that needs, and so on: no recursion, however deep the formula.
+    /// Defines the waiting quantities, and then those that these need, without recursion.
     fn work(&mut self) {
         while let Some((id, coefficient, node)) = self.waiting.pop() {
             let quantity = self.definition(id, coefficient, node);
@@ -172,7 +172,7 @@ impl Collector<'_> {
         negated
     }
 
-    /// The quantity |coefficient·node|, if "| |" takes off the sign in front, and whether there was a minus.
+    /// The quantity coefficient·node without its leading sign, and whether the sign is a minus.
     fn signed(&mut self, coefficient: &Rational, node: Node) -> (bool, Id) {
         let (mut coefficient, mut node) = (coefficient.clone(), node);
         match &*self.graph.shared_form(node) {
@@ -200,7 +200,7 @@ impl Collector<'_> {
         (negative, id)
     }
 
-    /// Whether the node is computed in this stage; else it is a constant, or a number.
+    /// Whether the node is computed in this stage; otherwise it is a constant, or a number.
     fn varies(&mut self, node: Node) -> bool {
         for part in self.graph.below_unless(&[node], |part| self.varying.contains_key(&part)) {
             let varies = match self.graph.form(part) {
@@ -273,12 +273,12 @@ impl Collector<'_> {
         parts
     }
 
-    /// Notes a product; its atoms are chosen later.
+    /// Records a product; its atoms are chosen later.
     fn product(&mut self, id: Id, mut number: Rational, factors: &[(Node, Rational)]) -> Quantity {
         let mut raw = Raw { id, negative: false, number: Rational::one(), atoms: Vec::new(), powers: Vec::new() };
         let mut constants = Vec::new();
         for (base, exponent) in factors {
-            // Prepared numbers are no powers, hence only their roots are computed here.
+            // Prepared numbers are not powers, so only their roots are computed here.
             if self.stage == Stage::Main && !self.varies(*base) {
                 constants.push((*base, exponent.clone()));
             } else {
@@ -319,7 +319,7 @@ impl Collector<'_> {
         })
     }
 
-    /// Chooses the atoms of all products; gives the quantity 1, if something stands in a denominator.
+    /// Chooses the atoms of all products; returns the quantity 1 if there is a denominator.
     fn resolve_products(&mut self) -> Option<Id> {
         let products = std::mem::take(&mut self.products);
         let powers = products.iter().flat_map(|raw| &raw.powers);
@@ -354,7 +354,7 @@ impl Collector<'_> {
         id
     }
 
-    /// A rational factor: an integer, one over an integer, or a constant. A numerator needs a number of its own.
+    /// A rational factor: an integer, 1 over an integer, or a constant. A numerator must be a quantity.
     fn number_atom(&mut self, number: &Rational, numerator: bool) -> Option<usize> {
         if number.is_one() {
             return None;
@@ -369,7 +369,7 @@ impl Collector<'_> {
     }
 }
 
-/// base^exponent in atoms with multiplicities; `rooted` if 1/√base is at hand.
+/// base^exponent in atoms with multiplicities; `rooted` if 1/√base is available.
 fn powers_of(base: Id, exponent: Exponent, rooted: bool) -> Vec<(Atom, i64)> {
     let Exponent { numerator, order } = exponent;
     let n = i64::from(numerator);

@@ -1,7 +1,7 @@
-//! Where values live, and the instructions that compute them there.
+//! The places of values, and the instructions that compute them there.
 //!
-//! A value that changes in place and what it becomes are a chain, which has one place: an output if the chain ends as
-//! one, else an output that is not yet needed, else a scratch place.
+//! Values that are computed in place from each other are a chain, which has one place: an output if the chain ends as
+//! one, otherwise an output that is not yet needed, otherwise a scratch place.
 
 use std::collections::HashMap;
 
@@ -12,7 +12,7 @@ use crate::program::instruction::{Instruction, Place};
 /// A time after all operations, when the outputs are read.
 const END: usize = usize::MAX;
 
-/// What the values of a sequence become.
+/// The program of a sequence.
 pub(super) struct Placed {
     pub(super) instructions: Vec<Instruction>,
     pub(super) scratch: usize,
@@ -31,12 +31,12 @@ pub(super) fn place(sequence: &Sequence, outputs: usize) -> Placed {
     Placed { instructions: writer.instructions, scratch }
 }
 
-/// Which values are computed when, and how long they are needed.
+/// When values are computed, and how long they are needed.
 struct Schedule<'a> {
     sequence: &'a Sequence,
     /// The values computed at each time: one, or a sine and its cosine.
     steps: Vec<Vec<Value>>,
-    /// Whether a product is no value of its own but added to a sum at once.
+    /// Whether a product is added to a sum immediately, without a place.
     fused: Vec<bool>,
     /// When a value is read for the last time.
     last_use: Vec<usize>,
@@ -87,7 +87,7 @@ impl<'a> Schedule<'a> {
         operands.into_iter().flat_map(through).collect()
     }
 
-    /// Whether a value may be changed at a time: it has a place of its own and nobody reads it later.
+    /// Whether a value may be changed at a time: it has its own place and is not read later.
     fn dies(&self, value: Value, time: usize) -> bool {
         !self.fused[value] && !matches!(self.operation(value), Operation::Leaf(_)) && self.last_use[value] == time
     }
@@ -113,7 +113,7 @@ impl<'a> Schedule<'a> {
     }
 }
 
-/// Products that one sum alone needs.
+/// Products that only one sum needs.
 fn fused(sequence: &Sequence) -> Vec<bool> {
     let mut uses = vec![0; sequence.operations.len()];
     let mut in_sum = vec![false; sequence.operations.len()];
@@ -164,7 +164,7 @@ impl Chains {
 
     /// The place of each chain, and how many scratch places there are.
     fn places(&self, outputs: usize) -> (Vec<Place>, usize) {
-        // From when on an output is taken by its own chain, and until when by a passing one.
+        // The time from which an output holds its own chain, and the time until which another chain uses it.
         let mut needed = vec![END; outputs];
         for chain in &self.chains {
             if let Some(output) = chain.output {
@@ -319,7 +319,7 @@ impl Writer<'_> {
         self.push(instruction);
     }
 
-    /// Outputs that no chain ends as: zeros, coordinates, constants, and repetitions.
+    /// Outputs without a chain: zeros, coordinates, constants, and repetitions.
     fn copy_outputs(&mut self, outputs: usize) {
         for output in 0..outputs {
             let target = Place::Output(output);

@@ -1,10 +1,10 @@
-//! What products have in common, so that it is computed once.
+//! Common parts of products, which are computed once.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::collect::{Atom, Plan, Product, Quantity};
 
-/// How many pairs of factors are looked at before the rest stays as it is: only formulas of absurd size have so many.
+/// The largest number of pairs of factors that are examined: only very long formulas have more.
 const MOST_VISITS: usize = 1_000_000;
 
 /// Rewrites the products of a plan such that common parts are atoms of their own.
@@ -37,7 +37,7 @@ fn add_atom(plan: &mut Plan, atom: Atom) -> usize {
     plan.atoms.len() - 1
 }
 
-/// Where atoms stand in denominators: for each the products and multiplicities.
+/// The atoms in denominators, with their products and multiplicities.
 fn denominators(plan: &Plan) -> BTreeMap<usize, Vec<(usize, i64)>> {
     let mut found: BTreeMap<usize, Vec<(usize, i64)>> = BTreeMap::new();
     for (index, product) in products(plan).enumerate() {
@@ -48,7 +48,7 @@ fn denominators(plan: &Plan) -> BTreeMap<usize, Vec<(usize, i64)>> {
     found
 }
 
-/// Factors that stand in the same denominators become one: 1/(a b) is a single division.
+/// Factors in the same denominators become one: 1/(a b) is a single division.
 fn merge_denominators(plan: &mut Plan) {
     let mut groups: BTreeMap<Vec<(usize, i64)>, Vec<usize>> = BTreeMap::new();
     for (atom, places) in denominators(plan) {
@@ -105,7 +105,7 @@ fn best_pair(plan: &Plan, visits: &mut usize) -> Option<(usize, usize)> {
     (uses > 1).then_some(pair)
 }
 
-/// Writes a pair as one atom wherever it stands.
+/// Replaces a pair by one atom everywhere.
 fn replace(plan: &mut Plan, (a, b): (usize, usize)) {
     let both = add_atom(plan, Atom::Pair(a, b));
     for product in products_mut(plan) {
@@ -123,17 +123,17 @@ fn replace(plan: &mut Plan, (a, b): (usize, usize)) {
 /// Moves minus signs into integer factors: −2 x costs what 2 x does, −x one operation more than x.
 fn move_signs(plan: &mut Plan) {
     absorb_negations(plan);
-    let mut spoilt = HashSet::new();
+    let mut excluded = HashSet::new();
     let mut negative = HashSet::new();
     for product in products(plan) {
         let integers = integers(plan, product);
         match &integers[..] {
-            // The minus goes into the one integer, if that is nowhere without minus.
+            // The minus goes into the only integer, if all other products with this integer have a minus, too.
             [atom] if product.negative => _ = negative.insert(*atom),
-            _ => spoilt.extend(integers),
+            _ => excluded.extend(integers),
         }
     }
-    for atom in negative.difference(&spoilt) {
+    for atom in negative.difference(&excluded) {
         match &mut plan.atoms[*atom] {
             Atom::Scale(n) | Atom::Shrink(n) => *n = -*n,
             _ => {}
@@ -141,7 +141,7 @@ fn move_signs(plan: &mut Plan) {
     }
     let all: Vec<Vec<usize>> = products(plan).map(|product| integers(plan, product)).collect();
     for (product, integers) in products_mut(plan).zip(all) {
-        if product.negative && integers.iter().any(|atom| negative.contains(atom) && !spoilt.contains(atom)) {
+        if product.negative && integers.iter().any(|atom| negative.contains(atom) && !excluded.contains(atom)) {
             product.negative = false;
         }
     }

@@ -1,4 +1,4 @@
-//! Operations with two operands, in the order in which they are done.
+//! Operations with two operands, in their order.
 
 use std::collections::HashMap;
 
@@ -11,7 +11,7 @@ use crate::program::instruction::Place;
 /// The index of an operation, which stands for its result.
 pub(super) type Value = usize;
 
-/// What makes a value of others.
+/// An operation on values.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(super) enum Operation {
     Leaf(Place),
@@ -47,11 +47,11 @@ impl Operation {
 pub(super) struct Sequence {
     pub(super) operations: Vec<Operation>,
     pub(super) numbers: Vec<Rational>,
-    /// The values that are asked for; `None` for 0.
+    /// The requested values; `None` for 0.
     pub(super) outputs: Vec<Option<Value>>,
 }
 
-/// Puts a plan in order: what an output needs is computed just before, if no earlier output needed it.
+/// Orders a plan: what an output needs is computed just before it, unless an earlier output needed it.
 pub(super) fn sequence(mut plan: Plan) -> Sequence {
     sums::share(&mut plan);
     products::share(&mut plan);
@@ -64,7 +64,7 @@ pub(super) fn sequence(mut plan: Plan) -> Sequence {
     sequencer.sequence
 }
 
-/// What is computed as a whole.
+/// A quantity or an atom.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Unit {
     Quantity(Id),
@@ -79,7 +79,7 @@ struct Sequencer {
 }
 
 impl Sequencer {
-    /// Computes a unit after all it needs, in the manner of a recursion, but with a stack of its own.
+    /// Computes a unit after all it needs, as a recursion would, but with an explicit stack.
     fn demand(&mut self, unit: Unit) -> Value {
         let mut waiting = vec![unit];
         while let Some(next) = waiting.last().copied() {
@@ -179,7 +179,7 @@ impl Sequencer {
         }
     }
 
-    /// What is left of a sum that is all in another may be a single part.
+    /// A sum whose parts are replaced by common ones may have a single part.
     fn sum(&mut self, parts: Vec<(bool, Value)>) -> Value {
         match parts[..] {
             [(false, part)] => part,
@@ -188,7 +188,7 @@ impl Sequencer {
         }
     }
 
-    /// ± numerator / denominator; integers enter as soon as there is a value of the product's own to multiply in place.
+    /// ± numerator / denominator; integers are multiplied in place as soon as there is an intermediate value.
     fn product(&mut self, product: &Product) -> Value {
         let mut factors = Vec::new();
         let mut integers = Vec::new();
@@ -236,8 +236,8 @@ impl Sequencer {
         if negative { self.push(Operation::Negate(value)) } else { value }
     }
 
-    /// The two values, first one at a place that is never written, so that it can be an operand twice. Of two the earlier
-    /// coordinate: in registers that hold several numbers it lies where single ones are computed with.
+    /// The two values, first one at a place that is never written, so that it can be an operand twice. Of two such
+    /// values the earlier coordinate is first: with vector registers it is in the lane of scalar operations.
     fn first_leaf(&self, a: Value, b: Value) -> Option<(Value, Value)> {
         match (&self.sequence.operations[a], &self.sequence.operations[b]) {
             (Operation::Leaf(one), Operation::Leaf(other)) if other < one => Some((b, a)),
@@ -264,7 +264,7 @@ impl Sequencer {
         self.known[&Unit::Quantity(one)]
     }
 
-    /// The value of an operation, which is done once.
+    /// The value of an operation; equal operations are one.
     fn push(&mut self, operation: Operation) -> Value {
         if let Some(value) = self.values.get(&operation) {
             return *value;
@@ -276,7 +276,7 @@ impl Sequencer {
     }
 }
 
-/// n, or −n if there is a minus to be taken in.
+/// n, or −n if there is a minus, which is then used up.
 fn signed(n: i32, negative: &mut bool) -> i32 {
     if std::mem::take(negative) { -n } else { n }
 }

@@ -1,10 +1,10 @@
-//! What sums have in common, so that it is computed once: of x² + y² and x² + y² + 1 the first is a part of the second.
+//! Common parts of sums, which are computed once: x² + y² is a part of x² + y² + 1.
 
 use std::collections::HashMap;
 
 use super::collect::{Id, Plan, Quantity};
 
-/// How many pairs of parts are looked at before the rest stays as it is: only formulas of absurd size have so many.
+/// The largest number of pairs of parts that are examined: only very long formulas have more.
 const MOST_VISITS: usize = 1_000_000;
 
 /// Two parts of a sum, and whether their signs differ.
@@ -25,7 +25,7 @@ fn sums(plan: &Plan) -> impl Iterator<Item = &Vec<(bool, Id)>> {
     })
 }
 
-/// The two parts that stand in most sums together, if these are two at least.
+/// The two parts that are together in most sums, if these are at least two.
 fn best_pair(plan: &Plan, visits: &mut usize) -> Option<Pair> {
     let mut uses = vec![0; plan.quantities.len()];
     sums(plan).flatten().for_each(|(_, part)| uses[*part] += 1);
@@ -47,7 +47,7 @@ fn best_pair(plan: &Plan, visits: &mut usize) -> Option<Pair> {
     (uses > 1).then_some(pair)
 }
 
-/// Writes a pair as one part wherever it stands.
+/// Replaces a pair by one part everywhere.
 fn replace(plan: &mut Plan, (a, b, differ): Pair) {
     let both = plan.quantities.len();
     for quantity in &mut plan.quantities {

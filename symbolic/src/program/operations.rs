@@ -1,4 +1,4 @@
-//! What a program costs.
+//! Numbers of operations of a program.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use crate::program::instruction::Instruction;
 
 /// Numbers of operations. Copies and negations are not counted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
-pub struct Cost {
+pub struct Operations {
     /// additions and subtractions
     pub additions: u64,
     /// multiplications, squares, and multiplications by an integer
@@ -19,14 +19,14 @@ pub struct Cost {
     pub elementary: u64,
 }
 
-impl Cost {
-    /// The cost of a list of instructions.
+impl Operations {
+    /// The numbers of operations of a list of instructions.
     pub fn of(instructions: &[Instruction]) -> Self {
-        let mut cost = Cost::default();
+        let mut operations = Operations::default();
         for instruction in instructions {
-            cost.count(instruction);
+            operations.count(instruction);
         }
-        cost
+        operations
     }
 
     fn count(&mut self, instruction: &Instruction) {
@@ -47,14 +47,14 @@ impl Cost {
         }
     }
 
-    /// One number to compare programs by: roughly the time in additions.
+    /// The approximate time in additions, to compare programs by.
     pub(crate) fn weight(&self) -> u64 {
         self.additions + self.multiplications + 3 * self.divisions + 6 * self.roots + 30 * self.elementary
     }
 }
 
 /// As in `2 additions, 1 root`.
-impl fmt::Display for Cost {
+impl fmt::Display for Operations {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let counts = [
             (self.additions, "addition", "additions"),
