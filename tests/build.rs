@@ -48,7 +48,7 @@ fn proved(name: &str, drift_first: bool) -> Option<Proved> {
     match drift_first {
         false => Some(proved),
         true if proved.scheme.first() == First::Drift => None,
-        true => read_first(&source, &library, First::Drift).ok(),
+        true => read_first(&source, &library, Some(First::Drift)).ok(),
     }
 }
 

@@ -4,8 +4,8 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 
 pub use shadowstep_schemes::shipped as shipped_source;
-pub use shadowstep_schemes::{Analysis, Fault, Faults, Proved, Source, analysis, polish, shipped_names};
-use shadowstep_schemes::{First, Kinetic, MapKind, Plan};
+pub use shadowstep_schemes::{Fault, Faults, Proved, Source, shipped_names};
+use shadowstep_schemes::{First, MapKind, Plan};
 use thiserror::Error;
 
 use crate::Rational;
@@ -20,28 +20,19 @@ use crate::system::System;
 /// all.
 #[derive(Debug)]
 pub struct TableScheme<Class = Quadratic> {
-    compiled: Arc<Compiled>,
+    proved: Arc<Proved>,
     class: PhantomData<fn() -> Class>,
-}
-
-#[derive(Debug)]
-struct Compiled {
-    proved: Proved,
-    plan: Plan,
 }
 
 impl<Class> Clone for TableScheme<Class> {
     fn clone(&self) -> Self {
-        TableScheme { compiled: Arc::clone(&self.compiled), class: PhantomData }
+        TableScheme { proved: Arc::clone(&self.proved), class: PhantomData }
     }
 }
 
 /// A scheme whose claimed order holds for quadratic T only, requested for a general T(p).
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error(
-    "{name} has order {order_quadratic} for quadratic T only, for a general T(p) order {order}; use a scheme such as \
-     {better}, which has order {better_order} for every T(p)"
-)]
+#[error("{name} has order {order_quadratic} for quadratic T only, for a general T(p) order {order}")]
 pub struct QuadraticOnly {
     /// The scheme's name.
     pub name: String,
@@ -49,10 +40,6 @@ pub struct QuadraticOnly {
     pub order: u32,
     /// The order proved for quadratic T.
     pub order_quadratic: u32,
-    /// A shipped scheme for every T(p), of least effective error among those whose order is nearest to the one claimed.
-    pub better: String,
-    /// Its order.
-    pub better_order: u32,
 }
 
 /// A shipped scheme by its name or an alias, such as `yoshida4`, `PEFRL`, `BM4`; `None` if there is none.
@@ -92,16 +79,12 @@ pub fn read(
     library: &dyn Fn(&str, &Source) -> Option<Source>,
     first: Option<First>,
 ) -> Result<TableScheme, Faults> {
-    let proved = match first {
-        Some(first) => shadowstep_schemes::read_first(source, library, first)?,
-        None => shadowstep_schemes::read(source, library)?,
-    };
-    Ok(TableScheme::of(proved))
+    Ok(TableScheme::of(shadowstep_schemes::read_first(source, library, first)?))
 }
 
 impl TableScheme {
     fn of(proved: Proved) -> TableScheme {
-        TableScheme { compiled: Arc::new(Compiled { plan: proved.plan(), proved }), class: PhantomData }
+        TableScheme { proved: Arc::new(proved), class: PhantomData }
     }
 
     /// The scheme for systems with any T(p).
@@ -124,7 +107,7 @@ impl TableScheme {
     /// The order that the table claims is proved for quadratic T only.
     pub fn for_every_kinetic(self) -> Result<TableScheme<General>, QuadraticOnly> {
         if self.proved().holds_for_every_kinetic() {
-            return Ok(TableScheme { compiled: self.compiled, class: PhantomData });
+            return Ok(TableScheme { proved: self.proved, class: PhantomData });
         }
         Err(QuadraticOnly::of(self.proved()))
     }
@@ -132,32 +115,12 @@ impl TableScheme {
 
 impl QuadraticOnly {
     fn of(proved: &Proved) -> Self {
-        let better = better(proved.scheme.table.order.value);
         QuadraticOnly {
             name: proved.scheme.table.name.value.clone(),
             order: proved.proof.general.order,
             order_quadratic: proved.proof.quadratic.order,
-            better_order: better.summary().order,
-            better: better.proved().scheme.table.name.value.clone(),
         }
     }
-}
-
-/// The shipped scheme of least effective error that is meant for every T(p) and has this order, or the nearest higher one, or else the
-/// highest that there is. Only those of one order are proved.
-fn better(order: u32) -> TableScheme {
-    let claim = |name: &'static str| {
-        let table = shadowstep_schemes::parse::table(&shadowstep_schemes::shipped(name)?).0?;
-        (table.kinetic == Kinetic::Any).then_some((table.order.value, name))
-    };
-    let claims: Vec<_> = shipped_names().into_iter().filter_map(claim).collect();
-    let orders = || claims.iter().map(|(order, _)| *order);
-    let nearest = orders().filter(|higher| *higher >= order).min().or_else(|| orders().max());
-    let candidates = claims.iter().filter(|(order, _)| Some(*order) == nearest);
-    let schemes = candidates.filter_map(|(_, name)| shipped(name));
-    let error = |scheme: &TableScheme| scheme.analysis().effective_error(Kinetic::Any);
-    let best = schemes.map(|scheme| (error(&scheme), scheme)).min_by(|a, b| a.0.total_cmp(&b.0));
-    best.map(|(_, scheme)| scheme).expect("there are shipped schemes for every T(p)")
 }
 
 impl ValidFor<General> for TableScheme<General> {}
@@ -165,24 +128,12 @@ impl ValidFor<General> for TableScheme<General> {}
 impl<Class> TableScheme<Class> {
     /// The exact scheme with its proof.
     pub fn proved(&self) -> &Proved {
-        &self.compiled.proved
-    }
-
-    /// How good the scheme is: leading errors, stability, phase error.
-    ///
-    /// ```
-    /// use shadowstep::tables::shipped;
-    ///
-    /// let verlet = shipped("leapfrog").unwrap().analysis();
-    /// assert_eq!(verlet.stability.limit, "2"); // a step of the harmonic oscillator is stable up to hω = 2
-    /// ```
-    pub fn analysis(&self) -> Analysis {
-        Analysis::of(self.proved())
+        &self.proved
     }
 
     /// The plan of its step.
     pub fn plan(&self) -> &Plan {
-        &self.compiled.plan
+        &self.proved.plan
     }
 
     fn run<'a, M: System>(
@@ -208,12 +159,12 @@ impl<Class> Scheme for TableScheme<Class> {
     type Array<N: Number> = Vec<N>;
 
     fn summary(&self) -> Summary<'_> {
-        let Compiled { proved, plan } = &*self.compiled;
+        let Proved { scheme, proof, plan, .. } = &*self.proved;
         Summary {
-            name: &proved.scheme.table.name.value,
-            order: proved.proof.general.order,
-            order_quadratic: proved.proof.quadratic.order,
-            symmetric: proved.proof.symmetric,
+            name: &scheme.table.name.value,
+            order: proof.general.order,
+            order_quadratic: proof.quadratic.order,
+            symmetric: proof.symmetric,
             evaluations: plan.evaluations,
         }
     }

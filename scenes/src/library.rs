@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::ErrorKind;
-use std::path::{Component, Path};
+use std::path::Path;
 
 use shadowstep::exact_flow;
 use shadowstep::problems::Problem;
@@ -109,22 +109,13 @@ fn not_found(message: impl Into<String>, hint: impl Into<String>) -> LibraryErro
     LibraryError::NotFound { message: message.into(), hint: hint.into() }
 }
 
-/// The base table of a composition: beside the table that names it, else shipped. A shipped table has shipped bases only.
+/// The base table of a composition: a file beside the table that names it, else shipped. A shipped table has shipped
+/// bases only.
 pub fn beside_or_shipped(base: &str, from: &Source) -> Option<Source> {
-    if from.is_shipped() {
-        return shipped(base);
-    }
-    beside(base, &from.path).or_else(|| shipped(base))
-}
-
-fn beside(base: &str, from: &str) -> Option<Source> {
-    // a file name, no path: so a chain of tables ends or comes back to a name it has had
-    let mut parts = Path::new(base).components();
-    let (Some(Component::Normal(_)), None) = (parts.next(), parts.next()) else { return None };
-    let file = format!("{}.toml", base.strip_suffix(".toml").unwrap_or(base));
-    let path = Path::new(from).with_file_name(file).to_str()?.to_owned();
-    let text = fs::read_to_string(&path).ok()?;
-    Some(Source { path, text })
+    shadowstep_schemes::library::beside_or_shipped(base, from, |path| {
+        let text = fs::read_to_string(path).ok()?;
+        Some(Source { path: path.to_str()?.to_owned(), text })
+    })
 }
 
 fn is_file(word: &str) -> bool {

@@ -12,13 +12,13 @@ use syn::{Ident, ItemStruct, LitStr};
 /// The struct with its documentation and its steps.
 pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> TokenStream {
     let ItemStruct { attrs, vis, ident, .. } = item;
-    let plan = proved.plan();
-    let docs = documentation(proved, &plan);
+    let plan = &proved.plan;
+    let docs = documentation(proved);
     let watched = watch(files);
     let count = Literal::usize_unsuffixed(plan.kicks.len() + plan.drifts.len());
-    let names = weight_names(&plan);
+    let names = weight_names(plan);
     let weights: Vec<_> = plan.kicks.iter().chain(&plan.drifts).map(to_text).collect();
-    let summary = summary(proved, &plan);
+    let summary = summary(proved);
     let forth: Vec<_> = plan.maps.clone();
     let back: Vec<_> = plan.maps.iter().rev().copied().collect();
     let step = step("step", "forward", &names, &forth, false);
@@ -109,12 +109,12 @@ fn watch(files: &[PathBuf]) -> TokenStream {
     quote! { #(const _: &[u8] = ::core::include_bytes!(#files);)* }
 }
 
-fn summary(proved: &Proved, plan: &Plan) -> TokenStream {
+fn summary(proved: &Proved) -> TokenStream {
     let name = &proved.scheme.table.name.value;
     let [order, order_quadratic] =
         [&proved.proof.general, &proved.proof.quadratic].map(|o| Literal::u32_unsuffixed(o.order));
     let symmetric = proved.proof.symmetric;
-    let evaluations = Literal::usize_unsuffixed(plan.evaluations);
+    let evaluations = Literal::usize_unsuffixed(proved.plan.evaluations);
     quote! {
         ::shadowstep::Summary {
             name: #name,
@@ -166,8 +166,8 @@ fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)],
     }
 }
 
-fn documentation(proved: &Proved, plan: &Plan) -> Vec<String> {
-    let table = &proved.scheme.table;
+fn documentation(proved: &Proved) -> Vec<String> {
+    let (table, plan) = (&proved.scheme.table, &proved.plan);
     let title = table.title.as_deref().unwrap_or("A splitting scheme");
     let cost = plan.cost();
     let kept = if plan.keeps_gradient() { " (the gradient of the last kick serves the next step)" } else { "" };

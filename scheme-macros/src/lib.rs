@@ -18,7 +18,7 @@ mod potential;
 mod program;
 
 use proc_macro::TokenStream;
-use shadowstep_schemes::{Faults, Proved, read, read_first};
+use shadowstep_schemes::{Proved, read_first};
 use syn::parse_macro_input;
 
 use arguments::{Arguments, UnitStruct};
@@ -60,11 +60,7 @@ pub fn splitting_scheme(arguments: TokenStream, item: TokenStream) -> TokenStrea
 fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
     let source = locator.find(&arguments.table.value())?;
     let library = |name: &str, from: &_| locator.base(name, from);
-    match arguments.first {
-        Some(first) => read_first(&source, &library, first),
-        None => read(&source, &library),
-    }
-    .map_err(|faults: Faults| faults.to_string())
+    read_first(&source, &library, arguments.first).map_err(|faults| faults.to_string())
 }
 
 /// A potential from its formula: the gradient and qᵀU_q − 2U are derived, for every type of numbers.

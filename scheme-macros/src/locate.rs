@@ -5,6 +5,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use shadowstep_schemes::library::beside_or_shipped;
 use shadowstep_schemes::{Source, nearest, shipped, shipped_hint, shipped_names};
 
 /// Finds tables and remembers which files were read.
@@ -28,27 +29,28 @@ impl Locator {
     /// # Errors
     /// One sentence with all places looked at and the nearest names.
     pub(crate) fn find(&self, name: &str) -> Result<Source, String> {
+        self.in_folders(name)?.or_else(|| shipped(name)).ok_or_else(|| self.not_found(name))
+    }
+
+    fn in_folders(&self, name: &str) -> Result<Option<Source>, String> {
         for folder in &self.folders {
             if let Some(source) = self.read(&folder.join(name), name)? {
-                return Ok(source);
+                return Ok(Some(source));
             }
         }
-        shipped(name).ok_or_else(|| self.not_found(name))
+        Ok(None)
     }
 
     /// The base table of a composition: beside the table that names it, then as [`Locator::find`]; for a shipped one a
     /// shipped one.
     pub(crate) fn base(&self, name: &str, from: &Source) -> Option<Source> {
-        if from.is_shipped() {
-            return shipped(name);
-        }
-        let file = if name.ends_with(".toml") { name.to_owned() } else { format!("{name}.toml") };
-        let shown = Path::new(&from.path).with_file_name(&file).display().to_string();
-        let beside = self.files.borrow().iter().find(|f| f.ends_with(&from.path)).map(|f| f.with_file_name(&file));
-        match beside.map(|path| self.read(&path, &shown)) {
-            Some(Ok(Some(source))) => Some(source),
-            _ => self.find(&file).ok(),
-        }
+        beside_or_shipped(name, from, |shown| {
+            let file = shown.file_name()?;
+            let table = self.files.borrow().iter().find(|known| known.ends_with(&from.path)).cloned();
+            let beside = self.read(&table?.with_file_name(file), &shown.display().to_string());
+            let elsewhere = || self.in_folders(file.to_str()?).ok().flatten();
+            beside.ok().flatten().or_else(elsewhere)
+        })
     }
 
     /// The files read, for the compiler to watch.

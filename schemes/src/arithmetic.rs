@@ -6,7 +6,7 @@ use num_traits::{One, ToPrimitive, Zero};
 use shadowstep_symbolic::{Fraction, Rational};
 
 /// Sums of products, as order conditions need them.
-pub(crate) trait Arithmetic {
+pub trait Arithmetic {
     /// A value.
     type Value: Clone;
     /// 0
@@ -29,7 +29,7 @@ pub(crate) trait Arithmetic {
 }
 
 /// Rationals.
-pub(crate) struct ExactArithmetic;
+pub struct ExactArithmetic;
 
 impl Arithmetic for ExactArithmetic {
     type Value = Rational;
@@ -51,30 +51,31 @@ impl Arithmetic for ExactArithmetic {
 }
 
 /// Numbers m·2^−bits with a bound of their error in units of 2^−bits.
-pub(crate) struct FixedPoint {
+pub struct FixedPoint {
     bits: u32,
 }
 
 /// The true value lies within `error` units of `units`.
 #[derive(Clone, Debug)]
-pub(crate) struct Fixed {
-    pub(crate) units: BigInt,
+pub struct Fixed {
+    /// The approximate value, in units.
+    pub units: BigInt,
     error: u128,
 }
 
 impl FixedPoint {
     /// Room for `digits` decimals and for the growth of the bound (19 decimals).
-    pub(crate) fn new(digits: u32) -> FixedPoint {
+    pub fn new(digits: u32) -> FixedPoint {
         FixedPoint { bits: (f64::from(digits) * std::f64::consts::LOG2_10) as u32 + 64 }
     }
 
     /// The number 1 in units.
-    pub(crate) fn unit(&self) -> BigInt {
+    pub fn unit(&self) -> BigInt {
         BigInt::one() << self.bits
     }
 
     /// The middle and the bound of the error as fractions with the denominator of the unit.
-    pub(crate) fn read(&self, value: &Fixed) -> (Fraction, Fraction) {
+    pub fn read(&self, value: &Fixed) -> (Fraction, Fraction) {
         let unit = self.unit();
         // a bound that ran over is none: then the value may be anything
         let error = if value.error == u128::MAX { BigInt::one() << (2 * self.bits) } else { value.error.into() };
@@ -119,13 +120,14 @@ impl Arithmetic for FixedPoint {
 /// How far a condition can move when each weight moves by at most one unit of its last digit: the
 /// derivative of the condition at |a_s|, |b_s|, in units of that digit. The conditions are polynomials
 /// with positive coefficients, so this bounds the true movement (to first order in the last digit).
-pub(crate) struct Sensitivity;
+pub struct Sensitivity;
 
 /// A value of |weights| and its derivative.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sensitive {
+pub struct Sensitive {
     value: f64,
-    pub(crate) slope: f64,
+    /// The derivative.
+    pub slope: f64,
 }
 
 impl Arithmetic for Sensitivity {

@@ -12,9 +12,10 @@ use shadowstep_symbolic::{Exact, Rational, evaluate, parse as formula};
 
 use crate::document::Placed;
 use crate::document::{Fault, Source};
+use crate::library::Library;
 use crate::map::{merged, stages_of};
 use crate::parse;
-use crate::scheme::{Held, Scheme};
+use crate::scheme::{ExactScheme, Held};
 use crate::shipped::shipped_hint;
 use crate::table::{Cell, Table, Weights};
 
@@ -33,16 +34,13 @@ const MOST_UNMERGED: usize = 10 * MOST_STAGES;
 /// The most compositions within each other: a chain of `../a/b` need not come back to a path it has had.
 const MOST_NESTED: usize = 20;
 
-/// Finds the table that a composition names as its base, as seen from the table that names it.
-pub type Library<'a> = &'a dyn Fn(&str, &Source) -> Option<Source>;
-
 /// Reads a table and evaluates its cells; nothing is proved yet. The faults are those of the text and of the cells, for
 /// a composition those of its base as well; without a fault in the cells there is a scheme.
-pub fn scheme(source: &Source, library: Library<'_>) -> (Option<Scheme>, Vec<Fault>) {
+pub fn scheme(source: &Source, library: Library<'_>) -> (Option<ExactScheme>, Vec<Fault>) {
     scheme_within(source, library, &[])
 }
 
-fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Option<Scheme>, Vec<Fault>) {
+fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Option<ExactScheme>, Vec<Fault>) {
     let (table, mut faults) = parse::table(source);
     let Some(table) = table else { return (None, faults) };
     let mut cells = Cells { table: &table, known: BTreeMap::new(), rounded: false, faults: Vec::new() };
@@ -74,7 +72,7 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
     }
     let good = cells.faults.is_empty();
     faults.extend(cells.faults);
-    let scheme = weights.filter(|_| good).map(|(kick, drift, held)| Scheme { table, kick, drift, held });
+    let scheme = weights.filter(|_| good).map(|(kick, drift, held)| ExactScheme { table, kick, drift, held });
     (scheme, faults)
 }
 
@@ -96,7 +94,7 @@ fn base_scheme(
     base: &Placed<String>,
     library: Library<'_>,
     above: &[String],
-) -> (Option<Scheme>, Vec<Fault>) {
+) -> (Option<ExactScheme>, Vec<Fault>) {
     let source = &table.source;
     let fault = |message: String, help: String| (None, vec![source.fault(&base.at, message).hint(help)]);
     let Some(found) = library(&base.value, source) else {

@@ -1,51 +1,56 @@
 //! What a splitting scheme is: a table of exact numbers, and the proof of what the table claims.
 //!
-//! The files are the pipeline, in order:
+//! The files are the pipeline; [`read_first`] in `pipeline` is the whole of it:
 //!
 //! | file | from → to |
 //! | --- | --- |
-//! | [`table`], `reader` | TOML text → cells with their places |
-//! | [`exact`] | cells → exact rationals |
-//! | [`scheme`] | weights a_s, b_s → the sequence of kicks and drifts |
+//! | [`document`] | TOML text → values with their places |
+//! | [`parse`], [`table`], [`claims`] | values → the cells and the claims of a table |
+//! | [`exact`], [`scheme`], [`map`] | cells → exact weights a_s, b_s → the sequence of kicks and drifts |
+//! | [`library`], `shipped`, `spelling` | the name of a table → its text |
 //! | [`order`], [`nystrom`], [`near_integrable`] | kicks and drifts → order conditions, for every T(p), for quadratic T, for H = A + εB |
-//! | [`proof`] | claims against conditions → a proved scheme, or faults |
-//! | [`stage`] | proved scheme → the plan of a step: maps, shared constants, cost |
-//! | [`analysis`] | proved scheme → leading errors, stability, phase |
+//! | [`arithmetic`], `conditions`, `digits` | the values of the conditions, exactly or with bounds, and how exactly they must be met |
+//! | [`proof`] | conditions → what is true of the scheme → the claims that differ from it |
+//! | `wording` | such a claim → a sentence with its place |
+//! | [`plan`] | scheme → the plan of a step: maps, shared constants, cost |
+//! | `pipeline` | the text of a table → [`Proved`]: scheme, proof and plan, or all faults |
 //!
 //! ```
 //! use shadowstep_schemes::{read, shipped};
 //!
 //! let proved = read(&shipped("yoshida4").unwrap(), &|name, _| shipped(name)).unwrap();
 //! assert_eq!(proved.proof.general.order, 4);
-//! assert_eq!(proved.plan().evaluations, 3);
+//! assert_eq!(proved.plan.evaluations, 3);
 //! ```
 
-pub mod analysis;
-mod arithmetic;
+pub mod arithmetic;
 pub mod claims;
+mod conditions;
 mod digits;
 pub mod document;
 pub mod exact;
+pub mod library;
 pub mod map;
 pub mod near_integrable;
 pub mod nystrom;
 pub mod order;
 pub mod parse;
-pub mod polish;
+mod pipeline;
+pub mod plan;
 pub mod proof;
 pub mod scheme;
 mod shipped;
 mod spelling;
-pub mod stage;
 pub mod table;
+mod wording;
 
-pub use analysis::Analysis;
 pub use claims::Kinetic;
 pub use document::{Fault, Faults, Source};
 pub use map::{First, Map, MapKind};
-pub use proof::{Proof, Proved, prove, read, read_first};
-pub use scheme::Scheme;
+pub use pipeline::{Proved, read, read_first, shipped_proved};
+pub use plan::{Plan, StepCost};
+pub use proof::{Proof, prove};
+pub use scheme::ExactScheme;
 pub use shadowstep_symbolic::decimal::{to_significant, to_text};
 pub use shadowstep_symbolic::{Rational, nearest};
-pub use shipped::{shipped, shipped_hint, shipped_names, shipped_proved};
-pub use stage::{Cost, Plan};
+pub use shipped::{shipped, shipped_hint, shipped_names};

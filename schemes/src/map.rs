@@ -52,7 +52,7 @@ pub struct Map {
 }
 
 /// Stages → maps, zero weights left out and neighbours of one kind merged.
-pub(crate) fn merged(kick: &[Rational], drift: &[Rational]) -> Vec<Map> {
+pub fn merged(kick: &[Rational], drift: &[Rational]) -> Vec<Map> {
     let mut maps: Vec<Map> = Vec::new();
     for (a, b) in kick.iter().zip(drift) {
         for (kind, weight) in [(MapKind::Kick, a), (MapKind::Drift, b)] {
@@ -63,7 +63,7 @@ pub(crate) fn merged(kick: &[Rational], drift: &[Rational]) -> Vec<Map> {
 }
 
 /// Maps → stages: a_s and b_s, 0 where a stage has no kick or no drift.
-pub(crate) fn stages_of(maps: &[Map]) -> (Vec<Rational>, Vec<Rational>) {
+pub fn stages_of(maps: &[Map]) -> (Vec<Rational>, Vec<Rational>) {
     let (mut kick, mut drift) = (Vec::new(), Vec::new());
     for map in maps {
         if map.kind == MapKind::Kick || kick.is_empty() {

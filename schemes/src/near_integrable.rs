@@ -7,6 +7,8 @@
 //! Lyndon words generate the others keep the number of B's, and their factors have fewer B's and fewer letters, for which
 //! no lower orders are claimed. A may be any Hamiltonian, not just a kinetic energy.
 
+use std::fmt;
+
 use crate::arithmetic::Arithmetic;
 use crate::claims::NearIntegrable;
 use crate::document::Placed;
@@ -15,26 +17,26 @@ use crate::order::{Condition, Word, lyndon_words, weighed, word_conditions};
 
 /// The words that belong to a power of ε.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Power {
+pub struct Power {
     /// The letter of B.
-    pub(crate) perturbation: MapKind,
+    pub perturbation: MapKind,
     /// How many B's a word has.
-    pub(crate) count: usize,
+    pub count: usize,
     /// Whether words with more B's belong to it too.
-    pub(crate) or_more: bool,
+    pub or_more: bool,
 }
 
-impl Power {
-    /// Its name in messages.
-    pub(crate) fn name(self) -> String {
+/// Displayed as `ε`, `ε^2`, `ε^3 and higher powers`.
+impl fmt::Display for Power {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let power = if self.count == 1 { "ε".to_owned() } else { format!("ε^{}", self.count) };
-        if self.or_more { format!("{power} and higher powers") } else { power }
+        write!(f, "{power}{}", if self.or_more { " and higher powers" } else { "" })
     }
 }
 
 impl NearIntegrable {
     /// The powers of ε, one for each order claimed.
-    pub(crate) fn powers(&self) -> impl Iterator<Item = (&Placed<u32>, Power)> {
+    pub fn powers(&self) -> impl Iterator<Item = (&Placed<u32>, Power)> {
         let perturbation = self.dominant.other();
         let last = self.orders.len();
         (1..)
@@ -45,7 +47,7 @@ impl NearIntegrable {
 
 /// The words whose conditions belong to a power of ε, up to an order: the sum of the dominant maps, a word without any B,
 /// belongs to every power.
-pub(crate) fn words(power: Power, order: u32) -> Vec<Word> {
+pub fn words(power: Power, order: u32) -> Vec<Word> {
     let mut words = lyndon_words(order as usize);
     words.retain(|word| {
         let count = word.iter().filter(|kind| **kind == power.perturbation).count();
@@ -55,11 +57,6 @@ pub(crate) fn words(power: Power, order: u32) -> Vec<Word> {
 }
 
 /// The conditions of a power of ε, up to an order, and their values for a sequence of maps.
-pub(crate) fn conditions<A: Arithmetic>(
-    maps: &[Map],
-    power: Power,
-    order: u32,
-    arithmetic: &A,
-) -> Vec<(Condition, A::Value)> {
+pub fn conditions<A: Arithmetic>(maps: &[Map], power: Power, order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
     word_conditions(&words(power, order), &weighed(maps, arithmetic), arithmetic)
 }

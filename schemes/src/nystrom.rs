@@ -14,7 +14,7 @@ use shadowstep_symbolic::Rational;
 
 use crate::arithmetic::Arithmetic;
 use crate::map::{Map, MapKind};
-use crate::order::{Condition, weighed};
+use crate::order::{Condition, Functional, weighed};
 
 /// A tree whose root is a kick: its children are drifts, each given by the kick below it.
 struct KickTree {
@@ -26,12 +26,12 @@ struct KickTree {
 }
 
 /// The conditions of orders 1..=`order` for quadratic T and their values for a sequence of maps.
-pub(crate) fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
+pub fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
     tree_conditions(&weighed(maps, arithmetic), order, arithmetic)
 }
 
 /// The same for maps whose weights are values already.
-pub(crate) fn tree_conditions<A: Arithmetic>(
+pub fn tree_conditions<A: Arithmetic>(
     maps: &[(MapKind, A::Value)],
     order: u32,
     arithmetic: &A,
@@ -59,7 +59,11 @@ pub(crate) fn tree_conditions<A: Arithmetic>(
 }
 
 fn condition(name: &str, size: u32, density: u64) -> Condition {
-    Condition { order: size, name: format!("the tree {name}"), needed: Rational::new(1.into(), density.into()) }
+    Condition {
+        order: size,
+        functional: Functional::Named(format!("the tree {name}")),
+        needed: Rational::new(1.into(), density.into()),
+    }
 }
 
 /// Σ w_r·v_r over the maps r of one kind before each map, and over all of them.
@@ -172,7 +176,9 @@ mod tests {
         let a = [rational(1, 3), rational(-2, 5), rational(7, 11), rational(3, 2)];
         let b = [rational(5, 7), rational(1, 9), rational(-3, 4), rational(2, 13)];
         let values = conditions(&crate::map::merged(&a, &b), 4, &ExactArithmetic);
-        let value = |name: &str| &values.iter().find(|(c, _)| c.name == format!("the tree {name}")).unwrap().1;
+        let value = |name: &str| {
+            &values.iter().find(|(c, _)| c.functional == Functional::Named(format!("the tree {name}"))).unwrap().1
+        };
 
         // c_s: where the kick s acts; f_r: how far the kicks have got before the drift r
         let c: Vec<Rational> = (0..4).map(|s| b[..s].iter().sum()).collect();

@@ -7,6 +7,7 @@
 //! A 357 (1999) 957). The coefficient of a word of n letters in the exact flow is 1/n!.
 
 use std::collections::HashMap;
+use std::fmt;
 
 use shadowstep_symbolic::Rational;
 
@@ -18,10 +19,30 @@ use crate::map::{Map, MapKind};
 pub struct Condition {
     /// The power of h that it concerns.
     pub order: u32,
-    /// `the word KKD` or `the tree K[D D[K]]`.
-    pub name: String,
+    /// What has the value.
+    pub functional: Functional,
     /// The value needed.
     pub needed: Rational,
+}
+
+/// The functional of a scheme that a condition is about, such as a coefficient of the product of its exponentials.
+///
+/// Displayed as `the word KKD` or `the tree K[D D[K]]`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Functional {
+    /// The coefficient of a Lyndon word in kicks and drifts.
+    Word(Word),
+    /// Another one, by its name: `the tree K[D D[K]]`.
+    Named(String),
+}
+
+impl fmt::Display for Functional {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Functional::Word(word) => write!(f, "the word {}", word.iter().copied().map(letter).collect::<String>()),
+            Functional::Named(name) => f.write_str(name),
+        }
+    }
 }
 
 /// A word and its place in the tree of prefixes.
@@ -32,15 +53,15 @@ struct Prefix {
 }
 
 /// A sequence of kicks and drifts, in the order in which they act.
-pub(crate) type Word = Vec<MapKind>;
+pub type Word = Vec<MapKind>;
 
 /// The conditions of orders 1..=`order` for every T(p) and their values for a sequence of maps.
-pub(crate) fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
+pub fn conditions<A: Arithmetic>(maps: &[Map], order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
     word_conditions(&lyndon_words(order as usize), &weighed(maps, arithmetic), arithmetic)
 }
 
 /// The conditions of some words, of low orders first, and their values for maps whose weights are values already.
-pub(crate) fn word_conditions<A: Arithmetic>(
+pub fn word_conditions<A: Arithmetic>(
     words: &[Word],
     maps: &[(MapKind, A::Value)],
     arithmetic: &A,
@@ -55,16 +76,16 @@ pub(crate) fn word_conditions<A: Arithmetic>(
 }
 
 fn condition(word: &[MapKind]) -> Condition {
-    let letters: String = word.iter().map(|kind| letter(*kind)).collect();
     let factorial = (1..=word.len() as u64).product::<u64>();
     Condition {
         order: word.len() as u32,
-        name: format!("the word {letters}"),
+        functional: Functional::Word(word.to_vec()),
         needed: Rational::new(1.into(), factorial.into()),
     }
 }
 
-pub(crate) fn letter(kind: MapKind) -> char {
+/// K for a kick, D for a drift.
+pub fn letter(kind: MapKind) -> char {
     match kind {
         MapKind::Kick => 'K',
         MapKind::Drift => 'D',
@@ -72,11 +93,7 @@ pub(crate) fn letter(kind: MapKind) -> char {
 }
 
 /// The coefficients of words and of all their prefixes in the product of the exponentials of the maps.
-pub(crate) fn prefix_coefficients<A: Arithmetic>(
-    maps: &[Map],
-    words: &[Word],
-    arithmetic: &A,
-) -> HashMap<Word, A::Value> {
+pub fn prefix_coefficients<A: Arithmetic>(maps: &[Map], words: &[Word], arithmetic: &A) -> HashMap<Word, A::Value> {
     let mut prefixes = Vec::new();
     for word in words {
         insert(&mut prefixes, word);
@@ -91,7 +108,7 @@ pub(crate) fn prefix_coefficients<A: Arithmetic>(
 }
 
 /// The Lyndon words over K < D of at most `longest` letters (Duval's algorithm), in lexicographic order.
-pub(crate) fn lyndon_words(longest: usize) -> Vec<Word> {
+pub fn lyndon_words(longest: usize) -> Vec<Word> {
     let mut words = Vec::new();
     let mut word = vec![MapKind::Kick];
     loop {
@@ -122,7 +139,7 @@ fn insert(prefixes: &mut Vec<Prefix>, word: &[MapKind]) -> usize {
 }
 
 /// The maps with their weights as values.
-pub(crate) fn weighed<A: Arithmetic>(maps: &[Map], arithmetic: &A) -> Vec<(MapKind, A::Value)> {
+pub fn weighed<A: Arithmetic>(maps: &[Map], arithmetic: &A) -> Vec<(MapKind, A::Value)> {
     maps.iter().map(|map| (map.kind, arithmetic.weight(&map.weight))).collect()
 }
 
@@ -210,7 +227,7 @@ mod tests {
     fn short_words_are_the_sums_that_they_stand_for() {
         let (a, b) = any_weights();
         let values = conditions(&merged(&a, &b), 3, &ExactArithmetic);
-        let value = |name: &str| &values.iter().find(|(c, _)| c.name == name).unwrap().1;
+        let value = |name: &str| &values.iter().find(|(c, _)| c.functional.to_string() == name).unwrap().1;
         let stages = || 0..a.len();
         let sum = |terms: Vec<Rational>| terms.into_iter().sum::<Rational>();
         let half = Rational::new(1.into(), 2.into());
@@ -238,8 +255,12 @@ mod tests {
             let (middle, error) = fixed.read(&approximate);
             let middle = middle.reduced();
             let distance = if middle > *value { &middle - value } else { value - &middle };
-            assert!(error >= distance, "{}", condition.name);
-            assert!(error < Rational::new(1.into(), 10_i64.pow(18).into()), "{}: the bound is of use", condition.name);
+            assert!(error >= distance, "{}", condition.functional);
+            assert!(
+                error < Rational::new(1.into(), 10_i64.pow(18).into()),
+                "{}: the bound is of use",
+                condition.functional
+            );
         }
     }
 }

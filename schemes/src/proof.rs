@@ -1,30 +1,21 @@
-//! Claims against conditions → a proved scheme, or faults.
+//! What is true of a scheme, and which claims of its table that refuses.
 //!
-//! Where the weights are exact, a condition *holds* if it is met exactly. Where they are rounded to so many digits, it
+//! Where the weights are exact, a condition *holds* if it is met exactly. Where they are rounded to some digits, it
 //! holds if it is met as closely as one unit of 10^(1−digits) in each weight can account for (a bound to first order,
-//! with the rounding of the arithmetic itself included), and if that is close enough to tell: at most a thousandth of the
-//! value needed. How many digits really hold is reported.
+//! with the rounding of the arithmetic itself included), and if that is close enough to decide: at most a thousandth of
+//! the value needed. The number of digits to which the conditions really hold is reported.
 
-use num_bigint::BigInt;
-use num_traits::{FromPrimitive, Signed, Zero};
-use shadowstep_symbolic::decimal::{to_significant, to_text};
-use shadowstep_symbolic::{Fraction, Ratio, Rational};
+use shadowstep_symbolic::Rational;
 
-use crate::arithmetic::{Arithmetic, ExactArithmetic, FixedPoint, Sensitivity};
 use crate::claims::{HIGHEST_NEAR_INTEGRABLE_ORDER, HIGHEST_ORDER, Kinetic};
+use crate::conditions::{Evaluated, Family, evaluated};
 use crate::digits::digits_of;
 use crate::document::Placed;
-use crate::document::{Fault, Faults, Source};
-use crate::exact::{self, Library};
-use crate::map::{First, Map};
-use crate::near_integrable::{self, Power};
-use crate::order::Condition;
-use crate::scheme::{Held, Scheme};
-use crate::stage::Plan;
-use crate::table::{Table, Weights};
-use crate::{nystrom, order};
+use crate::map::MapKind;
+use crate::order::{Condition, Functional};
+use crate::scheme::ExactScheme;
 
-/// Digits that sums of products of good weights lose without a remark; the worst of the shipped tables loses 3.
+/// Digits that sums of products of good weights lose without a note; the worst of the shipped tables loses 3.
 const MOST_DIGITS_LOST: u32 = 5;
 
 /// The order that was proved for one class of kinetic energies, or for one power of ε.
@@ -36,7 +27,7 @@ pub struct Order {
     pub digits: Option<u32>,
     /// The first condition that fails, and the value found; `None` if none does up to the highest order that is proved.
     pub failed: Option<(Condition, Rational)>,
-    /// Whether that condition is met as far as the digits of the weights go, which is not far enough to tell.
+    /// Whether the failed condition is met within the digits of the weights, which are too few to decide it.
     pub undecided: bool,
 }
 
@@ -47,48 +38,11 @@ pub struct Proof {
     pub general: Order,
     /// For T = ½pᵀM⁻¹p.
     pub quadratic: Order,
-    /// For the terms of ε, ε², … of a near-integrable H = A + εB: as many as the table claims orders for, the last one
+    /// For the terms of ε, ε², … of a near-integrable H = A + εB: one for each order that the table claims, the last one
     /// for all higher powers too.
     pub near_integrable: Vec<Order>,
     /// The step is a palindrome, exactly.
     pub symmetric: bool,
-}
-
-/// Conditions that are judged together.
-#[derive(Clone, Copy)]
-enum Family {
-    /// Those of a class of kinetic energies.
-    Kinetic(Kinetic),
-    /// Those of a power of ε.
-    Power(Power),
-}
-
-/// A scheme, what was proved of it, and remarks on claims that say less than the truth.
-#[derive(Clone, Debug)]
-pub struct Proved {
-    /// The scheme.
-    pub scheme: Scheme,
-    /// What is true of it.
-    pub proof: Proof,
-    /// Sentences with places.
-    pub remarks: Vec<Fault>,
-}
-
-impl Proved {
-    /// The plan of a step.
-    pub fn plan(&self) -> Plan {
-        Plan::of(&self.scheme)
-    }
-
-    /// The order proved for the kinetic energies that the table is meant for.
-    pub fn order(&self) -> &Order {
-        self.proof.for_kinetic(self.scheme.table.kinetic)
-    }
-
-    /// Whether the order claimed holds for every T(p), whatever kinetic energies the table is meant for.
-    pub fn holds_for_every_kinetic(&self) -> bool {
-        self.proof.general.order >= self.scheme.table.order.value
-    }
 }
 
 impl Proof {
@@ -101,37 +55,14 @@ impl Proof {
     }
 }
 
-/// Reads a table and proves what it claims.
-///
-/// # Errors
-/// All faults of the text, of the cells and of the claims; claims are looked at once the cells have values.
-pub fn read(source: &Source, library: Library<'_>) -> Result<Proved, Faults> {
-    judge(exact::scheme(source, library))
-}
-
-/// Like [`read`], with the roles of kick and drift exchanged where `first` asks for it.
-///
-/// # Errors
-/// As [`read`]; also where the order claimed does not survive the exchange.
-pub fn read_first(source: &Source, library: Library<'_>, first: First) -> Result<Proved, Faults> {
-    let (scheme, faults) = exact::scheme(source, library);
-    judge((scheme.map(|scheme| scheme.starting_with(first)), faults))
-}
-
 /// Proves the orders of a scheme, whatever its table claims.
-pub fn prove(scheme: &Scheme) -> Proof {
-    let maps = scheme.maps();
-    let proved = |family, claimed: u32, highest: u32| {
-        let first_try = prove_up_to(&maps, scheme.held, family, (claimed + 1).min(highest));
-        match first_try.failed {
-            Some(_) => first_try,
-            None => prove_up_to(&maps, scheme.held, family, highest),
-        }
-    };
-    let for_kinetic = |kinetic| proved(Family::Kinetic(kinetic), scheme.table.order.value, HIGHEST_ORDER);
+pub fn prove(scheme: &ExactScheme) -> Proof {
+    let for_kinetic =
+        |kinetic| highest_order(scheme, Family::Kinetic(kinetic), scheme.table.order.value, HIGHEST_ORDER);
     let powers = scheme.table.near_integrable.iter().flat_map(|claim| claim.powers());
-    let for_power =
-        |(claim, power): (&Placed<u32>, _)| proved(Family::Power(power), claim.value, HIGHEST_NEAR_INTEGRABLE_ORDER);
+    let for_power = |(claim, power): (&Placed<u32>, _)| {
+        highest_order(scheme, Family::Power(power), claim.value, HIGHEST_NEAR_INTEGRABLE_ORDER)
+    };
     Proof {
         general: for_kinetic(Kinetic::Any),
         quadratic: for_kinetic(Kinetic::Quadratic),
@@ -140,259 +71,107 @@ pub fn prove(scheme: &Scheme) -> Proof {
     }
 }
 
-fn prove_up_to(maps: &[Map], held: Held, family: Family, highest: u32) -> Order {
-    let mut judged = judged_conditions(maps, held, family, highest);
-    let failed = judged.iter().position(|c| !c.holds());
-    let order = failed.map_or(highest, |first| judged[first].condition.order - 1);
-    let holding = judged.iter().filter(|c| c.condition.order <= order);
+/// The highest order that holds. Most schemes fail at the order above the claimed one, so that is tried first.
+fn highest_order(scheme: &ExactScheme, family: Family, claimed: u32, highest: u32) -> Order {
+    let first_try = order_up_to(scheme, family, (claimed + 1).min(highest));
+    match first_try.failed {
+        Some(_) => first_try,
+        None => order_up_to(scheme, family, highest),
+    }
+}
+
+fn order_up_to(scheme: &ExactScheme, family: Family, highest: u32) -> Order {
+    let mut conditions = evaluated(&scheme.maps(), scheme.held, family, highest);
+    let failed = conditions.iter().position(|c| !c.holds());
+    let order = failed.map_or(highest, |first| conditions[first].condition.order - 1);
+    let holding = conditions.iter().filter(|c| c.condition.order <= order);
     let digits = holding.filter_map(|c| digits_of(&c.uncertainty())).min();
-    let failed = failed.map(|first| judged.swap_remove(first));
-    let undecided = failed.as_ref().is_some_and(Judged::is_met);
+    let failed = failed.map(|first| conditions.swap_remove(first));
+    let undecided = failed.as_ref().is_some_and(Evaluated::is_met);
     Order { order, digits, failed: failed.map(|c| (c.condition, c.found.reduced())), undecided }
 }
 
-/// A condition with its value and what the digits of the weights allow.
-struct Judged {
-    condition: Condition,
-    found: Fraction,
-    /// Bound of the error of `found`.
-    error: Fraction,
-    /// How far the value may be off.
-    tolerance: Fraction,
+/// A claim that differs from what is true.
+#[derive(Debug)]
+pub(crate) enum Finding<'a> {
+    /// The weights of the maps of one kind do not sum to 1.
+    Sum { kind: MapKind, found: Rational, needed: Rational },
+    /// The order that holds, in `proved`, is lower than the claimed one.
+    LowerOrder { family: Family, claimed: &'a Placed<u32>, proved: &'a Order },
+    /// A higher order holds than the claimed one.
+    HigherOrder { family: Family, claimed: &'a Placed<u32>, holds: u32 },
+    /// The step is not the palindrome that it is claimed to be.
+    NotSymmetric { claim: &'a Placed<bool> },
+    /// The step is a palindrome, and is claimed not to be.
+    Symmetric { claim: &'a Placed<bool> },
+    /// The conditions hold to far fewer digits than the weights have, though as closely as their sensitivity allows.
+    FewerDigits { claimed: &'a Placed<u32>, hold: u32 },
 }
 
-impl Judged {
-    fn uncertainty(&self) -> Fraction {
-        let (found, needed, error) = (&self.found, &self.condition.needed, &self.error);
-        debug_assert!(error.numer().is_zero() || found.denom() == error.denom());
-        let distance = (found.numer() * needed.denom() - needed.numer() * found.denom()).abs();
-        Fraction::new(distance + error.numer() * needed.denom(), found.denom() * needed.denom())
-    }
-
-    fn holds(&self) -> bool {
-        self.is_met() && self.is_decided()
-    }
-
-    fn is_met(&self) -> bool {
-        self.uncertainty() <= self.tolerance
-    }
-
-    /// Whether the weights have digits enough to tell a condition that is met from one that is not.
-    fn is_decided(&self) -> bool {
-        let thousandfold = Fraction::new(self.tolerance.numer() * 1000, self.tolerance.denom().clone());
-        thousandfold <= self.condition.needed
+impl Finding<'_> {
+    /// Whether the claim is refused; the other claims are true, and say less than the truth.
+    pub(crate) fn is_refused(&self) -> bool {
+        matches!(self, Finding::Sum { .. } | Finding::LowerOrder { .. } | Finding::NotSymmetric { .. })
     }
 }
 
-fn judged_conditions(maps: &[Map], held: Held, family: Family, highest: u32) -> Vec<Judged> {
-    match held {
-        Held::Exactly => {
-            let zero = || Fraction::from(Rational::zero());
-            conditions(maps, family, worth_exactness(maps, family, highest), &ExactArithmetic)
-                .into_iter()
-                .map(|(condition, found)| Judged { condition, found: found.into(), error: zero(), tolerance: zero() })
-                .collect()
+/// The claims of the scheme's table that differ from the proof.
+pub(crate) fn findings<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Finding<'a>> {
+    let mut findings = order_finding(scheme, proof);
+    findings.extend(near_integrable_findings(scheme, proof));
+    findings.extend(scheme.table.symmetric.as_ref().filter(|claim| claim.value != proof.symmetric).map(|claim| {
+        match claim.value {
+            true => Finding::NotSymmetric { claim },
+            false => Finding::Symmetric { claim },
         }
-        Held::Digits(digits) => {
-            let arithmetic = FixedPoint::new(digits);
-            let unit = BigInt::from(10).pow(digits - 1);
-            let slopes = conditions(maps, family, highest, &Sensitivity);
-            conditions(maps, family, highest, &arithmetic)
-                .into_iter()
-                .zip(slopes)
-                .map(|((condition, value), (_, sensitive))| {
-                    let (found, error) = arithmetic.read(&value);
-                    let slope = Rational::from_f64(sensitive.slope).unwrap_or_else(Rational::zero);
-                    let tolerance = Fraction::new(slope.numer().clone(), slope.denom() * &unit);
-                    Judged { condition, found, error, tolerance }
-                })
-                .collect()
+    }));
+    findings.extend(digits_finding(scheme, proof));
+    findings
+}
+
+fn order_finding<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Finding<'a>> {
+    let (kinetic, claimed) = (scheme.table.kinetic, &scheme.table.order);
+    let (family, proved) = (Family::Kinetic(kinetic), proof.for_kinetic(kinetic));
+    match proved.order {
+        holds if holds > claimed.value => vec![Finding::HigherOrder { family, claimed, holds }],
+        holds if holds == claimed.value => Vec::new(),
+        0 if !(proved.undecided && scheme.table.digits.is_some()) => sum_findings(scheme),
+        _ => vec![Finding::LowerOrder { family, claimed, proved }],
+    }
+}
+
+/// The conditions of order 1 that fail.
+fn sum_findings(scheme: &ExactScheme) -> Vec<Finding<'_>> {
+    let sums = evaluated(&scheme.maps(), scheme.held, Family::Kinetic(Kinetic::Any), 1);
+    let finding = |sum: Evaluated| match sum.condition.functional {
+        Functional::Word(word) => {
+            Finding::Sum { kind: word[0], found: sum.found.reduced(), needed: sum.condition.needed }
         }
-    }
-}
-
-/// The first order that certainly fails, or the highest: exact arithmetic beyond would be long and tell nothing.
-fn worth_exactness(maps: &[Map], family: Family, highest: u32) -> u32 {
-    let arithmetic = FixedPoint::new(60);
-    let fails = |(condition, value): &(Condition, _)| {
-        let (found, error) = arithmetic.read(value);
-        let judged = Judged { condition: condition.clone(), found, error: Rational::zero().into(), tolerance: error };
-        !judged.is_met()
+        Functional::Named(_) => unreachable!("the conditions for every T(p) are words"),
     };
-    conditions(maps, family, highest, &arithmetic).iter().find(|c| fails(c)).map_or(highest, |(c, _)| c.order)
+    sums.into_iter().filter(|sum| !sum.is_met()).map(finding).collect()
 }
 
-fn conditions<A: Arithmetic>(maps: &[Map], family: Family, highest: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
-    match family {
-        Family::Kinetic(Kinetic::Any) => order::conditions(maps, highest, arithmetic),
-        Family::Kinetic(Kinetic::Quadratic) => nystrom::conditions(maps, highest, arithmetic),
-        Family::Power(power) => near_integrable::conditions(maps, power, highest, arithmetic),
-    }
-}
-
-fn judge((scheme, mut faults): (Option<Scheme>, Vec<Fault>)) -> Result<Proved, Faults> {
-    let Some(scheme) = scheme else { return Err(Faults::of(faults).expect("what is no scheme has a fault")) };
-    let proof = prove(&scheme);
-    let mut remarks = Vec::new();
-    judge_order(&scheme, &proof, &mut faults, &mut remarks);
-    judge_near_integrable(&scheme, &proof, &mut faults, &mut remarks);
-    judge_symmetry(&scheme, &proof, &mut faults, &mut remarks);
-    judge_digits(&scheme, &proof, &mut remarks);
-    match Faults::of(faults) {
-        Some(faults) => Err(faults),
-        None => Ok(Proved { scheme, proof, remarks }),
-    }
-}
-
-fn judge_order(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks: &mut Vec<Fault>) {
-    let table = &scheme.table;
-    let claimed = table.order.value;
-    let order = proof.for_kinetic(table.kinetic);
-    let class = match table.kinetic {
-        Kinetic::Any => "for every T(p)",
-        Kinetic::Quadratic => "for quadratic T",
-    };
-    let at = &table.order.at;
-    if order.order > claimed {
-        let message = format!("order {claimed} is claimed, order {} holds {class}", order.order);
-        remarks.push(table.source.fault(at, message).hint(format!("write `order = {}`", order.order)));
-    }
-    if order.order >= claimed {
-        return;
-    }
-    let Some((failed, found)) = &order.failed else { return };
-    if let Some(fault) = too_few_digits(table, order, failed, class) {
-        return faults.push(fault);
-    }
-    if order.order == 0 {
-        return judge_sums(scheme, faults);
-    }
-    let message = format!(
-        "order {claimed} is claimed, order {} holds {class}: the condition of {} fails",
-        order.order, failed.name
-    );
-    let fault = table.source.fault(at, message).values(beside(found, &failed.needed), short(&failed.needed));
-    faults.push(match table.kinetic {
-        Kinetic::Any if proof.quadratic.order >= claimed => fault
-            .hint(format!("order {} holds for quadratic T: write `kinetic = \"quadratic\"`", proof.quadratic.order)),
-        _ => with_rounding_help(fault, table, &(found - &failed.needed)),
-    });
-}
-
-/// Where a condition is met, but the weights have too few digits to tell.
-fn too_few_digits(table: &Table, order: &Order, failed: &Condition, class: &str) -> Option<Fault> {
-    let digits = table.digits.as_ref().filter(|_| order.undecided)?;
-    let message = format!("{} digits are too few to tell whether order {} holds {class}", digits.value, failed.order);
-    Some(table.source.fault(&digits.at, message).hint("take the weights from a source with more digits"))
-}
-
-fn judge_near_integrable(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks: &mut Vec<Fault>) {
-    let table = &scheme.table;
-    let Some(claim) = table.near_integrable.as_ref().filter(|_| proof.general.order > 0) else { return };
-    // a term may be claimed to no higher order than those of lower powers of ε
+fn near_integrable_findings<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Finding<'a>> {
+    let claim = scheme.table.near_integrable.as_ref().filter(|_| proof.general.order > 0);
+    let mut findings = Vec::new();
+    // an order cannot be claimed higher than those of lower powers of ε
     let mut least = u32::MAX;
-    for ((claimed, power), order) in claim.powers().zip(&proof.near_integrable) {
-        let class = format!("for the terms of {}", power.name());
-        least = least.min(order.order);
+    for ((claimed, power), proved) in claim.into_iter().flat_map(|claim| claim.powers()).zip(&proof.near_integrable) {
+        let family = Family::Power(power);
+        least = least.min(proved.order);
         if least > claimed.value {
-            let message = format!("order {} is claimed, order {least} holds {class}", claimed.value);
-            remarks.push(table.source.fault(&claimed.at, message).hint(format!("write {least}")));
+            findings.push(Finding::HigherOrder { family, claimed, holds: least });
         }
-        let Some((failed, found)) = order.failed.as_ref().filter(|_| order.order < claimed.value) else { continue };
-        faults.push(too_few_digits(table, order, failed, &class).unwrap_or_else(|| {
-            let message = format!(
-                "order {} is claimed, order {} holds {class}: the condition of {} fails",
-                claimed.value, order.order, failed.name
-            );
-            let fault =
-                table.source.fault(&claimed.at, message).values(beside(found, &failed.needed), short(&failed.needed));
-            with_rounding_help(fault, table, &(found - &failed.needed))
-        }));
-    }
-}
-
-/// The conditions of order 1, each at the weights that it is about.
-fn judge_sums(scheme: &Scheme, faults: &mut Vec<Fault>) {
-    let table = &scheme.table;
-    for sum in
-        judged_conditions(&scheme.maps(), scheme.held, Family::Kinetic(Kinetic::Any), 1).iter().filter(|c| !c.is_met())
-    {
-        let kicks = sum.condition.name.ends_with('K');
-        let (weights, at) = match &table.weights {
-            Some(Weights::Stages { kick, .. }) if kicks => ("kicks", &kick.at),
-            Some(Weights::Stages { drift, .. }) => ("drifts", &drift.at),
-            Some(Weights::Composition { gamma, .. }) => (if kicks { "kicks" } else { "drifts" }, &gamma.at),
-            None => continue,
-        };
-        let message = format!("the {weights} do not sum to 1, so not even order 1 holds");
-        let (found, needed) = (sum.found.clone().reduced(), &sum.condition.needed);
-        let fault = table.source.fault(at, message).values(beside(&found, needed), "1");
-        faults.push(with_rounding_help(fault, table, &(found - needed)));
-    }
-}
-
-/// Where a condition is off by so little that rounded weights may be the reason.
-fn with_rounding_help(fault: Fault, table: &Table, distance: &Rational) -> Fault {
-    if digits_of(&distance.abs()).is_none_or(|digits| digits < 6) {
-        return fault;
-    }
-    let off = format!("the condition is off by {}", to_significant(&distance.abs(), 2));
-    fault.hint(match &table.digits {
-        None => format!("{off}: if the weights are rounded, say so with `digits = …`"),
-        Some(digits) => format!("{off}, more than {} digits of the weights can account for", digits.value),
-    })
-}
-
-fn judge_symmetry(scheme: &Scheme, proof: &Proof, faults: &mut Vec<Fault>, remarks: &mut Vec<Fault>) {
-    let table = &scheme.table;
-    match &table.symmetric {
-        Some(claim) if claim.value && !proof.symmetric => faults.push(not_a_palindrome(scheme, &claim.at)),
-        Some(claim) if !claim.value && proof.symmetric => {
-            remarks.push(table.source.fault(&claim.at, "the scheme is a palindrome").hint("write `symmetric = true`"))
+        if proved.order < claimed.value {
+            findings.push(Finding::LowerOrder { family, claimed, proved });
         }
-        _ => {}
     }
+    findings
 }
 
-/// Conditions that hold to far fewer digits than the weights have, though as closely as their sensitivity allows.
-fn judge_digits(scheme: &Scheme, proof: &Proof, remarks: &mut Vec<Fault>) {
-    let table = &scheme.table;
-    let (Some(digits), Some(held)) = (&table.digits, proof.for_kinetic(table.kinetic).digits) else { return };
-    if held + MOST_DIGITS_LOST < digits.value {
-        let message = format!("{} digits are claimed, the order conditions hold to {held}", digits.value);
-        let help =
-            format!("some digits of the weights may be wrong: write `digits = {held}`, or look for a better source");
-        remarks.push(table.source.fault(&digits.at, message).hint(help));
-    }
-}
-
-fn not_a_palindrome(scheme: &Scheme, at: &std::ops::Range<usize>) -> Fault {
-    let maps = scheme.maps();
-    let fault = scheme.table.source.fault(at, "a palindrome is claimed, the maps do not read the same backwards");
-    let pair = maps.iter().zip(maps.iter().rev()).enumerate().find(|(_, (a, b))| a != b);
-    match pair {
-        Some((i, (from_start, from_end))) => fault
-            .values(
-                format!("{} {} as map {} from the start", from_start.kind, short(&from_start.weight), i + 1),
-                format!("{} {}, the map {} from the end", from_end.kind, short(&from_end.weight), i + 1),
-            )
-            .hint("correct the weights, or leave `symmetric` out"),
-        None => fault,
-    }
-}
-
-/// A value as people write it, where its digits do not tell it from the one needed as that and what it is off by.
-fn beside(found: &Rational, needed: &Rational) -> String {
-    let off = found - needed;
-    if to_text(found).len() <= 20 || to_significant(found, 16) != to_significant(needed, 16) {
-        return short(found);
-    }
-    let sign = if off.is_negative() { '-' } else { '+' };
-    format!("{} {sign} {}", short(needed), to_significant(&off.abs(), 2))
-}
-
-/// A value as people write it: exact if short, else rounded.
-fn short(value: &Rational) -> String {
-    let exact = to_text(value);
-    if exact.len() <= 20 { exact } else { format!("{}…", to_significant(value, 16)) }
+fn digits_finding<'a>(scheme: &'a ExactScheme, proof: &Proof) -> Option<Finding<'a>> {
+    let claimed = scheme.table.digits.as_ref()?;
+    let hold = proof.for_kinetic(scheme.table.kinetic).digits?;
+    (hold + MOST_DIGITS_LOST < claimed.value).then_some(Finding::FewerDigits { claimed, hold })
 }

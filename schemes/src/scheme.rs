@@ -26,7 +26,7 @@ impl Held {
 
 /// A scheme with exact weights, as its table claims it; see [`crate::prove`] for what is true of it.
 #[derive(Clone, Debug)]
-pub struct Scheme {
+pub struct ExactScheme {
     /// The table, for names, claims and places.
     pub table: Table,
     /// a_s, s = 1..S (Moan & Niesen, eq. 1: in each stage the kick comes before the drift).
@@ -37,7 +37,7 @@ pub struct Scheme {
     pub held: Held,
 }
 
-impl Scheme {
+impl ExactScheme {
     /// The maps of a step in the order in which they act: zero weights left out, neighbours of one kind merged.
     pub fn maps(&self) -> Vec<Map> {
         merged(&self.kick, &self.drift)
@@ -46,7 +46,7 @@ impl Scheme {
     /// The same weights with the roles of kick and drift exchanged, where `first` asks for it.
     ///
     /// The order for quadratic T may be another one then: prove it again.
-    pub fn starting_with(mut self, first: First) -> Scheme {
+    pub fn starting_with(mut self, first: First) -> ExactScheme {
         if self.first() == first {
             return self;
         }

@@ -1,13 +1,12 @@
 //! The tables that come with the library: every file of `tables/`.
 
 use std::collections::BTreeMap;
-use std::sync::{LazyLock, OnceLock};
+use std::sync::LazyLock;
 
 use shadowstep_symbolic::nearest;
 
 use crate::document::Source;
 use crate::parse;
-use crate::proof::{Proved, read};
 use crate::spelling::spelling;
 
 const SHIPPED: &[(&str, &str)] = &include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
@@ -27,19 +26,11 @@ pub fn shipped(name: &str) -> Option<Source> {
     index(name).map(source)
 }
 
-/// A shipped table with what was proved of it, by the names that [`shipped`] knows. Each is proved once.
-///
-/// # Panics
-/// If the table's claims do not hold, which the tests of this crate exclude.
-pub fn shipped_proved(name: &str) -> Option<&'static Proved> {
-    static PROVED: [OnceLock<Proved>; SHIPPED.len()] = [const { OnceLock::new() }; SHIPPED.len()];
-    let index = index(name)?;
-    Some(PROVED[index].get_or_init(|| {
-        read(&source(index), &|base, _| shipped(base)).unwrap_or_else(|faults| panic!("a shipped table:\n{faults}"))
-    }))
-}
+/// How many tables are shipped.
+pub(crate) const COUNT: usize = SHIPPED.len();
 
-fn index(name: &str) -> Option<usize> {
+/// The index of a shipped table, by its name or one of its aliases.
+pub(crate) fn index(name: &str) -> Option<usize> {
     let name = name.strip_suffix(".toml").unwrap_or(name);
     let exact = SHIPPED.iter().position(|(known, _)| *known == name);
     exact.or_else(|| NAMES.get(&spelling(name)).copied())
@@ -63,7 +54,8 @@ pub fn shipped_hint(name: &str) -> String {
 /// From so many letters on names that begin with them are meant.
 const LEAST_BEGINNING: usize = 3;
 
-fn source(index: usize) -> Source {
+/// The text of a shipped table.
+pub(crate) fn source(index: usize) -> Source {
     let (name, text) = SHIPPED[index];
     Source { path: format!("{FOLDER}{name}.toml"), text: text.to_owned() }
 }

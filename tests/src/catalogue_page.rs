@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
+use shadowstep_analysis::Analysis;
+use shadowstep_analysis::stability::Stability;
 use shadowstep_schemes::First;
-use shadowstep_schemes::analysis::stability::Stability;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::{Cell, Table, Weights};
-use shadowstep_schemes::{Analysis, Kinetic, Proved, shipped_names, shipped_proved, to_significant, to_text};
+use shadowstep_schemes::{Kinetic, Proved, shipped_names, shipped_proved, to_significant, to_text};
 
 use crate::rational;
 
@@ -91,7 +92,7 @@ fn section(proved: &Proved, analysis: &Analysis) -> String {
     let aliases: Vec<_> = table.aliases.iter().map(|alias| format!("`{}`", alias.value)).collect();
     let also = if aliases.is_empty() { String::new() } else { format!("; also found as {}", aliases.join(", ")) };
     text += &format!("{title}{also}.\n\n```text\n{}```\n\n", weights(table));
-    let cost = proved.plan().cost();
+    let cost = proved.plan.cost();
     let near = match near_integrable(proved) {
         orders if orders.is_empty() => String::new(),
         orders => format!(", {orders} for A + εB"),

@@ -87,7 +87,7 @@ fn line(name: &str, scheme: &Proved) -> String {
         name.to_owned(),
         proof.general.order.to_string(),
         proof.quadratic.order.to_string(),
-        scheme.plan().evaluations.to_string(),
+        scheme.plan.evaluations.to_string(),
         if proof.symmetric { "yes" } else { "no" }.to_owned(),
         if scheme.scheme.first() == First::Kick { "kick" } else { "drift" }.to_owned(),
         if near.is_empty() { "-".to_owned() } else { near.join(",") },
@@ -104,7 +104,7 @@ fn what_is_claimed_is_what_is_proved() {
         let begin = Instant::now();
         let scheme = proved(name);
         slowest = slowest.max((begin.elapsed(), name));
-        assert!(scheme.remarks.is_empty(), "a claim below the truth: {}", scheme.remarks[0]);
+        assert!(scheme.notes.is_empty(), "a claim below the truth: {}", scheme.notes[0]);
         lines.push(line(name, &scheme));
     }
     println!("{} tables proved in {:.1?}, the slowest {slowest:.1?}", lines.len(), begin.elapsed());
@@ -124,7 +124,7 @@ fn exchanging_kick_and_drift() {
     for name in shipped_names() {
         let scheme = proved(name);
         let other = if scheme.scheme.first() == First::Kick { First::Drift } else { First::Kick };
-        match read_first(&shipped(name).unwrap(), &|base, _| shipped(base), other) {
+        match read_first(&shipped(name).unwrap(), &|base, _| shipped(base), Some(other)) {
             Ok(exchanged) => {
                 assert_eq!(exchanged.proof.general.order, scheme.proof.general.order, "{name}");
                 let near = |scheme: &Proved| scheme.proof.near_integrable.iter().map(|o| o.order).collect::<Vec<_>>();

@@ -6,14 +6,14 @@ use std::fs;
 use std::sync::LazyLock;
 
 use num_traits::{Signed, ToPrimitive};
-use shadowstep_schemes::polish::{Polished, PolishedWeight, Request, Role, polish, power_of_ten};
+use shadowstep_analysis::polish::{Polished, PolishedWeight, Request, Role, polish, power_of_ten};
 use shadowstep_schemes::{First, Proved, Rational, Source, read_first, shipped, shipped_proved};
 use shadowstep_tests::pages::assert_page;
 use shadowstep_tests::refusals::{assert_orders, assert_refused, judge, judge_named};
 use toml::Table;
 
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/errata-of-published-tables.md");
-const SCHEMES_TESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../schemes/tests");
+const ANALYSIS_TESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../analysis/tests");
 const DIGITS: [&str; 2] = ["<!-- digits: begin -->", "<!-- digits: end -->"];
 
 static TEXT: LazyLock<String> = LazyLock::new(|| fs::read_to_string(PAGE).unwrap());
@@ -51,9 +51,9 @@ fn says(text: &str) {
     assert!(words(&TEXT).contains(&words(text)), "the page does not say: {text}");
 }
 
-/// A table as printed, of `schemes/tests/published`.
+/// A table as printed, of `analysis/tests/published`.
 fn printed(name: &str) -> String {
-    fs::read_to_string(format!("{SCHEMES_TESTS}/published/{name}.toml")).expect(name)
+    fs::read_to_string(format!("{ANALYSIS_TESTS}/published/{name}.toml")).expect(name)
 }
 
 /// The same with a claim of so many digits.
@@ -65,7 +65,7 @@ fn printed_with_digits(name: &str, digits: u32) -> String {
 
 fn exchanged(name: &str, first: First) -> String {
     let source = Source { path: format!("{name}.toml"), ..shipped(name).unwrap() };
-    read_first(&source, &|base, _| shipped(base), first).expect_err("roles matter here").to_string()
+    read_first(&source, &|base, _| shipped(base), Some(first)).expect_err("roles matter here").to_string()
 }
 
 /// What is said of a table.
@@ -75,7 +75,7 @@ fn message(name: &str) -> String {
         "blanes-moan-srkn11b" => exchanged(name, First::Drift),
         "yoshida8-c" | "yoshida8-d" => {
             let proved = judge_named(&format!("{name}.toml"), &printed_with_digits(name, 20)).unwrap();
-            proved.remarks.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+            proved.notes.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
         }
         _ => judge_named(&format!("{name}.toml"), &table(name)).expect_err("the page shows wrong tables").to_string(),
     }
@@ -290,12 +290,12 @@ fn largest_distance(polished: &Polished) -> f64 {
 
 /// A row for each composition as printed and for the three schemes by stages of which the page has the decimals.
 fn digits_table() -> String {
-    let requests: Table = fs::read_to_string(format!("{SCHEMES_TESTS}/requests.toml")).unwrap().parse().unwrap();
+    let requests: Table = fs::read_to_string(format!("{ANALYSIS_TESTS}/requests.toml")).unwrap().parse().unwrap();
     let free = |name: &str| -> Vec<String> {
         let names = requests.get(name).and_then(|request| request.get("free")?.as_array());
         names.into_iter().flatten().map(|name| name.as_str().unwrap().to_owned()).collect()
     };
-    let files = fs::read_dir(format!("{SCHEMES_TESTS}/published")).unwrap().map(|file| file.unwrap().file_name());
+    let files = fs::read_dir(format!("{ANALYSIS_TESTS}/published")).unwrap().map(|file| file.unwrap().file_name());
     let names = files.filter_map(|file| Some(file.to_str()?.strip_suffix(".toml")?.to_owned()));
     let mut names: Vec<_> = names.filter(|name| printed(name).contains("[composition]")).collect();
     names.sort();
@@ -417,7 +417,7 @@ fn twenty_digits_of_which_twelve_are_right() {
             text = text.replace(&line, &format!("{} = \"{}\"", w.name, cell(&w.polished)));
         }
         let proved = judge(&text).unwrap();
-        assert!(proved.remarks.is_empty() && proved.proof.general.digits.unwrap() >= 19, "{text}");
+        assert!(proved.notes.is_empty() && proved.proof.general.digits.unwrap() >= 19, "{text}");
     }
     says(&format!("the printed weights of C turn out wrong {}, those of D {}.", told[0], told[1]));
     says(&format!("| {} to {} digits |", right.first().unwrap(), right.last().unwrap()));
@@ -456,7 +456,7 @@ fn two_sets_of_digits_both_right() {
     let names = ["kahan-li6", "kahan-li6-gni"];
     for (name, other) in [(names[0], names[1]), (names[1], names[0])] {
         let proved = judge(&printed_with_digits(name, 25)).unwrap();
-        assert_eq!((proved.proof.general.order, proved.remarks.len()), (6, 0), "{name}");
+        assert_eq!((proved.proof.general.order, proved.notes.len()), (6, 0), "{name}");
         assert!(polished(&printed(name), &["g2".to_owned()]).weights.iter().all(|w| w.right == w.printed_digits));
         let text = shipped(name).unwrap().text;
         assert!(text.starts_with("# A family with one free parameter") && text.lines().next().unwrap().contains(other));
@@ -524,7 +524,7 @@ fn a_kernel_without_its_processor() {
     let proved = judge(&whole).unwrap_or_else(|faults| panic!("{faults}"));
     let near: Vec<_> = proved.proof.near_integrable.iter().map(|order| order.order).collect();
     assert_eq!((proved.proof.general.order, near), (4, vec![7, 6, 4]));
-    assert!(proved.remarks.is_empty());
+    assert!(proved.notes.is_empty());
     says(&format!(
         "one table of {} stages, the same claims are proved: order 4, near-integrable orders (7,6,4), to {} digits",
         proved.scheme.kick.len(),

@@ -216,8 +216,8 @@ mine.toml:7:27: `g3` is no free parameter: its value is `sqrt(2)`
 mine.toml:2:11: this list is empty
   2 | aliases = []
     |           ^^
-  hint: write a list of names, such as ["PEFRL"], or leave the key out
-mine.toml:5:12: `dominant` says nothing without near-integrable orders
+  hint: write a list of names, such as ["PEFRL"]
+mine.toml:5:12: `dominant` needs near-integrable orders
   5 | dominant = "drift"
     |            ^^^^^^^
   hint: add `near_integrable = [8, 2]`, the orders claimed, or leave it out
@@ -524,7 +524,7 @@ fn digits_that_are_too_few_to_tell_one_order_from_the_next() {
         );
         let faults = judge(&table).unwrap_err().to_string();
         let expected =
-            format!("mine.toml:5:10: {digits} digits are too few to tell whether order 1 holds for every T(p)");
+            format!("mine.toml:5:10: {digits} digits are too few to decide whether order 1 holds for every T(p)");
         assert!(faults.starts_with(&expected), "{faults}");
     }
 }

@@ -162,7 +162,7 @@ fn compositions_of_orders_6_8_and_10() {
         println!("order {order}, {} stages: {:?}", 2 * gammas.len() + 1, begin.elapsed());
         assert_eq!(orders(&found), (order, order), "a composition has one order for every T");
         assert!(found.proof.symmetric);
-        assert!(found.remarks.is_empty(), "{:?}", found.remarks);
+        assert!(found.notes.is_empty(), "{:?}", found.notes);
         // the conditions hold to nearly as many digits as were printed: products of weights up to 1.3 lose one or two
         for proof in [&found.proof.general, &found.proof.quadratic] {
             let held = proof.digits.expect("rounded weights meet no condition exactly");
@@ -170,7 +170,7 @@ fn compositions_of_orders_6_8_and_10() {
             assert!((digits - 3..=digits + 1).contains(&held), "{held} of {digits}");
         }
         // the stages written out are Störmer–Verlet's two, merged
-        assert_eq!(found.plan().evaluations, 2 * gammas.len() + 1);
+        assert_eq!(found.plan.evaluations, 2 * gammas.len() + 1);
     }
 }
 
@@ -196,10 +196,10 @@ fn exchanging_kick_and_drift_loses_orders() {
         ("Okunbor & Skeel 6", OKUNBOR_SKEEL_6, 17, First::Kick, (6, 4)),
     ] {
         let library = |base: &str, _: &Source| shipped(base);
-        let faults = read_first(&source(&stages(claimed, "quadratic", digits, kick, drift)), &library, first);
+        let faults = read_first(&source(&stages(claimed, "quadratic", digits, kick, drift)), &library, Some(first));
         let faults = faults.expect_err(name).to_string();
         assert!(faults.contains(&format!("order {claimed} is claimed, order {left} holds")), "{name}: {faults}");
-        let kept = read_first(&source(&stages(left, "quadratic", digits, kick, drift)), &library, first);
+        let kept = read_first(&source(&stages(left, "quadratic", digits, kick, drift)), &library, Some(first));
         assert_eq!(orders(&kept.expect("the lower order holds")), (left, left), "{name}");
     }
 }
@@ -221,7 +221,7 @@ fn a_wrong_digit_costs_the_digits_behind_it() {
 fn a_modest_claim_is_remarked() {
     let found = proved(&composition(4, 20, YOSHIDA_6A));
     assert_eq!(orders(&found), (6, 6));
-    let remarks: Vec<_> = found.remarks.iter().map(ToString::to_string).collect();
+    let remarks: Vec<_> = found.notes.iter().map(ToString::to_string).collect();
     assert_eq!(
         remarks,
         ["literature.toml:2:9: order 4 is claimed, order 6 holds for every T(p)\n  \

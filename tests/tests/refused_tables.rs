@@ -36,7 +36,7 @@ mine.toml:5:20: order 6 is claimed, order 2 holds for the terms of ε: the condi
     assert!(dominant.contains("order 6 is claimed, order 2 holds for the terms of ε: "), "{dominant}");
     // a claim below the truth
     let modest = judge(&right.replace("[6, 2]", "[4, 2]")).unwrap();
-    let remarks: Vec<_> = modest.remarks.iter().map(ToString::to_string).collect();
+    let remarks: Vec<_> = modest.notes.iter().map(ToString::to_string).collect();
     assert_eq!(remarks.len(), 1);
     assert!(remarks[0].contains("order 4 is claimed, order 6 holds for the terms of ε"), "{}", remarks[0]);
 }

@@ -1,9 +1,10 @@
 //! How the analysis of a scheme is told, to machines and to people.
 
 use serde::Serialize;
-use shadowstep_schemes::analysis::error::LeadingError;
-use shadowstep_schemes::analysis::{self, stability, trace};
-use shadowstep_schemes::{Analysis, Kinetic, to_text};
+use shadowstep_analysis::bracket::Bracket;
+use shadowstep_analysis::error::LeadingError;
+use shadowstep_analysis::{self as analysis, Analysis, stability, trace};
+use shadowstep_schemes::{Kinetic, to_text};
 
 use crate::readable::shortened;
 
@@ -48,8 +49,7 @@ pub(crate) struct Sizes {
 
 impl ErrorRecord {
     pub(crate) fn of(error: &LeadingError) -> ErrorRecord {
-        let term =
-            |(bracket, c): &(analysis::bracket::Bracket, f64)| Term { bracket: bracket.to_string(), coefficient: *c };
+        let term = |(bracket, c): &(Bracket, f64)| Term { bracket: bracket.to_string(), coefficient: *c };
         ErrorRecord { power: error.power, norm: error.norm(), terms: error.terms.iter().map(term).collect() }
     }
 }

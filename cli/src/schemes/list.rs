@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use serde::Serialize;
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
+use shadowstep_analysis::Analysis;
 use shadowstep_schemes::Kinetic;
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 
@@ -161,7 +162,7 @@ fn sort(records: &mut [Record], arguments: &Arguments) {
 
 fn record(name: &'static str, scheme: &TableScheme) -> Record {
     let proved = scheme.proved();
-    let analysis = scheme.analysis();
+    let analysis = Analysis::of(proved);
     Record {
         name,
         aliases: aliases(&proved.scheme.table),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use num_traits::Signed;
-use shadowstep_schemes::polish::{self, NotPolished, Polished, PolishedWeight, Request, Role, many, power_of_ten};
+use shadowstep_analysis::polish::{self, NotPolished, Polished, PolishedWeight, Request, Role, counted, power_of_ten};
 use shadowstep_schemes::{Kinetic, Rational};
 use shadowstep_symbolic::decimal::to_significant;
 
@@ -50,18 +50,18 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let wanted = Request { digits: arguments.digits, free: &arguments.free, split_kicks: arguments.split_kicks };
     let polished = match polish::polish(&source, &library::beside_or_shipped, &wanted) {
         Ok(polished) => polished,
-        Err(NotPolished::Request { sentence, help }) => return Err(Error::usage(sentence, help)),
+        Err(NotPolished::Request { message, hint }) => return Err(Error::usage(message, hint)),
         Err(NotPolished::Faults(faults)) => {
             report::error(&Error::Faults(faults));
             return Ok(Status::NegativeAnswer);
         }
-        Err(NotPolished::Unsolved { sentence, help }) => return Ok(report::negative_answer(sentence, help)),
+        Err(NotPolished::Unsolved { message, hint }) => return Ok(report::negative_answer(message, hint)),
     };
     let mut output = Output::open(arguments.output.as_deref(), "--output")?;
     write!(output, "{}", polished.text)?;
     output.finish()?;
     report::write(told(&polished));
-    polished.remarks.iter().for_each(report::note);
+    polished.notes.iter().for_each(report::note);
     for weight in misprints(&polished.weights) {
         let PolishedWeight { name, right, printed_digits, .. } = weight;
         let are = if *right == 1 { "is" } else { "are" };
@@ -88,7 +88,7 @@ fn told(polished: &Polished) -> String {
         "{}\norder {} for {class}{near}{symmetric}: {}{kind}, off by {} as printed, by {} now\ncondition number {}{}",
         table(header, rows, 1..4),
         proved.order().order,
-        many(polished.conditions as u64, "condition"),
+        counted(polished.conditions as u64, "condition"),
         power_of_ten(polished.residual_printed),
         power_of_ten(polished.residual),
         number(polished.condition_number),

@@ -7,11 +7,13 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 use shadowstep::Rational;
 use shadowstep::tables::TableScheme;
+use shadowstep_analysis::Analysis;
+use shadowstep_schemes::Proved;
 use shadowstep_schemes::claims::HIGHEST_ORDER;
-use shadowstep_schemes::proof::{Order, Proved};
+use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{Analysis, First, Kinetic, to_significant, to_text};
+use shadowstep_schemes::{First, Kinetic, to_significant, to_text};
 
 use crate::output::Output;
 use crate::readable::{shortened, table, wrapped};
@@ -102,7 +104,7 @@ struct Map {
 
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let scheme = library::scheme(&arguments.name)?.scheme;
-    let analysis = scheme.analysis();
+    let analysis = Analysis::of(scheme.proved());
     let mut output = Output::open(None, "")?;
     if arguments.json {
         output.json(&record(&scheme, &analysis))?;
@@ -161,7 +163,7 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         reference: table.reference.clone(),
         doi: table.doi.clone(),
         table_hash: Sha256::digest(&table.source.text).iter().map(|byte| format!("{byte:02x}")).collect(),
-        remarks: proved.remarks.iter().map(ToString::to_string).collect(),
+        remarks: proved.notes.iter().map(ToString::to_string).collect(),
     }
 }
 
@@ -178,7 +180,7 @@ fn trace(analysis: &Analysis, held: Held) -> Vec<String> {
 
 fn failed(order: &Order, text: impl Fn(&Rational) -> String) -> Option<Failed> {
     order.failed.as_ref().map(|(condition, found)| Failed {
-        condition: condition.name.clone(),
+        condition: condition.functional.to_string(),
         order: condition.order,
         found: text(found),
         needed: text(&condition.needed),
@@ -204,7 +206,7 @@ fn readable(scheme: &TableScheme, analysis: &Analysis) -> String {
         text += lines.get(MARGIN..).unwrap_or("\n");
     }
     text += &format!("{}\n", weights_table(scheme));
-    text.extend(proved.remarks.iter().map(|remark| format!("remark: {remark}\n")));
+    text.extend(proved.notes.iter().map(|remark| format!("remark: {remark}\n")));
     text
 }
 

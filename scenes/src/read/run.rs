@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use shadowstep::Rational;
+use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::First;
 use shadowstep_symbolic::decimal::to_text;
 use toml::de::DeValue;
@@ -67,9 +68,11 @@ fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>, general: b
         }
     };
     if general && let Err(error) = named.scheme.clone().for_every_kinetic() {
-        // the message names a valid scheme
-        reader.toml.faults.push(reader.toml.source.fault(&word.at, error.to_string()));
-        return None;
+        let claimed = named.scheme.proved().scheme.table.order.value;
+        let better = best_for_every_kinetic(claimed).expect("there are shipped schemes for every T(p)");
+        let (name, order) = (&better.scheme.table.name.value, better.proof.general.order);
+        let hint = format!("use a scheme such as {name}, which has order {order} for every T(p)");
+        return reader.toml.wrong(&word.at, error.to_string(), hint);
     }
     match reader.arithmetic.suits(&named) {
         Ok(note) => {

@@ -13,25 +13,14 @@ use crate::circles::{circles, show};
 use crate::imports::imports;
 use crate::source::Crate;
 
-/// Packages that still have circles; none may be added.
-const WITH_CIRCLES: [&str; 1] = ["shadowstep-schemes"];
-
 #[test]
 fn no_files_import_each_other_in_a_circle() {
     let (folder, roots) = workspace();
     assert!(roots.len() >= 6, "the crates of the workspace are found: {roots:?}");
     let mut shown = Vec::new();
-    let mut with_circles = Vec::new();
-    for (package, root) in &roots {
+    for root in roots.iter().map(|(_, root)| root) {
         let imports = imports(&Crate::read(root));
-        let found = circles(&imports);
-        let listed = WITH_CIRCLES.contains(&package.as_str());
-        if !found.is_empty() {
-            with_circles.push(package.as_str());
-        }
-        if !listed {
-            shown.extend(found.iter().map(|circle| show(circle, &imports, &folder)));
-        }
+        shown.extend(circles(&imports).iter().map(|circle| show(circle, &imports, &folder)));
     }
     assert!(
         shown.is_empty(),
@@ -39,9 +28,6 @@ fn no_files_import_each_other_in_a_circle() {
          or into the file that uses them:\n{}",
         shown.join("")
     );
-    for listed in WITH_CIRCLES {
-        assert!(with_circles.contains(&listed), "{listed} has no circles any more: remove it from WITH_CIRCLES");
-    }
 }
 
 /// The workspace's folder, and of every crate in it (libraries, programs, tests, benchmarks) the package and the root file.

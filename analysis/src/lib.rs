@@ -1,0 +1,27 @@
+//! How good a proved splitting scheme is, and more digits for weights as papers print them.
+//!
+//! | file | what it computes |
+//! | --- | --- |
+//! | `analysis` | [`Analysis`]: everything below for one scheme, and the sizes of its weights |
+//! | [`error`](mod@error), [`bracket`] | the leading error: the terms of lowest order in the logarithm of a step |
+//! | [`trace`] | the trace of a step of the harmonic oscillator, and the leading error of its phase |
+//! | [`stability`], `roots`, `squarefree` | where the harmonic oscillator is stable: roots of integer polynomials |
+//! | `prime` | residues modulo a prime, for `bracket` and `squarefree` |
+//! | `better` | [`best_for_every_kinetic`]: the shipped scheme to use for a T(p) that is not quadratic |
+//! | [`polish`](mod@polish) | a table of printed decimals → one whose order conditions hold to more digits |
+//!
+//! Compiling a user's crate does not need any of this: the macros and the runtime depend on `shadowstep-schemes` only.
+
+mod analysis;
+mod better;
+pub mod bracket;
+pub mod error;
+pub mod polish;
+mod prime;
+mod roots;
+mod squarefree;
+pub mod stability;
+pub mod trace;
+
+pub use analysis::{Analysis, Sizes};
+pub use better::best_for_every_kinetic;

@@ -1,0 +1,87 @@
+//! What the formulas of a table's cells consist of: constants by name, and decimals that nothing moves.
+
+use std::collections::BTreeSet;
+
+use shadowstep_symbolic::{Expression, Kind, parse};
+
+use shadowstep_schemes::table::{Cell, Table, Weights};
+
+/// The constants on which no weight depends.
+pub(super) fn unused_constants(table: &Table) -> Vec<&str> {
+    let mut used = BTreeSet::new();
+    let use_names = |cell: &Cell, used: &mut BTreeSet<String>| {
+        if let Ok(expression) = parse(&cell.value) {
+            visit(&expression, &mut |part| {
+                if let Kind::Name(name) = &part.kind {
+                    used.insert(name.clone());
+                }
+            });
+        }
+    };
+    weights(table).iter().for_each(|(_, cell)| use_names(cell, &mut used));
+    let mut unused = Vec::new();
+    // a constant uses those above it only
+    for (name, cell) in table.constants.iter().rev() {
+        if used.contains(&name.value) {
+            use_names(cell, &mut used);
+        } else {
+            unused.push(name.value.as_str());
+        }
+    }
+    unused.reverse();
+    unused
+}
+
+/// Shorter decimals within formulas are meant exactly, as in `0.25*a`.
+const SHORTEST_ROUNDED: usize = 4;
+
+/// The cells whose formulas have long decimals in them, such as `1 - 2*1.351207192`.
+pub(super) fn cells_with_decimals(table: &Table) -> Vec<String> {
+    let constants = table.constants.iter().map(|(name, cell)| (name.value.clone(), cell));
+    let has_decimal = |cell: &Cell| {
+        let mut found = false;
+        if let Ok(expression) = parse(&cell.value) {
+            let stands_alone = matches!(&expression.kind, Kind::Number(_))
+                || matches!(&expression.kind, Kind::Negate(inner) if matches!(inner.kind, Kind::Number(_)));
+            visit(&expression, &mut |part| {
+                let digits = |text: &str| text.bytes().filter(u8::is_ascii_digit).skip_while(|&c| c == b'0').count();
+                let text = &cell.value[part.range.clone()];
+                let is_long = text.contains('.') && digits(text) >= SHORTEST_ROUNDED;
+                found |= !stands_alone && is_long && matches!(part.kind, Kind::Number(_));
+            });
+        }
+        found
+    };
+    let unused = unused_constants(table);
+    let used = constants.filter(|(name, _)| !unused.contains(&name.as_str()));
+    used.chain(weights(table)).filter(|(_, cell)| has_decimal(cell)).map(|(name, _)| name).collect()
+}
+
+/// The cells of the weights, with their places such as `kick[2]`.
+fn weights(table: &Table) -> Vec<(String, &Cell)> {
+    let lists = match &table.weights {
+        Some(Weights::Stages { kick, drift }) => vec![("kick", kick), ("drift", drift)],
+        Some(Weights::Composition { gamma, .. }) => vec![("gamma", gamma)],
+        None => Vec::new(),
+    };
+    lists
+        .into_iter()
+        .flat_map(|(list, cells)| {
+            cells.value.iter().enumerate().map(move |(i, cell)| (format!("{list}[{}]", i + 1), cell))
+        })
+        .collect()
+}
+
+/// Calls `look` with an expression and all that it consists of.
+fn visit(expression: &Expression, look: &mut impl FnMut(&Expression)) {
+    look(expression);
+    match &expression.kind {
+        Kind::Number(_) | Kind::Name(_) => {}
+        Kind::Negate(inner) => visit(inner, look),
+        Kind::Binary(_, left, right) => {
+            visit(left, look);
+            visit(right, look);
+        }
+        Kind::Call { arguments, .. } => arguments.iter().for_each(|argument| visit(argument, look)),
+    }
+}

@@ -1,0 +1,134 @@
+//! The trace of a step of the harmonic oscillator: an exact polynomial in x = (hω)².
+//!
+//! For H = (p² + ω²q²)/2 a kick is hp −= a x q, a drift q += b (hp), and a step a matrix of determinant 1. Its trace,
+//! 2 cos φ for a step that turns by φ, is Σ_k t_k x^k, where t_k has the sign (−1)^k and is a sum of products of k of the
+//! a's and k of the b's.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
+use shadowstep_symbolic::{Fraction, Rational};
+
+use shadowstep_schemes::arithmetic::{Arithmetic, Sensitivity};
+use shadowstep_schemes::map::{Map, MapKind};
+use shadowstep_schemes::scheme::Held;
+
+/// The trace polynomial, with integers over powers of one denominator: reducing each fraction would cost far more.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trace {
+    /// T_0, T_1, … in tr = Σ T_k (x/N)^k
+    pub(crate) integers: Vec<BigInt>,
+    /// N
+    pub(crate) denominator: BigInt,
+}
+
+/// The leading error of the phase: (φ − hω)/hω = coefficient·(hω)^power + ….
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhaseError {
+    /// c
+    pub coefficient: f64,
+    /// The power of hω.
+    pub power: u32,
+}
+
+impl Trace {
+    /// The trace of the step that these maps make.
+    pub(crate) fn of(maps: &[Map]) -> Trace {
+        let scale = maps.iter().fold(BigInt::one(), |lcm, map| lcm.lcm(map.weight.denom()));
+        let integer = |map: &Map| (map.kind, map.weight.numer() * (&scale / map.weight.denom()));
+        let maps: Vec<_> = maps.iter().map(integer).collect();
+        let mut integers = trace(&maps, &BigInt::zero(), &BigInt::one(), |sum, a, b| *sum += a * b);
+        integers.iter_mut().skip(1).step_by(2).for_each(|value| *value = -&*value);
+        while integers.len() > 1 && integers.last().is_some_and(Zero::is_zero) {
+            integers.pop();
+        }
+        Trace { integers, denominator: &scale * &scale }
+    }
+
+    /// The degree in x.
+    pub fn degree(&self) -> usize {
+        self.integers.len() - 1
+    }
+
+    /// t_k, the coefficient of x^k, exactly.
+    pub fn coefficient(&self, k: usize) -> Rational {
+        let Some(integer) = self.integers.get(k) else { return Rational::zero() };
+        Rational::new(integer.clone(), self.denominator.pow(k as u32))
+    }
+
+    /// t_k without reducing the fraction, which takes long where the weights have hundreds of digits.
+    pub fn unreduced_coefficient(&self, k: usize) -> Fraction {
+        let Some(integer) = self.integers.get(k) else { return Rational::zero().into() };
+        Fraction::new(integer.clone(), self.denominator.pow(k as u32))
+    }
+
+    /// The leading error of the phase of a scheme that has the order `order` for quadratic T.
+    ///
+    /// Where tr = 2 cos(hω) + δ x^m + …, the phase is off by −δ/2·(hω)^{2m−2}, relatively. A δ that the digits of the
+    /// weights can account for counts as none.
+    pub(crate) fn phase_error(&self, maps: &[Map], held: Held, order: u32) -> PhaseError {
+        let slopes = slopes(maps);
+        let tolerance = |m: usize| match held {
+            Held::Exactly => Rational::zero(),
+            Held::Digits(digits) => {
+                let slope = slopes.get(m).copied().and_then(Rational::from_f64).unwrap_or_else(Rational::zero);
+                slope / BigInt::from(10).pow(digits - 1)
+            }
+        };
+        let mut m = order.div_ceil(2) as usize + 1;
+        loop {
+            let difference = self.coefficient(m) - cosine(m);
+            if difference.abs() > tolerance(m) {
+                let coefficient = -difference.to_f64().unwrap_or(f64::NAN) / 2.0;
+                return PhaseError { coefficient, power: 2 * m as u32 - 2 };
+            }
+            // beyond the degree there is nothing that the cosine's coefficient could be equal to
+            m += 1;
+        }
+    }
+}
+
+/// The coefficient of x^m in 2 cos √x.
+fn cosine(m: usize) -> Rational {
+    let factorial: BigInt = (1..=2 * m).map(BigInt::from).product();
+    Rational::new(if m.is_multiple_of(2) { 2.into() } else { (-2).into() }, factorial)
+}
+
+/// How far each coefficient moves when each weight moves by one unit of its last digit, in that unit.
+fn slopes(maps: &[Map]) -> Vec<f64> {
+    let weights: Vec<_> = maps.iter().map(|map| (map.kind, Sensitivity.weight(&map.weight))).collect();
+    let traces = trace(&weights, &Sensitivity.zero(), &Sensitivity.one(), |sum, a, b| {
+        Sensitivity.add_product(sum, a, b);
+    });
+    traces.iter().map(|sensitive| sensitive.slope).collect()
+}
+
+/// The coefficients of the trace in −x, which are sums of products without a sign.
+fn trace<V: Clone>(maps: &[(MapKind, V)], zero: &V, one: &V, add_product: impl Fn(&mut V, &V, &V)) -> Vec<V> {
+    let size = maps.iter().filter(|(kind, _)| *kind == MapKind::Kick).count() + 1;
+    let polynomial = |constant: &V| {
+        let mut coefficients = vec![zero.clone(); size];
+        coefficients[0] = constant.clone();
+        coefficients
+    };
+    // the columns of the matrix: where the step takes (q, hp) = (1, 0) and (0, 1)
+    let mut columns = [[polynomial(one), polynomial(zero)], [polynomial(zero), polynomial(one)]];
+    let mut degree = 0;
+    for (kind, weight) in maps {
+        degree += usize::from(*kind == MapKind::Kick);
+        for [q, p] in &mut columns {
+            match kind {
+                MapKind::Kick => (0..degree).for_each(|k| add_product(&mut p[k + 1], weight, &q[k])),
+                MapKind::Drift => (0..=degree).for_each(|k| add_product(&mut q[k], weight, &p[k])),
+            }
+        }
+    }
+    let [[q, _], [_, p]] = columns;
+    q.into_iter()
+        .zip(&p)
+        .map(|(mut sum, p)| {
+            add_product(&mut sum, one, p);
+            sum
+        })
+        .collect()
+}

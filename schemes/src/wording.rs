@@ -1,0 +1,142 @@
+//! What the proof finds of the claims of a table → sentences with places.
+
+use std::fmt;
+
+use num_traits::Signed;
+use shadowstep_symbolic::Rational;
+use shadowstep_symbolic::decimal::{to_significant, to_text};
+
+use crate::claims::Kinetic;
+use crate::conditions::Family;
+use crate::digits::digits_of;
+use crate::document::{Fault, Placed};
+use crate::map::MapKind;
+use crate::order::Condition;
+use crate::proof::{Finding, Order, Proof};
+use crate::scheme::ExactScheme;
+use crate::table::{Table, Weights};
+
+/// A finding as a sentence at the place of the claim.
+pub(crate) fn worded(finding: &Finding<'_>, scheme: &ExactScheme, proof: &Proof) -> Fault {
+    let table = &scheme.table;
+    match finding {
+        Finding::Sum { kind, found, needed } => wrong_sum(table, *kind, found, needed),
+        Finding::LowerOrder { family, claimed, proved } => lower_order(table, proof, *family, claimed, proved),
+        Finding::HigherOrder { family, claimed, holds } => {
+            let message = format!("order {} is claimed, order {holds} holds {family}", claimed.value);
+            let hint = match family {
+                Family::Kinetic(_) => format!("write `order = {holds}`"),
+                Family::Power(_) => format!("write {holds}"),
+            };
+            table.source.fault(&claimed.at, message).hint(hint)
+        }
+        Finding::NotSymmetric { claim } => not_a_palindrome(scheme, claim),
+        Finding::Symmetric { claim } => {
+            table.source.fault(&claim.at, "the scheme is a palindrome").hint("write `symmetric = true`")
+        }
+        Finding::FewerDigits { claimed, hold } => {
+            let message = format!("{} digits are claimed, the order conditions hold to {hold}", claimed.value);
+            let hint = format!(
+                "some digits of the weights may be wrong: write `digits = {hold}`, or look for a better source"
+            );
+            table.source.fault(&claimed.at, message).hint(hint)
+        }
+    }
+}
+
+/// What the order is of.
+impl fmt::Display for Family {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Family::Kinetic(Kinetic::Any) => f.write_str("for every T(p)"),
+            Family::Kinetic(Kinetic::Quadratic) => f.write_str("for quadratic T"),
+            Family::Power(power) => write!(f, "for the terms of {power}"),
+        }
+    }
+}
+
+fn wrong_sum(table: &Table, kind: MapKind, found: &Rational, needed: &Rational) -> Fault {
+    let at = match (&table.weights, kind) {
+        (Some(Weights::Stages { kick, .. }), MapKind::Kick) => &kick.at,
+        (Some(Weights::Stages { drift, .. }), MapKind::Drift) => &drift.at,
+        (Some(Weights::Composition { gamma, .. }), _) => &gamma.at,
+        (None, _) => unreachable!("a scheme has weights"),
+    };
+    let message = format!("the {kind}s do not sum to 1, so not even order 1 holds");
+    let fault = table.source.fault(at, message).values(beside(found, needed), "1");
+    with_rounding_hint(fault, table, &(found - needed))
+}
+
+fn lower_order(table: &Table, proof: &Proof, family: Family, claimed: &Placed<u32>, proved: &Order) -> Fault {
+    let (failed, found) = proved.failed.as_ref().expect("a higher order would hold");
+    if let Some(digits) = table.digits.as_ref().filter(|_| proved.undecided) {
+        let message =
+            format!("{} digits are too few to decide whether order {} holds {family}", digits.value, failed.order);
+        return table.source.fault(&digits.at, message).hint("take the weights from a source with more digits");
+    }
+    let fault = failed_condition(table, family, claimed, proved.order, failed, found);
+    match family {
+        Family::Kinetic(Kinetic::Any) if proof.quadratic.order >= claimed.value => fault
+            .hint(format!("order {} holds for quadratic T: write `kinetic = \"quadratic\"`", proof.quadratic.order)),
+        _ => with_rounding_hint(fault, table, &(found - &failed.needed)),
+    }
+}
+
+fn failed_condition(
+    table: &Table,
+    family: Family,
+    claimed: &Placed<u32>,
+    holds: u32,
+    failed: &Condition,
+    found: &Rational,
+) -> Fault {
+    let message = format!(
+        "order {} is claimed, order {holds} holds {family}: the condition of {} fails",
+        claimed.value, failed.functional
+    );
+    table.source.fault(&claimed.at, message).values(beside(found, &failed.needed), short(&failed.needed))
+}
+
+/// Adds what rounded weights may have to do with a condition that is off by little.
+fn with_rounding_hint(fault: Fault, table: &Table, distance: &Rational) -> Fault {
+    if digits_of(&distance.abs()).is_none_or(|digits| digits < 6) {
+        return fault;
+    }
+    let off = format!("the condition is off by {}", to_significant(&distance.abs(), 2));
+    fault.hint(match &table.digits {
+        None => format!("{off}: if the weights are rounded, add `digits = …`"),
+        Some(digits) => format!("{off}, more than {} digits of the weights can account for", digits.value),
+    })
+}
+
+fn not_a_palindrome(scheme: &ExactScheme, claim: &Placed<bool>) -> Fault {
+    let maps = scheme.maps();
+    let message = "a palindrome is claimed, the maps do not read the same backwards";
+    let fault = scheme.table.source.fault(&claim.at, message);
+    let pair = maps.iter().zip(maps.iter().rev()).enumerate().find(|(_, (a, b))| a != b);
+    match pair {
+        Some((i, (from_start, from_end))) => fault
+            .values(
+                format!("{} {} as map {} from the start", from_start.kind, short(&from_start.weight), i + 1),
+                format!("{} {}, the map {} from the end", from_end.kind, short(&from_end.weight), i + 1),
+            )
+            .hint("correct the weights, or leave `symmetric` out"),
+        None => fault,
+    }
+}
+
+/// A value for people; one whose shown digits agree with the value needed is shown as that value and the difference.
+fn beside(found: &Rational, needed: &Rational) -> String {
+    let off = found - needed;
+    if to_text(found).len() <= 20 || to_significant(found, 16) != to_significant(needed, 16) {
+        return short(found);
+    }
+    let sign = if off.is_negative() { '-' } else { '+' };
+    format!("{} {sign} {}", short(needed), to_significant(&off.abs(), 2))
+}
+
+/// A value for people: exact if short, else rounded.
+fn short(value: &Rational) -> String {
+    let exact = to_text(value);
+    if exact.len() <= 20 { exact } else { format!("{}…", to_significant(value, 16)) }
+}
