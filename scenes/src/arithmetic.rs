@@ -1,7 +1,7 @@
 //! The number type of a run and its digits: the list of number types, and the one place that dispatches on them.
 
 use num_traits::Zero;
-use shadowstep::number::{Float, Number, Precision, Rounded};
+use shadowstep::number::{Float, Precision, Rounded};
 use shadowstep::{Rational, number::PrecisionError};
 use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
 use shadowstep_schemes::scheme::Held;
@@ -29,18 +29,6 @@ pub const NUMBER_EXAMPLES: &str = "write an exact number, such as 1/10, 0.05, 1e
 /// What else helps where a scheme's weights have too few digits.
 pub const OTHER_SCHEME: &str = "a scheme whose weights are fractions";
 
-/// The significant digits of f64, rounded up.
-const DOUBLE_DIGITS: u32 = 16;
-
-/// The number type of a run.
-#[derive(Clone, Copy, Debug)]
-pub enum Arithmetic {
-    /// Double precision, `f64`.
-    Double,
-    /// Decimal digits, and the precision in bits that has them: [`Float`].
-    Digits(u32, Precision),
-}
-
 /// A computation that can be made in every number type.
 pub trait Computation {
     /// Its result.
@@ -60,10 +48,94 @@ pub enum DigitsLabel {
     Digits(u32),
 }
 
-impl Arithmetic {
-    /// The number types that have names instead of digits.
-    pub const NAMED: [(&'static str, Arithmetic); 1] = [("double", Arithmetic::Double)];
+/// Makes [`Arithmetic`] from one list of the number types that have names:
+/// `Variant: type, "name in scenes and records", "description", digits`.
+macro_rules! number_types {
+    ($($(#[$doc:meta])* $Name:ident: $number:ty, $word:literal, $description:literal, $digits:literal;)+) => {
+        /// The number type of a run.
+        #[derive(Clone, Copy, Debug)]
+        pub enum Arithmetic {
+            $($(#[$doc])* $Name,)+
+            /// Decimal digits, and the precision in bits that has them: [`Float`].
+            Digits(u32, Precision),
+        }
 
+        impl Arithmetic {
+            /// The number types that have names instead of digits.
+            pub const NAMED: &'static [(&'static str, Arithmetic)] = &[$(($word, Arithmetic::$Name),)+];
+
+            /// Makes a computation in this number type.
+            ///
+            /// ```
+            /// use shadowstep::number::Rounded;
+            /// use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+            ///
+            /// struct Third;
+            ///
+            /// impl Computation for Third {
+            ///     type Output = String;
+            ///
+            ///     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> String {
+            ///         N::from_rational(&shadowstep::exact("1/3").unwrap(), context).to_text()
+            ///     }
+            /// }
+            ///
+            /// assert_eq!(Arithmetic::Double.compute(Third), "0.3333333333333333");
+            /// assert_eq!(Arithmetic::with_digits(30)?.compute(Third).len(), "0.".len() + 31);
+            /// # Ok::<(), shadowstep::number::PrecisionError>(())
+            /// ```
+            pub fn compute<C: Computation>(self, computation: C) -> C::Output {
+                match self {
+                    $(Arithmetic::$Name => computation.compute::<$number>(&Default::default()),)+
+                    Arithmetic::Digits(_, precision) => computation.compute::<Float>(&precision),
+                }
+            }
+
+            /// Its significant decimal digits, rounded up.
+            pub fn digits(self) -> u32 {
+                match self {
+                    $(Arithmetic::$Name => $digits,)+
+                    Arithmetic::Digits(digits, _) => digits,
+                }
+            }
+
+            /// Its name or digits in records and metadata.
+            pub fn label(self) -> DigitsLabel {
+                match self {
+                    $(Arithmetic::$Name => DigitsLabel::Name($word),)+
+                    Arithmetic::Digits(digits, _) => DigitsLabel::Digits(digits),
+                }
+            }
+
+            /// Its description: `double precision`, `120 digits`.
+            pub fn described(self) -> String {
+                match self {
+                    $(Arithmetic::$Name => $description.to_owned(),)+
+                    Arithmetic::Digits(digits, _) => format!("{digits} digits"),
+                }
+            }
+        }
+    };
+}
+
+number_types! {
+    /// Double precision, `f64`.
+    Double: f64, "double", "double precision", 16;
+}
+
+/// Whether a number neither overflows nor becomes 0 in a number type.
+struct Holds<'a>(&'a Rational);
+
+impl Computation for Holds<'_> {
+    type Output = bool;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> bool {
+        let rounded = N::from_rational(self.0, context);
+        rounded.is_finite() && (self.0.is_zero() || rounded != N::from_rational(&Rational::zero(), context))
+    }
+}
+
+impl Arithmetic {
     /// Multiprecision numbers with this many decimal digits.
     ///
     /// # Errors
@@ -72,67 +144,9 @@ impl Arithmetic {
         Ok(Arithmetic::Digits(digits, Precision::digits(digits)?))
     }
 
-    /// Makes a computation in this number type.
-    ///
-    /// ```
-    /// use shadowstep::number::Rounded;
-    /// use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
-    ///
-    /// struct Third;
-    ///
-    /// impl Computation for Third {
-    ///     type Output = String;
-    ///
-    ///     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> String {
-    ///         N::from_rational(&shadowstep::exact("1/3").unwrap(), context).to_text()
-    ///     }
-    /// }
-    ///
-    /// assert_eq!(Arithmetic::Double.compute(Third), "0.3333333333333333");
-    /// assert_eq!(Arithmetic::with_digits(30)?.compute(Third).len(), "0.".len() + 31);
-    /// # Ok::<(), shadowstep::number::PrecisionError>(())
-    /// ```
-    pub fn compute<C: Computation>(self, computation: C) -> C::Output {
-        match self {
-            Arithmetic::Double => computation.compute::<f64>(&()),
-            Arithmetic::Digits(_, precision) => computation.compute::<Float>(&precision),
-        }
-    }
-
-    /// Its significant decimal digits.
-    pub fn digits(self) -> u32 {
-        match self {
-            Arithmetic::Double => DOUBLE_DIGITS,
-            Arithmetic::Digits(digits, _) => digits,
-        }
-    }
-
-    /// What records and metadata call it.
-    pub fn label(self) -> DigitsLabel {
-        match self {
-            Arithmetic::Double => DigitsLabel::Name("double"),
-            Arithmetic::Digits(digits, _) => DigitsLabel::Digits(digits),
-        }
-    }
-
-    /// What people call it: `120 digits`.
-    pub fn described(self) -> String {
-        match self {
-            Arithmetic::Double => "double precision".to_owned(),
-            Arithmetic::Digits(digits, _) => format!("{digits} digits"),
-        }
-    }
-
     /// Whether a value neither overflows nor becomes 0.
     pub fn holds(self, value: &Rational) -> bool {
-        match self {
-            Arithmetic::Double => {
-                let nearest = f64::from_rational(value, &());
-                nearest.is_finite() && (nearest != 0.0 || value.is_zero())
-            }
-            // 10^±646456993 and less
-            Arithmetic::Digits(..) => true,
-        }
+        self.compute(Holds(value))
     }
 
     /// The digits to which exact values of the run are computed.

@@ -73,7 +73,7 @@ fn stepper<S: Scheme, N: Number>(scheme: S, scene: &Scene, context: &N::Context)
 
 /// Dimensions that do not agree, such as those of the state in a checkpoint.
 fn inconsistent(error: &MotionError) -> Error {
-    Error::usage(error.to_string(), "--restart begins again")
+    Error::usage(error.to_string(), "begin again with --restart")
 }
 
 fn unreadable(n: i64) -> Error {
@@ -146,6 +146,7 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
         M: System<Number = N>,
     {
         let steps = self.run.steps;
+        let every = self.scene.output.modified_energy.as_ref().map(|(_, every)| *every);
         let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
         let settings = settings.clone().with_errors(true);
         let mut shadow = match from {
@@ -160,12 +161,7 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
         while let Some((n, found)) = shadow.advance().map_err(|error| self.failed(&error))? {
             q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
             p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
-            let every = self.scene.output.modified_energy.as_ref().map(|(_, every)| *every);
-            let modified = self.is_due(every, n).then(|| ModifiedEnergy {
-                modified_energy: found.value.to_text(),
-                estimate: found.error.map(N::to_text),
-                order: found.order,
-            });
+            let modified = self.is_due(every, n).then(|| ModifiedEnergy::of(&found));
             let energy = self.is_due(self.scene.output.energy, n).then(|| shadow.system().energy_at(&q, &p));
             self.row(n, &q, &p, energy.as_ref(), modified)?;
             snapshots.offer(n, &q, &p);

@@ -130,9 +130,7 @@ fn unknown(word: &str) -> LibraryError {
             format!("`shadowstep drift` and `trace` take it as --scheme, for {}", known.join(", ")),
         );
     }
-    let hint = match shipped_hint(word) {
-        names if names.ends_with('?') => format!("{names} `shadowstep schemes` lists all"),
-        none => format!("{none}; `shadowstep schemes` lists all; the name of a custom table ends in .toml"),
-    };
+    let near = shipped_hint(word);
+    let hint = format!("{near} (`shadowstep schemes` lists all; the name of a custom table ends in .toml)");
     not_found(format!("there is no scheme `{word}`"), hint)
 }

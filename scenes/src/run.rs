@@ -19,11 +19,11 @@ pub struct Run<'a> {
     pub h: &'a Rational,
     /// The number of steps.
     pub steps: u64,
-    /// The order of the estimator, where a person set it or could.
+    /// The option that sets the order of the estimator, if there is one.
     pub order: Option<OrderSetting>,
 }
 
-/// What holds the order of the estimator, as it is spelt where the run is asked for.
+/// The option that sets the order of the estimator or its largest order, as it is spelt by the caller.
 #[derive(Clone, Copy, Debug)]
 pub struct OrderSetting {
     /// `--max-order`, or `order` in a scene.
@@ -74,7 +74,7 @@ impl Run<'_> {
 
     /// The exact flow cannot be followed.
     pub fn not_followed(&self, error: &ExactFlowError) -> Error {
-        Error::run(format!("{}: {error}", self.name()), "try an earlier --until or another initial state")
+        Error::run(format!("{}: {error}", self.name()), "try a shorter time or another initial state")
     }
 
     /// All states are finite, an energy is not.

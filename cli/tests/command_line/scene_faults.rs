@@ -102,21 +102,21 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     (
         "energy = true",
         "modified_energy = { order = 4, stop = \"early\" }",
-        "15:39: stop is for order = \"auto\", not for order = 4",
-        "leave it out",
+        "15:39: stop requires order = \"auto\", not order = 4",
+        "remove it",
     ),
-    ("energy = true", "modified_energy = { order = 4, rule = \"robust\" }", "15:39: rule is for order", "leave it out"),
+    ("energy = true", "modified_energy = { order = 4, rule = \"robust\" }", "15:39: rule requires order", "remove it"),
     (
         "energy = true",
         "modified_energy = { accuracy = 1e-9 }",
-        "15:32: accuracy is for estimator = \"bilinear\", not for estimator = \"central\"",
+        "15:32: accuracy requires estimator = \"bilinear\", not estimator = \"central\"",
         "write estimator = \"bilinear\"",
     ),
     (
         "energy = true",
         "modified_energy = { estimator = \"bilinear\", rule = \"least\" }",
-        "15:52: rule is for estimator = \"central\"",
-        "leave it out",
+        "15:52: rule requires estimator = \"central\"",
+        "remove it",
     ),
     (
         "energy = true",

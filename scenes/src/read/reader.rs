@@ -83,8 +83,11 @@ impl<'a> Reader<'a> {
                 self.toml.wrong(&text.at, message, hint)
             }
             Ok(exact) if !self.arithmetic.holds(&exact.value) => {
-                let message =
-                    format!("{} overflows or underflows in double precision", to_significant(&exact.value, 6));
+                let message = format!(
+                    "{} overflows or underflows in {}",
+                    to_significant(&exact.value, 6),
+                    self.arithmetic.described()
+                );
                 self.toml.wrong(&text.at, message, "write digits = 16 in [run] for numbers of any size")
             }
             Ok(exact) => Some(exact),
@@ -112,8 +115,9 @@ impl<'a> Reader<'a> {
         let Ok(node) = graph.build(&expression, &names, &[]) else { return };
         if let Some(value) = graph.numbers(node).into_iter().find(|value| !self.arithmetic.holds(value)) {
             let message = format!(
-                "the number {} in the formula overflows or underflows in double precision",
-                to_significant(value, 12)
+                "the number {} in the formula overflows or underflows in {}",
+                to_significant(value, 12),
+                self.arithmetic.described()
             );
             self.toml.fault(&text.at, message, "write digits = 17, or scale the number");
         }

@@ -19,7 +19,7 @@ pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Opti
     let digits = match run.get("digits") {
         None => DEFAULT_DIGITS,
         Some(value) if matches!(value.get_ref(), DeValue::String(_)) => {
-            return reader.word(value, &Arithmetic::NAMED);
+            return reader.word(value, Arithmetic::NAMED);
         }
         Some(value) => u32::try_from(reader.whole(value, 1..=MOST_DIGITS.into())?).ok()?,
     };

@@ -3,6 +3,8 @@
 use std::io::Write;
 
 use serde::Serialize;
+use shadowstep::Number;
+use shadowstep::shadow::Estimate;
 
 use crate::error::Error;
 use crate::results::metadata::Metadata;
@@ -29,6 +31,16 @@ pub(crate) struct ModifiedEnergy {
     pub(crate) modified_energy: String,
     pub(crate) estimate: Option<String>,
     pub(crate) order: u32,
+}
+
+impl ModifiedEnergy {
+    pub(crate) fn of<N: Number>(found: &Estimate<'_, N>) -> Self {
+        ModifiedEnergy {
+            modified_energy: found.value.to_text(),
+            estimate: found.error.map(N::to_text),
+            order: found.order,
+        }
+    }
 }
 
 /// The columns of a CSV file besides n and t.
