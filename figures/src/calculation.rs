@@ -5,13 +5,15 @@ use serde::{Deserialize, Serialize};
 use shadowstep::number::Number;
 use shadowstep::problems::Setup;
 use shadowstep::run::{Finding, States, Trajectory};
+use shadowstep::shadow::EstimatorSettings;
 use shadowstep_scenes::library::EXACT_FLOW;
 use shadowstep_scenes::propagator::{Propagator, motion, stepper};
 use shadowstep_scenes::run::Run as Steps;
 
 use crate::Error;
+use crate::estimator;
 use crate::noise::{self, Block, Differences};
-use crate::run::{Estimator, Run};
+use crate::run::Run;
 use crate::tasks::Task;
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
@@ -29,9 +31,9 @@ pub(crate) struct Calculation {
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Quantity {
     /// The drift of the modified energy.
-    Drift { run: Run, estimator: Estimator },
+    Drift { run: Run, estimator: EstimatorSettings },
     /// The modified energy at each step.
-    Energies { run: Run, estimator: Estimator },
+    Energies { run: Run, estimator: EstimatorSettings },
     /// The largest |q|.
     Farthest { run: Run },
     /// H at the end less H at the start.
@@ -91,24 +93,24 @@ impl Task for Calculation {
     type Outcome = Outcome;
 
     fn cost(&self) -> f64 {
-        let numbers = |run: &Run, estimator: f64, states: u32| {
+        let numbers = |run: &Run, estimator: f64, states: f64| {
             // a step of the exact flow is a series
             let step = if run.propagator == EXACT_FLOW { 3000.0 } else { 60.0 };
-            (run.steps() as f64 + f64::from(states)) * (estimator + step) * f64::from(run.digits)
+            (run.steps() as f64 + states) * (estimator + step) * f64::from(run.digits)
         };
         match &self.quantity {
             Quantity::Drift { run, estimator } | Quantity::Energies { run, estimator } => {
-                numbers(run, estimator.cost(), estimator.states())
+                numbers(run, estimator::cost(estimator), estimator::states(estimator))
             }
-            Quantity::Farthest { run } | Quantity::Transit { run } => numbers(run, 0.0, 0),
+            Quantity::Farthest { run } | Quantity::Transit { run } => numbers(run, 0.0, 0.0),
             Quantity::Noise { steps, .. } => *steps as f64 * 200.0,
         }
     }
 
     fn compute(&self) -> Result<Outcome, Error> {
         match &self.quantity {
-            Quantity::Drift { run, estimator } => drift(run, *estimator).map(Outcome::Drift),
-            Quantity::Energies { run, estimator } => energies(run, *estimator).map(Outcome::Energies),
+            Quantity::Drift { run, estimator } => drift(run, estimator).map(Outcome::Drift),
+            Quantity::Energies { run, estimator } => energies(run, estimator).map(Outcome::Energies),
             Quantity::Farthest { run } => farthest(run).map(|number| Outcome::Number(number.to_text())),
             Quantity::Transit { run } => transit(run).map(|number| Outcome::Number(number.to_text())),
             Quantity::Noise { steps, differences } => noise::blocks(*steps, *differences).map(Outcome::Blocks),
@@ -123,8 +125,8 @@ fn with<T>(run: &Run, make: impl FnOnce(&Propagator, &Setup, Steps<'_>) -> Resul
     make(&propagator, &setup, Steps { propagator: run.propagator, h: &run.h(), steps: run.steps(), order: None })
 }
 
-fn drift(run: &Run, estimator: Estimator) -> Result<Drift, Error> {
-    let settings = estimator.settings().with_errors(estimator.needs_errors());
+fn drift(run: &Run, settings: &EstimatorSettings) -> Result<Drift, Error> {
+    let settings = settings.clone().with_errors(estimator::is_bilinear(settings));
     let context = run.precision();
     let found = with(run, |propagator, setup, steps| {
         propagator.energy_drift::<Float>(setup, steps, &settings, &context, |_| ())
@@ -138,14 +140,14 @@ fn drift(run: &Run, estimator: Estimator) -> Result<Drift, Error> {
     Ok(Drift { drift: found.drift.to_text(), permanent, orders: found.orders })
 }
 
-fn energies(run: &Run, estimator: Estimator) -> Result<Energies, Error> {
-    let settings = estimator.settings().with_errors(true);
+fn energies(run: &Run, settings: &EstimatorSettings) -> Result<Energies, Error> {
+    let settings = settings.clone().with_errors(true);
     let context = run.precision();
     let mut all = Energies::default();
     let size = |number: Option<&Float>| number.map(Number::log10_abs).filter(|size| size.is_finite());
     with(run, |propagator, setup, steps| {
         propagator.estimates::<Float>(setup, steps, &settings, &context, |n, estimate| {
-            all.times.push(f64::from_rational(&steps.time_of_value(n, &estimator.settings()), &()));
+            all.times.push(f64::from_rational(&steps.time_of_value(n, &settings), &()));
             all.distances.push(estimate.q.iter().map(|q| q.to_f64().powi(2)).sum::<f64>().sqrt());
             all.values.push(estimate.value.to_text());
             all.orders.push(estimate.order);

@@ -1,9 +1,11 @@
 //! Results as CSV: every run that a figure shows, with all digits, after lines with # that give version and command.
 
+use shadowstep::shadow::{EstimatorSettings, StoppingRule};
+
 use crate::Error;
 use crate::calculation::Permanent;
 use crate::results::Used;
-use crate::run::{Estimator, Run};
+use crate::run::Run;
 
 const RUN: [&str; 8] = ["problem", "set", "scheme", "step", "until", "digits", "estimator", "order"];
 
@@ -21,12 +23,12 @@ pub(crate) fn csv(command: &str, used: &[Used]) -> Result<Vec<(&'static str, Str
                     |text: fn(&Permanent) -> &String| drift.permanent.as_ref().map(text).cloned().unwrap_or_default();
                 let [change, jump, resolution] = [of(|p| &p.change), of(|p| &p.largest_jump), of(|p| &p.resolution)];
                 let [least, most] = [drift.orders.0, drift.orders.1].map(|order| order.to_string());
-                drifts.push(row(run, Some(*estimator), [drift.drift.clone(), change, jump, resolution, least, most]));
+                drifts.push(row(run, Some(estimator), [drift.drift.clone(), change, jump, resolution, least, most]));
             }
             Used::Energies(run, estimator, found) => {
                 energies.extend((0..found.times.len()).map(|n| {
                     let [t, distance] = [found.times[n], found.distances[n]].map(|number| number.to_string());
-                    row(run, Some(*estimator), [t, distance, found.values[n].clone(), found.orders[n].to_string()])
+                    row(run, Some(estimator), [t, distance, found.values[n].clone(), found.orders[n].to_string()])
                 }));
             }
             Used::Number(run, what, value) => numbers.push(row(run, None, [(*what).to_owned(), value.clone()])),
@@ -46,15 +48,9 @@ fn header(last: &[&str]) -> Vec<String> {
     RUN.iter().chain(last).map(|&name| name.to_owned()).collect()
 }
 
-fn row<const N: usize>(run: &Run, estimator: Option<Estimator>, last: [String; N]) -> Vec<String> {
+fn row<const N: usize>(run: &Run, estimator: Option<&EstimatorSettings>, last: [String; N]) -> Vec<String> {
     let set: Vec<_> = run.set.iter().map(|(name, value)| format!("{name}={value}")).collect();
-    let (name, order) = match estimator {
-        None => ("", String::new()),
-        Some(Estimator::Central { m }) => ("central", m.to_string()),
-        Some(Estimator::Best { largest, early: false }) => ("central", format!("best of 2-{largest}")),
-        Some(Estimator::Best { largest, early: true }) => ("central", format!("best of 2-{largest}, early stop")),
-        Some(Estimator::Bilinear { k }) => ("bilinear", k.to_string()),
-    };
+    let (name, order) = estimator.map_or(("", String::new()), |settings| (settings.name(), order(settings)));
     let first = [
         run.problem.name().to_owned(),
         set.join(" "),
@@ -77,4 +73,17 @@ fn text(command: &str, rows: &[Vec<String>]) -> Result<String, Error> {
     }
     let bytes = csv.into_inner().map_err(|error| error.into_error())?;
     Ok(String::from_utf8(bytes).expect("CSV of texts is a text"))
+}
+
+/// The order, or where it is searched for.
+fn order(settings: &EstimatorSettings) -> String {
+    let options = settings.options();
+    match (options.order, options.max_order) {
+        (Some(order), _) => order.to_string(),
+        (None, Some(largest)) if options.stop == Some(StoppingRule::Early) => {
+            format!("best of 2-{largest}, early stop")
+        }
+        (None, Some(largest)) => format!("best of 2-{largest}"),
+        (None, None) => "best".to_owned(),
+    }
 }

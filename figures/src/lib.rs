@@ -21,7 +21,7 @@
 //! | `figures` | the list of all figures, and one file for each |
 //! | `figure`, `drawing` | a figure of the list; its charts, tables and statements |
 //! | `results` | the results that figures request |
-//! | `calculation`, `run`, `noise` | the calculations: runs at many digits, and in double precision |
+//! | `calculation`, `run`, `estimator`, `noise` | the calculations: runs at many digits, and in double precision |
 //! | `tasks` | calculations on all cores; their outcomes stay in a file |
 //! | `fit`, `numbers` | lines through points; numbers as texts |
 //! | `chart` | curves → SVG |
@@ -31,6 +31,7 @@ mod calculation;
 mod chart;
 mod data;
 mod drawing;
+mod estimator;
 mod figure;
 mod figures;
 mod fit;

@@ -9,11 +9,12 @@ use std::collections::HashMap;
 
 use rug::Float;
 use shadowstep::Number;
+use shadowstep::shadow::EstimatorSettings;
 
 use crate::calculation::{Calculation, Drift, Energies, Outcome, Quantity};
 use crate::noise::{Block, Differences};
 use crate::numbers::{log10, number};
-use crate::run::{Estimator, Run};
+use crate::run::Run;
 use crate::tasks::{self, Store};
 use crate::{Error, Observer};
 
@@ -31,8 +32,8 @@ pub(crate) struct Results {
 /// A run with its result, for the data of a figure.
 #[derive(Clone, Debug)]
 pub(crate) enum Used {
-    Drift(Run, Estimator, Drift),
-    Energies(Run, Estimator, Energies),
+    Drift(Run, EstimatorSettings, Drift),
+    Energies(Run, EstimatorSettings, Energies),
     Number(Run, &'static str, String),
     Blocks(Differences, Vec<Block>),
 }
@@ -88,15 +89,15 @@ impl Results {
     }
 
     /// The drift of a run.
-    pub(crate) fn drift(&self, run: &Run, estimator: Estimator) -> Option<Drift> {
-        let outcome = self.request(Quantity::Drift { run: run.clone(), estimator })?;
+    pub(crate) fn drift(&self, run: &Run, estimator: &EstimatorSettings) -> Option<Drift> {
+        let outcome = self.request(Quantity::Drift { run: run.clone(), estimator: estimator.clone() })?;
         let Outcome::Drift(drift) = outcome else { unreachable!("a drift was requested") };
-        self.using(Used::Drift(run.clone(), estimator, drift.clone()));
+        self.using(Used::Drift(run.clone(), estimator.clone(), drift.clone()));
         Some(drift)
     }
 
     /// The sizes of the drift of a run.
-    pub(crate) fn sizes(&self, run: &Run, estimator: Estimator) -> Option<Sizes> {
+    pub(crate) fn sizes(&self, run: &Run, estimator: &EstimatorSettings) -> Option<Sizes> {
         let drift = self.drift(run, estimator)?;
         let resolved = drift.permanent.as_ref().filter(|permanent| permanent.resolved);
         let permanent = resolved.map(|permanent| (log10(&permanent.change), log10(&permanent.largest_jump)));
@@ -104,21 +105,21 @@ impl Results {
     }
 
     /// log₁₀ of the drift of a run; NaN, a missing point, if there is none.
-    pub(crate) fn log10_drift(&self, run: &Run, estimator: Estimator) -> f64 {
+    pub(crate) fn log10_drift(&self, run: &Run, estimator: &EstimatorSettings) -> f64 {
         self.sizes(run, estimator).map_or(f64::NAN, |sizes| sizes.drift)
     }
 
     /// −log₁₀ of the difference between the drift of a run and that of the same run with more digits.
-    pub(crate) fn digits_held(&self, run: &Run, estimator: Estimator, digits: u32) -> Option<f64> {
+    pub(crate) fn digits_held(&self, run: &Run, estimator: &EstimatorSettings, digits: u32) -> Option<f64> {
         let [this, more] = [run.clone(), run.clone().digits(digits)].map(|run| self.drift(&run, estimator));
         Some(-(number(&this?.drift) - number(&more?.drift)).log10_abs())
     }
 
     /// The modified energies of a run.
-    pub(crate) fn energies(&self, run: &Run, estimator: Estimator) -> Option<Energies> {
-        let outcome = self.request(Quantity::Energies { run: run.clone(), estimator })?;
+    pub(crate) fn energies(&self, run: &Run, estimator: &EstimatorSettings) -> Option<Energies> {
+        let outcome = self.request(Quantity::Energies { run: run.clone(), estimator: estimator.clone() })?;
         let Outcome::Energies(energies) = outcome else { unreachable!("energies were requested") };
-        self.using(Used::Energies(run.clone(), estimator, energies.clone()));
+        self.using(Used::Energies(run.clone(), estimator.clone(), energies.clone()));
         Some(energies)
     }
 

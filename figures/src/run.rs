@@ -1,9 +1,8 @@
-//! The runs of figures: a problem, what advances it, the steps, and the estimator.
+//! The runs of figures: a problem, what advances it, and the steps.
 
 use serde::{Serialize, Serializer};
 use shadowstep::number::Precision;
 use shadowstep::problems::{Problem, Setup};
-use shadowstep::shadow::{Bilinear, Central, EstimatorSettings, StoppingRule};
 use shadowstep::{Rational, exact};
 use shadowstep_scenes::arithmetic::GUARD_DIGITS;
 pub(crate) use shadowstep_scenes::library::EXACT_FLOW;
@@ -15,9 +14,6 @@ pub(crate) const SCHEMES: [(&str, &str); 4] = [
     ("blanes-moan-s6", "Blanes–Moan S6"),
     ("blanes-moan-srkn6b", "Blanes–Moan SRKN6b"),
 ];
-
-/// The estimator of the paper's figures: the best m of each state, up to 200.
-pub(crate) const BEST: Estimator = Estimator::Best { largest: 200, early: false };
 
 /// A problem with its values, what advances it, the step size, the final time, and the digits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -75,51 +71,5 @@ impl Run {
 
     pub(crate) fn precision(&self) -> Precision {
         Precision::digits(self.digits).expect("figures have digits that MPFR allows")
-    }
-}
-
-/// The estimator of the modified energy.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum Estimator {
-    /// D_m
-    Central { m: u32 },
-    /// D_m with the m of each state that has the smallest last term, as in the paper.
-    Best { largest: u32, early: bool },
-    /// E_k
-    Bilinear { k: u32 },
-}
-
-impl Estimator {
-    pub(crate) fn settings(self) -> EstimatorSettings {
-        match self {
-            Estimator::Central { m } => Central::fixed(m).into(),
-            Estimator::Best { largest, early } => {
-                Central::best(largest, if early { StoppingRule::Early } else { StoppingRule::Full }).into()
-            }
-            Estimator::Bilinear { k } => Bilinear::new(k).into(),
-        }
-    }
-
-    /// The number of states that an estimate uses.
-    pub(crate) fn states(self) -> u32 {
-        match self {
-            Estimator::Central { m } | Estimator::Best { largest: m, .. } => 2 * m + 1,
-            Estimator::Bilinear { k } => k + 1,
-        }
-    }
-
-    /// Whether a drift needs estimated errors: the permanent change is that of the bilinear estimator.
-    pub(crate) fn needs_errors(self) -> bool {
-        matches!(self, Estimator::Bilinear { .. })
-    }
-
-    /// About how many multiplications of numbers it makes per step and coordinate.
-    pub(crate) fn cost(self) -> f64 {
-        match self {
-            Estimator::Central { m } => 6.0 * f64::from(m),
-            Estimator::Best { largest, .. } => 12.0 * f64::from(largest),
-            Estimator::Bilinear { k } => 4.0 * f64::from(k) + f64::from(k) * f64::from(k) / 2.0,
-        }
     }
 }

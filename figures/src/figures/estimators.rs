@@ -1,18 +1,22 @@
 //! Shared by the figures of estimators against the number of states that they use.
 
+use crate::estimator::{best, bilinear, central};
 use crate::results::Results;
-use crate::run::{Estimator, Run};
+use crate::run::Run;
+use shadowstep::shadow::{EstimatorSettings, StoppingRule};
 
 pub(super) const ORDERS: [u32; 14] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 50, 80, 130, 200];
 
+/// Estimators of each order, and how many states one estimate uses.
+pub(super) type Family = (fn(u32) -> EstimatorSettings, fn(u32) -> u32);
+
+pub(super) const CENTRAL: Family = (central, |m| 2 * m + 1);
+pub(super) const BEST_UP_TO: Family = (|largest| best(largest, StoppingRule::Full), |m| 2 * m + 1);
+pub(super) const BILINEAR: Family = (bilinear, |k| k + 1);
+
 /// (log₁₀ of the states, log₁₀ of the drift)
-pub(super) fn against_states(
-    results: &Results,
-    run: &Run,
-    by: &dyn Fn(u32) -> Estimator,
-    orders: &[u32],
-) -> Vec<(f64, f64)> {
-    let point = |&order: &u32| (f64::from(by(order).states()).log10(), results.log10_drift(run, by(order)));
+pub(super) fn against_states(results: &Results, run: &Run, (of, states): Family, orders: &[u32]) -> Vec<(f64, f64)> {
+    let point = |&order: &u32| (f64::from(states(order)).log10(), results.log10_drift(run, &of(order)));
     orders.iter().map(point).collect()
 }
 

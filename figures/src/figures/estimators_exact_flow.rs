@@ -1,13 +1,14 @@
 //! Estimators on the exact flow, against the number of states that they use.
 
-use super::estimators::{ORDERS, STATES, against_states, even};
+use super::estimators::{BEST_UP_TO, BILINEAR, CENTRAL, ORDERS, STATES, against_states, even};
 use super::kepler::run;
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::bilinear;
 use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
-use crate::run::{EXACT_FLOW, Estimator};
+use crate::run::EXACT_FLOW;
 
 pub(super) const FIGURE: Figure = Figure { name: "estimators-exact-flow", title: "Estimators on the exact flow", draw };
 
@@ -18,9 +19,9 @@ fn draw(results: &Results) -> Drawing {
     let orders = results.grid(&ORDERS, &[1, 3, 8, 24, 200]);
     for n in [10, 20, 40] {
         let exact = run(EXACT_FLOW, n);
-        let central = against_states(results, &exact, &|m| Estimator::Central { m }, orders);
-        let best = against_states(results, &exact, &|largest| Estimator::Best { largest, early: false }, &orders[1..]);
-        let bilinear = against_states(results, &exact, &|k| Estimator::Bilinear { k }, &even(orders));
+        let central = against_states(results, &exact, CENTRAL, orders);
+        let best = against_states(results, &exact, BEST_UP_TO, &orders[1..]);
+        let bilinear = against_states(results, &exact, BILINEAR, &even(orders));
         let least = |points: &[(f64, f64)]| points.iter().map(|(_, y)| *y).fold(f64::INFINITY, f64::min);
         drawing.found(format!(
             "h = 1/{n}: the variation is {} by the best m with up to 401 states, at least {} by any fixed m, and {} by the bilinear estimator with up to 201 states.",
@@ -40,7 +41,7 @@ fn draw(results: &Results) -> Drawing {
             "2m + 1 or k + 1 states.",
         );
     }
-    let held = results.digits_held(&run(EXACT_FLOW, 20), Estimator::Bilinear { k: 16 }, 200);
+    let held = results.digits_held(&run(EXACT_FLOW, 20), &bilinear(16), 200);
     drawing.digits_held("the drift of the exact flow at h = 1/20 by E_16", held);
     drawing
 }

@@ -1,13 +1,14 @@
 //! Estimators on schemes, against the number of states that they use.
 
-use super::estimators::{ORDERS, STATES, against_states, even};
+use super::estimators::{BEST_UP_TO, BILINEAR, Family, ORDERS, STATES, against_states, even};
 use super::kepler::run;
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
-use crate::run::{BEST, EXACT_FLOW, Estimator, SCHEMES};
+use crate::run::{EXACT_FLOW, SCHEMES};
 
 pub(super) const FIGURE: Figure = Figure { name: "estimators-schemes", title: "Estimators on schemes", draw };
 
@@ -16,14 +17,12 @@ fn draw(results: &Results) -> Drawing {
         "The same estimators on schemes, Kepler, e = 0.6, h = 1/20, and the permanent change between low-error states.",
     );
     let orders = results.grid(&ORDERS, &[1, 3, 8, 24, 200]);
-    let best = |largest| Estimator::Best { largest, early: false };
-    let bilinear = |k| Estimator::Bilinear { k };
-    let mut chart = |title: &str, by: &dyn Fn(u32) -> Estimator, orders: &[u32]| {
+    let mut chart = |title: &str, family: Family, orders: &[u32]| {
         let mut curves: Vec<Curve> = Vec::new();
         for (i, (scheme, label)) in SCHEMES.into_iter().enumerate() {
-            curves.push(Curve::line(label, against_states(results, &run(scheme, 20), by, orders), i));
+            curves.push(Curve::line(label, against_states(results, &run(scheme, 20), family, orders), i));
         }
-        curves.push(Curve::dashed("exact flow", against_states(results, &run(EXACT_FLOW, 20), by, orders), 8));
+        curves.push(Curve::dashed("exact flow", against_states(results, &run(EXACT_FLOW, 20), family, orders), 8));
         drawing.chart(
             &format!("{title}, h = 1/20"),
             Axis::log10(STATES),
@@ -32,11 +31,11 @@ fn draw(results: &Results) -> Drawing {
             "Where a curve departs from that of the exact flow, it shows the scheme.",
         );
     };
-    chart("Best m up to a cap", &best, &orders[1..]);
-    chart("Bilinear E_k", &bilinear, &even(orders));
+    chart("Best m up to a cap", BEST_UP_TO, &orders[1..]);
+    chart("Bilinear E_k", BILINEAR, &even(orders));
     let mut rows = Vec::new();
     for (scheme, label) in SCHEMES.into_iter().chain([(EXACT_FLOW, "exact flow")]) {
-        let [best, bilinear] = [BEST, Estimator::Bilinear { k: 50 }].map(|by| results.sizes(&run(scheme, 20), by));
+        let [best, bilinear] = [BEST, bilinear(50)].map(|by| results.sizes(&run(scheme, 20), &by));
         let (Some(best), Some(bilinear)) = (best, bilinear) else { continue };
         let permanent = bilinear.permanent.map_or("not resolved".to_owned(), |(change, _)| power(change));
         rows.push(vec![label.to_owned(), power(best.drift), power(bilinear.drift), permanent]);

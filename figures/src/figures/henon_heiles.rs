@@ -1,8 +1,9 @@
 //! Shared by the figures of the Hénon–Heiles problem.
 
 use crate::results::Results;
-use crate::run::{Estimator, Run};
+use crate::run::Run;
 use shadowstep::problems::Problem;
+use shadowstep::shadow::EstimatorSettings;
 
 /// 1/h
 pub(super) const STEPS: [u32; 15] = [2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28];
@@ -16,7 +17,7 @@ pub(super) fn drifts(
     results: &Results,
     scheme: &'static str,
     steps: &[u32],
-    estimator: Estimator,
+    estimator: &EstimatorSettings,
 ) -> [Vec<(f64, f64)>; 2] {
     let drift = |n: u32| results.log10_drift(&run(scheme, n), estimator);
     let of = |x: &dyn Fn(f64) -> f64| steps.iter().map(|&n| (x(f64::from(n)), drift(n))).collect();

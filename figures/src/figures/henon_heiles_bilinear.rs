@@ -3,10 +3,10 @@
 use super::henon_heiles::{STEPS, drifts};
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
-use crate::run::{BEST, Estimator};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "henon-heiles-bilinear", title: "Hénon–Heiles by the bilinear estimator", draw };
@@ -17,10 +17,10 @@ fn draw(results: &Results) -> Drawing {
          (401 states).",
     );
     let steps = results.grid(&STEPS, &[2, 4, 6, 12, 25]);
-    let [best, _] = drifts(results, "stormer-verlet", steps, BEST);
+    let [best, _] = drifts(results, "stormer-verlet", steps, &BEST);
     let mut curves = vec![Curve::thick("best m ≤ 200", best, 0)];
     for (i, &k) in results.grid(&[8, 16, 40, 100], &[8, 16, 40]).iter().enumerate() {
-        let [points, _] = drifts(results, "stormer-verlet", steps, Estimator::Bilinear { k });
+        let [points, _] = drifts(results, "stormer-verlet", steps, &bilinear(k));
         if let Some((_, y)) = points.iter().find(|(n, _)| *n == 6.0) {
             drawing.found(format!("At h = 1/6 the drift by E_{k} is {}.", power(*y)));
         }

@@ -3,9 +3,9 @@
 use super::henon_heiles::run;
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::results::Results;
-use crate::run::BEST;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "henon-heiles-momentum", title: "Hénon–Heiles: drift against the initial momentum", draw };
@@ -21,7 +21,7 @@ fn draw(results: &Results) -> Drawing {
     for (i, n) in [4, 10, 20].into_iter().enumerate() {
         let of = |p: u32| run("stormer-verlet", n).with("px", format!("{p}/100"));
         let points: Vec<_> =
-            hundredths.iter().map(|&p| (f64::from(p) / 100.0, results.log10_drift(&of(p), BEST))).collect();
+            hundredths.iter().map(|&p| (f64::from(p) / 100.0, results.log10_drift(&of(p), &BEST))).collect();
         let steepest = |of: &dyn Fn(f64, f64) -> bool| {
             let within = points.windows(2).filter(|pair| of(pair[0].0, pair[1].0));
             within.map(|pair| (pair[1].1 - pair[0].1).abs() / (pair[1].0 - pair[0].0)).fold(0.0, f64::max)
@@ -36,7 +36,7 @@ fn draw(results: &Results) -> Drawing {
         curves.push(Curve::line(format!("h = 1/{n}"), points, i));
     }
     let chaotic = run("stormer-verlet", 10).with("px", "1/2");
-    drawing.digits_held("the drift at h = 1/10, p₁ = 0.5", results.digits_held(&chaotic, BEST, 200));
+    drawing.digits_held("the drift at h = 1/10, p₁ = 0.5", results.digits_held(&chaotic, &BEST, 200));
     drawing.chart(
         "Störmer–Verlet, Hénon–Heiles, q₁ = q₂ = p₂ = 0",
         Axis::linear("p₁(0)"),

@@ -3,11 +3,12 @@
 use super::henon_heiles::{STEPS, drifts, run};
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, ExponentialDecay, SAME_RATE, decay, decay_row, ratios};
 use crate::numbers::power;
 use crate::results::Results;
-use crate::run::{BEST, SCHEMES};
+use crate::run::SCHEMES;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "henon-heiles-step", title: "Hénon–Heiles: drift against the step size", draw };
@@ -21,7 +22,7 @@ fn draw(results: &Results) -> Drawing {
          energy slightly better, and the value of c is the same.",
     ]);
     let steps = results.grid(&STEPS, &[2, 4, 6, 12, 25]);
-    let of = SCHEMES.map(|(scheme, label)| (label, drifts(results, scheme, steps, BEST)));
+    let of = SCHEMES.map(|(scheme, label)| (label, drifts(results, scheme, steps, &BEST)));
     let curves = of.iter().enumerate().map(|(i, (label, [points, _]))| Curve::line(*label, points.clone(), i));
     drawing.chart(
         "Hénon–Heiles, p₁(0) = 0.1, the best m up to 200",
@@ -41,7 +42,7 @@ fn draw(results: &Results) -> Drawing {
     }
     let fits = of.map(|(label, [points, by_step])| (label, points, decay(&by_step, 0.25)));
     rates(&mut drawing, &fits);
-    drawing.digits_held("the drift at h = 1/10", results.digits_held(&run("stormer-verlet", 10), BEST, 200));
+    drawing.digits_held("the drift at h = 1/10", results.digits_held(&run("stormer-verlet", 10), &BEST, 200));
     drawing
 }
 

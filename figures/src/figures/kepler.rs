@@ -2,12 +2,13 @@
 
 use shadowstep::Number;
 use shadowstep::problems::Problem;
+use shadowstep::shadow::EstimatorSettings;
 
 use crate::calculation::Energies;
 use crate::fit::{ExponentialDecay, decay};
 use crate::numbers::number;
 use crate::results::Results;
-use crate::run::{Estimator, Run};
+use crate::run::Run;
 
 /// 1/h
 pub(super) const STEPS: [u32; 24] =
@@ -28,7 +29,7 @@ pub(super) fn drifts(
     results: &Results,
     propagator: &'static str,
     steps: &[u32],
-    estimator: Estimator,
+    estimator: &EstimatorSettings,
 ) -> Vec<(f64, f64)> {
     steps.iter().map(|&n| (f64::from(n), results.log10_drift(&run(propagator, n), estimator))).collect()
 }

@@ -3,10 +3,11 @@
 use super::kepler::run;
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
-use crate::run::{BEST, Run};
+use crate::run::Run;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "kepler-eccentricity", title: "Kepler: drift against the eccentricity", draw };
@@ -44,7 +45,7 @@ fn draw(results: &Results) -> Drawing {
     let (mut curves, mut rows) = (Vec::new(), Vec::new());
     for (i, n) in [5, 10, 20, 40].into_iter().enumerate() {
         let points: Vec<_> =
-            thousandths.iter().map(|&e| (f64::from(e) / 1000.0, results.log10_drift(&of(n, e), BEST))).collect();
+            thousandths.iter().map(|&e| (f64::from(e) / 1000.0, results.log10_drift(&of(n, e), &BEST))).collect();
         let escape = escapes(results, n, &fine);
         rows.push(vec![format!("1/{n}"), escape.map_or("none below 0.99".to_owned(), |e| format!("{e:.3}"))]);
         if let (Some((_, least)), Some((_, middle))) = (points.first(), points.iter().find(|(e, _)| *e >= 0.6)) {
@@ -62,7 +63,7 @@ fn draw(results: &Results) -> Drawing {
         let list = rows.iter().map(|row| format!("{} at h = {}", row[1], row[0])).collect::<Vec<_>>().join(", ");
         drawing.check("An instability occurs at a critical eccentricity which depends on the step size.", list, grows);
     }
-    drawing.digits_held("the drift at h = 1/20, e = 0.8", results.digits_held(&of(20, 800), BEST, 200));
+    drawing.digits_held("the drift at h = 1/20, e = 0.8", results.digits_held(&of(20, 800), &BEST, 200));
     drawing.table("The smallest eccentricity for which |q| exceeds 3 before t = 100", &["h", "e"], rows);
     drawing.chart(
         "Störmer–Verlet, Kepler",

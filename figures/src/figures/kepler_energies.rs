@@ -4,10 +4,11 @@ use super::kepler::{FAR, NEAR, apocentre, off, run};
 use crate::calculation::Energies;
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
-use crate::run::{BEST, EXACT_FLOW, SCHEMES};
+use crate::run::{EXACT_FLOW, SCHEMES};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "kepler-energies", title: "Kepler: the modified energy in time", draw };
@@ -31,10 +32,10 @@ fn draw(results: &Results) -> Drawing {
     ]);
     let steps = results.grid(&[10, 20, 30], &[10, 20]);
     let of_steps: Labelled =
-        steps.iter().map(|&n| (format!("h = 1/{n}"), results.energies(&run("stormer-verlet", n), BEST))).collect();
+        steps.iter().map(|&n| (format!("h = 1/{n}"), results.energies(&run("stormer-verlet", n), &BEST))).collect();
     let all = SCHEMES.into_iter().chain([(EXACT_FLOW, "exact flow")]);
     let of_schemes: Labelled =
-        all.map(|(scheme, label)| (label.to_owned(), results.energies(&run(scheme, 10), BEST))).collect();
+        all.map(|(scheme, label)| (label.to_owned(), results.energies(&run(scheme, 10), &BEST))).collect();
     for (title, of) in [("Störmer–Verlet, several step sizes", &of_steps), ("h = 1/10, several schemes", &of_schemes)]
     {
         in_time(&mut drawing, title, of, false);
@@ -54,7 +55,7 @@ fn draw(results: &Results) -> Drawing {
         );
     }
     compare_schemes(&mut drawing, &of_schemes);
-    let held = results.digits_held(&run("blanes-moan-srkn6b", 10), BEST, 200);
+    let held = results.digits_held(&run("blanes-moan-srkn6b", 10), &BEST, 200);
     drawing.digits_held("the drift of SRKN6b at h = 1/10", held);
     drawing
 }

@@ -1,15 +1,16 @@
 //! Kepler's problem: the change of the modified energy per step, the accumulated change, and the best m.
 
 use shadowstep::Number;
+use shadowstep::shadow::StoppingRule;
 
 use super::kepler::{FAR, NEAR, off, run};
 use crate::calculation::Energies;
 use crate::chart::{Axis, Curve, Marker};
 use crate::drawing::Drawing;
+use crate::estimator::best;
 use crate::figure::Figure;
 use crate::numbers::{number, power};
 use crate::results::Results;
-use crate::run::Estimator;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "kepler-orders", title: "Kepler: change per step, accumulated change, and m", draw };
@@ -21,13 +22,12 @@ fn draw(results: &Results) -> Drawing {
         "The ad-hoc criterion, which stops where the errors rise, gives plots that are nearly indistinguishable from those of \
          the full search.",
     ]);
-    let searches = [("full search", false), ("early stop", true)].map(|(label, early)| {
-        (label, results.energies(&run("stormer-verlet", 20), Estimator::Best { largest: 200, early }))
-    });
+    let searches = [("full search", StoppingRule::Full), ("early stop", StoppingRule::Early)]
+        .map(|(label, stop)| (label, results.energies(&run("stormer-verlet", 20), &best(200, stop))));
     for (label, found) in &searches {
         found.iter().for_each(|found| with_orders(&mut drawing, label, found));
     }
-    let held = results.digits_held(&run("stormer-verlet", 20), Estimator::Best { largest: 200, early: true }, 200);
+    let held = results.digits_held(&run("stormer-verlet", 20), &best(200, StoppingRule::Early), 200);
     drawing.digits_held("the drift by the early stop", held);
     let [(_, Some(full)), (_, Some(early))] = &searches else { return drawing };
     let mean = |at: &dyn Fn(f64) -> bool| {

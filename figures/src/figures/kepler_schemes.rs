@@ -3,10 +3,11 @@
 use super::kepler::{STEPS, drifts, rate, run};
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, SAME_RATE, decay_row, ratios};
 use crate::results::Results;
-use crate::run::{BEST, EXACT_FLOW, SCHEMES};
+use crate::run::{EXACT_FLOW, SCHEMES};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "kepler-schemes", title: "Kepler: three schemes, and the exact flow", draw };
@@ -27,8 +28,8 @@ fn draw(results: &Results) -> Drawing {
          Blanes and Moan.",
     ]);
     let steps = results.grid(&STEPS, &[4, 6, 10, 14, 20, 30]);
-    let of = SCHEMES.map(|(scheme, label)| (label, drifts(results, scheme, steps, BEST)));
-    let control = drifts(results, EXACT_FLOW, steps, BEST);
+    let of = SCHEMES.map(|(scheme, label)| (label, drifts(results, scheme, steps, &BEST)));
+    let control = drifts(results, EXACT_FLOW, steps, &BEST);
     let mut curves: Vec<_> =
         of.iter().enumerate().map(|(i, (label, points))| Curve::line(*label, points.clone(), i)).collect();
     curves.push(Curve::dashed("exact flow", control.clone(), 8));
@@ -44,7 +45,7 @@ fn draw(results: &Results) -> Drawing {
     for (scheme, label) in SCHEMES.into_iter().skip(1) {
         drawing.digits_held(
             &format!("the drift of {label} at h = 1/20"),
-            results.digits_held(&run(scheme, 20), BEST, 200),
+            results.digits_held(&run(scheme, 20), &BEST, 200),
         );
     }
     let [least, mean, most] = ratios(&fine(&control), &fine(&of[3].1));

@@ -7,11 +7,12 @@ use shadowstep::Number;
 use super::kepler::{STEPS, apocentre, drifts, rate, run, singularity};
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::{BEST, central};
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, decay_row, theory_row};
 use crate::numbers::{number, power};
 use crate::results::Results;
-use crate::run::{BEST, EXACT_FLOW, Estimator};
+use crate::run::EXACT_FLOW;
 
 pub(super) const FIGURE: Figure = Figure { name: "kepler-step", title: "Kepler: drift against the step size", draw };
 
@@ -21,8 +22,8 @@ fn draw(results: &Results) -> Drawing {
         "In contrast with the pendulum, the T_{m,m} do not converge as m → ∞: the m of 2 … 200 with the smallest |T_{m,m} − T_{m−1,m−1}| is taken.",
     ]);
     let steps = results.grid(&STEPS, &[4, 6, 10, 14, 20, 30]);
-    let best = drifts(results, "stormer-verlet", steps, BEST);
-    let fixed = [5, 20, 60, 200].map(|m| (m, drifts(results, "stormer-verlet", steps, Estimator::Central { m })));
+    let best = drifts(results, "stormer-verlet", steps, &BEST);
+    let fixed = [5, 20, 60, 200].map(|m| (m, drifts(results, "stormer-verlet", steps, &central(m))));
     let mut curves = vec![Curve::thick("best m ≤ 200", best.clone(), 0)];
     curves.extend(
         fixed.iter().enumerate().map(|(i, (m, points))| Curve::line(format!("m = {m}"), points.clone(), i + 1)),
@@ -51,11 +52,13 @@ fn draw(results: &Results) -> Drawing {
             theory_row("π ρ, from aliasing of differences of samples", format!("{:.4}", PI * singularity(0.6))),
         ],
     );
-    drawing
-        .digits_held("the drift at h = 1/20 by the best m", results.digits_held(&run("stormer-verlet", 20), BEST, 200));
+    drawing.digits_held(
+        "the drift at h = 1/20 by the best m",
+        results.digits_held(&run("stormer-verlet", 20), &BEST, 200),
+    );
     drawing.digits_held(
         "the drift at h = 1/20 by m = 20",
-        results.digits_held(&run("stormer-verlet", 20), Estimator::Central { m: 20 }, 200),
+        results.digits_held(&run("stormer-verlet", 20), &central(20), 200),
     );
     drawing
 }
@@ -65,7 +68,7 @@ fn errors_against_m(results: &Results, drawing: &mut Drawing) {
     let orders =
         results.grid(&[2, 5, 10, 15, 20, 25, 30, 35, 40, 50, 60, 80, 100, 130, 160, 200], &[5, 20, 35, 50, 200]);
     let off = |m: u32| {
-        let energies = results.energies(&run(EXACT_FLOW, 20).until("4"), Estimator::Central { m })?;
+        let energies = results.energies(&run(EXACT_FLOW, 20).until("4"), &central(m))?;
         let at = |n: usize| (number(&energies.values[n]) + 0.5_f64).log10_abs();
         Some((f64::from(m), at(0), at(apocentre(&energies))))
     };

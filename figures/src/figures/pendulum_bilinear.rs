@@ -3,15 +3,17 @@
 use std::f64::consts::PI;
 
 use shadowstep::problems::Problem;
+use shadowstep::shadow::EstimatorSettings;
 
 use super::pendulum::{SCHEME, singularity};
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::{bilinear, central};
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, decay, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
-use crate::run::{EXACT_FLOW, Estimator, Run};
+use crate::run::{EXACT_FLOW, Run};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "pendulum-bilinear", title: "The pendulum by the bilinear estimator", draw };
@@ -22,15 +24,15 @@ fn draw(results: &Results) -> Drawing {
          energy does not change.",
     );
     let steps = results.grid(&[2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20], &[2, 4, 7, 10]);
-    let drifts = |propagator: &'static str, estimator: Estimator| -> Vec<(f64, f64)> {
+    let drifts = |propagator: &'static str, estimator: &EstimatorSettings| -> Vec<(f64, f64)> {
         let run = |n: u32| Run::of(Problem::Pendulum, propagator, format!("1/{n}"));
         steps.iter().map(|&n| (f64::from(n), results.log10_drift(&run(n), estimator))).collect()
     };
-    let central = Estimator::Central { m: 200 };
-    let central_drifts = drifts(SCHEME, central);
+    let central_200 = central(200);
+    let central_drifts = drifts(SCHEME, &central_200);
     let orders = results.grid(&[8, 16, 40, 100, 200], &[8, 16, 40, 100]);
-    let of: Vec<_> = orders.iter().map(|&k| (k, drifts(SCHEME, Estimator::Bilinear { k }))).collect();
-    let [control, control_40] = [central, Estimator::Bilinear { k: 40 }].map(|by| drifts(EXACT_FLOW, by));
+    let of: Vec<_> = orders.iter().map(|&k| (k, drifts(SCHEME, &bilinear(k)))).collect();
+    let [control, control_40] = [central_200, bilinear(40)].map(|by| drifts(EXACT_FLOW, &by));
     let mut curves = vec![
         Curve::thick("m = 200", central_drifts.clone(), 0),
         Curve::dashed("m = 200, exact flow", control.clone(), 1),
@@ -61,10 +63,10 @@ fn draw(results: &Results) -> Drawing {
         ));
     }
     let checked = Run::of(Problem::Pendulum, SCHEME, "1/10");
-    let held = results.digits_held(&checked, Estimator::Bilinear { k: 40 }, 200);
+    let held = results.digits_held(&checked, &bilinear(40), 200);
     drawing.digits_held("the drift at h = 1/10 by E_40", held);
     let k = orders[orders.len() - 1];
-    let control_highest = drifts(EXACT_FLOW, Estimator::Bilinear { k });
+    let control_highest = drifts(EXACT_FLOW, &bilinear(k));
     let curves = [
         ("m = 200".to_owned(), &central_drifts),
         ("m = 200, exact flow".to_owned(), &control),

@@ -3,10 +3,11 @@
 use super::pendulum::SCHEME;
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
-use crate::run::{Estimator, Run};
+use crate::run::Run;
 use shadowstep::problems::Problem;
 
 pub(super) const FIGURE: Figure =
@@ -22,10 +23,10 @@ fn draw(results: &Results) -> Drawing {
     let tenths = results.grid(&all, &[1, 5, 10, 15, 19, 21, 30]);
     let mut curves = Vec::new();
     for (i, n) in [2_u32, 4, 10].into_iter().enumerate() {
-        let by = Estimator::Best { largest: 200, early: false };
         let run = |p: u32| Run::of(Problem::Pendulum, SCHEME, format!("1/{n}")).with("p", format!("{p}/10"));
-        let points: Vec<_> = tenths.iter().map(|&p| (f64::from(p) / 10.0, results.log10_drift(&run(p), by))).collect();
-        let at = [1, 5, 10, 15, 19].map(|p| results.log10_drift(&run(p), by));
+        let points: Vec<_> =
+            tenths.iter().map(|&p| (f64::from(p) / 10.0, results.log10_drift(&run(p), &BEST))).collect();
+        let at = [1, 5, 10, 15, 19].map(|p| results.log10_drift(&run(p), &BEST));
         drawing.check(
             &format!("h = 1/{n}: the drift falls as p(0) → 0."),
             format!("{} at p(0) = 0.1, 0.5, 1, 1.5, 1.9", at.map(power).join(", ")),
@@ -34,8 +35,7 @@ fn draw(results: &Results) -> Drawing {
         curves.push(Curve::line(format!("h = 1/{n}"), points, i));
     }
     let checked = Run::of(Problem::Pendulum, SCHEME, "1/4").with("p", "19/10");
-    let by = Estimator::Best { largest: 200, early: false };
-    drawing.digits_held("the drift at h = 1/4, p(0) = 1.9", results.digits_held(&checked, by, 200));
+    drawing.digits_held("the drift at h = 1/4, p(0) = 1.9", results.digits_held(&checked, &BEST, 200));
     drawing.chart(
         "Störmer–Verlet, pendulum, q(0) = 0",
         Axis::linear("p(0)"),

@@ -1,5 +1,6 @@
 //! The pendulum: the drift against the step size.
 
+use shadowstep::shadow::EstimatorSettings;
 use std::f64::consts::PI;
 
 use shadowstep::problems::Problem;
@@ -7,11 +8,12 @@ use shadowstep::problems::Problem;
 use super::pendulum::{SCHEME, singularity};
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::central;
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, ROUND_OFF, decay, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
-use crate::run::{Estimator, Run};
+use crate::run::Run;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "pendulum-step", title: "The pendulum: drift against the step size", draw };
@@ -24,9 +26,9 @@ const STEPS: [u32; 22] = [2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 18
 
 /// An m at which T_{m,m} has converged: the remainder is about exp(ρ²/(h² m)), by lemma 3 of the paper. It is at most 1000, as a
 /// step takes too long with a larger one.
-fn limit(n: u32, quick: bool) -> Estimator {
+fn limit(n: u32, quick: bool) -> EstimatorSettings {
     let wanted = (singularity(1.0) * f64::from(n)).powi(2) * 3.0;
-    Estimator::Central { m: (wanted as u32).clamp(200, if quick { 400 } else { 1000 }) }
+    central((wanted as u32).clamp(200, if quick { 400 } else { 1000 }))
 }
 
 fn draw(results: &Results) -> Drawing {
@@ -37,11 +39,11 @@ fn draw(results: &Results) -> Drawing {
     ]);
     let steps = results.grid(&STEPS, &[2, 4, 6, 10, 14, 20]);
     let run = |n: u32| Run::of(Problem::Pendulum, SCHEME, format!("1/{n}"));
-    let drifts = |by: &dyn Fn(u32) -> Estimator| -> Vec<(f64, f64)> {
-        steps.iter().map(|&n| (1.0 / f64::from(n), results.log10_drift(&run(n), by(n)))).collect()
+    let drifts = |by: &dyn Fn(u32) -> EstimatorSettings| -> Vec<(f64, f64)> {
+        steps.iter().map(|&n| (1.0 / f64::from(n), results.log10_drift(&run(n), &by(n)))).collect()
     };
     let limit = drifts(&|n| limit(n, results.quick));
-    let fixed = ORDERS.map(|m| (m, drifts(&|_| Estimator::Central { m })));
+    let fixed = ORDERS.map(|m| (m, drifts(&|_| central(m))));
     let against = |points: &[(f64, f64)]| points.iter().map(|(h, y)| (1.0 / h, *y)).collect::<Vec<_>>();
     let curves = fixed.iter().enumerate();
     let mut curves: Vec<_> =
@@ -57,8 +59,7 @@ fn draw(results: &Results) -> Drawing {
     check_convergence(results, &mut drawing);
     check_orders(&mut drawing, &fixed);
     check_limit(&mut drawing, &limit);
-    let checked = (run(10), Estimator::Central { m: 20 });
-    drawing.digits_held("the drift at h = 1/10 by m = 20", results.digits_held(&checked.0, checked.1, 200));
+    drawing.digits_held("the drift at h = 1/10 by m = 20", results.digits_held(&run(10), &central(20), 200));
     drawing.found(format!(
         "c is the rate of the estimator, π ρ, where ρ = {:.4} is the distance of the nearest singularity of q(t) from the real axis. The \
          bilinear estimator, below, gives a modified energy that is conserved far better.",
@@ -95,7 +96,7 @@ fn check_limit(drawing: &mut Drawing, limit: &[(f64, f64)]) {
 /// The limit must be reached: drifts by m far larger than those of the figure, at h = 1/4.
 fn check_convergence(results: &Results, drawing: &mut Drawing) {
     let run = Run::of(Problem::Pendulum, SCHEME, "1/4");
-    let many = [40, 80, 160, 320, 640].map(|m| results.log10_drift(&run, Estimator::Central { m }));
+    let many = [40, 80, 160, 320, 640].map(|m| results.log10_drift(&run, &central(m)));
     let [.., last, most] = many;
     drawing.check(
         "T_{m,m} converge as m → ∞.",

@@ -3,19 +3,20 @@
 use super::kepler::{self, run};
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
-use crate::run::{BEST, EXACT_FLOW, Estimator, SCHEMES};
+use crate::run::{EXACT_FLOW, SCHEMES};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "permanent-change", title: "The permanent change of the schemes", draw };
 
 /// The paper's drift above, the permanent change below, and their rates.
 fn drift_and_change(results: &Results, drawing: &mut Drawing, steps: &[u32], changes: &[Curve]) {
-    let drifts = SCHEMES.map(|(scheme, _)| kepler::drifts(results, scheme, steps, BEST));
-    let control = kepler::drifts(results, EXACT_FLOW, steps, BEST);
+    let drifts = SCHEMES.map(|(scheme, _)| kepler::drifts(results, scheme, steps, &BEST));
+    let control = kepler::drifts(results, EXACT_FLOW, steps, &BEST);
     let row = |what: &str, points: &[(f64, f64)]| decay_row(what, kepler::rate(points).as_ref());
     let mut rows: Vec<_> =
         changes.iter().map(|curve| row(&format!("change, {}", curve.label), &curve.points)).collect();
@@ -45,7 +46,7 @@ const COSTS: [f64; 4] = [1.0, 3.0, 6.0, 6.0];
 
 /// log₁₀ of the permanent change and of its largest jump, by E_24.
 fn change(results: &Results, scheme: &'static str, n: u32) -> Option<(f64, f64)> {
-    results.sizes(&run(scheme, n), Estimator::Bilinear { k: 24 })?.permanent
+    results.sizes(&run(scheme, n), &bilinear(24))?.permanent
 }
 
 /// Curves of the changes of all schemes.
@@ -80,7 +81,7 @@ fn draw(results: &Results) -> Drawing {
     let rows = steps.iter().filter(|n| [5, 10, 20, 40].contains(*n)).map(row).collect();
     let header: Vec<&str> = ["h"].into_iter().chain(SCHEMES.map(|(_, label)| label)).collect();
     drawing.table("Permanent change (largest jump)", &header, rows);
-    let held = results.digits_held(&run(SCHEMES[3].0, 20), Estimator::Bilinear { k: 24 }, 200);
+    let held = results.digits_held(&run(SCHEMES[3].0, 20), &bilinear(24), 200);
     drawing.digits_held("the drift of SRKN6b at h = 1/20 by E_24", held);
     drawing
 }

@@ -2,25 +2,29 @@
 
 use shadowstep::Number;
 use shadowstep::problems::Problem;
+use shadowstep::shadow::{EstimatorSettings, StoppingRule};
 
 use crate::calculation::Energies;
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
+use crate::estimator::{best, bilinear, central};
 use crate::figure::Figure;
 use crate::numbers::number;
 use crate::results::Results;
-use crate::run::{EXACT_FLOW, Estimator, Run};
+use crate::run::{EXACT_FLOW, Run};
 
 pub(super) const FIGURE: Figure = Figure { name: "reliability", title: "Estimated errors against true errors", draw };
 
-const ESTIMATORS: [(&str, Estimator); 6] = [
-    ("T_{m,m}, m = 10", Estimator::Central { m: 10 }),
-    ("T_{m,m}, m = 40", Estimator::Central { m: 40 }),
-    ("best m ≤ 100", Estimator::Best { largest: 100, early: false }),
-    ("E_8", Estimator::Bilinear { k: 8 }),
-    ("E_16", Estimator::Bilinear { k: 16 }),
-    ("E_32", Estimator::Bilinear { k: 32 }),
-];
+fn estimators() -> [(&'static str, EstimatorSettings); 6] {
+    [
+        ("T_{m,m}, m = 10", central(10)),
+        ("T_{m,m}, m = 40", central(40)),
+        ("best m ≤ 100", best(100, StoppingRule::Full)),
+        ("E_8", bilinear(8)),
+        ("E_16", bilinear(16)),
+        ("E_32", bilinear(32)),
+    ]
+}
 
 /// The largest ratio of true and estimated error that counts as reliable.
 const RELIABLE: f64 = 2.0;
@@ -57,30 +61,30 @@ fn draw(results: &Results) -> Drawing {
     let mut drawing = Drawing::additional(
         "On the exact flow of Kepler's problem the error of an estimate is known. The paper uses |T_{m,m} − T_{m−1,m−1}| as its estimate. Here the estimate is the largest of the differences of the estimates at a few states on either side, of their last terms, and of the last digit.",
     );
-    for (label, by) in [ESTIMATORS[2], ESTIMATORS[4]] {
-        along_an_orbit(results, &mut drawing, label, by);
+    for (label, estimator) in [&estimators()[2], &estimators()[4]] {
+        along_an_orbit(results, &mut drawing, label, estimator);
     }
     let orbits = results.grid(&["0", "3/10", "6/10", "9/10"], &["0", "6/10", "9/10"]);
     let steps = results.grid(&["1/10", "3/31", "1/20", "1/40"], &["1/10", "1/20"]);
     let mut rows = Vec::new();
     let mut worst_of_all = 0.0_f64;
-    for (label, by) in ESTIMATORS {
+    for (label, estimator) in &estimators() {
         let all = || orbits.iter().flat_map(|e| steps.iter().map(move |h| run(e, h, "7")));
         let of = |pick: fn(&Energies) -> &Vec<Option<f64>>| {
             quantiles(
                 all()
-                    .filter_map(|run| results.energies(&run, by))
+                    .filter_map(|run| results.energies(&run, estimator))
                     .flat_map(|found| ratios(&found, pick(&found)))
                     .collect(),
             )
         };
         let (estimated, last_terms) = (of(|found| &found.errors), of(|found| &found.last_terms));
-        let coarse = results.energies(&run("6/10", "2", "100"), by);
+        let coarse = results.energies(&run("6/10", "2", "100"), estimator);
         let coarse = coarse.map_or(f64::NAN, |found| quantiles(ratios(&found, &found.errors))[2]);
         let few = if coarse > RELIABLE { "not reliable here".to_owned() } else { shown(coarse) };
         worst_of_all = worst_of_all.max(estimated[2]);
         rows.push(
-            [label.to_owned()].into_iter().chain(estimated.map(shown)).chain([shown(last_terms[2]), few]).collect(),
+            [(*label).to_owned()].into_iter().chain(estimated.map(shown)).chain([shown(last_terms[2]), few]).collect(),
         );
     }
     drawing.table(
@@ -96,7 +100,7 @@ fn draw(results: &Results) -> Drawing {
     drawing
 }
 
-fn along_an_orbit(results: &Results, drawing: &mut Drawing, label: &str, estimator: Estimator) {
+fn along_an_orbit(results: &Results, drawing: &mut Drawing, label: &str, estimator: &EstimatorSettings) {
     let Some(found) = results.energies(&run("6/10", "1/20", "7"), estimator) else { return };
     let against = |sizes: Vec<f64>| found.times.iter().copied().zip(sizes).collect::<Vec<_>>();
     let known = |sizes: &[Option<f64>]| against(sizes.iter().map(|size| size.unwrap_or(f64::NAN)).collect());

@@ -6,11 +6,12 @@ use shadowstep::problems::Problem;
 
 use crate::chart::{Axis, Curve, Marker};
 use crate::drawing::Drawing;
+use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, decay, decay_row};
 use crate::numbers::power;
 use crate::results::Results;
-use crate::run::{BEST, Estimator, Run};
+use crate::run::Run;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "scattering", title: "Scattering: the change of the energy itself", draw };
@@ -51,8 +52,7 @@ fn draw(results: &Results) -> Drawing {
     let steps = results.grid(&STEPS, &[2, 4, 6, 8, 12, 16]);
     let against = |y: &dyn Fn(u32) -> f64| -> Vec<(f64, f64)> { steps.iter().map(|&n| (f64::from(n), y(n))).collect() };
     let changes = against(&|n| largest(results, n));
-    let [best, bilinear] =
-        [BEST, Estimator::Bilinear { k: 40 }].map(|by| against(&|n| results.log10_drift(&run(n, 0), by)));
+    let [best, bilinear] = [BEST, bilinear(40)].map(|by| against(&|n| results.log10_drift(&run(n, 0), &by)));
     let every = steps.iter().flat_map(|&n| (0..PHASES).map(move |phase| (f64::from(n), size(results, n, phase))));
     drawing.chart(
         "Störmer–Verlet, U = exp(−|q|²), impact parameter 0.3, speed 2",
