@@ -7,7 +7,7 @@
 //! # Double precision
 //!
 //! An estimate divides differences of states by h, and with them the round-off ε|q| of every state: an error of ε|q||p|/h. An
-//! `f64` has too few digits for that. So the differences are sums of what the steps added ([`Increments`]), which is known to
+//! `f64` has too few digits for that. So the differences are sums of what the steps added ([`Increments`](crate::Increments)), which is known to
 //! ε h|p|, and the error is of size ε. Störmer–Verlet on Kepler, e = 0.6, the largest max − min of the estimates near an apocentre:
 //!
 //! | | differences of | E_4 | E_8 | E_16 | D_10 | D_20 | best m ≤ 20 |
