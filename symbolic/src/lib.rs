@@ -1,8 +1,8 @@
-//! Exact formulas: text, to a syntax tree with byte ranges, to an exact rational number, or to derivatives and programs.
+//! Exact formulas: from text to a syntax tree with places, and from there to exact rationals, derivatives and programs.
 //!
 //! * [`parse`] reads a formula such as `1/(2 - 2^(1/3))` into an [`Expression`].
 //! * [`evaluate`] computes it. Rational arithmetic stays exact; a formula with an irrational root, a
-//!   function such as exp or sin, or `pi` is rounded once, correctly, to the digits that were asked for.
+//!   function such as exp or sin, or `pi` is rounded once, correctly, to the requested digits.
 //! * [`Graph::build`] simplifies it into a graph without repetitions, where [`Graph::derivative`] and [`Graph::rate`]
 //!   (qᵀU_q − 2U) find formulas, and [`Graph::program`] computes them with few operations in place.
 //! * [`decimal`] writes rationals as text and reads them back.
@@ -37,9 +37,9 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | `number` | **exact numbers** |
-//! | `number/ratio`, `number/rational`, `number/fraction` | ratios, in lowest terms or not, and how they compare |
+//! | `number/ratio`, `number/rational`, `number/fraction` | ratios, in lowest terms or not, and their order |
 //! | `number/rounding` | a rational → the decimals next to it |
-//! | `number/power` | powers and roots that are rational, and how long a number may be |
+//! | `number/power` | rational powers and roots, and the largest size of numbers |
 //! | `number/function` | the elementary functions: their names, parity, rational values |
 //! | `number/interval` | rational bounds of a real number |
 //! | `number/ball` | fixed-point numbers with error bounds |
@@ -57,7 +57,7 @@
 //! | `evaluation/domain` | the domains of roots, quotients and functions |
 //! | `evaluation/evaluator` | one computation with a given number of digits |
 //! | `graph` | **syntax tree → formulas without repetitions** |
-//! | `graph/simplify` | how nodes are made |
+//! | `graph/simplify` | construction of simplified nodes |
 //! | `graph/build` | syntax tree → nodes |
 //! | `graph/pair` | formulas of a pair of bodies |
 //! | `graph/degree`, `graph/derivative`, `graph/rate`, `graph/quadratic` | homogeneity, ∂/∂q, qᵀU_q − 2U, quadratic forms |
@@ -82,7 +82,6 @@ pub use number::fraction::Fraction;
 pub use number::function::Function;
 pub use number::ratio::Ratio;
 pub use number::rational::Rational;
-
 pub use program::Program;
 pub use program::instruction::{Instruction, Place};
 pub use program::operations::Operations;

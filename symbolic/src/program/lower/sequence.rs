@@ -204,18 +204,7 @@ impl Sequencer {
         }
         let mut factors = factors.into_iter();
         let mut value = match (factors.next(), factors.next()) {
-            (Some(a), Some(b)) => {
-                // 2ab is (a + a)b: a sum costs less than a product
-                let twice = integers.iter().position(|integer| matches!(integer, Atom::Scale(2)));
-                match twice.and_then(|twice| Some((twice, self.first_leaf(a, b)?))) {
-                    Some((twice, (a, b))) => {
-                        integers.remove(twice);
-                        let sum = self.push(Operation::Sum(vec![(false, a), (false, a)]));
-                        self.push(Operation::Product(sum, b))
-                    }
-                    None => self.push(Operation::Product(a, b)),
-                }
-            }
+            (Some(a), Some(b)) => self.first_product(a, b, &mut integers),
             (Some(a), None) => a,
             _ => self.one(),
         };
@@ -234,6 +223,20 @@ impl Sequencer {
             value = self.push(Operation::Quotient(value, denominator));
         }
         if negative { self.push(Operation::Negate(value)) } else { value }
+    }
+
+    /// a b; a factor 2 among the integers is used up where that saves an operation.
+    fn first_product(&mut self, a: Value, b: Value, integers: &mut Vec<Atom>) -> Value {
+        // 2ab is (a + a)b: a sum costs less than a product
+        let twice = integers.iter().position(|integer| matches!(integer, Atom::Scale(2)));
+        match twice.and_then(|twice| Some((twice, self.first_leaf(a, b)?))) {
+            Some((twice, (a, b))) => {
+                integers.remove(twice);
+                let sum = self.push(Operation::Sum(vec![(false, a), (false, a)]));
+                self.push(Operation::Product(sum, b))
+            }
+            None => self.push(Operation::Product(a, b)),
+        }
     }
 
     /// The two values, first one at a place that is never written, so that it can be an operand twice. Of two such
