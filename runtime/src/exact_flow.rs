@@ -1,6 +1,6 @@
-//! States of the exact flow, whose energy is known: what an estimator shows on them is its own error.
+//! States of the exact flow, whose energy is known: on them the variation of an estimate is the error of the estimator.
 //!
-//! A scheme's trajectory lies on the flow of a modified Hamiltonian H̄ that nobody knows. The states at t = n h of the exact
+//! A scheme's trajectory lies on the flow of a modified Hamiltonian H̄ that is not known. The states at t = n h of the exact
 //! flow of H, with β' = qᵀU_q − 2U, are a trajectory with H̄ = H.
 //!
 //! ```
@@ -15,8 +15,8 @@
 //! assert!(found.drift.to_f64() < 1e-11); // of E_16 itself
 //! ```
 //!
-//! States are computed with MPFR, with 20 digits more than those of the run and as many as its length and its start take
-//! beyond these, and rounded once: `f64` states, too, are the nearest ones.
+//! States are computed with MPFR, with 20 digits more than the run has and as many as its length and its initial state
+//! require in addition, and rounded once: also `f64` states are the nearest ones.
 
 pub(crate) mod solution;
 
@@ -52,8 +52,8 @@ impl<N: Rounded> ExactFlow<N> {
     /// Begins at the initial state of the problem with steps of size h.
     ///
     /// # Errors
-    /// As [`has_exact_flow`]; a step of size 0; a time so long, or a start so near to a separatrix, that the digits do not
-    /// suffice.
+    /// As [`has_exact_flow`]; a time so long, or an initial state so near to a separatrix or a collision, that too many digits
+    /// would be needed.
     pub fn new(
         setup: &Setup,
         h: &StepSize,
@@ -78,7 +78,7 @@ fn assign_rounded<N: Rounded>(numbers: &mut [N], values: &[Float]) {
 }
 
 impl<N: Rounded> Increments<N> {
-    /// What leads from one point to the next, each rounded once.
+    /// The increments from one point to the next, each rounded once.
     fn assign_differences(&mut self, next: &Point, last: &Point) {
         let vectors = self.q.iter_mut().zip(&next.q).zip(&last.q).chain(self.p.iter_mut().zip(&next.p).zip(&last.p));
         vectors.for_each(|((own, next), last)| own.assign_rounded(&(next.clone() - last)));
@@ -89,7 +89,7 @@ impl<N: Rounded> Increments<N> {
 impl<N: Rounded> States for ExactFlow<N> {
     type Number = N;
 
-    /// Goes to the next state; `None` at the end.
+    /// The next state; `None` at the end.
     ///
     /// # Errors
     /// A state that is not finite, as where `f64` overflows.
@@ -111,8 +111,7 @@ impl<N: Rounded> States for ExactFlow<N> {
 }
 
 impl<N: Rounded, E: Estimator<N>> ShadowRun<ExactFlow<N>, E> {
-    /// The estimates along the exact flow of a problem from its initial state: without the estimator's own error each of them
-    /// would be H.
+    /// The estimates along the exact flow of a problem from its initial state. Each is H plus the error of the estimator.
     ///
     /// # Errors
     /// As [`ExactFlow::new`].
