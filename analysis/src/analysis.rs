@@ -42,7 +42,7 @@ pub struct Analysis {
     pub drifts: Sizes,
 }
 
-/// The sizes of the weights of one kind of map; weights that are 0 are no maps.
+/// The sizes of the weights of one kind of map; weights that are 0 are left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Sizes {
     /// Σ|w|: 1 if no map goes backwards.

@@ -22,7 +22,7 @@ use shadowstep_schemes::proof::Proof;
 /// taken away, and what is left is wanted to the 16 digits of f64.
 const DIGITS: u32 = 60;
 
-/// Coefficients below this are 0 as far as one can tell: some digits above the words' coefficients' last.
+/// Coefficients below this are not distinguished from 0: some digits above the words' coefficients' last.
 const RESOLVED: f64 = 1e-50;
 
 /// The leading error for one class of kinetic energies.
@@ -60,7 +60,7 @@ impl LeadingError {
     }
 }
 
-/// What the digits do not tell from 0 is 0.
+/// A coefficient that the digits do not distinguish from 0 is 0.
 fn resolved(coefficient: f64) -> f64 {
     if coefficient.abs() < RESOLVED { 0.0 } else { coefficient }
 }

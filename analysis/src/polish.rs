@@ -9,12 +9,12 @@
 //! | `unknowns`, `palindrome` | table → its decimals as unknowns, and the weights as functions of them |
 //! | `formulas` | what the cells name |
 //! | `printed` | what holds of the table as printed |
-//! | `equations`, `composition` | which conditions have to hold; those of compositions in the γ's alone |
+//! | `equations`, `composition` | which conditions must hold; those of compositions in the γ's alone |
 //! | `dual` | values with their derivatives, in fixed point |
 //! | `least_squares`, `newton` | linear algebra; the choice of what stays as printed; the iteration |
 //! | `rounded` | the values as they are written, with sums of exactly 1 |
 //! | `write`, `new_table` | the table's text with the new decimals; its proof |
-//! | `outcome` | what comes of it: the polished table, or why there is none |
+//! | `outcome` | the result: the polished table, or the reason why there is none |
 //! | `refusal`, `numbers` | why a table was not polished, in messages with numbers |
 //!
 //! The arithmetic is in integers, with twice the digits at each step of the iteration. The result is read and proved as
@@ -147,7 +147,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
 fn readable(source: &Source, library: Library<'_>) -> Result<(ExactScheme, Option<ExactScheme>), NotPolished> {
     let (scheme, faults) = exact::scheme(source, library);
     let Some(scheme) = scheme.filter(|_| faults.is_empty()) else {
-        return Err(NotPolished::Faults(Faults::of(faults).expect("what is no scheme has a fault")));
+        return Err(NotPolished::Faults(Faults::of(faults).expect("what is not a scheme has a fault")));
     };
     let base = match &scheme.table.weights {
         Some(Weights::Composition { base, .. }) => {
@@ -166,7 +166,7 @@ fn held(model: &Model, table: &Table, wanted: &Request<'_>) -> Result<Vec<usize>
             }
             if model.is_exact(name) {
                 let hint = "leave it out of --free: fractions and formulas stay as they are";
-                return request(format!("`{name}` is no printed decimal"), hint);
+                return request(format!("`{name}` is not a printed decimal"), hint);
             }
             let names = || model.unknowns.iter().map(|u| u.name.as_str());
             let hint = match nearest(name, names()) {

@@ -30,7 +30,7 @@ pub(crate) struct Isolated {
     pub(crate) depth: u64,
 }
 
-/// A sign could not be told: more bits are needed, or other places to bisect at.
+/// A sign could not be decided: more bits are needed, or other places to bisect at.
 #[derive(Debug)]
 pub(crate) struct InDoubt;
 

@@ -39,7 +39,7 @@ pub struct Gap {
 }
 
 impl Stability {
-    /// The stability of a step with this trace and so many evaluations.
+    /// The stability of a step with this trace and this number of force evaluations.
     pub(crate) fn of(trace: &Trace, evaluations: usize) -> Stability {
         let last = 4 * (evaluations as u64).pow(2);
         let crossings = parted(crossings(trace, last));
@@ -121,7 +121,7 @@ fn crossings(trace: &Trace, last: u64) -> Vec<Crossing> {
         .find_map(|attempt| {
             crossings_within(&functions, last + last / 100 + attempt, 512 << (attempt - 1).min(20)).ok()
         })
-        .expect("simple roots are told apart in the end")
+        .expect("simple roots are separated with enough bits")
 }
 
 fn crossings_within(functions: &[SignChanges], range: u64, bits: u64) -> Result<Vec<Crossing>, InDoubt> {

@@ -276,7 +276,7 @@ fn tables_are_written_however_they_are_laid_out() {
     assert_eq!(text.matches('\n').count(), text.matches("\r\n").count(), "{text:?}");
     let dotted =
         refusal(&table(4, &format!("composition.base = \"stormer-verlet\"\ncomposition.gamma = {gamma}\n")), &[]);
-    assert!(dotted.contains("write [constants] and [composition] on lines of their own"), "{dotted}");
+    assert!(dotted.contains("write [constants] and [composition] on separate lines"), "{dotted}");
 }
 
 #[test]
@@ -286,7 +286,7 @@ fn names_that_are_no_decimals_are_refused() {
     assert!(unknown.contains("no printed decimal `g22`") && unknown.contains("did you mean `g2`?"), "{unknown}");
     assert!(refusal(&source, &["nothing"]).contains(": its decimals: g2, g3, g4, g5, g6, g7, …"));
     assert!(refusal(&published("yoshida6-a"), &["nothing"]).ends_with(": its decimals: g1, g2, g3, g4"));
-    assert!(refusal(&source, &["g1"]).contains("`g1` is no printed decimal"));
+    assert!(refusal(&source, &["g1"]).contains("`g1` is not a printed decimal"));
     assert!(refusal(&source, &["gamma[1]"]).contains("fractions and formulas stay as they are"));
     assert!(refusal(&shipped("yoshida4").unwrap(), &[]).contains("has no printed decimals"));
     let many: Vec<_> = (100..301).map(|i| format!("0.0{i}")).collect();

@@ -63,7 +63,7 @@ pub(crate) fn statement(instruction: &Instruction, names: &Names, outputs: &[Tok
     }
 }
 
-/// A name that no user's name can be taken for.
+/// A hygienic name: no name of the user is the same.
 pub(crate) fn own(name: &str) -> Ident {
     Ident::new(name, Span::mixed_site())
 }

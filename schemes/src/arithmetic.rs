@@ -77,7 +77,7 @@ impl FixedPoint {
     /// The middle and the bound of the error as fractions with the denominator of the unit.
     pub fn read(&self, value: &Fixed) -> (Fraction, Fraction) {
         let unit = self.unit();
-        // a bound that ran over is none: then the value may be anything
+        // a bound that overflowed bounds nothing
         let error = if value.error == u128::MAX { BigInt::one() << (2 * self.bits) } else { value.error.into() };
         (Fraction::new(value.units.clone(), unit.clone()), Fraction::new(error, unit))
     }
@@ -140,7 +140,7 @@ impl Arithmetic for Sensitivity {
     }
     fn weight(&self, weight: &Rational) -> Sensitive {
         let value = weight.to_f64().unwrap_or(f64::MAX).abs();
-        // a weight of exactly 0 is no rounded number
+        // a weight of exactly 0 is not rounded
         Sensitive { value, slope: if weight.is_zero() { 0.0 } else { value.max(1.0) } }
     }
     fn add_product(&self, target: &mut Sensitive, a: &Sensitive, b: &Sensitive) {

@@ -22,7 +22,7 @@ use crate::table::{Cell, Table, Weights};
 /// Digits to which an irrational constant is rounded.
 pub const DIGITS: u32 = 300;
 
-/// The largest weight that is taken for a weight and not for a slip.
+/// The largest weight that is accepted; a larger one is surely a mistake.
 const LARGEST_WEIGHT: u32 = 1000;
 
 /// The most stages a table may have, compositions written out.
@@ -129,7 +129,7 @@ struct Cells<'a> {
 impl Cells<'_> {
     fn constants(&mut self) {
         for (name, cell) in &self.table.constants {
-            // a constant that cannot be read stands as 1, so that its users do not add faults of their own
+            // a constant that cannot be read stands as 1, so that the cells that use it have no further faults
             let one = Exact { value: Rational::from_integer(1.into()), rounded: false };
             let value = self.cell(cell).unwrap_or(one);
             self.known.insert(name.value.clone(), value);
@@ -145,7 +145,7 @@ impl Cells<'_> {
             let Ok(expression) = formula(&cell.value) else { continue };
             let alone = evaluate(&expression, &BTreeMap::new(), DIGITS);
             if !alone.is_ok_and(|value| !value.rounded) {
-                let message = format!("`{}` is no free parameter: its value is `{}`", name.value, cell.value);
+                let message = format!("`{}` is not a free parameter: its value is `{}`", name.value, cell.value);
                 let help = "a free parameter is a plain number, exactly as published";
                 self.faults.push(self.table.source.fault(&name.at, message).hint(help));
             }

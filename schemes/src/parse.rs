@@ -223,7 +223,7 @@ fn stages(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<Weights>
     let found = format!("{} for the kicks, {} for the drifts", kick.value.len(), drift.value.len());
     let fault = reader.source.fault(&drift.at, "kick and drift must have as many weights as there are stages");
     let hint = "each stage is a kick and then a drift; write 0 where there is none";
-    reader.faults.push(fault.values(found, "as many of both").hint(hint));
+    reader.faults.push(fault.values(found, "the same number of both").hint(hint));
     None
 }
 

@@ -10,7 +10,7 @@ use crate::table::Table;
 pub enum Held {
     /// They are exactly the scheme's.
     Exactly,
-    /// They are rounded to so many significant digits.
+    /// They are rounded to this number of significant digits.
     Digits(u32),
 }
 

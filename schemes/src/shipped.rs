@@ -51,7 +51,7 @@ pub fn shipped_hint(name: &str) -> String {
     }
 }
 
-/// From so many letters on names that begin with them are meant.
+/// The least number of letters of a word for which names that begin with it are suggested.
 const LEAST_BEGINNING: usize = 3;
 
 /// The text of a shipped table.

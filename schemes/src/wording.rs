@@ -97,7 +97,7 @@ fn failed_condition(
     table.source.fault(&claimed.at, message).values(beside(found, &failed.needed), short(&failed.needed))
 }
 
-/// Adds what rounded weights may have to do with a condition that is off by little.
+/// Adds a hint at `digits` where the condition is off by little, as it is with rounded weights.
 fn with_rounding_hint(fault: Fault, table: &Table, distance: &Rational) -> Fault {
     if digits_of(&distance.abs()).is_none_or(|digits| digits < 6) {
         return fault;

@@ -194,7 +194,7 @@ mine.toml:6:12: `kepler` is not known here
   6 | dominant = "kepler"
     |            ^^^^^^^^
   hint: write "drift" or "kick"
-mine.toml:7:15: `g2` is no free parameter: its value is `1 - 2*g1`
+mine.toml:7:15: `g2` is not a free parameter: its value is `1 - 2*g1`
   7 | free = ["g1", "g2", "h1", "g3"]
     |               ^^^^
   hint: a free parameter is a plain number, exactly as published
@@ -202,7 +202,7 @@ mine.toml:7:21: there is no constant `h1`
   7 | free = ["g1", "g2", "h1", "g3"]
     |                     ^^^^
   hint: did you mean `g1`?
-mine.toml:7:27: `g3` is no free parameter: its value is `sqrt(2)`
+mine.toml:7:27: `g3` is not a free parameter: its value is `sqrt(2)`
   7 | free = ["g1", "g2", "h1", "g3"]
     |                           ^^^^
   hint: a free parameter is a plain number, exactly as published
@@ -325,7 +325,7 @@ drift = [1]
 mine.toml:8:9: kick and drift must have as many weights as there are stages
   8 | drift = [1]
     |         ^^^
-  found 2 for the kicks, 1 for the drifts, needed as many of both
+  found 2 for the kicks, 1 for the drifts, needed the same number of both
   hint: each stage is a kick and then a drift; write 0 where there is none
 "#,
     );

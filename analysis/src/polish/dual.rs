@@ -21,7 +21,7 @@ pub(super) struct Dual {
 }
 
 impl Duals {
-    /// Enough bits for so many decimals.
+    /// Enough bits for a number of decimal digits.
     pub(super) fn digits(digits: u32) -> Duals {
         Duals { bits: (f64::from(digits) * std::f64::consts::LOG2_10).ceil() as u32 }
     }

@@ -1,4 +1,4 @@
-//! Which conditions a table's weights have to meet, and their values and derivatives.
+//! Which conditions a table's weights must meet, and their values and derivatives.
 
 use std::collections::BTreeSet;
 
@@ -20,7 +20,7 @@ use shadowstep_schemes::{ExactScheme, near_integrable, nystrom};
 /// The conditions, as functions of the weights.
 pub(super) struct Equations {
     family: Family,
-    /// The words of near-integrable orders that are no conditions of the family.
+    /// The words of near-integrable orders that are not conditions of the family.
     near_integrable: Vec<order::Word>,
     /// A palindrome meets the conditions of even order if it meets those of odd order.
     odd_only: bool,
@@ -31,7 +31,7 @@ pub(super) struct Equations {
 enum Family {
     /// Words in kicks and drifts, for every T(p).
     Words(Vec<order::Word>),
-    /// Trees of at most so many nodes, for quadratic T.
+    /// Trees of at most this number of nodes, for quadratic T.
     Trees(u32),
     /// Words in the base's errors, for compositions of a symmetric base.
     Composition(Vec<Word>),

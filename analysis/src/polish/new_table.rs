@@ -14,7 +14,7 @@ use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
 use shadowstep_schemes::{Proved, read};
 
-/// With so many digits the proof can tell every condition up to the highest order from one that fails.
+/// With this number of digits the proof can decide every condition up to the highest order.
 const ENOUGH_TO_PROVE: u32 = 20;
 
 /// The new table, and what holds of it.
@@ -29,7 +29,7 @@ pub(super) struct NewTable {
 }
 
 impl NewTable {
-    /// Writes the solution with so many digits, and proves what is written.
+    /// Writes the solution with `digits` digits, and proves what is written.
     pub(super) fn of(
         problem: &Problem<'_>,
         table: &Table,

@@ -18,7 +18,7 @@ const GUARD_DIGITS: u32 = 60;
 /// Newton's iteration doubles the digits each time: it needs about ten steps from one digit to 300.
 const MOST_STEPS: u32 = 60;
 
-/// A rank is not taken from derivatives whose size is below so many times the residual (as a power of ten).
+/// A rank is not taken from derivatives whose size is below this multiple of the residual (a power of ten).
 const RANK_MARGIN: f64 = 4.0;
 
 /// A moved weight: farther away than this it is another scheme's (as a power of ten).
@@ -86,7 +86,7 @@ impl Problem<'_> {
         let size = |d: &&f64| d.log10() > linear.residual + RANK_MARGIN;
         // without any there is nothing to solve, where formulas meet the conditions
         let surely = factors.diagonal.iter().filter(size).count().max(factors.order.len().min(1));
-        // the fewest that may suffice are tried first: with more of them than the solution's derivatives can tell apart,
+        // the fewest that may suffice are tried first: with more of them than the solution's derivatives determine,
         // the iteration would wander along a family of solutions
         let mut failed = failure(What::Singular);
         for rank in surely..=factors.order.len() {

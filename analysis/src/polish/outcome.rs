@@ -1,4 +1,4 @@
-//! What polishing comes to: a table with new decimals, or why there is none.
+//! The result of polishing: a table with new decimals, or the reason why there is none.
 
 use shadowstep_schemes::Proved;
 use shadowstep_schemes::document::Faults;

@@ -9,7 +9,7 @@ use crate::polish::unknowns::{Cell, Mirrored, Model, Unknown};
 use shadowstep_schemes::document::Faults;
 use shadowstep_schemes::table::{self, Table};
 
-/// Decimals of so many digits that are printed alike are not so by chance.
+/// Decimals with at least this number of digits that are printed alike are equal by more than chance.
 const DIGITS_OF_ONE_NUMBER: u32 = 6;
 
 impl Model {

@@ -12,16 +12,16 @@ use shadowstep_schemes::proof::{Proof, prove};
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
 
-/// What is proved with the weights taken for as good as their decimals are long, whatever `digits` the table claims.
+/// What is proved if all digits of the decimals are trusted, whatever `digits` the table claims.
 pub(super) fn proof(scheme: &ExactScheme, model: &Model) -> Proof {
     let lengths = || model.unknowns.iter().map(|unknown| unknown.digits);
     let most = lengths().max().unwrap_or(1);
-    // those that are far shorter than others were chosen, and are no rounded numbers
+    // those that are far shorter than others were chosen, and are not rounded
     let fewest = lengths().filter(|digits| 2 * digits > most).min().unwrap_or(1);
     prove(&ExactScheme { held: scheme.held.weaker(Held::Digits(fewest)), ..scheme.clone() })
 }
 
-/// What to say where higher orders hold than are claimed, for then the decimals are solved for too few conditions.
+/// Notes on orders that hold and are higher than claimed: the decimals are then solved for too few conditions.
 pub(super) fn higher_orders(table: &Table, proof: &Proof) -> Vec<String> {
     let say = |order: u32, terms: &str| {
         format!("order {order} holds{terms} as printed: claim it, and it will be polished too")
@@ -40,7 +40,7 @@ pub(super) fn higher_orders(table: &Table, proof: &Proof) -> Vec<String> {
     higher
 }
 
-/// What to say if the order claimed holds for quadratic T only.
+/// The hint where the order claimed holds for quadratic T only.
 pub(super) fn quadratic_only(table: &Table, proof: &Proof) -> Option<String> {
     let claimed = table.order.value;
     let for_quadratic = proof.general.order < claimed && proof.quadratic.order >= claimed;
@@ -48,8 +48,8 @@ pub(super) fn quadratic_only(table: &Table, proof: &Proof) -> Option<String> {
         .then(|| format!("order {claimed} holds for quadratic T as printed: write `kinetic = \"quadratic\"`"))
 }
 
-/// What to say if the stages are Störmer–Verlet steps γ_1 h, γ_2 h, …: kicks γ_1/2, (γ_1 + γ_2)/2, …, γ_n/2 and drifts γ_s,
-/// or the same with kick and drift exchanged. As stages they have to meet far more conditions than there are γ's, and
+/// The hint where the stages are Störmer–Verlet steps γ_1 h, γ_2 h, …: kicks γ_1/2, (γ_1 + γ_2)/2, …, γ_n/2 and drifts γ_s,
+/// or the same with kick and drift exchanged. As stages they must meet far more conditions than there are γ's, and
 /// these may be singular.
 pub(super) fn verlet_steps(scheme: &ExactScheme, model: &Model) -> Option<String> {
     let maps = scheme.maps();

@@ -7,7 +7,7 @@ use crate::polish::{formulas, printed};
 use shadowstep_schemes::ExactScheme;
 use shadowstep_schemes::table::Table;
 
-/// What would be right, where the printed table tells.
+/// What would be right, as far as the printed table shows it.
 pub(super) fn reason(scheme: &ExactScheme, model: &Model) -> Option<String> {
     printed::quadratic_only(&scheme.table, &printed::proof(scheme, model))
         .or_else(|| printed::verlet_steps(scheme, model))

@@ -80,7 +80,7 @@ fn remainder(
     let value = (Rational::one() - &rest - linear) / divisor;
     let mut exact = x.to_vec();
     exact[unknown] = value.clone();
-    // not so where a sum is no linear function of the decimals
+    // except where a sum is not a linear function of the decimals
     sums(&exact).filter(|sums| sums[list].is_one())?;
     let terms: Vec<_> = others.iter().map(|&u| (slopes[u][list].clone(), names[u].as_str())).collect();
     Some((unknown, value, write::remainder(divisor, &rest, &terms)))

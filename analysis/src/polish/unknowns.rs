@@ -82,7 +82,7 @@ pub(super) struct Model {
     pub(super) names: BTreeMap<String, usize>,
     /// The places of weights that are fractions or formulas.
     exact: Vec<String>,
-    /// The constants on which no weight depends: their decimals are no unknowns.
+    /// The constants on which no weight depends: their decimals are not unknowns.
     pub(super) unused: Vec<String>,
 }
 
@@ -151,7 +151,7 @@ impl Model {
         self.lists.len()
     }
 
-    /// The lists of weights at values of the unknowns; closed forms to so many digits.
+    /// The lists of weights at values of the unknowns; closed forms to `digits` digits.
     pub(super) fn weights(&self, x: &[Rational], digits: u32) -> Result<Vec<Vec<Rational>>, SemanticError> {
         let mut known = BTreeMap::new();
         for (name, cell) in &self.constants {
@@ -166,7 +166,7 @@ impl Model {
     ///
     /// The derivatives are differences with a step of a few units of the arithmetic's square root: exact where the cells
     /// are linear in the unknowns, as all but a few tables' are, and else with half of the digits, which Newton's
-    /// iteration cannot tell from exact ones.
+    /// iteration needs.
     pub(super) fn duals(&self, x: &[Rational], arithmetic: Duals) -> Result<Vec<Vec<Dual>>, SemanticError> {
         let digits = (f64::from(arithmetic.bits) * std::f64::consts::LOG10_2).ceil() as u32 + 5;
         let at_x = self.weights(x, digits)?;
@@ -218,7 +218,7 @@ fn decimal(text: &str) -> Option<(Rational, Rational, u32)> {
     let text = text.trim();
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, fraction) = mantissa.split_once('.')?;
-    // 0.0 is no rounded number
+    // 0.0 is not a rounded number
     let value = from_text(text).ok().filter(|value| !value.is_zero())?;
     let places = fraction.len() as i32 - exponent.parse::<i32>().ok()?;
     let power = Rational::from_integer(BigInt::from(10).pow(places.unsigned_abs()));

@@ -11,7 +11,7 @@ use crate::polish::unknowns::{Mirrored, Model};
 use shadowstep_schemes::document::Faults;
 use shadowstep_schemes::table::{Table, Weights};
 
-/// What stands for an unknown in the new table.
+/// How an unknown is written in the new table.
 #[derive(Clone, Debug)]
 pub(super) enum Written {
     /// The decimal as printed.
@@ -132,7 +132,7 @@ fn quoted(source: &str, at: &Range<usize>, text: &str) -> (Range<usize>, String)
     (at.clone(), if has_quotes { text.to_owned() } else { format!("\"{text}\"") })
 }
 
-/// Where new constants go: after the last one, or as a section of their own before the weights.
+/// Where new constants go: after the last one, or in a new section before the weights.
 fn constants(table: &Table, lines: &str) -> Result<(Range<usize>, String), Faults> {
     let source = &table.source.text;
     let header = |name: &str| {
@@ -156,7 +156,7 @@ fn constants(table: &Table, lines: &str) -> Result<(Range<usize>, String), Fault
                 Weights::Stages { kick, .. } => &kick.at,
                 Weights::Composition { gamma, .. } => &gamma.at,
             };
-            let hint = format!("write [constants] and {section} on lines of their own, the keys below them");
+            let hint = format!("write [constants] and {section} on separate lines, the keys below them");
             let fault = table.source.fault(at, "there is no place for the polished constants");
             Err(Faults(vec![fault.hint(hint)]))
         }

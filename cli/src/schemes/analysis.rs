@@ -1,4 +1,4 @@
-//! How the analysis of a scheme is told, to machines and to people.
+//! The analysis of a scheme as records and as text.
 
 use serde::Serialize;
 use shadowstep_analysis::bracket::Bracket;
@@ -76,7 +76,7 @@ impl Sizes {
     }
 }
 
-/// What is said of it to people, each with the name of what it is.
+/// The analysis as text, each fact with its name.
 pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {
     let (phase, end) = (analysis.phase, 2 * analysis.evaluations);
     let mut facts = vec![

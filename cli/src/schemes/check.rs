@@ -62,8 +62,8 @@ fn verdict(path: &str, proved: &Proved) -> String {
         orders => format!(", {orders} for A + εB"),
     };
     let mut text = format!("{path}: proved: order {} for {class}{near}, {digits}{symmetric}\n", order.order);
-    for remark in &proved.notes {
-        text += &format!("remark: {remark}\n");
+    for note in &proved.notes {
+        text += &format!("note: {note}\n");
     }
     text
 }

@@ -60,7 +60,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let mut output = Output::open(arguments.output.as_deref(), "--output")?;
     write!(output, "{}", polished.text)?;
     output.finish()?;
-    report::write(told(&polished));
+    report::write(summary(&polished));
     polished.notes.iter().for_each(report::note);
     for weight in misprints(&polished.weights) {
         let PolishedWeight { name, right, printed_digits, .. } = weight;
@@ -70,7 +70,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     Ok(Status::Success)
 }
 
-fn told(polished: &Polished) -> String {
+fn summary(polished: &Polished) -> String {
     let proved = &polished.proved;
     let class = match proved.scheme.table.kinetic {
         Kinetic::Any => "every T(p)",

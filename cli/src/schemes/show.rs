@@ -84,7 +84,7 @@ struct Record {
     reference: String,
     doi: Option<String>,
     table_hash: String,
-    remarks: Vec<String>,
+    notes: Vec<String>,
 }
 
 /// The first condition of the order that fails.
@@ -120,7 +120,7 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
     let (proof, weights, table) = (&proved.proof, &proved.scheme, &proved.scheme.table);
     let fractions = |weights: &[Rational]| weights.iter().map(Rational::to_string).collect();
     let maps = weights.maps().into_iter();
-    // the value of a condition of rounded weights is known to so many digits only
+    // the value of a condition of rounded weights is known to this number of digits only
     let exact = |value: &Rational| match weights.held {
         Held::Digits(_) if to_text(value).len() > CONDITION_DIGITS => to_significant(value, CONDITION_DIGITS),
         _ => to_text(value),
@@ -163,7 +163,7 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         reference: table.reference.clone(),
         doi: table.doi.clone(),
         table_hash: Sha256::digest(&table.source.text).iter().map(|byte| format!("{byte:02x}")).collect(),
-        remarks: proved.notes.iter().map(ToString::to_string).collect(),
+        notes: proved.notes.iter().map(ToString::to_string).collect(),
     }
 }
 
@@ -206,11 +206,11 @@ fn readable(scheme: &TableScheme, analysis: &Analysis) -> String {
         text += lines.get(MARGIN..).unwrap_or("\n");
     }
     text += &format!("{}\n", weights_table(scheme));
-    text.extend(proved.notes.iter().map(|remark| format!("remark: {remark}\n")));
+    text.extend(proved.notes.iter().map(|note| format!("note: {note}\n")));
     text
 }
 
-/// What is said of the scheme itself, each with the name of what it is.
+/// The facts about the scheme itself, each with its name.
 fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
     let proved = scheme.proved();
     let (proof, table, plan) = (&proved.proof, &proved.scheme.table, scheme.plan());

@@ -141,7 +141,7 @@ fn usage_errors_have_a_message() {
     let (_folder, path) = printed(PRINTED);
     for (words, told) in [
         ("--free w8", "the table has no printed decimal `w8`"),
-        ("--free w0", "`w0` is no printed decimal"),
+        ("--free w0", "`w0` is not a printed decimal"),
         ("--digits 301", "301 is not in 1..=300"),
     ] {
         let result = shadowstep(&format!("schemes polish {path} {words}"));

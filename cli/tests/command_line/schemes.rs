@@ -238,7 +238,7 @@ fn check_notes_claims_below_the_proved_order() {
     let path = write(folder.path(), "mine.toml", &GOOD.replace("order = 4", "order = 3"));
     let result = quietly(&format!("schemes check {path}"));
     assert!(result.contains("order 3 is claimed, order 4 holds"), "{result}");
-    assert!(result.contains(&format!("remark: {path}:2:9:")), "{result}");
+    assert!(result.contains(&format!("note: {path}:2:9:")), "{result}");
 }
 
 #[test]
