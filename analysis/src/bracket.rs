@@ -94,7 +94,7 @@ fn basis(words: &[Word], k: usize, d: usize, kinetic: Kinetic) -> Vec<Bracket> {
         let row = words.iter().map(|word| bracket.coefficient(word).rem_euclid(PRIME as i64) as u64).collect();
         echelon.rows.len() < words.len() && echelon.extend(row)
     });
-    // what is independent modulo a prime is independent; that there are enough says that none was lost
+    // rows that are independent modulo a prime are independent; the count shows that none was lost
     assert_eq!(candidates.len(), words.len(), "right-nested brackets span");
     candidates
 }

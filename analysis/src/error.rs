@@ -18,8 +18,8 @@ use shadowstep_schemes::map::{Map, MapKind};
 use shadowstep_schemes::order::{Word, lyndon_words, prefix_coefficients};
 use shadowstep_schemes::proof::Proof;
 
-/// Digits behind the point of the words' coefficients. They are at least 1e-8 or so before the exact flow's are
-/// taken away, and what is left is wanted to the 16 digits of f64.
+/// Digits behind the point of the words' coefficients. They are at least 1e-8 or so before those of the exact flow
+/// are subtracted, and the difference is needed to the 16 digits of f64.
 const DIGITS: u32 = 60;
 
 /// Coefficients below this are not distinguished from 0: some digits above the words' coefficients' last.

@@ -1,4 +1,4 @@
-//! A table of printed decimals → one whose order conditions hold to as many digits as asked.
+//! A table of printed decimals → one whose order conditions hold to the requested number of digits.
 //!
 //! Papers print 12 to 40 digits, and not all of them are right: where a solution is ill-conditioned, a residual near
 //! the rounding of f64 hides weights that are off by a thousand times as much. [`polish`] takes the printed decimals for
@@ -53,7 +53,7 @@ use shadowstep_schemes::table::{Table, Weights};
 use unknowns::Model;
 use write::Written;
 
-/// The most digits that can be asked for: as many as a table may claim.
+/// The largest number of digits that can be requested: as many as a table may claim.
 pub const MOST_DIGITS: u32 = DIGITS;
 
 /// The most decimals that are solved for: the work grows with their square.
@@ -62,7 +62,7 @@ const MOST_DECIMALS: usize = 200;
 /// A condition number beyond which two thirds of the digits of an f64 are lost and more.
 const NEARLY_SINGULAR: f64 = 1e12;
 
-/// What is asked for.
+/// What is requested.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
     /// Digits to which the conditions shall hold, from 1 to [`MOST_DIGITS`]; `None` for as many as can be.
@@ -105,7 +105,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     let held = held(&model, table, wanted)?;
     if held.iter().collect::<BTreeSet<_>>().len() == model.unknowns.len() {
         let hint = "leave some out of --free, and of `free` in the table: the conditions are solved for these";
-        return Err(request("every decimal is held as printed, so nothing can move", hint));
+        return Err(request("every decimal is held as printed, so there is nothing to solve for", hint));
     }
     let equations = Equations::of(&model, table, wanted.split_kicks);
     let problem = Problem { model: &model, equations: &equations };
@@ -118,7 +118,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     })?;
     let names = write::names(table, &model);
     let mut found = NewTable::of(&problem, table, &names, &solution, most_digits, library)?;
-    // closed forms and bases have fewer digits than can be asked for: then as many as they have
+    // closed forms and bases have fewer digits than can be requested: then as many as they have
     while wanted.digits.is_none() && found.holds() < found.digits && found.holds() > printed_digits {
         found = NewTable::of(&problem, table, &names, &solution, found.holds(), library)?;
     }

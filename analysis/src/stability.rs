@@ -1,7 +1,7 @@
-//! Where the harmonic oscillator is stable: |tr| ≤ 2, decided exactly for the weights as they stand.
+//! Where the harmonic oscillator is stable: |tr| ≤ 2, decided exactly for the given weights.
 //!
-//! The trace leaves [−2, 2] and comes back where tr − 2 or tr + 2 changes its sign; where it only touches ±2 neither
-//! does. From x = 0, where the step is the identity and tr decreases, one goes from sign change to sign change.
+//! The trace leaves [−2, 2] and returns where tr − 2 or tr + 2 changes its sign; where it only touches ±2 neither
+//! does. The search starts at x = 0, where the step is the identity and tr decreases, and follows the sign changes.
 
 use num_bigint::BigInt;
 use num_traits::{One, ToPrimitive};
@@ -32,9 +32,9 @@ pub struct Stability {
 pub struct Gap {
     /// Where it begins, to 30 digits.
     pub from: String,
-    /// Where it ends, to 30 digits; `None` if it goes on beyond 2·(evaluations).
+    /// Where it ends, to 30 digits; `None` if it continues beyond 2·(evaluations).
     pub to: Option<String>,
-    /// Its width, up to 2·(evaluations) if it goes on.
+    /// Its width, up to 2·(evaluations) if it continues.
     pub width: f64,
 }
 

@@ -45,7 +45,7 @@ pub(super) struct Row {
 }
 
 impl Equations {
-    /// The conditions of the orders that the table claims, and the one asked for beside.
+    /// The conditions of the orders that the table claims, and the requested additional one.
     pub(super) fn of(model: &Model, table: &Table, split_kicks: bool) -> Equations {
         let (kinetic, order, odd_only) = (table.kinetic, table.order.value, model.symmetric);
         let base_order = model.base.as_ref().and_then(symmetric_order);

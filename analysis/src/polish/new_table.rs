@@ -1,4 +1,4 @@
-//! The new table: its text, read and proved as any table is, and whether its conditions hold to the digits asked for.
+//! The new table: its text, read and proved like any table, and whether its conditions hold to the requested digits.
 
 use shadowstep_symbolic::Rational;
 
@@ -51,7 +51,7 @@ impl NewTable {
         self.proved.order().digits.unwrap_or(u32::MAX).min((-self.residual).max(0.0) as u32)
     }
 
-    /// Refuses a table whose conditions hold to fewer digits than asked, because of what was not polished.
+    /// Refuses a table whose conditions hold to fewer digits than requested, because of what was not polished.
     pub(super) fn is_enough(&self) -> Result<(), NotPolished> {
         let (holds, digits) = (self.holds(), self.digits);
         if holds >= digits {
@@ -74,12 +74,12 @@ fn not_proved(faults: &Faults, digits: u32) -> NotPolished {
         let verb = if digits == 1 { "is" } else { "are" };
         return NotPolished::Unsolved {
             message: format!("{} {verb} too few to prove that the conditions hold", counted(digits, "digit")),
-            hint: format!("ask for more, such as --digits {ENOUGH_TO_PROVE}"),
+            hint: format!("request more, such as --digits {ENOUGH_TO_PROVE}"),
         };
     }
     let message = faults.0.first().map_or("", |fault| fault.message.as_str());
     NotPolished::Unsolved {
         message: format!("the polished table would not be proved: {message}"),
-        hint: "`shadowstep schemes check` may say more of the printed one".to_owned(),
+        hint: "check the printed table with `shadowstep schemes check`".to_owned(),
     }
 }

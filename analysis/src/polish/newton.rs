@@ -1,9 +1,9 @@
-//! Newton's iteration on the printed decimals, and the choice of those that it leaves alone.
+//! Newton's iteration on the printed decimals, and the choice of those that stay as printed.
 //!
 //! Where there are more decimals than conditions, some stay as printed: those that a pivoted QR decomposition of the
-//! derivatives does not need, decimals with few digits (chosen by somebody, not computed) before the others. Where there
+//! derivatives does not need, decimals with few digits (chosen, not computed) before the others. Where there
 //! are more conditions than decimals, as for Nyström trees and for weights with more structure than their conditions
-//! know, the steps are those of least squares (Gauss–Newton), and all conditions must come out met.
+//! use, the steps are those of least squares (Gauss–Newton), and all conditions must be met at the end.
 
 use shadowstep_symbolic::Rational;
 
@@ -18,7 +18,7 @@ const GUARD_DIGITS: u32 = 60;
 /// Newton's iteration doubles the digits each time: it needs about ten steps from one digit to 300.
 const MOST_STEPS: u32 = 60;
 
-/// A rank is not taken from derivatives whose size is below this multiple of the residual (a power of ten).
+/// Derivatives below this multiple of the residual (a power of ten) do not count for the rank.
 const RANK_MARGIN: f64 = 4.0;
 
 /// A moved weight: farther away than this it is another scheme's (as a power of ten).
@@ -117,7 +117,7 @@ impl Problem<'_> {
         let mut linear = Linear { bits, off: Vec::new(), columns: vec![Vec::new(); x.len()], residual };
         for row in rows {
             let length = length(&row.slopes);
-            // a condition that nothing can change is what it is
+            // a condition that does not depend on the decimals is not scaled
             let scaled = |x| if length.bits() * 2 > u64::from(bits) { (x << bits) / &length } else { x };
             linear.off.push(scaled(row.off));
             linear.columns.iter_mut().zip(row.slopes).for_each(|(column, slope)| column.push(scaled(slope)));
@@ -167,7 +167,7 @@ impl Problem<'_> {
             }
             condition_number = factors.condition_number();
             let failure = |residual, what| Failure { residual, condition_number, moving: moving.len(), what };
-            // a residual that does not fall to half is no progress; at the first step it may rise
+            // the residual must fall to half; at the first step it may rise
             stuck = if linear.residual > least - 0.3 { stuck + 1 } else { 0 };
             least = least.min(linear.residual);
             let done = linear.residual < -f64::from(digits + GUARD_DIGITS / 3);

@@ -54,7 +54,7 @@ pub enum Role {
     Solved,
     /// The conditions determine it; it is written as a formula, so that a sum is exactly 1.
     Formula,
-    /// It stays as printed, as was asked.
+    /// It stays as printed, as requested.
     Held,
     /// It stays as printed, because the conditions leave some decimals free.
     Free,

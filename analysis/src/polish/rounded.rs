@@ -9,7 +9,7 @@ use crate::polish::unknowns::Model;
 use crate::polish::write::{self, Written};
 use shadowstep_schemes::exact::DIGITS;
 
-/// Digits that are written beyond those asked for, so that the conditions, sums of many products, hold to these.
+/// Digits written beyond the requested ones, so that the conditions, sums of many products, hold to the requested ones.
 const WRITTEN_BEYOND: u32 = 10;
 
 /// The most bits of the denominator of what fractions and formulas add to a sum: longer ones are closed forms, which are
