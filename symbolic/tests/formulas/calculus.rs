@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::random::Random;
-use crate::support::{DIGITS, Point, Real, names, of_node, of_program, of_tree};
+use crate::support::{DIGITS, Point, Real, call_method, names, of_node, of_program, of_tree};
 use num_dual::{Dual64, DualNum};
 use rug::Float;
 use rug::ops::Pow;
@@ -209,19 +209,7 @@ impl Real for Dual64 {
         }
     }
     fn call(&self, function: Function) -> Self {
-        match function {
-            Function::Exp => self.exp(),
-            Function::Log => self.ln(),
-            Function::Sin => self.sin(),
-            Function::Cos => self.cos(),
-            Function::Tan => self.tan(),
-            Function::Sinh => self.sinh(),
-            Function::Cosh => self.cosh(),
-            Function::Tanh => self.tanh(),
-            Function::Atan => self.atan(),
-            Function::Asin => self.asin(),
-            Function::Acos => self.acos(),
-        }
+        call_method!(self, function)
     }
 }
 

@@ -37,6 +37,26 @@ pub(crate) trait Real: Clone {
     }
 }
 
+/// A function by its method, which all these numbers have under the same name.
+macro_rules! call_method {
+    ($x:expr, $function:expr) => {
+        match $function {
+            Function::Exp => $x.exp(),
+            Function::Log => $x.ln(),
+            Function::Sin => $x.sin(),
+            Function::Cos => $x.cos(),
+            Function::Tan => $x.tan(),
+            Function::Sinh => $x.sinh(),
+            Function::Cosh => $x.cosh(),
+            Function::Tanh => $x.tanh(),
+            Function::Atan => $x.atan(),
+            Function::Asin => $x.asin(),
+            Function::Acos => $x.acos(),
+        }
+    };
+}
+pub(crate) use call_method;
+
 impl Real for f64 {
     fn rational(value: &Rational) -> Self {
         rug_rational(value).to_f64()
@@ -60,19 +80,7 @@ impl Real for f64 {
         }
     }
     fn call(&self, function: Function) -> Self {
-        match function {
-            Function::Exp => self.exp(),
-            Function::Log => self.ln(),
-            Function::Sin => self.sin(),
-            Function::Cos => self.cos(),
-            Function::Tan => self.tan(),
-            Function::Sinh => self.sinh(),
-            Function::Cosh => self.cosh(),
-            Function::Tanh => self.tanh(),
-            Function::Atan => self.atan(),
-            Function::Asin => self.asin(),
-            Function::Acos => self.acos(),
-        }
+        call_method!(self, function)
     }
 }
 
@@ -93,20 +101,7 @@ impl Real for rug::Float {
         self.clone().root(order)
     }
     fn call(&self, function: Function) -> Self {
-        let x = self.clone();
-        match function {
-            Function::Exp => x.exp(),
-            Function::Log => x.ln(),
-            Function::Sin => x.sin(),
-            Function::Cos => x.cos(),
-            Function::Tan => x.tan(),
-            Function::Sinh => x.sinh(),
-            Function::Cosh => x.cosh(),
-            Function::Tanh => x.tanh(),
-            Function::Atan => x.atan(),
-            Function::Asin => x.asin(),
-            Function::Acos => x.acos(),
-        }
+        call_method!(self.clone(), function)
     }
 }
 
