@@ -397,14 +397,14 @@ mine.toml:22:9: the drifts do not sum to 1, so not even order 1 holds
 /// Yoshida's solutions C and D of order 8, whose equations are ill-conditioned: the residuals hide wrong digits.
 #[test]
 fn twenty_digits_of_which_twelve_are_right() {
-    let (mut told, mut right) = (Vec::new(), BTreeSet::new());
+    let (mut counts, mut right) = (Vec::new(), BTreeSet::new());
     for name in ["yoshida8-c", "yoshida8-d"] {
         let polished = polished(&printed(name), &[]);
         assert!(polished.weights.iter().all(|w| (20..=21).contains(&w.printed_digits)), "{name}");
         right.extend(polished.weights.iter().map(|w| w.right));
         let most = largest_distance(&polished);
         assert!(most > 1000.0 * f64::EPSILON, "{name}");
-        told.push(format!(
+        counts.push(format!(
             "by up to {most:.1e} (conditions off by {}, condition number {:.1e})",
             power_of_ten(polished.residual_printed),
             polished.condition_number
@@ -419,7 +419,7 @@ fn twenty_digits_of_which_twelve_are_right() {
         let proved = judge(&text).unwrap();
         assert!(proved.notes.is_empty() && proved.proof.general.digits.unwrap() >= 19, "{text}");
     }
-    says(&format!("the printed weights of C turn out wrong {}, those of D {}.", told[0], told[1]));
+    says(&format!("the printed weights of C turn out wrong {}, those of D {}.", counts[0], counts[1]));
     says(&format!("| {} to {} digits |", right.first().unwrap(), right.last().unwrap()));
     let good = polished(&printed("yoshida8-a"), &[]);
     assert!(good.weights.iter().all(|w| w.right == w.printed_digits), "solution A");

@@ -498,7 +498,7 @@ mine.toml:7:8: there is no table `stormer-verle`
     );
 }
 
-/// The faults of a base are told with the base's own path.
+/// The faults of a base are reported with the path of the base.
 #[test]
 fn a_base_with_faults() {
     let base = "name = \"base\"\norder = 1\nkinetic = \"any\"\nreference = \"none\"\n\n\

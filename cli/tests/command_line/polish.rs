@@ -139,14 +139,14 @@ fn an_error_as_large_as_the_others_is_not_a_misprint() {
 #[test]
 fn usage_errors_have_a_message() {
     let (_folder, path) = printed(PRINTED);
-    for (words, told) in [
+    for (words, message) in [
         ("--free w8", "the table has no printed decimal `w8`"),
         ("--free w0", "`w0` is not a printed decimal"),
         ("--digits 301", "301 is not in 1..=300"),
     ] {
         let result = shadowstep(&format!("schemes polish {path} {words}"));
         assert_eq!(result.code, 2, "{}", result.err);
-        assert!(result.err.contains(told), "{words}: {}", result.err);
+        assert!(result.err.contains(message), "{words}: {}", result.err);
     }
     assert_eq!(shadowstep("schemes polish no-such.toml").code, 2);
 }

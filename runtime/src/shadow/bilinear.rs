@@ -133,21 +133,22 @@ impl Bilinear {
     }
 }
 
+/// The largest k that is tried by default.
+const DEFAULT_LARGEST_K: u32 = 64;
+
 impl Family for Bilinear {
     const NAME: &'static str = "bilinear";
     const SUMMARY: &'static str =
         "Products of states in pairs E_k: k + 1 states, order 2k; for an odd k between two states";
     const LETTER: &'static str = "k";
     const AUTO_OPTIONS: &'static [&'static str] = &["max_order", "accuracy"];
-    const DEFAULT_LARGEST: u32 = 64;
 
     fn from_options(options: EstimatorOptions) -> Self {
         match options.order {
             Some(k) => Bilinear::new(k),
-            None => Bilinear::Best {
-                largest: options.max_order.unwrap_or(Self::DEFAULT_LARGEST),
-                accuracy: options.accuracy,
-            },
+            None => {
+                Bilinear::Best { largest: options.max_order.unwrap_or(DEFAULT_LARGEST_K), accuracy: options.accuracy }
+            }
         }
     }
 

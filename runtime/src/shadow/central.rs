@@ -87,18 +87,20 @@ impl Central {
     }
 }
 
+/// The largest m that is tried by default.
+const DEFAULT_LARGEST_M: u32 = 200;
+
 impl Family for Central {
     const NAME: &'static str = "central";
     const SUMMARY: &'static str = "Central differences D_m: 2m + 1 states, order 2m";
     const LETTER: &'static str = "m";
     const AUTO_OPTIONS: &'static [&'static str] = &["max_order", "stop", "rule"];
-    const DEFAULT_LARGEST: u32 = 200;
 
     fn from_options(options: EstimatorOptions) -> Self {
         match options.order {
             Some(m) => Central::fixed(m),
             None => Central::Best {
-                largest: options.max_order.unwrap_or(Self::DEFAULT_LARGEST),
+                largest: options.max_order.unwrap_or(DEFAULT_LARGEST_M),
                 stop: options.stop.unwrap_or(StoppingRule::Full),
                 rule: options.rule.unwrap_or(SelectionRule::Least),
                 with_error: false,

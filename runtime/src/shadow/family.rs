@@ -12,8 +12,6 @@ pub(super) trait Family: Sized {
     const LETTER: &'static str;
     /// The options that it has besides the order, where the order is `auto`.
     const AUTO_OPTIONS: &'static [&'static str];
-    /// The largest order that is tried by default.
-    const DEFAULT_LARGEST: u32;
 
     /// The settings, from options that do not conflict.
     fn from_options(options: EstimatorOptions) -> Self;
