@@ -1,21 +1,21 @@
-//! `shadowstep drift`: the drift of the modified energy, one run per scheme and step, and on the exact flow that of the
-//! estimator itself.
+//! `shadowstep drift`: the drift of the modified energy, one run per scheme and step, beside the error of H; and on the exact
+//! flow the drift that is the estimator's own.
 
+mod control;
 mod record;
 mod table;
 
-use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
 use std::time::Instant;
 
 use clap::Args;
-use shadowstep::Rational;
-use shadowstep::exact_flow::has_exact_flow;
+use shadowstep::StepSize;
 use shadowstep::number::Rounded;
-use shadowstep::run::EnergyDrift;
+use shadowstep::run::{DriftRecorder, EnergyDrift};
 use shadowstep::shadow::{SelectionRule, StoppingRule};
+use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Computation;
-use shadowstep_scenes::library::EXACT_FLOW;
+use shadowstep_scenes::estimates::{Estimates, Finished};
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::Run;
 use shadowstep_symbolic::decimal::to_text;
@@ -25,104 +25,104 @@ use crate::progress::Progress;
 use crate::report::{self, Status};
 use crate::run_arguments::RunArguments;
 use crate::selection::Selection;
-use record::{Control, OrderLabel, Permanent, Record};
-use shadowstep_scenes::Error;
-use table::{readable, row};
+use control::{Controls, Found, Wanted};
+use record::{Cost, OrderLabel, Permanent, Record};
+use table::readable;
 
 const EXAMPLE: &str = "\
-Example:
+Examples:
   shadowstep drift --problem kepler --set eccentricity=0.3 --scheme stormer-verlet,yoshida4 \\
-      --step 1/10,1/20 --until 100 --digits 60 --order auto";
+      --step 1/10,1/20 --until 100 --digits 60 --order auto
+  shadowstep drift --problem mine.toml --scheme mine-4.toml --step 1/20 --until 100 --double
+  shadowstep drift --potential \"a*x^4 + x^2*y^2\" --set a=1/4 --q x=1,y=1/2 --p 0,0 --scheme yoshida4 \\
+      --step 1/20 --until 100
 
-/// The drift of the modified energy: one run per scheme and step.
+The error of H is max |H(t) - H(0)| as a part of |H(0)|; the modified energy is what the scheme conserves in place of H.";
+
+/// The error of H and the drift of the modified energy: one run per scheme and step.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     run: RunArguments,
-    /// Skips the estimate on the exact flow, where that is known: it takes longer than a run in double precision
+    /// Leaves out the estimate on the exact flow, where that is known
     #[arg(long)]
     no_control: bool,
+    /// Makes the estimate on the exact flow even if it takes longer than the run itself
+    #[arg(long, conflicts_with = "no_control")]
+    control: bool,
     /// One JSON object per run, a line each, in place of the table
     #[arg(long)]
     json: bool,
 }
 
+impl Arguments {
+    fn controls(&self) -> Wanted {
+        match (self.control, self.no_control) {
+            (true, _) => Wanted::Always,
+            (_, true) => Wanted::Never,
+            _ => Wanted::IfFast,
+        }
+    }
+}
+
 /// Makes all runs; one that fails is reported, and the others are made.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let selection = Selection::read(&arguments.run)?;
-    let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
+    let mut output = Output::of(&arguments.run.output)?;
     // a bar would run through the lines on the same terminal
-    let bar = !arguments.json || arguments.run.output.is_some() || !std::io::stdout().is_terminal();
+    let bar = !arguments.json || arguments.run.output.output.is_some() || !std::io::stdout().is_terminal();
     let mut status = Status::Success;
-    let mut rows = Vec::new();
-    let mut controls = Controls { wanted: !arguments.no_control, bar, known: BTreeMap::new() };
-    for (propagator, run) in selection.runs() {
-        let measurement = Measurement { selection: &selection, propagator, run, controls: &mut controls };
+    let mut records = Vec::new();
+    let mut controls = Controls::new(arguments.controls());
+    for (number, (propagator, run)) in (1..).zip(selection.runs()) {
+        let name = selection.numbered(number, run);
+        let progress = Progress::new(bar, name, run.steps);
+        let measurement = Measurement {
+            selection: &selection,
+            propagator,
+            run,
+            controls: &mut controls,
+            progress,
+            summarised: !arguments.run.no_summary,
+        };
         match selection.arithmetic.compute(measurement) {
-            Ok(record) if arguments.json => {
-                output.json(&record)?;
-                output.flush()?;
+            Ok(record) => {
+                if arguments.run.strict && !record.is_fine() {
+                    status = status.max(Status::NegativeAnswer);
+                }
+                if arguments.json {
+                    output.json(&record)?;
+                    output.flush()?;
+                } else {
+                    records.push((run, record));
+                }
             }
-            Ok(record) => rows.push(row(run, &record)),
             Err(error) => status = status.max(report::error(&error)),
         }
     }
-    if !arguments.json && !rows.is_empty() {
-        write!(output, "{}", readable(&selection, rows))?;
+    if !arguments.json && !records.is_empty() {
+        write!(output, "{}", readable(&selection, &records))?;
     }
     output.finish()?;
     Ok(status)
 }
 
-/// The estimates on the exact flow by step size; `None` where the flow is not known.
-struct Controls {
-    wanted: bool,
-    bar: bool,
-    known: BTreeMap<Rational, Option<Control>>,
-}
-
-impl Controls {
-    fn of<N: Rounded + 'static>(
-        &mut self,
-        selection: &Selection,
-        run: Run<'_>,
-        context: &N::Context,
-    ) -> Option<Control> {
-        if !self.wanted || has_exact_flow(&selection.setup).is_err() {
-            return None;
-        }
-        if let Some(known) = self.known.get(run.h) {
-            return known.clone();
-        }
-        let run = Run { propagator: EXACT_FLOW, ..run };
-        let found = match measure::<N>(selection, &Propagator::ExactFlow, run, context, self.bar) {
-            Ok(found) => Some(Control { drift: found.drift.to_text(), permanent_change: Permanent::of(&found) }),
-            Err(error) => {
-                report::note(format_args!("no estimate on the exact flow: {error}"));
-                None
-            }
-        };
-        self.known.insert(run.h.clone(), found.clone());
-        found
-    }
-}
-
+/// The drift of a run, and what is known of the run besides.
 fn measure<N: Rounded + 'static>(
-    selection: &Selection,
-    propagator: &Propagator,
-    run: Run<'_>,
+    estimates: Estimates<'_>,
     context: &N::Context,
-    bar: bool,
-) -> Result<EnergyDrift<N>, Error> {
-    let progress = Progress::new(bar, run.name(), run.steps);
-    let settings = selection.estimator.clone().with_errors(true);
-    let found = propagator.energy_drift::<N>(&selection.setup, run, &settings, context, |n| progress.reach(n))?;
+    mut progress: impl FnMut(i64) -> Result<(), Error>,
+) -> Result<(EnergyDrift<N>, Finished), Error> {
+    let run = estimates.run;
+    let mut drift = DriftRecorder::new(StepSize::try_from(run.h).expect("runs have a nonzero step size"));
+    let finished = estimates.take::<N>(context, |n, estimate| {
+        drift.include(n, &estimate);
+        progress(n)
+    })?;
+    let found = drift.drift().expect("a run has the state 0");
     // both extremes may be finite where their difference overflows
-    if !found.drift.is_finite() {
-        return Err(run.not_finite("the energy drift"));
-    }
-    Ok(found)
+    if found.drift.is_finite() { Ok((found, finished)) } else { Err(run.not_finite("the energy drift")) }
 }
 
 /// The measurement of one run, in any number type.
@@ -131,18 +131,36 @@ struct Measurement<'a> {
     propagator: &'a Propagator,
     run: Run<'a>,
     controls: &'a mut Controls,
+    progress: Progress,
+    summarised: bool,
 }
 
 impl Computation for Measurement<'_> {
     type Output = Result<Record, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
-        let Measurement { selection, propagator, run, controls } = self;
+        let Measurement { selection, propagator, run, controls, progress, summarised } = self;
+        let settings = selection.estimator.clone().with_errors(true);
+        let system = &selection.problem.system;
         let begin = Instant::now();
-        let found = measure::<N>(selection, propagator, run, context, controls.bar)?;
-        let seconds = begin.elapsed().as_secs_f64();
-        let control = propagator.scheme().and_then(|_| controls.of::<N>(selection, run, context));
-        Ok(record(selection, run, &found, control, seconds))
+        let estimates = Estimates { system, propagator, run, settings: &settings, summarised };
+        let (found, finished) = measure::<N>(estimates, context, |n| {
+            progress.reach(n);
+            Ok(())
+        })?;
+        let seconds = begin.elapsed();
+        let control = match propagator.scheme() {
+            Some(_) => controls.of::<N>(estimates, context, seconds, &progress),
+            None => Found::Nothing,
+        };
+        let per_step = propagator.scheme().map(|named| named.scheme.proved().plan.evaluations);
+        let cost = Cost {
+            forces_per_step: per_step,
+            own_force_evaluations: finished.own_evaluations,
+            force_evaluations: finished.evaluations,
+            seconds: seconds.as_secs_f64(),
+        };
+        Ok(record(selection, run, &found, finished, control, cost))
     }
 }
 
@@ -150,13 +168,15 @@ fn record<N: Rounded>(
     selection: &Selection,
     run: Run<'_>,
     found: &EnergyDrift<N>,
-    control: Option<Control>,
-    seconds: f64,
+    finished: Finished,
+    control: Found,
+    cost: Cost,
 ) -> Record {
     let options = selection.estimator.options();
+    let (control, control_left_out) = control.parts();
     Record {
         shadowstep: env!("CARGO_PKG_VERSION"),
-        problem: selection.setup.problem.name(),
+        problem: selection.problem.name.clone(),
         parameters: selection.values(),
         scheme: run.propagator.to_owned(),
         step: to_text(run.h),
@@ -169,6 +189,7 @@ fn record<N: Rounded>(
         stop: options.stop.map(StoppingRule::name),
         rule: options.rule.map(SelectionRule::name),
         accuracy: options.accuracy.as_ref().map(to_text),
+        energy_error: finished.energy,
         drift: found.drift.to_text(),
         minimum: found.minimum.to_text(),
         maximum: found.maximum.to_text(),
@@ -178,10 +199,11 @@ fn record<N: Rounded>(
         last: found.last.to_text(),
         permanent_change: Permanent::of(found),
         control,
+        control_left_out,
         order_least: found.orders.0,
         order_most: found.orders.1,
         steps: run.steps,
-        force_evaluations: found.evaluations,
-        seconds,
+        cost,
+        summary: finished.summary,
     }
 }

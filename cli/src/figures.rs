@@ -41,7 +41,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let request = Request { names: names.clone(), quick: *quick, folder: out.clone() };
     let mut terminal = Terminal { bar: None, status: Status::Success };
     let summary = reproduce(&request, &mut terminal)?;
-    let mut output = Output::open(None, "")?;
+    let mut output = Output::stdout();
     writeln!(output, "{}: {}", summary.report.display(), summary.verdicts)?;
     output.finish()?;
     Ok(terminal.status)

@@ -9,7 +9,8 @@
 //! | [`run`], [`scene`] | runs that a file describes; such files |
 //! | [`schemes`], [`problems`] | what can be run |
 //! | [`figures`] | the figures of the paper, and additional ones |
-//! | [`run_arguments`], [`quantity`], [`selection`] | the flags of runs; exact numbers; flags → problem, schemes and steps |
+//! | [`run_arguments`], [`quantity`] | the flags of runs; exact numbers |
+//! | [`selection`], [`system`] | flags → schemes and steps; flags → the system |
 //! | [`readable`], [`output`], [`progress`] | tables, lines and bars |
 //! | [`report`], [`interrupt`] | messages on stderr and the exit status; Ctrl-C |
 
@@ -29,6 +30,7 @@ mod readable;
 mod report;
 mod run_arguments;
 mod selection;
+mod system;
 
 use std::process::ExitCode;
 
@@ -66,7 +68,7 @@ commands! {
 const EXIT_CODES: &str = "\
 Exit codes:
   0  success
-  1  negative answer: a checked table has faults, a table cannot be polished
+  1  negative answer: a checked table has faults, a table cannot be polished; with --strict, a verdict worse than fine
   2  usage error: an unknown flag, name or file, a number out of range, a fault in a scene
   3  a run failed: a state or an energy was not finite, the output could not be written, or it was interrupted";
 

@@ -1,10 +1,22 @@
 //! The output of a command: stdout, or a file that gets its name when it is complete.
 
 use std::io::{self, StdoutLock, Write};
-use std::path::Path;
+use std::path::PathBuf;
 
+use clap::Args;
 use serde::Serialize;
 use shadowstep_scenes::{Error, WholeFile};
+
+/// Where a command writes.
+#[derive(Debug, Args)]
+pub(crate) struct OutputArguments {
+    /// Writes to a file, such as out.json, which gets its name when it is complete; a file that exists is not replaced
+    #[arg(long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Replaces the file of --output if it exists
+    #[arg(long, requires = "output")]
+    pub(crate) force: bool,
+}
 
 /// Where a command writes its lines.
 pub(crate) enum Output {
@@ -13,11 +25,16 @@ pub(crate) enum Output {
 }
 
 impl Output {
-    /// The file, or stdout. In messages, `named` is the flag or key that gives the file.
-    pub(crate) fn open(path: Option<&Path>, named: &str) -> Result<Self, Error> {
-        Ok(match path {
-            Some(path) => Output::File(WholeFile::create(path, named)?),
-            None => Output::Stdout(io::stdout().lock()),
+    pub(crate) fn stdout() -> Self {
+        Output::Stdout(io::stdout().lock())
+    }
+
+    /// The file of `--output`, or stdout.
+    pub(crate) fn of(arguments: &OutputArguments) -> Result<Self, Error> {
+        Ok(match &arguments.output {
+            Some(path) if arguments.force => Output::File(WholeFile::create(path, "--output")?),
+            Some(path) => Output::File(WholeFile::create_new(path, "--output")?),
+            None => Output::stdout(),
         })
     }
 

@@ -60,7 +60,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         None => PROBLEMS.to_vec(),
     };
     let most_values = if name.is_some() { usize::MAX } else { SHORT };
-    let mut output = Output::open(None, "")?;
+    let mut output = Output::stdout();
     for (i, problem) in chosen.into_iter().enumerate() {
         if *json {
             output.json(&record(problem.description()))?;

@@ -12,9 +12,15 @@ pub(crate) fn rounded(text: &str, digits: usize) -> String {
 }
 
 /// A table with lines above, below the header, and below; the columns of numbers are flush right.
-pub(crate) fn table<const N: usize>(header: [&str; N], rows: Vec<[String; N]>, numbers: Range<usize>) -> String {
+pub(crate) fn table<H, R>(header: H, rows: Vec<R>, numbers: Range<usize>) -> String
+where
+    H: IntoIterator<Item = &'static str>,
+    R: IntoIterator<Item = String>,
+{
     let mut table = Table::new();
-    table.load_style(presets::UTF8_HORIZONTAL_ONLY).set_header(header).add_rows(rows);
+    table.load_style(presets::UTF8_HORIZONTAL_ONLY);
+    table.set_header(header.into_iter().collect::<Vec<_>>());
+    table.add_rows(rows.into_iter().map(|row| row.into_iter().collect::<Vec<_>>()));
     table.style_mut().row_separator = LineStyle::none();
     for column in table.column_iter_mut().skip(numbers.start).take(numbers.len()) {
         column.set_cell_alignment(CellAlignment::Right);

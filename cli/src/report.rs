@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};
 
-use shadowstep_scenes::Error;
+use shadowstep_scenes::{Error, Summary};
 
 /// The exit status; of several, the greatest counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,6 +36,11 @@ pub(crate) fn note(note: impl Display) {
 pub(crate) fn negative_answer(message: impl Display, hint: impl Display) -> Status {
     write(format_args!("error: {message}\n  hint: {hint}"));
     Status::NegativeAnswer
+}
+
+/// Writes the summary of a run to stderr: as text, or as one JSON object.
+pub(crate) fn summary(summary: &Summary, json: bool) {
+    if json { write(serde_json::json!({ "summary": summary })) } else { write(summary) }
 }
 
 /// Writes lines to stderr. That stderr is closed is not a reason to stop.

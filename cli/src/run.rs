@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal};
 use std::time::Instant;
 
 use clap::Args;
-use shadowstep_scenes::{Error, Note, Observer, Outcome, Scene};
+use shadowstep_scenes::{Error, FileOptions, Format, Note, Observer, Outcome, Scene, Summary};
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
@@ -16,7 +16,10 @@ Example:
   shadowstep scene kepler > scene.toml
   shadowstep run scene.toml
 
-If a run is stopped, running its scene again resumes it from the last checkpoint.";
+If a run is stopped, running its scene again resumes it from the last checkpoint. If its file is complete, nothing is done.
+
+The summary is on stderr: the error of H, the modified energy, close encounters, and a verdict on the step size. Rows of JSON on
+stdout have it there as one object with the metadata; beside a file of JSON lines, FILE.metadata.json has both.";
 
 /// Runs a scene: a file that describes a run and its output.
 #[derive(Debug, Args)]
@@ -25,9 +28,18 @@ pub(crate) struct Arguments {
     /// The scene's file, such as scene.toml
     #[arg(value_name = "FILE")]
     scene: String,
-    /// Begins again at t = 0 even if there is a checkpoint
+    /// Begins again at t = 0 even if there is a checkpoint or the file is complete
     #[arg(long)]
     restart: bool,
+    /// Replaces a file that is not from this scene
+    #[arg(long)]
+    force: bool,
+    /// No summary of the run: only what the scene asks for is computed
+    #[arg(long)]
+    no_summary: bool,
+    /// Exit code 1 if the verdict on the run is worse than fine
+    #[arg(long, conflicts_with = "no_summary")]
+    strict: bool,
 }
 
 /// Runs a scene.
@@ -36,11 +48,14 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     scene.notes.iter().for_each(report::note);
     let begin = Instant::now();
     let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), scene.steps);
-    let mut terminal = Terminal { progress, interrupt: Interrupt::listen() };
+    let mut terminal =
+        Terminal { progress, interrupt: Interrupt::listen(), summarises: !arguments.no_summary, summary: None };
+    let options = FileOptions { restart: arguments.restart, force: arguments.force };
     let outcome = match scene.output.file {
-        Some(_) => scene.run_to_file(arguments.restart, &mut terminal)?,
-        None => scene.run_into(&mut Output::open(None, "")?, &mut terminal)?,
+        Some(_) => scene.run_to_file(options, &mut terminal)?,
+        None => scene.run_into(&mut Output::stdout(), &mut terminal)?,
     };
+    let summary = terminal.summary.take();
     drop(terminal);
     match outcome {
         Outcome::Complete { force_evaluations } => {
@@ -50,6 +65,10 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
                     "{steps} steps, {force_evaluations} force evaluations, {seconds:.3} seconds"
                 ));
             }
+            Ok(concluded(&scene, summary.as_ref(), arguments.strict))
+        }
+        Outcome::AlreadyComplete => {
+            report::note(format_args!("{} is done: its file is complete; --restart runs it again", scene.source.path));
             Ok(Status::Success)
         }
         Outcome::Stopped { n } => {
@@ -62,10 +81,25 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     }
 }
 
+/// Writes the summary, and gives the status that it means.
+fn concluded(scene: &Scene, summary: Option<&Summary>, strict: bool) -> Status {
+    match (scene.output.format, &scene.output.file, summary) {
+        (Format::JsonLines, None, Some(summary)) => {
+            report::write(serde_json::json!({ "metadata": scene.metadata(), "summary": summary }));
+        }
+        (_, _, Some(summary)) => report::write(summary),
+        _ => {}
+    }
+    let fine = !strict || summary.is_none_or(Summary::is_fine);
+    if fine { Status::Success } else { Status::NegativeAnswer }
+}
+
 /// Watches a run for the user: a bar and notes on stderr, and Ctrl-C.
 struct Terminal {
     progress: Progress,
     interrupt: Interrupt,
+    summarises: bool,
+    summary: Option<Summary>,
 }
 
 impl Observer for Terminal {
@@ -75,6 +109,14 @@ impl Observer for Terminal {
 
     fn note(&mut self, note: &Note) {
         self.progress.suspend(|| report::note(note));
+    }
+
+    fn summarises(&self) -> bool {
+        self.summarises
+    }
+
+    fn summary(&mut self, summary: &Summary) {
+        self.summary = Some(summary.clone());
     }
 
     fn stops(&mut self) -> bool {

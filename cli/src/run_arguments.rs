@@ -1,21 +1,17 @@
 //! The flags of `drift` and `trace`: what is run, and how.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use shadowstep::shadow::{EstimatorSettings, HIGHEST_ORDER, SelectionRule, StoppingRule};
 use shadowstep_scenes::arithmetic::{DEFAULT_DIGITS, MOST_DIGITS};
 
+use crate::output::OutputArguments;
+
 /// What is run, and how.
 #[derive(Debug, Args)]
 pub(crate) struct RunArguments {
-    /// The problem, such as kepler; `shadowstep problems` lists them
-    #[arg(long, value_name = "NAME")]
-    pub(crate) problem: String,
-    /// A parameter or initial value, exact, such as eccentricity=1/3 or "px=sqrt(2)/2"; may be repeated
-    #[arg(long, value_name = "NAME=VALUE")]
-    pub(crate) set: Vec<String>,
+    #[command(flatten)]
+    pub(crate) system: SystemArguments,
     /// Shipped schemes or files of tables, such as yoshida4,mine.toml; `shadowstep schemes` lists the shipped ones.
     /// exact-flow is the exact solution, known for harmonic-oscillator, pendulum and kepler; on it an estimator shows its own
     /// error
@@ -52,9 +48,39 @@ pub(crate) struct RunArguments {
     /// does, the best k is used, and the estimates show it [default: the best k of each state]
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
     pub(crate) accuracy: Option<String>,
-    /// Writes to a file, such as out.json, which gets its name when it is complete
-    #[arg(long, value_name = "FILE")]
-    pub(crate) output: Option<PathBuf>,
+    /// No summary of a run: the error of H, the modified energy, close encounters, the verdict on the step size
+    #[arg(long)]
+    pub(crate) no_summary: bool,
+    /// Exit code 1 if the verdict on a run is worse than fine
+    #[arg(long, conflicts_with = "no_summary")]
+    pub(crate) strict: bool,
+    #[command(flatten)]
+    pub(crate) output: OutputArguments,
+}
+
+/// The system: a shipped problem, that of a scene, or a formula.
+#[derive(Debug, Args)]
+pub(crate) struct SystemArguments {
+    /// A shipped problem, such as kepler, or a scene's file, such as mine.toml, of which [problem] and [initial] are used;
+    /// `shadowstep problems` lists the shipped ones
+    #[arg(long, value_name = "NAME|FILE", required_unless_present = "potential")]
+    pub(crate) problem: Option<String>,
+    /// A parameter or initial value of a shipped problem, or a parameter of --potential, exact, such as eccentricity=1/3 or
+    /// "px=sqrt(2)/2"; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// U(q), a smooth formula in the coordinates of --q, in place of --problem: "-1/sqrt(x^2 + y^2)"
+    #[arg(long, value_name = "FORMULA", conflicts_with = "problem", requires_all = ["q", "p"], allow_hyphen_values = true)]
+    pub(crate) potential: Option<String>,
+    /// The coordinates of --potential at t = 0: x=0.4,y=0
+    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', requires = "potential", allow_hyphen_values = true)]
+    pub(crate) q: Vec<String>,
+    /// The momenta at t = 0, in the order of the coordinates: 0,2 or px=0,py=2
+    #[arg(long, value_name = "[NAME=]VALUE,…", value_delimiter = ',', requires = "potential", allow_hyphen_values = true)]
+    pub(crate) p: Vec<String>,
+    /// The masses of the coordinates [default: all are 1]
+    #[arg(long, value_name = "VALUE,…", value_delimiter = ',', requires = "potential")]
+    pub(crate) masses: Vec<String>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

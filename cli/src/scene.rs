@@ -32,7 +32,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         Some(name) => shadowstep_scenes::template(problem(name).map_err(problem_error)?.description()),
         None => list(),
     };
-    let mut output = Output::open(None, "")?;
+    let mut output = Output::stdout();
     write!(output, "{text}")?;
     output.finish()?;
     Ok(Status::Success)

@@ -1,17 +1,17 @@
 //! Arguments → problem, schemes and steps: the runs to make.
 
 use shadowstep::Rational;
-use shadowstep::problems::{Setup, problem};
 use shadowstep::shadow::{EstimatorOptions, EstimatorSettings, check_accuracy};
-use shadowstep_scenes::Note;
+use shadowstep_scenes::{Note, System};
+use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::quantity;
-use crate::quantity::problem_error;
 use crate::report;
 use crate::run_arguments::{OrderChoice, RunArguments};
+use crate::system::Described;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, OTHER_SCHEME};
+use shadowstep_scenes::arithmetic::{Arithmetic, OTHER_SCHEME};
 use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::{OrderSetting, Run};
@@ -20,7 +20,7 @@ use shadowstep_scenes::steps;
 /// Everything that is to be run.
 #[derive(Debug)]
 pub(crate) struct Selection {
-    pub(crate) setup: Setup,
+    pub(crate) problem: Described,
     pub(crate) until: Rational,
     pub(crate) arithmetic: Arithmetic,
     pub(crate) estimator: EstimatorSettings,
@@ -32,13 +32,13 @@ impl Selection {
     pub(crate) fn read(arguments: &RunArguments) -> Result<Self, Error> {
         let arithmetic = arithmetic(arguments)?;
         let estimator = estimator(arguments)?;
-        let setup = setup(arguments, arithmetic)?;
+        let problem = Described::read(&arguments.system, arithmetic)?;
         let until = quantity::number("--until", &arguments.until)?;
         let mut steps: Vec<_> = arguments.steps.iter().map(|text| step(text, &until)).collect::<Result<_, _>>()?;
         let words = each_once(&arguments.schemes, |word| word.clone(), "scheme");
-        let propagators = words.iter().map(|word| Propagator::read(word, &setup)).collect::<Result<_, _>>()?;
+        let propagators = words.iter().map(|word| Propagator::of_system(word, &problem.system)).collect::<Result<_, _>>()?;
         steps = each_once(&steps, |(h, _)| to_text(h), "step");
-        let selection = Selection { setup, until, arithmetic, estimator, propagators, steps };
+        let selection = Selection { problem, until, arithmetic, estimator, propagators, steps };
         for scheme in selection.propagators.iter().filter_map(Propagator::scheme) {
             let note = arithmetic.suits(scheme).map_err(|error| {
                 Error::usage(error.to_string(), format!("use --digits {}, or {OTHER_SCHEME}", error.most))
@@ -59,15 +59,29 @@ impl Selection {
         })
     }
 
-    /// The run, if there is exactly one.
-    pub(crate) fn single(&self) -> Option<(&Propagator, Run<'_>)> {
-        let mut runs = self.runs();
-        runs.next().filter(|_| runs.next().is_none())
+    /// The name of a run, the n-th of several.
+    pub(crate) fn numbered(&self, n: usize, run: Run<'_>) -> String {
+        match self.count() {
+            1 => run.name(),
+            count => format!("run {n} of {count}: {}", run.name()),
+        }
+    }
+
+    /// How many runs there are.
+    pub(crate) fn count(&self) -> usize {
+        self.propagators.len() * self.steps.len()
     }
 
     /// Every parameter and initial value with its exact text, or the digits of what is irrational.
     pub(crate) fn values(&self) -> Vec<(String, String)> {
-        self.setup.values.named().iter().map(|(name, exact)| (name.clone(), self.arithmetic.text(exact))).collect()
+        self.named().map(|(name, exact)| (name.clone(), self.arithmetic.text(exact))).collect()
+    }
+
+    /// Every parameter and initial value.
+    pub(crate) fn named(&self) -> impl Iterator<Item = (&String, &Exact)> {
+        let System { parameters, coordinates, momenta, q, p, .. } = &self.problem.system;
+        let parameters = parameters.iter().map(|(name, exact)| (name, exact));
+        parameters.chain(coordinates.iter().zip(q)).chain(momenta.iter().zip(p))
     }
 
     fn note_ends(&self) {
@@ -110,19 +124,6 @@ fn accuracy(text: &str) -> Result<Rational, Error> {
     match check_accuracy(&accuracy) {
         Ok(()) => Ok(accuracy),
         Err(error) => Err(Error::usage(format!("--accuracy {text} {error}"), ACCURACY_HINT)),
-    }
-}
-
-fn setup(arguments: &RunArguments, arithmetic: Arithmetic) -> Result<Setup, Error> {
-    let set = arguments.set.iter().map(|text| quantity::assignment(text)).collect::<Result<Vec<_>, _>>()?;
-    let digits = arithmetic.value_digits();
-    let setup = problem(&arguments.problem).and_then(|problem| problem.setup(&set, digits)).map_err(problem_error)?;
-    match setup.values.named().iter().find(|(_, value)| !arithmetic.has_digits_of(value)) {
-        None => Ok(setup),
-        Some((name, _)) => Err(Error::usage(
-            format!("{name} is irrational and computed to {MOST_VALUE_DIGITS} digits; the run needs {digits}"),
-            format!("use --digits {} or less, or set {name} to a fraction", MOST_VALUE_DIGITS - GUARD_DIGITS),
-        )),
     }
 }
 

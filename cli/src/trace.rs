@@ -1,18 +1,22 @@
-//! `shadowstep trace`: energy and modified energy at each step of one run.
+//! `shadowstep trace`: energy and modified energy at each step of runs.
+
+mod rows;
 
 use clap::Args;
-use serde::Serialize;
 use shadowstep::number::Rounded;
 use shadowstep_scenes::arithmetic::Computation;
-use shadowstep_scenes::propagator::{Propagator, motion};
+use shadowstep_scenes::estimates::{Estimates, Finished};
+use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::Run;
+use shadowstep_scenes::{Error, Summary};
+use shadowstep_symbolic::decimal::to_text;
 
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::report::{self, Status};
 use crate::run_arguments::RunArguments;
 use crate::selection::Selection;
-use shadowstep_scenes::Error;
+use rows::{Row, RunName, Writer, writer};
 
 const EXAMPLE: &str = "\
 Example:
@@ -20,9 +24,11 @@ Example:
 
 A line has n, t, energy, modified_energy, estimate and order: the m or k used. The estimate is the estimated error of
 modified_energy, of the right size also near close encounters. With --order 1 there is no reliable estimate: it is empty, in
-JSON null.";
+JSON null. Lines of several runs begin with scheme and step.
 
-/// Energy and modified energy at each step of one run.
+The summary of each run is on stderr: for CSV as text, for JSON as one object a line, {\"summary\": …}.";
+
+/// Energy and modified energy at each step.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
@@ -39,28 +45,8 @@ pub(crate) struct Arguments {
     states: bool,
 }
 
-/// A state of the run in JSON; numbers are texts that give the same numbers when they are read.
-#[derive(Serialize)]
-struct Row {
-    n: i64,
-    t: String,
-    /// `None` for values between two states.
-    energy: Option<String>,
-    modified_energy: String,
-    /// The estimated error; `None` if there is no reliable estimate.
-    estimate: Option<String>,
-    order: u32,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    q: Option<Vec<String>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    p: Option<Vec<String>>,
-}
-
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let selection = Selection::read(&arguments.run)?;
-    let (propagator, run) = selection.single().ok_or_else(|| {
-        Error::usage("a trace is one run: give one scheme and one step", "`shadowstep drift` makes several runs")
-    })?;
     if arguments.states && selection.estimator.is_between() {
         let sentence = "with --estimator bilinear and an odd --order the values are at times between the states";
         return Err(Error::usage(sentence, "use an even order, or remove --states"));
@@ -68,38 +54,22 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     if !selection.estimator.gives_errors() {
         report::note("no error estimate at --order 1: the estimates are empty");
     }
-    let mut output = Output::open(arguments.run.output.as_deref(), "--output")?;
-    let bar = arguments.run.output.is_some();
-    let mut write = writer(&selection, arguments, &mut output)?;
-    let following =
-        Following { selection: &selection, propagator, run, states: arguments.states, bar, write: &mut write };
-    selection.arithmetic.compute(following)?;
+    let mut output = Output::of(&arguments.run.output)?;
+    let bar = arguments.run.output.output.is_some();
+    let several = selection.count() > 1;
+    let mut write = writer(&selection, arguments.csv, arguments.states, &mut output)?;
+    let mut summaries = Vec::new();
+    for (number, (propagator, run)) in (1..).zip(selection.runs()) {
+        let progress = Progress::new(bar, selection.numbered(number, run), run.steps);
+        let following =
+            Following { selection: &selection, propagator, run, several, arguments, progress, write: &mut write };
+        summaries.extend(selection.arithmetic.compute(following)?.summary);
+    }
     drop(write);
     output.finish()?;
-    Ok(Status::Success)
-}
-
-type Writer<'a> = Box<dyn FnMut(&Row) -> Result<(), Error> + 'a>;
-
-/// Writes rows as JSON, or as CSV under a header.
-fn writer<'a>(selection: &Selection, arguments: &Arguments, output: &'a mut Output) -> Result<Writer<'a>, Error> {
-    if !arguments.csv {
-        return Ok(Box::new(|row| output.json(row)));
-    }
-    let mut csv = csv::Writer::from_writer(output);
-    let values = &selection.setup.values;
-    let coordinates = values.positions().iter().chain(values.momenta()).map(|(name, _)| name.as_str());
-    let columns = ["n", "t", "energy", "modified_energy", "estimate", "order"];
-    csv.write_record(columns.into_iter().chain(coordinates.filter(|_| arguments.states)))?;
-    Ok(Box::new(move |row| {
-        let (n, order) = (row.n.to_string(), row.order.to_string());
-        let none = String::new();
-        let [energy, estimate] = [&row.energy, &row.estimate].map(|text| text.as_ref().unwrap_or(&none));
-        let fields = [&n, &row.t, energy, &row.modified_energy, estimate, &order];
-        let state = [&row.q, &row.p].into_iter().flatten().flatten();
-        csv.write_record(fields.into_iter().chain(state))?;
-        Ok(csv.flush()?)
-    }))
+    summaries.iter().for_each(|summary| report::summary(summary, !arguments.csv));
+    let fine = !arguments.run.strict || summaries.iter().all(Summary::is_fine);
+    Ok(if fine { Status::Success } else { Status::NegativeAnswer })
 }
 
 /// The run and its rows, in any number type.
@@ -107,26 +77,31 @@ struct Following<'a, 'w> {
     selection: &'a Selection,
     propagator: &'a Propagator,
     run: Run<'a>,
-    states: bool,
-    bar: bool,
+    several: bool,
+    arguments: &'a Arguments,
+    progress: Progress,
     write: &'a mut Writer<'w>,
 }
 
 impl Computation for Following<'_, '_> {
-    type Output = Result<(), Error>;
+    type Output = Result<Finished, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
-        let Following { selection, propagator, run, states, bar, write } = self;
+        let Following { selection, propagator, run, several, arguments, progress, write } = self;
         let (settings, between) = (selection.estimator.clone().with_errors(true), selection.estimator.is_between());
-        let progress = Progress::new(bar, run.name(), run.steps);
-        let mut system = motion::<N>(&selection.setup, context);
-        propagator.estimates(&selection.setup, run, &settings, context, |n, found| {
-            let energy = (!between).then(|| system.energy_at(found.q, found.p));
+        let system = &selection.problem.system;
+        let mut energy_of = system.energy::<N>(context);
+        let name = several.then(|| RunName { scheme: run.propagator.to_owned(), step: to_text(run.h) });
+        let summarised = !arguments.run.no_summary;
+        let estimates = Estimates { system, propagator, run, settings: &settings, summarised };
+        estimates.take::<N>(context, |n, found| {
+            let energy = (!between).then(|| energy_of(found.q, found.p));
             if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
                 return Err(run.not_finite(&format!("the energy at n = {n}")));
             }
-            let texts = |numbers: &[N]| states.then(|| numbers.iter().map(N::to_text).collect());
+            let texts = |numbers: &[N]| arguments.states.then(|| numbers.iter().map(N::to_text).collect());
             write(&Row {
+                run: name.clone(),
                 n,
                 t: N::from_rational(&run.time_of_value(n, &selection.estimator), context).to_text(),
                 energy: energy.as_ref().map(N::to_text),

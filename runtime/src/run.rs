@@ -17,7 +17,7 @@ mod shadow_run;
 mod state;
 mod trajectory;
 
-pub use drift::{EnergyDrift, energy_drift};
+pub use drift::{DriftRecorder, EnergyDrift, energy_drift};
 pub(crate) use error::check_value;
 pub use error::{NotFinite, Quantity, RunError};
 pub use permanent::{Finding, LowErrorStates, PermanentChange};

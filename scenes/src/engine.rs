@@ -4,15 +4,18 @@ use std::time::Instant;
 
 use shadowstep::run::{RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::EstimatorSettings;
-use shadowstep::{Motion, MotionError, Number, Scheme, Stepper, System, ValidFor};
+use shadowstep::{MotionError, Number, Scheme, Stepper, System, ValidFor};
 
 use crate::error::Error;
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::{Checkpoint, ModifiedEnergy, Row, Rows, SavedState};
 use crate::run::Run;
-use crate::scene::{CheckpointInterval, ClassifiedKinetic, Scene};
+use crate::scene::{CheckpointInterval, Scene};
 use crate::snapshots::{Snapshots, State};
+use crate::start::Work;
+use crate::summary::Summary;
+use crate::watch::{Energies, Watch};
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,12 +25,17 @@ pub enum Outcome {
         /// Evaluations of the gradient in this call; a resumed run made others before.
         force_evaluations: u64,
     },
+    /// The file was complete before: nothing was done.
+    AlreadyComplete,
     /// The observer stopped it.
     Stopped {
         /// After this state.
         n: i64,
     },
 }
+
+/// How a run ended, and its summary if it is complete and the observer wants one.
+pub(crate) type Ended = (Outcome, Option<Summary>);
 
 /// Runs the scene, from a checkpoint if there is one, until it is complete or the observer stops it.
 pub(crate) fn follow<N: Number + 'static>(
@@ -36,11 +44,11 @@ pub(crate) fn follow<N: Number + 'static>(
     rows: &mut Rows<'_>,
     checkpoint: Option<&Checkpoint>,
     observer: &mut dyn Observer,
-) -> Result<Outcome, Error> {
-    let (mut q, mut p) = scene.system.start::<N>(context);
+) -> Result<Ended, Error> {
+    let mut state = scene.system.start::<N>(context);
     let saved = checkpoint.and_then(|checkpoint| checkpoint.state.as_ref());
     if let Some(saved) = saved {
-        (q, p) = saved.numbers(context).ok_or_else(|| unreadable(saved.n))?;
+        state = saved.numbers(context).ok_or_else(|| unreadable(saved.n))?;
     }
     let recorder = Recorder {
         scene,
@@ -50,25 +58,10 @@ pub(crate) fn follow<N: Number + 'static>(
         written: checkpoint.map_or(-1, |checkpoint| checkpoint.n),
         last_checkpoint: Instant::now(),
         observer,
+        from: saved.map(|saved| saved.n),
     };
-    let from = saved.map(|saved| saved.n);
-    let potential = scene.system.potential(context);
-    let scheme = scene.scheme.scheme.clone();
-    match scene.system.kinetic(context) {
-        ClassifiedKinetic::Quadratic(kinetic) => {
-            let motion = Motion::new(potential, kinetic, q, p).map_err(|error| inconsistent(&error))?;
-            recorder.record(&stepper(scheme, scene, context), motion, from)
-        }
-        ClassifiedKinetic::General(kinetic) => {
-            let motion = Motion::new(potential, kinetic, q, p).map_err(|error| inconsistent(&error))?;
-            let scheme = scheme.for_every_kinetic().expect("the scheme was read for this T");
-            recorder.record(&stepper(scheme, scene, context), motion, from)
-        }
-    }
-}
-
-fn stepper<S: Scheme, N: Number>(scheme: S, scene: &Scene, context: &N::Context) -> Stepper<S, N> {
-    Stepper::with_context(scheme, &scene.h, context).expect("the step size was read as nonzero")
+    let steps = (&scene.scheme.scheme, &scene.h);
+    scene.system.with(steps, state, context, recorder).map_err(|error| inconsistent(&error))?
 }
 
 /// Dimensions that do not agree, such as those of the state in a checkpoint.
@@ -90,19 +83,45 @@ struct Recorder<'a, 'r, N: Number> {
     written: i64,
     last_checkpoint: Instant,
     observer: &'a mut dyn Observer,
+    /// The state from which the run is resumed; `None` at its beginning.
+    from: Option<i64>,
 }
 
-impl<N: Number + 'static> Recorder<'_, '_, N> {
-    /// Records the run from its beginning, or after the state `from`.
-    fn record<S, M>(mut self, stepper: &Stepper<S, N>, system: M, from: Option<i64>) -> Result<Outcome, Error>
+impl<N: Number + 'static> Work<N> for Recorder<'_, '_, N> {
+    type Output = Result<Ended, Error>;
+
+    fn with<S, M>(mut self, stepper: &Stepper<S, N>, system: M) -> Self::Output
     where
-        S: Scheme + ValidFor<M::Class>,
+        S: Scheme + Clone + ValidFor<M::Class>,
         M: System<Number = N>,
     {
         match &self.scene.output.modified_energy {
-            None => self.plain(stepper, system, from.unwrap_or(0)),
-            Some((settings, _)) => self.shadowed(stepper, system, from, settings),
+            None => self.plain(stepper, system, self.from.unwrap_or(0)),
+            Some((settings, _)) => self.shadowed(stepper, system, self.from, settings),
         }
+    }
+}
+
+impl<N: Number + 'static> Recorder<'_, '_, N> {
+    /// Follows the run for a summary, if the observer wants one.
+    fn watch<S, M>(&self, stepper: &Stepper<S, N>, system: &mut M) -> Result<Option<Watch<S, N>>, Error>
+    where
+        S: Scheme + Clone,
+        M: System<Number = N>,
+    {
+        if !self.observer.summarises() {
+            return Ok(None);
+        }
+        let initial = match self.from {
+            None => system.energy(),
+            Some(_) => {
+                let (q, p) = self.scene.system.start(self.context);
+                system.energy_at(&q, &p)
+            }
+        };
+        let first = (self.from.unwrap_or(0), initial);
+        let watch = Watch::begin(stepper, system, self.run, first, Energies::Windows, true);
+        watch.map(Some).map_err(|error| self.failed(&error))
     }
 
     /// The error of the run, with the scene's names of coordinates and momenta.
@@ -111,44 +130,51 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
         self.run.failed_naming(error, &system.coordinates, &system.momenta)
     }
 
-    /// Without increments, thus without states beyond both ends.
-    fn plain<S, M>(&mut self, stepper: &Stepper<S, N>, system: M, from: i64) -> Result<Outcome, Error>
+    /// Without states beyond both ends; with increments only where a summary needs them.
+    fn plain<S, M>(&mut self, stepper: &Stepper<S, N>, mut system: M, from: i64) -> Result<Ended, Error>
     where
-        S: Scheme + ValidFor<M::Class>,
+        S: Scheme + Clone + ValidFor<M::Class>,
         M: System<Number = N>,
     {
         let steps = self.run.steps;
+        let mut watch = self.watch(stepper, &mut system)?;
         let mut trajectory = Trajectory::plain(stepper, system, from, steps).map_err(|error| self.failed(&error))?;
-        while let Some(n) = trajectory.advance().map_err(|error| self.failed(&error))?.map(|state| state.n) {
+        loop {
+            trajectory.set_augmented(watch.as_ref().is_some_and(Watch::needs_increments));
+            let next = trajectory.advance().map_err(|error| self.failed(&error))?;
+            let Some(n) = next.map(|state| state.n) else { break };
             let system = trajectory.system();
+            if let Some(watch) = watch.as_mut().filter(|_| n > from) {
+                watch.include(n, system);
+            }
             let energy = self.is_due(self.scene.output.energy, n).then(|| system.energy());
             self.row(n, system.q(), system.p(), energy.as_ref(), None)?;
             if self.ends(n, Some((n, system.q(), system.p())))? {
-                return Ok(Outcome::Stopped { n });
+                return Ok((Outcome::Stopped { n }, None));
             }
         }
         let system = trajectory.system();
         let energy = system.energy();
-        self.ends_in_the_domain(&energy)?;
-        Ok(Outcome::Complete { force_evaluations: system.evaluations() })
+        Ok((self.complete(&energy, system.evaluations())?, self.summary(watch, &energy)))
     }
 
     /// With increments and an estimate at each state; resumed after the state `from`.
     fn shadowed<S, M>(
         &mut self,
         stepper: &Stepper<S, N>,
-        system: M,
+        mut system: M,
         from: Option<i64>,
         settings: &EstimatorSettings,
-    ) -> Result<Outcome, Error>
+    ) -> Result<Ended, Error>
     where
-        S: Scheme + ValidFor<M::Class>,
+        S: Scheme + Clone + ValidFor<M::Class>,
         M: System<Number = N>,
     {
         let steps = self.run.steps;
         let every = self.scene.output.modified_energy.as_ref().map(|(_, every)| *every);
         let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
         let settings = settings.clone().with_errors(true);
+        let mut watch = self.watch(stepper, &mut system)?;
         let mut shadow = match from {
             None => ShadowRun::new(stepper, system, steps, &settings),
             Some(from) => ShadowRun::resume(stepper, system, from, steps, &settings),
@@ -158,7 +184,15 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
         if let Some(from) = from {
             snapshots.begin(from, &q, &p);
         }
-        while let Some((n, found)) = shadow.advance().map_err(|error| self.failed(&error))? {
+        let own = from.unwrap_or(0)..i64::try_from(steps).unwrap_or(i64::MAX);
+        while let Some((n, found)) = shadow
+            .advance_with(|n, trajectory| {
+                if let Some(watch) = watch.as_mut().filter(|_| own.contains(&(n - 1))) {
+                    watch.include(n, trajectory.system());
+                }
+            })
+            .map_err(|error| self.failed(&error))?
+        {
             q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
             p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
             let modified = self.is_due(every, n).then(|| ModifiedEnergy::of(&found));
@@ -166,12 +200,23 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
             self.row(n, &q, &p, energy.as_ref(), modified)?;
             snapshots.offer(n, &q, &p);
             if self.ends(n, snapshots.for_those_after(n))? {
-                return Ok(Outcome::Stopped { n });
+                return Ok((Outcome::Stopped { n }, None));
             }
         }
         let energy = shadow.system().energy_at(&q, &p);
-        self.ends_in_the_domain(&energy)?;
-        Ok(Outcome::Complete { force_evaluations: shadow.system().evaluations() })
+        Ok((self.complete(&energy, shadow.system().evaluations())?, self.summary(watch, &energy)))
+    }
+
+    fn complete(&self, energy: &N, force_evaluations: u64) -> Result<Outcome, Error> {
+        self.ends_in_the_domain(energy)?;
+        Ok(Outcome::Complete { force_evaluations })
+    }
+
+    /// `energy` is that of the last state.
+    fn summary<S: Scheme + Clone>(&self, watch: Option<Watch<S, N>>, energy: &N) -> Option<Summary> {
+        let mut watch = watch?;
+        watch.include_energy(i64::try_from(self.run.steps).unwrap_or(i64::MAX), energy);
+        watch.summary(self.run)
     }
 
     /// The gradient may have values where the potential has none, as that of log(x) for x < 0: a run that got there is

@@ -5,24 +5,26 @@ use std::io::Write;
 use shadowstep::number::Rounded;
 
 use crate::arithmetic::Computation;
-use crate::engine::{Outcome, follow};
+use crate::engine::{Ended, Outcome, follow};
 use crate::error::Error;
 use crate::note::Note;
 use crate::observer::Observer;
-use crate::results::{Checkpoint, Columns, Metadata, Rows, Target};
+use crate::results::{Checkpoint, Columns, FileOptions, Metadata, Rows, Target};
 use crate::scene::Scene;
 
 impl Scene {
     /// Runs the scene and writes its rows to the file that it names, from the last checkpoint if there is one.
     ///
-    /// `restart` begins at t = 0 in any case, and replaces a file that is not from this scene.
+    /// If the file is complete, and was made by this scene with these tables and this version, nothing is done.
     ///
     /// # Errors
     /// A scene without a file, a file that is not from this scene or cannot be written, a checkpoint of another scene, a
     /// run that fails. The rows of a run that fails stay in a partial file if the scene asks for checkpoints.
-    pub fn run_to_file(&self, restart: bool, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-        let (target, checkpoint) = Target::open(self, restart, observer)?;
-        self.run(target, checkpoint.as_ref(), observer)
+    pub fn run_to_file(&self, options: FileOptions, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+        match Target::open(self, options, observer)? {
+            Some((target, checkpoint)) => self.run(target, checkpoint.as_ref(), observer),
+            None => Ok(Outcome::AlreadyComplete),
+        }
     }
 
     /// Runs the scene and writes its rows, whatever file it names, without checkpoints.
@@ -31,6 +33,11 @@ impl Scene {
     /// A run that fails, a writer that does.
     pub fn run_into(&self, rows: &mut dyn Write, observer: &mut dyn Observer) -> Result<Outcome, Error> {
         self.run(Target::Writer(rows), None, observer)
+    }
+
+    /// Everything that determines the numbers of the run, as a JSON object.
+    pub fn metadata(&self) -> serde_json::Value {
+        serde_json::json!(Metadata::of(self))
     }
 
     fn run(
@@ -50,14 +57,18 @@ impl Scene {
             }
         }
         let following = Following { scene: self, rows: &mut rows, checkpoint, observer: &mut *observer };
-        let outcome = self.arithmetic.compute(following);
-        match &outcome {
-            Ok(Outcome::Complete { .. }) => rows.target.finish()?,
+        let ended = self.arithmetic.compute(following);
+        match &ended {
+            Ok((Outcome::Stopped { .. }, _)) => {}
+            Ok((_, summary)) => {
+                rows.finish(&Metadata::of(self), summary.as_ref())?;
+                summary.iter().for_each(|summary| observer.summary(summary));
+            }
             Err(Error::Run { .. }) => rows.target.give_up(observer)?,
-            // stopped, or the disk is full: a later run can resume it
-            Ok(Outcome::Stopped { .. }) | Err(_) => {}
+            // the disk is full: a later run can resume it
+            Err(_) => {}
         }
-        outcome
+        Ok(ended?.0)
     }
 }
 
@@ -70,7 +81,7 @@ struct Following<'a, 'r> {
 }
 
 impl Computation for Following<'_, '_> {
-    type Output = Result<Outcome, Error>;
+    type Output = Result<Ended, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         follow::<N>(self.scene, context, self.rows, self.checkpoint, self.observer)
@@ -124,9 +135,9 @@ mod tests {
         let mut stops = Vec::new();
         loop {
             let after = each * (stops.len() + 1) + 1;
-            match scene.run_to_file(false, &mut StopAfter(after as i64)).unwrap() {
-                Outcome::Complete { .. } => break,
+            match scene.run_to_file(FileOptions::default(), &mut StopAfter(after as i64)).unwrap() {
                 Outcome::Stopped { n } => stops.push(n),
+                _ => break,
             }
             // a run that is killed may have written more than its checkpoint knows of
             let partial = fs::OpenOptions::new().append(true).open(folder.path().join("out.csv.partial"));
@@ -185,7 +196,7 @@ mod tests {
         // error; the run that is resumed from 10 has its first estimate at 16, and so it keeps no state 15
         let mut first = 0;
         for (n, kept) in [(4, None), (6, Some(0)), (16, Some(10)), (17, Some(10)), (19, Some(10)), (20, Some(10))] {
-            let outcome = scene.run_to_file(false, &mut StopAfter(n - first + 1)).unwrap();
+            let outcome = scene.run_to_file(FileOptions::default(), &mut StopAfter(n - first + 1)).unwrap();
             assert_eq!(outcome, Outcome::Stopped { n });
             let text = fs::read_to_string(folder.path().join("out.csv.checkpoint")).unwrap();
             let state = serde_json::from_str::<serde_json::Value>(&text).unwrap()["checkpoint"]["state"]["n"].as_i64();
@@ -200,7 +211,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut scene = scene(folder.path(), KEPLER, "energy = true");
         scene.scheme = crate::library::scheme("stormer-verlet").unwrap();
-        let outcome = scene.run_to_file(false, &mut ()).unwrap();
+        let outcome = scene.run_to_file(FileOptions::default(), &mut ()).unwrap();
         assert_eq!(outcome, Outcome::Complete { force_evaluations: 21 });
     }
 }

@@ -173,9 +173,10 @@ pub const KEYS: [Key; 35] = [
         "output",
         "file",
         "The file for the rows; its path is relative to the scene's folder. A .csv file begins with lines of metadata \
-         that start with #, as in pandas.read_csv(file, comment=\"#\"); a .jsonl file has JSON lines, the first of them \
-         metadata. The file gets its name when it is complete. An existing file is replaced only if it is from this \
-         unchanged scene, or with --restart.",
+         that start with #, as in pandas.read_csv(file, comment=\"#\"); a .jsonl file has JSON lines, one a row, as in \
+         pandas.read_json(file, lines=True), and the file with .metadata.json after its name has the metadata and the \
+         summary. The file gets its name when it is complete. An existing file is replaced only if it is from this \
+         unchanged scene, or with --force.",
         "\"kepler.csv\"",
         Some("none; rows go to stdout"),
     ),

@@ -35,7 +35,7 @@
 //! another call resumes it, and the file has the same bytes in the end.
 //!
 //! ```
-//! use shadowstep_scenes::{Observer, Outcome, Scene};
+//! use shadowstep_scenes::{FileOptions, Observer, Outcome, Scene};
 //!
 //! struct StopAt(i64);
 //!
@@ -57,8 +57,8 @@
 //! output = { trajectory = true, file = "pendulum.csv", checkpoint = 10 }
 //! "#)?;
 //! let scene = Scene::open(&path)?;
-//! assert_eq!(scene.run_to_file(false, &mut StopAt(12))?, Outcome::Stopped { n: 12 });
-//! assert!(matches!(scene.run_to_file(false, &mut ())?, Outcome::Complete { .. }));
+//! assert_eq!(scene.run_to_file(FileOptions::default(), &mut StopAt(12))?, Outcome::Stopped { n: 12 });
+//! assert!(matches!(scene.run_to_file(FileOptions::default(), &mut ())?, Outcome::Complete { .. }));
 //! let csv = std::fs::read_to_string(folder.path().join("pendulum.csv"))?;
 //! assert!(csv.lines().last().unwrap().starts_with("30,"));
 //! # Ok::<(), shadowstep_scenes::Error>(())
@@ -77,11 +77,14 @@
 //! | [`library`] | schemes by their names: shipped ones and files |
 //! | [`estimator`] | estimators of the modified energy with their settings |
 //! | [`run`], [`steps`], [`propagator`] | one run of a scheme or of the exact flow with one step size |
+//! | [`estimates`], `start` | the modified energies along such a run; a system at a state with its stepper |
+//! | `watch`, `summary` | what a run shows: the error of H, the modified energy, close encounters, the verdict |
 //! | [`readable`], `error` | numbers and texts for people; what can go wrong |
 
 pub mod arithmetic;
 mod engine;
 mod error;
+pub mod estimates;
 pub mod estimator;
 mod execute;
 mod explain;
@@ -97,8 +100,11 @@ mod results;
 pub mod run;
 mod scene;
 mod snapshots;
+mod start;
 pub mod steps;
+mod summary;
 mod template;
+mod watch;
 mod whole_file;
 
 pub use engine::Outcome;
@@ -106,6 +112,10 @@ pub use error::Error;
 pub use explain::explain;
 pub use note::Note;
 pub use observer::Observer;
+pub use read::source;
+pub use results::FileOptions;
 pub use scene::{CheckpointInterval, Format, KineticEnergy, Outputs, PairEnergy, PotentialEnergy, Scene, System};
+pub use summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use template::template;
+pub use watch::Encounter;
 pub use whole_file::WholeFile;

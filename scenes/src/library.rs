@@ -7,6 +7,7 @@ use std::path::Path;
 use shadowstep::exact_flow;
 use shadowstep::problems::Problem;
 use shadowstep::tables::{self, Faults, Source, TableScheme, shipped_names};
+use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::{First, shipped, shipped_hint};
 use thiserror::Error;
 
@@ -72,6 +73,18 @@ pub fn scheme_from(word: &str, folder: &Path, first: Option<First>) -> Result<Na
     let source = source_from(word, folder)?;
     let scheme = tables::read(&source, &beside_or_shipped, first)?;
     Ok(NamedScheme { name: word.to_owned(), scheme })
+}
+
+/// Whether a scheme is valid for every T(p).
+///
+/// # Errors
+/// What is wrong, and which scheme would be right.
+pub(crate) fn check_general(named: &NamedScheme) -> Result<(), (String, String)> {
+    let Err(error) = named.scheme.clone().for_every_kinetic() else { return Ok(()) };
+    let claimed = named.scheme.proved().scheme.table.order.value;
+    let better = best_for_every_kinetic(claimed).expect("there are shipped schemes for every T(p)");
+    let (name, order) = (&better.scheme.table.name.value, better.proof.general.order);
+    Err((error.to_string(), format!("use a scheme such as {name}, which has order {order} for every T(p)")))
 }
 
 /// The text of the table that a word means: a shipped one, or a file.

@@ -1,6 +1,7 @@
 //! How a caller watches a run and stops it.
 
 use crate::note::Note;
+use crate::summary::Summary;
 
 /// Watches a run. `()` watches nothing and never stops it.
 pub trait Observer {
@@ -12,6 +13,16 @@ pub trait Observer {
     /// The run has something to say.
     fn note(&mut self, note: &Note) {
         let _ = note;
+    }
+
+    /// Whether a summary is wanted, for which the run computes some energies and modified energies besides its output.
+    fn summarises(&self) -> bool {
+        false
+    }
+
+    /// What a complete run has shown, if [that is wanted](Observer::summarises).
+    fn summary(&mut self, summary: &Summary) {
+        let _ = summary;
     }
 
     /// Whether the run is to stop after its present state; asked once for each state.

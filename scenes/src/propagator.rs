@@ -1,8 +1,8 @@
 //! What advances a state in time: a scheme, or the exact flow.
 
-use shadowstep::exact_flow::{ExactFlow, ExactFlowError};
+use shadowstep::exact_flow::{self, ExactFlow, ExactFlowError};
 use shadowstep::number::{Number, Rounded};
-use shadowstep::problems::{ProblemMotion, Setup};
+use shadowstep::problems::{Problem, ProblemMotion, Setup};
 use shadowstep::run::{EnergyDrift, RunError, ShadowRun, States};
 use shadowstep::shadow::{BuildEstimator, Estimate, Estimator};
 use shadowstep::tables::TableScheme;
@@ -11,6 +11,7 @@ use shadowstep::{StepSize, Stepper};
 use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme};
 use crate::run::Run;
+use crate::scene::System;
 
 /// A scheme, or the exact flow, on which an estimator shows its own error.
 #[derive(Debug)]
@@ -38,6 +39,28 @@ impl Propagator {
             Error::usage(error.to_string(), hint)
         })?;
         Ok(Propagator::ExactFlow)
+    }
+
+    /// The same for a system: the scheme must be valid for its kinetic energy.
+    ///
+    /// # Errors
+    /// As [`Propagator::read`]; a scheme for quadratic T only where T is not.
+    pub fn of_system(word: &str, system: &System) -> Result<Self, Error> {
+        if word == EXACT_FLOW {
+            return match system.setup() {
+                Some(setup) => Propagator::read(word, &setup),
+                None => {
+                    let known: Vec<_> = exact_flow::problems().map(Problem::name).collect();
+                    let hint = format!("use a scheme, or one of the shipped problems {}", known.join(", "));
+                    Err(Error::usage("no exact flow of this system is known", hint))
+                }
+            };
+        }
+        let named = library::scheme(word)?;
+        if system.has_general_kinetic() {
+            library::check_general(&named).map_err(|(message, hint)| Error::usage(message, hint))?;
+        }
+        Ok(Propagator::Scheme(Box::new(named)))
     }
 
     /// The name by which it was asked for.
@@ -116,7 +139,7 @@ pub fn stepper<N: Number>(named: &NamedScheme, run: Run<'_>, context: &N::Contex
     Stepper::with_context(named.scheme.clone(), run.h, context).expect("runs have a nonzero step size")
 }
 
-fn exact_flow<N: Rounded, B: BuildEstimator<N>>(
+pub(crate) fn exact_flow<N: Rounded, B: BuildEstimator<N>>(
     setup: &Setup,
     run: Run<'_>,
     settings: &B,

@@ -26,6 +26,7 @@ use toml::de::DeTable;
 use crate::arithmetic::Arithmetic;
 use crate::error::Error;
 use crate::keys::{self, SECTIONS};
+use crate::note::Note;
 use crate::read::reader::Reader;
 use crate::scene::{Outputs, Scene, System};
 
@@ -35,19 +36,7 @@ impl Scene {
     /// # Errors
     /// A file that cannot be read; all faults of its text.
     pub fn open(path: impl AsRef<Path>) -> Result<Scene, Error> {
-        let shown = path.as_ref().display().to_string();
-        let refuse = |message: String| {
-            Error::usage(message, "give the path of a scene; `shadowstep scene kepler > scene.toml` writes one")
-        };
-        match fs::read_to_string(path) {
-            Ok(text) if text.trim().is_empty() => Err(refuse(format!("{shown} is empty"))),
-            Ok(text) => Ok(Scene::read(Source { path: shown, text })?),
-            Err(error) if error.kind() == ErrorKind::NotFound => Err(refuse(format!("there is no file {shown}"))),
-            Err(error) if error.kind() == ErrorKind::InvalidData => {
-                Err(refuse(format!("{shown} is not a text in UTF-8")))
-            }
-            Err(error) => Err(refuse(format!("{shown} cannot be read: {error}"))),
-        }
+        Ok(Scene::read(source(path.as_ref())?)?)
     }
 
     /// Reads a scene from its text; paths in it are relative to the folder of its own path.
@@ -81,8 +70,48 @@ impl Scene {
     }
 }
 
+/// The text of a scene's file.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn source(path: &Path) -> Result<Source, Error> {
+    let shown = path.display().to_string();
+    let refuse = |message: String| {
+        Error::usage(message, "give the path of a scene; `shadowstep scene kepler > scene.toml` writes one")
+    };
+    match fs::read_to_string(path) {
+        Ok(text) if text.trim().is_empty() => Err(refuse(format!("{shown} is empty"))),
+        Ok(text) => Ok(Source { path: shown, text }),
+        Err(error) if error.kind() == ErrorKind::NotFound => Err(refuse(format!("there is no file {shown}"))),
+        Err(error) if error.kind() == ErrorKind::InvalidData => Err(refuse(format!("{shown} is not a text in UTF-8"))),
+        Err(error) => Err(refuse(format!("{shown} cannot be read: {error}"))),
+    }
+}
+
+impl System {
+    /// Reads the sections \[problem\] and \[initial\] of a scene, whatever the others are; values are exact, and computed to the
+    /// digits of a run in this arithmetic. The notes are what the user should know of it.
+    ///
+    /// # Errors
+    /// All faults of these sections, each with its place.
+    pub fn read(source: &Source, arithmetic: Arithmetic) -> Result<(System, Vec<Note>), Faults> {
+        let (document, faults) = document(source);
+        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
+        let mut reader = Reader::new(source);
+        reader.arithmetic = arithmetic;
+        refuse_unknown_sections(&mut reader, &document, &["problem"]);
+        let (problem, initial) = (reader.section(&document, "problem"), reader.section(&document, "initial"));
+        let system = problem::system(&mut reader, &problem, &initial);
+        match (Faults::of(reader.toml.faults), system) {
+            (None, Some(system)) => Ok((system, reader.notes)),
+            (Some(faults), _) => Err(faults),
+            (None, None) => unreachable!("what cannot be read is a fault"),
+        }
+    }
+}
+
 fn parts(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<(System, run::Steps, Outputs)> {
-    refuse_unknown_sections(reader, root);
+    refuse_unknown_sections(reader, root, &["problem", "run", "output"]);
     let (problem, initial) = (reader.section(root, "problem"), reader.section(root, "initial"));
     let (run, output) = (reader.section(root, "run"), reader.section(root, "output"));
     // the digits come first: values are computed to them
@@ -96,7 +125,7 @@ fn parts(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<(System, run::St
     Some((system?, steps?, output?))
 }
 
-fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>) {
+fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>, required: &[&str]) {
     let names: Vec<&str> = SECTIONS.iter().map(|section| section.name).filter(|name| !name.contains('.')).collect();
     for key in root.keys().filter(|key| !names.contains(&key.get_ref().as_ref())) {
         let word: &str = key.get_ref();
@@ -110,7 +139,7 @@ fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>) {
     // a shipped problem has an initial state
     let problem = root.get("problem").and_then(|problem| problem.get_ref().as_table());
     let own = problem.and_then(|problem| problem.get("potential").or(problem.get("pair")));
-    let needed = ["problem", "run", "output"].into_iter().chain(own.map(|_| "initial"));
+    let needed = required.iter().copied().chain(own.map(|_| "initial"));
     for name in needed {
         let misspelt = |word: &str| !names.contains(&word) && nearest(word, names.iter().copied()) == Some(name);
         if root.get(name).is_none() && !root.keys().any(|word| misspelt(word.get_ref())) {

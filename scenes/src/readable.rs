@@ -22,11 +22,16 @@ pub fn shortened(value: &Rational, digits: usize) -> String {
 /// assert_eq!(shadowstep_scenes::readable::wrapped("The step size h.", "# "), "# The step size h.\n");
 /// ```
 pub fn wrapped(text: &str, margin: &str) -> String {
+    wrapped_to(text, margin, 100)
+}
+
+/// A text in lines of at most `width` characters, each of which begins with `margin`.
+pub fn wrapped_to(text: &str, margin: &str, width: usize) -> String {
     let mut lines = String::new();
     for paragraph in text.lines() {
         let mut line = margin.to_owned();
         for word in paragraph.split_whitespace() {
-            if line.len() > margin.len() && line.chars().count() + 1 + word.chars().count() > 100 {
+            if line.len() > margin.len() && line.chars().count() + 1 + word.chars().count() > width {
                 lines += &format!("{}\n", line.trim_end());
                 line = margin.to_owned();
             }

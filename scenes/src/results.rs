@@ -2,11 +2,13 @@
 
 mod checkpoint;
 mod metadata;
+mod options;
 mod resumable;
 mod rows;
 mod target;
 
 pub(crate) use checkpoint::{Checkpoint, SavedState};
 pub(crate) use metadata::Metadata;
+pub use options::FileOptions;
 pub(crate) use rows::{Columns, ModifiedEnergy, Row, Rows};
 pub(crate) use target::Target;

@@ -14,7 +14,7 @@ use crate::error::Error;
 ///
 /// let folder = tempfile::tempdir()?;
 /// let path = folder.path().join("out.csv");
-/// let mut file = WholeFile::create(&path, "file")?;
+/// let mut file = WholeFile::create_new(&path, "file")?;
 /// writeln!(file, "n,t")?;
 /// assert!(!path.exists());
 /// file.finish()?;
@@ -28,7 +28,20 @@ pub struct WholeFile {
 }
 
 impl WholeFile {
-    /// Creates the temporary file beside `path`. In messages, `named` is the flag or key that gives the path.
+    /// Creates the temporary file beside `path`, where no file may be yet. In messages, `named` is the flag or key that gives the
+    /// path.
+    ///
+    /// # Errors
+    /// As [`WholeFile::create`]; a file that exists.
+    pub fn create_new(path: &Path, named: &str) -> Result<Self, Error> {
+        if path.is_file() {
+            let message = format!("{named} {} already exists", path.display());
+            return Err(Error::usage(message, "use another name, move the file, or replace it with --force"));
+        }
+        WholeFile::create(path, named)
+    }
+
+    /// Creates the temporary file beside `path`; a file that is there is replaced by the complete new one.
     ///
     /// # Errors
     /// A path that is not of a file, a folder that cannot be written.
@@ -42,6 +55,11 @@ impl WholeFile {
             Error::usage(message, "give a file in a folder that exists and can be written")
         })?;
         Ok(WholeFile { writer: BufWriter::new(file), temporary, path: path.to_owned() })
+    }
+
+    /// The name that it gets.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Gives the file its name.

@@ -4,13 +4,14 @@ use serde::{Serialize, Serializer};
 use shadowstep::number::Number;
 use shadowstep::run::{EnergyDrift, Finding};
 use shadowstep_scenes::arithmetic::DigitsLabel;
+use shadowstep_scenes::{EnergySummary, Summary};
 
 /// The result of a run in JSON; numbers of high precision are texts.
 #[derive(Serialize)]
 pub(super) struct Record {
     /// The version of the program.
     pub(super) shadowstep: &'static str,
-    pub(super) problem: &'static str,
+    pub(super) problem: String,
     #[serde(serialize_with = "as_object")]
     pub(super) parameters: Vec<(String, String)>,
     pub(super) scheme: String,
@@ -26,6 +27,8 @@ pub(super) struct Record {
     pub(super) stop: Option<&'static str>,
     pub(super) rule: Option<&'static str>,
     pub(super) accuracy: Option<String>,
+    /// H(t) − H(0); `None` for the exact flow.
+    pub(super) energy_error: Option<EnergySummary>,
     pub(super) drift: String,
     pub(super) minimum: String,
     pub(super) maximum: String,
@@ -35,15 +38,35 @@ pub(super) struct Record {
     pub(super) last: String,
     pub(super) permanent_change: Option<Permanent>,
     pub(super) control: Option<Control>,
+    /// Why there is no control, where there could be one.
+    pub(super) control_left_out: Option<String>,
     pub(super) order_least: u32,
     pub(super) order_most: u32,
     pub(super) steps: u64,
+    #[serde(flatten)]
+    pub(super) cost: Cost,
+    pub(super) summary: Option<Summary>,
+}
+
+impl Record {
+    /// Whether the verdict, if there is one, is not worse than fine.
+    pub(super) fn is_fine(&self) -> bool {
+        self.summary.as_ref().is_none_or(Summary::is_fine)
+    }
+}
+
+#[derive(Serialize)]
+pub(super) struct Cost {
+    /// Of the scheme; `None` for the exact flow.
+    pub(super) forces_per_step: Option<usize>,
+    /// Without those for the states that only the estimator needs.
+    pub(super) own_force_evaluations: u64,
     pub(super) force_evaluations: u64,
     pub(super) seconds: f64,
 }
 
 /// The change between states with small estimated errors.
-#[derive(Clone, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub(super) struct Permanent {
     pub(super) change: String,
     pub(super) first_to_last: String,
@@ -58,7 +81,7 @@ pub(super) struct Permanent {
 }
 
 /// The same estimates on the exact flow, whose energy does not change: the error of the estimator itself.
-#[derive(Clone, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub(super) struct Control {
     pub(super) drift: String,
     pub(super) permanent_change: Option<Permanent>,

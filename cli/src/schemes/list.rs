@@ -112,7 +112,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
             class(arguments)
         ));
     }
-    let mut output = Output::open(None, "")?;
+    let mut output = Output::stdout();
     if arguments.json {
         records.iter().try_for_each(|record| output.json(record))?;
     } else {

@@ -1,7 +1,6 @@
 //! `shadowstep schemes polish`: printed decimals to weights of many digits: the table, and a report on how far the printed ones were off.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use clap::Args;
 use num_traits::Signed;
@@ -9,7 +8,7 @@ use shadowstep_analysis::polish::{self, NotPolished, Polished, PolishedWeight, R
 use shadowstep_schemes::{Kinetic, Rational};
 use shadowstep_symbolic::decimal::to_significant;
 
-use crate::output::Output;
+use crate::output::{Output, OutputArguments};
 use crate::readable::table;
 use crate::report::{self, Status};
 use crate::schemes::facts::{near_integrable, near_integrable_text};
@@ -39,9 +38,8 @@ pub(crate) struct Arguments {
     /// The cubes of the kicks must sum to 0 too: kicks are themselves split, as in heliocentric coordinates
     #[arg(long)]
     split_kicks: bool,
-    /// Writes to a file, such as polished.toml, under a temporary name until all is done
-    #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputArguments,
 }
 
 /// The polished table to stdout or a file, the report to stderr.
@@ -57,7 +55,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         }
         Err(NotPolished::Unsolved { message, hint }) => return Ok(report::negative_answer(message, hint)),
     };
-    let mut output = Output::open(arguments.output.as_deref(), "--output")?;
+    let mut output = Output::of(&arguments.output)?;
     write!(output, "{}", polished.text)?;
     output.finish()?;
     report::write(summary(&polished));

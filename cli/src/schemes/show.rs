@@ -105,7 +105,7 @@ struct Map {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let scheme = library::scheme(&arguments.name)?.scheme;
     let analysis = Analysis::of(scheme.proved());
-    let mut output = Output::open(None, "")?;
+    let mut output = Output::stdout();
     if arguments.json {
         output.json(&record(&scheme, &analysis))?;
     } else {

@@ -35,15 +35,20 @@ pub(crate) fn folder(scene: &str) -> TempDir {
     folder
 }
 
-/// Runs the scene of a folder.
+/// Runs the scene of a folder without a summary.
 pub(crate) fn run(folder: &Path, flags: &str) -> Finished {
+    summarised(folder, &format!("--no-summary {flags}"))
+}
+
+/// Runs the scene of a folder.
+pub(crate) fn summarised(folder: &Path, flags: &str) -> Finished {
     shadowstep(&format!("run {} {flags}", folder.join("scene.toml").display()))
 }
 
 /// Runs a scene without a file; it must succeed with nothing on stderr.
 pub(crate) fn printed(scene: &str) -> String {
     let folder = folder(scene);
-    quietly(&format!("run {}", folder.path().join("scene.toml").display()))
+    quietly(&format!("run {} --no-summary", folder.path().join("scene.toml").display()))
 }
 
 /// Columns and rows of CSV without its head.
@@ -102,9 +107,11 @@ fn the_numbers_are_those_of_trace() {
             "products of states, the best k of 2–16 for an accuracy of 1e-12",
         ),
     ] {
-        let lines = objects(&printed(&scene.replace("order = 5", keys)));
-        assert_eq!(lines[1..], objects(&shadowstep(&format!("{trace} {flags}")).out), "{keys}");
-        assert_eq!(text(&lines[0]["metadata"], "modified_energy_by"), described);
+        let folder = folder(&scene.replace("order = 5", keys));
+        let result = summarised(folder.path(), "");
+        assert_eq!(objects(&result.out), objects(&shadowstep(&format!("{trace} {flags}")).out), "{keys}");
+        let object = objects(&result.err).pop().unwrap();
+        assert_eq!(text(&object["metadata"], "modified_energy_by"), described);
     }
 }
 
@@ -154,8 +161,8 @@ fn a_row_is_written_where_a_column_is_due() {
     let due: Vec<_> = rows.iter().map(|row| (row[0].as_str(), !row[2].is_empty(), !row[3].is_empty())).collect();
     assert_eq!(due, [("0", true, true), ("2", true, false), ("3", false, true), ("4", true, false)]);
     let lines = objects(&printed(&asking(&format!("format = \"jsonl\"\n{outputs}"))));
-    assert_eq!((&lines[2].get("energy").is_some(), &lines[2].get("q").is_some()), (&true, &false));
-    assert_eq!(lines.len(), 1 + 4);
+    assert_eq!((&lines[1].get("energy").is_some(), &lines[1].get("q").is_some()), (&true, &false));
+    assert_eq!(lines.len(), 4);
 }
 
 #[test]
@@ -197,9 +204,9 @@ fn masses_velocities_and_parameters() {
                  masses = [\"m\"]\n[initial]\nq = [0]\nv = [\"1/m\"]\n[run]\nscheme = \"yoshida4\"\nstep = \"1/(10*m)\"\n\
                  until = \"m/3\"\ndigits = 20\n[output]\nformat = \"jsonl\"\ntrajectory = true\n";
     let lines = objects(&printed(scene));
-    assert_eq!(lines.len(), 1 + 31);
-    assert_eq!(lines[1]["p"], serde_json::json!(["1.0"]));
-    let last: f64 = lines[31]["q"][0].as_str().unwrap().parse().unwrap();
+    assert_eq!(lines.len(), 31);
+    assert_eq!(lines[0]["p"], serde_json::json!(["1.0"]));
+    let last: f64 = lines[30]["q"][0].as_str().unwrap().parse().unwrap();
     // the error of order 4 at h = 1/30
     assert!((last - 1.0_f64.sin() / 3.0).abs() < 1e-6, "{last}");
 }
@@ -212,7 +219,7 @@ fn a_table_is_found_beside_the_scene_and_may_begin_with_the_other_map() {
     let rows = |scene: &str| {
         let folder = folder(scene);
         fs::write(folder.path().join("mine.toml"), euler).unwrap();
-        table(&quietly(&format!("run {}", folder.path().join("scene.toml").display()))).1
+        table(&quietly(&format!("run {} --no-summary", folder.path().join("scene.toml").display()))).1
     };
     let kick_first = rows(&scene);
     let drift_first = rows(&scene.replace("[output]", "first = \"drift\"\n[output]"));
@@ -227,7 +234,7 @@ fn a_run_that_fails_leaves_the_old_file() {
          digits = \"double\"\n[output]\ntrajectory = true\nfile = \"out.csv\"\n",
     );
     fs::write(folder.path().join("out.csv"), "old").unwrap();
-    let result = run(folder.path(), "--restart");
+    let result = run(folder.path(), "--force");
     assert_eq!(result.code, 3);
     assert!(result.err.contains("the run stopped at n = "), "{}", result.err);
     assert_eq!(fs::read_to_string(folder.path().join("out.csv")).unwrap(), "old");
@@ -253,7 +260,7 @@ fn where_only_the_estimators_states_fail_a_lower_order_is_the_hint() {
 }
 
 #[test]
-fn the_file_of_another_scene_is_replaced_only_with_restart() {
+fn the_file_of_another_scene_is_replaced_only_by_force() {
     for output in ["energy = true\nfile = \"out.csv\"", "energy = true\nfile = \"out.csv\"\ncheckpoint = 2"] {
         let folder = folder(&asking(output));
         let read = || fs::read_to_string(folder.path().join("out.csv")).unwrap();
@@ -261,12 +268,13 @@ fn the_file_of_another_scene_is_replaced_only_with_restart() {
         let result = run(folder.path(), "");
         assert_eq!(result.code, 2, "{}", result.err);
         assert!(result.err.contains("out.csv already exists and is not from this unchanged scene"), "{}", result.err);
-        assert!(result.err.contains("replace it with --restart"), "{}", result.err);
+        assert!(result.err.contains("replace it with --force"), "{}", result.err);
+        assert_eq!(run(folder.path(), "--restart").code, 2);
         assert_eq!(read(), "precious");
-        assert_eq!(run(folder.path(), "--restart").code, 0);
+        assert_eq!(run(folder.path(), "--force").code, 0);
         let whole = read();
         // the result of this scene is replaced by the same bytes
-        assert_eq!(run(folder.path(), "").code, 0);
+        assert_eq!(run(folder.path(), "--restart").code, 0);
         assert_eq!(read(), whole);
         fs::write(folder.path().join("scene.toml"), asking(output).replace("steps = 4", "steps = 5")).unwrap();
         assert_eq!(run(folder.path(), "").code, 2);
@@ -349,11 +357,73 @@ fn scene_lists_and_explains() {
 }
 
 #[test]
-fn json_has_its_head_first() {
-    let lines = objects(&printed(&asking("format = \"jsonl\"\nenergy = true")));
-    let metadata = &lines[0]["metadata"];
-    assert_eq!((text(metadata, "problem"), &metadata["steps"]), ("pendulum", &Value::from(4)));
-    assert_eq!(lines[1], serde_json::json!({ "n": 0, "t": "0.0", "energy": text(&lines[1], "energy") }));
+fn json_lines_are_rows_with_the_metadata_beside_them() {
+    let scene = asking("format = \"jsonl\"\nenergy = true");
+    let rows = objects(&printed(&scene));
+    assert_eq!(rows.len(), 5);
+    assert_eq!(rows[0], serde_json::json!({ "n": 0, "t": "0.0", "energy": text(&rows[0], "energy") }));
+    let on_stderr = objects(&summarised(folder(&scene).path(), "").err);
+    assert_eq!((on_stderr.len(), text(&on_stderr[0]["metadata"], "problem")), (1, "pendulum"));
+
+    let folder = folder(&format!("{scene}file = \"out.jsonl\"\n"));
+    let result = summarised(folder.path(), "");
+    assert!(result.err.starts_with("stormer-verlet, step 1/8, 4 steps\n"), "{}", result.err);
+    assert_eq!(names(folder.path()), ["out.jsonl", "out.jsonl.metadata.json", "scene.toml"]);
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert_eq!(objects(&read("out.jsonl")), rows);
+    let beside: Value = serde_json::from_str(&read("out.jsonl.metadata.json")).unwrap();
+    assert_eq!(beside["metadata"]["steps"], 4);
+    assert_eq!(beside["summary"]["energy_error"]["initial"], rows[0]["energy"]);
+    // the metadata belong to the file: without them it is that of a stranger
+    fs::remove_file(folder.path().join("out.jsonl.metadata.json")).unwrap();
+    assert_eq!(run(folder.path(), "").code, 2);
+}
+
+/// The monitor makes some steps with increments, which have the same bits.
+#[test]
+fn a_summary_leaves_the_rows_as_they_are() {
+    for output in ["trajectory = true", "energy = { every = 3 }\nmodified_energy = { order = 4, every = 2 }"] {
+        let scene = asking(output).replace("steps = 4", "steps = 9000").replace("\"stormer-verlet\"", "\"yoshida4\"");
+        let with = summarised(folder(&scene).path(), "");
+        assert_eq!(with.out, printed(&scene));
+        assert!(with.err.contains("\n  verdict           the step size is fine"), "{}", with.err);
+    }
+}
+
+/// Three bodies at h = 1/50: H goes from −12.8 to thousands.
+#[test]
+fn ruin_is_in_the_summary_and_with_strict_in_the_exit_code() {
+    let scene = |step: &str| {
+        format!(
+            "[problem]\nname = \"pythagorean\"\n[run]\nscheme = \"stormer-verlet\"\nstep = \"{step}\"\nuntil = 10\n\
+             digits = \"double\"\n[output]\nenergy = {{ every = 100 }}\n"
+        )
+    };
+    let ruined = folder(&scene("1/50"));
+    let result = summarised(ruined.path(), "");
+    assert_eq!(result.code, 0);
+    assert!(result.err.contains("the step size is too large") && result.err.contains("error of H"), "{}", result.err);
+    assert!(result.err.contains("steps per passage at t = 1.8"), "{}", result.err);
+    assert_eq!(summarised(ruined.path(), "--strict").code, 1);
+    let fine = "[problem]\nname = \"kepler\"\n[run]\nscheme = \"stormer-verlet\"\nstep = \"1/20\"\nuntil = 100\n\
+                digits = \"double\"\n[output]\nenergy = { every = 100 }\n";
+    let result = summarised(folder(fine).path(), "--strict");
+    assert_eq!(result.code, 0, "{}", result.err);
+    assert!(result.err.contains("the step size is fine"), "{}", result.err);
+}
+
+#[test]
+fn a_complete_run_is_not_made_again() {
+    let folder = folder(&asking("energy = true\nfile = \"out.csv\"\ncheckpoint = 2"));
+    assert_eq!(run(folder.path(), "").code, 0);
+    let file = folder.path().join("out.csv");
+    let time = |file: &Path| fs::metadata(file).unwrap().modified().unwrap();
+    let made = time(&file);
+    let again = run(folder.path(), "");
+    assert_eq!(again.code, 0);
+    assert!(again.err.contains("is done: its file is complete; --restart runs it again"), "{}", again.err);
+    assert_eq!(time(&file), made);
+    assert_eq!((run(folder.path(), "--restart").code, time(&file) > made), (0, true));
 }
 
 #[test]

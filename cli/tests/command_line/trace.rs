@@ -2,7 +2,8 @@
 
 use crate::program::{objects, quietly, shadowstep, text};
 
-const RUN: &str = "trace --problem kepler --scheme stormer-verlet --step 1/32 --until 1/2 --digits 30 --order 5";
+const RUN: &str =
+    "trace --problem kepler --scheme stormer-verlet --step 1/32 --until 1/2 --digits 30 --order 5 --no-summary";
 
 #[test]
 fn there_is_a_line_per_state() {
@@ -64,12 +65,17 @@ fn csv_has_a_header_and_the_same_numbers() {
 }
 
 #[test]
-fn a_trace_is_of_one_run() {
-    for several in ["--step 1/10,1/20 --scheme ruth3", "--step 1/10 --scheme ruth3,yoshida4"] {
-        let result = shadowstep(&format!("trace --problem kepler --until 1 --double {several}"));
-        assert_eq!((result.code, result.out.as_str()), (2, ""));
-        assert!(result.err.starts_with("error: a trace is one run"), "{}", result.err);
-    }
+fn rows_of_several_runs_have_their_names() {
+    let words = "trace --problem kepler --until 1 --double --order 4 --no-summary";
+    let several = objects(&quietly(&format!("{words} --step 1/10,1/20 --scheme ruth3,yoshida4")));
+    assert_eq!(several.len(), 2 * (11 + 21));
+    let one = objects(&quietly(&format!("{words} --step 1/20 --scheme yoshida4")));
+    let named = several.iter().filter(|row| (text(row, "scheme"), text(row, "step")) == ("yoshida4", "1/20"));
+    let mut named: Vec<_> = named.cloned().collect();
+    named.iter_mut().for_each(|row| row.as_object_mut().unwrap().retain(|key, _| key != "scheme" && key != "step"));
+    assert_eq!(named, one);
+    let csv = quietly(&format!("{words} --step 1/10 --scheme ruth3,yoshida4 --csv"));
+    assert!(csv.starts_with("scheme,step,n,t,energy,") && csv.contains("\nyoshida4,1/10,0,0.0,-0.5,"), "{csv}");
 }
 
 #[test]
@@ -143,11 +149,11 @@ fn drift_names_its_estimator() {
     let run = RUN.replace("trace", "drift").replace("--order 5", "--estimator bilinear --order 8");
     let record = &objects(&quietly(&format!("{run} --json")))[0];
     assert_eq!((text(record, "estimator"), &record["order"]), ("bilinear", &8.into()));
-    assert!(quietly(&run).contains("modified energy by products of 9 states, k = 8"));
+    assert!(quietly(&run).replace('\n', " ").contains("modified energy by products of 9 states, k = 8"));
     let run = run.replace("--order 8", "--max-order 16 --accuracy 1e-9");
     let record = &objects(&quietly(&format!("{run} --json")))[0];
     assert_eq!((text(record, "estimator"), text(record, "order")), ("bilinear", "auto"));
-    let readable = quietly(&run);
+    let readable = quietly(&run).replace('\n', " ");
     assert!(readable.contains("by products of states, the best k of 2–16 for an accuracy of 1e-9"), "{readable}");
 }
 

@@ -110,5 +110,5 @@ fn help_shows_exit_codes_and_examples() {
         assert!(help.contains(code), "{help}");
     }
     let example = quietly("drift --help");
-    assert!(example.contains("Example:\n  shadowstep drift --problem kepler"), "{example}");
+    assert!(example.contains("Examples:\n  shadowstep drift --problem kepler"), "{example}");
 }

@@ -7,6 +7,7 @@ use crate::run::shadow_run::ShadowRun;
 use crate::run::state::States;
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::{BuildEstimator, Estimate, Estimator};
+use crate::step_size::StepSize;
 use crate::stepper::Stepper;
 use crate::system::System;
 
@@ -77,22 +78,60 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     /// # Panics
     /// If there is no estimate, as after the last one.
     pub fn drift_with_progress(&mut self, mut progress: impl FnMut(i64)) -> Result<EnergyDrift<T::Number>, RunError> {
-        let mut found: Option<EnergyDrift<T::Number>> = None;
-        let h = self.step_size().clone();
-        let mut low_error = None;
+        let mut extremes = DriftRecorder::new(self.step_size().clone());
         while let Some((n, estimate)) = self.advance()? {
-            match &mut found {
-                None => found = Some(EnergyDrift::begin(&estimate)),
-                Some(found) => found.include(n, &estimate),
-            }
-            let states = low_error.get_or_insert_with(|| LowErrorStates::new(&h, &estimate.value.context()));
-            states.include(n, &estimate);
+            extremes.include(n, &estimate);
             progress(n);
         }
-        let mut found = found.expect("a run has the state 0");
-        found.drift.assign_difference(&found.maximum, &found.minimum);
-        found.permanent = low_error.and_then(|states| states.change());
-        Ok(found)
+        Ok(extremes.drift().expect("a run has the state 0"))
+    }
+}
+
+/// Finds the energy drift of estimates that a caller takes from a [`ShadowRun`] one by one.
+///
+/// ```
+/// use shadowstep::run::{DriftRecorder, ShadowRun};
+/// use shadowstep::shadow::Bilinear;
+/// use shadowstep::{Motion, Stepper, UnitMasses, problems::Pendulum, tables::shipped};
+///
+/// let motion = Motion::new(Pendulum, UnitMasses, vec![0.0], vec![1.0])?;
+/// let stepper = Stepper::new(shipped("yoshida4").unwrap(), "1/10")?;
+/// let mut run = ShadowRun::new(&stepper, motion, 500, &Bilinear::with_error(12))?;
+/// let mut drift = DriftRecorder::new(run.step_size().clone());
+/// while let Some((n, estimate)) = run.advance()? {
+///     drift.include(n, &estimate);
+/// }
+/// assert!(drift.drift().unwrap().drift < 1e-11);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct DriftRecorder<N> {
+    h: StepSize,
+    found: Option<(EnergyDrift<N>, LowErrorStates<N>)>,
+}
+
+impl<N: Number> DriftRecorder<N> {
+    /// For steps of size h.
+    pub fn new(h: StepSize) -> Self {
+        DriftRecorder { h, found: None }
+    }
+
+    /// Takes the estimate of n.
+    pub fn include(&mut self, n: i64, estimate: &Estimate<'_, N>) {
+        let DriftRecorder { h, found } = self;
+        let (drift, low_error) = found.get_or_insert_with(|| {
+            (EnergyDrift::begin(estimate), LowErrorStates::new(h, &estimate.value.context()))
+        });
+        drift.include(n, estimate);
+        low_error.include(n, estimate);
+    }
+
+    /// The drift so far; `None` without an estimate. The evaluations are left 0.
+    pub fn drift(self) -> Option<EnergyDrift<N>> {
+        let (mut drift, low_error) = self.found?;
+        drift.drift.assign_difference(&drift.maximum, &drift.minimum);
+        drift.permanent = low_error.change();
+        Some(drift)
     }
 }
 

@@ -100,14 +100,29 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     /// # Errors
     /// A state that is not finite, up to the last one that the estimator needs, or a modified energy that is not.
     pub fn advance(&mut self) -> Result<Option<Estimated<'_, T::Number>>, RunError> {
+        self.advance_with(|_, _| ())
+    }
+
+    /// As [`advance`](Self::advance), and calls `watch` with the n of each state on the way and the source of states, which is
+    /// there: those before and after the run, which only the estimator needs, included.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance).
+    pub fn advance_with(
+        &mut self,
+        mut watch: impl FnMut(i64, &mut T),
+    ) -> Result<Option<Estimated<'_, T::Number>>, RunError> {
         loop {
             let Some(State { n, q, p, increments }) = self.states.advance()? else { return Ok(None) };
             if self.missing > 0 {
                 self.missing -= 1;
                 self.estimator.push(q, p, increments);
+                watch(n, &mut self.states);
                 continue;
             }
-            let Some(estimate) = self.estimator.push(q, p, increments) else { return Ok(None) };
+            let estimate = self.estimator.push(q, p, increments);
+            watch(n, &mut self.states);
+            let Some(estimate) = estimate else { return Ok(None) };
             let n = n - self.after;
             check_value(estimate.value, Quantity::ModifiedEnergy, n)?;
             return Ok(Some((n, estimate)));

@@ -101,6 +101,11 @@ impl<S: Scheme, M: System> Trajectory<'_, S, M> {
     pub fn system(&mut self) -> &mut M {
         &mut self.system
     }
+
+    /// Whether the following steps compute increments: q and p have the same bits with and without.
+    pub fn set_augmented(&mut self, augmented: bool) {
+        self.augmented = augmented;
+    }
 }
 
 impl<S: Scheme + ValidFor<M::Class>, M: System> States for Trajectory<'_, S, M> {

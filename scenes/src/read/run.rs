@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use shadowstep::Rational;
-use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::First;
 use shadowstep_symbolic::decimal::to_text;
 use toml::de::DeValue;
@@ -67,12 +66,8 @@ fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>, general: b
             return None;
         }
     };
-    if general && let Err(error) = named.scheme.clone().for_every_kinetic() {
-        let claimed = named.scheme.proved().scheme.table.order.value;
-        let better = best_for_every_kinetic(claimed).expect("there are shipped schemes for every T(p)");
-        let (name, order) = (&better.scheme.table.name.value, better.proof.general.order);
-        let hint = format!("use a scheme such as {name}, which has order {order} for every T(p)");
-        return reader.toml.wrong(&word.at, error.to_string(), hint);
+    if general && let Err((message, hint)) = library::check_general(&named) {
+        return reader.toml.wrong(&word.at, message, hint);
     }
     match reader.arithmetic.suits(&named) {
         Ok(note) => {

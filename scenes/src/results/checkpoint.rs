@@ -27,6 +27,16 @@ impl Identity {
         }
     }
 
+    /// The hash of the scene.
+    pub(crate) fn scene(&self) -> &String {
+        &self.scene_sha256
+    }
+
+    /// Everything else, as it stands in metadata.
+    pub(crate) fn others(&self) -> impl Iterator<Item = &String> {
+        [&self.version, &self.platform].into_iter().chain(&self.tables_sha256)
+    }
+
     /// The first difference of another identity, as the end of "was made with".
     fn differs(&self, other: &Identity) -> Option<String> {
         if self.scene_sha256 != other.scene_sha256 {

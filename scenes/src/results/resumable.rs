@@ -18,6 +18,9 @@ use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity, SavedState};
 use crate::results::metadata::hexadecimal;
 
+/// The extension of a checkpoint.
+const CHECKPOINT: &str = "checkpoint";
+
 /// The extension of a checkpoint that is being written.
 const NEW_CHECKPOINT: &str = "checkpoint.new";
 
@@ -40,7 +43,7 @@ impl Resumable {
         restart: bool,
         observer: &mut dyn Observer,
     ) -> Result<(Resumable, Option<Checkpoint>), Error> {
-        let [partial, checkpoint] = ["partial", "checkpoint"].map(|ending| beside(path, ending));
+        let [partial, checkpoint] = ["partial", CHECKPOINT].map(|ending| beside(path, ending));
         let file = locked(path, &partial)?;
         let length = file.metadata()?.len();
         let mut resumable = Resumable {
@@ -68,6 +71,16 @@ impl Resumable {
             resumable.file.get_ref().set_len(0)?;
         }
         Ok((resumable, found))
+    }
+
+    /// The file's name when it is complete.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Whether a run of this file could be resumed.
+    pub(crate) fn has_checkpoint(path: &Path) -> bool {
+        beside(path, CHECKPOINT).exists()
     }
 
     fn resume(&mut self, text: &str, length: u64) -> Result<Checkpoint, Error> {
@@ -177,7 +190,8 @@ fn locked(path: &Path, partial: &Path) -> Result<File, Error> {
     })
 }
 
-fn beside(path: &Path, ending: &str) -> PathBuf {
+/// `FILE.ending` for a path of FILE.
+pub(super) fn beside(path: &Path, ending: &str) -> PathBuf {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     path.with_file_name(format!("{name}.{ending}"))
 }

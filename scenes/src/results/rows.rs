@@ -8,8 +8,11 @@ use shadowstep::shadow::Estimate;
 
 use crate::error::Error;
 use crate::results::metadata::Metadata;
-use crate::results::target::Target;
+use crate::results::resumable::beside;
+use crate::results::target::{METADATA, Target};
 use crate::scene::{COLUMNS, Format};
+use crate::summary::Summary;
+use crate::whole_file::WholeFile;
 
 /// A state of the run: what is written at its n. Numbers are texts that give the same numbers when they are read.
 #[derive(Serialize)]
@@ -88,10 +91,10 @@ pub(crate) struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// The metadata, and in CSV the names of the columns.
+    /// In CSV the metadata and the names of the columns; JSON lines are rows only.
     pub(crate) fn head(&mut self, metadata: &Metadata) -> Result<(), Error> {
         match self.format {
-            Format::JsonLines => self.line(&serde_json::json!({ "metadata": metadata })),
+            Format::JsonLines => Ok(()),
             Format::Csv => {
                 for line in metadata.lines() {
                     writeln!(self.target, "# {line}")?;
@@ -100,6 +103,17 @@ impl Rows<'_> {
                 Ok(self.target.write_all(&line)?)
             }
         }
+    }
+
+    /// Completes the file. Beside one of JSON lines, another one has the metadata and the summary.
+    pub(crate) fn finish(self, metadata: &Metadata, summary: Option<&Summary>) -> Result<(), Error> {
+        if let (Format::JsonLines, Some(path)) = (self.format, self.target.path()) {
+            let mut file = WholeFile::create(&beside(path, METADATA), "file")?;
+            let object = serde_json::json!({ "metadata": metadata, "summary": summary });
+            writeln!(file, "{}", serde_json::to_string_pretty(&object)?)?;
+            file.finish()?;
+        }
+        self.target.finish()
     }
 
     pub(crate) fn row(&mut self, row: &Row) -> Result<(), Error> {

@@ -9,10 +9,10 @@ use shadowstep::tables::Faults;
 
 use crate::error::Error;
 use crate::observer::Observer;
+use crate::results::options::FileOptions;
 use crate::results::checkpoint::{Checkpoint, Identity, SavedState};
-use crate::results::metadata::sha256;
-use crate::results::resumable::Resumable;
-use crate::scene::Scene;
+use crate::results::resumable::{Resumable, beside};
+use crate::scene::{Format, Scene};
 use crate::whole_file::WholeFile;
 
 pub(crate) enum Target<'a> {
@@ -27,13 +27,42 @@ pub(crate) enum Target<'a> {
 /// Longer than the metadata of any file.
 const LONGEST_HEAD: u64 = 1 << 20;
 
-/// Whether there is a file that is not the result of this scene. A result of this scene may be replaced: by the same bytes.
-fn is_of_another(path: &Path, scene: &Scene) -> bool {
-    let Ok(file) = File::open(path) else { return false };
+/// The extension of the file with the metadata of JSON lines.
+pub(super) const METADATA: &str = "metadata.json";
+
+/// Whose result a file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Origin {
+    /// There is no file.
+    None,
+    /// This scene, these tables and this version: a run would write the same bytes again.
+    Same,
+    /// This scene with other tables or another version.
+    SameScene,
+    /// Something else, or a changed scene.
+    Other,
+}
+
+/// Whose result the file of a scene is, by the hashes in its metadata.
+fn origin(path: &Path, scene: &Scene) -> Origin {
+    let metadata = match scene.output.format {
+        Format::Csv => path.to_owned(),
+        Format::JsonLines => beside(path, METADATA),
+    };
+    let is_there = |path: &Path| path.symlink_metadata().is_ok();
+    if !is_there(path) && !is_there(&metadata) {
+        return Origin::None;
+    }
     let mut head = Vec::new();
-    let read = file.take(LONGEST_HEAD).read_to_end(&mut head);
-    let hash = sha256(&scene.source.text);
-    path.is_file() && (read.is_err() || !head.windows(hash.len()).any(|part| part == hash.as_bytes()))
+    let read = File::open(&metadata).and_then(|file| file.take(LONGEST_HEAD).read_to_end(&mut head));
+    let has = |text: &String| head.windows(text.len()).any(|part| part == text.as_bytes());
+    let identity = Identity::of(scene);
+    match read {
+        Ok(_) if !has(identity.scene()) => Origin::Other,
+        Ok(_) if identity.others().all(has) && is_there(path) => Origin::Same,
+        Ok(_) => Origin::SameScene,
+        Err(_) => Origin::Other,
+    }
 }
 
 /// An error about a value of the scene, at its place.
@@ -45,12 +74,12 @@ fn at(scene: &Scene, place: &Range<usize>, error: Error) -> Error {
 }
 
 impl<'a> Target<'a> {
-    /// The file of the scene, and the checkpoint from which the run is resumed.
+    /// The file of the scene, and the checkpoint from which the run is resumed; `None` if the file is complete.
     pub(crate) fn open(
         scene: &Scene,
-        restart: bool,
+        FileOptions { restart, force }: FileOptions,
         observer: &mut dyn Observer,
-    ) -> Result<(Target<'a>, Option<Checkpoint>), Error> {
+    ) -> Result<Option<(Target<'a>, Option<Checkpoint>)>, Error> {
         let Some((path, place)) = &scene.output.file else {
             return Err(Error::usage("the scene names no file", "add `file = \"out.csv\"` to [output]"));
         };
@@ -58,17 +87,30 @@ impl<'a> Target<'a> {
         if same_file::is_same_file(path, &scene.source.path).unwrap_or(false) {
             return Err(at_place(Error::usage("the file is the scene itself", "give it another name")));
         }
-        if !restart && is_of_another(path, scene) {
-            let message = format!("{} already exists and is not from this unchanged scene", path.display());
-            let hint = "use another name, move the file, or replace it with --restart";
-            return Err(at_place(Error::usage(message, hint)));
+        match origin(path, scene) {
+            Origin::Other if !force && !path.is_dir() => {
+                let message = format!("{} already exists and is not from this unchanged scene", path.display());
+                let hint = "use another name, move the file, or replace it with --force";
+                return Err(at_place(Error::usage(message, hint)));
+            }
+            Origin::Same if !restart && !Resumable::has_checkpoint(path) => return Ok(None),
+            _ => {}
         }
         if scene.output.checkpoint.is_none() {
-            return Ok((Target::File(WholeFile::create(path, "file").map_err(at_place)?), None));
+            return Ok(Some((Target::File(WholeFile::create(path, "file").map_err(at_place)?), None)));
         }
         let opened = Resumable::open(path, Identity::of(scene), restart, observer);
         let (file, checkpoint) = opened.map_err(at_place)?;
-        Ok((Target::Resumable(Box::new(file)), checkpoint))
+        Ok(Some((Target::Resumable(Box::new(file)), checkpoint)))
+    }
+
+    /// The name of the file when it is complete; `None` for a writer.
+    pub(super) fn path(&self) -> Option<&Path> {
+        match self {
+            Target::Writer(_) => None,
+            Target::File(file) => Some(file.path()),
+            Target::Resumable(file) => Some(file.path()),
+        }
     }
 
     /// Makes a checkpoint, where there can be one.

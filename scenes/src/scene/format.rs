@@ -8,7 +8,7 @@ pub(crate) const COLUMNS: [&str; 6] = ["n", "t", "energy", "modified_energy", "e
 pub enum Format {
     /// A head of lines with `#`, a line of column names, and rows with commas.
     Csv,
-    /// A JSON object a line, of which the first has the metadata.
+    /// A JSON object a line, one for each row; the metadata are in a file beside it.
     JsonLines,
 }
 

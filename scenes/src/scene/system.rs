@@ -3,8 +3,9 @@
 use shadowstep::formula::{FormulaError, FormulaKinetic, FormulaPotential};
 use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::problems::Setup;
-use shadowstep::{DiagonalMasses, Kinetic, Number, Potential, Rational, UnitMasses};
+use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, UnitMasses};
 use shadowstep_symbolic::Exact;
+use shadowstep_symbolic::decimal::to_text;
 
 use crate::scene::pairs::PairEnergy;
 use crate::scene::parameters::rounded;
@@ -92,8 +93,48 @@ impl System {
         }
     }
 
+    /// H of any state.
+    ///
+    /// # Panics
+    /// If q, p and U have different dimensions, which reading a system excludes.
+    pub fn energy<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn FnMut(&[N], &[N]) -> N> {
+        const READ: &str = "the dimensions were read with the system";
+        let ((q, p), potential) = (self.start(context), self.potential(context));
+        match self.kinetic(context) {
+            ClassifiedKinetic::Quadratic(kinetic) => {
+                let mut motion = Motion::new(potential, kinetic, q, p).expect(READ);
+                Box::new(move |q, p| motion.energy_at(q, p))
+            }
+            ClassifiedKinetic::General(kinetic) => {
+                let mut motion = Motion::new(potential, kinetic, q, p).expect(READ);
+                Box::new(move |q, p| motion.energy_at(q, p))
+            }
+        }
+    }
+
+    /// The shipped problem at this initial state; `None` for another system.
+    pub fn setup(&self) -> Option<Setup> {
+        let PotentialEnergy::Shipped(setup) = &self.potential else { return None };
+        let names = setup.values.positions().iter().chain(setup.values.momenta()).map(|(name, _)| name.clone());
+        let values = self.q.iter().chain(&self.p).map(|exact| to_text(&exact.value));
+        let parameters = self.parameters.iter().map(|(name, exact)| (name.clone(), to_text(&exact.value)));
+        // exact texts: no digits are lost
+        setup.problem.setup(&parameters.chain(names.zip(values)).collect::<Vec<_>>(), 1).ok()
+    }
+
+    /// The system of a shipped problem.
+    pub fn of_setup(setup: Setup) -> System {
+        let values = &setup.values;
+        let (coordinates, q) = values.positions().iter().cloned().unzip();
+        let (momenta, p) = values.momenta().iter().cloned().unzip();
+        let state = values.positions().len() + values.momenta().len();
+        let parameters = values.named()[..values.named().len() - state].to_vec();
+        let kinetic = KineticEnergy::Masses(values.masses().map(<[_]>::to_vec));
+        System { potential: PotentialEnergy::Shipped(setup), kinetic, parameters, coordinates, momenta, q, p }
+    }
+
     /// Whether schemes for quadratic T only do not move it.
-    pub(crate) fn has_general_kinetic(&self) -> bool {
+    pub fn has_general_kinetic(&self) -> bool {
         match &self.kinetic {
             KineticEnergy::Masses(_) => false,
             KineticEnergy::Formula(_) => matches!(self.kinetic::<f64>(&()), ClassifiedKinetic::General(_)),

@@ -57,43 +57,91 @@ impl Ellipse {
         Ellipse { h: request.h.clone(), precision, q, p, r, a, root_a, omega, sigma, tau }
     }
 
-    /// sin x and 1 − cos x.
-    fn sine_and_versine(&self, x: &Float) -> (Float, Float) {
-        let (sin, cos) = x.clone().sin_cos(Float::zero(&self.precision));
-        (sin, 1u32 - cos)
+    /// x, sin x and 1 − cos x for ωt = `mean`.
+    ///
+    /// Newton's method doubles the digits, so that only its last step needs a sine and a cosine of all digits; those of the final x
+    /// differ from them by the terms of a series in the last change.
+    fn anomaly(&self, mean: &Float) -> (Float, Float, Float) {
+        let all = self.precision.in_bits();
+        // the bits of the angle before its point
+        let whole = log2(mean).max(0.0) as u32;
+        let mut bits = ROUGH_BITS + whole;
+        let mut x = Equation::rounded(self, mean, bits).roughly();
+        loop {
+            bits = (2 * bits - whole - LOST_BITS).min(all);
+            // the last step but one has half of the digits and some more
+            if bits < all && 2 * bits > all {
+                bits = (all / 2 + whole + 2 * LOST_BITS).min(all);
+            }
+            let equation = Equation::rounded(self, mean, bits);
+            x.set_prec(bits);
+            let (sin, versine) = sine_and_versine(&x);
+            let change = equation.off(&x, &sin, &versine) / equation.slope(&sin, &versine);
+            x -= &change;
+            // convergence is quadratic: the error is now the square of the change, and some bits for the curvature
+            if bits == all && log2(&change) < -f64::from(all / 2 + LOST_BITS / 2) {
+                let half = change.clone().square() / 2u32;
+                let cos = 1u32 - versine.clone();
+                return (x, sin.clone() - &change * cos.clone() - half.clone() * &sin, versine - change * sin + half * cos);
+            }
+        }
+    }
+}
+
+/// Kepler's equation ωt = x − σ sin x + τ(1 − cos x) with numbers of some bits.
+struct Equation {
+    sigma: Float,
+    tau: Float,
+    mean: Float,
+}
+
+/// The bits of a first approximation beyond those of the angle before its point.
+const ROUGH_BITS: u32 = 128;
+
+/// Bits that a step of Newton's method may lose where the equation is flat and curved.
+const LOST_BITS: u32 = 40;
+
+impl Equation {
+    fn rounded(ellipse: &Ellipse, mean: &Float, bits: u32) -> Self {
+        let [sigma, tau, mean] = [&ellipse.sigma, &ellipse.tau, mean].map(|value| Float::with_val(bits, value));
+        Equation { sigma, tau, mean }
     }
 
-    /// The residual of x in Kepler's equation, and its slope r/a.
-    fn off(&self, x: &Float, mean: &Float) -> (Float, Float) {
-        let (sin, versine) = self.sine_and_versine(x);
-        let off = x.clone() - self.sigma.clone() * &sin + self.tau.clone() * &versine - mean;
-        (off, self.slope(&sin, versine))
+    /// The residual of x.
+    fn off(&self, x: &Float, sin: &Float, versine: &Float) -> Float {
+        x.clone() - self.sigma.clone() * sin + self.tau.clone() * versine - &self.mean
     }
 
-    /// r/a = 1 − σ cos x + τ sin x
-    fn slope(&self, sin: &Float, versine: Float) -> Float {
-        1u32 - self.sigma.clone() * (1u32 - versine) + self.tau.clone() * sin
+    /// Its derivative, r/a = 1 − σ cos x + τ sin x.
+    fn slope(&self, sin: &Float, versine: &Float) -> Float {
+        1u32 - self.sigma.clone() * (1u32 - versine.clone()) + self.tau.clone() * sin
     }
 
-    /// The x of ωt = `mean`, by Newton's method within bounds.
-    fn anomaly(&self, mean: &Float) -> Float {
+    /// x to half of its bits at least, by Newton's method within bounds.
+    fn roughly(&self) -> Float {
+        let mean = &self.mean;
         // |x − ωt| = |e sin E − e sin E₀| ≤ 2
         let (mut low, mut high) = (mean.clone() - 2u32, mean.clone() + 2u32);
-        let half = -f64::from(self.precision.in_bits()) / 2.0;
+        let half = -f64::from(ROUGH_BITS) / 2.0;
         let mut x = mean.clone();
         loop {
-            let (off, slope) = self.off(&x, mean);
+            let (sin, versine) = sine_and_versine(&x);
+            let off = self.off(&x, &sin, &versine);
             *(if off.is_below_zero() { &mut low } else { &mut high }) = x.clone();
-            let change = off / slope;
+            let change = off / self.slope(&sin, &versine);
             let next = x.clone() - &change;
-            // convergence is quadratic: after a change below half of the digits, one more step gives all
             if log2(&change) < half {
-                let (off, slope) = self.off(&next, mean);
-                return next - off / slope;
+                return next;
             }
             x = if low < next && next < high { next } else { (low.clone() + &high) / 2u32 };
         }
     }
+}
+
+/// sin x and 1 − cos x.
+fn sine_and_versine(x: &Float) -> (Float, Float) {
+    let (sin, cos) = x.clone().sin_cos(Float::new(x.prec()));
+    (sin, 1u32 - cos)
 }
 
 impl Solution for Ellipse {
@@ -131,9 +179,8 @@ impl Solution for Ellipse {
 
     fn at(&mut self, n: i64) -> Point {
         let t = Float::from_rational(&(&self.h * Rational::from_integer(n.into())), &self.precision);
-        let x = self.anomaly(&(t * &self.omega));
-        let (sin, versine) = self.sine_and_versine(&x);
-        let r = self.slope(&sin, versine.clone()) * &self.a;
+        let (x, sin, versine) = self.anomaly(&(t * &self.omega));
+        let r = (1u32 - self.sigma.clone() * (1u32 - versine.clone()) + self.tau.clone() * &sin) * &self.a;
         let f = 1u32 - self.a.clone() / &self.r * &versine;
         let g = ((1u32 - self.sigma.clone()) * &sin + self.tau.clone() * &versine) / &self.omega;
         let f_rate = -(self.root_a.clone() * &sin / &r / &self.r);

@@ -1,0 +1,144 @@
+//! The control: the same estimates on the exact flow, whose energy does not change.
+//!
+//! A state of it may cost far more than a step: on Kepler's problem a sine and a cosine of all digits. So the control is made where
+//! these states take no longer than the run itself, or than a second, as the first of them show; and it is given up where it
+//! takes twice that time.
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+use shadowstep::Rational;
+use shadowstep::StepSize;
+use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
+use shadowstep::number::Rounded;
+use shadowstep::problems::Setup;
+use shadowstep::run::States;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::estimates::Estimates;
+use shadowstep_scenes::library::EXACT_FLOW;
+use shadowstep_scenes::propagator::Propagator;
+use shadowstep_scenes::run::Run;
+
+use super::measure;
+use super::record::{Control, Permanent};
+use crate::progress::Progress;
+use crate::report;
+
+/// It is made in any case if it takes no longer than this.
+const SHORT: Duration = Duration::from_secs(1);
+
+/// Whether controls are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wanted {
+    Always,
+    IfFast,
+    Never,
+}
+
+/// What is known of the control of a step size.
+#[derive(Clone, Debug)]
+pub(super) enum Found {
+    /// The exact flow is not known, or the control is not wanted.
+    Nothing,
+    Estimates(Control),
+    /// Why it is left out.
+    LeftOut(String),
+}
+
+impl Found {
+    pub(super) fn parts(self) -> (Option<Control>, Option<String>) {
+        match self {
+            Found::Nothing => (None, None),
+            Found::Estimates(control) => (Some(control), None),
+            Found::LeftOut(why) => (None, Some(why)),
+        }
+    }
+}
+
+/// The controls by step size.
+pub(super) struct Controls {
+    wanted: Wanted,
+    known: BTreeMap<Rational, Found>,
+}
+
+impl Controls {
+    pub(super) fn new(wanted: Wanted) -> Self {
+        Controls { wanted, known: BTreeMap::new() }
+    }
+
+    /// The control of a run that took `seconds`.
+    pub(super) fn of<N: Rounded + 'static>(
+        &mut self,
+        estimates: Estimates<'_>,
+        context: &N::Context,
+        seconds: Duration,
+        progress: &Progress,
+    ) -> Found {
+        let setup = estimates.system.setup().filter(|setup| has_exact_flow(setup).is_ok());
+        let Some(setup) = setup.filter(|_| self.wanted != Wanted::Never) else { return Found::Nothing };
+        let limit = (self.wanted == Wanted::IfFast).then(|| seconds.max(SHORT));
+        // a slower scheme may allow what a faster one did not
+        if let Some(known) = self.known.get(estimates.run.h).filter(|known| !matches!(known, Found::LeftOut(_))) {
+            return known.clone();
+        }
+        let run = Run { propagator: EXACT_FLOW, ..estimates.run };
+        let estimates = Estimates { propagator: &Propagator::ExactFlow, run, ..estimates };
+        let found = match expected::<N>(&setup, run, context) {
+            Some(expected) if limit.is_some_and(|limit| expected > limit) => left_out(expected, seconds),
+            _ => control::<N>(estimates, context, limit, seconds, progress),
+        };
+        self.known.insert(run.h.clone(), found.clone());
+        found
+    }
+}
+
+/// How long the states of the exact flow will take, measured on the first ones; `None` if that is too short to matter, or if
+/// the flow cannot be followed, which the control reports.
+fn expected<N: Rounded>(setup: &Setup, run: Run<'_>, context: &N::Context) -> Option<Duration> {
+    const SAMPLE: u32 = 3;
+    let h = StepSize::try_from(run.h).ok()?;
+    let mut flow = ExactFlow::<N>::new(setup, &h, run.steps, 0, context).ok()?;
+    flow.advance().ok()?;
+    let begin = Instant::now();
+    for _ in 0..SAMPLE {
+        flow.advance().ok()?;
+    }
+    let all = begin.elapsed().as_secs_f64() / f64::from(SAMPLE) * run.steps as f64;
+    Duration::try_from_secs_f64(all).ok()
+}
+
+fn control<N: Rounded + 'static>(
+    estimates: Estimates<'_>,
+    context: &N::Context,
+    limit: Option<Duration>,
+    seconds: Duration,
+    progress: &Progress,
+) -> Found {
+    let begin = Instant::now();
+    let (steps, mut expected) = (estimates.run.steps as f64, None);
+    let found = measure::<N>(estimates, context, |n| {
+        progress.reach(n);
+        if limit.is_some_and(|limit| begin.elapsed() > 2 * limit) {
+            let all = begin.elapsed().mul_f64(steps / (n as f64).max(1.0));
+            expected = Some(all.max(begin.elapsed()));
+            return Err(Error::run("the control takes too long", "use --control"));
+        }
+        Ok(())
+    });
+    match (found, expected) {
+        (Ok((found, _)), _) => {
+            Found::Estimates(Control { drift: found.drift.to_text(), permanent_change: Permanent::of(&found) })
+        }
+        (Err(_), Some(expected)) => left_out(expected, seconds),
+        (Err(error), None) => {
+            report::note(format_args!("no estimate on the exact flow: {error}"));
+            Found::Nothing
+        }
+    }
+}
+
+fn left_out(expected: Duration, seconds: Duration) -> Found {
+    let times = (expected.as_secs_f64() / seconds.as_secs_f64()).max(1.0);
+    let times = if times < 9.5 { format!("{times:.1}") } else { format!("{times:.0}") };
+    Found::LeftOut(format!("it would take about {times} times as long as the run; --control makes it"))
+}

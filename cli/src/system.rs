@@ -1,0 +1,144 @@
+//! Arguments → the system: a shipped problem, that of a scene, or a formula.
+
+use std::path::Path;
+
+use shadowstep::problems::problem;
+use shadowstep::tables::{Faults, Source};
+use shadowstep_scenes::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS};
+use shadowstep_scenes::{Error, PotentialEnergy, System, source};
+
+use crate::quantity::{assignment, problem_error};
+use crate::report;
+use crate::run_arguments::SystemArguments;
+
+/// A system with its description.
+#[derive(Debug)]
+pub(crate) struct Described {
+    /// The name of a shipped problem, the path of a scene, or `formula`.
+    pub(crate) name: String,
+    pub(crate) title: String,
+    /// H, or as much of it as is a text.
+    pub(crate) hamiltonian: String,
+    pub(crate) system: System,
+}
+
+impl Described {
+    pub(crate) fn read(arguments: &SystemArguments, arithmetic: Arithmetic) -> Result<Self, Error> {
+        match (&arguments.problem, &arguments.potential) {
+            (_, Some(formula)) => by_formula(arguments, formula, arithmetic),
+            (Some(path), None) if is_file(path) => of_scene(arguments, path, arithmetic),
+            (Some(name), None) => shipped(arguments, name, arithmetic),
+            (None, None) => unreachable!("clap requires one of the two"),
+        }
+    }
+}
+
+fn is_file(word: &str) -> bool {
+    word.ends_with(".toml") || word.contains(std::path::is_separator)
+}
+
+fn shipped(arguments: &SystemArguments, name: &str, arithmetic: Arithmetic) -> Result<Described, Error> {
+    let set = arguments.set.iter().map(|text| assignment(text)).collect::<Result<Vec<_>, _>>()?;
+    let digits = arithmetic.value_digits();
+    let setup = problem(name).and_then(|problem| problem.setup(&set, digits)).map_err(problem_error)?;
+    if let Some((name, _)) = setup.values.named().iter().find(|(_, value)| !arithmetic.has_digits_of(value)) {
+        return Err(Error::usage(
+            format!("{name} is irrational and computed to {MOST_VALUE_DIGITS} digits; the run needs {digits}"),
+            format!("use --digits {} or less, or set {name} to a fraction", MOST_VALUE_DIGITS - GUARD_DIGITS),
+        ));
+    }
+    let description = setup.problem.description();
+    Ok(Described {
+        name: description.name.to_owned(),
+        title: description.title.to_owned(),
+        hamiltonian: description.hamiltonian.to_owned(),
+        system: System::of_setup(setup),
+    })
+}
+
+fn of_scene(arguments: &SystemArguments, path: &str, arithmetic: Arithmetic) -> Result<Described, Error> {
+    if let Some(set) = arguments.set.first() {
+        let message = format!("--set {set} requires a shipped problem or --potential, not a scene");
+        return Err(Error::usage(message, format!("change the value in {path}")));
+    }
+    let (system, notes) = System::read(&source(Path::new(path))?, arithmetic)?;
+    notes.iter().for_each(report::note);
+    Ok(describe(path.to_owned(), system))
+}
+
+/// The formula is read as a scene is, and its faults are named after the flags.
+fn by_formula(arguments: &SystemArguments, formula: &str, arithmetic: Arithmetic) -> Result<Described, Error> {
+    let text = scene_of(arguments, formula)?;
+    let wrong = |Faults(faults): Faults| match faults.first() {
+        Some(fault) => Error::usage(
+            format!("--potential \"{formula}\": {}", fault.message),
+            fault.hint.clone().unwrap_or_else(|| "compare --q, --p and --set".to_owned()),
+        ),
+        None => Error::usage("--potential is not valid", "write a smooth formula such as \"x^2/2\""),
+    };
+    let (system, notes) = System::read(&Source { path: "--potential".to_owned(), text }, arithmetic).map_err(wrong)?;
+    notes.iter().for_each(report::note);
+    Ok(describe("formula".to_owned(), system))
+}
+
+/// The sections [problem] and [initial] of these flags.
+fn scene_of(arguments: &SystemArguments, formula: &str) -> Result<String, Error> {
+    let positions = arguments.q.iter().map(|text| named("--q", text, "x=0.4,y=0")).collect::<Result<Vec<_>, _>>()?;
+    let momenta = if arguments.p.iter().all(|text| text.contains('=')) {
+        arguments.p.iter().map(|text| named("--p", text, "px=0,py=2")).collect::<Result<Vec<_>, _>>()?
+    } else {
+        Vec::new()
+    };
+    let p = if momenta.is_empty() { arguments.p.clone() } else { values(&momenta) };
+    if p.len() != positions.len() {
+        let message = format!("--q has {} values and --p has {}", positions.len(), p.len());
+        return Err(Error::usage(message, "give one momentum for each coordinate"));
+    }
+    let parameters = arguments.set.iter().map(|text| assignment(text)).collect::<Result<Vec<_>, _>>()?;
+    let parameters = parameters.iter().map(|(name, value)| format!("{name} = {}", quoted(value)));
+    let mut text = format!("[problem]\npotential = {}\ncoordinates = {}\n", quoted(formula), list(&names(&positions)));
+    text += &format!("parameters = {{ {} }}\n", parameters.collect::<Vec<_>>().join(", "));
+    if !momenta.is_empty() {
+        text += &format!("momenta = {}\n", list(&names(&momenta)));
+    }
+    if !arguments.masses.is_empty() {
+        text += &format!("masses = {}\n", list(&arguments.masses));
+    }
+    Ok(text + &format!("[initial]\nq = {}\np = {}\n", list(&values(&positions)), list(&p)))
+}
+
+fn named(flag: &str, text: &str, example: &str) -> Result<(String, String), Error> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_owned(), value.trim().to_owned())),
+        _ => Err(Error::usage(format!("{flag} `{text}` has no name"), format!("write {flag} {example}"))),
+    }
+}
+
+fn names(pairs: &[(String, String)]) -> Vec<String> {
+    pairs.iter().map(|(name, _)| name.clone()).collect()
+}
+
+fn values(pairs: &[(String, String)]) -> Vec<String> {
+    pairs.iter().map(|(_, value)| value.clone()).collect()
+}
+
+fn list(texts: &[String]) -> String {
+    format!("[{}]", texts.iter().map(|text| quoted(text)).collect::<Vec<_>>().join(", "))
+}
+
+/// A string of TOML.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+fn describe(name: String, system: System) -> Described {
+    let (title, hamiltonian) = match &system.potential {
+        PotentialEnergy::Shipped(setup) => {
+            let problem = setup.problem.description();
+            (problem.title.to_owned(), problem.hamiltonian.to_owned())
+        }
+        PotentialEnergy::Formula(formula) => (name.clone(), format!("T(p) + {formula}")),
+        PotentialEnergy::Pairs(pairs) => (name.clone(), format!("T(p) + the sum over pairs of {}", pairs.formula)),
+    };
+    Described { name, title, hamiltonian, system }
+}

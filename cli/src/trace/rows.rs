@@ -1,0 +1,63 @@
+//! The rows of `trace`, as JSON lines or CSV.
+
+use serde::Serialize;
+use shadowstep_scenes::Error;
+
+use crate::output::Output;
+use crate::selection::Selection;
+
+/// A state of a run in JSON; numbers are texts that give the same numbers when they are read.
+#[derive(Serialize)]
+pub(super) struct Row {
+    /// Which run it is, if there are several.
+    #[serde(flatten)]
+    pub(super) run: Option<RunName>,
+    pub(super) n: i64,
+    pub(super) t: String,
+    /// `None` for values between two states.
+    pub(super) energy: Option<String>,
+    pub(super) modified_energy: String,
+    /// The estimated error; `None` if there is no reliable estimate.
+    pub(super) estimate: Option<String>,
+    pub(super) order: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) q: Option<Vec<String>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) p: Option<Vec<String>>,
+}
+
+#[derive(Clone, Serialize)]
+pub(super) struct RunName {
+    pub(super) scheme: String,
+    pub(super) step: String,
+}
+
+pub(super) type Writer<'a> = Box<dyn FnMut(&Row) -> Result<(), Error> + 'a>;
+
+/// Writes rows as JSON, or as CSV under a header.
+pub(super) fn writer<'a>(
+    selection: &Selection,
+    csv: bool,
+    states: bool,
+    output: &'a mut Output,
+) -> Result<Writer<'a>, Error> {
+    if !csv {
+        return Ok(Box::new(|row| output.json(row)));
+    }
+    let mut csv = csv::Writer::from_writer(output);
+    let system = &selection.problem.system;
+    let coordinates = system.coordinates.iter().chain(&system.momenta).map(String::as_str);
+    let columns = ["n", "t", "energy", "modified_energy", "estimate", "order"];
+    let run = ["scheme", "step"].into_iter().filter(|_| selection.count() > 1);
+    csv.write_record(run.chain(columns).chain(coordinates.filter(|_| states)))?;
+    Ok(Box::new(move |row| {
+        let (n, order) = (row.n.to_string(), row.order.to_string());
+        let none = String::new();
+        let [energy, estimate] = [&row.energy, &row.estimate].map(|text| text.as_ref().unwrap_or(&none));
+        let run = row.run.iter().flat_map(|run| [&run.scheme, &run.step]);
+        let fields = [&n, &row.t, energy, &row.modified_energy, estimate, &order];
+        let state = [&row.q, &row.p].into_iter().flatten().flatten();
+        csv.write_record(run.chain(fields).chain(state))?;
+        Ok(csv.flush()?)
+    }))
+}

@@ -1,0 +1,139 @@
+//! The modified energies along a run, one by one, and what the run shows.
+
+use shadowstep::number::{Number, Rounded};
+use shadowstep::run::{RunError, ShadowRun};
+use shadowstep::shadow::{Estimate, EstimatorSettings};
+use shadowstep::{MotionError, Scheme, Stepper, ValidFor};
+
+use crate::error::Error;
+use crate::propagator::{Propagator, exact_flow};
+use crate::run::Run;
+use crate::scene::System;
+use crate::start::Work;
+use crate::summary::{EnergySummary, Summary};
+use crate::watch::{Energies, Watch};
+
+/// A run whose modified energies are estimated.
+#[derive(Clone, Copy)]
+pub struct Estimates<'a> {
+    /// H and the initial state.
+    pub system: &'a System,
+    /// The scheme, or the exact flow.
+    pub propagator: &'a Propagator,
+    /// The steps.
+    pub run: Run<'a>,
+    /// The estimator.
+    pub settings: &'a EstimatorSettings,
+    /// Whether a summary is made.
+    pub summarised: bool,
+}
+
+/// What is known at the end of a run.
+#[derive(Clone, Debug)]
+pub struct Finished {
+    /// Evaluations of the gradient, those for the states before and after the run included.
+    pub evaluations: u64,
+    /// Those for the steps of the run alone.
+    pub own_evaluations: u64,
+    /// The error of H; `None` for the exact flow.
+    pub energy: Option<EnergySummary>,
+    /// What the run has shown, if that is wanted; `None` for the exact flow.
+    pub summary: Option<Summary>,
+}
+
+impl Estimates<'_> {
+    /// Gives each estimate with its n to `take`.
+    ///
+    /// # Errors
+    /// A state or a modified energy that is not finite, an exact flow that cannot be followed, and those of `take`.
+    ///
+    /// # Panics
+    /// If the scheme is the exact flow of a system that has none, which [`Propagator::of_system`] excludes.
+    pub fn take<N: Rounded + 'static>(
+        self,
+        context: &N::Context,
+        mut take: impl FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
+    ) -> Result<Finished, Error> {
+        let Estimates { system, propagator, run, settings, .. } = self;
+        match propagator {
+            Propagator::Scheme(named) => {
+                let work = Following { estimates: self, take };
+                let found = system.with((&named.scheme, run.h), system.start(context), context, work);
+                found.map_err(|error: MotionError| Error::usage(error.to_string(), "check the initial state"))?
+            }
+            Propagator::ExactFlow => {
+                let setup = system.setup().expect("the exact flow was read for this system");
+                let mut shadow = exact_flow(&setup, run, settings, context)?;
+                while let Some((n, estimate)) = shadow.advance().map_err(|error| run.failed(&error))? {
+                    take(n, estimate)?;
+                }
+                Ok(Finished { evaluations: 0, own_evaluations: 0, energy: None, summary: None })
+            }
+        }
+    }
+}
+
+/// A run of a scheme, in any class of kinetic energies.
+struct Following<'a, F> {
+    estimates: Estimates<'a>,
+    take: F,
+}
+
+impl<N, F> Work<N> for Following<'_, F>
+where
+    N: Number + 'static,
+    F: FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
+{
+    type Output = Result<Finished, Error>;
+
+    fn with<S, M>(mut self, stepper: &Stepper<S, N>, mut system: M) -> Self::Output
+    where
+        S: Scheme + Clone + ValidFor<M::Class>,
+        M: shadowstep::System<Number = N>,
+    {
+        let Estimates { system: described, run, settings, summarised, .. } = self.estimates;
+        let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
+        let initial = system.energy();
+        let watch = Watch::begin(stepper, &mut system, run, (0, initial), Energies::All, summarised);
+        let mut watch = watch.map_err(failed)?;
+        let mut evaluations = Evaluations::default();
+        let mut shadow = ShadowRun::new(stepper, system, run.steps, settings).map_err(failed)?;
+        let last = i64::try_from(run.steps).unwrap_or(i64::MAX);
+        while let Some((n, estimate)) = shadow
+            .advance_with(|n, trajectory| {
+                let system = trajectory.system();
+                evaluations.count(n, last, system);
+                if 0 < n && n <= last {
+                    watch.include(n, system);
+                }
+            })
+            .map_err(failed)?
+        {
+            (self.take)(n, estimate)?;
+        }
+        Ok(Finished {
+            evaluations: shadow.system().evaluations(),
+            own_evaluations: evaluations.at_last - evaluations.at_first,
+            energy: Some(watch.energy()),
+            summary: watch.summary(run),
+        })
+    }
+}
+
+/// Evaluations of the gradient before the first and after the last step of the run.
+#[derive(Default)]
+struct Evaluations {
+    at_first: u64,
+    at_last: u64,
+}
+
+impl Evaluations {
+    fn count<M: shadowstep::System>(&mut self, n: i64, last: i64, system: &M) {
+        if n == 0 {
+            self.at_first = system.evaluations();
+        }
+        if n == last {
+            self.at_last = system.evaluations();
+        }
+    }
+}

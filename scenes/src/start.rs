@@ -1,0 +1,50 @@
+//! A system at a state with its stepper: the one place that dispatches on the class of its kinetic energy.
+
+use shadowstep::tables::TableScheme;
+use shadowstep::{Motion, MotionError, Number, Rational, Scheme, Stepper, System, ValidFor};
+
+use crate::scene::{self, ClassifiedKinetic};
+
+/// What is done with a system, whatever the class of its kinetic energy.
+pub(crate) trait Work<N: Number> {
+    /// Its result.
+    type Output;
+
+    /// Does it.
+    fn with<S, M>(self, stepper: &Stepper<S, N>, system: M) -> Self::Output
+    where
+        S: Scheme + Clone + ValidFor<M::Class>,
+        M: System<Number = N>;
+}
+
+impl scene::System {
+    /// Does some work with the system at a state and a scheme that is valid for it.
+    ///
+    /// # Errors
+    /// A state of another dimension.
+    ///
+    /// # Panics
+    /// If the step size is 0 or the scheme is not valid for T(p), which reading a system and its scheme excludes.
+    pub(crate) fn with<N: Number + 'static, W: Work<N>>(
+        &self,
+        (scheme, h): (&TableScheme, &Rational),
+        (q, p): (Vec<N>, Vec<N>),
+        context: &N::Context,
+        work: W,
+    ) -> Result<W::Output, MotionError> {
+        let (potential, scheme) = (self.potential(context), scheme.clone());
+        Ok(match self.kinetic(context) {
+            ClassifiedKinetic::Quadratic(kinetic) => {
+                work.with(&stepper(scheme, h, context), Motion::new(potential, kinetic, q, p)?)
+            }
+            ClassifiedKinetic::General(kinetic) => {
+                let scheme = scheme.for_every_kinetic().expect("the scheme was read for this T");
+                work.with(&stepper(scheme, h, context), Motion::new(potential, kinetic, q, p)?)
+            }
+        })
+    }
+}
+
+fn stepper<S: Scheme, N: Number>(scheme: S, h: &Rational, context: &N::Context) -> Stepper<S, N> {
+    Stepper::with_context(scheme, h, context).expect("the step size was read as nonzero")
+}

@@ -1,0 +1,198 @@
+//! What a run has shown: the error of H, the modified energy, close encounters and the verdict.
+
+use std::fmt;
+
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
+use shadowstep::Rational;
+use shadowstep::shadow::Verdict;
+use shadowstep_symbolic::decimal::{from_text, to_significant, to_text};
+
+use crate::readable::wrapped_to;
+use crate::watch::Encounter;
+
+/// What a run, or the part of it since it was resumed, has shown.
+///
+/// It is displayed as lines for people, and serialised as an object. Numbers are texts that read back to the same numbers.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// The scheme and the step size.
+    pub(crate) run: String,
+    pub(crate) h: Rational,
+    /// The first state and the last one; the first one is not 0 if the run was resumed.
+    pub(crate) from: i64,
+    pub(crate) to: i64,
+    pub(crate) energy: EnergySummary,
+    /// `None` without an estimate.
+    pub(crate) modified_energy: Option<ModifiedEnergySummary>,
+    /// How many close encounters there were, and the closest of them.
+    pub(crate) encounters: u64,
+    pub(crate) closest: Vec<Encounter>,
+    pub(crate) fine: bool,
+    pub(crate) verdict: String,
+    pub(crate) reason: String,
+}
+
+/// The error of H: H(t) − H(0).
+#[derive(Clone, Debug, Serialize)]
+pub struct EnergySummary {
+    /// H(0)
+    pub initial: String,
+    /// The largest |H(t) − H(0)|.
+    pub largest: String,
+    /// The same as a part of |H(0)|; `None` if that is 0.
+    pub largest_relative: Option<String>,
+    /// The n of the state that has it.
+    pub at: i64,
+    /// H − H(0) at the last state.
+    pub last: String,
+    /// Its size as a part of |H(0)|; `None` if that is 0.
+    pub last_relative: Option<String>,
+    /// At how many states H was computed.
+    pub states: u64,
+}
+
+/// What the monitor found of the modified energy H̄; [`Report`](shadowstep::shadow::Report) has the meanings.
+#[derive(Clone, Debug, Serialize)]
+pub struct ModifiedEnergySummary {
+    /// The method's part of the error of H: H − H̄, rms.
+    pub method: String,
+    /// The expected effect of round-off on H̄.
+    pub round_off: String,
+    /// The newest accurate H̄ less the first one.
+    pub permanent_change: String,
+    /// To what H̄ is known.
+    pub resolution: Option<String>,
+    /// In how many windows it was estimated.
+    pub windows: u64,
+}
+
+/// Whether a verdict is not worse than fine: round-off is not due to the step size.
+pub(crate) fn is_fine(verdict: Verdict) -> bool {
+    matches!(verdict, Verdict::Fine | Verdict::RoundOff)
+}
+
+impl Summary {
+    /// Whether the verdict is not worse than fine: the step size is fine, or the error is round-off.
+    pub fn is_fine(&self) -> bool {
+        self.fine
+    }
+
+    /// The error of H.
+    pub fn energy(&self) -> &EnergySummary {
+        &self.energy
+    }
+
+    /// The verdict in a line: `the step size is fine`.
+    pub fn verdict(&self) -> &str {
+        &self.verdict
+    }
+
+    /// The verdict with its reason.
+    pub fn verdict_with_reason(&self) -> String {
+        format!("{}: {}", self.verdict, self.reason)
+    }
+
+    /// How many close encounters there were.
+    pub fn encounters(&self) -> u64 {
+        self.encounters
+    }
+
+    /// The close encounters in a line: how many, and up to `shown` of the closest with their times.
+    pub fn encounters_text(&self, shown: usize) -> String {
+        let lasts = |encounter: &Encounter| {
+            let steps = if encounter.steps == 1 { "1 step".to_owned() } else { format!("{} steps", encounter.steps) };
+            format!("{steps} per passage at t = {}", self.time(encounter.n))
+        };
+        let closest = self.closest.iter().take(shown).map(lasts).collect::<Vec<_>>().join(", ");
+        match self.encounters {
+            0 => "none".to_owned(),
+            1 => format!("1, {closest}"),
+            count => format!("{count}, the closest with {closest}"),
+        }
+    }
+
+    fn time(&self, n: i64) -> String {
+        to_significant(&(&self.h * Rational::from_integer(n.into())), 6)
+    }
+
+    fn energy_text(&self) -> String {
+        let EnergySummary { largest, largest_relative, last, last_relative, at, states, .. } = &self.energy;
+        let part = |relative: &Option<String>, absolute: &str| match relative {
+            Some(relative) => format!("{} of |H(0)|", short(relative)),
+            None => format!("{} (H(0) is 0)", short(absolute.trim_start_matches('-'))),
+        };
+        let largest = format!("at most {} (t = {})", part(largest_relative, largest), self.time(*at));
+        let last = format!("{} at the end", part(last_relative, last));
+        let all = u64::try_from(self.to - self.from + 1).is_ok_and(|all| *states >= all);
+        let sampled = if all { String::new() } else { format!("; at {states} states") };
+        format!("{largest}, {last}{sampled}")
+    }
+
+    fn modified_energy_text(&self) -> String {
+        let Some(ModifiedEnergySummary { method, round_off, permanent_change, resolution, .. }) = &self.modified_energy
+        else {
+            return "the run is too short for an estimate".to_owned();
+        };
+        let known = resolution.as_ref().map_or(String::new(), |error| format!(", known to {}", short(error)));
+        format!(
+            "method's part of H {} rms; round-off {} expected; permanent change {}{known}",
+            short(method),
+            short(round_off),
+            short(permanent_change)
+        )
+    }
+}
+
+/// How many of the closest encounters the text has.
+const SHOWN: usize = 3;
+
+/// Three digits of a number.
+fn short(text: &str) -> String {
+    from_text(text).map_or_else(|_| text.to_owned(), |value| to_significant(&value, 3))
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let since = if self.from == 0 { String::new() } else { format!(" since n = {}", self.from) };
+        write!(f, "{}, {} steps{since}", self.run, self.to - self.from)?;
+        let facts = [
+            ("error of H", self.energy_text()),
+            ("modified energy", self.modified_energy_text()),
+            ("close encounters", self.encounters_text(SHOWN)),
+            ("verdict", self.verdict_with_reason()),
+        ];
+        for (name, fact) in facts {
+            let lines = wrapped_to(&fact, &" ".repeat(20), 80);
+            write!(f, "\n  {name:<18}{}", lines.trim())?;
+        }
+        Ok(())
+    }
+}
+
+impl Serialize for Summary {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Passage {
+            n: i64,
+            t: String,
+            steps: i64,
+        }
+        let closest = self.closest.iter().map(|Encounter { n, steps }| Passage {
+            n: *n,
+            t: to_text(&(&self.h * Rational::from_integer((*n).into()))),
+            steps: *steps,
+        });
+        let mut object = serializer.serialize_struct("Summary", 9)?;
+        object.serialize_field("from", &self.from)?;
+        object.serialize_field("to", &self.to)?;
+        object.serialize_field("energy_error", &self.energy)?;
+        object.serialize_field("modified_energy", &self.modified_energy)?;
+        object.serialize_field("close_encounters", &self.encounters)?;
+        object.serialize_field("closest_encounters", &closest.collect::<Vec<_>>())?;
+        object.serialize_field("verdict", &self.verdict)?;
+        object.serialize_field("reason", &self.reason)?;
+        object.serialize_field("fine", &self.fine)?;
+        object.end()
+    }
+}

@@ -1,0 +1,138 @@
+//! Follows a run: the error of H, the modified energy by a monitor, and close encounters.
+
+mod encounters;
+mod energy;
+
+use shadowstep::run::RunError;
+use shadowstep::shadow::{Bilinear, BuildEstimator, ShadowEnergy};
+use shadowstep::{Number, Scheme, Stepper, System};
+
+pub use self::encounters::Encounter;
+use self::encounters::Encounters;
+use self::energy::EnergyError;
+use crate::run::Run;
+use crate::summary::{EnergySummary, ModifiedEnergySummary, Summary, is_fine};
+
+/// The monitor's estimator is E_16 with its error: 17 states a window.
+const MONITOR_ORDER: u32 = 16;
+
+/// The monitor has one window in this part of a run, so that it costs the same however long the run is.
+const WINDOWS: u64 = 256;
+
+/// Which energies are computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Energies {
+    /// Those of all states.
+    All,
+    /// Those of the monitor's windows, and those that the run offers.
+    Windows,
+}
+
+/// Follows the states of a run in the order of time.
+pub(crate) struct Watch<S: Scheme, N: Number> {
+    energies: Energies,
+    energy: EnergyError<N>,
+    /// What a summary needs besides H; `None` where there is none.
+    observed: Option<Observed<S, N>>,
+    /// The n of the first state and of the last one so far.
+    from: i64,
+    n: i64,
+}
+
+struct Observed<S: Scheme, N: Number> {
+    monitor: ShadowEnergy<S, N, <Bilinear as BuildEstimator<N>>::Estimator>,
+    encounters: Encounters<N>,
+}
+
+impl<S: Scheme + Clone, N: Number> Watch<S, N> {
+    /// Begins at the system's present state, which is number `from` of the run; `initial` is H at t = 0.
+    ///
+    /// # Errors
+    /// A state or an energy that is not finite.
+    pub(crate) fn begin<M: System<Number = N>>(
+        stepper: &Stepper<S, N>,
+        system: &mut M,
+        run: Run<'_>,
+        (from, initial): (i64, N),
+        energies: Energies,
+        summarised: bool,
+    ) -> Result<Self, RunError> {
+        let every = (run.steps.saturating_sub(from.unsigned_abs()) / WINDOWS).max(1);
+        let mut observed = None;
+        if summarised {
+            let monitor = ShadowEnergy::new(stepper.clone(), system, &Bilinear::with_error(MONITOR_ORDER))?;
+            observed = Some(Observed { monitor: monitor.every(every), encounters: Encounters::new(system.p()) });
+        }
+        Ok(Watch { energies, energy: EnergyError::new(initial), observed, from, n: from })
+    }
+
+    /// Whether the next step must compute increments.
+    pub(crate) fn needs_increments(&self) -> bool {
+        self.observed.as_ref().is_some_and(|observed| observed.monitor.needs_increments())
+    }
+
+    /// Takes the state n, which a step has made: the one after the last one that it took.
+    pub(crate) fn include<M: System<Number = N>>(&mut self, n: i64, system: &mut M) {
+        self.n = n;
+        if self.energies == Energies::All {
+            self.energy.include(n, &system.energy());
+        }
+        let Some(Observed { monitor, encounters }) = &mut self.observed else { return };
+        encounters.include(n, system.p());
+        // what is not finite is found by the run as well, or by the verdict
+        if let Ok(Some(sample)) = monitor.observe(system)
+            && self.energies == Energies::Windows
+        {
+            self.energy.include(self.from + i64::try_from(sample.n).unwrap_or(i64::MAX), sample.energy);
+        }
+    }
+
+    /// Takes H of a state that the run has computed.
+    pub(crate) fn include_energy(&mut self, n: i64, energy: &N) {
+        self.energy.include(n, energy);
+    }
+
+    /// The error of H.
+    pub(crate) fn energy(&self) -> EnergySummary {
+        let energy = &self.energy;
+        let relative = |difference: &N| energy.relative(difference).map(|part| part.to_text());
+        EnergySummary {
+            initial: energy.initial.to_text(),
+            largest: energy.largest.to_text(),
+            largest_relative: relative(&energy.largest),
+            at: energy.at,
+            last: energy.last.to_text(),
+            last_relative: relative(&energy.last),
+            states: energy.states,
+        }
+    }
+
+    /// What has been found, if a summary is made.
+    pub(crate) fn summary(self, run: Run<'_>) -> Option<Summary> {
+        let energy = self.energy();
+        let Watch { observed, from, n, .. } = self;
+        let Observed { monitor, encounters } = observed?;
+        let report = monitor.report();
+        let (encounters, closest) = encounters.found(n);
+        let modified_energy = (report.windows > 0).then(|| ModifiedEnergySummary {
+            method: report.method_rms.to_text(),
+            round_off: report.round_off.to_text(),
+            permanent_change: report.change.to_text(),
+            resolution: report.resolution.as_ref().map(N::to_text),
+            windows: report.windows,
+        });
+        Some(Summary {
+            run: run.name(),
+            h: run.h.clone(),
+            from,
+            to: n,
+            energy,
+            modified_energy,
+            encounters,
+            closest,
+            fine: is_fine(report.verdict),
+            verdict: report.verdict.to_string(),
+            reason: report.reason(),
+        })
+    }
+}

@@ -1,0 +1,48 @@
+//! The error of H over a run.
+
+use shadowstep::Number;
+
+/// H(t) − H(0), the largest and the last one.
+#[derive(Clone, Debug)]
+pub(super) struct EnergyError<N> {
+    pub(super) initial: N,
+    pub(super) largest: N,
+    pub(super) at: i64,
+    pub(super) last: N,
+    /// At how many states H was computed.
+    pub(super) states: u64,
+    size: N,
+}
+
+impl<N: Number> EnergyError<N> {
+    pub(super) fn new(initial: N) -> Self {
+        let zero = N::zero(&initial.context());
+        EnergyError { initial, largest: zero.clone(), at: 0, last: zero.clone(), states: 1, size: zero }
+    }
+
+    /// Takes H of the state n.
+    pub(super) fn include(&mut self, n: i64, energy: &N) {
+        self.states += 1;
+        self.last.assign_difference(energy, &self.initial);
+        self.size.assign(&self.last);
+        self.size.make_absolute();
+        // NaN is the largest
+        if !(self.size <= self.largest) {
+            self.largest.assign(&self.size);
+            self.at = n;
+        }
+    }
+
+    /// A difference as a part of |H(0)|; `None` if that is 0.
+    pub(super) fn relative(&self, difference: &N) -> Option<N> {
+        let mut size = self.initial.clone();
+        size.make_absolute();
+        let mut part = difference.clone();
+        part.make_absolute();
+        let nonzero = size.log10_abs() > f64::NEG_INFINITY;
+        nonzero.then(|| {
+            part.divide(&size);
+            part
+        })
+    }
+}
