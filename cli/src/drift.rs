@@ -2,6 +2,7 @@
 //! flow the drift that is the estimator's own.
 
 mod control;
+mod measure;
 mod record;
 mod table;
 
@@ -9,9 +10,8 @@ use std::io::{IsTerminal, Write};
 use std::time::Instant;
 
 use clap::Args;
-use shadowstep::StepSize;
 use shadowstep::number::Rounded;
-use shadowstep::run::{DriftRecorder, EnergyDrift};
+use shadowstep::run::EnergyDrift;
 use shadowstep::shadow::{SelectionRule, StoppingRule};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Computation;
@@ -26,6 +26,7 @@ use crate::report::{self, Status};
 use crate::run_arguments::RunArguments;
 use crate::selection::Selection;
 use control::{Controls, Found, Wanted};
+use measure::measure;
 use record::{Cost, OrderLabel, Permanent, Record};
 use table::readable;
 
@@ -106,23 +107,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     }
     output.finish()?;
     Ok(status)
-}
-
-/// The drift of a run, and what is known of the run besides.
-fn measure<N: Rounded + 'static>(
-    estimates: Estimates<'_>,
-    context: &N::Context,
-    mut progress: impl FnMut(i64) -> Result<(), Error>,
-) -> Result<(EnergyDrift<N>, Finished), Error> {
-    let run = estimates.run;
-    let mut drift = DriftRecorder::new(StepSize::try_from(run.h).expect("runs have a nonzero step size"));
-    let finished = estimates.take::<N>(context, |n, estimate| {
-        drift.include(n, &estimate);
-        progress(n)
-    })?;
-    let found = drift.drift().expect("a run has the state 0");
-    // both extremes may be finite where their difference overflows
-    if found.drift.is_finite() { Ok((found, finished)) } else { Err(run.not_finite("the energy drift")) }
 }
 
 /// The measurement of one run, in any number type.

@@ -73,10 +73,22 @@ pub(crate) struct SystemArguments {
     #[arg(long, value_name = "FORMULA", conflicts_with = "problem", requires_all = ["q", "p"], allow_hyphen_values = true)]
     pub(crate) potential: Option<String>,
     /// The coordinates of --potential at t = 0: x=0.4,y=0
-    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', requires = "potential", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "NAME=VALUE,…",
+        value_delimiter = ',',
+        requires = "potential",
+        allow_hyphen_values = true
+    )]
     pub(crate) q: Vec<String>,
     /// The momenta at t = 0, in the order of the coordinates: 0,2 or px=0,py=2
-    #[arg(long, value_name = "[NAME=]VALUE,…", value_delimiter = ',', requires = "potential", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "[NAME=]VALUE,…",
+        value_delimiter = ',',
+        requires = "potential",
+        allow_hyphen_values = true
+    )]
     pub(crate) p: Vec<String>,
     /// The masses of the coordinates [default: all are 1]
     #[arg(long, value_name = "VALUE,…", value_delimiter = ',', requires = "potential")]

@@ -36,7 +36,8 @@ impl Selection {
         let until = quantity::number("--until", &arguments.until)?;
         let mut steps: Vec<_> = arguments.steps.iter().map(|text| step(text, &until)).collect::<Result<_, _>>()?;
         let words = each_once(&arguments.schemes, |word| word.clone(), "scheme");
-        let propagators = words.iter().map(|word| Propagator::of_system(word, &problem.system)).collect::<Result<_, _>>()?;
+        let propagators =
+            words.iter().map(|word| Propagator::of_system(word, &problem.system)).collect::<Result<_, _>>()?;
         steps = each_once(&steps, |(h, _)| to_text(h), "step");
         let selection = Selection { problem, until, arithmetic, estimator, propagators, steps };
         for scheme in selection.propagators.iter().filter_map(Propagator::scheme) {

@@ -5,7 +5,7 @@ use std::path::Path;
 use shadowstep::problems::problem;
 use shadowstep::tables::{Faults, Source};
 use shadowstep_scenes::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS};
-use shadowstep_scenes::{Error, PotentialEnergy, System, source};
+use shadowstep_scenes::{Error, KineticEnergy, PotentialEnergy, System, source};
 
 use crate::quantity::{assignment, problem_error};
 use crate::report;
@@ -132,13 +132,17 @@ fn quoted(text: &str) -> String {
 }
 
 fn describe(name: String, system: System) -> Described {
+    let kinetic = match &system.kinetic {
+        KineticEnergy::Masses(_) => "T(p)",
+        KineticEnergy::Formula(formula) => formula,
+    };
     let (title, hamiltonian) = match &system.potential {
         PotentialEnergy::Shipped(setup) => {
             let problem = setup.problem.description();
             (problem.title.to_owned(), problem.hamiltonian.to_owned())
         }
-        PotentialEnergy::Formula(formula) => (name.clone(), format!("T(p) + {formula}")),
-        PotentialEnergy::Pairs(pairs) => (name.clone(), format!("T(p) + the sum over pairs of {}", pairs.formula)),
+        PotentialEnergy::Formula(formula) => (name.clone(), format!("{kinetic} + {formula}")),
+        PotentialEnergy::Pairs(pairs) => (name.clone(), format!("{kinetic} + the sum over pairs of {}", pairs.formula)),
     };
     Described { name, title, hamiltonian, system }
 }

@@ -114,7 +114,9 @@ pub use note::Note;
 pub use observer::Observer;
 pub use read::source;
 pub use results::FileOptions;
-pub use scene::{CheckpointInterval, Format, KineticEnergy, Outputs, PairEnergy, PotentialEnergy, Scene, System};
+pub use scene::{
+    CheckpointInterval, EnergyAt, Format, KineticEnergy, Outputs, PairEnergy, PotentialEnergy, Scene, System,
+};
 pub use summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use template::template;
 pub use watch::Encounter;

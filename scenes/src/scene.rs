@@ -11,7 +11,7 @@ pub use format::Format;
 pub use output::{CheckpointInterval, Outputs};
 pub use pairs::PairEnergy;
 pub(crate) use system::{ClassifiedKinetic, formula_kinetic, formula_potential};
-pub use system::{KineticEnergy, PotentialEnergy, System};
+pub use system::{EnergyAt, KineticEnergy, PotentialEnergy, System};
 
 use shadowstep::Rational;
 use shadowstep::tables::Source;

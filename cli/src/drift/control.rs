@@ -19,7 +19,7 @@ use shadowstep_scenes::library::EXACT_FLOW;
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::Run;
 
-use super::measure;
+use super::measure::measure;
 use super::record::{Control, Permanent};
 use crate::progress::Progress;
 use crate::report;

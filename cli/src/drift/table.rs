@@ -92,7 +92,7 @@ pub(super) fn readable(selection: &Selection, records: &[(Run<'_>, Record)]) -> 
     let rows: Vec<Row> = records.iter().map(|(run, record)| row(*run, record)).collect();
     let left_out = records.iter().find_map(|(_, record)| record.control_left_out.as_ref());
     let mut text = head(selection);
-    text += &in_groups(columns(selection, &rows), records);
+    text += &in_groups(&columns(selection, &rows), records);
     text += &marks(&rows, left_out);
     text += &verdicts(records);
     text
@@ -134,7 +134,7 @@ fn columns(selection: &Selection, rows: &[Row]) -> String {
 }
 
 /// The lines of a table with a line for each scheme above its rows.
-fn in_groups(table: String, records: &[(Run<'_>, Record)]) -> String {
+fn in_groups(table: &str, records: &[(Run<'_>, Record)]) -> String {
     let lines: Vec<&str> = table.lines().collect();
     let first = lines.len() - records.len() - 1;
     let mut text: String = lines[..first].iter().map(|line| format!("{line}\n")).collect();

@@ -45,6 +45,7 @@ pub(crate) struct Arguments {
 /// The polished table to stdout or a file, the report to stderr.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let source = library::source(&arguments.file)?;
+    let mut output = Output::of(&arguments.output)?;
     let wanted = Request { digits: arguments.digits, free: &arguments.free, split_kicks: arguments.split_kicks };
     let polished = match polish::polish(&source, &library::beside_or_shipped, &wanted) {
         Ok(polished) => polished,
@@ -55,7 +56,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         }
         Err(NotPolished::Unsolved { message, hint }) => return Ok(report::negative_answer(message, hint)),
     };
-    let mut output = Output::of(&arguments.output)?;
     write!(output, "{}", polished.text)?;
     output.finish()?;
     report::write(summary(&polished));

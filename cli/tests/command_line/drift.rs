@@ -152,7 +152,11 @@ fn the_robust_rule_is_another_one() {
     let [least, paper, robust] = ["", "--rule least", "--rule robust"].map(drift);
     assert_eq!((text(&least, "minimum"), text(&least, "drift")), (text(&paper, "minimum"), text(&paper, "drift")));
     assert_ne!(text(&robust, "drift"), text(&paper, "drift"));
-    assert!(quietly(&format!("{words} --rule robust")).replace('\n', " ").contains("the best m of 2–60 by the robust rule "));
+    assert!(
+        quietly(&format!("{words} --rule robust"))
+            .replace('\n', " ")
+            .contains("the best m of 2–60 by the robust rule ")
+    );
 }
 
 #[test]
@@ -176,7 +180,8 @@ fn people_get_a_table() {
     assert!(values.contains("eccentricity = 3/5, x = 2/5"), "{values}");
     assert!(how.contains("30 digits") && format!("{how} {rest}").contains("m = 4"), "{how}");
     let lines: Vec<&str> = table.lines().collect();
-    let scheme = lines.iter().position(|line| line.contains("yoshida4, 3 forces a step")).expect("a line for each scheme");
+    let scheme =
+        lines.iter().position(|line| line.contains("yoshida4, 3 forces a step")).expect("a line for each scheme");
     let row: Vec<&str> = lines[scheme + 1].split_whitespace().collect();
     let [step, error, drift, .., order, forces, _] = row[..] else { panic!("{row:?}") };
     assert_eq!((step, order, forces), ("1/10", "4", "301"), "one force to begin with, and three a step");
@@ -374,4 +379,109 @@ fn round_off_is_not_resolved() {
             assert_ne!(record["permanent_change"]["seen"], "resolved", "{record}");
         }
     }
+}
+
+/// A scene and a formula have the numbers of the shipped problem.
+#[test]
+fn a_scene_or_a_formula_may_be_the_problem() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("mine.toml");
+    std::fs::write(
+        &scene,
+        "[problem]\npotential = \"-1/sqrt(x^2 + y^2)\"\ncoordinates = [\"x\", \"y\"]\n[initial]\nq = [\"2/5\", 0]\np = [0, 2]\n",
+    )
+    .unwrap();
+    let words = "--scheme yoshida4,ruth3 --step 1/20 --until 5 --digits 30 --order 4 --no-control --no-summary --json";
+    let expected = objects(&quietly(&format!("drift --problem kepler {words}")));
+    let formula = "--potential -a/sqrt(x^2+y^2) --set a=1 --q x=2/5,y=0 --p px=0,py=2";
+    for problem in [format!("--problem {}", scene.display()), formula.to_owned()] {
+        let found = objects(&quietly(&format!("drift {problem} {words}")));
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_eq!((&found["drift"], &found["scheme"]), (&expected["drift"], &expected["scheme"]), "{problem}");
+            assert_eq!(found["energy_error"], expected["energy_error"], "{problem}");
+        }
+    }
+    for (wrong, sentence) in [
+        ("--potential sqrt(1+x --q x=1 --p 0", "--potential \"sqrt(1+x\": unexpected end"),
+        ("--potential x^2 --q x=1 --p 0,1", "--q has 1 values and --p has 2"),
+        ("--potential x^2 --q 1 --p 0", "--q `1` has no name"),
+        ("--problem missing.toml", "there is no file missing.toml"),
+    ] {
+        let result = shadowstep(&format!("drift {wrong} {words}"));
+        assert_eq!((result.code, result.out.as_str()), (2, ""), "{wrong}");
+        assert!(result.err.contains(sentence), "{wrong}: {}", result.err);
+    }
+}
+
+/// T = √(1 + p²) needs a scheme for every T(p).
+#[test]
+fn a_scene_with_a_general_kinetic_energy_has_a_drift() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("mine.toml");
+    let text = "[problem]\npotential = \"q^2/2\"\ncoordinates = [\"q\"]\nkinetic = \"sqrt(1 + pq^2)\"\n\
+                [initial]\nq = [1]\np = [\"1/3\"]\n";
+    std::fs::write(&scene, text).unwrap();
+    let words = format!("drift --problem {} --step 1/20 --until 30 --digits 30 --order 8 --json", scene.display());
+    let record = &objects(&quietly(&format!("{words} --scheme yoshida4")))[0];
+    assert!(text_as_f64(&record["drift"]) < 1e-8 && text_as_f64(&record["energy_error"]["largest"]) > 1e-8, "{record}");
+    let result = shadowstep(&format!("{words} --scheme blanes-moan-srkn11b"));
+    assert_eq!(result.code, 2);
+    assert!(result.err.contains("for quadratic T only"), "{}", result.err);
+}
+
+fn text_as_f64(value: &Value) -> f64 {
+    value.as_str().unwrap().parse().unwrap()
+}
+
+/// The error of H ranks the schemes, where the drift of the modified energy is round-off.
+#[test]
+fn the_error_of_the_energy_stands_beside_the_drift() {
+    let words = "drift --problem outer-solar-system --scheme stormer-verlet,blanes-moan-srkn6b --step 200 --until 200000 \
+                 --double --estimator bilinear --order 8 --json";
+    let records = objects(&quietly(words));
+    let error = |record: &Value| text_as_f64(&record["energy_error"]["largest_relative"]);
+    assert!(error(&records[0]) > 1e-3 && error(&records[1]) < 1e-6, "{records:?}");
+    assert_eq!((&records[1]["forces_per_step"], &records[1]["own_force_evaluations"]), (&6.into(), &6001.into()));
+    assert!(records.iter().all(|record| record["summary"]["fine"] == true), "{records:?}");
+}
+
+#[test]
+fn strict_makes_a_bad_verdict_a_negative_answer() {
+    let words =
+        "drift --problem harmonic-oscillator --scheme stormer-verlet --step 2.1 --until 210 --digits 30 --order 4";
+    let result = shadowstep(words);
+    assert_eq!(result.code, 0);
+    assert!(result.out.contains("the step size is too large"), "{}", result.out);
+    let strict = shadowstep(&format!("{words} --strict"));
+    assert_eq!(strict.code, 1);
+    assert!(!shadowstep(&format!("{words} --no-summary")).out.contains("too large"));
+}
+
+#[test]
+fn a_file_is_replaced_only_by_force() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("mine.toml");
+    let text =
+        "name = \"euler\"\norder = 1\nkinetic = \"any\"\nreference = \"Euler\"\n[stages]\nkick = [1]\ndrift = [1]\n";
+    std::fs::write(&table, text).unwrap();
+    let path = table.display();
+    let read = || std::fs::read_to_string(&table).unwrap();
+    for words in [
+        format!("drift --problem kepler --scheme {path} --step 1/10 --until 1 --double --order 2 --output {path}"),
+        format!("trace --problem kepler --scheme {path} --step 1/10 --until 1 --double --order 2 --output {path}"),
+        format!("schemes polish {path} --output {path}"),
+    ] {
+        let result = shadowstep(&words);
+        assert_eq!(result.code, 2, "{words}: {}", result.err);
+        assert!(
+            result.err.contains("already exists") && result.err.contains("replace it with --force"),
+            "{}",
+            result.err
+        );
+        assert_eq!(read(), text);
+    }
+    let words =
+        format!("drift --problem kepler --scheme {path} --step 1/10 --until 1 --double --order 2 --output {path}");
+    assert_eq!(shadowstep(&format!("{words} --force")).code, 0);
+    assert_ne!(read(), text);
 }

@@ -119,9 +119,8 @@ impl<N: Number> DriftRecorder<N> {
     /// Takes the estimate of n.
     pub fn include(&mut self, n: i64, estimate: &Estimate<'_, N>) {
         let DriftRecorder { h, found } = self;
-        let (drift, low_error) = found.get_or_insert_with(|| {
-            (EnergyDrift::begin(estimate), LowErrorStates::new(h, &estimate.value.context()))
-        });
+        let (drift, low_error) = found
+            .get_or_insert_with(|| (EnergyDrift::begin(estimate), LowErrorStates::new(h, &estimate.value.context())));
         drift.include(n, estimate);
         low_error.include(n, estimate);
     }

@@ -9,8 +9,8 @@ use shadowstep::tables::Faults;
 
 use crate::error::Error;
 use crate::observer::Observer;
-use crate::results::options::FileOptions;
 use crate::results::checkpoint::{Checkpoint, Identity, SavedState};
+use crate::results::options::FileOptions;
 use crate::results::resumable::{Resumable, beside};
 use crate::scene::{Format, Scene};
 use crate::whole_file::WholeFile;

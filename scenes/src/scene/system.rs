@@ -49,6 +49,9 @@ pub enum KineticEnergy {
     Formula(String),
 }
 
+/// H of the positions and momenta that it gets.
+pub type EnergyAt<N> = Box<dyn FnMut(&[N], &[N]) -> N>;
+
 /// A kinetic energy with its class, which decides about the schemes that move it.
 pub(crate) enum ClassifiedKinetic<N> {
     Quadratic(Box<dyn Kinetic<N, Class = Quadratic>>),
@@ -97,7 +100,7 @@ impl System {
     ///
     /// # Panics
     /// If q, p and U have different dimensions, which reading a system excludes.
-    pub fn energy<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn FnMut(&[N], &[N]) -> N> {
+    pub fn energy<N: Number + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
         const READ: &str = "the dimensions were read with the system";
         let ((q, p), potential) = (self.start(context), self.potential(context));
         match self.kinetic(context) {

@@ -26,8 +26,7 @@ impl<N: Number> EnergyError<N> {
         self.last.assign_difference(energy, &self.initial);
         self.size.assign(&self.last);
         self.size.make_absolute();
-        // NaN is the largest
-        if !(self.size <= self.largest) {
+        if self.size > self.largest || !self.size.is_finite() {
             self.largest.assign(&self.size);
             self.at = n;
         }

@@ -82,7 +82,11 @@ impl Ellipse {
             if bits == all && log2(&change) < -f64::from(all / 2 + LOST_BITS / 2) {
                 let half = change.clone().square() / 2u32;
                 let cos = 1u32 - versine.clone();
-                return (x, sin.clone() - &change * cos.clone() - half.clone() * &sin, versine - change * sin + half * cos);
+                return (
+                    x,
+                    sin.clone() - &change * cos.clone() - half.clone() * &sin,
+                    versine - change * sin + half * cos,
+                );
             }
         }
     }

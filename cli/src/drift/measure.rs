@@ -1,0 +1,24 @@
+//! The drift of one run.
+
+use shadowstep::StepSize;
+use shadowstep::number::Rounded;
+use shadowstep::run::{DriftRecorder, EnergyDrift};
+use shadowstep_scenes::Error;
+use shadowstep_scenes::estimates::{Estimates, Finished};
+
+/// The drift of a run, and what is known of the run besides.
+pub(super) fn measure<N: Rounded + 'static>(
+    estimates: Estimates<'_>,
+    context: &N::Context,
+    mut progress: impl FnMut(i64) -> Result<(), Error>,
+) -> Result<(EnergyDrift<N>, Finished), Error> {
+    let run = estimates.run;
+    let mut drift = DriftRecorder::new(StepSize::try_from(run.h).expect("runs have a nonzero step size"));
+    let finished = estimates.take::<N>(context, |n, estimate| {
+        drift.include(n, &estimate);
+        progress(n)
+    })?;
+    let found = drift.drift().expect("a run has the state 0");
+    // both extremes may be finite where their difference overflows
+    if found.drift.is_finite() { Ok((found, finished)) } else { Err(run.not_finite("the energy drift")) }
+}
