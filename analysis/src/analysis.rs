@@ -6,7 +6,7 @@
 //!
 //! let verlet = read(&shipped("stormer-verlet").unwrap(), &|name, _| shipped(name)).unwrap();
 //! let analysis = Analysis::of(&verlet);
-//! assert_eq!(analysis.stability.limit, "2");
+//! assert_eq!(analysis.stability.unwrap().limit, "2");
 //! assert_eq!((analysis.phase.coefficient, analysis.phase.power), (1.0 / 24.0, 2));
 //! assert_eq!(analysis.general.terms[0].0.to_string(), "[K,[K,D]]");
 //! ```
@@ -16,7 +16,7 @@ use shadowstep_symbolic::Rational;
 
 use crate::error::LeadingError;
 use crate::stability::Stability;
-use crate::trace::{PhaseError, Trace};
+use crate::trace::PhaseError;
 use shadowstep_schemes::Proved;
 use shadowstep_schemes::claims::Kinetic;
 use shadowstep_schemes::map::{Map, MapKind};
@@ -30,10 +30,9 @@ pub struct Analysis {
     pub general: LeadingError,
     /// The leading error for quadratic T.
     pub quadratic: LeadingError,
-    /// The trace of a step of the harmonic oscillator.
-    pub trace: Trace,
-    /// Where the harmonic oscillator is stable.
-    pub stability: Stability,
+    /// Where the harmonic oscillator is stable; `None` for a step of more than [`stability::MOST_MAPS`](crate::stability::MOST_MAPS)
+    /// maps that does not repeat a shorter one.
+    pub stability: Option<Stability>,
     /// How far the harmonic oscillator's phase is off.
     pub phase: PhaseError,
     /// The sizes of the kicks' weights.
@@ -58,14 +57,12 @@ impl Analysis {
     pub fn of(proved: &Proved) -> Analysis {
         let (maps, proof) = (proved.scheme.maps(), &proved.proof);
         let evaluations = proved.plan.evaluations;
-        let trace = Trace::of(&maps);
         Analysis {
             evaluations,
             general: LeadingError::of(&maps, proof, Kinetic::Any),
             quadratic: LeadingError::of(&maps, proof, Kinetic::Quadratic),
-            stability: Stability::of(&trace, evaluations),
-            phase: trace.phase_error(&maps, proved.scheme.held, proof.quadratic.order),
-            trace,
+            stability: Stability::of(&maps, evaluations),
+            phase: PhaseError::of(&maps, proved.scheme.held, proof.quadratic.order),
             kicks: Sizes::of(&maps, MapKind::Kick),
             drifts: Sizes::of(&maps, MapKind::Drift),
         }

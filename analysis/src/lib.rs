@@ -5,6 +5,7 @@
 //! | `analysis` | [`Analysis`]: everything below for one scheme, and the sizes of its weights |
 //! | [`error`](mod@error), [`bracket`] | the leading error: the terms of lowest order in the logarithm of a step |
 //! | [`trace`] | the trace of a step of the harmonic oscillator, and the leading error of its phase |
+//! | `period` | the part that a step repeats: it is stable where the step is |
 //! | [`stability`], `roots`, `squarefree` | where the harmonic oscillator is stable: roots of integer polynomials |
 //! | `prime` | residues modulo a prime, for `bracket` and `squarefree` |
 //! | `better` | [`best_for_every_kinetic`]: the shipped scheme to use for a T(p) that is not quadratic |
@@ -16,6 +17,7 @@ mod analysis;
 mod better;
 pub mod bracket;
 pub mod error;
+mod period;
 pub mod polish;
 mod prime;
 mod roots;

@@ -17,7 +17,7 @@ pub(crate) struct SignChanges {
     denominator: BigInt,
 }
 
-/// The polynomial on [0, range], in u = x/range with coefficients in units of 2^−bits, each off by less than a unit.
+/// The polynomial on [0, range], in u = x/range with coefficients in units of 2^−bits, each off by less than two units.
 pub(crate) struct Scaled {
     coefficients: Vec<BigInt>,
     bits: u64,
@@ -53,6 +53,11 @@ impl SignChanges {
 }
 
 impl Scaled {
+    /// A polynomial without multiple roots from its coefficients, each off by less than two units.
+    pub(crate) fn new(coefficients: Vec<BigInt>, bits: u64) -> Scaled {
+        Scaled { coefficients, bits }
+    }
+
     /// All roots in 0 < u < 1, in their order.
     pub(crate) fn roots(&self) -> Result<Vec<Isolated>, InDoubt> {
         let whole = Piece { bernstein: self.bernstein(), error: self.rounding(), place: BigInt::zero(), depth: 0 };
@@ -72,22 +77,42 @@ impl Scaled {
         Ok(roots)
     }
 
-    /// Bisects until the root is known to 2^−depth.
+    /// Narrows the piece of a root to the width 2^−depth: the secant says in which of 2^k parts of the piece the root should
+    /// be. If it is there, k doubles, and so do the digits at each step; if not, the piece is halved (J. Abbott, *Quadratic
+    /// interval refinement for real roots*, ACM Commun. Comput. Algebra 48 (2014) 3).
     pub(crate) fn refine(&self, root: &mut Isolated, depth: u64) -> Result<(), InDoubt> {
-        let left = self.sign(&root.place, root.depth)?;
+        let mut left = self.value(&root.place, root.depth)?;
+        let mut right = self.value(&(&root.place + 1), root.depth)?;
+        let mut parts = 1;
         while root.depth < depth {
-            let middle = &root.place * 2 + 1;
-            root.depth += 1;
-            root.place = if self.sign(&middle, root.depth)? == left { middle } else { middle - 1 };
+            let more = parts.min(depth - root.depth);
+            let (place, at) = (&root.place << more, root.depth + more);
+            let part = ((&left << more) / (&left - &right)).clamp(BigInt::zero(), (BigInt::one() << more) - 1);
+            let middle = place + if more == 1 { BigInt::one() } else { part };
+            let value = self.value(&middle, at)?;
+            if more == 1 {
+                let is_right = value.sign() == left.sign();
+                (left, right) = if is_right { (value, right) } else { (left, value) };
+                (root.place, root.depth) = (if is_right { middle } else { middle - 1 }, at);
+                parts = 2;
+                continue;
+            }
+            let next = self.value(&(&middle + 1), at)?;
+            if value.sign() == left.sign() && next.sign() != left.sign() {
+                (left, right, root.place, root.depth) = (value, next, middle, at);
+                parts = 2 * more;
+            } else {
+                parts = 1;
+            }
         }
         Ok(())
     }
 
-    /// The sign at u = place·2^−depth ≤ 1.
-    fn sign(&self, place: &BigInt, depth: u64) -> Result<Sign, InDoubt> {
+    /// The value at u = place·2^−depth ≤ 1, in units; its sign is certain.
+    fn value(&self, place: &BigInt, depth: u64) -> Result<BigInt, InDoubt> {
         let horner = |sum: BigInt, coefficient: &BigInt| ((sum * place) >> depth) + coefficient;
         let value = self.coefficients.iter().rev().fold(BigInt::zero(), horner);
-        decided(&value, &self.rounding()).ok_or(InDoubt)
+        decided(&value, &self.rounding()).map(|_| value).ok_or(InDoubt)
     }
 
     /// b_j = Σ_k C(j, k)/C(n, k) c_k
@@ -99,9 +124,9 @@ impl Scaled {
         (0..=degree).map(|j| binomials(j).zip(&of_degree).zip(&self.coefficients).map(term).sum()).collect()
     }
 
-    /// A bound of the error of a sum of all terms, each off by less than a unit and rounded by less than another one.
+    /// A bound of the error of a sum of all terms, each off by less than two units and rounded by less than another one.
     fn rounding(&self) -> BigInt {
-        BigInt::from(2 * self.coefficients.len())
+        BigInt::from(3 * self.coefficients.len())
     }
 }
 
@@ -122,21 +147,20 @@ impl Piece {
         Some(signs?.windows(2).filter(|pair| pair[0] != pair[1]).count())
     }
 
-    /// The pieces left and right of the middle (de Casteljau).
+    /// The pieces left and right of the middle (de Casteljau). Sums stand in for means; each is halved at the end, as often
+    /// as means have been taken.
     fn halves(self) -> (Piece, Piece) {
-        let (mut row, degree) = (self.bernstein, self.error);
-        let size = row.len();
-        // each of size − 1 means drops less than a unit
-        let error = degree + size;
+        let (mut row, error): (_, BigInt) = (self.bernstein, self.error + 1);
+        let last = row.len() - 1;
         let mut left = vec![row[0].clone()];
-        for length in (1..size).rev() {
-            for i in 0..length {
+        for means in 1..=last {
+            for i in 0..=last - means {
                 let (before, after) = row.split_at_mut(i + 1);
                 before[i] += &after[0];
-                before[i] >>= 1;
             }
-            left.push(row[0].clone());
+            left.push(&row[0] >> means);
         }
+        row.iter_mut().enumerate().for_each(|(i, value)| *value >>= last - i);
         let (place, depth) = (self.place * 2, self.depth + 1);
         let right = Piece { bernstein: row, error: error.clone(), place: &place + 1, depth };
         (Piece { bernstein: left, error, place, depth }, right)

@@ -8,14 +8,23 @@ use num_traits::{One, ToPrimitive};
 use shadowstep_symbolic::Rational;
 use shadowstep_symbolic::decimal::to_significant;
 
-use crate::roots::{InDoubt, Isolated, SignChanges};
-use crate::trace::Trace;
+use crate::period::repeated_part;
+use crate::prime::PRIME;
+use crate::roots::{InDoubt, Isolated, Scaled, SignChanges};
+use crate::squarefree::is_surely_squarefree;
+use crate::trace::{Trace, residues, scaled};
+use shadowstep_schemes::map::Map;
+
+/// The most maps of a step, or of the part that it repeats, for which the polynomial is solved: the time grows with the
+/// third power of the number.
+pub const MOST_MAPS: usize = 400;
 
 /// Digits of limits and ends of gaps.
 const DIGITS: usize = 30;
 
-/// To this depth the roots in x are bisected at least: 2^−170 of the range is beyond 40 digits.
-const DEPTH: u64 = 170;
+/// Bits of the first attempt. A third of them is the depth to which the roots in x are bisected at least: 2^−170 of the
+/// range is beyond 40 digits.
+const BITS: u64 = 512;
 
 /// Where the harmonic oscillator is stable.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,10 +48,14 @@ pub struct Gap {
 }
 
 impl Stability {
-    /// The stability of a step with this trace and this number of force evaluations.
-    pub(crate) fn of(trace: &Trace, evaluations: usize) -> Stability {
+    /// The stability of the step that these maps make with this number of force evaluations.
+    pub(crate) fn of(maps: &[Map], evaluations: usize) -> Option<Stability> {
+        let part = repeated_part(maps);
+        if part.len() > MOST_MAPS {
+            return None;
+        }
         let last = 4 * (evaluations as u64).pow(2);
-        let crossings = parted(crossings(trace, last));
+        let crossings = parted(crossings(&part, last));
         let limit = crossings.first().expect("a consistent scheme is unstable beyond 2·(evaluations)").text();
         let gaps = crossings.chunks(2).filter(|ends| ends[0].is_below(last)).map(|ends| {
             let to = ends.get(1).filter(|to| to.is_below(last));
@@ -52,7 +65,7 @@ impl Stability {
             };
             Gap { from: ends[0].text(), to: to.map(Crossing::text), width }
         });
-        Stability { gaps: gaps.collect(), limit }
+        Some(Stability { gaps: gaps.collect(), limit })
     }
 }
 
@@ -108,29 +121,62 @@ fn root_text(x: &Rational) -> String {
     to_significant(&Rational::new(root, scale), DIGITS)
 }
 
+/// tr − 2 without its root at 0, or tr + 2: where it changes its sign, the trace passes ±2.
+enum Passing<'a> {
+    /// Without multiple roots; the coefficients are computed as precisely as they are needed.
+    Simple { maps: &'a [Map], level: i32 },
+    /// With its squares divided out, exactly.
+    Exact(SignChanges),
+}
+
+impl Passing<'_> {
+    fn of(maps: &[Map], level: i32) -> Passing<'_> {
+        let below = usize::from(level == 2);
+        let is_simple = residues(maps).is_some_and(|mut residues| {
+            residues[0] = (residues[0] + PRIME).checked_add_signed(-i64::from(level)).expect("it is positive") % PRIME;
+            is_surely_squarefree(&residues[below..])
+        });
+        if is_simple {
+            return Passing::Simple { maps, level };
+        }
+        let mut trace = Trace::of(maps);
+        trace.integers[0] -= level;
+        Passing::Exact(SignChanges::of(&trace.integers[below..], &trace.denominator))
+    }
+
+    /// It on the x from 0 to `range`.
+    fn scaled(&self, range: u64, bits: u64) -> Scaled {
+        match self {
+            Passing::Exact(polynomial) => polynomial.scaled(range, bits),
+            Passing::Simple { maps, level } => {
+                let mut coefficients = scaled(maps, range, bits);
+                coefficients[0] -= BigInt::from(*level) << bits;
+                Scaled::new(coefficients.split_off(usize::from(*level == 2)), bits)
+            }
+        }
+    }
+}
+
 /// All x in 0 < x ≤ 1.01·`last` at which the trace passes ±2, in their order. A scheme whose weights sum to 1 up to
 /// their digits only, which is to a thousandth at least, may have its limit a little beyond `last`.
-fn crossings(trace: &Trace, last: u64) -> Vec<Crossing> {
-    // tr − 2 without its root at 0, and tr + 2
-    let mut above = trace.integers.clone();
-    above[0] += 2;
-    let functions =
-        [SignChanges::of(&trace.integers[1..], &trace.denominator), SignChanges::of(&above, &trace.denominator)];
+fn crossings(maps: &[Map], last: u64) -> Vec<Crossing> {
+    let functions = [2, -2].map(|level| Passing::of(maps, level));
     // another range bisects at other places, in case one of them is a root
     (1..)
         .find_map(|attempt| {
-            crossings_within(&functions, last + last / 100 + attempt, 512 << (attempt - 1).min(20)).ok()
+            crossings_within(&functions, last + last / 100 + attempt, BITS << (attempt - 1).min(20)).ok()
         })
         .expect("simple roots are separated with enough bits")
 }
 
-fn crossings_within(functions: &[SignChanges], range: u64, bits: u64) -> Result<Vec<Crossing>, InDoubt> {
+fn crossings_within(functions: &[Passing<'_>], range: u64, bits: u64) -> Result<Vec<Crossing>, InDoubt> {
     let mut all = Vec::new();
     for function in functions {
         let scaled = function.scaled(range, bits);
         for mut root in scaled.roots()? {
-            // some bits beyond the places where neighbours part
-            let depth = (root.depth + 64).max(DEPTH);
+            // some bits beyond the places where neighbours part; far beyond the limit the trace may pass from −2 to 2 within
+            // any number of digits
+            let depth = (root.depth + 64).max(bits / 3);
             scaled.refine(&mut root, depth)?;
             all.push(Crossing::of(&root, range)?);
         }

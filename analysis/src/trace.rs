@@ -4,14 +4,20 @@
 //! 2 cos φ for a step that turns by φ, is Σ_k t_k x^k, where t_k has the sign (−1)^k and is a sum of products of k of the
 //! a's and k of the b's.
 
+use std::ops::Range;
+
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
 use shadowstep_symbolic::{Fraction, Rational};
 
-use shadowstep_schemes::arithmetic::{Arithmetic, Sensitivity};
+use crate::prime::{self, PRIME};
+use shadowstep_schemes::arithmetic::{Arithmetic, Fixed, FixedPoint, Sensitivity};
 use shadowstep_schemes::map::{Map, MapKind};
 use shadowstep_schemes::scheme::Held;
+
+/// Terms of the trace beyond the order that are looked at first for the error of the phase.
+const FEW_TERMS: usize = 8;
 
 /// The trace polynomial, with integers over powers of one denominator: reducing each fraction would cost far more.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,11 +39,16 @@ pub struct PhaseError {
 
 impl Trace {
     /// The trace of the step that these maps make.
-    pub(crate) fn of(maps: &[Map]) -> Trace {
+    pub fn of(maps: &[Map]) -> Trace {
+        Trace::up_to(maps, usize::MAX)
+    }
+
+    /// Its terms up to x^degree.
+    fn up_to(maps: &[Map], degree: usize) -> Trace {
         let scale = maps.iter().fold(BigInt::one(), |lcm, map| lcm.lcm(map.weight.denom()));
         let integer = |map: &Map| (map.kind, map.weight.numer() * (&scale / map.weight.denom()));
         let maps: Vec<_> = maps.iter().map(integer).collect();
-        let mut integers = trace(&maps, &BigInt::zero(), &BigInt::one(), |sum, a, b| *sum += a * b);
+        let mut integers = trace(&maps, degree, &BigInt::zero(), &BigInt::one(), |sum, a, b| *sum += a * b);
         integers.iter_mut().skip(1).step_by(2).for_each(|value| *value = -&*value);
         while integers.len() > 1 && integers.last().is_some_and(Zero::is_zero) {
             integers.pop();
@@ -61,13 +72,26 @@ impl Trace {
         let Some(integer) = self.integers.get(k) else { return Rational::zero().into() };
         Fraction::new(integer.clone(), self.denominator.pow(k as u32))
     }
+}
 
+impl PhaseError {
     /// The leading error of the phase of a scheme that has the order `order` for quadratic T.
     ///
     /// Where tr = 2 cos(hω) + δ x^m + …, the phase is off by −δ/2·(hω)^{2m−2}, relatively. A δ that the digits of the
     /// weights can account for counts as none.
-    pub(crate) fn phase_error(&self, maps: &[Map], held: Held, order: u32) -> PhaseError {
-        let slopes = slopes(maps);
+    pub(crate) fn of(maps: &[Map], held: Held, order: u32) -> PhaseError {
+        let first = order.div_ceil(2) as usize + 1;
+        let found = PhaseError::among(first..first + FEW_TERMS, maps, held);
+        // beyond the degree there is nothing that the cosine's coefficient could be equal to
+        found
+            .or_else(|| PhaseError::among(first + FEW_TERMS..maps.len() + 2, maps, held))
+            .expect("a step is not a cosine")
+    }
+
+    /// The first of the terms of the trace that differs from that of the cosine.
+    fn among(terms: Range<usize>, maps: &[Map], held: Held) -> Option<PhaseError> {
+        let trace = Trace::up_to(maps, terms.end);
+        let slopes = slopes(maps, terms.end);
         let tolerance = |m: usize| match held {
             Held::Exactly => Rational::zero(),
             Held::Digits(digits) => {
@@ -75,16 +99,50 @@ impl Trace {
                 slope / BigInt::from(10).pow(digits - 1)
             }
         };
-        let mut m = order.div_ceil(2) as usize + 1;
-        loop {
-            let difference = self.coefficient(m) - cosine(m);
-            if difference.abs() > tolerance(m) {
+        terms
+            .map(|m| (m, trace.coefficient(m) - cosine(m)))
+            .find(|(m, difference)| difference.abs() > tolerance(*m))
+            .map(|(m, difference)| {
                 let coefficient = -difference.to_f64().unwrap_or(f64::NAN) / 2.0;
-                return PhaseError { coefficient, power: 2 * m as u32 - 2 };
-            }
-            // beyond the degree there is nothing that the cosine's coefficient could be equal to
-            m += 1;
+                PhaseError { coefficient, power: 2 * m as u32 - 2 }
+            })
+    }
+}
+
+/// The terms of the trace modulo the prime, if no denominator is divisible by it.
+pub(crate) fn residues(maps: &[Map]) -> Option<Vec<u64>> {
+    let residue = |value: &BigInt| value.mod_floor(&PRIME.into()).to_u64().expect("it is less than the prime");
+    let weight = |map: &Map| {
+        let denominator = residue(map.weight.denom());
+        let inverse = prime::power(denominator, PRIME - 2);
+        (denominator != 0).then(|| (map.kind, prime::product(residue(map.weight.numer()), inverse)))
+    };
+    let maps: Vec<_> = maps.iter().map(weight).collect::<Option<_>>()?;
+    let mut residues = trace(&maps, usize::MAX, &0, &1, |sum, a, b| *sum = (*sum + prime::product(*a, *b)) % PRIME);
+    residues.iter_mut().skip(1).step_by(2).for_each(|value| *value = (PRIME - *value) % PRIME);
+    Some(residues)
+}
+
+/// The coefficients of the trace as a polynomial in u = x/range, in units of 2^−bits, each off by less than two units.
+pub(crate) fn scaled(maps: &[Map], range: u64, bits: u64) -> Vec<BigInt> {
+    let range = Rational::from_integer(range.into());
+    let one = Rational::one();
+    let factor = |kind| if kind == MapKind::Kick { &range } else { &one };
+    let mut more = 64;
+    loop {
+        let arithmetic = FixedPoint::with_bits((bits + more) as u32);
+        let weighed: Vec<_> =
+            maps.iter().map(|map| (map.kind, arithmetic.weight(&(&map.weight * factor(map.kind))))).collect();
+        let (zero, unit) = (arithmetic.zero(), arithmetic.one());
+        let values = trace(&weighed, usize::MAX, &zero, &unit, |sum, a, b| arithmetic.add_product(sum, a, b));
+        let error = values.iter().map(Fixed::error).fold(0.0, f64::max);
+        // the values are large beyond the limit of stability, and so are their errors
+        let lost = error.log2().ceil().max(0.0) as u64;
+        if lost <= more {
+            let sign = |k: usize| if k % 2 == 1 { -1 } else { 1 };
+            return values.iter().enumerate().map(|(k, value)| (&value.units * sign(k)) >> more).collect();
         }
+        more = lost + 16;
     }
 }
 
@@ -95,17 +153,24 @@ fn cosine(m: usize) -> Rational {
 }
 
 /// How far each coefficient moves when each weight moves by one unit of its last digit, in that unit.
-fn slopes(maps: &[Map]) -> Vec<f64> {
+fn slopes(maps: &[Map], degree: usize) -> Vec<f64> {
     let weights: Vec<_> = maps.iter().map(|map| (map.kind, Sensitivity.weight(&map.weight))).collect();
-    let traces = trace(&weights, &Sensitivity.zero(), &Sensitivity.one(), |sum, a, b| {
+    let traces = trace(&weights, degree, &Sensitivity.zero(), &Sensitivity.one(), |sum, a, b| {
         Sensitivity.add_product(sum, a, b);
     });
     traces.iter().map(|sensitive| sensitive.slope).collect()
 }
 
-/// The coefficients of the trace in −x, which are sums of products without a sign.
-fn trace<V: Clone>(maps: &[(MapKind, V)], zero: &V, one: &V, add_product: impl Fn(&mut V, &V, &V)) -> Vec<V> {
-    let size = maps.iter().filter(|(kind, _)| *kind == MapKind::Kick).count() + 1;
+/// The coefficients of the trace in −x up to a degree, which are sums of products without a sign.
+fn trace<V: Clone>(
+    maps: &[(MapKind, V)],
+    most: usize,
+    zero: &V,
+    one: &V,
+    add_product: impl Fn(&mut V, &V, &V),
+) -> Vec<V> {
+    let most = most.min(maps.iter().filter(|(kind, _)| *kind == MapKind::Kick).count());
+    let size = most + 1;
     let polynomial = |constant: &V| {
         let mut coefficients = vec![zero.clone(); size];
         coefficients[0] = constant.clone();
@@ -115,7 +180,7 @@ fn trace<V: Clone>(maps: &[(MapKind, V)], zero: &V, one: &V, add_product: impl F
     let mut columns = [[polynomial(one), polynomial(zero)], [polynomial(zero), polynomial(one)]];
     let mut degree = 0;
     for (kind, weight) in maps {
-        degree += usize::from(*kind == MapKind::Kick);
+        degree = most.min(degree + usize::from(*kind == MapKind::Kick));
         for [q, p] in &mut columns {
             match kind {
                 MapKind::Kick => (0..degree).for_each(|k| add_product(&mut p[k + 1], weight, &q[k])),

@@ -2,8 +2,9 @@
 //! sensitivity of a condition to the last digit of the weights.
 
 use num_bigint::BigInt;
-use num_traits::{One, ToPrimitive, Zero};
-use shadowstep_symbolic::{Fraction, Rational};
+use num_integer::Integer;
+use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
+use shadowstep_symbolic::{Fraction, Ratio, Rational};
 
 /// Sums of products, as order conditions need them.
 pub trait Arithmetic {
@@ -60,13 +61,33 @@ pub struct FixedPoint {
 pub struct Fixed {
     /// The approximate value, in units.
     pub units: BigInt,
-    error: u128,
+    error: f64,
 }
 
+impl Fixed {
+    /// The bound of the error, in units.
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+}
+
+/// The bits beyond those that are needed, for the growth of the error.
+const GUARD_BITS: u32 = 64;
+
 impl FixedPoint {
-    /// Room for `digits` decimals and for the growth of the bound (19 decimals).
+    /// Room for `digits` decimals and for the growth of the error (19 decimals).
     pub fn new(digits: u32) -> FixedPoint {
-        FixedPoint { bits: (f64::from(digits) * std::f64::consts::LOG2_10) as u32 + 64 }
+        FixedPoint::with_bits((f64::from(digits) * std::f64::consts::LOG2_10) as u32 + GUARD_BITS)
+    }
+
+    /// Numbers with this number of bits after the point.
+    pub fn with_bits(bits: u32) -> FixedPoint {
+        FixedPoint { bits }
+    }
+
+    /// The bits after the point.
+    pub(crate) fn bits(&self) -> u32 {
+        self.bits
     }
 
     /// The number 1 in units.
@@ -78,42 +99,52 @@ impl FixedPoint {
     pub fn read(&self, value: &Fixed) -> (Fraction, Fraction) {
         let unit = self.unit();
         // a bound that overflowed bounds nothing
-        let error = if value.error == u128::MAX { BigInt::one() << (2 * self.bits) } else { value.error.into() };
+        let error = BigInt::from_f64(value.error.ceil()).unwrap_or_else(|| BigInt::one() << (2 * self.bits));
         (Fraction::new(value.units.clone(), unit.clone()), Fraction::new(error, unit))
     }
 
-    /// A power of two, at least 1, that |value| does not exceed.
-    fn size(&self, value: &Fixed) -> u128 {
-        let bits = u64::from(self.bits);
-        if u64::from(u128::BITS - value.error.leading_zeros()) >= bits {
-            return u128::MAX;
-        }
-        // |units| < 2^b and error < 2^(bits − 1)
-        let above = (value.units.bits() + 1).saturating_sub(bits);
-        if above < 127 { 1 << above } else { u128::MAX }
+    /// The numerator of a multiple of 1/`denominator`, if the bound of the error leaves only one.
+    pub(crate) fn multiple(&self, value: &Fixed, denominator: &BigInt) -> Option<BigInt> {
+        let (middle, error) = self.read(value);
+        let unit = self.unit();
+        let numerator = (middle.numer() * denominator * 2u32 + &unit).div_floor(&(&unit * 2u32));
+        let distance = (middle.numer() * denominator - &numerator * &unit).abs();
+        let error = error.numer() * denominator;
+        // the next multiples are a whole one away
+        (distance <= error && error * 2u32 < unit).then_some(numerator)
     }
+
+    /// A bound of |value|.
+    fn size(&self, value: &Fixed) -> f64 {
+        // |units| < 2^b
+        let power = |exponent: i64| 2_f64.powi(exponent.clamp(-1000, 1023) as i32);
+        power(value.units.bits() as i64 - i64::from(self.bits)) + value.error * power(-i64::from(self.bits))
+    }
+}
+
+/// A sum of a few positive numbers of f64 with its own rounding added: a bound of the true sum.
+fn bound(sum: f64) -> f64 {
+    sum * (1.0 + 8.0 * f64::EPSILON)
 }
 
 impl Arithmetic for FixedPoint {
     type Value = Fixed;
     fn zero(&self) -> Fixed {
-        Fixed { units: BigInt::zero(), error: 0 }
+        Fixed { units: BigInt::zero(), error: 0.0 }
     }
     fn one(&self) -> Fixed {
-        Fixed { units: self.unit(), error: 0 }
+        Fixed { units: self.unit(), error: 0.0 }
     }
     fn weight(&self, weight: &Rational) -> Fixed {
-        Fixed { units: (weight.numer() << self.bits) / weight.denom(), error: 1 }
+        Fixed { units: (weight.numer() << self.bits) / weight.denom(), error: 1.0 }
     }
     fn add_product(&self, target: &mut Fixed, a: &Fixed, b: &Fixed) {
         target.units += (&a.units * &b.units) >> self.bits;
         // |ab − a'b'| ≤ |a|·δb + |b'|·δa, and the shift drops less than one unit
-        let error = self.size(a).saturating_mul(b.error).saturating_add(self.size(b).saturating_mul(a.error));
-        target.error = target.error.saturating_add(error).saturating_add(1);
+        target.error = bound(target.error + self.size(a) * b.error + self.size(b) * a.error + 1.0);
     }
     fn divide(&self, a: &Fixed, n: u32) -> Fixed {
-        let error = if a.error == u128::MAX { a.error } else { a.error / u128::from(n) + 2 };
-        Fixed { units: &a.units / n, error }
+        Fixed { units: &a.units / n, error: bound(a.error / f64::from(n) + 1.0) }
     }
 }
 

@@ -1,16 +1,23 @@
 //! The order conditions of one kind, each with its value for a scheme and how exactly the value must be met.
 
 use num_bigint::BigInt;
-use num_traits::{FromPrimitive, Signed, Zero};
+use num_integer::Integer;
+use num_traits::{FromPrimitive, One, Signed, Zero};
 use shadowstep_symbolic::{Fraction, Ratio, Rational};
 
-use crate::arithmetic::{Arithmetic, ExactArithmetic, FixedPoint, Sensitivity};
+use crate::arithmetic::{Arithmetic, Fixed, FixedPoint, Sensitive, Sensitivity};
 use crate::claims::Kinetic;
 use crate::map::Map;
 use crate::near_integrable::{self, Power};
 use crate::order::Condition;
 use crate::scheme::Held;
 use crate::{nystrom, order};
+
+/// Bits beyond those of the exact values, for the growth of the error.
+const MARGIN_BITS: u32 = 64;
+
+/// The most bits for weights that are held to some digits: the bounds of the errors grow by far fewer.
+const MOST_BITS: u32 = 8000;
 
 /// Conditions that a claim needs.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +57,11 @@ impl Evaluated {
         self.uncertainty() <= self.tolerance
     }
 
+    /// Whether the arithmetic's own rounding is far below what the weights' rounding accounts for.
+    fn is_resolved(&self) -> bool {
+        self.error.numer() * self.tolerance.denom() * 1000 <= self.tolerance.numer() * self.error.denom()
+    }
+
     /// Whether the weights have enough digits to distinguish a condition that is met from one that is not.
     fn is_decided(&self) -> bool {
         let thousandfold = Fraction::new(self.tolerance.numer() * 1000, self.tolerance.denom().clone());
@@ -65,28 +77,56 @@ pub(crate) fn evaluated(maps: &[Map], held: Held, family: Family, highest: u32) 
     }
 }
 
+/// Where the weights are exact, so are the values: a value of degree n is a multiple of 1/(Dⁿ n!), D the common denominator
+/// of the weights, and in fixed point with enough bits it is the only multiple within the bound of the error.
 fn evaluated_exactly(maps: &[Map], family: Family, highest: u32) -> Vec<Evaluated> {
-    let zero = || Fraction::from(Rational::zero());
-    values(maps, family, worth_exactness(maps, family, highest), &ExactArithmetic)
-        .into_iter()
-        .map(|(condition, found)| Evaluated { condition, found: found.into(), error: zero(), tolerance: zero() })
-        .collect()
+    let order = worth_exactness(maps, family, highest);
+    let denominator = maps.iter().fold(BigInt::one(), |lcm, map| lcm.lcm(map.weight.denom()));
+    let grids: Vec<_> = (0..=order).map(|n| denominator.pow(n) * factorial(n)).collect();
+    let mut bits = grids[order as usize].bits() as u32 + 2 * MARGIN_BITS;
+    loop {
+        let arithmetic = FixedPoint::with_bits(bits);
+        let exact = |(condition, value): (Condition, Fixed)| {
+            let grid = &grids[condition.order as usize];
+            let found = arithmetic.multiple(&value, grid)?;
+            let zero = || Fraction::from(Rational::zero());
+            Some(Evaluated { found: Fraction::new(found, grid.clone()), condition, error: zero(), tolerance: zero() })
+        };
+        let values = values(maps, family, order, &arithmetic).into_iter();
+        match values.map(exact).collect() {
+            Some(evaluated) => return evaluated,
+            None => bits += bits / 2,
+        }
+    }
+}
+
+fn factorial(n: u32) -> BigInt {
+    (1..=n).map(BigInt::from).product()
 }
 
 fn evaluated_within(maps: &[Map], digits: u32, family: Family, highest: u32) -> Vec<Evaluated> {
-    let arithmetic = FixedPoint::new(digits);
     let unit = BigInt::from(10).pow(digits - 1);
-    let slopes = values(maps, family, highest, &Sensitivity);
-    values(maps, family, highest, &arithmetic)
-        .into_iter()
-        .zip(slopes)
-        .map(|((condition, value), (_, sensitive))| {
-            let (found, error) = arithmetic.read(&value);
-            let slope = Rational::from_f64(sensitive.slope).unwrap_or_else(Rational::zero);
-            let tolerance = Fraction::new(slope.numer().clone(), slope.denom() * &unit);
-            Evaluated { condition, found, error, tolerance }
-        })
-        .collect()
+    let tolerance = |(_, sensitive): (_, Sensitive)| {
+        let slope = Rational::from_f64(sensitive.slope).unwrap_or_else(Rational::zero);
+        Fraction::new(slope.numer().clone(), slope.denom() * &unit)
+    };
+    let tolerances: Vec<_> = values(maps, family, highest, &Sensitivity).into_iter().map(tolerance).collect();
+    let mut arithmetic = FixedPoint::new(digits);
+    loop {
+        let values = values(maps, family, highest, &arithmetic).into_iter();
+        let evaluated: Vec<_> = values
+            .zip(&tolerances)
+            .map(|((condition, value), tolerance)| {
+                let (found, error) = arithmetic.read(&value);
+                Evaluated { condition, found, error, tolerance: tolerance.clone() }
+            })
+            .collect();
+        // the rounding of the arithmetic grows with the number of maps
+        match evaluated.iter().all(Evaluated::is_resolved) || arithmetic.bits() >= MOST_BITS {
+            true => return evaluated,
+            false => arithmetic = FixedPoint::with_bits(2 * arithmetic.bits()),
+        }
+    }
 }
 
 /// The first order that certainly fails, or the highest: exact arithmetic beyond it would be slow and decide nothing.
@@ -106,5 +146,45 @@ fn values<A: Arithmetic>(maps: &[Map], family: Family, highest: u32, arithmetic:
         Family::Kinetic(Kinetic::Any) => order::conditions(maps, highest, arithmetic),
         Family::Kinetic(Kinetic::Quadratic) => nystrom::conditions(maps, highest, arithmetic),
         Family::Power(power) => near_integrable::conditions(maps, power, highest, arithmetic),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::ExactArithmetic;
+    use crate::map::merged;
+
+    fn rationals(fractions: &[(i64, i64)]) -> Vec<Rational> {
+        fractions.iter().map(|&(n, d)| Rational::new(n.into(), d.into())).collect()
+    }
+
+    #[test]
+    fn exact_weights_have_exact_values() {
+        // order 3 (Ruth), and weights of no scheme in particular
+        let ruth = merged(&rationals(&[(7, 24), (3, 4), (-1, 24)]), &rationals(&[(2, 3), (-2, 3), (1, 1)]));
+        let any = merged(&rationals(&[(1, 3), (-2, 5), (7, 11)]), &rationals(&[(5, 7), (1, 9), (-3, 4)]));
+        for (maps, orders) in [(ruth, 4), (any, 1)] {
+            for kinetic in [Kinetic::Any, Kinetic::Quadratic] {
+                let family = Family::Kinetic(kinetic);
+                let found = evaluated_exactly(&maps, family, 10);
+                assert_eq!(found.iter().map(|c| c.condition.order).max(), Some(orders), "up to the first that fails");
+                let exact = values(&maps, family, orders, &ExactArithmetic);
+                assert_eq!(found.len(), exact.len());
+                for (found, (condition, value)) in found.iter().zip(exact) {
+                    assert!(found.found == value, "{}", condition.functional);
+                    assert_eq!(found.holds(), value == condition.needed, "{}", condition.functional);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_bits_grow_with_the_maps() {
+        // 1000 steps of order 1, weights of 30 digits: as many as they have is what the conditions hold to
+        let thousandth = || rationals(&[(1, 1000)]).into_iter().cycle().take(1000).collect::<Vec<_>>();
+        let maps = merged(&thousandth(), &thousandth());
+        let found = evaluated_within(&maps, 30, Family::Kinetic(Kinetic::Any), 10);
+        assert!(found.iter().all(Evaluated::is_resolved));
     }
 }

@@ -3,10 +3,12 @@
 use num_bigint::BigInt;
 use num_traits::{Signed, ToPrimitive, Zero};
 use shadowstep_analysis::Analysis;
-use shadowstep_schemes::{MapKind, Proved, Rational, to_text};
+use shadowstep_analysis::stability::{MOST_MAPS, Stability};
+use shadowstep_analysis::trace::Trace;
+use shadowstep_schemes::{MapKind, Proved, Rational, Source, read, shipped, to_text};
 use shadowstep_symbolic::decimal::from_text;
 
-use crate::{SHIPPED, analysis, with_weights};
+use crate::{SHIPPED, analysis, scheme, with_weights};
 
 /// The maps with weights in f64.
 fn maps(proved: &Proved) -> Vec<(MapKind, f64)> {
@@ -69,7 +71,8 @@ fn twice_verlet(change: &str) -> Proved {
 
 #[test]
 fn the_trace_polynomial_is_the_trace_of_the_matrices() {
-    for (name, proved, Analysis { trace: polynomial, .. }) in SHIPPED.iter() {
+    for (name, proved, _) in SHIPPED.iter() {
+        let polynomial = Trace::of(&proved.scheme.maps());
         assert_eq!(to_text(&polynomial.coefficient(0)), "2");
         assert_eq!(polynomial.coefficient(polynomial.degree() + 1), Rational::zero());
         for x in [0.01_f64, 0.3, 1.0, 2.5, 7.0] {
@@ -83,25 +86,30 @@ fn the_trace_polynomial_is_the_trace_of_the_matrices() {
 
 #[test]
 fn unreduced_coefficients_are_the_same_numbers() {
-    let trace = &analysis("yoshida4").trace;
+    let trace = Trace::of(&scheme("yoshida4").scheme.maps());
     for k in 0..=trace.degree() {
         assert_eq!(trace.unreduced_coefficient(k).reduced(), trace.coefficient(k));
     }
 }
 
+fn stability(name: &str) -> &'static Stability {
+    analysis(name).stability.as_ref().unwrap()
+}
+
 #[test]
 fn limits_that_are_known_in_closed_form() {
-    assert_eq!(analysis("stormer-verlet").stability.limit, "2");
-    assert!(analysis("stormer-verlet").stability.gaps.is_empty());
-    assert_eq!(analysis("symplectic-euler").stability.limit, "2");
+    assert_eq!(stability("stormer-verlet").limit, "2");
+    assert!(stability("stormer-verlet").gaps.is_empty());
+    assert_eq!(stability("symplectic-euler").limit, "2");
     // kicks 1/6, 2/3, 1/6: tr = 2 − x + x²/12 − … passes ±2 at x = 6 and x = 12
     let simpson =
         Analysis::of(&with_weights("order = 2\nkinetic = \"any\"", "\"1/6\", \"2/3\", \"1/6\"", "\"1/2\", \"1/2\", 0"));
-    let gap = &simpson.stability.gaps[0];
-    assert_eq!(simpson.stability.limit, "2.44948974278317809819728407471");
+    let simpson = simpson.stability.unwrap();
+    let gap = &simpson.gaps[0];
+    assert_eq!(simpson.limit, "2.44948974278317809819728407471");
     assert_eq!(
         (gap.from.as_str(), gap.to.as_deref()),
-        (simpson.stability.limit.as_str(), Some("3.46410161513775458705489268301"))
+        (simpson.limit.as_str(), Some("3.46410161513775458705489268301"))
     );
     assert!((gap.width - (12_f64.sqrt() - 6_f64.sqrt())).abs() < 1e-14, "the rounding of f64");
 }
@@ -109,7 +117,7 @@ fn limits_that_are_known_in_closed_form() {
 #[test]
 fn a_trace_that_touches_makes_no_gap() {
     // tr = t² − 2 with t = 2 − x/4 touches −2 at x = 8, and passes 2 at x = 16
-    let stability = Analysis::of(&twice_verlet("0")).stability;
+    let stability = Analysis::of(&twice_verlet("0")).stability.unwrap();
     assert_eq!((stability.limit.as_str(), stability.gaps.len()), ("4", 0));
 }
 
@@ -117,7 +125,7 @@ fn a_trace_that_touches_makes_no_gap() {
 fn thin_gaps_are_found() {
     for change in ["1/10^6", "1/10^12", "1/10^40"] {
         let proved = twice_verlet(change);
-        let stability = Analysis::of(&proved).stability;
+        let stability = Analysis::of(&proved).stability.unwrap();
         let gap = &stability.gaps[0];
         assert_eq!(stability.gaps.len(), 1, "{change}");
         assert_eq!(stability.limit, gap.from);
@@ -135,6 +143,7 @@ fn thin_gaps_are_found() {
 #[test]
 fn limits_and_gaps_are_where_the_trace_passes_two() {
     for (name, proved, Analysis { stability, evaluations, .. }) in SHIPPED.iter() {
+        let stability = stability.as_ref().unwrap();
         for gap in &stability.gaps {
             assert_passes(proved, &gap.from, true);
             gap.to.iter().for_each(|to| assert_passes(proved, to, false));
@@ -187,4 +196,45 @@ fn phases_beyond_the_digits_of_the_weights_are_none() {
     let taken_at_their_word = Analysis::of(&with_weights(claims, kick, drift)).phase;
     assert_eq!(taken_at_their_word.power, 2);
     assert!(taken_at_their_word.coefficient.abs() < 1e-14);
+}
+
+/// γ_1 h, γ_2 h, … steps of a shipped scheme.
+fn composition(base: &str, order: u32, gamma: &[&str]) -> Proved {
+    let text = format!(
+        "name = \"mine\"\nreference = \"a test\"\norder = {order}\nkinetic = \"any\"\n\
+         [composition]\nbase = \"{base}\"\ngamma = {gamma:?}\n"
+    );
+    let source = Source { path: "mine.toml".to_owned(), text };
+    read(&source, &|name, _| shipped(name)).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// The trace of n equal steps passes ±2 where that of one does; elsewhere it touches ±2, at double roots.
+#[test]
+fn equal_steps_are_stable_where_one_of_them_is() {
+    for (base, order, steps) in [("blanes-moan-s6", 4, 4), ("suzuki-umeno8", 8, 2), ("hairer10-33", 10, 40)] {
+        let one = format!("1/{steps}");
+        let stability = Analysis::of(&composition(base, order, &vec![one.as_str(); steps])).stability.unwrap();
+        let times = Rational::from_integer(steps.into());
+        let limit = from_text(&self::stability(base).limit).unwrap() * times;
+        let found = from_text(&stability.limit).unwrap();
+        assert!((found - &limit).abs() < limit / num_traits::pow(BigInt::from(10), 28), "{base}: {}", stability.limit);
+    }
+}
+
+/// Far beyond the limit the trace of a composition passes from −2 to 2 within fewer digits than are looked at first.
+#[test]
+fn steep_passages_are_parted() {
+    let proved = composition("hairer10-33", 10, &["1/4", "1/2", "1/4"]);
+    let stability = Analysis::of(&proved).stability.unwrap();
+    assert_passes(&proved, &stability.limit, true);
+    assert_eq!(stability.gaps.len(), 15);
+}
+
+#[test]
+fn steps_of_very_many_maps_are_not_analysed() {
+    let mut gamma = vec!["1/301"; 299];
+    gamma.push("2/301");
+    let proved = composition("stormer-verlet", 2, &gamma);
+    assert!(proved.scheme.maps().len() > MOST_MAPS);
+    assert_eq!(Analysis::of(&proved).stability, None);
 }

@@ -94,9 +94,12 @@ pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {
             "where",
             "K and D are the Lie derivatives of the kick and the drift; words and trees of them likewise".to_owned(),
         ),
-        ("oscillator", format!("stable up to hω = {}", analysis.stability.limit)),
     ];
-    facts.extend(analysis.stability.gaps.iter().map(|gap| match &gap.to {
+    facts.push(match &analysis.stability {
+        Some(stability) => ("oscillator", format!("stable up to hω = {}", stability.limit)),
+        None => ("oscillator", format!("not analysed: the step has more than {} maps", stability::MOST_MAPS)),
+    });
+    facts.extend(analysis.stability.iter().flat_map(|stability| &stability.gaps).map(|gap| match &gap.to {
         Some(to) => ("unstable gap", format!("hω from {} to {to}, {:.3e} wide", gap.from, gap.width)),
         None => ("unstable", format!("hω from {} to {end} at least", gap.from)),
     }));

@@ -68,7 +68,7 @@ struct Record {
     evaluations: usize,
     effective_error: f64,
     effective_error_quadratic: f64,
-    stability_limit: String,
+    stability_limit: Option<String>,
     symmetric: bool,
     kinetic: &'static str,
     /// Whether the order claimed holds for every T(p).
@@ -152,7 +152,9 @@ fn sort(records: &mut [Record], arguments: &Arguments) {
             records.sort_by(|a, b| order(a).cmp(&order(b)).then(error(a).total_cmp(&error(b))));
         }
         SortKey::Stability => {
-            let limit = |record: &Record| record.stability_limit.parse::<f64>().unwrap_or(f64::NAN);
+            let limit = |record: &Record| {
+                record.stability_limit.as_ref().map_or(0.0, |limit| limit.parse::<f64>().unwrap_or(0.0))
+            };
             records.sort_by(|a, b| limit(b).total_cmp(&limit(a)));
         }
         SortKey::Evaluations => records.sort_by_key(|record| record.evaluations),
@@ -173,7 +175,7 @@ fn record(name: &'static str, scheme: &TableScheme) -> Record {
         evaluations: analysis.evaluations,
         effective_error: analysis.effective_error(Kinetic::Any),
         effective_error_quadratic: analysis.effective_error(Kinetic::Quadratic),
-        stability_limit: analysis.stability.limit,
+        stability_limit: analysis.stability.map(|stability| stability.limit),
         symmetric: proved.proof.symmetric,
         kinetic: kinetic(proved.scheme.table.kinetic),
         moves_any: proved.holds_for_every_kinetic(),
@@ -190,7 +192,7 @@ fn row(record: &Record) -> [String; 11] {
         record.evaluations.to_string(),
         format!("{:.4}", record.effective_error),
         format!("{:.4}", record.effective_error_quadratic),
-        rounded(&record.stability_limit, 6),
+        record.stability_limit.as_ref().map_or_else(|| "–".to_owned(), |limit| rounded(limit, 6)),
         if record.symmetric { "yes" } else { "no" }.to_owned(),
         digits_text(record.digits),
         if record.moves_any { "any T" } else { "quadratic T" }.to_owned(),

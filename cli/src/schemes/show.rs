@@ -8,12 +8,13 @@ use sha2::{Digest, Sha256};
 use shadowstep::Rational;
 use shadowstep::tables::TableScheme;
 use shadowstep_analysis::Analysis;
-use shadowstep_schemes::Proved;
+use shadowstep_analysis::stability::MOST_MAPS;
+use shadowstep_analysis::trace::Trace;
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{First, Kinetic, to_significant, to_text};
+use shadowstep_schemes::{ExactScheme, First, Kinetic, Proved, to_significant, to_text};
 
 use crate::output::Output;
 use crate::readable::{shortened, table, wrapped};
@@ -72,10 +73,11 @@ struct Record {
     effective_error_quadratic: f64,
     leading_error: ErrorRecord,
     leading_error_quadratic: ErrorRecord,
-    stability_limit: String,
-    unstable_gaps: Vec<Gap>,
+    /// `None`, like the gaps and the trace, for steps of very many maps.
+    stability_limit: Option<String>,
+    unstable_gaps: Option<Vec<Gap>>,
     phase_error: Phase,
-    trace: Vec<String>,
+    trace: Option<Vec<String>>,
     kick_sizes: Sizes,
     drift_sizes: Sizes,
     kick: Vec<String>,
@@ -151,12 +153,12 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         effective_error_quadratic: analysis.effective_error(Kinetic::Quadratic),
         leading_error: ErrorRecord::of(&analysis.general),
         leading_error_quadratic: ErrorRecord::of(&analysis.quadratic),
-        trace: trace(analysis, weights.held),
+        trace: trace(weights),
         kick_sizes: Sizes::of(&analysis.kicks),
         drift_sizes: Sizes::of(&analysis.drifts),
         phase_error: Phase::of(analysis.phase),
-        unstable_gaps: analysis.stability.gaps.iter().map(Gap::of).collect(),
-        stability_limit: analysis.stability.limit.clone(),
+        unstable_gaps: analysis.stability.as_ref().map(|stability| stability.gaps.iter().map(Gap::of).collect()),
+        stability_limit: analysis.stability.as_ref().map(|stability| stability.limit.clone()),
         kick: fractions(&weights.kick),
         drift: fractions(&weights.drift),
         maps: maps.map(|map| Map { map: map.kind.to_string(), weight: to_text(&map.weight) }).collect(),
@@ -169,13 +171,17 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
 
 /// The coefficients of the trace polynomial: exact where the weights are, which else are hundreds of digits long; 30
 /// digits of the others.
-fn trace(analysis: &Analysis, held: Held) -> Vec<String> {
-    let trace = &analysis.trace;
-    let text = |k| match held {
+fn trace(scheme: &ExactScheme) -> Option<Vec<String>> {
+    let maps = scheme.maps();
+    if maps.len() > MOST_MAPS {
+        return None;
+    }
+    let trace = Trace::of(&maps);
+    let text = |k| match scheme.held {
         Held::Exactly => to_text(&trace.coefficient(k)),
         Held::Digits(_) => to_significant(&trace.unreduced_coefficient(k), 30),
     };
-    (0..=trace.degree()).map(text).collect()
+    Some((0..=trace.degree()).map(text).collect())
 }
 
 fn failed(order: &Order, text: impl Fn(&Rational) -> String) -> Option<Failed> {
