@@ -5,6 +5,7 @@
 
 use num_bigint::BigInt;
 use num_traits::{One, ToPrimitive};
+use shadowstep_schemes::Proved;
 use shadowstep_symbolic::Rational;
 use shadowstep_symbolic::decimal::to_significant;
 
@@ -48,6 +49,11 @@ pub struct Gap {
 }
 
 impl Stability {
+    /// The stability of a proved scheme; `None` for a step of more than [`MOST_MAPS`].
+    pub fn of_scheme(proved: &Proved) -> Option<Stability> {
+        Stability::of(&proved.scheme.maps(), proved.plan.evaluations)
+    }
+
     /// The stability of the step that these maps make with this number of force evaluations.
     pub(crate) fn of(maps: &[Map], evaluations: usize) -> Option<Stability> {
         let part = repeated_part(maps);

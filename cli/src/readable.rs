@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use comfy_table::{CellAlignment, LineStyle, Table, presets};
-pub(crate) use shadowstep_scenes::readable::{shortened, wrapped};
+pub(crate) use shadowstep_scenes::readable::{shortened, wrapped, wrapped_to};
 use shadowstep_symbolic::decimal::{from_text, to_significant};
 
 /// A decimal text rounded to `digits` significant digits: `1.235e-110`.
@@ -22,6 +22,9 @@ where
     table.set_header(header.into_iter().collect::<Vec<_>>());
     table.add_rows(rows.into_iter().map(|row| row.into_iter().collect::<Vec<_>>()));
     table.style_mut().row_separator = LineStyle::none();
+    table.column_iter_mut().for_each(|column| {
+        column.set_padding((1, 0));
+    });
     for column in table.column_iter_mut().skip(numbers.start).take(numbers.len()) {
         column.set_cell_alignment(CellAlignment::Right);
     }

@@ -13,8 +13,9 @@ use crate::report::Status;
 use shadowstep_scenes::Error;
 
 const EXAMPLE: &str = "\
-Example:
-  shadowstep schemes --order 4 --for quadratic --sort effective-error";
+Examples:
+  shadowstep schemes --order 4 --for quadratic --sort effective-error
+  shadowstep schemes mine.toml --order 4";
 
 /// Lists the schemes that come along; shows one; checks a table of yours.
 #[derive(Debug, Args)]

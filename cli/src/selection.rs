@@ -15,6 +15,7 @@ use shadowstep_scenes::arithmetic::{Arithmetic, OTHER_SCHEME};
 use shadowstep_scenes::estimator::{ACCURACY_HINT, conflict, order_setting};
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::{OrderSetting, Run};
+use shadowstep_scenes::stability::unstable;
 use shadowstep_scenes::steps;
 
 /// Everything that is to be run.
@@ -47,6 +48,9 @@ impl Selection {
             note.iter().for_each(report::note);
         }
         selection.note_ends();
+        if !arguments.no_summary {
+            selection.note_instability();
+        }
         Ok(selection)
     }
 
@@ -83,6 +87,14 @@ impl Selection {
         let System { parameters, coordinates, momenta, q, p, .. } = &self.problem.system;
         let parameters = parameters.iter().map(|(name, exact)| (name, exact));
         parameters.chain(coordinates.iter().zip(q)).chain(momenta.iter().zip(p))
+    }
+
+    /// Notes of runs whose steps are beyond the stability limit of their scheme.
+    fn note_instability(&self) {
+        let Some(frequency) = self.problem.system.fastest_frequency() else { return };
+        for scheme in self.propagators.iter().filter_map(Propagator::scheme) {
+            self.steps.iter().filter_map(|(h, _)| unstable(frequency, scheme, h)).for_each(report::note);
+        }
     }
 
     fn note_ends(&self) {

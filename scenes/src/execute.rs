@@ -11,6 +11,7 @@ use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::{Checkpoint, Columns, FileOptions, Metadata, Rows, Target};
 use crate::scene::Scene;
+use crate::stability::unstable;
 
 impl Scene {
     /// Runs the scene and writes its rows to the file that it names, from the last checkpoint if there is one.
@@ -40,6 +41,12 @@ impl Scene {
         serde_json::json!(Metadata::of(self))
     }
 
+    /// Whether the steps are beyond the stability limit, if a summary is wanted.
+    fn instability(&self, observer: &dyn Observer) -> Option<Note> {
+        let frequency = observer.summarises().then(|| self.system.fastest_frequency()).flatten()?;
+        unstable(frequency, &self.scheme, &self.h)
+    }
+
     fn run(
         &self,
         target: Target<'_>,
@@ -50,9 +57,8 @@ impl Scene {
         match checkpoint {
             Some(checkpoint) => observer.note(&Note::Resumed { n: checkpoint.n, steps: self.steps }),
             None => {
-                if let Some(note) = Note::of_end(&self.h, self.steps, &self.until) {
-                    observer.note(&note);
-                }
+                let early = Note::of_end(&self.h, self.steps, &self.until);
+                early.iter().chain(self.instability(observer).iter()).for_each(|note| observer.note(note));
                 rows.head(&Metadata::of(self))?;
             }
         }

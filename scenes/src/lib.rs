@@ -78,6 +78,7 @@
 //! | [`estimator`] | estimators of the modified energy with their settings |
 //! | [`run`], [`steps`], [`propagator`] | one run of a scheme or of the exact flow with one step size |
 //! | [`estimates`], `start` | the modified energies along such a run; a system at a state with its stepper |
+//! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
 //! | `watch`, `summary` | what a run shows: the error of H, the modified energy, close encounters, the verdict |
 //! | [`readable`], `error` | numbers and texts for people; what can go wrong |
 
@@ -88,6 +89,7 @@ pub mod estimates;
 pub mod estimator;
 mod execute;
 mod explain;
+mod frequency;
 pub mod keys;
 pub mod library;
 pub mod lock;
@@ -100,6 +102,7 @@ mod results;
 pub mod run;
 mod scene;
 mod snapshots;
+pub mod stability;
 mod start;
 pub mod steps;
 mod summary;
@@ -110,6 +113,7 @@ mod whole_file;
 pub use engine::Outcome;
 pub use error::Error;
 pub use explain::explain;
+pub use frequency::Frequency;
 pub use note::Note;
 pub use observer::Observer;
 pub use read::source;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use shadowstep::Rational;
-use shadowstep_symbolic::decimal::to_significant;
+use shadowstep_symbolic::decimal::{from_text, to_significant};
 
 use crate::readable::shortened;
 
@@ -29,6 +29,19 @@ pub enum Note {
         order: u32,
         /// The digits to which that order holds.
         digits: u32,
+    },
+    /// Steps of this size are beyond the stability limit of the scheme.
+    Unstable {
+        /// The scheme's name.
+        scheme: String,
+        /// The least hω at which it is unstable; `None` for a scheme too long for its computation.
+        limit: Option<String>,
+        /// hω for the fastest oscillation.
+        h_omega: String,
+        /// Its ω.
+        omega: String,
+        /// Whether U is a quadratic form; else ω is that of the system linearised at its initial state.
+        quadratic: bool,
     },
     /// Bodies have a property that looks like a mass, and T has masses of 1.
     MassesAreOne {
@@ -86,6 +99,19 @@ impl fmt::Display for Note {
             }
             Note::OrderHoldsTo { scheme, order, digits } => {
                 write!(f, "{scheme} has order {order} to {digits} digits only; errors below that have a lower order")
+            }
+            Note::Unstable { scheme, limit, h_omega, omega, quadratic } => {
+                let digits = |limit: &String| from_text(limit).map(|limit| format!("{} ", to_significant(&limit, 6)));
+                let limit = limit.as_ref().and_then(|limit| digits(limit).ok()).unwrap_or_default();
+                let (where_, how) = match quadratic {
+                    true => ("", "the steps diverge"),
+                    false => ("linearised at the start, ", "the steps may diverge"),
+                };
+                write!(
+                    f,
+                    "{where_}the fastest oscillation has omega = {omega}, and h omega = {h_omega} is beyond the stability limit \
+                     {limit}of {scheme}: {how}"
+                )
             }
             Note::MassesAreOne { property } => {
                 write!(f, "all masses of T are 1; `masses = \"{property}\"` uses the property {property}")

@@ -1,4 +1,4 @@
-//! `shadowstep schemes`: the shipped schemes, a line each.
+//! `shadowstep schemes`: the shipped schemes and custom tables, a line each.
 
 use std::io::Write;
 
@@ -11,15 +11,21 @@ use shadowstep_schemes::Kinetic;
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 
 use crate::output::Output;
-use crate::readable::{rounded, table};
+use crate::readable::{rounded, table, wrapped_to};
 use crate::report::{self, Status};
-use crate::schemes::facts::{aliases, digits, digits_text, kinetic, near_integrable, near_integrable_text};
+use crate::schemes::facts::{
+    NEAR_INTEGRABLE, aliases, digits, digits_text, kinetic, near_integrable, near_integrable_text,
+};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::library::{self, NamedScheme};
 
 /// Which schemes are listed, and in which order.
 #[derive(Debug, Args)]
 #[group(skip)]
 pub(crate) struct Arguments {
+    /// Files of tables, which are listed among the shipped schemes whatever their order, such as mine.toml
+    #[arg(value_name = "FILE")]
+    tables: Vec<String>,
     /// Only schemes of this order, such as 6
     #[arg(long, value_name = "ORDER", value_parser = clap::value_parser!(u32).range(1..=i64::from(HIGHEST_ORDER)))]
     order: Option<u32>,
@@ -58,7 +64,8 @@ enum SortKey {
 
 #[derive(Serialize)]
 struct Record {
-    name: &'static str,
+    name: String,
+    shipped: bool,
     aliases: Vec<String>,
     order: u32,
     order_quadratic: u32,
@@ -78,48 +85,65 @@ struct Record {
     title: Option<String>,
 }
 
-const COLUMNS: [&str; 11] = [
-    "order\nany T",
-    "order\nquadratic T",
-    "order\nA + εB",
-    "forces\na step",
-    "effective error\nany T",
-    "effective error\nquadratic T",
-    "stable\nto hω",
-    "symmetric",
-    "digits",
-    "moves",
-    "name",
-];
+const COLUMNS: [&str; 8] =
+    ["order", "A + εB", "forces\na step", "eff.\nerror", "stable\nto hω", "digits", "T(p)", "name"];
 
-/// The shipped schemes that are asked for.
+/// The shipped schemes that are asked for, and custom tables among them.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
+    let custom = arguments.tables.iter().map(|word| table_of(word)).collect::<Result<Vec<_>, _>>()?;
     let of_order = |scheme: &TableScheme| arguments.order.is_none_or(|order| order == order_for(scheme, arguments));
     let all: Vec<_> = shipped_names().into_par_iter().filter_map(|name| Some((name, shipped(name)?))).collect();
     let moves = |scheme: &TableScheme| {
         arguments.kinetic != Some(KineticChoice::Any) || scheme.proved().holds_for_every_kinetic()
     };
     let chosen = all.par_iter().filter(|(_, scheme)| of_order(scheme) && moves(scheme));
-    let mut records: Vec<Record> = chosen.map(|(name, scheme)| record(name, scheme)).collect();
-    sort(&mut records, arguments);
+    let mut records: Vec<Record> = chosen.map(|(name, scheme)| record(name, scheme, true)).collect();
     if let (true, Some(order)) = (records.is_empty(), arguments.order) {
-        let mut orders: Vec<u32> = all.iter().map(|(_, scheme)| order_for(scheme, arguments)).collect();
-        orders.sort_unstable();
-        orders.dedup();
-        let orders = orders.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
-        report::note(format_args!(
-            "no shipped scheme has order {order} {}; there are the orders {orders}",
-            class(arguments)
-        ));
+        note_orders(&all, order, arguments);
     }
+    records.extend(custom.iter().map(|named| record(&named.name, &named.scheme, false)));
+    sort(&mut records, arguments);
     let mut output = Output::stdout();
     if arguments.json {
         records.iter().try_for_each(|record| output.json(record))?;
     } else {
-        writeln!(output, "{}", table(COLUMNS, records.iter().map(row).collect(), 0..9))?;
+        let quadratic = for_quadratic(arguments);
+        let rows = records.iter().map(|record| row(record, quadratic)).collect();
+        writeln!(output, "{}", table(COLUMNS, rows, 0..6))?;
+        write!(output, "{}", wrapped_to(&legend(quadratic), "", 80))?;
+        if records.iter().any(|record| !record.near_integrable.is_empty()) {
+            write!(output, "{}", wrapped_to(NEAR_INTEGRABLE, "", 80))?;
+        }
     }
     output.finish()?;
     Ok(Status::Success)
+}
+
+fn legend(quadratic: bool) -> String {
+    let class = if quadratic { "quadratic T" } else { "every T(p), for quadratic T with --for quadratic" };
+    format!(
+        "order: for every T(p), in brackets for quadratic T; eff. error: the effective error for {class}; T(p): what it is meant for"
+    )
+}
+
+/// A custom table.
+fn table_of(word: &str) -> Result<NamedScheme, Error> {
+    if word.ends_with(".toml") || word.contains(std::path::is_separator) {
+        return Ok(library::scheme(word)?);
+    }
+    let message = format!("`{word}` is not the file of a table");
+    let hint =
+        "the name of a custom table ends in .toml; the subcommands show, check and polish stand before all flags";
+    Err(Error::usage(message, hint))
+}
+
+fn note_orders(all: &[(&str, TableScheme)], order: u32, arguments: &Arguments) {
+    let mut orders: Vec<u32> = all.iter().map(|(_, scheme)| order_for(scheme, arguments)).collect();
+    orders.sort_unstable();
+    orders.dedup();
+    let orders = orders.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+    let class = class(arguments);
+    report::note(format_args!("no shipped scheme has order {order} {class}; there are the orders {orders}"));
 }
 
 fn order_for(scheme: &TableScheme, arguments: &Arguments) -> u32 {
@@ -139,6 +163,7 @@ fn class(arguments: &Arguments) -> &'static str {
 fn sort(records: &mut [Record], arguments: &Arguments) {
     let quadratic = for_quadratic(arguments);
     if arguments.sort == SortKey::Name {
+        records.sort_by(|a, b| a.name.cmp(&b.name));
         return;
     }
     records.sort_by_key(|record| {
@@ -162,11 +187,12 @@ fn sort(records: &mut [Record], arguments: &Arguments) {
     }
 }
 
-fn record(name: &'static str, scheme: &TableScheme) -> Record {
+fn record(name: &str, scheme: &TableScheme, shipped: bool) -> Record {
     let proved = scheme.proved();
     let analysis = Analysis::of(proved);
     Record {
-        name,
+        name: name.to_owned(),
+        shipped,
         aliases: aliases(&proved.scheme.table),
         order: proved.proof.general.order,
         order_quadratic: proved.proof.quadratic.order,
@@ -184,18 +210,17 @@ fn record(name: &'static str, scheme: &TableScheme) -> Record {
     }
 }
 
-fn row(record: &Record) -> [String; 11] {
+fn row(record: &Record, quadratic: bool) -> [String; 8] {
+    let (any, of_quadratic) = (record.order, record.order_quadratic);
+    let error = if quadratic { record.effective_error_quadratic } else { record.effective_error };
     [
-        record.order.to_string(),
-        record.order_quadratic.to_string(),
+        if any == of_quadratic { any.to_string() } else { format!("{any} ({of_quadratic})") },
         near_integrable_text(&record.near_integrable),
         record.evaluations.to_string(),
-        format!("{:.4}", record.effective_error),
-        format!("{:.4}", record.effective_error_quadratic),
-        record.stability_limit.as_ref().map_or_else(|| "–".to_owned(), |limit| rounded(limit, 6)),
-        if record.symmetric { "yes" } else { "no" }.to_owned(),
+        format!("{error:.4}"),
+        record.stability_limit.as_ref().map_or_else(|| "–".to_owned(), |limit| rounded(limit, 4)),
         digits_text(record.digits),
-        if record.moves_any { "any T" } else { "quadratic T" }.to_owned(),
-        record.name.to_owned(),
+        if record.moves_any { "any" } else { "quad" }.to_owned(),
+        record.name.clone(),
     ]
 }

@@ -260,7 +260,11 @@ fn near_integrable_fact(proved: &Proved) -> String {
     let orders = near_integrable(&proved.proof);
     let claim = proved.scheme.table.near_integrable.as_ref().map(|claim| claim.dominant);
     claim.map_or_else(String::new, |dominant| {
-        format!("orders {} in the powers of ε, where the {dominant}s move by A", near_integrable_text(&orders))
+        let orders = near_integrable_text(&orders);
+        format!(
+            "orders {orders} in the powers of ε, where the {dominant}s move by A; this pays only if they solve A exactly and εB \
+             is small, and with H = T + U it gains nothing"
+        )
     })
 }
 

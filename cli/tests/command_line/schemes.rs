@@ -91,7 +91,32 @@ fn for_any_kinetic_energy_only_schemes_that_move_any_are_listed() {
     let quadratic_only = |name: &str| all.contains(&name.to_owned()) && !any.contains(&name.to_owned());
     assert!(quadratic_only("blanes-moan-srkn11b") && !quadratic_only("blanes-moan-srkn6b"), "{any:?}");
     let table = quietly("schemes --order 4");
-    assert!(table.lines().any(|line| line.contains("quadratic T   blanes-moan-srkn11b")), "{table}");
+    assert!(
+        table.lines().any(|line| line.contains(" 4 (6) ") && line.contains("quad  blanes-moan-srkn11b")),
+        "{table}"
+    );
+}
+
+#[test]
+fn a_custom_table_is_listed_among_the_shipped_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let table =
+        "name = \"mine\"\norder = 1\nkinetic = \"any\"\nreference = \"Euler\"\n[stages]\nkick = [1]\ndrift = [1]\n";
+    let path = write(folder.path(), "mine.toml", table);
+    let records = listed(&format!("{path} --order 4 --sort stability"));
+    assert_eq!(records.len(), listed("--order 4").len() + 1);
+    let custom: Vec<_> = records.iter().filter(|record| record["shipped"] == false).collect();
+    assert_eq!((custom.len(), text(custom[0], "name"), &custom[0]["order"]), (1, path.as_str(), &1.into()));
+    let result = shadowstep("schemes shwo yoshida4");
+    assert_eq!(result.code, 2);
+    assert!(result.err.contains("the subcommands show, check and polish"), "{}", result.err);
+}
+
+#[test]
+fn the_list_fits_a_terminal() {
+    for line in quietly("schemes").lines() {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
 }
 
 #[test]
@@ -101,7 +126,7 @@ fn unknown_words_for_the_list_are_refused() {
         ("--order four", "invalid value 'four' for '--order <ORDER>'"),
         ("--sort speed", "[possible values: effective-error, stability, evaluations, name, order]"),
         ("--for cubic", "[possible values: any, quadratic]"),
-        ("--order 4 show ruth3", "the subcommand 'show' cannot be used with '--order <ORDER>'"),
+        ("--order 4 show ruth3", "`show` is not the file of a table"),
     ] {
         let result = shadowstep(&format!("schemes {flags}"));
         assert_eq!((result.code, result.out.as_str()), (2, ""), "{flags}");
@@ -164,6 +189,9 @@ fn other_names_and_near_integrable_orders_are_shown() {
     {
         assert!(readable.contains(part), "{part} is missing in\n{readable}");
     }
+    assert!(readable.split_whitespace().collect::<Vec<_>>().join(" ").contains("with H = T + U it gains nothing"));
+    assert!(quietly("schemes --order 2").contains("A + εB: orders such as (8,4)"));
+    assert!(!quietly("schemes --order 8").contains("A + εB: orders"));
     let listed = objects(&quietly("schemes --order 2 --json"));
     assert!(listed.iter().any(|scheme| scheme["near_integrable"] == serde_json::json!([4, 2])));
 }

@@ -1,0 +1,71 @@
+//! The step size of a run beside the stability limit of its scheme.
+
+use shadowstep::Rational;
+use shadowstep_analysis::stability::Stability;
+use shadowstep_schemes::map::{Map, MapKind};
+
+use crate::frequency::Frequency;
+use crate::library::NamedScheme;
+use crate::note::Note;
+
+/// A trace this far above 2 in size is not due to rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// A note if steps of size h of the fastest oscillation are unstable: |tr| > 2 for the matrix of a step with hω.
+pub fn unstable(frequency: Frequency, named: &NamedScheme, h: &Rational) -> Option<Note> {
+    let proved = named.scheme.proved();
+    let h_omega = frequency.omega * <f64 as shadowstep::Number>::from_rational(h, &()).abs();
+    let trace = trace(&proved.scheme.maps(), h_omega);
+    (trace.abs() > 2.0 + ROUNDING).then(|| Note::Unstable {
+        scheme: named.name.clone(),
+        limit: Stability::of_scheme(proved).map(|stability| stability.limit),
+        h_omega: format!("{h_omega:.4}"),
+        omega: format!("{:.4}", frequency.omega),
+        quadratic: frequency.quadratic,
+    })
+}
+
+/// The trace of a step for H = (p² + ω²q²)/2, of (q, hp).
+fn trace(maps: &[Map], h_omega: f64) -> f64 {
+    // where the step takes (1, 0) and (0, 1)
+    let mut columns = [[1.0, 0.0], [0.0, 1.0]];
+    for map in maps {
+        let weight: f64 = shadowstep::Number::from_rational(&map.weight, &());
+        for [q, p] in &mut columns {
+            match map.kind {
+                MapKind::Kick => *p -= weight * h_omega * h_omega * *q,
+                MapKind::Drift => *q += weight * *p,
+            }
+        }
+    }
+    columns[0][0] + columns[1][1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::library::scheme;
+
+    #[test]
+    fn the_limit_of_a_scheme_decides() {
+        let verlet = scheme("stormer-verlet").unwrap();
+        let note =
+            |h: &str, omega| unstable(Frequency { omega, quadratic: true }, &verlet, &shadowstep::exact(h).unwrap());
+        assert_eq!((note("1.99", 1.0), note("1", 2.0)), (None, None));
+        let Some(Note::Unstable { limit, h_omega, .. }) = note("-2.1", 1.0) else { panic!("stable") };
+        assert_eq!((limit.as_deref(), h_omega.as_str()), (Some("2"), "2.1000"));
+    }
+
+    /// Beyond its limit a scheme may be stable again.
+    #[test]
+    fn the_gaps_of_a_scheme_are_unstable_and_what_is_between_them_is_not() {
+        let pefrl = scheme("pefrl").unwrap();
+        let unstable = |omega| unstable(Frequency { omega, quadratic: true }, &pefrl, &shadowstep::exact("1").unwrap());
+        let gaps = Stability::of_scheme(pefrl.scheme.proved()).unwrap().gaps;
+        let number = |text: &String| text.parse::<f64>().unwrap();
+        let [first, second, ..] = &gaps[..] else { panic!("{gaps:?}") };
+        let (from, to, next) = (number(&first.from), number(first.to.as_ref().unwrap()), number(&second.from));
+        assert!(unstable(from * 0.999).is_none() && unstable((from + to) / 2.0).is_some());
+        assert!(unstable((to + next) / 2.0).is_none() && unstable(next * 1.01).is_some());
+    }
+}
