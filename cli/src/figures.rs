@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use clap::Args;
 use shadowstep_figures::{Error, Observer, Progress, Request, reproduce};
 
+use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::report::{self, Status};
 use progress::Bar;
@@ -16,8 +17,8 @@ const EXAMPLE: &str = "\
 Examples:
   shadowstep figures --quick --out figures
   shadowstep figures kepler-schemes kepler-orders --out figures
-Results are saved in DIR/results.jsonl, so that an interrupted run can be resumed by the same command. All cores are used,
-or as many as RAYON_NUM_THREADS says; results do not depend on that. If figures are named, the report keeps the others
+Results are saved in DIR/results.jsonl one by one. After Ctrl-C (exit code 3) the same command computes only what is missing.
+All cores are used, or as many as RAYON_NUM_THREADS says; results do not depend on that. If figures are named, the report keeps the others
 whose results are in DIR already.";
 
 /// Computes the figures of Moan and Niesen's paper, and additional ones: charts, data, and a report.
@@ -30,7 +31,7 @@ pub(crate) struct Arguments {
     /// The folder for report.html, SVG and CSV files, and for the results
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Coarser grids: all figures in less than a minute on two cores
+    /// Coarser grids
     #[arg(long)]
     quick: bool,
 }
@@ -39,10 +40,10 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let Arguments { names, quick, out } = arguments;
     let request = Request { names: names.clone(), quick: *quick, folder: out.clone() };
-    let mut terminal = Terminal { bar: None, status: Status::Success };
+    let mut terminal = Terminal { bar: None, status: Status::Success, interrupt: Interrupt::listen() };
     let summary = reproduce(&request, &mut terminal)?;
     let mut output = Output::stdout();
-    writeln!(output, "{}: {}", summary.report.display(), summary.verdicts)?;
+    writeln!(output, "{}\n{}", summary.report.display(), summary.verdicts)?;
     output.finish()?;
     Ok(terminal.status)
 }
@@ -52,6 +53,7 @@ struct Terminal {
     /// While there are tasks.
     bar: Option<Bar>,
     status: Status,
+    interrupt: Interrupt,
 }
 
 impl Observer for Terminal {
@@ -60,6 +62,14 @@ impl Observer for Terminal {
         if progress.done == progress.tasks {
             self.bar = None;
         }
+    }
+
+    fn stops(&mut self) -> bool {
+        let asked = self.interrupt.asked();
+        if asked {
+            self.bar = None;
+        }
+        asked
     }
 
     fn note(&mut self, note: &str) {

@@ -38,14 +38,16 @@ pub(crate) struct RunArguments {
     /// The largest m or k that --order auto tries, such as 100 [default: 200 of m, 64 of k]
     #[arg(long, value_name = "M|K", value_parser = clap::value_parser!(u32).range(2..=i64::from(HIGHEST_ORDER)))]
     pub(crate) max_order: Option<u32>,
-    /// Where --order auto stops trying m: at the largest, or early, where the errors rise [default: full]
+    /// Where --order auto stops trying m. Moan and Niesen's rule for an early stop is printed with <=; `early` has < instead
+    /// [default: full]
     #[arg(long, value_name = "WHEN", value_parser = words(StoppingRule::NAMES, StoppingRule::SUMMARIES).try_map(|word| word.parse::<StoppingRule>()))]
     pub(crate) stop: Option<StoppingRule>,
     /// Which m is the best for --order auto [default: least, which reproduces the results of Moan & Niesen]
     #[arg(long, value_name = "RULE", value_parser = words(SelectionRule::NAMES, SelectionRule::SUMMARIES).try_map(|word| word.parse::<SelectionRule>()))]
     pub(crate) rule: Option<SelectionRule>,
-    /// Target error for --estimator bilinear --order auto, such as 1e-20; the smallest k that meets it is used. Where none
-    /// does, the best k is used, and the estimates show it [default: the best k of each state]
+    /// Target error for --estimator bilinear --order auto, such as 1e-20: the least k of 2, 4, 8, 16, … and the largest one
+    /// that meets it is used, not every k between them. Where none does, the best of them is used, and the estimates show it
+    /// [default: the best of them for each state]
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
     pub(crate) accuracy: Option<String>,
     /// No summary of a run: the error of H, the modified energy, close encounters, the verdict on the step size

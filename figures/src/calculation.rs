@@ -1,23 +1,19 @@
 //! What figures are made of: runs at many digits, and one in double precision; each is identified by its JSON.
 
-use rug::Float;
 use serde::{Deserialize, Serialize};
-use shadowstep::number::Number;
-use shadowstep::problems::Setup;
-use shadowstep::run::{Finding, States, Trajectory};
 use shadowstep::shadow::EstimatorSettings;
-use shadowstep_scenes::library::EXACT_FLOW;
-use shadowstep_scenes::propagator::{Propagator, motion, stepper};
-use shadowstep_scenes::run::Run as Steps;
 
 use crate::Error;
+use crate::escape::Escape;
 use crate::estimator;
+use crate::measured::{Drift, Energies, Measure, Orbit};
 use crate::noise::{self, Block, Differences};
-use crate::run::Run;
-use crate::tasks::Task;
+use crate::run::{EXACT_FLOW, Run};
+use crate::states::Recorded;
+use crate::tasks::{Task, Watcher};
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
-const REVISION: u32 = 5;
+const REVISION: u32 = 6;
 
 /// Something to compute.
 #[derive(Clone, Debug, Serialize)]
@@ -34,8 +30,12 @@ pub(crate) enum Quantity {
     Drift { run: Run, estimator: EstimatorSettings },
     /// The modified energy at each step.
     Energies { run: Run, estimator: EstimatorSettings },
-    /// The largest |q|.
-    Farthest { run: Run },
+    /// Whether the body of Kepler's problem escapes.
+    Escape { run: Run },
+    /// The positions of a body in the plane.
+    Orbit { run: Run },
+    /// The largest |q − q of the exact flow|.
+    CoordinateError { run: Run },
     /// H at the end less H at the start.
     Transit { run: Run },
     /// The scatter and the wander of the modified energy in double precision.
@@ -48,144 +48,120 @@ pub(crate) enum Quantity {
 pub(crate) enum Outcome {
     Drift(Drift),
     Energies(Energies),
+    Escape(Escape),
+    Orbit(Orbit),
     Number(String),
     Blocks(Vec<Block>),
-}
-
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct Drift {
-    pub(crate) drift: String,
-    /// None where the estimator gives no errors.
-    pub(crate) permanent: Option<Permanent>,
-    pub(crate) orders: (u32, u32),
-}
-
-/// The permanent change of the modified energy: that between states with small estimated errors.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub(crate) struct Permanent {
-    pub(crate) change: String,
-    pub(crate) largest_jump: String,
-    /// The change is resolved if it exceeds this.
-    pub(crate) resolution: String,
-    pub(crate) resolved: bool,
-}
-
-/// One value a step, or between the steps.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub(crate) struct Energies {
-    pub(crate) times: Vec<f64>,
-    /// |q|
-    pub(crate) distances: Vec<f64>,
-    pub(crate) values: Vec<String>,
-    pub(crate) orders: Vec<u32>,
-    /// log₁₀ of the estimated errors and of the last terms; none of 0, and where none is known.
-    pub(crate) errors: Vec<Option<f64>>,
-    pub(crate) last_terms: Vec<Option<f64>>,
 }
 
 impl Quantity {
     pub(crate) fn calculation(self) -> Calculation {
         Calculation { revision: REVISION, quantity: self }
     }
+
+    /// The run and its estimator, if it has one.
+    fn estimated(&self) -> Option<(&Run, &EstimatorSettings)> {
+        match self {
+            Quantity::Drift { run, estimator } | Quantity::Energies { run, estimator } => Some((run, estimator)),
+            _ => None,
+        }
+    }
+
+    /// The exact flow that it needs, which can be shared.
+    fn flow(&self) -> Option<Run> {
+        match self {
+            Quantity::CoordinateError { run } => Some(run.clone().of_exact_flow()),
+            _ => self.estimated().map(|(run, _)| run.clone()).filter(|run| run.propagator == EXACT_FLOW),
+        }
+    }
+
+    /// The settings of the estimator, with errors where these are used.
+    fn settings(&self) -> Option<EstimatorSettings> {
+        match self {
+            Quantity::Drift { estimator, .. } => Some(estimator.clone().with_errors(estimator::is_bilinear(estimator))),
+            Quantity::Energies { estimator, .. } => Some(estimator.clone().with_errors(true)),
+            _ => None,
+        }
+    }
+
+    /// The time without that of an exact flow, in microseconds of one core of 2026.
+    fn own_cost(&self) -> f64 {
+        match self {
+            Quantity::Drift { run, estimator } | Quantity::Energies { run, estimator } => {
+                let states = run.steps() as f64 + estimator::states(estimator);
+                states * (estimator::cost(estimator, run.dimension()) * run.digits_cost() + run.step_cost())
+            }
+            Quantity::Escape { run }
+            | Quantity::Orbit { run }
+            | Quantity::CoordinateError { run }
+            | Quantity::Transit { run } => run.steps() as f64 * run.step_cost(),
+            Quantity::Noise { steps, .. } => *steps as f64 * 0.3,
+        }
+    }
+
+    /// What it measures; an exact flow may have been recorded.
+    fn compute(&self, flow: Option<&Recorded>, continues: &dyn Fn(f64) -> bool) -> Result<Outcome, Error> {
+        let of = |run| Measure { run, flow, continues };
+        let settings = || self.settings().expect("it has an estimator");
+        match self {
+            Quantity::Drift { run, .. } => of(run).drift(&settings()).map(Outcome::Drift),
+            Quantity::Energies { run, .. } => of(run).energies(&settings()).map(Outcome::Energies),
+            Quantity::Escape { run } => of(run).escape().map(Outcome::Escape),
+            Quantity::Orbit { run } => of(run).orbit().map(Outcome::Orbit),
+            Quantity::CoordinateError { run } => of(run).coordinate_error().map(Outcome::Number),
+            Quantity::Transit { run } => of(run).transit().map(Outcome::Number),
+            Quantity::Noise { steps, differences } => {
+                noise::blocks(*steps, *differences, continues).map(Outcome::Blocks)
+            }
+        }
+    }
 }
 
 impl Task for Calculation {
     type Outcome = Outcome;
 
-    fn cost(&self) -> f64 {
-        let numbers = |run: &Run, estimator: f64, states: f64| {
-            // a step of the exact flow is a series
-            let step = if run.propagator == EXACT_FLOW { 3000.0 } else { 60.0 };
-            (run.steps() as f64 + states) * (estimator + step) * f64::from(run.digits)
-        };
-        match &self.quantity {
-            Quantity::Drift { run, estimator } | Quantity::Energies { run, estimator } => {
-                numbers(run, estimator::cost(estimator), estimator::states(estimator))
+    /// All that needs one exact flow, whose states cost more than what is done with them.
+    fn group(&self) -> Option<String> {
+        self.quantity.flow().map(|run| serde_json::to_string(&run).expect("a run can be written as JSON"))
+    }
+
+    fn cost(group: &[&Self]) -> f64 {
+        flow_cost(group) + group.iter().map(|calculation| calculation.quantity.own_cost()).sum::<f64>()
+    }
+
+    fn compute(group: &[&Self], watcher: &dyn Watcher<Outcome>) {
+        let (all, mut done) = (Self::cost(group), 0.0);
+        let part = |cost: f64| move |part: f64| (done + cost * part) / all;
+        let flow = shared_flow(group).map(|(run, reach)| {
+            let part = part(flow_cost(group));
+            Measure { run: &run, flow: None, continues: &|done| watcher.continues(part(done)) }.recorded(reach)
+        });
+        done += flow_cost(group);
+        for (place, calculation) in group.iter().enumerate() {
+            let own = calculation.quantity.own_cost();
+            let continues = |part: f64| watcher.continues((done + own * part) / all);
+            if !continues(0.0) {
+                return;
             }
-            Quantity::Farthest { run } | Quantity::Transit { run } => numbers(run, 0.0, 0.0),
-            Quantity::Noise { steps, .. } => *steps as f64 * 200.0,
-        }
-    }
-
-    fn compute(&self) -> Result<Outcome, Error> {
-        match &self.quantity {
-            Quantity::Drift { run, estimator } => drift(run, estimator).map(Outcome::Drift),
-            Quantity::Energies { run, estimator } => energies(run, estimator).map(Outcome::Energies),
-            Quantity::Farthest { run } => farthest(run).map(|number| Outcome::Number(number.to_text())),
-            Quantity::Transit { run } => transit(run).map(|number| Outcome::Number(number.to_text())),
-            Quantity::Noise { steps, differences } => noise::blocks(*steps, *differences).map(Outcome::Blocks),
+            let outcome = match &flow {
+                Some(Err(error)) => Err(Error::run(error.to_string(), "try a shorter time")),
+                flow => calculation.quantity.compute(flow.as_ref().and_then(|flow| flow.as_ref().ok()), &continues),
+            };
+            watcher.take(place, outcome);
+            done += own;
         }
     }
 }
 
-/// Calls `make` with what a run needs.
-fn with<T>(run: &Run, make: impl FnOnce(&Propagator, &Setup, Steps<'_>) -> Result<T, Error>) -> Result<T, Error> {
-    let setup = run.setup();
-    let propagator = Propagator::read(run.propagator, &setup)?;
-    make(&propagator, &setup, Steps { propagator: run.propagator, h: &run.h(), steps: run.steps(), order: None })
+/// The exact flow of a group, and how many states before 0 and after the end its estimators need.
+fn shared_flow(group: &[&Calculation]) -> Option<(Run, usize)> {
+    let run = group[0].quantity.flow()?;
+    let all = group.iter().filter_map(|calculation| calculation.quantity.settings());
+    Some((run, all.map(|settings| estimator::reach(&settings)).max().unwrap_or(0)))
 }
 
-fn drift(run: &Run, settings: &EstimatorSettings) -> Result<Drift, Error> {
-    let settings = settings.clone().with_errors(estimator::is_bilinear(settings));
-    let context = run.precision();
-    let found = with(run, |propagator, setup, steps| {
-        propagator.energy_drift::<Float>(setup, steps, &settings, &context, |_| ())
-    })?;
-    let permanent = found.permanent.map(|permanent| Permanent {
-        change: permanent.change.to_text(),
-        largest_jump: permanent.largest_jump.to_text(),
-        resolution: permanent.resolution.to_text(),
-        resolved: permanent.finding == Finding::Resolved,
-    });
-    Ok(Drift { drift: found.drift.to_text(), permanent, orders: found.orders })
-}
-
-fn energies(run: &Run, settings: &EstimatorSettings) -> Result<Energies, Error> {
-    let settings = settings.clone().with_errors(true);
-    let context = run.precision();
-    let mut all = Energies::default();
-    let size = |number: Option<&Float>| number.map(Number::log10_abs).filter(|size| size.is_finite());
-    with(run, |propagator, setup, steps| {
-        propagator.estimates::<Float>(setup, steps, &settings, &context, |n, estimate| {
-            all.times.push(f64::from_rational(&steps.time_of_value(n, &settings), &()));
-            all.distances.push(estimate.q.iter().map(|q| q.to_f64().powi(2)).sum::<f64>().sqrt());
-            all.values.push(estimate.value.to_text());
-            all.orders.push(estimate.order);
-            all.errors.push(size(estimate.error));
-            all.last_terms.push(size(estimate.last_term));
-            Ok(())
-        })
-    })?;
-    Ok(all)
-}
-
-fn farthest(run: &Run) -> Result<Float, Error> {
-    let mut farthest = Float::new(53);
-    states(run, |q| {
-        let square = q.iter().fold(Float::new(53), |sum, q| sum + q.clone().square());
-        farthest.max_mut(&square.sqrt());
-    })?;
-    Ok(farthest)
-}
-
-fn transit(run: &Run) -> Result<Float, Error> {
-    let mut system = motion::<Float>(&run.setup(), &run.precision());
-    let first = system.energy();
-    let (q, p) = states(run, |_| ())?;
-    Ok(system.energy_at(&q, &p) - first)
-}
-
-/// Gives q of each state, without modified energies, to `take`; returns the last q and p.
-fn states(run: &Run, mut take: impl FnMut(&[Float])) -> Result<(Vec<Float>, Vec<Float>), Error> {
-    with(run, |propagator, setup, steps| {
-        let scheme = propagator.scheme().expect("states are those of schemes");
-        let stepper = stepper(scheme, steps, &run.precision());
-        let start = motion::<Float>(setup, &run.precision());
-        let failed = |error| steps.failed(&error);
-        let mut trajectory = Trajectory::plain(&stepper, start, 0, steps.steps).map_err(failed)?;
-        while let Some(state) = trajectory.advance().map_err(failed)? {
-            take(state.q);
-        }
-        Ok((trajectory.system().q().to_vec(), trajectory.system().p().to_vec()))
-    })
+fn flow_cost(group: &[&Calculation]) -> f64 {
+    let states = group.iter().filter_map(|calculation| Some(estimator::states(calculation.quantity.estimated()?.1)));
+    let run = group[0].quantity.flow();
+    run.map_or(0.0, |run| (run.steps() as f64 + states.fold(0.0, f64::max)) * run.exact_step_cost())
 }

@@ -18,6 +18,8 @@ mod layout;
 mod looks;
 mod ticks;
 
+pub(crate) use ticks::power_of_ten;
+
 /// The content of one picture.
 #[derive(Clone, Debug)]
 pub(crate) struct Chart {
@@ -26,10 +28,19 @@ pub(crate) struct Chart {
     pub(crate) y: Axis,
     /// A second vertical axis, at the right.
     pub(crate) second_y: Option<Axis>,
+    /// Values of x that matter.
+    pub(crate) marks: Vec<Mark>,
     /// Labelled at their ends, or with a second axis in a legend above the chart.
     pub(crate) curves: Vec<Curve>,
     /// Short remarks below the chart.
     pub(crate) notes: Vec<String>,
+}
+
+/// A vertical line with a label.
+#[derive(Clone, Debug)]
+pub(crate) struct Mark {
+    pub(crate) x: f64,
+    pub(crate) label: String,
 }
 
 /// An axis along one side.
@@ -42,10 +53,21 @@ pub(crate) struct Axis {
     pub(crate) range: Option<(f64, f64)>,
 }
 
+impl Mark {
+    pub(crate) fn at(x: f64, label: impl Into<String>) -> Self {
+        Mark { x, label: label.into() }
+    }
+}
+
 impl Axis {
     /// An axis with the values themselves.
     pub(crate) fn linear(label: &str) -> Self {
         Axis { label: label.to_owned(), scale: Scale::Linear, range: None }
+    }
+
+    /// The axis from one value to another.
+    pub(crate) fn over(self, least: f64, most: f64) -> Self {
+        Axis { range: Some((least, most)), ..self }
     }
 
     /// The axis of drifts over [0, 100].

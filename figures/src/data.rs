@@ -3,7 +3,7 @@
 use shadowstep::shadow::{EstimatorSettings, StoppingRule};
 
 use crate::Error;
-use crate::calculation::Permanent;
+use crate::measured::Permanent;
 use crate::results::Used;
 use crate::run::Run;
 
@@ -13,7 +13,8 @@ const RUN: [&str; 8] = ["problem", "set", "scheme", "step", "until", "digits", "
 pub(crate) fn csv(command: &str, used: &[Used]) -> Result<Vec<(&'static str, String)>, Error> {
     let mut drifts =
         vec![header(&["drift", "permanent_change", "largest_jump", "resolution", "order_least", "order_most"])];
-    let mut energies = vec![header(&["t", "distance", "modified_energy", "order_used"])];
+    let mut energies =
+        vec![header(&["t", "distance", "modified_energy", "order_used", "log10_estimated_error", "log10_last_term"])];
     let mut numbers = vec![header(&["quantity", "value"])];
     let mut blocks = vec![["differences", "steps", "scatter", "wander"].map(str::to_owned).to_vec()];
     for used in used {
@@ -28,8 +29,17 @@ pub(crate) fn csv(command: &str, used: &[Used]) -> Result<Vec<(&'static str, Str
             Used::Energies(run, estimator, found) => {
                 energies.extend((0..found.times.len()).map(|n| {
                     let [t, distance] = [found.times[n], found.distances[n]].map(|number| number.to_string());
-                    row(run, Some(estimator), [t, distance, found.values[n].clone(), found.orders[n].to_string()])
+                    let size = |sizes: &[Option<f64>]| sizes[n].map_or(String::new(), |size| format!("{size:.4}"));
+                    let [error, last_term] = [size(&found.errors), size(&found.last_terms)];
+                    let order = found.orders[n].to_string();
+                    row(run, Some(estimator), [t, distance, found.values[n].clone(), order, error, last_term])
                 }));
+            }
+            Used::Escape(run, escape) => {
+                let time = escape.time.map_or("none".to_owned(), |time| time.to_string());
+                numbers.push(row(run, None, ["time of escape".to_owned(), time]));
+                numbers.push(row(run, None, ["returns before it".to_owned(), escape.returns.to_string()]));
+                numbers.push(row(run, None, ["largest |q|".to_owned(), escape.farthest.to_string()]));
             }
             Used::Number(run, what, value) => numbers.push(row(run, None, [(*what).to_owned(), value.clone()])),
             Used::Blocks(differences, found) => blocks.extend(found.iter().map(|block| {
@@ -82,6 +92,9 @@ fn order(settings: &EstimatorSettings) -> String {
         (Some(order), _) => order.to_string(),
         (None, Some(largest)) if options.stop == Some(StoppingRule::Early) => {
             format!("best of 2-{largest}, early stop")
+        }
+        (None, Some(largest)) if options.stop == Some(StoppingRule::Printed) => {
+            format!("best of 2-{largest}, early stop as printed")
         }
         (None, Some(largest)) => format!("best of 2-{largest}"),
         (None, None) => "best".to_owned(),

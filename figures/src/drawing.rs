@@ -2,14 +2,16 @@
 
 use crate::Error;
 use crate::chart::{Axis, Chart, Curve};
-use crate::report::{Picture, Section, Statement, Table, Verdict};
+use crate::report::{Picture, Section, Statement, Table};
+use crate::verdict::Verdict;
 
 /// The content of a figure.
 #[derive(Clone, Debug)]
 pub(crate) struct Drawing {
     stated: Vec<String>,
-    additional: bool,
     pub(crate) charts: Vec<(Chart, String)>,
+    /// For the first page of the report.
+    findings: Vec<String>,
     found: Vec<String>,
     statements: Vec<Statement>,
     tables: Vec<Table>,
@@ -20,8 +22,8 @@ impl Drawing {
     pub(crate) fn of_paper(stated: &[&str]) -> Self {
         Drawing {
             stated: stated.iter().map(|&text| text.to_owned()).collect(),
-            additional: false,
             charts: Vec::new(),
+            findings: Vec::new(),
             found: Vec::new(),
             statements: Vec::new(),
             tables: Vec::new(),
@@ -30,11 +32,12 @@ impl Drawing {
 
     /// An additional figure, which the paper does not have.
     pub(crate) fn additional(what: &str) -> Self {
-        Drawing { additional: true, found: vec![what.to_owned()], ..Drawing::of_paper(&[]) }
+        Drawing { found: vec![what.to_owned()], ..Drawing::of_paper(&[]) }
     }
 
-    pub(crate) fn chart(&mut self, title: &str, x: Axis, y: Axis, curves: Vec<Curve>, caption: &str) {
-        self.chart_with_right_axis(title, x, y, None, curves, caption);
+    /// Adds a chart, to which marks can be added.
+    pub(crate) fn chart(&mut self, title: &str, x: Axis, y: Axis, curves: Vec<Curve>, caption: &str) -> &mut Chart {
+        self.chart_with_right_axis(title, x, y, None, curves, caption)
     }
 
     pub(crate) fn chart_with_right_axis(
@@ -45,18 +48,26 @@ impl Drawing {
         second_y: Option<Axis>,
         curves: Vec<Curve>,
         caption: &str,
-    ) {
-        let chart = Chart { title: title.to_owned(), x, y, second_y, curves, notes: Vec::new() };
+    ) -> &mut Chart {
+        let marks = Vec::new();
+        let chart = Chart { title: title.to_owned(), x, y, second_y, marks, curves, notes: Vec::new() };
         self.charts.push((chart, caption.to_owned()));
+        &mut self.charts.last_mut().expect("it has just been added").0
     }
 
     pub(crate) fn found(&mut self, paragraph: impl Into<String>) {
         self.found.push(paragraph.into());
     }
 
-    /// A statement, what was found, and whether the statement holds.
-    pub(crate) fn check(&mut self, statement: &str, found: impl Into<String>, holds: bool) {
-        self.statements.push(Statement { statement: statement.to_owned(), found: found.into(), holds });
+    /// A result for the first page of the report.
+    pub(crate) fn finding(&mut self, paragraph: impl Into<String>) {
+        self.findings.push(paragraph.into());
+    }
+
+    /// A statement, what was found, and whether that agrees with it.
+    pub(crate) fn check(&mut self, statement: &str, found: impl Into<String>, verdict: impl Into<Verdict>) {
+        let (statement, found, verdict) = (statement.to_owned(), found.into(), verdict.into());
+        self.statements.push(Statement { statement, found, verdict });
     }
 
     pub(crate) fn table(&mut self, caption: &str, header: &[&str], rows: Vec<Vec<String>>) {
@@ -72,22 +83,13 @@ impl Drawing {
         }
     }
 
-    fn verdict(&self) -> Verdict {
-        match &self.statements[..] {
-            _ if self.additional => Verdict::Additional,
-            [] => Verdict::NotReproduced,
-            all if all.iter().all(|one| one.holds) => Verdict::Agrees,
-            _ => Verdict::Differs,
-        }
-    }
-
-    /// The section of the report; `files` are the names of its files.
-    pub(crate) fn section(self, title: &str, svgs: Vec<String>, files: Vec<String>) -> Section {
-        let verdict = self.verdict();
+    /// The section of the report with a title and the paper's figure, if it has one; `files` are the names of its files.
+    pub(crate) fn section(self, title: &str, of_paper: &str, svgs: Vec<String>, files: Vec<String>) -> Section {
         let captions = self.charts.iter().map(|(_, caption)| caption.clone());
         let pictures = svgs.into_iter().zip(captions).map(|(svg, caption)| Picture { svg, caption }).collect();
-        let Drawing { stated, found, statements, tables, .. } = self;
-        Section { title: title.to_owned(), stated, pictures, found, statements, tables, verdict, files }
+        let Drawing { stated, findings, found, statements, tables, .. } = self;
+        let (title, of_paper) = (title.to_owned(), (!of_paper.is_empty()).then(|| of_paper.to_owned()));
+        Section { title, of_paper, stated, pictures, findings, found, statements, tables, files }
     }
 
     /// The pictures as SVG.

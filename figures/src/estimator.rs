@@ -1,6 +1,9 @@
 //! The estimators of figures, with what they cost.
 
-use shadowstep::shadow::{Bilinear, Central, EstimatorSettings, SelectionRule, StoppingRule};
+use shadowstep::StepSize;
+use shadowstep::shadow::{
+    Bilinear, BuildEstimator, Central, Estimator, EstimatorSettings, SelectionRule, StoppingRule,
+};
 
 /// The estimator of the paper's figures: the best m of each state, up to 200.
 pub(crate) const BEST: EstimatorSettings = EstimatorSettings::Central(Central::Best {
@@ -41,12 +44,19 @@ pub(crate) fn states(settings: &EstimatorSettings) -> f64 {
     if is_bilinear(settings) { order + 1.0 } else { 2.0 * order + 1.0 }
 }
 
-/// About how many multiplications of numbers it makes per step and coordinate.
-pub(crate) fn cost(settings: &EstimatorSettings) -> f64 {
-    let order = largest_order(settings);
+/// How many states before 0, and after the last one, its estimates need.
+pub(crate) fn reach(settings: &EstimatorSettings) -> usize {
+    let one = StepSize::try_from("1").expect("1 is not 0");
+    let built = BuildEstimator::<f64>::build(settings, &one, 1, &()).expect("figures have valid orders");
+    (built.states() - 1) / 2
+}
+
+/// About how many microseconds one estimate takes with 120 digits.
+pub(crate) fn cost(settings: &EstimatorSettings, dimension: usize) -> f64 {
+    let (order, numbers) = (largest_order(settings), 2.0 * dimension as f64 + 1.0);
     match settings.order() {
-        _ if is_bilinear(settings) => 4.0 * order + order * order / 2.0,
-        Some(_) => 6.0 * order,
-        None => 12.0 * order,
+        _ if is_bilinear(settings) => 0.06 * order * (numbers + order / 2.0),
+        Some(_) => 0.1 * order * numbers,
+        None => 0.19 * order * numbers,
     }
 }

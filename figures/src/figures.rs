@@ -5,6 +5,7 @@ mod henon_heiles;
 mod kepler;
 mod pendulum;
 
+mod contour;
 mod double_precision;
 mod estimators_exact_flow;
 mod estimators_schemes;
@@ -37,6 +38,7 @@ pub(crate) const FIGURES: &[Figure] = &[
     henon_heiles_step::FIGURE,
     henon_heiles_momentum::FIGURE,
     scattering::FIGURE,
+    contour::FIGURE,
     estimators_exact_flow::FIGURE,
     estimators_schemes::FIGURE,
     permanent_change::FIGURE,

@@ -1,6 +1,10 @@
-//! Lines through points by least squares with the error of the slope, and rates of exponential decay.
+//! Lines through points by least squares with the error of the slope, rates of exponential decay, and ratios.
 
 use std::f64::consts::LOG10_E;
+use std::fmt;
+
+use crate::interval::Interval;
+use crate::verdict::Verdict;
 
 /// y = intercept + slope · x, which minimises the sum of (y − intercept − slope · x)².
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +56,8 @@ pub(crate) struct ExponentialDecay {
     pub(crate) c_error: f64,
     /// The standard deviation of the residuals, in decades.
     pub(crate) deviation: f64,
+    /// The same of a power law, log₁₀(drift) = a + r log₁₀(h), at the same points.
+    pub(crate) power_law: f64,
     /// The smallest and the largest step size that were used.
     pub(crate) steps: (f64, f64),
     /// The number of points that were used.
@@ -67,7 +73,9 @@ impl ExponentialDecay {
         let points: Vec<_> = used.iter().map(|(h, y)| (LOG10_E / h, *y)).collect();
         let line = Line::through(&points)?;
         let steps = used.iter().map(|(h, _)| *h);
+        let power_law = Line::through(&used.iter().map(|(h, y)| (h.log10(), *y)).collect::<Vec<_>>())?;
         Some(ExponentialDecay {
+            power_law: power_law.deviation,
             a: line.intercept,
             c: -line.slope,
             c_error: line.slope_error,
@@ -76,13 +84,83 @@ impl ExponentialDecay {
             points: line.points,
         })
     }
+
+    /// c with its interval.
+    pub(crate) fn rate(&self) -> Interval {
+        Interval::about(self.c, self.c_error, self.points, self.points - 2)
+    }
+
+    /// Whether the drift is exponential in 1/h: it is if exp(−c/h), c > 0, fits at least twice as well as a power of h, and is
+    /// not if the power fits twice as well.
+    pub(crate) fn is_exponential(&self) -> Verdict {
+        let line = match () {
+            () if 2.0 * self.deviation <= self.power_law => Verdict::Agrees,
+            () if 2.0 * self.power_law <= self.deviation => Verdict::Differs,
+            () => Verdict::NotDecided,
+        };
+        Verdict::of_all([line, self.rate().above(0.0)])
+    }
+
+    /// What [`is_exponential`](Self::is_exponential) is decided by.
+    pub(crate) fn described(&self) -> String {
+        format!(
+            "c = {:.3} at {} steps; exp(−c/h) fits to within {:.2} decades, a power of h to within {:.2}",
+            self.rate(),
+            self.points,
+            self.deviation,
+            self.power_law
+        )
+    }
+}
+
+/// Whether all rates are that of the first, which they are if their ratios are from 0.9 to 1.1 with all of their uncertainty;
+/// and the ratios in words.
+pub(crate) fn same_rates(first: &ExponentialDecay, others: &[(&str, &ExponentialDecay)]) -> (Verdict, String) {
+    let ratio = |other: &ExponentialDecay| {
+        let error = (first.c_error.powi(2) + other.c_error.powi(2)).sqrt() / first.c;
+        Interval::about(other.c / first.c, error, other.points, first.points.min(other.points) - 2)
+    };
+    let ratios: Vec<_> = others.iter().map(|(label, other)| (*label, ratio(other))).collect();
+    let verdict = Verdict::of_all(ratios.iter().map(|(_, ratio)| ratio.within(1.0 - SAME_RATE, 1.0 + SAME_RATE)));
+    let list: Vec<_> = ratios.iter().map(|(label, ratio)| format!("{label} {ratio:.3}")).collect();
+    (verdict, format!("relative to the first, {}; from 0.9 to 1.1 counts as the same", list.join(", ")))
+}
+
+/// drift = 10^a · h^−r · e^(−c/h): c and r with their intervals, by least squares; `None` for fewer than five points.
+pub(crate) fn with_power(drifts: &[(f64, f64)]) -> Option<(Interval, Interval)> {
+    let used = drifts.iter().filter(|(h, y)| *h > 0.0 && y.is_finite());
+    let points: Vec<([f64; 3], f64)> = used.map(|(h, y)| ([1.0, LOG10_E / h, -h.log10()], *y)).collect();
+    if points.len() < 5 {
+        return None;
+    }
+    let sum = |i: usize, j: usize| points.iter().map(|(x, _)| x[i] * x[j]).sum::<f64>();
+    let inverse = inverse([0, 1, 2].map(|i| [0, 1, 2].map(|j| sum(i, j))))?;
+    let right = [0, 1, 2].map(|i| points.iter().map(|(x, y)| x[i] * y).sum::<f64>());
+    let found = inverse.map(|row| row.iter().zip(right).map(|(a, b)| a * b).sum::<f64>());
+    let squares = points.iter().map(|(x, y)| (y - x.iter().zip(found).map(|(a, b)| a * b).sum::<f64>()).powi(2));
+    let freedom = points.len() - 3;
+    let variance = squares.sum::<f64>() / freedom as f64;
+    let interval = |i: usize, sign: f64| {
+        Interval::about(sign * found[i], (variance * inverse[i][i]).sqrt(), points.len(), freedom)
+    };
+    Some((interval(1, -1.0), interval(2, 1.0)))
+}
+
+/// The inverse of a symmetric matrix by its cofactors; `None` if it is singular.
+fn inverse(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
+    let cofactor = |i: usize, j: usize| {
+        let at = |row: usize, column: usize| m[(i + row) % 3][(j + column) % 3];
+        at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)
+    };
+    let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
+    (determinant != 0.0).then(|| [0, 1, 2].map(|i| [0, 1, 2].map(|j| cofactor(j, i) / determinant)))
 }
 
 /// log₁₀ of the drift below which the round-off of 120 digits may be visible.
 pub(crate) const ROUND_OFF: f64 = -108.0;
 
 /// Rates with a smaller relative difference are called the same: those to be distinguished differ by a factor of two.
-pub(crate) const SAME_RATE: f64 = 0.1;
+const SAME_RATE: f64 = 0.1;
 
 /// The rate of a drift over the step sizes up to `coarsest` at which it is above the round-off.
 pub(crate) fn decay(drifts: &[(f64, f64)], coarsest: f64) -> Option<ExponentialDecay> {
@@ -111,14 +189,44 @@ pub(crate) fn theory_row(label: &str, value: String) -> Vec<String> {
 /// The header of a table of rates.
 pub(crate) const DECAY_HEADER: [&str; 4] = ["", "c in exp(−c/h)", "standard deviation (decades)", "fitted over"];
 
-/// The smallest, the geometric mean, and the largest ratio of two drifts at the same step sizes.
-pub(crate) fn ratios(points: &[(f64, f64)], to: &[(f64, f64)]) -> [f64; 3] {
-    let all = points.iter().zip(to).map(|((_, a), (_, b))| a - b).filter(|ratio| ratio.is_finite());
-    let all: Vec<f64> = all.collect();
-    let mean = all.iter().sum::<f64>() / all.len() as f64;
-    let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
-    let (least, most) = all.iter().fold((least, most), |(least, most), y| (least.min(*y), most.max(*y)));
-    [least, mean, most].map(|ratio| 10_f64.powf(ratio))
+/// The ratios of two drifts at the same step sizes, where both are above the round-off.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ratio {
+    /// The geometric mean, with its interval if the ratios at different steps are independent.
+    pub(crate) mean: Interval,
+    pub(crate) least: f64,
+    pub(crate) most: f64,
+}
+
+impl Ratio {
+    /// Of (x, log₁₀ drift), relative to others at the same x; `None` for fewer than three.
+    pub(crate) fn of(points: &[(f64, f64)], to: &[(f64, f64)]) -> Option<Ratio> {
+        let all = logarithms(points, to);
+        let sizes = all.iter().map(|(_, ratio)| *ratio);
+        let (least, most) =
+            (sizes.clone().fold(f64::INFINITY, f64::min), sizes.clone().fold(f64::NEG_INFINITY, f64::max));
+        let power = |y: f64| 10_f64.powf(y);
+        let mean = Interval::of_mean(&sizes.collect::<Vec<_>>())?.map(power);
+        Some(Ratio { mean, least: power(least), most: power(most) })
+    }
+
+    /// Whether it is about a factor that is given with one digit: what rounds to it.
+    pub(crate) fn is_about(&self, factor: f64) -> Verdict {
+        self.mean.within(factor - 0.5, factor + 0.5)
+    }
+}
+
+impl fmt::Display for Ratio {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Ratio { mean, least, most } = self;
+        write!(f, "{mean} in the geometric mean of {} steps; {least:.2} to {most:.2}", mean.count)
+    }
+}
+
+/// (x, log₁₀ of the ratio) where both drifts are above the round-off.
+pub(crate) fn logarithms(points: &[(f64, f64)], to: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let both = points.iter().zip(to).filter(|((_, a), (_, b))| *a > ROUND_OFF && *b > ROUND_OFF);
+    both.map(|((x, a), (_, b))| (*x, a - b)).filter(|(_, ratio)| ratio.is_finite()).collect()
 }
 
 #[cfg(test)]
@@ -164,6 +272,39 @@ mod tests {
         assert_eq!(Line::through(&[(0.0, 0.0), (1.0, 1.0)]), None);
         assert_eq!(Line::through(&[(0.0, 0.0), (1.0, 1.0), (2.0, f64::NAN)]), None);
         assert_eq!(Line::through(&[(1.0, 0.0), (1.0, 1.0), (1.0, 2.0)]), None);
+    }
+
+    #[test]
+    fn an_exponential_and_a_power_are_distinguished() {
+        let steps = [0.2, 0.1, 0.07, 0.05, 0.04, 0.025];
+        let wiggle = |i: usize| if i % 2 == 0 { 0.1 } else { -0.1 };
+        let fit = |y: &dyn Fn(f64) -> f64| {
+            let points: Vec<_> = steps.iter().enumerate().map(|(i, &h)| (h, y(h) + wiggle(i))).collect();
+            ExponentialDecay::of(&points).unwrap().is_exponential()
+        };
+        assert_eq!(fit(&|h| -1.0 / h), Verdict::Agrees);
+        assert_eq!(fit(&|h| 8.0 * h.log10()), Verdict::Differs);
+        assert_eq!(fit(&|_| 0.0), Verdict::NotDecided);
+    }
+
+    #[test]
+    fn a_power_before_the_exponential_is_found_again() {
+        let drift = |h: f64| (h, -1.0 - 6.0 * LOG10_E / h - 2.0 * h.log10());
+        let (c, power) = with_power(&[0.5, 0.4, 0.3, 0.2, 0.15, 0.1].map(drift)).unwrap();
+        assert!((c.value - 6.0).abs() < 1e-9 && (power.value - 2.0).abs() < 1e-9, "{c:?} {power:?}");
+        assert!(c.low <= c.value && c.high - c.low < 1e-6);
+        assert_eq!(with_power(&[0.5, 0.4, 0.3, 0.2].map(drift)), None);
+    }
+
+    #[test]
+    fn ratios_leave_out_what_round_off_hides() {
+        let points = [(1.0, -10.0), (2.0, -20.0), (3.0, -30.0), (4.0, -110.0)];
+        let to = points.map(|(x, y)| (x, y - 3.0f64.log10()));
+        let ratio = Ratio::of(&points, &to).unwrap();
+        assert_eq!(ratio.mean.count, 3);
+        assert!(near(ratio.mean.value, 3.0) && near(ratio.least, ratio.most), "{ratio}");
+        assert_eq!((ratio.is_about(3.0), ratio.is_about(4.0)), (Verdict::Agrees, Verdict::Differs));
+        assert_eq!(ratio.mean.above(1.0), Verdict::Agrees);
     }
 
     #[test]

@@ -9,7 +9,7 @@
 //!
 //! let request = Request { names: vec!["scattering".to_owned()], quick: true, folder: "figures".into() };
 //! let summary = reproduce(&request, &mut ())?;
-//! println!("{}: {}", summary.report.display(), summary.verdicts);
+//! println!("{}\n{}", summary.report.display(), summary.verdicts);
 //! # Ok::<(), shadowstep_figures::Error>(())
 //! ```
 //!
@@ -21,9 +21,11 @@
 //! | `figures` | the list of all figures, and one file for each |
 //! | `figure`, `drawing` | a figure of the list; its charts, tables and statements |
 //! | `results` | the results that figures request |
-//! | `calculation`, `run`, `estimator`, `noise` | the calculations: runs at many digits, and in double precision |
+//! | `calculation`, `run`, `estimator` | the calculations, and the runs and estimators that they are of |
+//! | `measured`, `states`, `escape`, `noise` | what is measured along runs at many digits, and in double precision |
 //! | `tasks` | calculations on all cores; their outcomes stay in a file |
-//! | `fit`, `numbers` | lines through points; numbers as texts |
+//! | `fit`, `interval`, `verdict` | lines through points, intervals of confidence, and what they decide |
+//! | `numbers`, `indices` | numbers and subscripts in texts |
 //! | `chart` | curves → SVG |
 //! | `report`, `data` | figures → HTML; results → CSV |
 
@@ -31,10 +33,14 @@ mod calculation;
 mod chart;
 mod data;
 mod drawing;
+mod escape;
 mod estimator;
 mod figure;
 mod figures;
 mod fit;
+mod indices;
+mod interval;
+mod measured;
 mod noise;
 mod numbers;
 mod observer;
@@ -42,7 +48,9 @@ mod report;
 mod reproduction;
 mod results;
 mod run;
+mod states;
 mod tasks;
+mod verdict;
 
 pub use observer::{Observer, Progress};
 pub use reproduction::{Request, Summary, names, reproduce};

@@ -11,6 +11,7 @@ use shadowstep::tables::shipped;
 use shadowstep::{Increments, Motion, Stepper, UnitMasses};
 
 use crate::Error;
+use crate::states::Watched;
 
 /// How the estimator takes the differences of neighbouring states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -47,13 +48,20 @@ struct Sums {
 }
 
 /// Störmer–Verlet on Kepler's problem, e = 0.6, h = 1/20, by E_8: blocks that end at 10³, 10^3.5, … steps.
-pub(crate) fn blocks(steps: u64, differences: Differences) -> Result<Vec<Block>, Error> {
+pub(crate) fn blocks(
+    steps: u64,
+    differences: Differences,
+    continues: &dyn Fn(f64) -> bool,
+) -> Result<Vec<Block>, Error> {
     let scheme = shipped("stormer-verlet").expect("it is shipped");
     let stepper = Stepper::new(scheme, "1/20").expect("h is not 0");
     let start = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]).expect("the dimensions agree");
     let mut estimator = Bilinear::new(8).build(stepper.step_size(), 2, &()).expect("k = 8 is valid");
     let failed = |error: shadowstep::run::RunError| Error::run(error.to_string(), "this calculation has no options");
-    let mut trajectory = Trajectory::new(&stepper, start, steps, estimator.states() / 2).map_err(failed)?;
+    let trajectory = Trajectory::new(&stepper, start, steps, estimator.states() / 2).map_err(failed)?;
+    // asking costs as much as a step
+    let continues = |n: i64| n % 1024 != 0 || continues(n as f64 / steps as f64);
+    let mut trajectory = Watched { states: trajectory, continues };
     let mut near: VecDeque<(f64, f64)> = VecDeque::new();
     let (mut blocks, mut part, mut first, mut end, mut sum) = (Vec::new(), Sums::default(), None, 1000.0, 0.0);
     while let Some(state) = trajectory.advance().map_err(failed)? {

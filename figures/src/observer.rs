@@ -9,6 +9,11 @@ pub trait Observer: Send {
         let _ = progress;
     }
 
+    /// Whether the computation is to stop. What is complete by then is saved, and the call ends with an error.
+    fn stops(&mut self) -> bool {
+        false
+    }
+
     /// Something that the user should know of a computation that continues.
     fn note(&mut self, note: &str) {
         let _ = note;
@@ -22,7 +27,7 @@ pub trait Observer: Send {
 
 impl Observer for () {}
 
-/// How many of the tasks that are due are done.
+/// How many of the tasks that are due are done, and how much of their cost, that of unfinished ones included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// The number of tasks that are done.

@@ -1,16 +1,17 @@
 //! A report of figures as one page of HTML, which contains its pictures and needs neither scripts nor a network.
 
-mod indices;
+mod subscripts;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use indices::set;
+use crate::verdict::{Counts, Verdict};
+use subscripts::set;
 
 /// The whole page. All texts are plain; they are escaped when the page is written.
 #[derive(Clone, Debug)]
 pub(crate) struct Report {
     pub(crate) title: String,
-    /// Paragraphs.
+    /// Paragraphs on how it was computed.
     pub(crate) introduction: Vec<String>,
     /// How it was made, as pairs of a name and a value: version, command, digits.
     pub(crate) made_with: Vec<(String, String)>,
@@ -21,14 +22,17 @@ pub(crate) struct Report {
 #[derive(Clone, Debug)]
 pub(crate) struct Section {
     pub(crate) title: String,
-    /// What the paper states, in paragraphs; none for an additional figure.
+    /// The paper's figure; none for an additional one.
+    pub(crate) of_paper: Option<String>,
+    /// What the paper states, in paragraphs.
     pub(crate) stated: Vec<String>,
     pub(crate) pictures: Vec<Picture>,
+    /// Results for the first page.
+    pub(crate) findings: Vec<String>,
     /// The results, in paragraphs.
     pub(crate) found: Vec<String>,
     pub(crate) statements: Vec<Statement>,
     pub(crate) tables: Vec<Table>,
-    pub(crate) verdict: Verdict,
     /// Names of the files beside the page: SVG, CSV.
     pub(crate) files: Vec<String>,
 }
@@ -41,12 +45,12 @@ pub(crate) struct Picture {
     pub(crate) caption: String,
 }
 
-/// A statement, what was found, and whether the statement holds.
+/// A statement, what was found, and whether that agrees with it.
 #[derive(Clone, Debug)]
 pub(crate) struct Statement {
     pub(crate) statement: String,
     pub(crate) found: String,
-    pub(crate) holds: bool,
+    pub(crate) verdict: Verdict,
 }
 
 /// A table of numbers or short texts. Each row has as many cells as the header.
@@ -57,56 +61,10 @@ pub(crate) struct Table {
     pub(crate) rows: Vec<Vec<String>>,
 }
 
-/// Whether the results agree with what the paper states.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Verdict {
-    Agrees,
-    Differs,
-    /// It was not computed here, or cannot be.
-    NotReproduced,
-    /// The paper has no such figure.
-    Additional,
-}
-
-impl Verdict {
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Verdict::Agrees => "agrees",
-            Verdict::Differs => "differs",
-            Verdict::NotReproduced => "not reproduced",
-            Verdict::Additional => "additional",
-        }
-    }
-
-    /// `9 agree`
-    fn counted(self, count: usize) -> String {
-        let word = match (self, count) {
-            (Verdict::Agrees, 2..) => "agree",
-            (Verdict::Differs, 2..) => "differ",
-            _ => self.word(),
-        };
-        format!("{count} {word}")
-    }
-
-    fn sentence(self) -> &'static str {
-        match self {
-            Verdict::Agrees => "The results agree with what the paper states.",
-            Verdict::Differs => "The results differ from what the paper states.",
-            Verdict::NotReproduced => "What the paper states was not reproduced here.",
-            Verdict::Additional => "The paper has no such figure.",
-        }
-    }
-
-    fn badge(self) -> Markup {
-        let class = format!("verdict {}", self.word().replace(' ', "-"));
-        html! { span class=(class) { (self.word()) } }
-    }
-}
-
 const STYLE: &str = include_str!("report.css");
 
 impl Report {
-    /// The text of the page.
+    /// The text of the page: first what was found, then how.
     pub(crate) fn html(&self) -> String {
         let page = html! {
             (DOCTYPE)
@@ -119,9 +77,12 @@ impl Report {
                 }
                 body {
                     h1 { (self.title) }
+                    (self.findings())
+                    (self.counts())
+                    nav aria-label="Figures" { (self.contents()) }
+                    h2 { "How it was computed" }
                     (paragraphs(&self.introduction))
                     dl { @for (name, value) in &self.made_with { dt { (name) } dd { (value) } } }
-                    nav aria-label="Figures" { (self.contents()) }
                     main { @for (n, figure) in self.sections.iter().enumerate() { (figure.section(n + 1)) } }
                 }
             }
@@ -129,19 +90,58 @@ impl Report {
         page.into_string()
     }
 
-    /// How many figures agree, and so on: `9 agree, 1 differs, 7 additional`.
+    /// How many statements agree, differ, and are not decided: of the paper, and additional ones.
     pub(crate) fn verdicts(&self) -> String {
-        let counts = [Verdict::Agrees, Verdict::Differs, Verdict::NotReproduced, Verdict::Additional]
-            .map(|verdict| (verdict, self.sections.iter().filter(|figure| figure.verdict == verdict).count()));
-        let words = counts.iter().filter(|(_, count)| *count > 0).map(|(verdict, count)| verdict.counted(*count));
-        words.collect::<Vec<_>>().join(", ")
+        let [paper, additional] = [true, false].map(|of_paper| self.count(of_paper));
+        let lines = [("statements of the paper", paper), ("additional statements", additional)];
+        let lines = lines.into_iter().filter(|(_, counts)| counts.all() > 0);
+        lines.map(|(what, counts)| format!("{what}: {counts}")).collect::<Vec<_>>().join("; ")
+    }
+
+    fn count(&self, of_paper: bool) -> Counts {
+        let sections = self.sections.iter().filter(|figure| figure.of_paper.is_some() == of_paper);
+        Counts::of(sections.flat_map(|figure| &figure.statements).map(|statement| statement.verdict))
+    }
+
+    /// The results that matter most, each with a link to its section.
+    fn findings(&self) -> Markup {
+        html! {
+            @for (n, figure) in self.sections.iter().enumerate() {
+                @for finding in &figure.findings {
+                    p class="finding" {
+                        (set(finding)) " " a href={ "#figure-" (n + 1) } { "→ " (set(&figure.title)) }
+                    }
+                }
+            }
+        }
+    }
+
+    fn counts(&self) -> Markup {
+        let rows = [("statements of the paper", true), ("additional statements", false)];
+        html! {
+            table class="counts" {
+                thead { tr { th {} th scope="col" { "agree" } th scope="col" { "differ" } th scope="col" { "not decided" } } }
+                tbody {
+                    @for (what, counts) in rows.map(|(what, of_paper)| (what, self.count(of_paper))) {
+                        tr {
+                            th scope="row" { (what) }
+                            td { (counts.agree) } td { (counts.differ) } td { (counts.not_decided) }
+                        }
+                    }
+                }
+            }
+        }
     }
 
     fn contents(&self) -> Markup {
         html! {
             ol {
                 @for (n, figure) in self.sections.iter().enumerate() {
-                    li { a href={ "#figure-" (n + 1) } { (set(&figure.title)) } " " (figure.verdict.badge()) }
+                    li {
+                        a href={ "#figure-" (n + 1) } { (set(&figure.title)) }
+                        @if let Some(of_paper) = &figure.of_paper { " (" (of_paper) ")" }
+                        " " (figure.badge())
+                    }
                 }
             }
         }
@@ -149,17 +149,41 @@ impl Report {
 }
 
 impl Section {
+    /// What its statements are together; a section without any is not reproduced.
+    fn word(&self) -> &'static str {
+        match &self.of_paper {
+            None => "additional",
+            Some(_) if self.statements.is_empty() => "not reproduced",
+            Some(_) => Verdict::of_all(self.statements.iter().map(|statement| statement.verdict)).word(),
+        }
+    }
+
+    fn badge(&self) -> Markup {
+        badge(self.word())
+    }
+
     fn section(&self, n: usize) -> Markup {
-        let pictures = if self.pictures.len() == 1 { "pictures one" } else { "pictures" };
+        let counts = Counts::of(self.statements.iter().map(|statement| statement.verdict));
         html! {
             section id={ "figure-" (n) } {
                 h2 { (set(&self.title)) }
-                p class="verdict-line" { (self.verdict.badge()) " " (self.verdict.sentence()) }
-                @if !self.stated.is_empty() { h3 { "The paper states" } (paragraphs(&self.stated)) }
-                @if !self.pictures.is_empty() {
-                    div class=(pictures) { @for picture in &self.pictures { (picture.figure()) } }
+                p class="verdict-line" {
+                    (self.badge()) " "
+                    @match &self.of_paper {
+                        Some(of_paper) => { "Of the paper: " (of_paper) ". " }
+                        None => { "The paper has no such figure. " }
+                    }
+                    @if counts.all() > 0 { "Statements: " (counts) "." }
                 }
-                @if !self.found.is_empty() { h3 { "Results" } (paragraphs(&self.found)) }
+                @if !self.stated.is_empty() {
+                    div class="stated" { h3 { "The paper states" } (paragraphs(&self.stated)) }
+                }
+                @if !self.pictures.is_empty() {
+                    div class="pictures" { @for picture in &self.pictures { (picture.figure()) } }
+                }
+                @if !self.findings.is_empty() || !self.found.is_empty() { h3 { "Results" } }
+                (paragraphs(&self.findings))
+                (paragraphs(&self.found))
                 @if !self.statements.is_empty() { (statements(&self.statements)) }
                 @for table in &self.tables { (table.markup()) }
                 @if !self.files.is_empty() {
@@ -173,9 +197,15 @@ impl Section {
     }
 }
 
+/// A word that is more than a colour.
+fn badge(word: &str) -> Markup {
+    html! { span class={ "verdict " (word.replace(' ', "-")) } { (word) } }
+}
+
 impl Picture {
     fn figure(&self) -> Markup {
-        html! { figure { (PreEscaped(&self.svg)) figcaption { (set(&self.caption)) } } }
+        // focusable, so that on a narrow screen it can be scrolled with keys
+        html! { figure { div class="scroll" tabindex="0" { (PreEscaped(&self.svg)) } figcaption { (set(&self.caption)) } } }
     }
 }
 
@@ -197,10 +227,10 @@ impl Table {
 fn statements(statements: &[Statement]) -> Markup {
     html! {
         table class="statements" {
-            thead { tr { th scope="col" { "statement" } th scope="col" { "found" } th scope="col" { "holds" } } }
+            thead { tr { th scope="col" { "statement" } th scope="col" { "found" } th scope="col" { "verdict" } } }
             tbody {
-                @for Statement { statement, found, holds } in statements {
-                    tr { td { (set(statement)) } td { (set(found)) } td { @if *holds { "yes" } @else { "no" } } }
+                @for Statement { statement, found, verdict } in statements {
+                    tr { td { (set(statement)) } td { (set(found)) } td { (badge(verdict.word())) } }
                 }
             }
         }
@@ -220,42 +250,46 @@ mod tests {
         texts.map(str::to_owned).to_vec()
     }
 
-    fn figure(title: &str, verdict: Verdict, charts: usize) -> Section {
+    fn figure(title: &str, of_paper: Option<&str>, verdicts: &[Verdict], charts: usize) -> Section {
         let pictures = samples().into_iter().take(charts).map(|(_, chart)| Picture {
             svg: chart.svg().unwrap(),
             caption: format!("{} (computed at 120 digits)", chart.title),
         });
         let row = |n: i32| vec![format!("1/{}", 10 << n), format!("{}.31e-{}", n + 1, 20 * n), (n + 2).to_string()];
+        let statement = |&verdict: &Verdict| Statement {
+            statement: "The drift falls with h.".to_owned(),
+            found: "at every step".to_owned(),
+            verdict,
+        };
         Section {
             title: title.to_owned(),
+            of_paper: of_paper.map(str::to_owned),
             stated: texts(["The drift is exponentially small: log₁₀ is about −c/h, with c ≈ 4.2."]),
             pictures: pictures.collect(),
+            findings: texts(["The drift is the estimator's."]),
             found: texts(["c = 4.19 ± 0.03 for h from 1/80 to 1/10.", "A second paragraph."]),
-            statements: vec![Statement {
-                statement: "The drift falls with h.".to_owned(),
-                found: "at every step".to_owned(),
-                holds: true,
-            }],
+            statements: verdicts.iter().map(statement).collect(),
             tables: vec![Table {
                 caption: "Drift by step".to_owned(),
                 header: texts(["h", "drift", "m"]),
                 rows: (0..4).map(row).collect(),
             }],
-            verdict,
             files: texts(["drifts.svg", "drifts.csv"]),
         }
     }
 
     fn report() -> Report {
+        use Verdict::{Agrees, Differs, NotDecided};
         Report {
             title: "Figures of a paper, computed again".to_owned(),
             introduction: texts(["Each figure is computed from nothing but the equations."]),
             made_with: vec![("digits".to_owned(), "120".to_owned())],
             sections: vec![
-                figure("Figure 1: drifts", Verdict::Agrees, 2),
-                figure("Figure 2", Verdict::Differs, 1),
-                figure("Figure 3", Verdict::NotReproduced, 0),
-                figure("Beyond the paper", Verdict::Additional, 3),
+                figure("Drifts", Some("figure 1"), &[Agrees, Agrees], 2),
+                figure("Steps", Some("figure 2"), &[Agrees, Differs, NotDecided], 1),
+                figure("Orders", Some("figure 3"), &[NotDecided, Agrees], 0),
+                figure("Phases", Some("figure 4"), &[], 0),
+                figure("Beyond the paper", None, &[Agrees], 3),
             ],
         }
     }
@@ -273,7 +307,7 @@ mod tests {
         // the XML namespace of SVG is not fetched
         assert_eq!(page.matches("http").count(), page.matches("xmlns=\"http://www.w3.org/2000/svg\"").count());
         let mut ids: Vec<_> = page.split(" id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
-        assert_eq!(ids, ["figure-1", "figure-2", "figure-3", "figure-4"]);
+        assert_eq!(ids, ["figure-1", "figure-2", "figure-3", "figure-4", "figure-5"]);
         ids.retain(|id| !page.contains(&format!("href=\"#{id}\"")));
         assert!(ids.is_empty(), "no link to {ids:?}");
         assert_eq!(page.matches("<svg ").count(), 6);
@@ -293,7 +327,7 @@ mod tests {
             *text = nasty.to_owned();
         }
         let table = &mut figure.tables[0];
-        for text in [&mut figure.title, &mut figure.stated[0], &mut figure.found[0], &mut figure.files[0]] {
+        for text in [&mut figure.title, &mut figure.stated[0], &mut figure.findings[0], &mut figure.files[0]] {
             *text = nasty.to_owned();
         }
         for text in [&mut table.caption, &mut table.header[0], &mut table.rows[0][0], &mut figure.pictures[0].caption] {
@@ -301,27 +335,29 @@ mod tests {
         }
         let html = page.html();
         assert!(!html.contains("<b>") && !html.contains("\"it\""));
-        // title and heading, introduction, name, value; contents, heading, stated, found, link twice; caption,
-        // header, cell, picture; statement, found
-        assert_eq!(html.matches("&lt;b&gt; &amp; &quot;it&quot;").count(), 17);
+        // title and heading, introduction, name, value; contents, finding with its link, heading, stated, finding, link
+        // twice; caption, header, cell, picture; statement, found
+        assert_eq!(html.matches("&lt;b&gt; &amp; &quot;it&quot;").count(), 19);
     }
 
     #[test]
     fn verdicts_are_counted() {
-        assert_eq!(report().verdicts(), "1 agrees, 1 differs, 1 not reproduced, 1 additional");
-        let mut more = report();
-        more.sections.extend(report().sections);
-        assert_eq!(more.verdicts(), "2 agree, 2 differ, 2 not reproduced, 2 additional");
-        more.sections.retain(|figure| figure.verdict == Verdict::Additional);
-        assert_eq!(more.verdicts(), "2 additional");
+        let counts = "statements of the paper: 4 agree, 1 differs, 2 not decided; additional statements: 1 agrees, 0 differ, 0 not decided";
+        assert_eq!(report().verdicts(), counts);
+        let mut fewer = report();
+        fewer.sections.truncate(1);
+        assert_eq!(fewer.verdicts(), "statements of the paper: 2 agree, 0 differ, 0 not decided");
     }
 
+    /// Every verdict is a word and not only a colour, in the contents and in the section.
     #[test]
-    fn verdicts_are_words_and_not_only_colours() {
+    fn sections_have_the_verdict_of_their_statements() {
+        let words: Vec<_> = report().sections.iter().map(Section::word).collect();
+        assert_eq!(words, ["agrees", "differs", "not decided", "not reproduced", "additional"]);
         let page = report().html();
-        for verdict in [Verdict::Agrees, Verdict::Differs, Verdict::NotReproduced, Verdict::Additional] {
-            assert_eq!(page.matches(&format!(">{}</span>", verdict.word())).count(), 2, "contents and section");
-            assert_eq!(page.matches(verdict.sentence()).count(), 1);
+        for word in ["not reproduced", "additional"] {
+            assert_eq!(page.matches(&format!(">{word}</span>")).count(), 2, "contents and section: {word}");
         }
+        assert_eq!(page.matches(">differs</span>").count(), 3, "contents, section and statement");
     }
 }

@@ -30,7 +30,7 @@ pub struct Request {
 pub struct Summary {
     /// The file of the report.
     pub report: PathBuf,
-    /// How many figures agree with the paper, differ from it, and so on: `9 agree, 1 differs`.
+    /// How many statements agree, differ, and are not decided: `statements of the paper: 9 agree, 1 differs, 2 not decided`.
     pub verdicts: String,
 }
 
@@ -129,7 +129,7 @@ fn write_figure(figure: &Figure, results: &Results, folder: &Path) -> Result<Sec
         write(folder, &name, &text)?;
         files.push(name);
     }
-    Ok(drawing.section(figure.title, svgs, files))
+    Ok(drawing.section(figure.title, figure.of_paper, svgs, files))
 }
 
 fn write(folder: &Path, name: &str, text: &str) -> Result<(), Error> {

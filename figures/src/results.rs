@@ -11,7 +11,9 @@ use rug::Float;
 use shadowstep::Number;
 use shadowstep::shadow::EstimatorSettings;
 
-use crate::calculation::{Calculation, Drift, Energies, Outcome, Quantity};
+use crate::calculation::{Calculation, Outcome, Quantity};
+use crate::escape::Escape;
+use crate::measured::{Drift, Energies, Orbit};
 use crate::noise::{Block, Differences};
 use crate::numbers::{log10, number};
 use crate::run::Run;
@@ -34,6 +36,7 @@ pub(crate) struct Results {
 pub(crate) enum Used {
     Drift(Run, EstimatorSettings, Drift),
     Energies(Run, EstimatorSettings, Energies),
+    Escape(Run, Escape),
     Number(Run, &'static str, String),
     Blocks(Differences, Vec<Block>),
 }
@@ -123,11 +126,28 @@ impl Results {
         Some(energies)
     }
 
-    /// The largest |q| of a run.
-    pub(crate) fn farthest(&self, run: &Run) -> Option<f64> {
-        let farthest = self.number(Quantity::Farthest { run: run.clone() })?;
-        self.using(Used::Number(run.clone(), "largest |q|", farthest.clone()));
-        Some(number(&farthest).to_f64())
+    /// Whether and when the body of a run escapes.
+    pub(crate) fn escape(&self, run: &Run) -> Option<Escape> {
+        let Outcome::Escape(escape) = self.request(Quantity::Escape { run: run.clone() })? else {
+            unreachable!("an escape was requested")
+        };
+        self.using(Used::Escape(run.clone(), escape.clone()));
+        Some(escape)
+    }
+
+    /// The positions of a run.
+    pub(crate) fn orbit(&self, run: &Run) -> Option<Orbit> {
+        let Outcome::Orbit(orbit) = self.request(Quantity::Orbit { run: run.clone() })? else {
+            unreachable!("an orbit was requested")
+        };
+        Some(orbit)
+    }
+
+    /// log₁₀ of the largest |q − q of the exact flow| of a run.
+    pub(crate) fn coordinate_error(&self, run: &Run) -> Option<f64> {
+        let error = self.number(Quantity::CoordinateError { run: run.clone() })?;
+        self.using(Used::Number(run.clone(), "largest error of q", error.clone()));
+        Some(log10(&error))
     }
 
     /// H at the end of a run less H at its start.

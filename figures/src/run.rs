@@ -15,6 +15,9 @@ pub(crate) const SCHEMES: [(&str, &str); 4] = [
     ("blanes-moan-srkn6b", "Blanes–Moan SRKN6b"),
 ];
 
+/// Force evaluations per step of each.
+pub(crate) const FORCES: [f64; 4] = [1.0, 3.0, 6.0, 6.0];
+
 /// A problem with its values, what advances it, the step size, the final time, and the digits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Run {
@@ -49,6 +52,11 @@ impl Run {
         Run { until, ..self }
     }
 
+    /// The exact flow at the same times.
+    pub(crate) fn of_exact_flow(self) -> Self {
+        Run { propagator: EXACT_FLOW, ..self }
+    }
+
     pub(crate) fn digits(self, digits: u32) -> Self {
         Run { digits, ..self }
     }
@@ -62,6 +70,27 @@ impl Run {
     pub(crate) fn steps(&self) -> u64 {
         let steps = (exact(self.until).expect("figures have exact times") / self.h()).floor();
         u64::try_from(steps.to_integer()).expect("figures run forward in time")
+    }
+
+    /// The number of coordinates: all problems of the figures but the pendulum are in the plane.
+    pub(crate) fn dimension(&self) -> usize {
+        if self.problem == Problem::Pendulum { 1 } else { 2 }
+    }
+
+    /// The cost of arithmetic beside that with 120 digits.
+    pub(crate) fn digits_cost(&self) -> f64 {
+        0.5 + f64::from(self.digits) / 240.0
+    }
+
+    /// About how many microseconds one step of a scheme takes.
+    pub(crate) fn step_cost(&self) -> f64 {
+        let cost = SCHEMES.iter().position(|(name, _)| *name == self.propagator).map_or(1.0, |at| FORCES[at]);
+        if self.problem == Problem::Pendulum { 30.0 * cost } else { 5.0 * cost }
+    }
+
+    /// About how many microseconds one state of the exact flow takes.
+    pub(crate) fn exact_step_cost(&self) -> f64 {
+        if self.problem == Problem::Pendulum { 1500.0 } else { 250.0 }
     }
 
     pub(crate) fn setup(&self) -> Setup {

@@ -240,7 +240,8 @@ pub const KEYS: [Key; 35] = [
     key(
         "output.modified_energy",
         "stop",
-        "Where \"auto\" stops trying m: \"full\" at the largest m, \"early\" where the errors rise.",
+        "Where \"auto\" stops trying m: \"full\" at the largest m; \"early\" at the first m >= 13 whose term is larger than the eleven \
+         before it, which is the rule of Moan and Niesen with < where they print <=; \"printed\" with <=, at the first ripple.",
         "\"early\"",
         Some("\"full\""),
     ),
@@ -255,8 +256,8 @@ pub const KEYS: [Key; 35] = [
     key(
         "output.modified_energy",
         "accuracy",
-        "For estimator = \"bilinear\": target error; \"auto\" uses the smallest k that meets it, or the best k if none does. \
-         The column `estimate` has the estimated errors.",
+        "For estimator = \"bilinear\": target error; \"auto\" uses the least k of 2, 4, 8, 16, … and max_order that meets it, or the \
+         best of them if none does. The column `estimate` has the estimated errors.",
         "1e-20",
         Some("none; the best k of each state"),
     ),

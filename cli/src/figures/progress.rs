@@ -10,7 +10,7 @@ use shadowstep_figures::Progress;
 /// A bar on stderr, if that is a terminal; its length is the cost of all tasks, not their number.
 pub(super) struct Bar {
     bar: ProgressBar,
-    /// The time that all tasks take together, as estimated when the last task was done.
+    /// The time that all tasks take together, as estimated from what is done.
     expected: Arc<Mutex<Option<Duration>>>,
 }
 
@@ -39,13 +39,17 @@ impl Bar {
 
     pub(super) fn show(&self, Progress { done, tasks, fraction }: Progress) {
         *self.expected.lock().unwrap_or_else(PoisonError::into_inner) = in_all(self.bar.elapsed(), fraction);
-        self.bar.set_prefix(format!("{done} of {tasks} tasks"));
+        self.bar.set_prefix(format!("{done} of {tasks} calculations"));
         self.bar.set_position((fraction * Self::LENGTH) as u64);
     }
 }
 
-/// The time of all tasks if a fraction of their cost took `elapsed`; `None` if that cannot be estimated.
+/// The time of all tasks if a fraction of their cost took `elapsed`; `None` while that cannot be estimated: the first
+/// calculations may be cheaper or more expensive than those that follow.
 fn in_all(elapsed: Duration, fraction: f64) -> Option<Duration> {
+    if elapsed < Duration::from_secs(3) || fraction < 0.05 {
+        return None;
+    }
     Duration::try_from_secs_f64(elapsed.as_secs_f64() / fraction).ok()
 }
 
@@ -64,5 +68,11 @@ mod tests {
     fn time_is_estimated_from_costs() {
         assert_eq!(in_all(Duration::from_secs(90), 0.9), Some(Duration::from_secs(100)));
         assert_eq!(in_all(Duration::from_secs(90), 0.0), None);
+    }
+
+    #[test]
+    fn no_time_is_estimated_at_the_start() {
+        assert_eq!(in_all(Duration::from_secs(2), 0.5), None);
+        assert_eq!(in_all(Duration::from_secs(90), 0.01), None);
     }
 }

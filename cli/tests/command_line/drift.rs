@@ -145,6 +145,18 @@ fn the_early_stop_uses_lower_orders_with_almost_the_same_error() {
     assert!((0.5..2.0).contains(&ratio), "{ratio}");
 }
 
+/// With ≤, as the paper prints it, the search ends at the first ripple.
+#[test]
+fn the_printed_stop_is_worse_than_the_early_one() {
+    let words =
+        "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 7 --digits 60 --max-order 100 --json";
+    let record = |stop: &str| objects(&quietly(&format!("{words} --stop {stop}"))).remove(0);
+    let [early, printed] = ["early", "printed"].map(record);
+    assert_eq!(printed["stop"], "printed");
+    let drift = |record| text(record, "drift").parse::<f64>().unwrap();
+    assert!(drift(&printed) > 5.0 * drift(&early), "{printed} {early}");
+}
+
 #[test]
 fn the_robust_rule_is_another_one() {
     let words = "drift --problem kepler --scheme stormer-verlet --step 1/20 --until 7 --digits 60 --max-order 60";

@@ -31,7 +31,8 @@ fn files(folder: &Path) -> Vec<(String, String)> {
 fn a_figure_is_charts_data_and_a_section_of_the_report() {
     let folder = TempDir::new().unwrap();
     let output = figures(folder.path(), &FAST, "2");
-    assert_eq!(output, format!("{}: 1 differs, 1 additional\n", folder.path().join("report.html").display()));
+    let counts = "statements of the paper: 1 agrees, 1 differs, 0 not decided; additional statements: 3 agree, 0 differ, 0 not decided";
+    assert_eq!(output, format!("{}\n{counts}\n", folder.path().join("report.html").display()));
     let files = files(folder.path());
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
@@ -95,6 +96,35 @@ fn results_do_not_depend_on_threads_or_interruptions() {
     assert_eq!(lines[0], lines[1]);
 }
 
+/// Exit code 3, and the same command computes the rest.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_call_ends_as_documented_and_keeps_what_is_done() {
+    let folder = TempDir::new().unwrap();
+    let store = folder.path().join("results.jsonl");
+    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("shadowstep"))
+        .args(["figures", "scattering", "--quick", "--out"])
+        .arg(folder.path())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let begun = std::time::Instant::now();
+    // its first line is the header
+    while fs::read_to_string(&store).map_or(0, |text| text.lines().count()) < 2 {
+        assert!(begun.elapsed() < std::time::Duration::from_secs(60), "nothing is saved");
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    assert!(std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(3));
+    let mut words = String::new();
+    std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut words).unwrap();
+    assert!(words.starts_with("error: interrupted: ") && words.contains("calculations are saved"), "{words}");
+    assert!(words.ends_with("hint: the same command computes the others\n"), "{words}");
+    let saved = fs::read_to_string(&store).unwrap();
+    figures(folder.path(), &["scattering"], "2");
+    assert!(fs::read_to_string(&store).unwrap().starts_with(&saved), "what was saved is computed again");
+}
+
 #[test]
 fn a_report_keeps_the_figures_whose_results_are_there() {
     let folder = TempDir::new().unwrap();
@@ -102,7 +132,8 @@ fn a_report_keeps_the_figures_whose_results_are_there() {
     figures(path, &["scattering"], "2");
     let before = files(path);
     let output = figures(path, &["double-precision"], "2");
-    assert!(output.ends_with("report.html: 1 differs, 1 additional\n"), "{output}");
+    let of_paper = "statements of the paper: 1 agrees, 1 differs, 0 not decided";
+    assert!(output.contains(of_paper), "{output}");
     let now = files(path);
     let of = |name: &str| &now.iter().find(|(other, _)| other == name).unwrap().1;
     for (name, text) in before.iter().filter(|(name, _)| name != "report.html") {
@@ -120,7 +151,8 @@ fn a_report_keeps_the_figures_whose_results_are_there() {
     let fewer = text.replace(&format!("{lost}\n"), "");
     fs::write(&store, &fewer).unwrap();
     let output = figures(path, &["double-precision"], "2");
-    assert!(output.ends_with("report.html: 1 additional\n"), "{output}");
+    let additional = "report.html\nadditional statements: 3 agree, 0 differ, 0 not decided\n";
+    assert!(output.ends_with(additional), "{output}");
     assert_eq!(fs::read_to_string(&store).unwrap(), fewer);
 }
 

@@ -90,6 +90,7 @@ impl Chart {
         let other = |point: (f64, f64)| plot.borrow_secondary().plotting_area().map_coordinate(&point);
         let right = (self.second_y.is_some()).then_some((second, &other as &dyn Fn((f64, f64)) -> Pixel));
         minor_ticks(area, x, y, &first, (columns.start, rows.end - 1))?;
+        self.draw_marks(area, x, &first, rows.clone())?;
         let mut ends = Vec::new();
         for (n, curve) in self.curves.iter().enumerate() {
             let (span, place) = right.filter(|_| curve.side == Side::Second).unwrap_or((y, &first));
@@ -103,6 +104,27 @@ impl Chart {
             self.label_ends(area, &ends, columns.start..columns.end, rows)?;
         }
         self.draw_texts(area, layout)
+    }
+
+    /// Vertical lines with their labels at the top, one below the other, on the side where there is room.
+    fn draw_marks(
+        &self,
+        area: &Area<'_>,
+        x: &Span,
+        place: &dyn Fn((f64, f64)) -> Pixel,
+        rows: Range<i32>,
+    ) -> DrawResult {
+        let visible = self.marks.iter().filter(|mark| (x.range.0..=x.range.1).contains(&mark.x));
+        for (n, mark) in visible.enumerate() {
+            let column = place((mark.x, 0.0)).0;
+            area.draw(&PathElement::new([(column, rows.start), (column, rows.end - 1)], stroke(Ink::Leader, 1.2)))?;
+            let on_the_left = mark.x > f64::midpoint(x.range.0, x.range.1);
+            let (side, shift) = if on_the_left { (HPos::Right, -fine(5.0)) } else { (HPos::Left, fine(5.0)) };
+            let row = rows.start + fine(LINE * (n as f64 + 0.6));
+            let style = text(TEXT * 0.9, (side, VPos::Center));
+            area.draw(&Text::new(mark.label.clone(), (column + shift, row), style))?;
+        }
+        Ok(())
     }
 
     /// At the right, each curve's label at the height where the curve ends, or as near as there is room.

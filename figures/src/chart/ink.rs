@@ -7,6 +7,7 @@ use maud::{PreEscaped, html};
 use plotters::style::RGBColor;
 
 use super::looks;
+use crate::indices::first_index;
 
 /// The kind of a stroke, a filled shape, or a text.
 #[derive(Clone, Copy)]
@@ -109,6 +110,30 @@ fn raised(text: &str) -> String {
     plain
 }
 
+/// Indices as lowered small letters, in the texts of the picture.
+fn lowered(content: &str) -> String {
+    let mut all = String::with_capacity(content.len());
+    let mut rest = content;
+    while let Some((before, index, after)) = first_index(rest) {
+        all += &format!(
+            "{before}<tspan dy=\"0.3em\" font-size=\"0.75em\">{index}</tspan><tspan dy=\"-0.225em\">\u{200b}</tspan>"
+        );
+        rest = after;
+    }
+    all + rest
+}
+
+/// Indices in line: E40.
+fn without_marks(text: &str) -> String {
+    let mut all = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some((before, index, after)) = first_index(rest) {
+        all = all + before + index;
+        rest = after;
+    }
+    all + rest
+}
+
 /// The style of all charts. It is the same in each, so that pictures on one page do not interfere.
 const STYLE: &str = "
 svg.chart text { font-family: Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif; }
@@ -139,12 +164,12 @@ pub(super) fn finished(drawn: &str, (width, height): (u32, u32), title: &str) ->
             content = content.replace(&format!("{paint}=\"#{r:02X}{g:02X}{b:02X}\""), &ink.attributes(paint));
         }
     }
-    let content = raised(&content);
+    let content = lowered(&raised(&content));
     let fine = |length: u32| f64::from(length) * FINE;
     let view = format!("0 0 {} {}", fine(width), fine(height));
     let svg = html! {
         svg xmlns="http://www.w3.org/2000/svg" class="chart" role="img" width=(width) height=(height) viewBox=(view) {
-            title { (title) }
+            title { (without_marks(title)) }
             style { (PreEscaped(STYLE)) }
             rect class="paper" width="100%" height="100%" fill="#FFFFFF" {}
             (PreEscaped(content))

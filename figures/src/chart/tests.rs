@@ -20,6 +20,7 @@ fn drifts() -> Chart {
         title: "Drift of the modified energy, Kepler's problem & e = 0.6".to_owned(),
         x: axis("step size h", Scale::Linear),
         y: axis("max − min of H̃ / |H|, h² units", Scale::Log10),
+        marks: Vec::new(),
         second_y: None,
         curves: curves.collect(),
         notes: vec!["120 digits; t = 0 to 100; estimator of the best order m.".to_owned()],
@@ -41,6 +42,7 @@ fn bumps() -> Chart {
         title: "Energy error along the orbit".to_owned(),
         x: axis("time t (periods of 2π)", Scale::Linear),
         y: axis("|H̃(t) − H̃(0)|", Scale::Log10),
+        marks: Vec::new(),
         second_y: None,
         curves: curves.collect(),
         notes: Vec::new(),
@@ -57,6 +59,7 @@ fn orders() -> Chart {
         title: "The best order of the estimator".to_owned(),
         x: axis("step size h", Scale::Linear),
         y: axis("estimated error", Scale::Log10),
+        marks: Vec::new(),
         second_y: Some(axis("order m", Scale::Linear)),
         curves: vec![
             curve("estimate", 0, Look::Line, estimate),
@@ -106,7 +109,8 @@ fn polylines(svg: &str) -> Vec<Vec<(f64, f64)>> {
 #[test]
 fn curves_stay_within_the_plot() {
     let wave = (0..200).map(|i| f64::from(i) / 10.0).map(|x| (x, 30.0 * x.sin())).collect();
-    let mut chart = Chart { curves: vec![curve("wave", 3, Look::Line, wave)], notes: Vec::new(), ..bumps() };
+    let mut chart =
+        Chart { curves: vec![curve("wave", 3, Look::Line, wave)], marks: Vec::new(), notes: Vec::new(), ..bumps() };
     chart.x.range = Some((2.0, 15.0));
     chart.y = Axis { range: Some((-10.0, 20.0)), ..axis("y", Scale::Linear) };
     let svg = chart.svg().unwrap();
@@ -158,7 +162,8 @@ fn strange_values_are_drawn_or_left_out() {
                         Curve { side: Side::Second, ..curve("b", 100, look, points.clone()) },
                     ];
                     let [x, y] = ["x", "y"].map(|name| axis(name, scale));
-                    let chart = Chart { x, y, second_y, curves, title: String::new(), notes: Vec::new() };
+                    let chart =
+                        Chart { x, y, second_y, marks: Vec::new(), curves, title: String::new(), notes: Vec::new() };
                     let svg = chart.svg().unwrap();
                     assert!(svg.len() < 20_000 && !svg.contains("NaN"), "{points:?} {scale:?} {look:?}");
                 }
@@ -188,4 +193,13 @@ fn labels_are_where_curves_end_at_the_right() {
         svg.split("<text ").find(|text| text.contains(">this one<")).unwrap().to_owned()
     };
     assert_eq!(of(falling.to_vec()), of(falling.into_iter().rev().collect()));
+}
+
+/// T_{m,m} has a subscript, which ends where the next letter stands on the line again.
+#[test]
+fn indices_are_lowered() {
+    let labelled = curve("T_{m,m} and E_40", 0, Look::Line, vec![(0.0, 0.0), (1.0, 1.0)]);
+    let svg = Chart { curves: vec![labelled], ..bumps() }.svg().unwrap();
+    let lowered = |index: &str| format!("<tspan dy=\"0.3em\" font-size=\"0.75em\">{index}</tspan>");
+    assert!(svg.contains(&lowered("m,m")) && svg.contains(&lowered("40")) && !svg.contains("E_40"), "{svg}");
 }

@@ -8,7 +8,7 @@ use crate::numbers::scientific;
 use crate::results::Results;
 
 pub(super) const FIGURE: Figure =
-    Figure { name: "double-precision", title: "The noise floor of double precision", draw };
+    Figure { name: "double-precision", title: "The noise floor of double precision", of_paper: "", draw };
 
 fn draw(results: &Results) -> Drawing {
     let steps = if results.quick { 100_000 } else { 10_000_000 };

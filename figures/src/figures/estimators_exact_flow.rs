@@ -1,6 +1,6 @@
 //! Estimators on the exact flow, against the number of states that they use.
 
-use super::estimators::{BEST_UP_TO, BILINEAR, CENTRAL, ORDERS, STATES, against_states, even};
+use super::estimators::{BEST_UP_TO, BILINEAR, CENTRAL, Family, ORDERS, STATES, against_states, even};
 use super::kepler::run;
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
@@ -10,7 +10,8 @@ use crate::numbers::power;
 use crate::results::Results;
 use crate::run::EXACT_FLOW;
 
-pub(super) const FIGURE: Figure = Figure { name: "estimators-exact-flow", title: "Estimators on the exact flow", draw };
+pub(super) const FIGURE: Figure =
+    Figure { name: "estimators-exact-flow", title: "Estimators on the exact flow", of_paper: "", draw };
 
 fn draw(results: &Results) -> Drawing {
     let mut drawing = Drawing::additional(
@@ -23,11 +24,14 @@ fn draw(results: &Results) -> Drawing {
         let best = against_states(results, &exact, BEST_UP_TO, &orders[1..]);
         let bilinear = against_states(results, &exact, BILINEAR, &even(orders));
         let least = |points: &[(f64, f64)]| points.iter().map(|(_, y)| *y).fold(f64::INFINITY, f64::min);
+        let states = |(_, states): Family, orders: &[u32]| orders.iter().map(|&order| states(order)).max().unwrap_or(0);
         drawing.found(format!(
-            "h = 1/{n}: the variation is {} by the best m with up to 401 states, at least {} by any fixed m, and {} by the bilinear estimator with up to 201 states.",
+            "h = 1/{n}: the variation is {} by the best m with up to {} states, at least {} by these fixed m, and at least {} by the bilinear estimator with up to {} states.",
             power(best.last().map_or(f64::NAN, |(_, y)| *y)),
+            states(BEST_UP_TO, orders),
             power(least(&central)),
             power(least(&bilinear)),
+            states(BILINEAR, &even(orders)),
         ));
         drawing.chart(
             &format!("Exact flow, Kepler, e = 0.6, h = 1/{n}"),

@@ -6,11 +6,13 @@ use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
+use crate::fit::logarithms;
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, SCHEMES};
 
-pub(super) const FIGURE: Figure = Figure { name: "estimators-schemes", title: "Estimators on schemes", draw };
+pub(super) const FIGURE: Figure =
+    Figure { name: "estimators-schemes", title: "Estimators on schemes", of_paper: "", draw };
 
 fn draw(results: &Results) -> Drawing {
     let mut drawing = Drawing::additional(
@@ -22,13 +24,23 @@ fn draw(results: &Results) -> Drawing {
         for (i, (scheme, label)) in SCHEMES.into_iter().enumerate() {
             curves.push(Curve::line(label, against_states(results, &run(scheme, 20), family, orders), i));
         }
-        curves.push(Curve::dashed("exact flow", against_states(results, &run(EXACT_FLOW, 20), family, orders), 8));
+        let control = against_states(results, &run(EXACT_FLOW, 20), family, orders);
+        let relative =
+            curves.iter().map(|curve| Curve { points: logarithms(&curve.points, &control), ..curve.clone() }).collect();
+        curves.push(Curve::dashed("exact flow", control, 8));
         drawing.chart(
             &format!("{title}, h = 1/20"),
             Axis::log10(STATES),
             Axis::drift(),
             curves,
-            "Where a curve departs from that of the exact flow, it shows the scheme.",
+            "All estimates are of the same states.",
+        );
+        drawing.chart(
+            &format!("{title}, relative to the exact flow, h = 1/20"),
+            Axis::log10(STATES),
+            Axis::log10("drift / drift of the exact flow"),
+            relative,
+            "At 1 an estimator shows of a scheme what it shows of a trajectory whose energy does not change.",
         );
     };
     chart("Best m up to a cap", BEST_UP_TO, &orders[1..]);

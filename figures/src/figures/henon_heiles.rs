@@ -6,7 +6,10 @@ use shadowstep::problems::Problem;
 use shadowstep::shadow::EstimatorSettings;
 
 /// 1/h
-pub(super) const STEPS: [u32; 15] = [2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28];
+pub(super) const STEPS: [u32; 22] = [2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 22, 25, 28];
+
+/// A coarse grid.
+pub(super) const FEW_STEPS: [u32; 7] = [2, 4, 6, 9, 12, 16, 25];
 
 pub(super) fn run(scheme: &'static str, n: u32) -> Run {
     Run::of(Problem::HenonHeiles, scheme, format!("1/{n}"))

@@ -4,8 +4,8 @@ use shadowstep::Number;
 use shadowstep::problems::Problem;
 use shadowstep::shadow::EstimatorSettings;
 
-use crate::calculation::Energies;
 use crate::fit::{ExponentialDecay, decay};
+use crate::measured::Energies;
 use crate::numbers::number;
 use crate::results::Results;
 use crate::run::Run;
@@ -13,6 +13,9 @@ use crate::run::Run;
 /// 1/h
 pub(super) const STEPS: [u32; 24] =
     [4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 18, 20, 22, 24, 27, 30, 35, 40, 45, 50, 60];
+
+/// A coarse grid.
+pub(super) const FEW_STEPS: [u32; 7] = [4, 6, 10, 14, 20, 30, 40];
 
 /// The distance of the nearest singularity of q(t) from the real axis: E = i arcosh(1/e) in t = E − e sin E.
 pub(super) fn singularity(e: f64) -> f64 {

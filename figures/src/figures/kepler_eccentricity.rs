@@ -1,32 +1,24 @@
-//! Kepler's problem: the drift against the eccentricity.
+//! Kepler's problem: the drift against the eccentricity, and the eccentricities with which the body escapes.
 
 use super::kepler::run;
-use crate::chart::{Axis, Curve};
+use crate::chart::{Axis, Curve, Mark};
 use crate::drawing::Drawing;
+use crate::escape::critical;
 use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
 
-pub(super) const FIGURE: Figure =
-    Figure { name: "kepler-eccentricity", title: "Kepler: drift against the eccentricity", draw };
+pub(super) const FIGURE: Figure = Figure {
+    name: "kepler-eccentricity",
+    title: "Kepler: drift against the eccentricity",
+    of_paper: "figure 3, right",
+    draw,
+};
 
-/// The smallest e with which the body escapes, to a thousandth.
-fn escapes(results: &Results, n: u32, coarse: &[u32]) -> Option<f64> {
-    // a bound orbit stays within 1 + e, its precession included
-    let escapes = |e: u32| Some(results.farthest(&of(n, e))? > 3.0);
-    let first = coarse.iter().position(|&e| escapes(e) == Some(true))?;
-    let (mut bound, mut escaped) = (*coarse.get(first.checked_sub(1)?)?, coarse[first]);
-    while escaped - bound > 1 {
-        let middle = u32::midpoint(bound, escaped);
-        match escapes(middle)? {
-            true => escaped = middle,
-            false => bound = middle,
-        }
-    }
-    Some(f64::from(escaped) / 1000.0)
-}
+/// 1/h
+const STEPS: [u32; 4] = [5, 10, 20, 40];
 
 /// Störmer–Verlet with h = 1/n and e in thousandths.
 fn of(n: u32, e: u32) -> Run {
@@ -39,38 +31,193 @@ fn draw(results: &Results) -> Drawing {
         "An instability occurs at a critical eccentricity which depends on the step size: the topology of the energy levels of the modified \
          energy changes, which leads to unbounded trajectories.",
     ]);
-    let grid: Vec<u32> = (1..=19).map(|n| 50 * n).collect();
-    let thousandths = results.grid(&grid, &[50, 300, 600, 750, 900]);
-    let fine: Vec<u32> = grid.iter().copied().chain([970, 990]).collect();
-    let (mut curves, mut rows) = (Vec::new(), Vec::new());
-    for (i, n) in [5, 10, 20, 40].into_iter().enumerate() {
+    let scans: Vec<Scan> = STEPS.iter().filter_map(|&n| Scan::of(results, n)).collect();
+    drifts(results, &mut drawing, &scans);
+    if !scans.is_empty() {
+        check_escapes(&mut drawing, &scans);
+        table(&mut drawing, &scans);
+        orbits(results, &mut drawing, &scans);
+    }
+    drawing.digits_held("the drift at h = 1/20, e = 0.8", results.digits_held(&of(20, 800), &BEST, 200));
+    drawing
+}
+
+fn drifts(results: &Results, drawing: &mut Drawing, scans: &[Scan]) {
+    let all: Vec<u32> = (1..=19).map(|n| 50 * n).collect();
+    let thousandths = results.grid(&all, &[50, 300, 600, 750, 900]);
+    let mut curves = Vec::new();
+    for (i, n) in STEPS.into_iter().enumerate() {
         let points: Vec<_> =
             thousandths.iter().map(|&e| (f64::from(e) / 1000.0, results.log10_drift(&of(n, e), &BEST))).collect();
-        let escape = escapes(results, n, &fine);
-        rows.push(vec![format!("1/{n}"), escape.map_or("none below 0.99".to_owned(), |e| format!("{e:.3}"))]);
-        if let (Some((_, least)), Some((_, middle))) = (points.first(), points.iter().find(|(e, _)| *e >= 0.6)) {
+        if let (Some((first, least)), Some((at, middle))) = (points.first(), points.iter().find(|(e, _)| *e >= 0.6)) {
             drawing.check(
                 &format!("h = 1/{n}: almost circular orbits preserve it much better."),
-                format!("{} at e = 0.05, {} at e = 0.6 or the next value of the grid", power(*least), power(*middle)),
+                format!("{} at e = {first}, {} at e = {at}", power(*least), power(*middle)),
                 *least < middle - 3.0,
             );
         }
         curves.push(Curve::line(format!("h = 1/{n}"), points, i));
     }
-    let located: Vec<&String> = rows.iter().map(|row| &row[1]).filter(|e| !e.starts_with("none")).collect();
-    if !located.is_empty() {
-        let grows = located.windows(2).all(|pair| pair[0] < pair[1]);
-        let list = rows.iter().map(|row| format!("{} at h = {}", row[1], row[0])).collect::<Vec<_>>().join(", ");
-        drawing.check("An instability occurs at a critical eccentricity which depends on the step size.", list, grows);
-    }
-    drawing.digits_held("the drift at h = 1/20, e = 0.8", results.digits_held(&of(20, 800), &BEST, 200));
-    drawing.table("The smallest eccentricity for which |q| exceeds 3 before t = 100", &["h", "e"], rows);
-    drawing.chart(
+    let chart = drawing.chart(
         "Störmer–Verlet, Kepler",
         Axis::linear("eccentricity e"),
         Axis::drift(),
         curves,
-        "The best m of each state, up to 200.",
+        "The best m of each state, up to 200. Marks: the first eccentricity with which the body escapes.",
     );
-    drawing
+    let first = scans.iter().filter_map(|scan| Some((scan.n, scan.first()?)));
+    chart.marks = first.map(|(n, e)| Mark::at(e, format!("escape, h = 1/{n}"))).collect();
+}
+
+/// Whether the body escapes before t = 100, for each eccentricity of a scan at h = 1/n.
+struct Scan {
+    n: u32,
+    /// e in thousandths; whether it escapes, after how many returns, and the largest |q|.
+    found: Vec<(u32, Option<u32>, f64)>,
+}
+
+impl Scan {
+    fn of(results: &Results, n: u32) -> Option<Scan> {
+        let all: Vec<u32> = (400..=990).collect();
+        let some: Vec<u32> = all.iter().copied().filter(|e| e.is_multiple_of(5)).collect();
+        let found = results.grid(&all, &some).iter().map(|&e| {
+            let escape = results.escape(&of(n, e))?;
+            Some((e, escape.time.map(|_| escape.returns), escape.farthest))
+        });
+        // every e is requested before one that is missing ends it
+        let found: Vec<_> = found.collect();
+        Some(Scan { n, found: found.into_iter().collect::<Option<_>>()? })
+    }
+
+    fn escapes(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.found.iter().filter_map(|(e, returns, _)| Some((*e, (*returns)?)))
+    }
+
+    /// The smallest e with which the body escapes.
+    fn first(&self) -> Option<f64> {
+        self.escapes().next().map(|(e, _)| thousandths(e))
+    }
+
+    /// The largest e with which it stays.
+    fn last_bound(&self) -> Option<f64> {
+        self.found.iter().rev().find(|(_, returns, _)| returns.is_none()).map(|(e, ..)| thousandths(*e))
+    }
+
+    /// The range within which the instability begins: from the last e before the first escape, or the first escape
+    /// itself if orbits with larger e stay, to the e from which on all escape.
+    fn range(&self) -> Option<(f64, f64)> {
+        let (first, last) = (self.first()?, self.last_bound()?);
+        Some((first.min(last), first.max(last)))
+    }
+
+    /// Whether all orbits beyond the first escape escape.
+    fn is_one_value(&self) -> Option<bool> {
+        Some(self.first()? > self.last_bound()?)
+    }
+}
+
+fn thousandths(e: u32) -> f64 {
+    f64::from(e) / 1000.0
+}
+
+fn check_escapes(drawing: &mut Drawing, scans: &[Scan]) {
+    let ranges: Vec<_> = scans.iter().filter_map(|scan| Some((scan.n, scan.range()?))).collect();
+    let list: Vec<_> = ranges.iter().map(|(n, (low, high))| format!("{low:.3} to {high:.3} at h = 1/{n}")).collect();
+    let apart = ranges.windows(2).all(|pair| pair[0].1.1 < pair[1].1.0);
+    drawing.check(
+        "An instability occurs at an eccentricity that depends on the step size.",
+        format!("it begins between {}", list.join(", ")),
+        apart && ranges.len() == scans.len(),
+    );
+    for scan in scans {
+        let Some(is_one) = scan.is_one_value() else { continue };
+        let (low, high) = scan.range().expect("there are escapes");
+        let within = |e: f64| (low..=high).contains(&e);
+        let between = scan.found.iter().filter(|(e, ..)| within(thousandths(*e))).count();
+        let escaped = scan.escapes().filter(|(e, _)| within(thousandths(*e))).count();
+        let found = match is_one {
+            true => {
+                format!("of {} orbits none escapes up to e = {low:.3}, and all from {high:.3} on", scan.found.len())
+            }
+            false => format!("from e = {low:.3} to {high:.3}, {escaped} of {between} orbits escape"),
+        };
+        drawing.check(&format!("h = 1/{}: it is one critical eccentricity.", scan.n), found, is_one);
+    }
+    topology(drawing, scans);
+}
+
+/// A level set that is unbounded from the start is left on the first way out; an escape after a return needs a change of the
+/// modified energy itself.
+fn topology(drawing: &mut Drawing, scans: &[Scan]) {
+    for scan in scans {
+        let (all, late) =
+            scan.escapes().fold((0, 0), |(all, late), (_, returns)| (all + 1, late + usize::from(returns > 0)));
+        if all == 0 {
+            continue;
+        }
+        let critical = critical(1.0 / f64::from(scan.n));
+        let others = match late {
+            0 => String::new(),
+            late => format!(", {late} after an encounter that changed the modified energy"),
+        };
+        let found = format!(
+            "{} of {all} orbits that escape do so on the first way out{others}; up to h² the level set of the start is unbounded from e = \
+             {critical:.3} on",
+            all - late
+        );
+        let statement = format!(
+            "h = 1/{}: the trajectories are unbounded since the level sets of the modified energy are.",
+            scan.n
+        );
+        drawing.check(&statement, found, late == 0);
+    }
+    drawing.found(
+        "A body has escaped when it is farther than 2, moves outward, and H̄ = H + h² (pᵀU_qq p/12 − |U_q|²/24), the modified energy up to \
+         h², is at least 0: the level set then reaches infinity. |q| > 3 is not an escape: orbits of negative energy pass it and return.",
+    );
+}
+
+fn table(drawing: &mut Drawing, scans: &[Scan]) {
+    let number = |e: Option<f64>| e.map_or("none".to_owned(), |e| format!("{e:.3}"));
+    let rows = scans.iter().map(|scan| {
+        let beyond = scan.found.iter().find(|(_, _, farthest)| *farthest > 3.0).map(|(e, ..)| thousandths(*e));
+        let critical = format!("{:.3}", critical(1.0 / f64::from(scan.n)));
+        vec![format!("1/{}", scan.n), number(scan.first()), number(scan.last_bound()), critical, number(beyond)]
+    });
+    let (first, last, all) = scans[0]
+        .found
+        .first()
+        .zip(scans[0].found.last())
+        .map_or((0, 0, 0), |(first, last)| (first.0, last.0, scans[0].found.len()));
+    drawing.table(
+        &format!(
+            "Escapes before t = 100, of {all} eccentricities from {} to {}",
+            thousandths(first),
+            thousandths(last)
+        ),
+        &["h", "first escape", "last that stays", "level set unbounded (up to h²)", "first with |q| > 3"],
+        rows.collect(),
+    );
+}
+
+/// The orbits on both sides of the first escape, at h = 1/10.
+fn orbits(results: &Results, drawing: &mut Drawing, scans: &[Scan]) {
+    let Some(scan) = scans.iter().find(|scan| scan.n == 10) else { return };
+    let Some((first, _)) = scan.escapes().next() else { return };
+    let before = scan.found.iter().rev().find(|(e, returns, _)| *e < first && returns.is_none()).map(|(e, ..)| *e);
+    let Some(before) = before else { return };
+    let curve = |e: u32, label: &str, colour: usize| {
+        let orbit = results.orbit(&of(scan.n, e))?;
+        let points = orbit.x.into_iter().zip(orbit.y).collect();
+        Some(Curve::line(format!("e = {}, {label}", thousandths(e)), points, colour))
+    };
+    let curves = [curve(before, "stays", 1), curve(first, "escapes", 2)];
+    let [Some(stays), Some(escapes)] = curves else { return };
+    drawing.chart(
+        "The orbits on both sides of the first escape, h = 1/10",
+        Axis::linear("q₁").over(-12.0, 6.0),
+        Axis::linear("q₂").over(-7.0, 7.0),
+        vec![stays, escapes],
+        "Störmer–Verlet, t ≤ 100; the states are joined by lines. The exact orbit reaches |q| = 1 + e.",
+    );
 }

@@ -10,8 +10,12 @@ use crate::results::Results;
 use crate::run::Run;
 use shadowstep::problems::Problem;
 
-pub(super) const FIGURE: Figure =
-    Figure { name: "pendulum-momentum", title: "The pendulum: drift against the initial momentum", draw };
+pub(super) const FIGURE: Figure = Figure {
+    name: "pendulum-momentum",
+    title: "The pendulum: drift against the initial momentum",
+    of_paper: "figure 2",
+    draw,
+};
 
 fn draw(results: &Results) -> Drawing {
     let mut drawing = Drawing::of_paper(&[

@@ -4,16 +4,17 @@ use shadowstep::Number;
 use shadowstep::problems::Problem;
 use shadowstep::shadow::{EstimatorSettings, StoppingRule};
 
-use crate::calculation::Energies;
 use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::estimator::{best, bilinear, central};
 use crate::figure::Figure;
+use crate::measured::Energies;
 use crate::numbers::number;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, Run};
 
-pub(super) const FIGURE: Figure = Figure { name: "reliability", title: "Estimated errors against true errors", draw };
+pub(super) const FIGURE: Figure =
+    Figure { name: "reliability", title: "Estimated errors against true errors", of_paper: "", draw };
 
 fn estimators() -> [(&'static str, EstimatorSettings); 6] {
     [
@@ -87,8 +88,9 @@ fn draw(results: &Results) -> Drawing {
             [(*label).to_owned()].into_iter().chain(estimated.map(shown)).chain([shown(last_terms[2]), few]).collect(),
         );
     }
+    let list = |values: &[&str]| values.join(", ");
     drawing.table(
-        "True error / estimated error over orbits of e = 0 to 0.9, h = 1/10 to 1/40",
+        &format!("True error / estimated error over one orbit each of e = {}, h = {}", list(orbits), list(steps)),
         &["", "median", "95 %", "largest", "largest, by the last term", "largest, h = 2: three states a period"],
         rows,
     );

@@ -13,8 +13,12 @@ use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
 
-pub(super) const FIGURE: Figure =
-    Figure { name: "scattering", title: "Scattering: the change of the energy itself", draw };
+pub(super) const FIGURE: Figure = Figure {
+    name: "scattering",
+    title: "Scattering: the change of the energy itself",
+    of_paper: "section 5, text",
+    draw,
+};
 
 /// Starts within one step.
 const PHASES: u32 = 12;
@@ -113,15 +117,13 @@ fn rates(drawing: &mut Drawing, changes: &[(f64, f64)], best: &[(f64, f64)]) {
     if let (Some(change), Some(best)) = (&change, &best) {
         drawing.check(
             "|H(y₀) − H(y_T)| is of the order exp(−C/h).",
-            format!(
-                "C = {:.3} ± {:.3} for the largest change, a line to within {:.2} decades",
-                change.c, change.c_error, change.deviation
-            ),
-            change.deviation < 0.5,
+            format!("for the largest change over the starts, {}", change.described()),
+            change.is_exponential(),
         );
         drawing.found(format!(
-            "C is {:.3} times the c of the drift by the best m, as for Kepler's problem, where the exact flow also shows that drift.",
-            change.c / best.c
+            "C is {:.3} times the c of the drift by the best m, whose fit gives {:.3}.",
+            change.c / best.c,
+            best.rate()
         ));
     }
     let rows = vec![decay_row("largest change of H", change.as_ref()), decay_row("drift by the best m", best.as_ref())];

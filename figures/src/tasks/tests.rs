@@ -4,7 +4,10 @@ use std::path::Path;
 use rayon::ThreadPoolBuilder;
 use tempfile::TempDir;
 
+use std::sync::Mutex;
+
 use super::*;
+use crate::Progress;
 
 /// Sums 1/k² up to n: the last bits depend on every term. Odd numbers above 1000 fail.
 #[derive(Serialize)]
@@ -14,19 +17,37 @@ struct Sum<'a> {
     begun: &'a Mutex<Vec<u32>>,
 }
 
-impl Task for Sum<'_> {
-    type Outcome = f64;
-
-    fn cost(&self) -> f64 {
-        f64::from(self.n)
-    }
-
-    fn compute(&self) -> Result<f64, Error> {
+impl Sum<'_> {
+    fn sum(&self) -> Result<f64, Error> {
         self.begun.lock().unwrap().push(self.n);
         match self.n {
             13 => Ok(f64::NAN),
             n if n > 1000 && n % 2 == 1 => Err(Error::run(format!("{n} is odd"), "choose another")),
             n => Ok((1..=n).map(|k| f64::from(k).powi(-2)).sum()),
+        }
+    }
+}
+
+impl Task for Sum<'_> {
+    type Outcome = f64;
+
+    /// Multiples of a hundred are computed together.
+    fn group(&self) -> Option<String> {
+        self.n.is_multiple_of(100).then(|| "hundreds".to_owned())
+    }
+
+    fn cost(group: &[&Self]) -> f64 {
+        group.iter().map(|sum| f64::from(sum.n)).sum()
+    }
+
+    fn compute(group: &[&Self], watcher: &dyn Watcher<f64>) {
+        let (all, mut done) = (Self::cost(group), 0.0);
+        for (place, sum) in group.iter().enumerate() {
+            if !watcher.continues(done / all) {
+                return;
+            }
+            watcher.take(place, sum.sum());
+            done += f64::from(sum.n);
         }
     }
 }
@@ -64,7 +85,7 @@ fn outcomes_do_not_depend_on_the_number_of_threads() {
 #[test]
 fn costliest_tasks_begin_first() {
     let folder = TempDir::new().unwrap();
-    assert_eq!(sums(folder.path(), 1, &NUMBERS).1, [2000, 500, 400, 77, 30, 1]);
+    assert_eq!(sums(folder.path(), 1, &NUMBERS).1, [500, 2000, 400, 77, 30, 1], "hundreds are one group");
 }
 
 /// If the program ends after any byte, all complete lines are kept, and the rest is computed.
@@ -78,7 +99,7 @@ fn interrupted_anywhere_it_can_be_resumed() {
         let (again, begun) = sums(folder.path(), 1, &NUMBERS);
         assert_eq!(again.outcomes, all.outcomes);
         let kept = whole[..length].matches('\n').count().saturating_sub(1);
-        assert_eq!(begun, [2000, 500, 400, 77, 30, 1][kept..], "after {length} bytes");
+        assert_eq!(begun, [500, 2000, 400, 77, 30, 1][kept..], "after {length} bytes");
         let without_times = |text: &str| -> Vec<String> {
             text.lines().map(|line| line.split(",\"seconds\"").next().unwrap().to_owned()).collect()
         };
@@ -99,6 +120,45 @@ fn failures_are_reported_and_the_others_are_done() {
     let (_, mut begun) = sums(folder.path(), 2, &[10, 1001, 13, 20]);
     begun.sort_unstable();
     assert_eq!(begun, [13, 1001]);
+}
+
+/// Stops after some questions, and keeps the progress.
+struct Impatient {
+    questions: usize,
+    seen: Vec<Progress>,
+}
+
+impl Observer for Impatient {
+    fn progress(&mut self, progress: Progress) {
+        self.seen.push(progress);
+    }
+
+    fn stops(&mut self) -> bool {
+        self.questions -= 1;
+        self.questions == 0
+    }
+}
+
+#[test]
+fn what_is_done_is_saved_when_it_is_stopped() {
+    let folder = TempDir::new().unwrap();
+    let begun = Mutex::new(Vec::new());
+    let tasks: Vec<_> = NUMBERS.iter().map(|&n| Sum { n, begun: &begun }).collect();
+    let mut observer = Impatient { questions: 3, seen: Vec::new() };
+    let pool = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let mut store = Store::open(folder.path(), &mut ()).unwrap();
+    let stopped = pool.install(|| run(&tasks, &mut store, &mut observer)).unwrap_err();
+    assert_eq!(
+        stopped.to_string(),
+        "interrupted: 2 of 6 calculations are saved\n  hint: the same command computes the others"
+    );
+    // within the group of 500, 2000 and 400, of 3008 in all
+    let last = observer.seen.last().unwrap();
+    assert_eq!((last.done, last.tasks), (2, 6));
+    let fractions: Vec<_> = observer.seen.iter().map(|progress| progress.fraction).collect();
+    assert!(fractions.is_sorted() && (last.fraction - 500.0 / 3008.0).abs() < 1e-9, "{fractions:?}");
+    drop(store);
+    assert_eq!(sums(folder.path(), 1, &NUMBERS).1, [400, 77, 30, 1]);
 }
 
 #[test]

@@ -18,6 +18,12 @@ pub enum RunError {
         /// The first such value.
         value: NotFinite,
     },
+    /// The source of the states ended before their last one, because it was asked to.
+    #[error("the run was stopped at step {step}")]
+    Stopped {
+        /// n of the state that was to come next.
+        step: i64,
+    },
     /// The settings of the estimator are not valid.
     #[error(transparent)]
     Estimator(#[from] EstimatorError),

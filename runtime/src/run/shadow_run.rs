@@ -73,8 +73,11 @@ where
 }
 
 impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
-    /// The states begin as many before the first estimate as the estimator needs.
-    pub(crate) fn of(states: T, estimator: E, h: &StepSize) -> Self {
+    /// The estimates along states of any source with the step size h, recorded ones for example.
+    ///
+    /// The states begin as many before the first estimate as the estimator needs, which is [`reach`](ShadowRun::reach):
+    /// (`states()` − 1)/2, rounded down.
+    pub fn of(states: T, estimator: E, h: &StepSize) -> Self {
         let missing = estimator.states() - 1;
         let reach = missing / 2;
         ShadowRun { states, estimator, h: h.clone(), reach: reach as i64, after: (missing - reach) as i64, missing }

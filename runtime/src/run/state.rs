@@ -48,6 +48,14 @@ pub trait States {
     fn advance(&mut self) -> Result<Option<State<'_, Self::Number>>, RunError>;
 }
 
+impl<T: States + ?Sized> States for &mut T {
+    type Number = T::Number;
+
+    fn advance(&mut self) -> Result<Option<State<'_, T::Number>>, RunError> {
+        (**self).advance()
+    }
+}
+
 /// The number of the last state that the estimate of the state `steps` needs.
 pub(crate) fn last(steps: u64, reach: usize) -> i64 {
     i64::try_from(steps).unwrap_or(i64::MAX).saturating_add(reach as i64)

@@ -122,12 +122,12 @@ impl Bilinear {
         Bilinear::Fixed { k, with_error: true }
     }
 
-    /// The best k of each state: as accurate as the step size, the largest k and the precision allow.
+    /// The best k of each state, of 2, 4, 8, 16, … and `largest`: as accurate as the step size, these k and the precision allow.
     pub fn best(largest: u32) -> Self {
         Bilinear::Best { largest, accuracy: None }
     }
 
-    /// The smallest k of each state that meets a target error.
+    /// For each state the least k of 2, 4, 8, 16, … and `largest` that meets a target error; the best of them where none does.
     pub fn best_to(largest: u32, accuracy: Rational) -> Self {
         Bilinear::Best { largest, accuracy: Some(accuracy) }
     }

@@ -131,7 +131,11 @@ impl Family for Central {
             Central::Fixed { m, .. } => format!("central differences, m = {m}"),
             Central::Best { largest, stop, rule, .. } => {
                 let by = if *rule == SelectionRule::Robust { " by the robust rule" } else { "" };
-                let end = if *stop == StoppingRule::Early { " before errors rise" } else { "" };
+                let end = match stop {
+                    StoppingRule::Full => "",
+                    StoppingRule::Early => " before errors rise",
+                    StoppingRule::Printed => " before the first ripple",
+                };
                 format!("central differences, the best m of 2–{largest}{by}{end}")
             }
         }

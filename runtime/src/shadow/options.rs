@@ -86,24 +86,40 @@ pub fn check_accuracy(accuracy: &Rational) -> Result<(), AccuracyError> {
 
 /// A word that is not a value of an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("expected {}", .known.join(" or "))]
+#[error("expected {}", listed(.known))]
 pub struct UnknownWord {
     /// The values that exist.
     pub known: &'static [&'static str],
 }
 
+/// `a, b or c`
+fn listed(words: &[&str]) -> String {
+    match words {
+        [first @ .., before, last] => {
+            first.iter().map(|word| format!("{word}, ")).collect::<String>() + &format!("{before} or {last}")
+        }
+        _ => words.concat(),
+    }
+}
+
 impl StoppingRule {
     /// The words for them.
-    pub const NAMES: &'static [&'static str] = &["full", "early"];
+    pub const NAMES: &'static [&'static str] = &["full", "early", "printed"];
 
     /// Where each of them stops.
-    pub const SUMMARIES: &'static [&'static str] = &["At the largest m", "Where the terms begin to grow"];
+    pub const SUMMARIES: &'static [&'static str] = &[
+        "At the largest m",
+        "At the first m >= 13 whose term is larger than the eleven before it: the paper's rule, with < where the paper prints <=",
+        "The paper's rule with <=, as it is printed: at the first ripple of the terms. On Kepler's problem, e = 0.6, h = 1/20, it \
+         gives 27 times the drift of the full search, where `early` gives 1.2 times",
+    ];
 
     /// Its word.
     pub fn name(self) -> &'static str {
         match self {
             StoppingRule::Full => "full",
             StoppingRule::Early => "early",
+            StoppingRule::Printed => "printed",
         }
     }
 }
@@ -139,6 +155,7 @@ impl FromStr for StoppingRule {
         match word {
             "full" => Ok(StoppingRule::Full),
             "early" => Ok(StoppingRule::Early),
+            "printed" => Ok(StoppingRule::Printed),
             _ => Err(UnknownWord { known: Self::NAMES }),
         }
     }

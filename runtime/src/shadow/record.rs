@@ -120,7 +120,10 @@ mod tests {
         for (text, message) in [
             (r#"{"estimator":"hermite","order":4}"#, "unknown estimator `hermite`; expected central or bilinear"),
             (r#"{"estimator":"bilinear","order":4,"rule":"least"}"#, "rule requires order = auto, not order = 4"),
-            (r#"{"estimator":"central","order":"auto","stop":"late"}"#, "stop or rule: expected full or early"),
+            (
+                r#"{"estimator":"central","order":"auto","stop":"late"}"#,
+                "stop or rule: expected full, early or printed",
+            ),
             (
                 r#"{"estimator":"bilinear","order":"auto","accuracy":"-1"}"#,
                 "accuracy is not a valid target error: it must be positive",

@@ -1,0 +1,34 @@
+//! Texts with subscripts in HTML.
+
+use maud::{Markup, html};
+
+use crate::indices::first_index;
+
+/// A text in which the indices are subscripts.
+pub(super) fn set(text: &str) -> Markup {
+    let mut rest = text;
+    let mut pieces = Vec::new();
+    while let Some((before, index, after)) = first_index(rest) {
+        pieces.push((before, index));
+        rest = after;
+    }
+    html! { @for (before, index) in pieces { (before) sub { (index) } } (rest) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn indices_are_subscripts() {
+        for (text, expected) in [
+            ("|T_{m,m} − T_{m−1,m−1}|", "|T<sub>m,m</sub> − T<sub>m−1,m−1</sub>|"),
+            ("E_k, of E_40.", "E<sub>k</sub>, of E<sub>40</sub>."),
+            ("E_<b>", "E_&lt;b&gt;"),
+            ("T_{<b>} & T_{m", "T<sub>&lt;b&gt;</sub> &amp; T_{m"),
+            ("order_used MOST_STEPS STATE_k x_1 T_", "order_used MOST_STEPS STATE_k x_1 T_"),
+        ] {
+            assert_eq!(set(text).into_string(), expected);
+        }
+    }
+}

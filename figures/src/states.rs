@@ -1,0 +1,71 @@
+//! Where the states of a run come from: a scheme, or a recorded trajectory; watched while they are used.
+
+use rug::Float;
+use shadowstep::Increments;
+use shadowstep::run::{RunError, State, States};
+
+/// The states of a trajectory, kept for several estimators.
+#[derive(Debug)]
+pub(crate) struct Recorded {
+    /// How many states there are before 0, and after the last one of the run.
+    reach: usize,
+    states: Vec<Kept>,
+}
+
+#[derive(Debug)]
+struct Kept {
+    n: i64,
+    q: Vec<Float>,
+    p: Vec<Float>,
+    increments: Increments<Float>,
+}
+
+impl Recorded {
+    /// All states of a trajectory that has `reach` of them before 0, and after the last one of the run.
+    pub(crate) fn of(mut states: impl States<Number = Float>, reach: usize) -> Result<Self, RunError> {
+        let mut all = Vec::new();
+        while let Some(State { n, q, p, increments }) = states.advance()? {
+            all.push(Kept { n, q: q.to_vec(), p: p.to_vec(), increments: increments.clone() });
+        }
+        Ok(Recorded { reach, states: all })
+    }
+
+    /// The states again, with fewer before 0 and after the last one of the run.
+    pub(crate) fn states(&self, reach: usize) -> Replay<'_> {
+        let left_out = self.reach - reach;
+        Replay { states: self.states[left_out..self.states.len() - left_out].iter() }
+    }
+}
+
+/// Recorded states in the order of time.
+#[derive(Debug)]
+pub(crate) struct Replay<'a> {
+    states: std::slice::Iter<'a, Kept>,
+}
+
+impl States for Replay<'_> {
+    type Number = Float;
+
+    fn advance(&mut self) -> Result<Option<State<'_, Float>>, RunError> {
+        let state = self.states.next();
+        Ok(state.map(|Kept { n, q, p, increments }| State { n: *n, q, p, increments }))
+    }
+}
+
+/// States that end with an error when `continues`, which gets the n of each, is false.
+pub(crate) struct Watched<T, F> {
+    pub(crate) states: T,
+    pub(crate) continues: F,
+}
+
+impl<T: States, F: FnMut(i64) -> bool> States for Watched<T, F> {
+    type Number = T::Number;
+
+    fn advance(&mut self) -> Result<Option<State<'_, T::Number>>, RunError> {
+        let Some(state) = self.states.advance()? else { return Ok(None) };
+        if !(self.continues)(state.n) {
+            return Err(RunError::Stopped { step: state.n });
+        }
+        Ok(Some(state))
+    }
+}
