@@ -277,7 +277,7 @@ mod tests {
     #[test]
     fn an_exponential_and_a_power_are_distinguished() {
         let steps = [0.2, 0.1, 0.07, 0.05, 0.04, 0.025];
-        let wiggle = |i: usize| if i % 2 == 0 { 0.1 } else { -0.1 };
+        let wiggle = |i: usize| if i.is_multiple_of(2) { 0.1 } else { -0.1 };
         let fit = |y: &dyn Fn(f64) -> f64| {
             let points: Vec<_> = steps.iter().enumerate().map(|(i, &h)| (h, y(h) + wiggle(i))).collect();
             ExponentialDecay::of(&points).unwrap().is_exponential()

@@ -84,18 +84,21 @@ fn refuse_foreign_report(folder: &Path) -> Result<(), Error> {
     Err(Error::usage(message, "give another folder, or remove the file"))
 }
 
-/// The results of a figure that is not requested, if earlier runs left all of them: of the full grid, or of the coarse one.
+/// The results of a figure that is not requested, if it has some and earlier runs left all of them: of the full grid, or of the
+/// coarse one.
 fn kept(figure: &Figure, store: &Store) -> Option<Results> {
     [false, true].into_iter().find_map(|quick| {
         let mut results = Results::new(quick);
+        let mut any = false;
         loop {
             drop((figure.draw)(&results));
             if !results.take_kept(store)? {
                 break;
             }
+            any = true;
         }
         results.take_used();
-        Some(results)
+        any.then_some(results)
     })
 }
 
