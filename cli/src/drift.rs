@@ -20,6 +20,8 @@ use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::Run;
 use shadowstep_symbolic::decimal::to_text;
 
+use crate::colour::on_stdout;
+use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::report::{self, Status};
@@ -39,6 +41,9 @@ Examples:
       --step 1/20 --until 100
 
 The error of H is max |H(t) - H(0)| as a part of |H(0)|; the modified energy is what the scheme conserves in place of H.";
+
+/// What can be done after an interruption.
+const NOT_RESUMED: &str = "the runs before it are complete; give --scheme and --step of the others to make them";
 
 /// The error of H and the drift of the modified energy: one run per scheme and step.
 #[derive(Debug, Args)]
@@ -76,6 +81,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let mut status = Status::Success;
     let mut records = Vec::new();
     let mut controls = Controls::new(arguments.controls());
+    let interrupt = Interrupt::listen();
     for (number, (propagator, run)) in (1..).zip(selection.runs()) {
         let name = selection.numbered(number, run);
         let progress = Progress::new(bar, name, run.steps);
@@ -85,6 +91,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
             run,
             controls: &mut controls,
             progress,
+            interrupt: &interrupt,
             summarised: !arguments.run.no_summary,
         };
         match selection.arithmetic.compute(measurement) {
@@ -101,9 +108,15 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
             }
             Err(error) => status = status.max(report::error(&error)),
         }
+        // the runs that are complete are written
+        if interrupt.asked() {
+            status = Status::RunFailed;
+            break;
+        }
     }
     if !arguments.json && !records.is_empty() {
-        write!(output, "{}", readable(&selection, &records))?;
+        let coloured = arguments.run.output.output.is_none() && on_stdout();
+        write!(output, "{}", readable(&selection, &records, coloured))?;
     }
     output.finish()?;
     Ok(status)
@@ -116,6 +129,7 @@ struct Measurement<'a> {
     run: Run<'a>,
     controls: &'a mut Controls,
     progress: Progress,
+    interrupt: &'a Interrupt,
     summarised: bool,
 }
 
@@ -123,18 +137,18 @@ impl Computation for Measurement<'_> {
     type Output = Result<Record, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
-        let Measurement { selection, propagator, run, controls, progress, summarised } = self;
+        let Measurement { selection, propagator, run, controls, progress, interrupt, summarised } = self;
         let settings = selection.estimator.clone().with_errors(true);
         let system = &selection.problem.system;
         let begin = Instant::now();
         let estimates = Estimates { system, propagator, run, settings: &settings, summarised };
         let (found, finished) = measure::<N>(estimates, context, |n| {
             progress.reach(n);
-            Ok(())
+            interrupt.check(run, n, NOT_RESUMED)
         })?;
         let seconds = begin.elapsed();
         let control = match propagator.scheme() {
-            Some(_) => controls.of::<N>(estimates, context, seconds, &progress),
+            Some(_) => controls.of::<N>(estimates, context, seconds, (&progress, interrupt)),
             None => Found::Nothing,
         };
         let per_step = propagator.scheme().map(|named| named.scheme.proved().plan.evaluations);

@@ -3,6 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use shadowstep_scenes::Error;
+use shadowstep_scenes::run::Run;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
@@ -23,6 +25,14 @@ impl Interrupt {
             let _ = flag::register(signal, Arc::clone(&asked));
         }
         Interrupt { asked }
+    }
+
+    /// An error if the run is asked to end, which has reached n.
+    pub(crate) fn check(&self, run: Run<'_>, n: i64, hint: &str) -> Result<(), Error> {
+        if self.asked() {
+            return Err(Error::run(format!("{}: interrupted at n = {n}", run.name()), hint));
+        }
+        Ok(())
     }
 
     /// Whether the run is asked to end.

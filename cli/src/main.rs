@@ -12,7 +12,7 @@
 //! | [`run_arguments`], [`quantity`] | the flags of runs; exact numbers |
 //! | [`selection`], [`system`] | flags → schemes and steps; flags → the system |
 //! | [`readable`], [`output`], [`progress`] | tables, lines and bars |
-//! | [`report`], [`interrupt`] | messages on stderr and the exit status; Ctrl-C |
+//! | [`report`], [`colour`], [`interrupt`] | messages on stderr and the exit status; colours; Ctrl-C |
 
 mod drift;
 mod figures;
@@ -22,6 +22,7 @@ mod scene;
 mod schemes;
 mod trace;
 
+mod colour;
 mod interrupt;
 mod output;
 mod progress;

@@ -1,5 +1,7 @@
 //! Exact numbers in flags: `--step 1/10`, `--set x=1/2`.
 
+use std::ops::RangeInclusive;
+
 use shadowstep::Rational;
 use shadowstep::problems::ProblemError;
 use shadowstep_scenes::Error;
@@ -12,6 +14,18 @@ pub(crate) fn number(flag: &str, text: &str) -> Result<Rational, Error> {
         let place = character(text, error.range().start);
         Error::usage(format!("{flag} `{text}`, character {place}: {error}"), NUMBER_EXAMPLES)
     })
+}
+
+/// A whole number of a flag, within a range.
+///
+/// # Errors
+/// The end of clap's message about the flag.
+pub(crate) fn whole(text: &str, range: RangeInclusive<u32>) -> Result<u32, String> {
+    match text.parse() {
+        Ok(number) if range.contains(&number) => Ok(number),
+        _ if text.parse::<i128>().is_ok() => Err(format!("{text} is not in {}..={}", range.start(), range.end())),
+        _ => Err(format!("write a whole number from {} to {}", range.start(), range.end())),
+    }
 }
 
 /// `name=expression` in two; the expression is evaluated where its names are known.

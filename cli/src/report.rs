@@ -1,9 +1,12 @@
 //! Messages on stderr, and how the program ends.
 
 use std::fmt::Display;
-use std::io::{self, ErrorKind, Write};
+use std::io::{ErrorKind, Write};
 
+use anstyle::Style;
 use shadowstep_scenes::{Error, Summary};
+
+use crate::colour::{ERROR, HINT, NOTE, of_verdict, styled};
 
 /// The exit status; of several, the greatest counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -19,7 +22,7 @@ pub(crate) fn error(error: &Error) -> Status {
     match error {
         // the reader of a pipe, such as `head`, has closed it
         Error::Output(error) if error.kind() == ErrorKind::BrokenPipe => return Status::Success,
-        _ => write(format_args!("error: {error}")),
+        _ => write(message("error:", ERROR, error)),
     }
     match error {
         Error::Usage { .. } | Error::Faults(_) => Status::UsageError,
@@ -29,21 +32,32 @@ pub(crate) fn error(error: &Error) -> Status {
 
 /// Reports something that the user should know and that is not wrong.
 pub(crate) fn note(note: impl Display) {
-    write(format_args!("note: {note}"));
+    write(message("note:", NOTE, note));
 }
 
 /// Reports a negative answer and its reason.
 pub(crate) fn negative_answer(message: impl Display, hint: impl Display) -> Status {
-    write(format_args!("error: {message}\n  hint: {hint}"));
+    write(self::message("error:", ERROR, format_args!("{message}\n  hint: {hint}")));
     Status::NegativeAnswer
+}
+
+/// A message behind its word, with the word of its hint, both in colours.
+fn message(word: &str, style: Style, text: impl Display) -> String {
+    let text = text.to_string().replace("\n  hint: ", &format!("\n  {} ", styled("hint:", HINT)));
+    format!("{} {text}", styled(word, style))
 }
 
 /// Writes the summary of a run to stderr: as text, or as one JSON object.
 pub(crate) fn summary(summary: &Summary, json: bool) {
-    if json { write(serde_json::json!({ "summary": summary })) } else { write(summary) }
+    if json {
+        write(serde_json::json!({ "summary": summary }));
+    } else {
+        let verdict = styled(summary.verdict(), of_verdict(summary.is_fine()));
+        write(summary.to_string().replacen(summary.verdict(), &verdict, 1));
+    }
 }
 
-/// Writes lines to stderr. That stderr is closed is not a reason to stop.
+/// Writes lines to stderr, without colours where it is not a terminal. That stderr is closed is not a reason to stop.
 pub(crate) fn write(lines: impl Display) {
-    let _ = writeln!(io::stderr(), "{lines}");
+    let _ = writeln!(anstream::stderr(), "{lines}");
 }

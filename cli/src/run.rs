@@ -87,7 +87,7 @@ fn concluded(scene: &Scene, summary: Option<&Summary>, strict: bool) -> Status {
         (Format::JsonLines, None, Some(summary)) => {
             report::write(serde_json::json!({ "metadata": scene.metadata(), "summary": summary }));
         }
-        (_, _, Some(summary)) => report::write(summary),
+        (_, _, Some(summary)) => report::summary(summary, false),
         _ => {}
     }
     let fine = !strict || summary.is_none_or(Summary::is_fine);

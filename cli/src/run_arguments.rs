@@ -6,6 +6,7 @@ use shadowstep::shadow::{EstimatorSettings, HIGHEST_ORDER, SelectionRule, Stoppi
 use shadowstep_scenes::arithmetic::{DEFAULT_DIGITS, MOST_DIGITS};
 
 use crate::output::OutputArguments;
+use crate::quantity::whole;
 
 /// What is run, and how.
 #[derive(Debug, Args)]
@@ -24,7 +25,7 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) until: String,
     /// Decimal digits of all numbers, such as 50
-    #[arg(long, default_value_t = DEFAULT_DIGITS, value_name = "DIGITS", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_DIGITS)))]
+    #[arg(long, default_value_t = DEFAULT_DIGITS, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS))]
     pub(crate) digits: u32,
     /// Double precision (f64) instead of --digits
     #[arg(long, conflicts_with = "digits")]
@@ -36,7 +37,7 @@ pub(crate) struct RunArguments {
     #[arg(long, default_value = "auto", value_name = "M|K|auto", value_parser = order)]
     pub(crate) order: OrderChoice,
     /// The largest m or k that --order auto tries, such as 100 [default: 200 of m, 64 of k]
-    #[arg(long, value_name = "M|K", value_parser = clap::value_parser!(u32).range(2..=i64::from(HIGHEST_ORDER)))]
+    #[arg(long, value_name = "M|K", value_parser = |text: &str| whole(text, 2..=HIGHEST_ORDER))]
     pub(crate) max_order: Option<u32>,
     /// Where --order auto stops trying m. Moan and Niesen's rule for an early stop is printed with <=; `early` has < instead
     /// [default: full]

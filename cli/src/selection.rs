@@ -35,6 +35,8 @@ impl Selection {
         let estimator = estimator(arguments)?;
         let problem = Described::read(&arguments.system, arithmetic)?;
         let until = quantity::number("--until", &arguments.until)?;
+        refuse_empty("--scheme", &arguments.schemes, "yoshida4,ruth3")?;
+        refuse_empty("--step", &arguments.steps, "1/10,1/20")?;
         let mut steps: Vec<_> = arguments.steps.iter().map(|text| step(text, &until)).collect::<Result<_, _>>()?;
         let words = each_once(&arguments.schemes, |word| word.clone(), "scheme");
         let propagators =
@@ -138,6 +140,15 @@ fn accuracy(text: &str) -> Result<Rational, Error> {
         Ok(()) => Ok(accuracy),
         Err(error) => Err(Error::usage(format!("--accuracy {text} {error}"), ACCURACY_HINT)),
     }
+}
+
+/// Refuses a comma without a value before or after it.
+fn refuse_empty(flag: &str, list: &[String], example: &str) -> Result<(), Error> {
+    if list.iter().all(|item| !item.trim().is_empty()) {
+        return Ok(());
+    }
+    let message = format!("{flag} {} has an empty value", list.join(","));
+    Err(Error::usage(message, format!("write one value, or several with commas between them: {flag} {example}")))
 }
 
 /// The list without repetitions, which are reported.

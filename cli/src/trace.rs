@@ -11,6 +11,7 @@ use shadowstep_scenes::run::Run;
 use shadowstep_scenes::{Error, Summary};
 use shadowstep_symbolic::decimal::to_text;
 
+use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::report::{self, Status};
@@ -27,6 +28,9 @@ modified_energy, of the right size also near close encounters. With --order 1 th
 JSON null. Lines of several runs begin with scheme and step.
 
 The summary of each run is on stderr: for CSV as text, for JSON as one object a line, {\"summary\": …}.";
+
+/// What can be done after an interruption.
+const NOT_RESUMED: &str = "begin again; `shadowstep run` with a checkpoint in its scene can be resumed";
 
 /// Energy and modified energy at each step.
 #[derive(Debug, Args)]
@@ -58,11 +62,11 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let bar = arguments.run.output.output.is_some();
     let several = selection.count() > 1;
     let mut write = writer(&selection, arguments.csv, arguments.states, &mut output)?;
-    let mut summaries = Vec::new();
+    let (mut summaries, interrupt) = (Vec::new(), Interrupt::listen());
     for (number, (propagator, run)) in (1..).zip(selection.runs()) {
         let progress = Progress::new(bar, selection.numbered(number, run), run.steps);
-        let following =
-            Following { selection: &selection, propagator, run, several, arguments, progress, write: &mut write };
+        let (selection, interrupt, write) = (&selection, &interrupt, &mut write);
+        let following = Following { selection, propagator, run, several, arguments, progress, interrupt, write };
         summaries.extend(selection.arithmetic.compute(following)?.summary);
     }
     drop(write);
@@ -80,6 +84,7 @@ struct Following<'a, 'w> {
     several: bool,
     arguments: &'a Arguments,
     progress: Progress,
+    interrupt: &'a Interrupt,
     write: &'a mut Writer<'w>,
 }
 
@@ -87,7 +92,7 @@ impl Computation for Following<'_, '_> {
     type Output = Result<Finished, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
-        let Following { selection, propagator, run, several, arguments, progress, write } = self;
+        let Following { selection, propagator, run, several, arguments, progress, interrupt, write } = self;
         let (settings, between) = (selection.estimator.clone().with_errors(true), selection.estimator.is_between());
         let system = &selection.problem.system;
         let mut energy_of = system.energy::<N>(context);
@@ -112,7 +117,7 @@ impl Computation for Following<'_, '_> {
                 p: texts(found.p),
             })?;
             progress.reach(n);
-            Ok(())
+            interrupt.check(run, n, NOT_RESUMED)
         })
     }
 }

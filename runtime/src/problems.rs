@@ -99,13 +99,13 @@ registry! {
     Toda: toda,
 }
 
-/// The problem with this name.
+/// The problem with this name, in capital or small letters.
 ///
 /// # Errors
 /// An unknown name; the message has the nearest known one.
 pub fn problem(name: &str) -> Result<Problem, ProblemError> {
     let names: Vec<_> = PROBLEMS.iter().map(|problem| problem.name()).collect();
-    let found = PROBLEMS.iter().find(|problem| problem.name() == name);
+    let found = PROBLEMS.iter().find(|problem| problem.name().eq_ignore_ascii_case(name));
     found.copied().ok_or_else(|| ProblemError::UnknownProblem { name: name.to_owned(), hint: suggestion(name, &names) })
 }
 

@@ -10,6 +10,7 @@ use shadowstep_symbolic::decimal::{to_significant, to_text};
 
 use crate::library::NamedScheme;
 use crate::note::Note;
+use crate::readable;
 
 /// Digits beyond those of the run to which exact values are computed, so that rounding them once more does not show.
 pub const GUARD_DIGITS: u32 = 20;
@@ -111,7 +112,7 @@ macro_rules! number_types {
             pub fn described(self) -> String {
                 match self {
                     $(Arithmetic::$Name => $description.to_owned(),)+
-                    Arithmetic::Digits(digits, _) => format!("{digits} digits"),
+                    Arithmetic::Digits(digits, _) => readable::digits(digits),
                 }
             }
         }

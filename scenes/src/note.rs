@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use shadowstep::Rational;
 use shadowstep_symbolic::decimal::{from_text, to_significant};
 
-use crate::readable::shortened;
+use crate::readable::{digits as digits_of, shortened};
 
 /// Something the user should know; it is not an error.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -98,7 +98,11 @@ impl fmt::Display for Note {
                 write!(f, "{until} is not a multiple of {h}: the run ends at n = {steps}, t = {end}")
             }
             Note::OrderHoldsTo { scheme, order, digits } => {
-                write!(f, "{scheme} has order {order} to {digits} digits only; errors below that have a lower order")
+                write!(
+                    f,
+                    "{scheme} has order {order} to {} only; errors below that have a lower order",
+                    digits_of(*digits)
+                )
             }
             Note::Unstable { scheme, limit, h_omega, omega, quadratic } => {
                 let digits = |limit: &String| from_text(limit).map(|limit| format!("{} ", to_significant(&limit, 6)));

@@ -16,13 +16,18 @@ pub fn shortened(value: &Rational, digits: usize) -> String {
     if exact.len() <= digits + 2 { exact } else { format!("{}…", to_significant(value, digits)) }
 }
 
-/// A text in lines of at most 100 characters, each of which begins with `margin`.
+/// A number of digits in words: `1 digit`, `120 digits`.
+pub fn digits(count: u32) -> String {
+    if count == 1 { "1 digit".to_owned() } else { format!("{count} digits") }
+}
+
+/// A text in lines of at most 80 characters, each of which begins with `margin`.
 ///
 /// ```
 /// assert_eq!(shadowstep_scenes::readable::wrapped("The step size h.", "# "), "# The step size h.\n");
 /// ```
 pub fn wrapped(text: &str, margin: &str) -> String {
-    wrapped_to(text, margin, 100)
+    wrapped_to(text, margin, 80)
 }
 
 /// A text in lines of at most `width` characters, each of which begins with `margin`.

@@ -21,6 +21,7 @@ use shadowstep_scenes::run::Run;
 
 use super::measure::measure;
 use super::record::{Control, Permanent};
+use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use crate::report;
 
@@ -72,7 +73,7 @@ impl Controls {
         estimates: Estimates<'_>,
         context: &N::Context,
         seconds: Duration,
-        progress: &Progress,
+        (progress, interrupt): (&Progress, &Interrupt),
     ) -> Found {
         let setup = estimates.system.setup().filter(|setup| has_exact_flow(setup).is_ok());
         let Some(setup) = setup.filter(|_| self.wanted != Wanted::Never) else { return Found::Nothing };
@@ -85,7 +86,7 @@ impl Controls {
         let estimates = Estimates { propagator: &Propagator::ExactFlow, run, ..estimates };
         let found = match expected::<N>(&setup, run, context) {
             Some(expected) if limit.is_some_and(|limit| expected > limit) => left_out(expected, seconds),
-            _ => control::<N>(estimates, context, limit, seconds, progress),
+            _ => control::<N>(estimates, context, limit, seconds, (progress, interrupt)),
         };
         self.known.insert(run.h.clone(), found.clone());
         found
@@ -112,7 +113,7 @@ fn control<N: Rounded + 'static>(
     context: &N::Context,
     limit: Option<Duration>,
     seconds: Duration,
-    progress: &Progress,
+    (progress, interrupt): (&Progress, &Interrupt),
 ) -> Found {
     let begin = Instant::now();
     let (steps, mut expected) = (estimates.run.steps as f64, None);
@@ -123,7 +124,7 @@ fn control<N: Rounded + 'static>(
             expected = Some(all.max(begin.elapsed()));
             return Err(Error::run("the control takes too long", "use --control"));
         }
-        Ok(())
+        interrupt.check(estimates.run, n, "the run itself is complete")
     });
     match (found, expected) {
         (Ok((found, _)), _) => {

@@ -6,6 +6,7 @@ use shadowstep_scenes::readable::{shortened, wrapped_to};
 use shadowstep_scenes::run::Run;
 
 use super::record::{NOT_SEEN, Permanent, Record};
+use crate::colour::{heading, of_verdict, styled};
 use crate::readable::{rounded, table};
 use crate::selection::Selection;
 
@@ -88,13 +89,14 @@ const MOST_VALUES: usize = 16;
 /// The width of a terminal.
 const WIDTH: usize = 80;
 
-pub(super) fn readable(selection: &Selection, records: &[(Run<'_>, Record)]) -> String {
+/// The table and the verdicts, with colours if that is wanted.
+pub(super) fn readable(selection: &Selection, records: &[(Run<'_>, Record)], coloured: bool) -> String {
     let rows: Vec<Row> = records.iter().map(|(run, record)| row(*run, record)).collect();
     let left_out = records.iter().find_map(|(_, record)| record.control_left_out.as_ref());
     let mut text = head(selection);
-    text += &in_groups(&columns(selection, &rows), records);
+    text += &in_groups(&columns(selection, &rows), records, coloured);
     text += &marks(&rows, left_out);
-    text += &verdicts(records);
+    text += &verdicts(records, coloured);
     text
 }
 
@@ -134,7 +136,7 @@ fn columns(selection: &Selection, rows: &[Row]) -> String {
 }
 
 /// The lines of a table with a line for each scheme above its rows.
-fn in_groups(table: &str, records: &[(Run<'_>, Record)]) -> String {
+fn in_groups(table: &str, records: &[(Run<'_>, Record)], coloured: bool) -> String {
     let lines: Vec<&str> = table.lines().collect();
     let first = lines.len() - records.len() - 1;
     let mut text: String = lines[..first].iter().map(|line| format!("{line}\n")).collect();
@@ -146,7 +148,8 @@ fn in_groups(table: &str, records: &[(Run<'_>, Record)]) -> String {
                 Some(forces) => format!(", {forces} forces a step"),
                 None => String::new(),
             };
-            text += &format!(" {}{cost}\n", run.propagator);
+            let name = if coloured { heading(run.propagator) } else { run.propagator.to_owned() };
+            text += &format!(" {name}{cost}\n");
             last = run.propagator;
         }
         text += &format!("{line}\n");
@@ -155,7 +158,7 @@ fn in_groups(table: &str, records: &[(Run<'_>, Record)]) -> String {
 }
 
 /// The verdict on each run, and its close encounters; of several runs, the reason only where the verdict is worse than fine.
-fn verdicts(records: &[(Run<'_>, Record)]) -> String {
+fn verdicts(records: &[(Run<'_>, Record)], coloured: bool) -> String {
     let line = |(run, record): &(Run<'_>, Record)| {
         let summary: &Summary = record.summary.as_ref()?;
         let verdict = match summary.is_fine() && records.len() > 1 {
@@ -168,6 +171,12 @@ fn verdicts(records: &[(Run<'_>, Record)]) -> String {
         };
         // lines after the first are indented
         let text = wrapped_to(&format!("{}: {verdict}{encounters}", run.name()), "    ", WIDTH);
+        let text = if coloured {
+            let verdict = styled(summary.verdict(), of_verdict(summary.is_fine()));
+            text.replacen(summary.verdict(), &verdict, 1)
+        } else {
+            text
+        };
         Some(format!("{}\n", text.trim()))
     };
     records.iter().filter_map(line).collect()

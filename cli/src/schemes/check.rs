@@ -11,6 +11,7 @@ use crate::report::{self, Status};
 use crate::schemes::facts::{near_integrable, near_integrable_text};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library;
+use shadowstep_scenes::readable::digits as in_digits;
 
 const EXAMPLE: &str = "\
 Example:
@@ -55,7 +56,7 @@ fn verdict(path: &str, proved: &Proved) -> String {
         Kinetic::Any => "every T(p)",
         Kinetic::Quadratic => "quadratic T",
     };
-    let digits = order.digits.map_or_else(|| "exactly".to_owned(), |digits| format!("to {digits} digits"));
+    let digits = order.digits.map_or_else(|| "exactly".to_owned(), |digits| format!("to {}", in_digits(digits)));
     let symmetric = if proved.proof.symmetric { ", symmetric" } else { "" };
     let near = match near_integrable_text(&near_integrable(&proved.proof)) {
         orders if orders.is_empty() => orders,

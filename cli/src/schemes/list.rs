@@ -11,6 +11,7 @@ use shadowstep_schemes::Kinetic;
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 
 use crate::output::Output;
+use crate::quantity::whole;
 use crate::readable::{rounded, table, wrapped_to};
 use crate::report::{self, Status};
 use crate::schemes::facts::{
@@ -27,7 +28,7 @@ pub(crate) struct Arguments {
     #[arg(value_name = "FILE")]
     tables: Vec<String>,
     /// Only schemes of this order, such as 6
-    #[arg(long, value_name = "ORDER", value_parser = clap::value_parser!(u32).range(1..=i64::from(HIGHEST_ORDER)))]
+    #[arg(long, value_name = "ORDER", value_parser = |text: &str| whole(text, 1..=HIGHEST_ORDER))]
     order: Option<u32>,
     /// Only schemes for these kinetic energies, with the orders and effective errors for them in --order and --sort
     #[arg(long = "for", value_name = "KINETIC")]

@@ -21,9 +21,10 @@ use crate::readable::{shortened, table, wrapped};
 use crate::report::Status;
 use crate::schemes::analysis;
 use crate::schemes::analysis::{ErrorRecord, Gap, Phase, Sizes};
-use crate::schemes::facts::{aliases, digits, digits_text, kinetic, near_integrable, near_integrable_text};
+use crate::schemes::facts::{aliases, digits, kinetic, near_integrable, near_integrable_text};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library;
+use shadowstep_scenes::readable::digits as in_digits;
 
 /// Everything that is known about a scheme.
 #[derive(Debug, Args)]
@@ -276,13 +277,13 @@ fn meant_for(kinetic: Kinetic) -> &'static str {
 }
 
 fn weights_text(digits: Option<u32>) -> String {
-    digits.map_or_else(|| "exact".to_owned(), |digits| format!("{digits} digits"))
+    digits.map_or_else(|| "exact".to_owned(), in_digits)
 }
 
 fn order_text(order: &Order) -> String {
     let holds = match order.digits {
         None => format!("order {}, exactly", order.order),
-        Some(digits) => format!("order {}, to {} digits", order.order, digits_text(Some(digits))),
+        Some(digits) => format!("order {}, to {}", order.order, in_digits(digits)),
     };
     match failed(order, |value| shortened(value, 16)) {
         None => format!("{holds}; more than order {HIGHEST_ORDER} is not looked for"),

@@ -291,6 +291,32 @@ fn an_interrupted_run_ends_with_a_checkpoint() {
     assert!(fs::read_to_string(folder.path().join("out.jsonl")).unwrap() == whole, "other bytes");
 }
 
+/// The first run is complete when the signal comes in the second one.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_drift_writes_the_runs_that_are_complete() {
+    let folder = tempfile::tempdir().unwrap();
+    let words =
+        "drift --problem kepler --scheme stormer-verlet --step 1/10,1/1000000 --until 10 --double --order 2 --json";
+    let mut child = Command::new(env!("CARGO_BIN_EXE_shadowstep"))
+        .args(words.split(' '))
+        .stdout(fs::File::create(folder.path().join("out")).unwrap())
+        .stderr(fs::File::create(folder.path().join("err")).unwrap())
+        .spawn()
+        .unwrap();
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    let begun = Instant::now();
+    while read("out").is_empty() {
+        assert!(begun.elapsed() < Duration::from_secs(60), "no run is complete");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    signal(&child, "-INT");
+    assert_eq!(child.wait().unwrap().code(), Some(3));
+    assert_eq!(read("out").lines().count(), 1);
+    let err = read("err");
+    assert!(err.contains("interrupted at n = ") && err.contains("hint: the runs before it are complete"), "{err}");
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_without_checkpoints_leaves_nothing() {

@@ -17,6 +17,9 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("--scheme zzzzzzzzzzzz", "there is no scheme `zzzzzzzzzzzz`", "no shipped table has a name like that (`"),
     ("--scheme yoshida4.toml", "there is no file yoshida4.toml", "is `yoshida4`, without `.toml`"),
     ("--scheme nowhere/mine.toml", "there is no file nowhere/mine.toml", "give the path of a table"),
+    ("--scheme ,", "--scheme , has an empty value", "--scheme yoshida4,ruth3"),
+    ("--scheme ruth3,", "--scheme ruth3, has an empty value", "--scheme yoshida4,ruth3"),
+    ("--step 1/10,", "--step 1/10, has an empty value", "--step 1/10,1/20"),
     ("--step 0.1x", "--step `0.1x`, character 1: `0.1x`: an operator is missing", "1/10"),
     ("--step 1/10,*2", "--step `*2`, character 1", "1/10"),
     ("--step 0", "--step 0: the step size must be nonzero", "such as 1/10"),
@@ -74,6 +77,8 @@ fn each_wrong_flag_has_its_message_and_hint() {
 fn invalid_values_of_flags_are_refused() {
     for (flags, sentence) in [
         ("--digits 0", "0 is not in 1..=100000"),
+        ("--digits 3.5", "write a whole number from 1 to 100000"),
+        ("--digits many", "write a whole number from 1 to 100000"),
         ("--digits 100001", "100001 is not in 1..=100000"),
         ("--digits 50 --double", "'--digits <DIGITS>' cannot be used with '--double'"),
         ("--order 0", "write a number from 1 to 1000, or auto"),
@@ -111,4 +116,35 @@ fn help_shows_exit_codes_and_examples() {
     }
     let example = quietly("drift --help");
     assert!(example.contains("Examples:\n  shadowstep drift --problem kepler"), "{example}");
+}
+
+#[test]
+fn names_of_problems_ignore_case() {
+    let words = "--scheme Stormer-Verlet --double --order 2 --no-control --no-summary";
+    let drift = |problem: &str| quietly(&completed(&format!("--problem {problem} {words} --step 1/10")));
+    let table = |text: String| text.lines().take(8).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(table(drift("Kepler")), table(drift("kepler")));
+}
+
+#[test]
+fn one_digit_is_singular() {
+    let table = quietly(&completed("--digits 1 --order 2 --no-control --no-summary"));
+    assert!(table.contains(", 1 digit; ") && !table.contains("1 digits"), "{table}");
+}
+
+/// In pipes there are no colours, unless they are asked for.
+#[test]
+fn messages_have_colours_on_a_terminal() {
+    let run = |name: &str, value: &str| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_shadowstep"))
+            .args(["problems", "keppler"])
+            .env(name, value)
+            .output()
+            .unwrap();
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let plain = "error: there is no problem `keppler`\n  hint: did you mean `kepler`?\n";
+    assert_eq!((run("TERM", "xterm").as_str(), run("NO_COLOR", "1").as_str()), (plain, plain));
+    let coloured = run("CLICOLOR_FORCE", "1");
+    assert!(coloured.contains("\u{1b}[31m") && coloured.contains("\u{1b}[36m"), "{coloured:?}");
 }
