@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::numbers::decimal;
 use crate::verdict::Verdict;
 
 /// A value with the interval that contains the true one with 95 % confidence.
@@ -74,7 +75,8 @@ impl fmt::Display for Interval {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Interval { value, low, high, .. } = self;
         let digits = f.precision().unwrap_or(2);
-        write!(f, "{value:.digits$} (95 %: {low:.digits$} to {high:.digits$})")
+        let [value, low, high] = [value, low, high].map(|number| decimal(*number, digits));
+        write!(f, "{value} (95 %: {low} to {high})")
     }
 }
 
@@ -89,7 +91,7 @@ mod tests {
         assert!((mean.value - 2.0).abs() < 1e-15 && (mean.high - 2.0 - 4.303 / 3.0f64.sqrt()).abs() < 1e-12);
         assert_eq!((mean.low + mean.high, mean.count), (4.0, 3));
         assert_eq!(Interval::of_mean(&[1.0, 2.0]), None);
-        assert_eq!(format!("{mean:.1}"), "2.0 (95 %: -0.5 to 4.5)");
+        assert_eq!(format!("{mean:.1}"), "2.0 (95 %: −0.5 to 4.5)");
     }
 
     #[test]

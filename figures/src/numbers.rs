@@ -28,3 +28,8 @@ pub(crate) fn power(log10: f64) -> String {
 pub(crate) fn scientific(value: f64) -> String {
     power(value.abs().log10())
 }
+
+/// A number with so many decimals, and a minus sign.
+pub(crate) fn decimal(value: f64, decimals: usize) -> String {
+    format!("{value:.decimals$}").replace('-', "−")
+}

@@ -12,7 +12,7 @@ use super::ink::{FINE, Ink, finished};
 use super::labels::separate;
 use super::layout::{GAP, LINE, Layout, MARGIN, SAMPLE, Span, TEXT, TICK, TITLE, UNDER, in_legend};
 use super::looks::{self, Shape};
-use super::{Chart, Curve, Look, Marker, Side};
+use super::{Chart, Curve, Look, Mark, Marker, Side};
 use crate::Error;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -90,7 +90,7 @@ impl Chart {
         let other = |point: (f64, f64)| plot.borrow_secondary().plotting_area().map_coordinate(&point);
         let right = (self.second_y.is_some()).then_some((second, &other as &dyn Fn((f64, f64)) -> Pixel));
         minor_ticks(area, x, y, &first, (columns.start, rows.end - 1))?;
-        self.draw_marks(area, x, &first, rows.clone())?;
+        self.draw_marks(area, (x, y), &first, rows.clone())?;
         let mut ends = Vec::new();
         for (n, curve) in self.curves.iter().enumerate() {
             let (span, place) = right.filter(|_| curve.side == Side::Second).unwrap_or((y, &first));
@@ -106,21 +106,32 @@ impl Chart {
         self.draw_texts(area, layout)
     }
 
-    /// Vertical lines with their labels at the top, one below the other, on the side where there is room.
+    /// Whether fewer points are in the upper half of the chart than in the lower one, near the marks.
+    fn is_emptier_above(&self, marks: &[&Mark], x: &Span, y: &Span) -> bool {
+        let near = |value: f64| marks.iter().any(|mark| (mark.x - value).abs() < 0.2 * (x.range.1 - x.range.0));
+        let middle = f64::midpoint(y.range.0, y.range.1);
+        let points = self.curves.iter().flat_map(|curve| &curve.points).filter(|point| near(point.0));
+        let (above, below): (Vec<f64>, Vec<f64>) = points.map(|point| point.1).partition(|value| *value > middle);
+        above.len() <= below.len()
+    }
+
+    /// Vertical lines with their labels one below the other, at the end and on the side where there is room.
     fn draw_marks(
         &self,
         area: &Area<'_>,
-        x: &Span,
+        (x, y): (&Span, &Span),
         place: &dyn Fn((f64, f64)) -> Pixel,
         rows: Range<i32>,
     ) -> DrawResult {
-        let visible = self.marks.iter().filter(|mark| (x.range.0..=x.range.1).contains(&mark.x));
-        for (n, mark) in visible.enumerate() {
+        let visible: Vec<_> = self.marks.iter().filter(|mark| (x.range.0..=x.range.1).contains(&mark.x)).collect();
+        let at_the_top = self.is_emptier_above(&visible, x, y);
+        for (n, mark) in visible.into_iter().enumerate() {
             let column = place((mark.x, 0.0)).0;
             area.draw(&PathElement::new([(column, rows.start), (column, rows.end - 1)], stroke(Ink::Leader, 1.2)))?;
             let on_the_left = mark.x > f64::midpoint(x.range.0, x.range.1);
             let (side, shift) = if on_the_left { (HPos::Right, -fine(5.0)) } else { (HPos::Left, fine(5.0)) };
-            let row = rows.start + fine(LINE * (n as f64 + 0.6));
+            let down = fine(LINE * (n as f64 + 0.6));
+            let row = if at_the_top { rows.start + down } else { rows.end - down };
             let style = text(TEXT * 0.9, (side, VPos::Center));
             area.draw(&Text::new(mark.label.clone(), (column + shift, row), style))?;
         }

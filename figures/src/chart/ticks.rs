@@ -82,7 +82,7 @@ fn logarithmic(least: f64, most: f64) -> Ticks {
         let (first, last) = ((least / step as f64).ceil() as i64, (most / step as f64).floor() as i64);
         (first..=last).map(move |n| n * step)
     };
-    if most.floor() - least.ceil() < 1.0 {
+    if most.floor() - least.ceil() < 1.0 || span < 2.0 {
         return few_decades(least, most);
     }
     // steps, each of which divides its successor, with their minor steps
@@ -104,13 +104,22 @@ fn logarithmic(least: f64, most: f64) -> Ticks {
 
 fn few_decades(least: f64, most: f64) -> Ticks {
     let decades = least.floor() as i64..=most.floor() as i64;
+    // 0.5, 1 and 20 are read more easily than 5×10⁻¹, 1 and 2×10
+    let plain = least >= -3.0 && most < 5.0;
+    let label = |n: i64, digit: u8| match n as i32 {
+        exponent if plain && exponent >= 0 => format!("{digit}{}", "0".repeat(exponent as usize)),
+        exponent if plain => decimal(i64::from(digit), exponent),
+        _ => times_power(&digit.to_string(), n),
+    };
     let labelled: Vec<_> = decades
+        .clone()
         .flat_map(|n| [1u8, 2, 5].map(|digit| (n, digit)))
-        .map(|(n, digit)| (n as f64 + f64::from(digit).log10(), times_power(&digit.to_string(), n)))
+        .map(|(n, digit)| (n as f64 + f64::from(digit).log10(), label(n, digit)))
         .filter(|(value, _)| (least..=most).contains(value))
         .collect();
     if labelled.len() >= 2 {
-        return Ticks { labelled, minor: Vec::new() };
+        let others = decades.flat_map(|n| [3u8, 4, 6, 7, 8, 9].map(|digit| n as f64 + f64::from(digit).log10()));
+        return Ticks { labelled, minor: others.filter(|value| (least..=most).contains(value)).collect() };
     }
     // less than half a decade: round numbers between its ends
     let decade = least.floor();
@@ -167,6 +176,8 @@ mod tests {
     fn few_decades_have_numbers_between() {
         assert_eq!(labels(Scale::Log10, -3.1, -2.2), ["10⁻³", "2×10⁻³", "5×10⁻³"]);
         assert_eq!(labels(Scale::Log10, 0.05, 0.2), ["1.2", "1.3", "1.4", "1.5"][..].to_vec());
+        assert_eq!(labels(Scale::Log10, -0.8, 0.6), ["0.2", "0.5", "1", "2"]);
+        assert_eq!(labels(Scale::Log10, 0.8, 2.6), ["10", "20", "50", "100", "200"]);
         let minor = Ticks::new(Scale::Log10, (-2.0, 0.0)).minor;
         assert_eq!(minor.len(), 16);
     }

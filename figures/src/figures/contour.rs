@@ -52,7 +52,7 @@ fn draw(_: &Results) -> Drawing {
     drawing.chart(
         "The contour γ, for m = 4",
         Axis::linear("Re z / h").over(-7.0, 7.0),
-        Axis::linear("Im z / h").over(-4.0, 4.0),
+        Axis::linear("Im z / h").over(-5.4, 5.4),
         vec![
             Curve::thick("γ", around, 1),
             Curve::dots("states −mh, …, mh", states, 0, Marker::Dot),

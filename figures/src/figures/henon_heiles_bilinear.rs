@@ -6,7 +6,7 @@ use crate::drawing::Drawing;
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::fit::logarithms;
-use crate::numbers::power;
+use crate::numbers::{decimal, power};
 use crate::results::Results;
 
 pub(super) const FIGURE: Figure =
@@ -45,5 +45,6 @@ fn gain(k: u32, ratios: &[(f64, f64)]) -> String {
     let sizes = ratios.iter().map(|(_, ratio)| -ratio);
     let (least, most) = (sizes.clone().fold(f64::INFINITY, f64::min), sizes.clone().fold(f64::NEG_INFINITY, f64::max));
     let less = sizes.filter(|gain| *gain > 0.0).count();
-    format!("E_{k} shows less at {less} of {} steps, by {least:.1} to {most:.1} decades", ratios.len())
+    let [least, most] = [least, most].map(|gain| decimal(gain, 1));
+    format!("E_{k} shows less at {less} of {} steps; the gain is {least} to {most} decades", ratios.len())
 }

@@ -200,24 +200,49 @@ fn table(drawing: &mut Drawing, scans: &[Scan]) {
     );
 }
 
-/// The orbits on both sides of the first escape, at h = 1/10.
+/// The orbits on both sides of the first escape, at h = 1/10: the last that stays, one that stays with less, and the escape.
 fn orbits(results: &Results, drawing: &mut Drawing, scans: &[Scan]) {
     let Some(scan) = scans.iter().find(|scan| scan.n == 10) else { return };
     let Some((first, _)) = scan.escapes().next() else { return };
-    let before = scan.found.iter().rev().find(|(e, returns, _)| *e < first && returns.is_none()).map(|(e, ..)| *e);
-    let Some(before) = before else { return };
-    let curve = |e: u32, label: &str, colour: usize| {
-        let orbit = results.orbit(&of(scan.n, e))?;
-        let points = orbit.x.into_iter().zip(orbit.y).collect();
-        Some(Curve::line(format!("e = {}, {label}", thousandths(e)), points, colour))
+    let stays = |least: u32| {
+        let bound = scan.found.iter().rev().find(|(e, returns, _)| *e < first && *e <= least && returns.is_none());
+        bound.map(|(e, ..)| *e)
     };
-    let curves = [curve(before, "stays", 1), curve(first, "escapes", 2)];
-    let [Some(stays), Some(escapes)] = curves else { return };
+    let [Some(before), Some(well_before)] = [stays(first), stays(first - 30)] else { return };
+    let curve = |(e, label, colour): (u32, &str, usize)| {
+        let orbit = results.orbit(&of(scan.n, e));
+        let points = orbit.map_or_else(Vec::new, |orbit| orbit.x.into_iter().zip(orbit.y).collect());
+        Curve::line(format!("e = {}, {label}", thousandths(e)), points, colour)
+    };
+    let curves = [(well_before, "stays", 0), (before, "stays", 1), (first, "escapes", 2)].map(curve);
     drawing.chart(
         "The orbits on both sides of the first escape, h = 1/10",
-        Axis::linear("q₁").over(-12.0, 6.0),
-        Axis::linear("q₂").over(-7.0, 7.0),
-        vec![stays, escapes],
+        Axis::linear("q₁").over(-16.0, 6.0),
+        Axis::linear("q₂").over(-9.0, 9.0),
+        curves.into(),
         "Störmer–Verlet, t ≤ 100; the states are joined by lines. The exact orbit reaches |q| = 1 + e.",
     );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scan(found: &[(u32, Option<u32>)]) -> Scan {
+        Scan { n: 5, found: found.iter().map(|(e, returns)| (*e, *returns, 1.0)).collect() }
+    }
+
+    #[test]
+    fn one_critical_value_is_between_the_last_that_stays_and_the_first_escape() {
+        let one = scan(&[(600, None), (610, None), (620, Some(0)), (630, Some(0))]);
+        assert_eq!((one.is_one_value(), one.range()), (Some(true), Some((0.61, 0.62))));
+    }
+
+    #[test]
+    fn escapes_among_orbits_that_stay_are_a_range() {
+        let several = scan(&[(600, None), (610, Some(1)), (620, None), (630, None), (640, Some(0))]);
+        assert_eq!((several.is_one_value(), several.range()), (Some(false), Some((0.61, 0.63))));
+        let never = scan(&[(600, None)]);
+        assert_eq!((never.is_one_value(), never.range()), (None, None));
+    }
 }

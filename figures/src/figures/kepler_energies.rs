@@ -81,11 +81,11 @@ fn in_time(drawing: &mut Drawing, title: &str, of: &Labelled, from_apocentre: bo
     });
     let (y, caption) = if from_apocentre {
         (
-            "|modified energy − its value at the first apocentre|",
+            "|H̄ − H̄ at the first apocentre|",
             "The start is a pericentre, where the estimate is worst; relative to an apocentre the changes between encounters are visible.",
         )
     } else {
-        ("|modified energy − its first value|", "t ≤ 40 of [0, 100]; the start is a pericentre.")
+        ("|H̄ − H̄ at the start|", "t ≤ 40 of [0, 100]; the start is a pericentre.")
     };
     drawing.chart(title, Axis::linear("time t"), Axis::log10(y), curves.collect(), caption);
 }
@@ -140,26 +140,24 @@ fn at_apocentres(energies: &Energies) -> Vec<(f64, Float)> {
 
 /// The signed change of the modified energy from apocentre to apocentre, whose jumps are at the encounters.
 fn staircases(results: &Results, drawing: &mut Drawing) {
-    let mut rows: Vec<Vec<String>> = Vec::new();
-    let mut header = vec!["encounter"];
+    let mut columns: Vec<(&str, Vec<Float>)> = Vec::new();
     for (i, (scheme, label)) in SCHEMES.into_iter().enumerate() {
         let Some(energies) = results.energies(&run(scheme, 10), &bilinear(24)) else { continue };
         let values = at_apocentres(&energies);
         let jumps: Vec<Float> = values.windows(2).map(|pair| pair[1].1.clone() - &pair[0].1).collect();
-        if jumps.is_empty() {
-            continue;
+        if !jumps.is_empty() {
+            staircase(drawing, (label, i), &values, &jumps);
+            columns.push((label, jumps));
         }
-        header.push(label);
-        rows.resize_with(rows.len().max(jumps.len()), Vec::new);
-        for (row, jump) in rows.iter_mut().zip(&jumps) {
-            row.push(signed(jump));
-        }
-        staircase(drawing, (label, i), &values, &jumps);
     }
-    for (n, row) in rows.iter_mut().enumerate() {
-        row.insert(0, (n + 1).to_string());
-    }
-    drawing.table("Jumps of the modified energy at the encounters, h = 1/10, by E_24 at the apocentres", &header, rows);
+    let header: Vec<&str> = ["encounter"].into_iter().chain(columns.iter().map(|(label, _)| *label)).collect();
+    let row = |n: usize| {
+        let jumps = columns.iter().map(|(_, jumps)| jumps.get(n).map_or("–".to_owned(), signed));
+        [(n + 1).to_string()].into_iter().chain(jumps).collect()
+    };
+    let most = columns.iter().map(|(_, jumps)| jumps.len()).max().unwrap_or(0);
+    let caption = "Jumps of the modified energy at the encounters, h = 1/10, by E_24 at the apocentres";
+    drawing.table(caption, &header, (0..most).map(row).collect());
 }
 
 /// t ≤ 40; the values between two encounters are those at the apocentre there.

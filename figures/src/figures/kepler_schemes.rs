@@ -133,7 +133,7 @@ fn compare_coordinates(results: &Results, drawing: &mut Drawing) {
     }
     drawing.chart(
         "Errors of the coordinates at equal cost",
-        Axis::log10("force evaluations per unit of time").over(1.4, 2.3),
+        Axis::log10("force evaluations per unit of time"),
         Axis::log10("largest |q − q of the exact flow|"),
         curves
             .into_iter()

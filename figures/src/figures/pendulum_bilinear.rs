@@ -11,7 +11,7 @@ use crate::drawing::Drawing;
 use crate::estimator::{bilinear, central};
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, ROUND_OFF, decay, decay_row, logarithms, theory_row};
-use crate::numbers::power;
+use crate::numbers::{decimal, power};
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, Run};
 use crate::verdict::Verdict;
@@ -87,9 +87,11 @@ fn relative_to_the_flow(drawing: &mut Drawing, pairs: &[Pair<'_>]) {
     for (label, ratios) in &ratios {
         let sizes = ratios.iter().map(|(_, ratio)| *ratio);
         let (least, most) = (sizes.clone().fold(f64::INFINITY, f64::min), sizes.fold(f64::NEG_INFINITY, f64::max));
-        let count = ratios.len();
         drawing.found(format!(
-            "By {label}, log₁₀(drift / drift of the exact flow) is {least:.2} to {most:.2} at {count} steps."
+            "By {label}, log₁₀(drift / drift of the exact flow) is {} to {} at {} steps.",
+            decimal(least, 2),
+            decimal(most, 2),
+            ratios.len()
         ));
     }
     let curves = ratios.into_iter().enumerate().map(|(i, (label, points))| Curve::line(label, points, i));
