@@ -7,11 +7,11 @@ use shadowstep_symbolic::{Fraction, Ratio, Rational};
 
 use crate::arithmetic::{Arithmetic, Fixed, FixedPoint, Sensitive, Sensitivity};
 use crate::claims::Kinetic;
-use crate::map::Map;
+use crate::map::{Map, MapKind};
 use crate::near_integrable::{self, Power};
-use crate::order::Condition;
+use crate::nystrom::tree_conditions;
+use crate::order::{Condition, lyndon_words, weighed, word_conditions};
 use crate::scheme::Held;
-use crate::{nystrom, order};
 
 /// Bits beyond those of the exact values, for the growth of the error.
 const MARGIN_BITS: u32 = 64;
@@ -39,6 +39,13 @@ pub(crate) struct Evaluated {
 }
 
 impl Evaluated {
+    /// found − needed
+    pub(crate) fn distance(&self) -> Fraction {
+        let (found, needed) = (&self.found, &self.condition.needed);
+        let distance = found.numer() * needed.denom() - needed.numer() * found.denom();
+        Fraction::new(distance, found.denom() * needed.denom())
+    }
+
     /// A bound of the difference from the value needed.
     pub(crate) fn uncertainty(&self) -> Fraction {
         let (found, needed, error) = (&self.found, &self.condition.needed, &self.error);
@@ -141,11 +148,22 @@ fn worth_exactness(maps: &[Map], family: Family, highest: u32) -> u32 {
     values(maps, family, highest, &arithmetic).iter().find(|c| fails(c)).map_or(highest, |(c, _)| c.order)
 }
 
+/// The conditions of a family up to an order, low orders first, with their values.
 fn values<A: Arithmetic>(maps: &[Map], family: Family, highest: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
+    values_at(&weighed(maps, arithmetic), family, highest, arithmetic)
+}
+
+/// The same for maps whose weights are values already.
+pub(crate) fn values_at<A: Arithmetic>(
+    maps: &[(MapKind, A::Value)],
+    family: Family,
+    highest: u32,
+    arithmetic: &A,
+) -> Vec<(Condition, A::Value)> {
     match family {
-        Family::Kinetic(Kinetic::Any) => order::conditions(maps, highest, arithmetic),
-        Family::Kinetic(Kinetic::Quadratic) => nystrom::conditions(maps, highest, arithmetic),
-        Family::Power(power) => near_integrable::conditions(maps, power, highest, arithmetic),
+        Family::Kinetic(Kinetic::Any) => word_conditions(&lyndon_words(highest as usize), maps, arithmetic),
+        Family::Kinetic(Kinetic::Quadratic) => tree_conditions(maps, highest, arithmetic),
+        Family::Power(power) => word_conditions(&near_integrable::words(power, highest), maps, arithmetic),
     }
 }
 

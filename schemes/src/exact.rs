@@ -50,7 +50,7 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
         None => None,
         Some(Weights::Stages { kick, drift }) => {
             let (kick, drift) = (cells.weights(&kick.value), cells.weights(&drift.value));
-            Some((kick, drift, held(&table, cells.rounded)))
+            Some((kick, drift, held(&table, cells.rounded), None))
         }
         Some(Weights::Composition { base, gamma }) => {
             let gamma = cells.weights(&gamma.value);
@@ -63,7 +63,7 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
             base.filter(|_| size <= MOST_UNMERGED).map(|base| {
                 let maps = merged(&scaled(&gamma, &base.kick), &scaled(&gamma, &base.drift));
                 let (kick, drift) = stages_of(&maps);
-                (kick, drift, held(&table, cells.rounded).weaker(base.held))
+                (kick, drift, held(&table, cells.rounded).weaker(base.held), Some(Box::new(base)))
             })
         }
     };
@@ -72,7 +72,8 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
     }
     let good = cells.faults.is_empty();
     faults.extend(cells.faults);
-    let scheme = weights.filter(|_| good).map(|(kick, drift, held)| ExactScheme { table, kick, drift, held });
+    let scheme =
+        weights.filter(|_| good).map(|(kick, drift, held, base)| ExactScheme { table, kick, drift, held, base });
     (scheme, faults)
 }
 

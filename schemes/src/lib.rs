@@ -10,6 +10,7 @@
 //! | [`library`], `shipped`, `spelling` | the name of a table → its text |
 //! | [`order`], [`nystrom`], [`near_integrable`] | kicks and drifts → order conditions, for every T(p), for quadratic T, for H = A + εB |
 //! | [`arithmetic`], `conditions`, `digits` | the values of the conditions, exactly or with bounds, and how exactly they must be met |
+//! | `printed`, `rounding`, `least_change` | printed decimals → whether their rounding explains how far the conditions are off |
 //! | [`proof`] | conditions → what is true of the scheme → the claims that differ from it |
 //! | `wording` | such a claim → a sentence with its place |
 //! | [`plan`] | scheme → the plan of a step: maps, shared constants, cost |
@@ -29,6 +30,7 @@ mod conditions;
 mod digits;
 pub mod document;
 pub mod exact;
+mod least_change;
 pub mod library;
 pub mod map;
 pub mod near_integrable;
@@ -37,7 +39,9 @@ pub mod order;
 pub mod parse;
 mod pipeline;
 pub mod plan;
+mod printed;
 pub mod proof;
+mod rounding;
 pub mod scheme;
 mod shipped;
 mod spelling;

@@ -13,9 +13,11 @@ use crate::digits::digits_of;
 use crate::document::Placed;
 use crate::map::MapKind;
 use crate::order::{Condition, Functional};
-use crate::scheme::ExactScheme;
+use crate::rounding::{Linearised, Unexplained};
+use crate::scheme::{ExactScheme, Held};
 
-/// Digits that sums of products of good weights lose without a note; the worst of the shipped tables loses 3.
+/// Digits that sums of products of good weights lose without a note, where the decimals themselves are not looked at; the
+/// worst of the shipped tables loses 3.
 const MOST_DIGITS_LOST: u32 = 5;
 
 /// The order that was proved for one class of kinetic energies, or for one power of ε.
@@ -106,12 +108,15 @@ pub(crate) enum Finding<'a> {
     Symmetric { claim: &'a Placed<bool> },
     /// The conditions hold to far fewer digits than the weights have, though as closely as their sensitivity allows.
     FewerDigits { claimed: &'a Placed<u32>, hold: u32 },
+    /// The conditions are farther from what is needed than the rounding of the printed decimals explains.
+    Unexplained { claimed: u32, unexplained: Unexplained, refused: bool },
 }
 
 impl Finding<'_> {
     /// Whether the claim is refused; the other claims are true, and say less than the truth.
     pub(crate) fn is_refused(&self) -> bool {
-        matches!(self, Finding::Sum { .. } | Finding::LowerOrder { .. } | Finding::NotSymmetric { .. })
+        let refused = matches!(self, Finding::Sum { .. } | Finding::LowerOrder { .. } | Finding::NotSymmetric { .. });
+        refused || matches!(self, Finding::Unexplained { refused: true, .. })
     }
 }
 
@@ -125,7 +130,8 @@ pub(crate) fn findings<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Fin
             false => Finding::Symmetric { claim },
         }
     }));
-    findings.extend(digits_finding(scheme, proof));
+    let refused = findings.iter().any(Finding::is_refused);
+    findings.extend(digits_finding(scheme, proof, refused));
     findings
 }
 
@@ -170,8 +176,17 @@ fn near_integrable_findings<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Ve
     findings
 }
 
-fn digits_finding<'a>(scheme: &'a ExactScheme, proof: &Proof) -> Option<Finding<'a>> {
-    let claimed = scheme.table.digits.as_ref()?;
-    let hold = proof.for_kinetic(scheme.table.kinetic).digits?;
-    (hold + MOST_DIGITS_LOST < claimed.value).then_some(Finding::FewerDigits { claimed, hold })
+fn digits_finding<'a>(scheme: &'a ExactScheme, proof: &Proof, refused: bool) -> Option<Finding<'a>> {
+    match (Linearised::of(scheme), scheme.held) {
+        (Some(linearised), Held::Digits(claimed)) => {
+            let unexplained = linearised.unexplained(scheme)?;
+            // of a table that is refused, only what would mend it is of use
+            (!refused || unexplained.alone).then_some(Finding::Unexplained { claimed, unexplained, refused })
+        }
+        _ => {
+            let claimed = scheme.table.digits.as_ref()?;
+            let hold = proof.for_kinetic(scheme.table.kinetic).digits?;
+            (hold + MOST_DIGITS_LOST < claimed.value).then_some(Finding::FewerDigits { claimed, hold })
+        }
+    }
 }

@@ -35,6 +35,8 @@ pub struct ExactScheme {
     pub drift: Vec<Rational>,
     /// What is known of the weights' digits.
     pub held: Held,
+    /// The base of a composition.
+    pub base: Option<Box<ExactScheme>>,
 }
 
 impl ExactScheme {

@@ -13,6 +13,7 @@ use crate::document::{Fault, Placed};
 use crate::map::MapKind;
 use crate::order::Condition;
 use crate::proof::{Finding, Order, Proof};
+use crate::rounding::Unexplained;
 use crate::scheme::ExactScheme;
 use crate::table::{Table, Weights};
 
@@ -41,6 +42,7 @@ pub(crate) fn worded(finding: &Finding<'_>, scheme: &ExactScheme, proof: &Proof)
             );
             table.source.fault(&claimed.at, message).hint(hint)
         }
+        Finding::Unexplained { claimed, unexplained, .. } => not_rounding(unexplained, *claimed),
     }
 }
 
@@ -107,6 +109,36 @@ fn with_rounding_hint(fault: Fault, table: &Table, distance: &Rational) -> Fault
         None => format!("{off}: if the weights are rounded, add `digits = …`"),
         Some(digits) => format!("{off}, more than {} digits of the weights can account for", digits.value),
     })
+}
+
+/// What has to move beyond rounding, at the decimal.
+fn not_rounding(unexplained: &Unexplained, claimed: u32) -> Fault {
+    let Unexplained { decimal, units, alone } = unexplained;
+    let by = match units.abs() {
+        size if size < 100.0 => format!("{size:.1}"),
+        size if size < 1e6 => format!("{size:.0}"),
+        size => format!("{size:.2e}"),
+    };
+    let fault = |message: String| decimal.source.fault(&decimal.at, message);
+    if !alone {
+        let message = format!(
+            "rounding does not explain the digits: the nearest weights that meet the order conditions differ by up to {by} \
+             units of the last digit, most in `{}`",
+            decimal.name
+        );
+        let lost = (units.abs().log10() - (decimal.places - decimal.rounded) as f64).ceil();
+        let holding = (f64::from(claimed) - lost).max(1.0);
+        return fault(message).hint(format!("write `digits = {holding}`, or look for a better source"));
+    }
+    let message = format!(
+        "rounding does not explain the digits of `{}`: the order conditions hold if it changes by {by} units of its last digit",
+        decimal.name
+    );
+    let hint = match decimal.transposed(*units) {
+        Some(text) => format!("two digits may be transposed: {text}"),
+        None => "compare it with its source".to_owned(),
+    };
+    fault(message).values(&decimal.text, format!("about {}", decimal.moved(*units))).hint(hint)
 }
 
 fn not_a_palindrome(scheme: &ExactScheme, claim: &Placed<bool>) -> Fault {

@@ -521,10 +521,12 @@ fn a_kernel_without_its_processor() {
     let drift = [owned(&drifts), owned(&["b1", "1/2 - b1", "1/2 - b1", "b1"]), inverse];
     let at = kernel.find("kick = ").unwrap();
     let whole = format!("{}kick = {:?}\ndrift = {:?}\n", &kernel[..at], kick.concat(), drift.concat());
+    // the processor's weights end in zeros: they were rounded to fewer digits
+    let whole = whole.replace("digits = 16", "digits = 15");
     let proved = judge(&whole).unwrap_or_else(|faults| panic!("{faults}"));
     let near: Vec<_> = proved.proof.near_integrable.iter().map(|order| order.order).collect();
     assert_eq!((proved.proof.general.order, near), (4, vec![7, 6, 4]));
-    assert!(proved.notes.is_empty());
+    assert!(proved.notes.is_empty(), "{:?}", proved.notes);
     says(&format!(
         "one table of {} stages, the same claims are proved: order 4, near-integrable orders (7,6,4), to {} digits",
         proved.scheme.kick.len(),
