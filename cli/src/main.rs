@@ -75,7 +75,7 @@ Exit codes:
 
 /// Splitting schemes and their modified energy, in any precision.
 #[derive(Debug, Parser)]
-#[command(name = "shadowstep", version, after_help = EXIT_CODES, arg_required_else_help = true)]
+#[command(name = "shadowstep", version, max_term_width = 100, after_help = EXIT_CODES, arg_required_else_help = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

@@ -8,6 +8,7 @@ use shadowstep::problems::{Description, Initial, PROBLEMS, problem};
 
 use crate::output::Output;
 use crate::quantity::problem_error;
+use crate::readable::wrapped_to;
 use crate::report::Status;
 use shadowstep_scenes::Error;
 
@@ -95,9 +96,21 @@ fn record(problem: &Description) -> Record {
 
 /// A problem as text, with a part of a long list of values.
 fn readable(problem: &Description, most_values: usize) -> String {
+    // lines after the first of a paragraph are indented more
+    let lines = lines(problem, most_values);
+    lines
+        .lines()
+        .map(|line| {
+            let margin = if line.starts_with(' ') { "  " } else { "" };
+            format!("{margin}{}\n", wrapped_to(line, "      ", 80).trim())
+        })
+        .collect()
+}
+
+fn lines(problem: &Description, most_values: usize) -> String {
     let mut text = format!("{}: {}\n  H = {}\n", problem.name, problem.title, problem.hamiltonian);
     for p in problem.parameters {
-        text += &format!("  {} = {}    {}; {}\n", p.name, p.default, p.meaning, p.range);
+        text += &format!("  {} = {}: {}; {}\n", p.name, p.default, p.meaning, p.range);
     }
     let Initial { positions, momenta, masses } = (problem.initial)();
     let mut state: Vec<_> = positions.iter().chain(&momenta).map(|(name, value)| format!("{name} = {value}")).collect();

@@ -8,6 +8,7 @@ use shadowstep_scenes::Error;
 
 use crate::output::Output;
 use crate::quantity::problem_error;
+use crate::readable::wrapped;
 use crate::report::Status;
 
 const EXAMPLE: &str = "\
@@ -41,9 +42,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 fn list() -> String {
     let line = |problem: &Description| format!("  {:<20}  {}\n", problem.name, problem.title);
     let names: String = PROBLEMS.iter().map(|problem| line(problem.description())).collect();
-    format!(
-        "There is a scene for each of these problems:\n{names}\
-         `shadowstep scene kepler > scene.toml` writes one, `shadowstep run scene.toml` runs it, and \
-         `shadowstep scene --explain` explains all keys.\n"
-    )
+    let how = "`shadowstep scene kepler > scene.toml` writes one, `shadowstep run scene.toml` runs it, and \
+               `shadowstep scene --explain` explains all keys.";
+    format!("There is a scene for each of these problems:\n{names}{}", wrapped(how, ""))
 }

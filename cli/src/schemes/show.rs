@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
 }
 
 /// Digits of a weight that a person reads.
-const SHOWN: usize = 40;
+const SHOWN: usize = 30;
 
 /// The column of the facts.
 const MARGIN: usize = 17;
