@@ -91,7 +91,7 @@ pub(crate) struct Request<'a> {
     /// The largest |t|.
     pub(crate) longest: f64,
     /// The bits of the run.
-    pub(super) bits: u32,
+    pub(crate) bits: u32,
 }
 
 impl Request<'_> {

@@ -2,6 +2,8 @@
 
 #[cfg(feature = "mpfr")]
 mod exact_flow;
+#[cfg(feature = "mpfr")]
+mod taylor;
 
 use shadowstep_macros::potential;
 
@@ -35,7 +37,7 @@ impl Definition for Entry {
     };
 
     #[cfg(feature = "mpfr")]
-    const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::TaylorSeries>());
+    const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::Addition>());
 
     fn potential<N: Number + 'static>(_: &Values, _: &N::Context) -> Box<dyn Potential<N>> {
         Box::new(Pendulum)

@@ -1,20 +1,23 @@
-//! The pendulum H = p²/2 − cos q from any initial state, by its Taylor series.
+//! The pendulum H = p²/2 − cos q from any initial state, by the addition theorems of Jacobi's elliptic functions.
 //!
-//! Jacobi's elliptic functions give q and p, but need a case each for libration, separatrix and rotation, and leave
-//! β' = q sin q + 2 cos q, which is not a function of theirs because of its q, to a quadrature. The Taylor series of the flow is one method for
-//! all, at every precision: with s = sin q, c = cos q and upper indices for its coefficients,
+//! With S = sin(q/2), C = cos(q/2), P = p/2 and k² = S² + P² = (H + 1)/2, a state at the time t after the bottom is
+//! S = k sn(t, k), C = dn(t, k), P = k cn(t, k): oscillations for k < 1, the separatrix for k = 1, rotations for k > 1. For a step
+//! of τ, whose values from the bottom have the index τ, the theorems are
 //!
-//! (k+1) q^{k+1} = p^k, (k+1) p^{k+1} = −s^k, k s^k = Σ_{j=1}^k j q^j c^{k−j}, k c^k = −Σ_{j=1}^k j q^j s^{k−j},
-//! (k+1) β^{k+1} = 2c^k + Σ_{j=0}^k q^j s^{k−j}.
+//! S' = k(S P_τ C_τ + S_τ P C)/D, C' = (k² C C_τ − S S_τ P P_τ)/D, P' = k(P P_τ − S S_τ C C_τ)/D, D = k² − S² S_τ²,
 //!
-//! The order is as high as the digits require; if the step is too long for that, it is cut to ρ/e², with ρ the radius of
-//! convergence, as À. Jorba and M. Zou do (Experiment. Math. 14 (2005) 99): for B bits K = ½B log 2 terms then suffice.
+//! and with ∫p² dt = 4(E(t) − (1 − k²)t), E(u + v) = E(u) + E(v) − k² sn u sn v sn(u + v), a step adds
+//! ∫p² dt = I_τ − 4 S S_τ S'/k. As p' = −sin q, β' = q sin q + 2 cos q has the integral β = 2∫p² dt − qp − 2Ht + const.
+//!
+//! So a step costs some products, a quotient and an arc tangent. S_τ, C_τ, P_τ and I_τ come from one Taylor series. Off the curve
+//! S² + C² = 1, S² + P² = k² errors would grow exponentially: each step returns to it.
 
-use std::f64::consts::{LN_2, LOG2_E};
+use std::f64::consts::{LOG2_E, TAU};
 
 use rug::Float;
+use rug::float::Constant;
 
-use crate::Rational;
+use super::taylor::flow;
 use crate::exact_flow::solution::{ExactFlowError, Point, Request, Solution, log2};
 use crate::number::{Number, Precision};
 
@@ -22,37 +25,99 @@ use crate::number::{Number, Precision};
 /// |t| = 2772.
 const MOST_GROWTH: u32 = 4000;
 
-/// The number of consecutive terms that are examined, because every second one may be 0.
-const LAST_TERMS: usize = 4;
+/// The largest change of q in a step: below π, so that the turns can be counted, and D is far from 0.
+const LONGEST: f64 = 2.5;
 
-/// The present state of the pendulum, and the initial one.
+/// The pendulum at the times n h.
 #[derive(Debug)]
-pub(super) struct TaylorSeries {
-    h: Rational,
-    precision: Precision,
-    start: Point,
-    present: Point,
+pub(super) struct Addition {
+    start: State,
+    present: State,
     n: i64,
+    /// Of these, `parts` are a step h; `None` at rest, where only β grows.
+    step: Option<Step>,
+    parts: u32,
+    /// 2h, which β grows by in a step at rest.
+    at_rest: Float,
 }
 
-impl TaylorSeries {
-    /// Advances by `rest`, or by the part of it that one series allows; returns the remainder.
-    fn advance(&mut self, rest: Float) -> Float {
-        let bits = f64::from(self.precision.in_bits());
-        let most = (bits * LN_2 / 2.0).ceil() as usize + LAST_TERMS;
-        let mut terms = Terms::new(&self.present);
-        let step = loop {
-            terms.extend();
-            if terms.are_small(log2(&rest), -bits) {
-                break rest.clone();
-            }
-            if terms.q.len() > most {
-                let fraction = terms.log2_radius() - 2.0 * LOG2_E - log2(&rest);
-                break rest.clone() * fraction.min(0.0).exp2();
-            }
-        };
-        self.present = terms.sum(&step);
-        rest - step
+/// A state, and the same as S, C and P.
+#[derive(Clone, Debug)]
+struct State {
+    point: Point,
+    s: Float,
+    c: Float,
+    p: Float,
+}
+
+/// A step of τ from the bottom, and the constants of the orbit.
+#[derive(Debug)]
+struct Step {
+    s: Float,
+    c: Float,
+    p: Float,
+    /// 2I_τ − 2Hτ
+    beta: Float,
+    k: Float,
+    squared: Float,
+    turn: Float,
+}
+
+impl State {
+    fn of(point: Point) -> Self {
+        let half = point.q[0].clone() / 2u32;
+        let (s, c) = half.sin_cos(Float::new(point.beta.prec()));
+        State { s, c, p: point.p[0].clone() / 2u32, point }
+    }
+}
+
+impl Step {
+    /// A step of t on the orbit with this k².
+    fn new(squared: &Float, t: &Float) -> Self {
+        let bits = squared.prec();
+        let k = squared.clone().sqrt();
+        let bottom = Point { q: vec![Float::new(bits)], p: vec![k.clone() * 2u32], beta: Float::new(bits) };
+        let state = State::of(flow(&bottom, t));
+        // from the bottom, β = 2I − qp − 2Ht
+        let beta = state.point.beta.clone() + state.point.q[0].clone() * &state.point.p[0];
+        let turn = Float::with_val(bits, Constant::Pi) * 2u32;
+        Step { s: state.s, c: state.c, p: state.p, beta, k, squared: squared.clone(), turn }
+    }
+
+    /// From a state to the next one, or to the one before.
+    fn advance(&self, state: &State, forward: bool) -> State {
+        let step_s = if forward { self.s.clone() } else { -self.s.clone() };
+        let product = state.s.clone() * &step_s;
+        let scale = (self.squared.clone() - product.clone().square()).recip();
+        let s = state.s.clone() * &self.p * &self.c + step_s.clone() * &state.p * &state.c;
+        let c = state.c.clone() * &self.c * &self.squared - product.clone() * &state.p * &self.p;
+        let p = state.p.clone() * &self.p - product.clone() * &state.c * &self.c;
+        let (mut s, mut c, mut p) = (s * &self.k * &scale, c * &scale, p * &self.k * &scale);
+        // back to S² + C² = 1 and S² + P² = k², to first order in the errors
+        let off = (s.clone().square() + c.clone().square() - 1u32) / 2u32;
+        s -= s.clone() * &off;
+        c -= c.clone() * &off;
+        let off = (s.clone().square() + p.clone().square() - &self.squared) / (self.squared.clone() * 2u32);
+        s -= s.clone() * &off;
+        p -= p.clone() * &off;
+        let (old, q) = (&state.point, self.angle(&s, &c, &state.point.q[0]));
+        let momentum = p.clone() * 2u32;
+        let mut beta = old.beta.clone() + old.q[0].clone() * &old.p[0] - q.clone() * &momentum;
+        if forward {
+            beta += &self.beta
+        } else {
+            beta -= &self.beta
+        }
+        beta -= product * &s * 8u32 / &self.k;
+        State { s, c, p, point: Point { q: vec![q], p: vec![momentum], beta } }
+    }
+
+    /// The q of S and C that is nearest to another one.
+    fn angle(&self, s: &Float, c: &Float, near: &Float) -> Float {
+        let angle = s.clone().atan2(c) * 2u32;
+        // q/2 is known up to a turn
+        let turns = ((near.clone() - &angle).to_f64() / (2.0 * TAU)).round();
+        angle + self.turn.clone() * 2u32 * turns
     }
 }
 
@@ -60,7 +125,7 @@ fn start(request: &Request<'_>, precision: &Precision) -> Point {
     Point { q: request.values.q(precision), p: request.values.p(precision), beta: Float::zero(precision) }
 }
 
-impl Solution for TaylorSeries {
+impl Solution for Addition {
     fn new(request: &Request<'_>) -> Result<Self, ExactFlowError> {
         let rough = start(request, &request.rough()?);
         let (q, p) = (&rough.q[0], &rough.p[0]);
@@ -69,12 +134,19 @@ impl Solution for TaylorSeries {
         // 1/|H − 1| a period and of another one for the shape of the orbit
         let exponential = request.longest * LOG2_E;
         let periods = (request.longest + 1.0).log2() + log2(p).max(0.0);
-        let linear = 2.0 * (periods + (-log2(&(energy - 1u32))).max(0.0));
+        let linear = 2.0 * (periods + (-log2(&(energy.clone() - 1u32))).max(0.0));
         // the size of q, which grows with rotation
         let size = log2(q).max(periods).max(0.0);
-        let precision = request.precision(size + exponential.min(linear), MOST_GROWTH)?;
-        let start = start(request, &precision);
-        Ok(TaylorSeries { h: request.h.clone(), precision, present: start.clone(), start, n: 0 })
+        // each of the steps is rounded
+        let h = f64::from_rational(request.h, &()).abs();
+        let parts = (h * (2.0 * (energy.to_f64() + 1.0)).max(0.0).sqrt() / LONGEST).ceil().max(1.0);
+        let steps = (request.longest / h * parts + 1.0).log2();
+        let precision = request.precision(size + exponential.min(linear) + steps, MOST_GROWTH)?;
+        let start = State::of(start(request, &precision));
+        let squared = start.s.clone().square() + start.p.clone().square();
+        let t = Float::from_rational(request.h, &precision);
+        let step = (!squared.is_zero()).then(|| Step::new(&squared, &(t.clone() / parts as u32)));
+        Ok(Addition { present: start.clone(), start, n: 0, step, parts: parts as u32, at_rest: t * 2u32 })
     }
 
     fn at(&mut self, n: i64) -> Point {
@@ -83,88 +155,54 @@ impl Solution for TaylorSeries {
             self.present = self.start.clone();
             self.n = 0;
         }
-        let mut rest = Float::from_rational(&(&self.h * Rational::from_integer((n - self.n).into())), &self.precision);
-        while !rest.is_zero() {
-            rest = self.advance(rest);
+        let (steps, forward) = ((n - self.n).unsigned_abs(), n > self.n);
+        match &self.step {
+            Some(step) => {
+                for _ in 0..steps * u64::from(self.parts) {
+                    self.present = step.advance(&self.present, forward);
+                }
+            }
+            // cos q = 1
+            None => self.present.point.beta = self.at_rest.clone() * n,
         }
         self.n = n;
-        self.present.clone()
+        self.present.point.clone()
     }
 }
 
-/// The Taylor coefficients of the flow about a state.
-struct Terms {
-    q: Vec<Float>,
-    p: Vec<Float>,
-    beta: Vec<Float>,
-    sin: Vec<Float>,
-    cos: Vec<Float>,
-    /// j q^j
-    weighted: Vec<Float>,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problems::problem;
 
-impl Terms {
-    fn new(Point { q, p, beta }: &Point) -> Self {
-        let zero = Float::new(beta.prec());
-        let (sin, cos) = q[0].clone().sin_cos(zero.clone());
-        Terms {
-            q: q.clone(),
-            p: p.clone(),
-            beta: vec![beta.clone()],
-            sin: vec![sin],
-            cos: vec![cos],
-            weighted: vec![zero],
-        }
-    }
-
-    /// From the coefficients to k those of k + 1.
-    fn extend(&mut self) {
-        let k = self.q.len();
-        let last = |list: &[Float]| list[k - 1].clone();
-        let rate = last(&self.cos) * 2u32 + product(&self.q, &self.sin);
-        self.beta.push(rate / k as u32);
-        self.weighted.push(last(&self.p));
-        self.q.push(last(&self.p) / k as u32);
-        self.p.push(-last(&self.sin) / k as u32);
-        // the 0 in front of `weighted` multiplies the coefficient that is not known yet
-        let sin = product(&self.weighted[1..], &self.cos) / k as u32;
-        let cos = -product(&self.weighted[1..], &self.sin) / k as u32;
-        self.sin.push(sin);
-        self.cos.push(cos);
-    }
-
-    /// log₂ of the largest coefficient of each of the last degrees, with the degree.
-    fn last(&self) -> impl Iterator<Item = (f64, f64)> {
-        let degrees = self.q.len().saturating_sub(LAST_TERMS).max(1)..self.q.len();
-        degrees.map(|k| {
-            let sizes = [&self.q[k], &self.p[k], &self.beta[k]].map(log2);
-            (k as f64, sizes.into_iter().fold(f64::NEG_INFINITY, f64::max))
-        })
-    }
-
-    /// Whether the last terms of a step of size 2^`step` are below 2^`tolerance`.
-    fn are_small(&self, step: f64, tolerance: f64) -> bool {
-        self.q.len() > LAST_TERMS && self.last().all(|(k, size)| size + k * step < tolerance)
-    }
-
-    /// log₂ of the radius of convergence.
-    fn log2_radius(&self) -> f64 {
-        self.last().map(|(k, size)| -size / k).fold(f64::INFINITY, f64::min)
-    }
-
-    /// The state after a step.
-    fn sum(&self, step: &Float) -> Point {
-        let horner = |list: &[Float]| {
-            let (highest, others) = list.split_last().expect("the state is the first term");
-            others.iter().rev().fold(highest.clone(), |sum, term| sum * step + term)
+    /// The two methods have nothing in common but one step.
+    #[test]
+    fn many_steps_are_the_taylor_series() {
+        let values = |q: &str, p: &str| {
+            let set = [("q", q), ("p", p)].map(|(name, value)| (name.to_owned(), value.to_owned()));
+            problem("pendulum").unwrap().setup(&set, 100).unwrap().values
         };
-        Point { q: vec![horner(&self.q)], p: vec![horner(&self.p)], beta: horner(&self.beta) }
+        for (q, p) in
+            [("0", "1"), ("1/2", "-19/10"), ("3", "-1/10"), ("0", "2"), ("7", "5/2"), ("0", "-9"), ("1e-20", "0")]
+        {
+            let (values, h) = (values(q, p), "1/3".parse().unwrap());
+            let request = Request { values: &values, h: &h, longest: 40.0, bits: 200 };
+            let mut steps = Addition::new(&request).unwrap();
+            let start = steps.start.point.clone();
+            for n in [1, 7, 100, -1, -60] {
+                let (found, t) = (steps.at(n), Float::with_val(start.beta.prec(), n) / 3u32);
+                let right = flow(&start, &t);
+                for (found, right) in
+                    [(&found.q[0], &right.q[0]), (&found.p[0], &right.p[0]), (&found.beta, &right.beta)]
+                {
+                    let off = log2(&(found.clone() - right)) - log2(right).max(0.0);
+                    assert!(off < -220.0, "q = {q}, p = {p}, n = {n}: {found} {right}");
+                }
+            }
+        }
+        let at_rest = values("0", "0");
+        let request = Request { values: &at_rest, h: &"1/3".parse().unwrap(), longest: 40.0, bits: 200 };
+        let point = Addition::new(&request).unwrap().at(30);
+        assert!(point.q[0].is_zero() && point.p[0].is_zero() && log2(&(point.beta - 20u32)) < -200.0);
     }
-}
-
-/// Σ_j a_j b_{k−j}
-fn product(a: &[Float], b: &[Float]) -> Float {
-    let mut sum = Float::new(a[0].prec());
-    a.iter().zip(b.iter().rev()).for_each(|(a, b)| sum += a * b);
-    sum
 }
