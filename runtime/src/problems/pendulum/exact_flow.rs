@@ -89,7 +89,7 @@ impl Step {
         let step_s = if forward { self.s.clone() } else { -self.s.clone() };
         let product = state.s.clone() * &step_s;
         let scale = (self.squared.clone() - product.clone().square()).recip();
-        let s = state.s.clone() * &self.p * &self.c + step_s.clone() * &state.p * &state.c;
+        let s = state.s.clone() * &self.p * &self.c + step_s * &state.p * &state.c;
         let c = state.c.clone() * &self.c * &self.squared - product.clone() * &state.p * &self.p;
         let p = state.p.clone() * &self.p - product.clone() * &state.c * &self.c;
         let (mut s, mut c, mut p) = (s * &self.k * &scale, c * &scale, p * &self.k * &scale);
