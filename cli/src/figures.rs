@@ -34,12 +34,15 @@ pub(crate) struct Arguments {
     /// Coarser grids
     #[arg(long)]
     quick: bool,
+    /// Replaces files of the folder that are not from this program
+    #[arg(long)]
+    force: bool,
 }
 
 /// Computes what is missing, and writes charts, data and the report.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let Arguments { names, quick, out } = arguments;
-    let request = Request { names: names.clone(), quick: *quick, folder: out.clone() };
+    let Arguments { names, quick, out, force } = arguments;
+    let request = Request { names: names.clone(), quick: *quick, folder: out.clone(), force: *force };
     let mut terminal = Terminal { bar: None, status: Status::Success, interrupt: Interrupt::listen() };
     let summary = reproduce(&request, &mut terminal)?;
     let mut output = Output::stdout();

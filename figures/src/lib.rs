@@ -7,7 +7,7 @@
 //! ```no_run
 //! use shadowstep_figures::{Request, reproduce};
 //!
-//! let request = Request { names: vec!["scattering".to_owned()], quick: true, folder: "figures".into() };
+//! let request = Request { names: vec!["scattering".to_owned()], quick: true, folder: "figures".into(), force: false };
 //! let summary = reproduce(&request, &mut ())?;
 //! println!("{}\n{}", summary.report.display(), summary.verdicts);
 //! # Ok::<(), shadowstep_figures::Error>(())

@@ -23,6 +23,8 @@ pub struct Request {
     pub quick: bool,
     /// The folder for `report.html`, SVG and CSV files, and for the results, `results.jsonl`.
     pub folder: PathBuf,
+    /// Whether files of the folder are replaced that are not from this program.
+    pub force: bool,
 }
 
 /// What was written.
@@ -50,7 +52,9 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// An unknown figure; a folder that cannot be written, that another process uses, or that has other files of these names.
 pub fn reproduce(request: &Request, observer: &mut dyn Observer) -> Result<Summary, Error> {
     let requested = requested(&request.names)?;
-    refuse_foreign_report(&request.folder)?;
+    if !request.force {
+        refuse_foreign_files(&request.folder)?;
+    }
     let mut store = Store::open(&request.folder, observer)?;
     let mut results = Results::new(request.quick);
     loop {
@@ -74,14 +78,23 @@ pub fn reproduce(request: &Request, observer: &mut dyn Observer) -> Result<Summa
     Ok(Summary { report: request.folder.join(REPORT), verdicts: report.verdicts() })
 }
 
-/// A report of this program has its results beside it.
-fn refuse_foreign_report(folder: &Path) -> Result<(), Error> {
-    let path = folder.join(REPORT);
-    if !path.exists() || Store::is_in(folder) {
+/// A report of this program has its results beside it. Without them, files of the same names are not replaced.
+fn refuse_foreign_files(folder: &Path) -> Result<(), Error> {
+    if Store::is_in(folder) {
         return Ok(());
     }
-    let message = format!("{} exists, without results of this program beside it", path.display());
-    Err(Error::usage(message, "give another folder, or remove the file"))
+    let names = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
+    let Some(name) = names.filter_map(|name| name.into_string().ok()).find(|name| is_written(name)) else {
+        return Ok(());
+    };
+    let message = format!("{} exists, without results of this program beside it", folder.join(name).display());
+    Err(Error::usage(message, "give another folder, or replace its files with --force"))
+}
+
+/// Whether a report or a figure has a file of this name.
+fn is_written(name: &str) -> bool {
+    let of_figure = |figure: &str| name.starts_with(figure) && (name.ends_with(".svg") || name.ends_with(".csv"));
+    name == REPORT || names().any(of_figure)
 }
 
 /// The results of a figure that is not requested, if it has some and earlier runs left all of them: of the full grid, or of the

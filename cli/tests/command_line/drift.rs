@@ -470,6 +470,13 @@ fn strict_makes_a_bad_verdict_a_negative_answer() {
     let strict = shadowstep(&format!("{words} --strict"));
     assert_eq!(strict.code, 1);
     assert!(!shadowstep(&format!("{words} --no-summary")).out.contains("too large"));
+    // the planets at 17/3 years: H errs by more than it is
+    let planets = "drift --problem outer-solar-system --scheme kahan-li8 --step 365.25*17/3 --until 2000000 --double \
+                   --estimator bilinear --order 8 --strict --json";
+    let result = shadowstep(planets);
+    let record = &objects(&result.out)[0];
+    assert!(text_as_f64(&record["energy_error"]["largest_relative"]) > 1.0, "{record}");
+    assert_eq!((result.code, &record["summary"]["fine"]), (1, &false.into()), "{record}");
 }
 
 #[test]

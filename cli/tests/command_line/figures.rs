@@ -157,16 +157,23 @@ fn a_report_keeps_the_figures_whose_results_are_there() {
 }
 
 #[test]
-fn a_report_of_another_program_is_not_replaced() {
-    let folder = TempDir::new().unwrap();
-    let report = folder.path().join("report.html");
-    fs::write(&report, "mine").unwrap();
-    let output = shadowstep(&format!("figures double-precision --quick --out {}", folder.path().display()));
-    assert_eq!((output.code, output.out.as_str()), (2, ""));
-    let expected = format!("error: {} exists, without results of this program beside it\n", report.display());
-    assert!(output.err.starts_with(&expected), "{}", output.err);
-    assert_eq!(files(folder.path()), [("report.html".to_owned(), "mine".to_owned())]);
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+fn files_of_another_program_are_replaced_only_by_force() {
+    for name in ["report.html", "double-precision.svg", "kepler-step.csv"] {
+        let folder = TempDir::new().unwrap();
+        let file = folder.path().join(name);
+        fs::write(&file, "mine").unwrap();
+        let words = format!("figures double-precision --quick --out {}", folder.path().display());
+        let output = shadowstep(&words);
+        assert_eq!((output.code, output.out.as_str()), (2, ""));
+        let expected = format!("error: {} exists, without results of this program beside it\n", file.display());
+        assert!(output.err.starts_with(&expected) && output.err.contains("with --force"), "{}", output.err);
+        assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+        if name == "report.html" {
+            assert_eq!(shadowstep(&format!("{words} --force")).code, 0);
+            assert_ne!(fs::read_to_string(&file).unwrap(), "mine");
+        }
+    }
 }
 
 #[test]
