@@ -154,6 +154,7 @@ where
     #[inline]
     fn evaluate(&mut self, with_rate: bool) {
         let (q, gradient) = (self.q.as_ref(), self.gradient.as_mut());
+        self.potential.update(q);
         self.kept = if with_rate {
             self.potential.gradient_and_rate(q, gradient, &mut self.rate, &mut self.scratch);
             Kept::GradientAndRate
@@ -179,13 +180,14 @@ where
 
 /// energy ← T(p) + U(q), kinetic_energy ← T(p)
 fn assign_energies<N: Number, P: Potential<N>, K: Kinetic<N>>(
-    potential: &P,
+    potential: &mut P,
     kinetic: &K,
     (q, p): (&[N], &[N]),
     (scratch, kinetic_scratch): (&mut [N], &mut [N]),
     (energy, kinetic_energy): (&mut N, &mut N),
 ) {
     kinetic.energy(p, kinetic_energy, kinetic_scratch);
+    potential.update(q);
     potential.energy(q, energy, scratch);
     energy.add(kinetic_energy);
 }
@@ -331,6 +333,7 @@ where
             energy.subtract(rate);
             energy.divide_integer(2);
         } else {
+            potential.update(q.as_ref());
             potential.energy(q.as_ref(), energy, scratch);
         }
         energy.add(kinetic_energy);

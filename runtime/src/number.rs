@@ -2,6 +2,7 @@
 
 pub mod counting;
 mod double;
+mod epsilon;
 #[cfg(feature = "mpfr")]
 mod multiprecision;
 #[cfg(feature = "mpfr")]
@@ -15,6 +16,8 @@ pub use rounded::Rounded;
 /// MPFR's numbers, of the version that implements [`Number`].
 #[cfg(feature = "mpfr")]
 pub use rug::Float;
+
+pub(crate) use epsilon::epsilon;
 
 use crate::Rational;
 use std::fmt;

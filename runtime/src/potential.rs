@@ -46,6 +46,62 @@ pub trait Potential<N: Number> {
         let _ = (scratch, context);
     }
 
+    /// Prepares what depends on q, such as a list of neighbours. Called before each evaluation at q, also where q is the same as
+    /// before. The default does nothing.
+    ///
+    /// A list that is kept while no particle has moved by half of its margin:
+    ///
+    /// ```
+    /// # use shadowstep::{Motion, Stepper, UnitMasses, Potential, System, tables::shipped};
+    /// /// U = Σ (r − 1)⁴/4 over the pairs on a line that are closer than 1.
+    /// struct Soft {
+    ///     pairs: Vec<(usize, usize)>,
+    ///     listed_at: Vec<f64>,
+    /// }
+    ///
+    /// const MARGIN: f64 = 0.3;
+    ///
+    /// impl Potential<f64> for Soft {
+    ///     fn dimension(&self) -> usize { 4 }
+    ///
+    ///     fn update(&mut self, q: &[f64]) {
+    ///         let is_current = self.listed_at.len() == q.len()
+    ///             && self.listed_at.iter().zip(q).all(|(a, b)| (a - b).abs() < MARGIN / 2.0);
+    ///         if !is_current {
+    ///             let close = |i: &usize, j: usize| (q[*i] - q[j]).abs() < 1.0 + MARGIN;
+    ///             self.pairs = (0..4).flat_map(|j| (0..j).filter(move |i| close(i, j)).map(move |i| (i, j))).collect();
+    ///             self.listed_at = q.to_vec();
+    ///         }
+    ///     }
+    ///
+    ///     fn energy(&self, q: &[f64], energy: &mut f64, _: &mut [f64]) {
+    ///         *energy = self.pairs.iter().map(|&(i, j)| ((q[i] - q[j]).abs() - 1.0).min(0.0).powi(4) / 4.0).sum();
+    ///     }
+    ///
+    ///     fn gradient(&self, q: &[f64], gradient: &mut [f64], _: &mut [f64]) {
+    ///         gradient.fill(0.0);
+    ///         for &(i, j) in &self.pairs {
+    ///             let slope = ((q[i] - q[j]).abs() - 1.0).min(0.0).powi(3) * (q[i] - q[j]).signum();
+    ///             gradient[i] += slope;
+    ///             gradient[j] -= slope;
+    ///         }
+    ///     }
+    /// }
+    ///
+    /// let soft = Soft { pairs: vec![], listed_at: vec![] };
+    /// let mut motion = Motion::new(soft, UnitMasses, [0.0, 0.9, 2.0, 3.5], [0.5, 0.0, 0.0, -0.4])?;
+    /// let start = motion.energy();
+    /// let stepper = Stepper::new(shipped("stormer-verlet").unwrap(), "1/100")?;
+    /// for _ in 0..500 {
+    ///     stepper.step(&mut motion);
+    /// }
+    /// assert!((motion.energy() - start).abs() < 1e-5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    fn update(&mut self, q: &[N]) {
+        let _ = q;
+    }
+
     /// energy ← U(q)
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]);
 
@@ -76,6 +132,9 @@ impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
     }
     fn prepare(&self, scratch: &mut [N], context: &N::Context) {
         (**self).prepare(scratch, context);
+    }
+    fn update(&mut self, q: &[N]) {
+        (**self).update(q);
     }
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
         (**self).energy(q, energy, scratch);

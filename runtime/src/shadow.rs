@@ -62,7 +62,7 @@ pub use bilinear::{Bilinear, BilinearEstimator};
 pub use central::{Central, CentralEstimator};
 pub use differences::{SelectionRule, StoppingRule};
 pub use estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
-pub use monitor::{Criterion, Report, Sample, ShadowEnergy, Trend, Verdict};
+pub use monitor::{Advice, Criterion, Missing, Report, Rough, Sample, ShadowEnergy, Trend, Verdict};
 pub use options::{AccuracyError, EstimatorOptions, HIGHEST_ORDER, OptionConflict, UnknownWord, check_accuracy};
 pub use settings::EstimatorSettings;
 pub(crate) use walk::Walk;

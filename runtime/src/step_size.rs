@@ -55,6 +55,11 @@ impl StepSize {
     pub fn exact(&self) -> &Rational {
         &self.0
     }
+
+    /// 2h
+    pub(crate) fn doubled(&self) -> StepSize {
+        StepSize(&self.0 * Rational::from_integer(2.into()))
+    }
 }
 
 impl std::fmt::Display for StepSize {

@@ -137,6 +137,16 @@ impl<N: Number> Increments<N> {
         self.beta.assign(&other.beta);
     }
 
+    /// Adds other increments; those of q and p that are known in one of the two only are dropped.
+    pub(crate) fn add(&mut self, other: &Self) {
+        let vectors = [(&mut self.q, &other.q), (&mut self.p, &other.p)];
+        for (own, other) in vectors {
+            own.truncate(other.len());
+            own.iter_mut().zip(other).for_each(|(own, other)| own.add(other));
+        }
+        self.beta.add(&other.beta);
+    }
+
     fn each(&mut self, change: impl Fn(&mut N)) {
         self.q.iter_mut().chain(&mut self.p).for_each(&change);
         change(&mut self.beta);

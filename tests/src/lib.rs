@@ -3,6 +3,8 @@
 
 pub mod catalogue_page;
 pub mod general;
+pub mod lennard_jones;
+pub mod matrix;
 pub mod pages;
 pub mod reference;
 pub mod refusals;

@@ -6,8 +6,7 @@
 
 use std::collections::VecDeque;
 
-use crate::Rational;
-use crate::number::Number;
+use crate::number::{Number, epsilon};
 
 /// The newest 2·`around` + 1 values of an estimator. The one in the middle has an error: the largest of max − min of them all, of
 /// their last terms, and of the last place of the value, as on a circle all values may agree by chance in all their digits.
@@ -85,33 +84,5 @@ impl<N: Number> ErrorEstimate<N> {
 
     fn is_complete(&self) -> bool {
         self.points.len() > 2 * self.around
-    }
-}
-
-/// The distance from 1 to the next number, |3 (4/3 − 1) − 1|: of 4/3 = 1.0101…₂ a third of the last place is rounded away, and nothing after that.
-pub(super) fn epsilon<N: Number>(context: &N::Context) -> N {
-    let rational = |above: u32, below: u32| N::from_rational(&Rational::new(above.into(), below.into()), context);
-    let (mut epsilon, one) = (rational(4, 3), rational(1, 1));
-    epsilon.subtract(&one);
-    epsilon.multiply_integer(3);
-    epsilon.subtract(&one);
-    epsilon.make_absolute();
-    epsilon
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_last_place_of_1() {
-        assert_eq!(epsilon::<f64>(&()), f64::EPSILON);
-        #[cfg(feature = "mpfr")]
-        for bits in [2_u32, 3, 53, 100, 101, 400] {
-            use crate::number::{Float, Precision};
-            let Ok(precision) = Precision::bits(bits) else { continue };
-            let expected = Float::with_val(precision.in_bits(), 1) >> (precision.in_bits() - 1);
-            assert_eq!(epsilon::<Float>(&precision), expected, "{bits} bits");
-        }
     }
 }

@@ -8,22 +8,28 @@
 //! | `recent` | round-off, turning and consistency, from the newest states of a window |
 //! | `report`, `verdict`, `text` | the result in numbers, as a verdict, and as text |
 
+mod arithmetic;
 mod blocks;
+mod change;
+mod estimated;
 mod recent;
 mod report;
+mod roughness;
 mod schedule;
 mod statistics;
 mod text;
 mod verdict;
 
-pub use report::{Report, Trend};
-pub use verdict::{Criterion, Verdict};
+pub use report::{Advice, Report, Trend};
+pub use roughness::Rough;
+pub use verdict::{Criterion, Missing, Verdict};
 
-use self::blocks::{Blocks, Estimated};
+use self::blocks::Blocks;
+use self::estimated::Estimated;
 use self::recent::Recent;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
-use crate::number::Number;
+use crate::number::{Number, epsilon};
 use crate::run::{Quantity, RunError, State, check_value};
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
@@ -69,14 +75,15 @@ use crate::system::{Increments, System};
 ///
 /// ```text
 /// the step size is fine (20000 steps, 200 windows)
-///   energy error         9.39e-3  max − min of H; 1.9e-2 of T
-///   the method's part    1.71e-3  rms of H − H̄, which is from -9.05e-3 to 3.32e-4
-///   H̄ ranges over       2.80e-14  3.0e-12 of the energy error, a random walk
-///   it changed by      -1.26e-14  it moved by 3.64e-14 beyond its errors
+///   energy error         9.38e-3  max − min of H; 1.9e-2 of T
+///   the method's part    1.58e-3  rms of H − H̄, which is from -8.68e-3 to 3.27e-4
+///   H̄ ranges over       3.62e-14  3.9e-12 of the energy error, a random walk
+///   it changed by      -1.15e-14  it moved by 3.68e-14 beyond its errors
 ///   it is known to      3.89e-16  4.1e-14 of the energy error
-///   round-off           1.07e-14  1.1e-12 of the energy error, expected by Brouwer's law
-///   fastest motion          17.2  steps a turn
-///   the modified energy moved by 3.9e-12 of the energy error in 20000 steps: the energy error is the method's, and bounded
+///   round-off           1.02e-14  1.1e-12 of the energy error, expected by Brouwer's law
+///   permanently         3.74e-14  4.0e-12 of the energy error, at most
+///   fastest motion          17.0  steps a turn
+///   the energy error is 1.9e-2 of T; in 20000 steps a permanent change above 7.57e-14 of T, 7.57e-17 of T per unit time is excluded
 /// ```
 ///
 /// Where a loop does more than steps, it can make them itself: with increments where
@@ -125,6 +132,8 @@ pub struct ShadowEnergy<S: Scheme, N: Number, E> {
     unknown: Increments<N>,
     /// H − H̄
     method: N,
+    /// Windows in which the rate is not qᵀU_q − 2U.
+    wrong_rates: u64,
     /// The first state that was not finite, or whose energy was not.
     not_finite: Option<u64>,
 }
@@ -134,6 +143,8 @@ struct Newest<N> {
     n: u64,
     modified: Estimated<N>,
     has_error: bool,
+    /// k or m
+    order: u32,
     energy: N,
     kinetic: N,
 }
@@ -163,19 +174,21 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
     ) -> Result<Self, RunError> {
         let (dimension, context) = (system.q().len(), system.context());
         let estimator = settings.build(stepper.step_size(), dimension, &context)?;
+        let states = estimator.states();
         let [mut energy, mut kinetic] = [N::zero(&context), N::zero(&context)];
         system.assign_energies(&mut energy, &mut kinetic);
         check_value(&energy, Quantity::Energy, 0)?;
         let mut monitor = ShadowEnergy {
-            schedule: Schedule::new(estimator.states(), 1),
+            schedule: Schedule::new(states, 1),
             estimator,
             n: 0,
             statistics: Statistics::new(&energy),
-            newest: Newest { n: 0, modified: Estimated::zero(&context), has_error: false, energy, kinetic },
-            blocks: Blocks::new(&context),
-            recent: Recent::new(stepper.h(), dimension, &context),
+            blocks: Blocks::new(&energy),
+            newest: Newest { n: 0, modified: Estimated::zero(&context), has_error: false, order: 0, energy, kinetic },
+            recent: Recent::new(states, stepper.step_size(), dimension, &context)?,
             unknown: Increments::of_beta(N::zero(&context)),
             method: N::zero(&context),
+            wrong_rates: 0,
             not_finite: None,
             stepper,
         };
@@ -254,6 +267,7 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
         if self.schedule.is_middle(self.n) && !self.schedule.overlaps() {
             // while the gradient is kept from which the energy follows
             system.assign_energies(&mut self.newest.energy, &mut self.newest.kinetic);
+            self.check_rate(system);
         }
         let begins = self.schedule.begins(self.n);
         let increments = if begins { &self.unknown } else { system.increments() };
@@ -267,10 +281,11 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
             return Ok(false);
         }
         let Some(estimate) = estimate else { return Ok(false) };
-        let Newest { n, modified, has_error, energy, kinetic } = &mut self.newest;
+        let Newest { n, modified, has_error, order, energy, kinetic } = &mut self.newest;
         *n = self.n - (states as u64 / 2);
         modified.value.assign(estimate.value);
         *has_error = estimate.error.is_some();
+        *order = estimate.order;
         match estimate.error {
             Some(error) => modified.error.assign(error),
             None => modified.error.assign_zero(),
@@ -283,13 +298,34 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
         Ok(true)
     }
 
+    /// Compares H from the gradient and the rate with H itself, in some windows.
+    ///
+    /// Both are sums whose terms, of the size of T and pᵀΔq/h, are rounded: a thousand parts of 10⁹ ε of T are another function.
+    fn check_rate<M: System<Number = N>>(&mut self, system: &mut M) {
+        let windows = self.statistics.windows;
+        if windows >= RATES_CHECKED && !windows.is_multiple_of(RATES_CHECKED) {
+            return;
+        }
+        let (q, p) = (system.q().to_vec(), system.p().to_vec());
+        let mut off = system.energy_at(&q, &p);
+        off.subtract(&self.newest.energy);
+        off.make_absolute();
+        let mut largest: N = epsilon(&self.method.context());
+        largest.multiply_integer(1_000_000_000);
+        let mut size = self.newest.kinetic.clone();
+        size.add(&self.newest.energy);
+        size.make_absolute();
+        largest.multiply(&size);
+        self.wrong_rates += u64::from(off > largest);
+    }
+
     fn end_window(&mut self, states: usize) -> Result<(), RunError> {
         let Newest { n, modified, energy, kinetic, .. } = &self.newest;
         check_value(energy, Quantity::Energy, number(*n))?;
         check_value(&modified.value, Quantity::ModifiedEnergy, number(*n))?;
         check_value(&modified.error, Quantity::ModifiedEnergyError, number(*n))?;
         self.recent.end(states);
-        let best = self.blocks.push(modified);
+        let best = self.blocks.push(energy, modified);
         self.method.assign_difference(energy, &best.value);
         self.statistics.add(energy, kinetic, &self.method, modified);
         Ok(())
@@ -300,6 +336,9 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
         Sample { n: *n, modified: &modified.value, error: has_error.then_some(&modified.error), energy }
     }
 }
+
+/// H is compared with that from the rate in so many windows, and then in one of so many.
+const RATES_CHECKED: u64 = 8;
 
 /// The number of a state as trajectories count them.
 fn number(n: u64) -> i64 {

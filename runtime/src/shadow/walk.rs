@@ -1,8 +1,7 @@
 //! What the round-off of the steps makes of the modified energy.
 
 use crate::Rational;
-use crate::number::Number;
-use crate::shadow::error_estimate::epsilon;
+use crate::number::{Number, epsilon};
 
 /// The walk that round-off is expected to make, √(Σ kick²), by Brouwer's law: errors of the states are independent, so that the
 /// energy goes like the square root of the number of steps (D. Brouwer, Astron. J. 46 (1937) 149).

@@ -80,10 +80,10 @@ impl<N: Number> Window<N> {
         count
     }
 
-    /// Whether a state has no increments, while the state before it has.
+    /// Whether a state has no increments, while the state before it or the newest one has.
     fn begins_anew(&self, back: usize) -> bool {
         let known = |back| self.ring[self.place(back)].increments.has_vectors();
-        !known(back) && known(back + 1)
+        !known(back) && (known(back + 1) || known(0))
     }
 
     /// The pairs with the states `first`, `first` + 1, … before the newest; the increments after these are in the sum.

@@ -29,8 +29,7 @@ fn a_forgotten_beta_is_seen() {
     let henon = watch_loop::<Float, _>(henon_heiles(&context), tenth, 1000, |stepper, motion, _| {
         stepper.step(motion);
     });
-    assert_eq!(henon.verdict, Verdict::TooLarge(Criterion::NotResolved), "{henon}");
-    assert!(henon.reason().ends_with("or increments are missing"), "{henon}");
+    assert_eq!(henon.verdict, Verdict::Inconsistent, "{henon}");
 }
 
 #[test]
@@ -109,13 +108,13 @@ fn a_moved_state_is_named_as_a_cause() {
         as_needed(stepper, motion, needs_increments);
         n += 1;
         if n >= 2000 && !needs_increments && !kicked {
-            motion.p_mut()[0] += 0.02;
+            motion.p_mut()[1] *= 1.1;
             kicked = true;
         }
     });
     assert!(kicked && report.mismatches == 0, "{report}");
-    assert_eq!(report.verdict, MOVES, "{report}");
-    assert!(report.reason().contains("something other than the scheme changed the state"), "{report}");
+    assert_eq!(report.verdict, Verdict::Undecided(Missing::Resolution), "{report}");
+    assert!(report.reason().contains("something other than the scheme that changed the state"), "{report}");
 }
 
 /// An angle that is wrapped leaves H and its gradient as they are, but not β, nor H̄ as the estimator sees it.
@@ -137,7 +136,7 @@ fn a_wrapped_angle_is_seen() {
 fn unknown_errors_are_named() {
     for settings in [Bilinear::new(1), Bilinear::with_error(1)] {
         let report = watch_by(&settings, "kepler", &[], "stormer-verlet", "1/20", 4000);
-        assert_eq!(report.verdict, MOVES, "{report}");
-        assert!(report.reason().contains("which this estimator does not give"), "{report}");
+        assert_eq!(report.verdict, FINE, "the energy itself shows that: {report}");
+        assert!(report.reason().ends_with("but this estimator gives no errors"), "{report}");
     }
 }

@@ -1,6 +1,7 @@
 //! Protects the monitor of the modified energy: it changes no bit and costs nothing between its windows; its values are those of
-//! a run; its numbers against closed forms; its verdicts on problems and hard cases; its errors and words.
+//! a run; its numbers against closed forms; its verdicts on problems, hard cases and wrong forces; its errors and words.
 
+mod forces;
 mod loops;
 mod values;
 mod verdicts;
@@ -11,7 +12,7 @@ use shadowstep::number::counting::{Counting, count};
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum, ProblemMotion, problem};
 use shadowstep::run::{Quantity, RunError, ShadowRun};
 use shadowstep::shadow::{
-    Bilinear, BuildEstimator, Central, Criterion, Report, ShadowEnergy, StoppingRule, Trend, Verdict,
+    Bilinear, BuildEstimator, Central, Criterion, Missing, Report, ShadowEnergy, StoppingRule, Trend, Verdict,
 };
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{Motion, Number, Potential, Stepper, UnitMasses, kinetic, potential};

@@ -1,37 +1,41 @@
-//! The modified energies of a run in fixed memory: the most accurate one of each of at most 64 equal parts.
+//! The energies of a run in fixed memory: of each of at most 64 equal parts the most accurate modified energy, and the means of H
+//! and H̄.
 
+use super::arithmetic::{integer, quotient};
+use super::estimated::Estimated;
 use crate::number::Number;
 
 /// The largest number of blocks; a long run has at least half as many.
 const BLOCKS: usize = 64;
 
-/// An estimate of the modified energy, and its error.
+/// A part of a run.
 #[derive(Clone, Debug)]
-pub(super) struct Estimated<N> {
-    pub(super) value: N,
-    /// 0 where the estimator gives none.
-    pub(super) error: N,
+pub(super) struct Block<N> {
+    /// The estimate with the smallest error.
+    ///
+    /// The modified energy is constant while the error of its estimates is not: near a close encounter it can be larger by many
+    /// orders of magnitude.
+    pub(super) best: Estimated<N>,
+    /// Σ (H − H_0), H_0 the energy of the first state.
+    energy: N,
+    /// Σ (H̄ − H_0)
+    modified: N,
 }
 
-impl<N: Number> Estimated<N> {
-    pub(super) fn zero(context: &N::Context) -> Self {
-        Estimated { value: N::zero(context), error: N::zero(context) }
-    }
-
-    fn assign(&mut self, other: &Self) {
-        self.value.assign(&other.value);
-        self.error.assign(&other.error);
+impl<N: Number> Block<N> {
+    fn zero(context: &N::Context) -> Self {
+        Block { best: Estimated::zero(context), energy: N::zero(context), modified: N::zero(context) }
     }
 }
 
-/// Of each block of successive estimates the one with the smallest error.
-///
-/// The modified energy is constant while the error of its estimates is not: near a close encounter it can be larger by many
-/// orders of magnitude. When all blocks are full, they are merged in pairs.
+/// Blocks of successive estimates. When all are full, they are merged in pairs.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks<N> {
     /// `full` complete ones, then the one that grows.
-    blocks: Vec<Estimated<N>>,
+    blocks: Vec<Block<N>>,
+    /// H_0
+    origin: N,
+    difference: N,
     full: usize,
     /// Estimates in a block.
     size: u64,
@@ -40,53 +44,84 @@ pub(super) struct Blocks<N> {
 }
 
 impl<N: Number> Blocks<N> {
-    pub(super) fn new(context: &N::Context) -> Self {
-        Blocks { blocks: vec![Estimated::zero(context); BLOCKS + 1], full: 0, size: 1, count: 0 }
+    /// Of a run that begins with the energy `origin`.
+    pub(super) fn new(origin: &N) -> Self {
+        let context = origin.context();
+        Blocks {
+            blocks: vec![Block::zero(&context); BLOCKS + 1],
+            origin: origin.clone(),
+            difference: N::zero(&context),
+            full: 0,
+            size: 1,
+            count: 0,
+        }
     }
 
-    /// Takes an estimate, and returns the most accurate one of its block so far.
-    pub(super) fn push(&mut self, newest: &Estimated<N>) -> &Estimated<N> {
+    /// Takes an estimate and the energy at the same state; returns the most accurate estimate of its block so far.
+    pub(super) fn push(&mut self, energy: &N, newest: &Estimated<N>) -> &Estimated<N> {
         let place = self.full;
-        let own = &mut self.blocks[place];
+        let block = &mut self.blocks[place];
+        if self.count == 0 {
+            block.energy.assign_zero();
+            block.modified.assign_zero();
+        }
+        for (sum, value) in [(&mut block.energy, energy), (&mut block.modified, &newest.value)] {
+            self.difference.assign_difference(value, &self.origin);
+            sum.add(&self.difference);
+        }
         // of equal errors the newest
-        if self.count == 0 || newest.error <= own.error {
-            own.assign(newest);
+        if self.count == 0 || newest.error <= block.best.error {
+            block.best.assign(newest);
         }
         self.count += 1;
         if self.count < self.size {
-            return &self.blocks[place];
+            return &self.blocks[place].best;
         }
         self.full += 1;
         self.count = 0;
         if self.full < BLOCKS {
-            return &self.blocks[place];
+            return &self.blocks[place].best;
         }
         self.merge();
-        &self.blocks[self.full - 1]
+        &self.blocks[self.full - 1].best
     }
 
     fn merge(&mut self) {
         for pair in 0..BLOCKS / 2 {
-            let better = if self.blocks[2 * pair].error <= self.blocks[2 * pair + 1].error { 0 } else { 1 };
-            self.blocks.swap(pair, 2 * pair + better);
+            let [first, second] = &mut self.blocks[2 * pair..2 * pair + 2] else { unreachable!("two blocks") };
+            first.energy.add(&second.energy);
+            first.modified.add(&second.modified);
+            if second.best.error < first.best.error {
+                std::mem::swap(&mut first.best, &mut second.best);
+            }
+            self.blocks.swap(pair, 2 * pair);
         }
         self.full = BLOCKS / 2;
         self.size *= 2;
     }
 
-    /// The blocks in the order of time; the one that grows as soon as it is half full.
-    pub(super) fn all(&self) -> &[Estimated<N>] {
+    /// The most accurate estimates in the order of time; that of the block that grows as soon as it is half full.
+    pub(super) fn best(&self) -> impl Iterator<Item = &Estimated<N>> + Clone {
         let growing = usize::from(2 * self.count >= self.size && self.count > 0);
-        &self.blocks[..self.full + growing]
+        self.blocks[..self.full + growing].iter().map(|block| &block.best)
     }
 
-    /// The half of the blocks with the smaller errors, in the order of time.
+    /// The half of these with the smaller errors, in the order of time.
     pub(super) fn accurate(&self) -> Vec<&Estimated<N>> {
-        let all = self.all();
-        let mut errors: Vec<&N> = all.iter().map(|block| &block.error).collect();
+        let mut errors: Vec<&N> = self.best().map(|estimate| &estimate.error).collect();
         errors.sort_by(|a, b| a.partial_cmp(b).expect("estimates that are not finite are refused"));
-        let Some(median) = errors.get(all.len().saturating_sub(1) / 2) else { return Vec::new() };
-        all.iter().filter(|block| block.error <= **median).collect()
+        let Some(median) = errors.get(errors.len().saturating_sub(1) / 2).copied() else { return Vec::new() };
+        self.best().filter(|estimate| estimate.error <= *median).collect()
+    }
+
+    /// The means of H and of H̄ in the full blocks, less H_0, as parts of `unit`.
+    pub(super) fn means(&self, unit: &N) -> [Vec<f64>; 2] {
+        let mut size: N = integer(self.size, &unit.context());
+        size.multiply(unit);
+        let parts = |sum: fn(&Block<N>) -> &N| {
+            self.blocks[..self.full].iter().map(|block| quotient(sum(block), &size).to_f64()).collect()
+        };
+        [parts(|block| &block.energy), parts(|block| &block.modified)]
     }
 }
 
@@ -100,16 +135,16 @@ mod tests {
 
     /// Every tenth estimate is accurate, the value is its number.
     fn blocks(count: u32) -> Blocks<f64> {
-        let mut blocks = Blocks::new(&());
+        let mut blocks = Blocks::new(&0.0);
         for i in 0..count {
-            blocks.push(&Estimated { value: f64::from(i), error: if i % 10 == 3 { 1e-9 } else { 1.0 } });
+            blocks.push(&0.0, &Estimated { value: f64::from(i), error: if i % 10 == 3 { 1e-9 } else { 1.0 } });
         }
         blocks
     }
 
     #[test]
     fn few_estimates_are_blocks_of_their_own() {
-        assert_eq!(blocks(63).all().len(), 63);
+        assert_eq!(blocks(63).best().count(), 63);
         assert_eq!(
             values(&blocks(63).accurate()),
             (0..63).map(f64::from).collect::<Vec<_>>(),
@@ -123,7 +158,7 @@ mod tests {
         // 64 of 16 estimates become 32 of 32, each with accurate ones; ties go to the newest of a block, to the first of
         // two blocks
         let all = blocks(1024);
-        assert_eq!((all.all().len(), all.size), (32, 32));
+        assert_eq!((all.best().count(), all.size), (32, 32));
         let found = values(&all.accurate());
         assert_eq!(found.len(), 32);
         for (i, value) in found.into_iter().enumerate() {
@@ -134,14 +169,14 @@ mod tests {
 
     #[test]
     fn a_block_counts_from_its_middle_on() {
-        assert_eq!([15, 16, 31].map(|more| blocks(1024 + more).all().len()), [32, 33, 33]);
-        assert_eq!(blocks(1_000_000).all().len(), 61, "of 16384 each, and 576 that are too few");
+        assert_eq!([15, 16, 31].map(|more| blocks(1024 + more).best().count()), [32, 33, 33]);
+        assert_eq!(blocks(1_000_000).best().count(), 61, "of 16384 each, and 576 that are too few");
     }
 
     #[test]
     fn the_most_accurate_of_the_present_block_is_returned() {
         let mut blocks = blocks(1024);
-        let mut push = |value, error| blocks.push(&Estimated { value, error }).value;
+        let mut push = |value, error| blocks.push(&0.0, &Estimated { value, error }).value;
         assert_eq!([push(1.0, 0.5), push(2.0, 0.9), push(3.0, 0.1), push(4.0, 0.1)], [1.0, 1.0, 3.0, 4.0]);
     }
 }

@@ -3,10 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use crate::Rational;
-use crate::number::Number;
-use crate::shadow::error_estimate::epsilon;
+use super::roughness::{Rough, Roughness};
+use crate::number::{Number, epsilon};
+use crate::shadow::estimator::EstimatorError;
 use crate::shadow::walk::{add_squares, kick_factor};
+use crate::step_size::StepSize;
 use crate::system::{Increments, System};
 
 /// States that the turning needs: three second differences.
@@ -22,7 +23,13 @@ pub(super) struct Recent<N> {
     evaluations: [u64; 2],
     /// (c ε/h)²
     factor: N,
+    /// Σ kick² over all windows, and that of the newest.
+    kicks: N,
+    square_kick: N,
+    /// Over all windows, and in the newest.
     sums: Sums<N>,
+    window: Sums<N>,
+    roughness: Roughness<N>,
     /// (10⁶ ε)²
     rounding: N,
     /// Whether a state of this window differs from its increments.
@@ -31,6 +38,8 @@ pub(super) struct Recent<N> {
     mismatches: u64,
     /// Whether q has changed in a last step of a window.
     moves: bool,
+    /// Σ ½(p_0 + p_1)ᵀ(q_1 − q_0) over the last steps of the windows.
+    action: N,
     /// Intermediate results.
     x: N,
     y: N,
@@ -40,8 +49,6 @@ pub(super) struct Recent<N> {
 /// Over the windows, and over the coordinates of each; δ²p_i are second differences, the newest i = 2.
 #[derive(Clone, Debug)]
 struct Sums<N> {
-    /// Σ kick²
-    kicks: N,
     /// Σ (δ²p_1)²
     squares: N,
     /// Σ δ²p_1 (δ²p_0 + δ²p_2)
@@ -60,28 +67,39 @@ pub(super) struct Turning {
 }
 
 impl<N: Number> Recent<N> {
-    pub(super) fn new(h: &Rational, dimension: usize, context: &N::Context) -> Self {
+    pub(super) fn new(
+        states: usize,
+        h: &StepSize,
+        dimension: usize,
+        context: &N::Context,
+    ) -> Result<Self, EstimatorError> {
         let zero = || N::zero(context);
         let zeros = || vec![zero(); dimension];
+        let sums = || Sums { squares: zero(), products: zero(), neighbours: zero() };
         let mut epsilon: N = epsilon(context);
-        let factor = kick_factor(&epsilon, h, context);
+        let factor = kick_factor(&epsilon, h.exact(), context);
         epsilon.multiply_integer(1_000_000);
         let mut rounding = zero();
         rounding.assign_square(&epsilon);
-        Recent {
+        Ok(Recent {
             q: std::array::from_fn(|_| zeros()),
             p: std::array::from_fn(|_| zeros()),
             evaluations: [0; 2],
             factor,
-            sums: Sums { kicks: zero(), squares: zero(), products: zero(), neighbours: zero() },
+            kicks: zero(),
+            square_kick: zero(),
+            sums: sums(),
+            window: sums(),
+            roughness: Roughness::new(states, h, dimension, context)?,
             rounding,
             mismatch: false,
             mismatches: 0,
             moves: false,
+            action: zero(),
             x: zero(),
             y: zero(),
             z: zero(),
-        }
+        })
     }
 
     /// Takes the next state of a window, and what the step to it added, where that is known.
@@ -92,6 +110,7 @@ impl<N: Number> Recent<N> {
         q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
         p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
         self.evaluations = [self.evaluations[1], system.evaluations()];
+        self.roughness.push(system.q(), system.p(), added);
         if let Some(added) = added.filter(|added| added.has_vectors()) {
             self.mismatch |= self.differs_from(added);
         }
@@ -124,9 +143,12 @@ impl<N: Number> Recent<N> {
         self.mismatches += u64::from(std::mem::take(&mut self.mismatch));
         self.moves |= self.q[0] != self.q[1];
         self.add_kick();
+        self.add_action();
         if states >= STATES {
             self.add_turning();
         }
+        let angle = turning(&self.window).map(|turning| turning.angle);
+        self.roughness.end(angle, &self.square_kick);
     }
 
     /// Adds s (cε/h)² Σ ((Δq p)² + (Δp q)²): T_p is Δq/h, U_q is −Δp/h, and s stages round q and p by cε|q| and cε|p| each.
@@ -136,11 +158,25 @@ impl<N: Number> Recent<N> {
         add_squares(z, [q0, q1], [p0, p1], [x, y]);
         let stages = self.evaluations[1].saturating_sub(self.evaluations[0]).max(1);
         z.multiply_integer(i32::try_from(stages).unwrap_or(i32::MAX));
-        self.sums.kicks.add_product(z, &self.factor);
+        self.square_kick.assign_product(z, &self.factor);
+        self.kicks.add(&self.square_kick);
+    }
+
+    fn add_action(&mut self) {
+        let Recent { q: [q0, q1], p: [.., p0, p1], action, x, y, .. } = self;
+        for (((q0, q1), p0), p1) in q0.iter().zip(q1).zip(p0).zip(p1) {
+            x.assign_difference(q1, q0);
+            y.assign_sum(p0, p1);
+            y.divide_integer(2);
+            action.add_product(x, y);
+        }
     }
 
     fn add_turning(&mut self) {
-        let Recent { p: [p0, p1, p2, p3, p4], sums, x, y, z, .. } = self;
+        let Recent { p: [p0, p1, p2, p3, p4], window: sums, x, y, z, .. } = self;
+        sums.squares.assign_zero();
+        sums.products.assign_zero();
+        sums.neighbours.assign_zero();
         for ((((p0, p1), p2), p3), p4) in p0.iter().zip(p1).zip(p2).zip(p3).zip(p4) {
             assign_second_difference(x, p1, p2, p3);
             assign_second_difference(y, p0, p1, p2);
@@ -150,6 +186,9 @@ impl<N: Number> Recent<N> {
             sums.products.add_product(x, y);
             sums.neighbours.add_product(y, y);
         }
+        self.sums.squares.add(&sums.squares);
+        self.sums.products.add(&sums.products);
+        self.sums.neighbours.add(&sums.neighbours);
     }
 
     /// The number of windows in which a state differs from its increments.
@@ -162,26 +201,39 @@ impl<N: Number> Recent<N> {
         self.moves
     }
 
+    /// Σ ½(p_0 + p_1)ᵀ(q_1 − q_0) over the last steps of the windows: h Σ 2T where a step is a small part of a turn, and
+    /// sin φ/φ of that where it turns by φ.
+    pub(super) fn action(&self) -> &N {
+        &self.action
+    }
+
+    /// The forces, where they are not smooth.
+    pub(super) fn rough(&self) -> Option<Rough> {
+        self.roughness.found()
+    }
+
     /// The mean of kick² over the windows.
     pub(super) fn mean_square_kick(&self, windows: &N) -> N {
-        let mut mean = self.sums.kicks.clone();
+        let mut mean = self.kicks.clone();
         mean.divide(windows);
         mean
     }
 
     /// `None` where the windows are too short, or nothing moves.
     pub(super) fn turning(&self) -> Option<Turning> {
-        let Sums { squares, products, neighbours, .. } = &self.sums;
-        let ratio = |a: &N| {
-            let mut ratio = a.clone();
-            ratio.divide(squares);
-            ratio.to_f64()
-        };
-        let (twice_cosine, rest) = (ratio(products), ratio(neighbours));
-        let turning =
-            Turning { angle: (twice_cosine / 2.0).acos(), irregular: (rest - twice_cosine * twice_cosine) / 2.0 };
-        (turning.angle.is_finite() && turning.irregular.is_finite()).then_some(turning)
+        turning(&self.sums)
     }
+}
+
+fn turning<N: Number>(Sums { squares, products, neighbours }: &Sums<N>) -> Option<Turning> {
+    let ratio = |a: &N| {
+        let mut ratio = a.clone();
+        ratio.divide(squares);
+        ratio.to_f64()
+    };
+    let (twice_cosine, rest) = (ratio(products), ratio(neighbours));
+    let turning = Turning { angle: (twice_cosine / 2.0).acos(), irregular: (rest - twice_cosine * twice_cosine) / 2.0 };
+    (turning.angle.is_finite() && turning.irregular.is_finite()).then_some(turning)
 }
 
 impl Turning {

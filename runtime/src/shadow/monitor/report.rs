@@ -1,10 +1,16 @@
 //! The report of a monitor in numbers.
 
+use num_traits::Signed;
+
 use super::ShadowEnergy;
-use super::blocks::Estimated;
+use super::arithmetic::{difference, integer, quotient, root};
+use super::change::Change;
+use super::estimated::Estimated;
 use super::recent::Turning;
-use super::statistics::{Range, difference, integer, quotient, root};
-use super::verdict::{Evidence, Verdict};
+use super::roughness::Rough;
+use super::statistics::Range;
+use super::verdict::{Evidence, Missing, Verdict};
+use crate::Rational;
 use crate::number::Number;
 use crate::scheme::Scheme;
 use crate::shadow::Estimator;
@@ -22,6 +28,8 @@ use crate::shadow::Estimator;
 pub struct Report<N> {
     /// How many steps have been made.
     pub steps: u64,
+    /// The time that they took: steps times |h|.
+    pub time: N,
     /// In how many windows the modified energy was estimated.
     pub windows: u64,
     /// The energy error: max − min of H, over the first state and the middles of the windows.
@@ -45,6 +53,18 @@ pub struct Report<N> {
     pub moved: N,
     /// How H̄ depends on time, from 16 accurate estimates on.
     pub trend: Option<Trend>,
+    /// A permanent change of the energy in these steps is excluded above this; `None` for fewer than 16 windows or parts of a run.
+    ///
+    /// It is the least of three: the range of the accurate H̄ and three times their errors; and |a| + 3 s of the linear change a and its
+    /// standard error s of the means of H, and of those of all H̄, in 32 to 63 parts of the run. The means of H do not depend on the
+    /// estimator.
+    pub permanent_bound: Option<N>,
+    /// How far H̄ moved where that is a permanent change: beyond errors and round-off, and not back and forth.
+    pub permanent_change: Option<N>,
+    /// The forces, where they are not smooth.
+    pub rough: Option<Rough>,
+    /// What would decide a verdict that is undecided.
+    pub advice: Option<Advice>,
     /// The resolution: the largest error of the accurate estimates; `None` where the estimator gives no errors.
     pub resolution: Option<N>,
     /// The largest error of the most accurate estimate of a part of the run.
@@ -70,10 +90,22 @@ pub struct Report<N> {
     /// were changed from outside, by more than 1/1000 of what a step adds. Detected in `f64` only, where augmented steps
     /// [keep the increments](crate::Increments) of q and p.
     pub mismatches: u64,
+    /// In how many of the windows where they were compared, some of all, U and ½(qᵀU_q − rate) differ.
+    pub wrong_rates: u64,
     /// The first state that was not finite, or whose energy was not.
     pub not_finite: Option<u64>,
     /// The conclusion about the step size.
     pub verdict: Verdict,
+}
+
+/// What would decide an undecided verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Advice {
+    /// So many windows, in a longer run or more often.
+    pub windows: u64,
+    /// An estimator of this order k or m: from the fall of its errors with the order where the second harmonic of the fastest
+    /// motion dominates. `None` where no order up to 64 would do.
+    pub order: Option<u32>,
 }
 
 /// How the modified energy depends on time: by (max − min)²/Σ(differences)² of successive accurate estimates.
@@ -94,21 +126,24 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
     /// The report on the run so far.
     pub fn report(&self) -> Report<N> {
         let (statistics, context) = (&self.statistics, self.method.context());
-        let (all, accurate) = (self.blocks.all(), self.blocks.accurate());
+        let (all, accurate) = (self.blocks.best(), self.blocks.accurate());
         let newest = &self.newest.modified.value;
         let (first, last) =
             (accurate.first().map_or(newest, |first| &first.value), accurate.last().map_or(newest, |last| &last.value));
         let mut values = Range::of(first);
         accurate.iter().for_each(|accurate| values.include(&accurate.value));
-        let (range, moved) = (values.width(), statistics.moved());
         let known = |error: N| self.newest.has_error.then_some(error);
+        let range = values.width();
         let kick = root(&self.recent.mean_square_kick(&statistics.count()));
         let mut round_off: N = root(&integer(self.n, &context));
         round_off.multiply(&kick);
+        let mut time: N = integer(self.n, &context);
+        time.multiply(&N::from_rational(&self.stepper.h().abs(), &context));
         let turning = self.recent.turning();
         let trend_ratio = trend_ratio(&accurate, &range);
         let mut report = Report {
             steps: self.n,
+            time,
             windows: statistics.windows,
             energy_error: statistics.energy.width(),
             kinetic: statistics.kinetic(),
@@ -119,20 +154,50 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
             change: difference(last, first),
             trend: trend_ratio.map(TrendRatio::trend),
             range,
-            moved,
+            moved: statistics.moved(),
+            permanent_bound: None,
+            permanent_change: None,
+            rough: self.recent.rough(),
+            advice: None,
             resolution: known(largest_error(accurate.iter().copied(), &context)),
-            worst_error: known(largest_error(all.iter(), &context)),
+            worst_error: known(largest_error(all, &context)),
             kick,
             round_off,
             steps_per_turn: turning.map(Turning::steps),
             irregular: turning.map(|turning| turning.irregular),
             mismatches: self.recent.mismatches(),
+            wrong_rates: self.wrong_rates,
             not_finite: self.not_finite,
-            verdict: Verdict::Undecided,
+            verdict: Verdict::Undecided(Missing::Windows),
         };
-        let straight = trend_ratio.is_some_and(TrendRatio::is_straight);
-        report.verdict = Evidence { straight, turning, moves: self.recent.moves(), ..report.evidence() }.verdict();
+        self.judge(&mut report, turning, trend_ratio);
         report
+    }
+
+    fn judge(&self, report: &mut Report<N>, turning: Option<Turning>, trend_ratio: Option<TrendRatio>) {
+        let mut double_kinetic = report.kinetic.clone();
+        double_kinetic.multiply(&self.statistics.count());
+        double_kinetic.multiply_integer(2);
+        double_kinetic.multiply(&N::from_rational(self.stepper.h(), &double_kinetic.context()));
+        let [energy_change, modified_change] = self.blocks.means(&report.energy_error).map(|means| Change::of(&means));
+        let evidence = Evidence {
+            straight: trend_ratio.is_some_and(TrendRatio::is_straight),
+            turning,
+            moves: self.recent.moves(),
+            energy_change,
+            modified_change,
+            action: quotient(self.recent.action(), &double_kinetic).to_f64(),
+            distance: self.statistics.distance_of_error(),
+            error_rms: report.part(&self.statistics.error_rms()),
+            ..report.evidence()
+        };
+        report.verdict = evidence.verdict();
+        report.permanent_bound = evidence.bound().map(|part| report.of_energy_error(part));
+        report.permanent_change = evidence.permanent_move().map(|part| report.of_energy_error(part));
+        if matches!(report.verdict, Verdict::NotTheGradient | Verdict::Inconsistent) {
+            report.rough = None;
+        }
+        report.advice = evidence.advice(self.newest.order);
     }
 }
 
@@ -188,12 +253,22 @@ impl<N: Number> Report<N> {
             kick: self.part(&self.kick),
             round_off: self.part(&self.round_off),
             offset: self.part(&self.offset()),
-            of_kinetic: self.of_kinetic(),
+            of_kinetic: self.relative_error(),
             turning: None,
             straight: false,
+            range: self.part(&self.range),
+            resolution: self.resolution.as_ref().map_or(0.0, |resolution| self.part(resolution)),
+            trend: self.trend,
+            energy_change: None,
+            modified_change: None,
+            action: f64::NAN,
+            distance: f64::NAN,
+            error_rms: f64::NAN,
+            rough: self.rough.is_some(),
             has_errors: self.worst_error.is_some(),
             moves: true,
             mismatches: self.mismatches > 0,
+            wrong_rate: self.wrong_rates > 0,
             finite: self.not_finite.is_none() && numbers.into_iter().all(N::is_finite),
             windows: self.windows,
         }
@@ -216,7 +291,16 @@ impl<N: Number> Report<N> {
         quotient(energy, &self.energy_error).to_f64()
     }
 
-    pub(super) fn of_kinetic(&self) -> f64 {
+    fn of_energy_error(&self, part: f64) -> N {
+        let context = self.kinetic.context();
+        let mut energy =
+            Rational::from_float(part).map_or_else(|| N::zero(&context), |part| N::from_rational(&part, &context));
+        energy.multiply(&self.energy_error);
+        energy
+    }
+
+    /// The energy error as a part of the mean kinetic energy. NaN where both are 0.
+    pub fn relative_error(&self) -> f64 {
         quotient(&self.energy_error, &self.kinetic).to_f64()
     }
 

@@ -3,7 +3,12 @@
 /// The odd number next to 2⁶⁴ times the golden section: its multiples, taken mod 2⁶⁴, are spread evenly.
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// One window of `states` states in every `every` steps, the first of them from the state 0.
+/// Windows of up to this many states have their middles at the same states, where `every` is larger.
+///
+/// The energies that are compared are those of the middles: so they do not depend on the estimator.
+const RESERVED: u64 = 64;
+
+/// One window of `states` states in every `every` steps.
 ///
 /// A window begins at a place among its steps that changes from window to window: windows at equal distances would see an oscillation whose
 /// period divides the distance always in the same phase, and take it for a constant.
@@ -19,8 +24,9 @@ pub(super) struct Schedule {
 
 impl Schedule {
     pub(super) fn new(states: usize, every: u64) -> Self {
-        let states = states as u64;
-        Schedule { states, every: every.max(1), window: 0, end: states - 1 }
+        let mut schedule = Schedule { states: states as u64, every: every.max(1), window: 0, end: 0 };
+        schedule.end = schedule.last_of_first_place();
+        schedule
     }
 
     /// Whether the state n belongs to a window.
@@ -56,9 +62,24 @@ impl Schedule {
     /// Goes on to the next window.
     pub(super) fn advance(&mut self) {
         self.window += 1;
-        let places = if self.every > self.states { self.every - self.states + 1 } else { self.every };
+        let places = if self.overlaps() { self.every } else { self.every - self.reserved() + 1 };
         let place = (u128::from(self.window.wrapping_mul(GOLDEN)) * u128::from(places)) >> 64;
-        self.end = self.states - 1 + self.window * self.every + place as u64;
+        self.end = self.last_of_first_place() + self.window * self.every + place as u64;
+    }
+
+    /// The steps among which a window has one place: its states, or more of them.
+    fn reserved(&self) -> u64 {
+        if self.every > RESERVED { self.states.max(RESERVED) } else { self.states }
+    }
+
+    /// The last state of a window at the first place, counted from the first of its steps.
+    fn last_of_first_place(&self) -> u64 {
+        if self.overlaps() {
+            return self.states - 1;
+        }
+        // the middle, or the state before it, is that of all windows that have as much room
+        let middle = (self.reserved() - 1) / 2;
+        middle + self.states / 2
     }
 }
 

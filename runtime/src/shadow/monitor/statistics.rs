@@ -1,7 +1,7 @@
 //! Sums over the windows of a run.
 
-use super::blocks::Estimated;
-use crate::Rational;
+use super::arithmetic::{difference, integer, quotient, root};
+use super::estimated::Estimated;
 use crate::number::Number;
 
 /// An estimate may be wrong by this many times its error.
@@ -46,6 +46,9 @@ pub(super) struct Statistics<N> {
     bound: N,
     sum_of_squares: N,
     sum_of_kinetic: N,
+    /// Σ of squares of the errors, and of H − H̄ with the H̄ of the same window.
+    errors: N,
+    distances: N,
 }
 
 impl<N: Number> Statistics<N> {
@@ -58,7 +61,9 @@ impl<N: Number> Statistics<N> {
             beyond_errors: Range::of(&zero),
             bound: zero.clone(),
             sum_of_squares: zero.clone(),
-            sum_of_kinetic: zero,
+            sum_of_kinetic: zero.clone(),
+            errors: zero.clone(),
+            distances: zero,
         }
     }
 
@@ -73,7 +78,21 @@ impl<N: Number> Statistics<N> {
         self.method.include(method);
         self.sum_of_squares.add_product(method, method);
         self.sum_of_kinetic.add(kinetic);
+        self.errors.add_product(&modified.error, &modified.error);
+        self.bound.assign_difference(energy, &modified.value);
+        self.distances.add_product(&self.bound, &self.bound);
         self.windows += 1;
+    }
+
+    /// The root mean square of H − H̄ with the H̄ of the same window, as a part of that of the errors: small where H̄ changes with H
+    /// from state to state. NaN without errors.
+    pub(super) fn distance_of_error(&self) -> f64 {
+        quotient(&self.distances, &self.errors).to_f64().sqrt()
+    }
+
+    /// The root mean square of the errors.
+    pub(super) fn error_rms(&self) -> N {
+        root(&quotient(&self.errors, &self.count()))
     }
 
     fn include_bounds(&mut self, Estimated { value, error }: &Estimated<N>) {
@@ -112,26 +131,4 @@ impl<N: Number> Statistics<N> {
     pub(super) fn kinetic(&self) -> N {
         quotient(&self.sum_of_kinetic, &self.count())
     }
-}
-
-pub(super) fn integer<N: Number>(n: u64, context: &N::Context) -> N {
-    N::from_rational(&Rational::from_integer(n.into()), context)
-}
-
-pub(super) fn difference<N: Number>(a: &N, b: &N) -> N {
-    let mut result = a.clone();
-    result.subtract(b);
-    result
-}
-
-pub(super) fn quotient<N: Number>(a: &N, b: &N) -> N {
-    let mut result = a.clone();
-    result.divide(b);
-    result
-}
-
-pub(super) fn root<N: Number>(a: &N) -> N {
-    let mut result = a.clone();
-    result.assign_sqrt(a);
-    result
 }

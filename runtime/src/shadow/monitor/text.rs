@@ -2,8 +2,9 @@
 
 use std::fmt;
 
-use super::report::{Report, Trend};
-use super::verdict::{Criterion, LEAST_WINDOWS, Verdict};
+use super::report::{Advice, Report, Trend};
+use super::roughness::Rough;
+use super::verdict::{Criterion, LEAST_WINDOWS, Missing, PERMANENT_LIMIT, Verdict};
 use crate::number::Number;
 
 impl<N: Number> Report<N> {
@@ -15,14 +16,34 @@ impl<N: Number> Report<N> {
         }
     }
 
+    /// An energy in T, for a unit of time, and as a part of the energy error.
+    fn per_time(&self, energy: &N) -> String {
+        let mut rate = energy.clone();
+        rate.divide(&self.kinetic);
+        let of_kinetic = short(&rate);
+        rate.divide(&self.time);
+        format!("{of_kinetic} of T, {} of T per unit time", short(&rate))
+    }
+
+    /// What is known of the permanent change of the energy.
+    fn permanent(&self) -> String {
+        match (&self.permanent_change, &self.permanent_bound) {
+            (Some(change), _) => format!("a permanent change of {} was measured", self.per_time(change)),
+            (None, Some(bound)) => format!("a permanent change above {} is excluded", self.per_time(bound)),
+            (None, None) => "a permanent change is not excluded".to_owned(),
+        }
+    }
+
     /// The reason for the verdict, a sentence with numbers.
     pub fn reason(&self) -> String {
         let steps = self.steps;
         let moved = format!("the modified energy moved by {} in {steps} steps", self.in_parts(&self.moved));
+        let check = "check_potential compares gradient, energy and rate";
         match self.verdict {
-            Verdict::Undecided => {
+            Verdict::Undecided(Missing::Windows) => {
                 format!("a verdict needs {LEAST_WINDOWS} windows, and there are {}", self.windows)
             }
+            Verdict::Undecided(Missing::Resolution) => self.what_would_decide(),
             Verdict::Inconsistent => self.why_inconsistent(),
             Verdict::RoundOff => format!(
                 "{moved}, and round-off makes {}: a larger step size is sufficient, or more digits are needed",
@@ -35,19 +56,80 @@ impl<N: Number> Report<N> {
             ),
             Verdict::Drifts => format!(
                 "{moved}, linearly in time: by {} in all, where round-off makes {}. The scheme conserves it, so the cause is a force \
-                 that is not −U_q, a state that is changed between the steps, or a resonance",
+                 that is not −U_q, a state that is changed between the steps, or a resonance; {check}",
                 short(&self.change),
                 short(&self.round_off)
             ),
+            Verdict::NotTheGradient => format!(
+                "the modified energy changes from state to state as the energy does, which no scheme does: the gradient does not belong to \
+                 the energy, or something else acts; {check}"
+            ),
+            Verdict::NotSmooth => self.why_not_smooth(),
             Verdict::TooLarge(criterion) => self.why_too_large(criterion, &moved),
             Verdict::Fine if self.has_no_energy_error() => {
                 format!("the energy is the same in all windows of {steps} steps")
             }
-            Verdict::Fine if self.trend == Some(Trend::Linear) && self.evidence().moved_beyond_round_off() > 0.0 => {
-                format!("{moved}, linearly in time, which is not round-off: the energy error is the method's so far")
-            }
-            Verdict::Fine => format!("{moved}: the energy error is the method's, and bounded"),
+            Verdict::Fine => format!(
+                "the energy error is {:.1e} of T; in {steps} steps {}{}",
+                self.relative_error(),
+                self.permanent(),
+                self.unresolved()
+            ),
         }
+    }
+
+    /// A remark where the verdict does not follow from the modified energy.
+    fn unresolved(&self) -> String {
+        match &self.worst_error {
+            Some(error) if self.part(error) >= PERMANENT_LIMIT => format!(
+                ". H̄ is known to {} only: its estimator needs more states, or increments are missing",
+                self.in_parts(error)
+            ),
+            None if self.part(&self.range) >= PERMANENT_LIMIT => {
+                ". H̄ ranges over more than that, but this estimator gives no errors".to_owned()
+            }
+            _ => String::new(),
+        }
+    }
+
+    fn what_would_decide(&self) -> String {
+        let Some(Advice { windows, order }) = self.advice else { return "not decided".to_owned() };
+        if let Some(change) = &self.permanent_change {
+            let turns = self
+                .steps_per_turn
+                .map_or(String::new(), |steps| format!("the fastest motion turns once in {steps:.0} steps, "));
+            return format!(
+                "the energy error is {:.1e} of T, of which in {} steps {} were a permanent change; {turns}and the cause may be the step size, \
+                 forces that are not smooth, or something other than the scheme that changed the state: a longer run, and windows of 17 \
+                 states or more, would tell",
+                self.relative_error(),
+                self.steps,
+                self.in_parts(change),
+            );
+        }
+        let resolved = match &self.worst_error {
+            Some(error) => format!("H̄ is known to {} where it is known least", self.in_parts(error)),
+            None => "the errors of H̄ are not known".to_owned(),
+        };
+        let bound = self
+            .permanent_bound
+            .as_ref()
+            .map_or("no change".to_owned(), |bound| format!("a permanent change above {}", self.in_parts(bound)));
+        let estimator = order.map_or(String::new(), |order| format!(", or an estimator of order {order}"));
+        format!(
+            "the energy error is {:.1e} of T, but {resolved}, and {bound} is excluded: {windows} windows would tell, more often or in a \
+             longer run{estimator}",
+            self.relative_error()
+        )
+    }
+
+    fn why_not_smooth(&self) -> String {
+        format!(
+            "the energy error is {:.1e} of T, most of it from forces that are not smooth; in {} steps {}",
+            self.relative_error(),
+            self.steps,
+            self.permanent()
+        )
     }
 
     fn why_inconsistent(&self) -> String {
@@ -58,8 +140,15 @@ impl<N: Number> Report<N> {
                 self.mismatches, self.windows
             );
         }
+        if self.wrong_rates > 0 {
+            return format!(
+                "in {} windows the rate is not qᵀU_q − 2U: check_potential compares them. A virial by nearest images is not qᵀU_q",
+                self.wrong_rates
+            );
+        }
         format!(
-            "the states do not belong to the increments: H − H̄ is {} rms, and H̄ moved by {}, too much beside an energy error of {}",
+            "the states do not belong to the increments, or the rate is not qᵀU_q − 2U (check_potential compares them): H − H̄ is {} rms, \
+             and H̄ moved by {}, too much beside an energy error of {}",
             short(&self.method_rms),
             short(&self.moved),
             short(&self.energy_error)
@@ -70,22 +159,12 @@ impl<N: Number> Report<N> {
         // a wrapped angle or a changed momentum changes H̄, too
         let other = "or something other than the scheme changed the state";
         match criterion {
-            Criterion::Moved if self.worst_error.is_none() => format!(
-                "{moved}, where round-off makes {}: no modified energy is conserved, {other}, or the estimates have errors of this \
-                 size, which this estimator does not give",
-                self.in_parts(&self.round_off)
-            ),
             Criterion::Moved => format!(
-                "{moved}, where round-off makes {}: no modified energy is conserved, {other}",
+                "{moved}, permanently, where round-off makes {}: no modified energy is conserved, {other}",
                 self.in_parts(&self.round_off)
             ),
-            Criterion::NotResolved => format!(
-                "in a part of the run no estimate is better than {}: there is no modified energy near the energy, or the estimator \
-                 needs more states, {other}, or increments are missing",
-                self.worst_error.as_ref().map(|error| self.in_parts(error)).unwrap_or_default()
-            ),
-            Criterion::EnergyError if self.of_kinetic().is_finite() => {
-                format!("the energy error is {:.1e} of the mean kinetic energy", self.of_kinetic())
+            Criterion::EnergyError if self.relative_error().is_finite() => {
+                format!("the energy error is {:.1e} of the mean kinetic energy", self.relative_error())
             }
             Criterion::EnergyError => {
                 "the mean kinetic energy is 0 while the positions change: half a turn a step, or more".to_owned()
@@ -112,7 +191,7 @@ impl<N: Number> fmt::Display for Report<N> {
             let width = 18 + name.matches('\u{304}').count();
             writeln!(f, "  {name:<width$}{:>10}  {text}", short(value))
         };
-        let of_kinetic = match self.of_kinetic() {
+        let of_kinetic = match self.relative_error() {
             part if part.is_finite() => format!("{part:.1e} of T"),
             _ => format!("T is {}", short(&self.kinetic)),
         };
@@ -127,8 +206,15 @@ impl<N: Number> fmt::Display for Report<N> {
             line(f, "it is known to", resolution, &part(resolution))?;
         }
         line(f, "round-off", &self.round_off, &format!("{}, expected by Brouwer's law", part(&self.round_off)))?;
+        if let Some(bound) = &self.permanent_bound {
+            line(f, "permanently", bound, &format!("{}, at most", part(bound)))?;
+        }
         if let Some(turn) = self.steps_per_turn {
             writeln!(f, "  {:<18}{turn:>10.1}  steps a turn", "fastest motion")?;
+        }
+        if let Some(Rough { least, most }) = self.rough {
+            let gain = format!("derivatives of U jump: schemes gain up to order {most} at best");
+            writeln!(f, "  {:<18}{:>10}  {gain}", "not smooth", format!("{least} to {most}"))?;
         }
         write!(f, "  {}", self.reason())
     }

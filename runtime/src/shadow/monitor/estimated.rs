@@ -1,0 +1,22 @@
+//! A modified energy with its error.
+
+use crate::number::Number;
+
+/// An estimate of the modified energy, and its error.
+#[derive(Clone, Debug)]
+pub(super) struct Estimated<N> {
+    pub(super) value: N,
+    /// 0 where the estimator gives none.
+    pub(super) error: N,
+}
+
+impl<N: Number> Estimated<N> {
+    pub(super) fn zero(context: &N::Context) -> Self {
+        Estimated { value: N::zero(context), error: N::zero(context) }
+    }
+
+    pub(super) fn assign(&mut self, other: &Self) {
+        self.value.assign(&other.value);
+        self.error.assign(&other.error);
+    }
+}

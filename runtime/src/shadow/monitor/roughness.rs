@@ -1,0 +1,246 @@
+//! Whether the forces are smooth along the windows, and if not, which derivative of the potential jumps.
+//!
+//! Where U is smooth and the steps resolve the motion, the last term E_k − E_{k−1} falls like h^(2k−2) with the step. Where the m-th
+//! derivative of U jumps it is of the size of h^m, whatever k. So last terms are computed from the states of a window, and from every
+//! second one of them, as if the step were 2h.
+
+use super::arithmetic::quotient;
+use crate::number::Number;
+use crate::shadow::bilinear::{Bilinear, BilinearEstimator};
+use crate::shadow::estimator::{BuildEstimator, Estimator, EstimatorError};
+use crate::step_size::StepSize;
+use crate::system::Increments;
+
+/// The largest k; windows of 17 states and more have it.
+const LARGEST_K: usize = 8;
+/// The smallest k, for windows of 13 states: the last term falls like h^10.
+const LEAST_K: usize = 6;
+/// Higher harmonics of a motion that turns by more than this angle a step are not resolved by steps of 2h.
+const ANGLE_LIMIT: f64 = 0.35;
+/// Last terms are round-off up to this many times what that makes in the energy in a step.
+const ROUND_OFF_FACTOR: i32 = 100;
+/// Forces are smooth if the last terms at 2h are more than this many times those at h.
+const LARGEST_RATIO: f64 = 16.0;
+/// Where the m-th derivative jumps, log₂ of that ratio is m − 1.3 to m + 0.8: measured on oscillators, for m = 1 to 4, orders 2 to 6 and
+/// k = 6 to 12. It is less where the jumps change H̄ itself by more.
+const LOGARITHM: [f64; 2] = [-1.5, 0.8];
+/// Windows that a statement needs.
+const LEAST_WINDOWS: u64 = 16;
+/// After so many windows one of four is enough.
+const ALL_WINDOWS: u64 = 64;
+
+/// Forces that are not smooth: while the motion turns little in a step, the last terms of modified energies from every second state of
+/// the windows are not much larger than those from all states.
+///
+/// The lowest derivative of U that jumps is in a range of orders; U itself is its derivative of order 0. Where that is m, a crossing
+/// changes the energy by a part of the size of h^m, so that a scheme of an order above m gains nothing by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rough {
+    /// The smallest possible order m.
+    pub least: u32,
+    /// The largest one.
+    pub most: u32,
+}
+
+/// Last terms at two spacings over all windows.
+#[derive(Clone, Debug)]
+pub(super) struct Roughness<N> {
+    /// `None` for windows that are too short.
+    spacings: Option<Spacings<N>>,
+    ended: u64,
+    windows: u64,
+    /// Σ of mean squares of last terms at h and at 2h.
+    squares: [N; 2],
+    /// Σ of squares of the energy that a step rounds.
+    kicks: N,
+}
+
+impl<N: Number> Roughness<N> {
+    pub(super) fn new(
+        states: usize,
+        h: &StepSize,
+        dimension: usize,
+        context: &N::Context,
+    ) -> Result<Self, EstimatorError> {
+        let k = ((states - 1) / 2).min(LARGEST_K);
+        let spacings = (k >= LEAST_K).then(|| Spacings::new(k, h, dimension, context)).transpose()?;
+        let zero = || N::zero(context);
+        Ok(Roughness { spacings, ended: 0, windows: 0, squares: [zero(), zero()], kicks: zero() })
+    }
+
+    /// Takes a state of a window; what the step to it added is not known of the first one.
+    pub(super) fn push(&mut self, q: &[N], p: &[N], added: Option<&Increments<N>>) {
+        let is_used = self.ended < ALL_WINDOWS || self.ended.is_multiple_of(4);
+        if let Some(spacings) = self.spacings.as_mut().filter(|_| is_used) {
+            spacings.push(q, p, added);
+        }
+    }
+
+    /// Ends a window in which the motion turns by `angle` a step, and a step rounds the energy by √`square_kick`.
+    pub(super) fn end(&mut self, angle: Option<f64>, square_kick: &N) {
+        self.ended += 1;
+        let Some(spacings) = self.spacings.as_mut().filter(|spacings| spacings.is_complete()) else { return };
+        spacings.count = 0;
+        if angle.is_none_or(|angle| angle > ANGLE_LIMIT) {
+            return;
+        }
+        self.windows += 1;
+        self.kicks.add(square_kick);
+        for (sum, terms) in self.squares.iter_mut().zip([&spacings.fine, &spacings.coarse]) {
+            sum.add(&terms.mean_square());
+        }
+    }
+
+    /// The forces, where they are not smooth.
+    pub(super) fn found(&self) -> Option<Rough> {
+        let mut rounding = self.kicks.clone();
+        rounding.multiply_integer(ROUND_OFF_FACTOR * ROUND_OFF_FACTOR);
+        let [fine, coarse] = &self.squares;
+        let ratio = quotient(coarse, fine).to_f64().sqrt();
+        let is_rough = self.windows >= LEAST_WINDOWS && *fine > rounding && ratio <= LARGEST_RATIO;
+        let [below, above] = LOGARITHM.map(|offset| ratio.log2() - offset);
+        is_rough.then(|| Rough { least: above.ceil().max(0.0) as u32, most: below.floor().max(0.0) as u32 })
+    }
+}
+
+/// The last terms of a window.
+#[derive(Clone, Debug)]
+struct Spacings<N> {
+    fine: LastTerms<N>,
+    coarse: LastTerms<N>,
+    k: usize,
+    /// States of this window so far.
+    count: usize,
+    /// What two steps added.
+    sum: Increments<N>,
+    unknown: Increments<N>,
+}
+
+impl<N: Number> Spacings<N> {
+    fn new(k: usize, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self, EstimatorError> {
+        Ok(Spacings {
+            fine: LastTerms::new(k, h, dimension, context)?,
+            coarse: LastTerms::new(k, &h.doubled(), dimension, context)?,
+            k,
+            count: 0,
+            sum: Increments::zero(dimension, context),
+            unknown: Increments::of_beta(N::zero(context)),
+        })
+    }
+
+    fn is_complete(&self) -> bool {
+        self.count > 2 * self.k
+    }
+
+    /// Takes one of the first 2k + 1 states of a window; others have no effect.
+    fn push(&mut self, q: &[N], p: &[N], added: Option<&Increments<N>>) {
+        let added = added.filter(|_| self.count > 0);
+        if added.is_none() {
+            self.count = 0;
+            self.fine.begin();
+            self.coarse.begin();
+        }
+        if self.is_complete() {
+            return;
+        }
+        self.fine.push(q, p, added.unwrap_or(&self.unknown));
+        match added {
+            None => self.coarse.push(q, p, &self.unknown),
+            Some(added) if self.count % 2 == 1 => self.sum.assign(added),
+            Some(added) => {
+                self.sum.add(added);
+                self.coarse.push(q, p, &self.sum);
+            }
+        }
+        self.count += 1;
+    }
+}
+
+/// The terms E_k − ½(E_{k−1} + E_{k−1} one state before) of a window.
+#[derive(Clone, Debug)]
+struct LastTerms<N> {
+    k: usize,
+    higher: BilinearEstimator<N>,
+    lower: BilinearEstimator<N>,
+    /// States so far.
+    count: usize,
+    before: N,
+    term: N,
+    squares: N,
+}
+
+impl<N: Number> LastTerms<N> {
+    fn new(k: usize, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self, EstimatorError> {
+        let build = |k: usize| Bilinear::new(u32::try_from(k).expect("at most 8")).build(h, dimension, context);
+        let zero = || N::zero(context);
+        let [before, term, squares] = [zero(), zero(), zero()];
+        Ok(LastTerms { k, higher: build(k)?, lower: build(k - 1)?, count: 0, before, term, squares })
+    }
+
+    fn begin(&mut self) {
+        self.count = 0;
+        self.squares.assign_zero();
+    }
+
+    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) {
+        self.count += 1;
+        let (higher, lower) = (self.higher.push(q, p, increments), self.lower.push(q, p, increments));
+        let Some(lower) = lower else { return };
+        if let Some(higher) = higher.filter(|_| self.count > self.k) {
+            self.term.assign_sum(&self.before, lower.value);
+            self.term.divide_integer(-2);
+            self.term.add(higher.value);
+            self.squares.add_product(&self.term, &self.term);
+        }
+        self.before.assign(lower.value);
+    }
+
+    fn mean_square(&self) -> N {
+        let mut mean = self.squares.clone();
+        mean.divide_integer(i32::try_from(self.count - self.k).expect("a window has few states"));
+        mean
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::potential::from_fn;
+    use crate::shadow::{Bilinear, Rough, ShadowEnergy};
+    use crate::{Motion, Stepper, UnitMasses, tables::shipped};
+
+    /// An oscillator of frequency 1 with the energy c q^m in addition for q > 0.
+    fn watch(m: i32, c: f64, scheme: &str, h: f64, k: u32) -> Option<Rough> {
+        let potential = from_fn(1, move |q, gradient| {
+            let x = q[0].max(0.0);
+            gradient[0] = q[0] + if x > 0.0 { c * f64::from(m) * x.powi(m - 1) } else { 0.0 };
+            q[0] * q[0] / 2.0 + c * x.powi(m)
+        });
+        let mut motion = Motion::new(potential, UnitMasses, [1.0], [0.0]).unwrap();
+        let stepper = Stepper::new(shipped(scheme).unwrap(), h).unwrap();
+        let mut monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(k)).unwrap().every(40);
+        for _ in 0..20_000 {
+            monitor.step(&mut motion).unwrap();
+        }
+        monitor.report().rough
+    }
+
+    #[test]
+    fn the_derivative_that_jumps_is_found() {
+        for scheme in ["stormer-verlet", "blanes-moan-srkn6b", "blanes-moan-srkn11b"] {
+            for (h, k) in [(0.1, 8), (0.2, 6), (0.05, 12)] {
+                for m in 1..=3 {
+                    let found = watch(m, 0.1, scheme, h, k);
+                    let holds = found.is_some_and(|Rough { least, most }| (least..=most).contains(&(m as u32)));
+                    assert!(holds, "m = {m}, {scheme}, h = {h}, k = {k}: {found:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn smooth_forces_are_not_rough() {
+        for (h, k) in [(0.1, 8), (0.2, 6), (0.3, 8)] {
+            assert_eq!(watch(1, 0.0, "stormer-verlet", h, k), None);
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! How often the monitor's verdicts are right: matrices of scenes, schemes and steps, each watched with six k, against runs of ten
+//! times the length and with half the step.
+//!
+//! `cargo bench -p shadowstep-tests --bench verdicts` prints the tables of `docs/monitor.md`; `-- NAME` runs the scenes whose names
+//! contain NAME. It takes some minutes.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use shadowstep::Scheme;
+use shadowstep::shadow::{Bilinear, Report, ShadowEnergy, Verdict};
+use shadowstep_tests::matrix::{Matrix, Scene, stepper};
+
+const KS: [u32; 6] = [6, 8, 12, 16, 24, 32];
+const EVERY: u64 = 100;
+
+/// A scene, a scheme and a step.
+#[derive(Clone, Copy)]
+struct Case<'a> {
+    scene: &'a Scene,
+    scheme: &'static str,
+    part: f64,
+}
+
+/// What long runs say.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Truth {
+    Bounded,
+    Borderline,
+    Grows,
+    RoundOff,
+}
+
+/// What a monitor says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Said {
+    Fine,
+    RoundOff,
+    Undecided,
+    Forces,
+    NotSmooth,
+    TooLarge,
+}
+
+impl From<Verdict> for Said {
+    fn from(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Fine => Said::Fine,
+            Verdict::RoundOff => Said::RoundOff,
+            Verdict::Undecided(_) => Said::Undecided,
+            Verdict::NotSmooth => Said::NotSmooth,
+            Verdict::Drifts | Verdict::Inconsistent | Verdict::NotTheGradient => Said::Forces,
+            Verdict::TooLarge(_) | Verdict::NearResonance { .. } => Said::TooLarge,
+        }
+    }
+}
+
+/// max − min of H after each of two numbers of steps.
+fn energy_errors(case: Case<'_>, part: f64, steps: [u64; 2]) -> [f64; 2] {
+    let stepper = stepper(case.scheme, case.scene.limit, part);
+    let mut motion = case.scene.motion();
+    let start = motion.energy();
+    let (mut least, mut largest, mut errors) = (start, start, [f64::INFINITY; 2]);
+    for n in 1..=steps[1] {
+        stepper.step(&mut motion);
+        if n % 4 == 0 {
+            let energy = motion.energy();
+            if !energy.is_finite() {
+                break;
+            }
+            (least, largest) = (least.min(energy), largest.max(energy));
+        }
+        for (end, error) in steps.into_iter().zip(&mut errors) {
+            if n == end {
+                *error = largest - least;
+            }
+        }
+    }
+    errors
+}
+
+/// The error of H is bounded if it grows by half or less in ten times the length and stays below 0.3 of T, or as it does with half the
+/// step, where it is smaller as the order says; it grows if it trebles or comes to 0.6 of T.
+fn truth(case: Case<'_>, report: &Report<f64>) -> Truth {
+    let n = case.scene.steps;
+    let [short, long] = energy_errors(case, case.part, [n, 10 * n]);
+    let [half_short, half_long] = energy_errors(case, case.part / 2.0, [2 * n, 20 * n]);
+    if !long.is_finite() || long >= 0.6 * report.kinetic {
+        return Truth::Grows;
+    }
+    let (growth, gain) = (long / short, long / half_long);
+    let order = stepper(case.scheme, 1.0, 1.0).scheme().summary().order_quadratic;
+    let of_order = gain / 2_f64.powi(order as i32);
+    let by_half = growth > 1.5 && half_long > half_short * 1.5;
+    match () {
+        () if long < 20.0 * report.round_off * 10_f64.sqrt() => Truth::RoundOff,
+        () if growth <= 1.5 && long <= 0.3 * report.kinetic => Truth::Bounded,
+        () if by_half && (0.5..1.6).contains(&of_order) && long < 0.1 * report.kinetic => Truth::Bounded,
+        () if by_half && gain < 4.0 && order > 2 => Truth::RoundOff,
+        () if growth >= 3.0 => Truth::Grows,
+        () => Truth::Borderline,
+    }
+}
+
+fn watch(case: Case<'_>, ks: &[u32], every: u64) -> Vec<Report<f64>> {
+    let stepper = stepper(case.scheme, case.scene.limit, case.part);
+    let mut motion = case.scene.motion();
+    let new = |k: &u32| ShadowEnergy::new(stepper.clone(), &mut motion, &Bilinear::with_error(*k));
+    let mut monitors: Vec<_> = ks.iter().map(new).map(|new| new.expect("a finite start").every(every)).collect();
+    for _ in 0..case.scene.steps {
+        stepper.step_augmented(&mut motion);
+        // what is not finite stays so, and each monitor has to see it
+        monitors.iter_mut().for_each(|monitor| drop(monitor.observe(&mut motion)));
+    }
+    monitors.iter().map(ShadowEnergy::report).collect()
+}
+
+/// The result of a case.
+struct Outcome {
+    name: String,
+    smooth: bool,
+    truth: Truth,
+    said: Vec<Said>,
+    verdicts: Vec<Verdict>,
+    /// Whether the verdict of k = 8 is undecided, and whether as many windows as it asks for decide.
+    advice: Option<bool>,
+}
+
+fn outcome(case: Case<'_>) -> Outcome {
+    let reports = watch(case, &KS, EVERY);
+    let truth = truth(case, &reports[0]);
+    let advice = reports[1].advice.map(|advice| {
+        let every = (case.scene.steps / advice.windows).max(1);
+        !matches!(watch(case, &[8], every)[0].verdict, Verdict::Undecided(_))
+    });
+    let verdicts: Vec<Verdict> = reports.iter().map(|report| report.verdict).collect();
+    let name = format!("{}, {}, {}", case.scene.name, case.scheme, case.part);
+    let said = verdicts.iter().map(|&verdict| verdict.into()).collect();
+    Outcome { name, smooth: case.scene.smooth, truth, said, verdicts, advice }
+}
+
+fn outcomes(matrix: fn() -> Matrix, filter: &[String]) -> Vec<Outcome> {
+    let (next, all) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let work = || {
+        // each thread has systems of its own
+        let matrix = matrix();
+        let scenes =
+            || matrix.scenes.iter().filter(|scene| filter.is_empty() || filter.iter().any(|f| scene.name.contains(f)));
+        let cases: Vec<Case<'_>> = scenes()
+            .flat_map(|scene| matrix.schemes.iter().map(move |&scheme| (scene, scheme)))
+            .flat_map(|(scene, scheme)| matrix.parts.iter().map(move |&part| Case { scene, scheme, part }))
+            .collect();
+        while let Some(&case) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let outcome = outcome(case);
+            all.lock().expect("no thread panics").push(outcome);
+        }
+    };
+    std::thread::scope(|scope| {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        (0..threads).for_each(|_| drop(scope.spawn(work)));
+    });
+    all.into_inner().expect("no thread panics")
+}
+
+/// Truths in rows, verdicts in columns.
+fn table<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> String {
+    const COLUMNS: [Said; 6] =
+        [Said::Fine, Said::RoundOff, Said::Undecided, Said::NotSmooth, Said::Forces, Said::TooLarge];
+    let mut counts: BTreeMap<(Truth, Said), usize> = BTreeMap::new();
+    for outcome in outcomes {
+        outcome.said.iter().for_each(|&said| *counts.entry((outcome.truth, said)).or_default() += 1);
+    }
+    let mut text =
+        "| the error of H | fine | round-off | undecided | not smooth | other forces | too large |\n".to_owned();
+    text += "| --- | --- | --- | --- | --- | --- | --- |\n";
+    for (truth, name) in [
+        (Truth::Bounded, "is bounded"),
+        (Truth::Borderline, "is borderline"),
+        (Truth::Grows, "grows"),
+        (Truth::RoundOff, "is round-off"),
+    ] {
+        let cells = COLUMNS.map(|said| counts.get(&(truth, said)).copied().unwrap_or(0).to_string());
+        writeln!(text, "| {name} | {} |", cells.join(" | ")).expect("strings take all text");
+    }
+    text
+}
+
+/// Cases in which a verdict is false, or two verdicts contradict each other.
+fn faults(outcomes: &[Outcome]) -> Vec<String> {
+    let is_false = |outcome: &Outcome| {
+        let has = |said| outcome.said.contains(&said);
+        let too_large = has(Said::TooLarge) || has(Said::Forces) || (outcome.smooth && has(Said::NotSmooth));
+        let false_alarm = too_large && matches!(outcome.truth, Truth::Bounded | Truth::RoundOff);
+        let missed = has(Said::Fine) && outcome.truth == Truth::Grows;
+        false_alarm || missed || (has(Said::Fine) && too_large)
+    };
+    let mut faults: Vec<String> = outcomes
+        .iter()
+        .filter(|outcome| is_false(outcome))
+        .map(|outcome| format!("{} ({:?}): {:?}", outcome.name, outcome.truth, outcome.verdicts))
+        .collect();
+    faults.sort();
+    faults
+}
+
+fn report(title: &str, outcomes: &[Outcome]) {
+    println!("\n## {title}: {} runs, k = 6, 8, 12, 16, 24, 32\n", outcomes.len());
+    println!("Smooth forces:\n\n{}", table(outcomes.iter().filter(|outcome| outcome.smooth)));
+    println!("Cutoffs:\n\n{}", table(outcomes.iter().filter(|outcome| !outcome.smooth)));
+    let advised: Vec<bool> = outcomes.iter().filter_map(|outcome| outcome.advice).collect();
+    let decided = advised.iter().filter(|&&decided| decided).count();
+    println!("Undecided with k = 8: {}; with the windows that were advised {decided} are decided.", advised.len());
+    let faults = faults(outcomes);
+    println!("\nFalse or contradictory: {}", faults.len());
+    faults.iter().for_each(|fault| println!("- {fault}"));
+}
+
+fn main() {
+    let filter: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    report("Calibration", &outcomes(Matrix::calibration, &filter));
+    report("Held out", &outcomes(Matrix::held_out, &filter));
+}
