@@ -67,11 +67,6 @@ pub struct ModifiedEnergySummary {
     pub windows: u64,
 }
 
-/// Whether a verdict is not worse than fine: round-off is not due to the step size.
-pub(crate) fn is_fine(verdict: Verdict) -> bool {
-    matches!(verdict, Verdict::Fine | Verdict::RoundOff)
-}
-
 impl Summary {
     /// Whether the verdict is not worse than fine: the step size is fine, or the error is round-off.
     pub fn is_fine(&self) -> bool {

@@ -130,7 +130,7 @@ impl<S: Scheme + Clone, N: Number> Watch<S, N> {
             modified_energy,
             encounters,
             closest,
-            fine: is_fine(report.verdict),
+            fine: report.verdict.is_fine(),
             verdict: report.verdict.to_string(),
             reason: report.reason(),
         })

@@ -368,7 +368,7 @@ fn the_monitor_follows_it() {
 
 #[test]
 fn the_monitor_refuses_hopeless_steps() {
-    for (h, criterion) in [("1", Criterion::Moved), ("11/10", Criterion::NotResolved), ("3/2", Criterion::NotFinite)] {
+    for (h, criterion) in [("1", Criterion::EnergyError), ("3/2", Criterion::NotFinite)] {
         let report = watch::<f64>(h, 20_000, &());
         assert_eq!(report.verdict, Verdict::TooLarge(criterion), "h = {h}: {report}");
     }

@@ -300,7 +300,7 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
 
     /// Compares H from the gradient and the rate with H itself, in some windows.
     ///
-    /// Both are sums whose terms, of the size of T and pᵀΔq/h, are rounded: a thousand parts of 10⁹ ε of T are another function.
+    /// Both are rounded; a difference of 10⁹ last places of |H| + T is not.
     fn check_rate<M: System<Number = N>>(&mut self, system: &mut M) {
         let windows = self.statistics.windows;
         if windows >= RATES_CHECKED && !windows.is_multiple_of(RATES_CHECKED) {
@@ -312,9 +312,9 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
         off.make_absolute();
         let mut largest: N = epsilon(&self.method.context());
         largest.multiply_integer(1_000_000_000);
-        let mut size = self.newest.kinetic.clone();
-        size.add(&self.newest.energy);
+        let mut size = self.newest.energy.clone();
         size.make_absolute();
+        size.add(&self.newest.kinetic);
         largest.multiply(&size);
         self.wrong_rates += u64::from(off > largest);
     }

@@ -22,7 +22,7 @@ fn watch_fluid(kind: Cutoff, scheme: &str, h: &str, k: u32) -> Report<f64> {
 #[test]
 fn a_cutoff_is_found() {
     for kind in [Cutoff::Shifted, Cutoff::ForceShifted] {
-        for (scheme, h) in [("blanes-moan-s6", "0.004"), ("blanes-moan-srkn6b", "0.003")] {
+        for (scheme, h) in [("yoshida4", "0.002"), ("blanes-moan-srkn6b", "0.002")] {
             for k in [8, 16] {
                 let report = watch_fluid(kind, scheme, h, k);
                 let jumps = if kind == Cutoff::Shifted { 1 } else { 2 };

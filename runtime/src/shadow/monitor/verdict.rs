@@ -130,6 +130,8 @@ const ROUND_OFF_FACTOR: f64 = 10.0;
 const KICKS_IN_AN_ESTIMATE: f64 = 10.0;
 /// The distance of a frequency from a resonance, in turns a step, at which it is taken for it.
 const RESONANCE_WIDTH: f64 = 0.006;
+/// H̄ must be known to this part of the energy error to say that a resonance moves it.
+const RESONANCE_ERROR: f64 = 0.1;
 /// Turns and steps of the resonances of low order, which are the strong ones.
 const RESONANCES: [(u32, u32); 5] = [(1, 3), (1, 4), (1, 5), (1, 6), (2, 5)];
 /// A motion up to this irregularity is taken for one oscillation: the chaotic pendulum's is 0.17 or more.
@@ -278,7 +280,8 @@ impl Evidence {
         let is_resolved = self.turns_little() && (self.action.is_nan() || self.action >= RESOLVED_ACTION);
         // moves of which no errors are known may all be errors
         let moves_too_much = self.has_errors && self.moved_beyond_round_off() > INCONSISTENT_MOVE;
-        let is_far = self.rough && self.distance * self.error_rms > LARGEST_DISTANCE;
+        let distance = self.distance * self.error_rms;
+        let is_far = self.rough && self.beyond_round_off(distance) > LARGEST_DISTANCE;
         self.mismatches
             || self.wrong_rate
             || is_far
@@ -304,7 +307,7 @@ impl Evidence {
     fn resonance(&self) -> Option<(u32, u32)> {
         let turning = self.turning.filter(|turning| turning.irregular <= IRREGULARITY_LIMIT)?;
         let moved = self.moved_beyond_round_off();
-        let moves = (PERMANENT_LIMIT..=LARGEST_MOVE).contains(&moved) && self.worst_error <= PERMANENT_LIMIT;
+        let moves = (PERMANENT_LIMIT..=LARGEST_MOVE).contains(&moved) && self.worst_error <= RESONANCE_ERROR;
         let harms = self.of_kinetic >= KINETIC_LIMIT || self.bound().is_none_or(|bound| bound >= PERMANENT_LIMIT);
         let off = |(turns, steps): (u32, u32)| (1.0 / turning.steps() - f64::from(turns) / f64::from(steps)).abs();
         RESONANCES.into_iter().find(|&resonance| moves && harms && off(resonance) <= RESONANCE_WIDTH)
