@@ -8,6 +8,13 @@ use crate::number::Number;
 
 /// A potential U(q) with its gradient, for one kind of numbers or, written once, for all.
 ///
+/// **Smoothness.** A scheme of order r needs U with at least r continuous derivatives. Where the m-th derivative of U jumps, as at a cutoff, a
+/// crossing changes the energy by a part of the size of h^m, so that orders above m gain nothing in the long run: a truncated potential
+/// has m = 0, a shifted one m = 1, a force-shifted one m = 2.
+///
+/// **The gradient must belong to the energy**, and the rate must be qᵀU_q − 2U of the same coordinates: with periodic images q stays
+/// unwrapped, and the rate is not the virial of the images. [`check_potential`](crate::check_potential) compares them.
+///
 /// A potential declares how many numbers of scratch space it needs, and gets them with every call: big numbers are allocated
 /// once, not per call.
 ///

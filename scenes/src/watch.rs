@@ -11,7 +11,7 @@ pub use self::encounters::Encounter;
 use self::encounters::Encounters;
 use self::energy::EnergyError;
 use crate::run::Run;
-use crate::summary::{EnergySummary, ModifiedEnergySummary, Summary, is_fine};
+use crate::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 
 /// The monitor's estimator is E_16 with its error: 17 states a window.
 const MONITOR_ORDER: u32 = 16;

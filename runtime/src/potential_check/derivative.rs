@@ -29,8 +29,7 @@ pub(super) fn directional_derivative<N: Number>(
     let (mut place, mut below) = (q.to_vec(), zero());
     let (mut best, mut row) = (None::<Derivative<N>>, Vec::<N>::new());
     let epsilon = epsilon(&context);
-    let mut halves = 0;
-    for _ in 0..HALVINGS {
+    for halves in 0..HALVINGS {
         let mut slope = zero();
         for (sign, value) in [(1, &mut slope), (-1, &mut below)] {
             for ((place, q), step) in place.iter_mut().zip(q).zip(&step) {
@@ -47,7 +46,6 @@ pub(super) fn directional_derivative<N: Number>(
         for number in [&mut slope, &mut rounding] {
             (0..halves).for_each(|_| number.multiply_integer(2));
         }
-        halves += 1;
         step.iter_mut().for_each(|step| step.divide_integer(2));
         if !slope.is_finite() {
             row.clear();
