@@ -3,9 +3,11 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | `schedule` | which states belong to windows |
-//! | `blocks` | the most accurate estimates of the parts of a run, in fixed memory |
+//! | `blocks` | the most accurate estimates and the means of the parts of a run, in fixed memory |
+//! | `change`, `trend` | what these say: a permanent change and its uncertainty; constant, random walk or line |
 //! | `statistics` | extremes and sums over the windows |
 //! | `recent` | round-off, turning and consistency, from the newest states of a window |
+//! | `roughness` | whether the forces are smooth |
 //! | `report`, `verdict`, `text` | the result in numbers, as a verdict, and as text |
 
 mod arithmetic;
@@ -18,11 +20,13 @@ mod roughness;
 mod schedule;
 mod statistics;
 mod text;
+mod trend;
 mod verdict;
 
-pub use report::{Advice, Report, Trend};
+pub use report::Report;
 pub use roughness::Rough;
-pub use verdict::{Criterion, Missing, Verdict};
+pub use trend::Trend;
+pub use verdict::{Advice, Criterion, Missing, Verdict};
 
 use self::blocks::Blocks;
 use self::estimated::Estimated;

@@ -207,6 +207,11 @@ impl<N: Number> Recent<N> {
         &self.action
     }
 
+    /// The root mean square of last terms.
+    pub(super) fn last_term(&self) -> N {
+        self.roughness.last_term()
+    }
+
     /// The forces, where they are not smooth.
     pub(super) fn rough(&self) -> Option<Rough> {
         self.roughness.found()

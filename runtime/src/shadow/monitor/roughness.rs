@@ -4,7 +4,7 @@
 //! derivative of U jumps it is of the size of h^m, whatever k. So last terms are computed from the states of a window, and from every
 //! second one of them, as if the step were 2h.
 
-use super::arithmetic::quotient;
+use super::arithmetic::{integer, quotient, root};
 use crate::number::Number;
 use crate::shadow::bilinear::{Bilinear, BilinearEstimator};
 use crate::shadow::estimator::{BuildEstimator, Estimator, EstimatorError};
@@ -21,13 +21,13 @@ const ANGLE_LIMIT: f64 = 0.35;
 const ROUND_OFF_FACTOR: i32 = 1000;
 /// Forces are smooth if the last terms at 2h are more than this many times those at h.
 const LARGEST_RATIO: f64 = 16.0;
-/// Where the m-th derivative jumps, log₂ of that ratio is m − 1.3 to m + 0.8: measured on oscillators, for m = 1 to 4, orders 2 to 6 and
+/// Where the m-th derivative jumps, log₂ of that ratio is m − 1.5 to m + 1: measured on oscillators, for m = 1 to 4, orders 2 to 6 and
 /// k = 6 to 12. It is less where the jumps change H̄ itself by more.
-const LOGARITHM: [f64; 2] = [-1.5, 0.8];
+const LOGARITHM: [f64; 2] = [-1.5, 1.0];
 /// Windows that a statement needs.
 const LEAST_WINDOWS: u64 = 16;
 /// After so many windows one of four is enough.
-const ALL_WINDOWS: u64 = 64;
+const ALL_WINDOWS: u64 = 256;
 
 /// Forces that are not smooth: while the motion turns little in a step, the last terms of modified energies from every second state of
 /// the windows are not much larger than those from all states.
@@ -89,6 +89,11 @@ impl<N: Number> Roughness<N> {
         for (sum, terms) in self.squares.iter_mut().zip([&spacings.fine, &spacings.coarse]) {
             sum.add(&terms.mean_square());
         }
+    }
+
+    /// The root mean square of the last terms at h.
+    pub(super) fn last_term(&self) -> N {
+        root(&quotient(&self.squares[0], &integer(self.windows.max(1), &self.kicks.context())))
     }
 
     /// The forces, where they are not smooth.
@@ -217,8 +222,8 @@ mod tests {
         });
         let mut motion = Motion::new(potential, UnitMasses, [1.0], [0.0]).unwrap();
         let stepper = Stepper::new(shipped(scheme).unwrap(), h).unwrap();
-        let mut monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(k)).unwrap().every(40);
-        for _ in 0..8000 {
+        let mut monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(k)).unwrap().every(30);
+        for _ in 0..10_000 {
             monitor.step(&mut motion).unwrap();
         }
         monitor.report().rough

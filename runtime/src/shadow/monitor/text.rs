@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use super::report::{Advice, Report, Trend};
+use super::report::Report;
 use super::roughness::Rough;
-use super::verdict::{Criterion, LEAST_WINDOWS, Missing, PERMANENT_LIMIT, Verdict};
+use super::trend::Trend;
+use super::verdict::{Advice, Criterion, LEAST_WINDOWS, Missing, PERMANENT_LIMIT, Verdict};
 use crate::number::Number;
 
 impl<N: Number> Report<N> {

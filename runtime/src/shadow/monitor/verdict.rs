@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::change::Change;
 use super::recent::Turning;
-use super::report::{Advice, Trend};
+use super::trend::Trend;
 
 /// The conclusion about the step size of a run.
 ///
@@ -21,7 +21,7 @@ use super::report::{Advice, Trend};
 /// | near a resonance | H̄ moved by a quarter or more, and the fastest motion is one oscillation that turns once in 3, 4, 5, 6 or 5/2 steps, to 0.006 turns a step |
 /// | too large: energy error | the energy error is 0.4 of T or more; or T is 0 in all windows, and q changes |
 /// | drifts | H̄ moved by 1e-3 or more in a straight line |
-/// | not the gradient | a permanent change of a quarter is excluded, but H̄ changes from state to state as H does: they differ by 0.3 of what H̄ changes in a window, whose last terms are as of forces that are not smooth, and the fastest motion turns once in 10 steps or more |
+/// | not the gradient | a permanent change of a quarter is excluded, but H̄ changes from state to state as H does: they differ by 0.3 of what H̄ changes in a window, whose last terms are 0.004 of that, and the fastest motion turns once in 10 steps or more |
 /// | fine | a permanent change of a quarter is excluded, and the one above does not apply |
 /// | not smooth | forces are [not smooth](super::Report::rough) in a quarter of the windows |
 /// | too large: moves | H̄ moved permanently by half or more, its errors are a quarter or less, and the fastest motion turns once in 18 steps or less |
@@ -93,6 +93,16 @@ pub enum Missing {
     Resolution,
 }
 
+/// What would decide an undecided verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Advice {
+    /// So many windows, in a longer run or more often.
+    pub windows: u64,
+    /// An estimator of this order k or m: from the fall of its errors with the order where the second harmonic of the fastest
+    /// motion dominates. `None` where no order up to 64 would do.
+    pub order: Option<u32>,
+}
+
 /// Windows that a verdict needs.
 pub(super) const LEAST_WINDOWS: u64 = 16;
 /// A step size is fine if a permanent change is excluded from this part of the energy error on.
@@ -112,6 +122,9 @@ const INCONSISTENT_MOVE: f64 = 1000.0;
 const RESOLVED_ACTION: f64 = 0.4;
 /// H̄ changes with H if they differ by this part of its errors or less. Where H̄ is constant they differ by more, or by these errors.
 const DISTANCE_LIMIT: f64 = 0.3;
+/// H̄ changes as a smooth function of time if its last terms are this part of its errors or less: 0.0012 and 0.0025 for wrong forces and
+/// rates, 0.0065 and more at jumps.
+const LAST_TERM_LIMIT: f64 = 0.004;
 /// Where forces are not smooth H̄ differs from H by less than this many times the energy error.
 const LARGEST_DISTANCE: f64 = 3.0;
 /// A motion that turns by less than this angle a step is resolved by every scheme with a stable step.
@@ -161,6 +174,8 @@ pub(super) struct Evidence {
     pub(super) error_rms: f64,
     /// That of H − H̄ with the H̄ of the same window, as a part of it.
     pub(super) distance: f64,
+    /// That of the last terms as a part of it.
+    pub(super) last_term: f64,
     /// The energy error as a part of the mean kinetic energy.
     pub(super) of_kinetic: f64,
     /// pᵀΔq as a part of 2hT.
@@ -301,7 +316,7 @@ impl Evidence {
     /// does not come back.
     fn follows_the_energy(&self) -> bool {
         let varies = self.rough && self.beyond_round_off(self.error_rms) >= LINEAR_MOVE;
-        varies && self.distance <= DISTANCE_LIMIT && self.turns_little()
+        varies && self.distance <= DISTANCE_LIMIT && self.last_term <= LAST_TERM_LIMIT && self.turns_little()
     }
 
     fn resonance(&self) -> Option<(u32, u32)> {
@@ -348,6 +363,7 @@ mod tests {
         offset: 0.0,
         error_rms: 1e-9,
         distance: 1.0,
+        last_term: 1.0,
         of_kinetic: 1e-2,
         action: 1.0,
         turning: None,
@@ -386,7 +402,15 @@ mod tests {
         assert_eq!(Evidence { rough: true, ..moves }.verdict(), Verdict::NotSmooth);
         assert_eq!(Evidence { turning: turning(20.0, 0.0), ..moves }.verdict(), UNRESOLVED, "not by the step size");
         assert_eq!(
-            Evidence { distance: 0.05, error_rms: 0.1, rough: true, turning: turning(20.0, 0.0), ..FINE }.verdict(),
+            Evidence {
+                distance: 0.05,
+                last_term: 1e-3,
+                error_rms: 0.1,
+                rough: true,
+                turning: turning(20.0, 0.0),
+                ..FINE
+            }
+            .verdict(),
             Verdict::NotTheGradient
         );
     }
