@@ -231,8 +231,8 @@ mod tests {
 
     #[test]
     fn the_derivative_that_jumps_is_found() {
-        for scheme in ["stormer-verlet", "blanes-moan-srkn6b", "blanes-moan-srkn11b"] {
-            for (h, k) in [(0.1, 8), (0.2, 6), (0.05, 12)] {
+        for scheme in ["stormer-verlet", "blanes-moan-srkn11b"] {
+            for (h, k) in [(0.1, 8), (0.2, 6)] {
                 for m in 1..=3 {
                     let found = watch(m, 0.1, scheme, h, k);
                     let holds = found.is_some_and(|Rough { least, most }| (least..=most).contains(&(m as u32)));
