@@ -157,7 +157,7 @@ impl Task for Calculation {
 fn shared_flow(group: &[&Calculation]) -> Option<(Run, usize)> {
     let run = group[0].quantity.flow()?;
     let all = group.iter().filter_map(|calculation| calculation.quantity.settings());
-    Some((run, all.map(|settings| estimator::reach(&settings)).max().unwrap_or(0)))
+    Some((run, all.map(|settings| estimator::most_reach(&settings)).max().unwrap_or(0)))
 }
 
 fn flow_cost(group: &[&Calculation]) -> f64 {

@@ -1,9 +1,6 @@
 //! The estimators of figures, with what they cost.
 
-use shadowstep::StepSize;
-use shadowstep::shadow::{
-    Bilinear, BuildEstimator, Central, Estimator, EstimatorSettings, SelectionRule, StoppingRule,
-};
+use shadowstep::shadow::{Bilinear, Central, EstimatorSettings, SelectionRule, StoppingRule};
 
 /// The estimator of the paper's figures: the best m of each state, up to 200.
 pub(crate) const BEST: EstimatorSettings = EstimatorSettings::Central(Central::Best {
@@ -44,11 +41,10 @@ pub(crate) fn states(settings: &EstimatorSettings) -> f64 {
     if is_bilinear(settings) { order + 1.0 } else { 2.0 * order + 1.0 }
 }
 
-/// How many states before 0, and after the last one, its estimates need.
-pub(crate) fn reach(settings: &EstimatorSettings) -> usize {
-    let one = StepSize::try_from("1").expect("1 is not 0");
-    let built = BuildEstimator::<f64>::build(settings, &one, 1, &()).expect("figures have valid orders");
-    (built.states() - 1) / 2
+/// At least as many states as its estimates with errors need before 0, and after the last one. Building the estimator would
+/// give the number itself, but takes seconds for a large k.
+pub(crate) fn most_reach(settings: &EstimatorSettings) -> usize {
+    (states(settings) / 2.0 + largest_order(settings).sqrt()).ceil() as usize + 4
 }
 
 /// About how many microseconds one estimate takes with 120 digits.
@@ -58,5 +54,22 @@ pub(crate) fn cost(settings: &EstimatorSettings, dimension: usize) -> f64 {
         _ if is_bilinear(settings) => 0.06 * order * (numbers + order / 2.0),
         Some(_) => 0.1 * order * numbers,
         None => 0.19 * order * numbers,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shadowstep::StepSize;
+    use shadowstep::shadow::{BuildEstimator, Estimator};
+
+    #[test]
+    fn no_estimator_needs_more_states() {
+        let h = StepSize::try_from("1/10").unwrap();
+        let all = [1, 2, 3, 8, 50, 100].map(bilinear).into_iter().chain([2, 40, 200].map(central)).chain([BEST]);
+        for settings in all.map(|settings| settings.with_errors(true)) {
+            let built = BuildEstimator::<f64>::build(&settings, &h, 1, &()).unwrap();
+            assert!((built.states() - 1) / 2 <= most_reach(&settings), "{settings}");
+        }
     }
 }

@@ -8,14 +8,13 @@ use serde::{Deserialize, Serialize};
 use shadowstep::exact_flow::ExactFlow;
 use shadowstep::number::Number;
 use shadowstep::run::{Finding, RunError, ShadowRun, States, Trajectory};
-use shadowstep::shadow::{BuildEstimator, Estimate, EstimatorSettings};
+use shadowstep::shadow::{BuildEstimator, Estimate, Estimator, EstimatorSettings};
 use shadowstep::{Rational, StepSize};
 use shadowstep_scenes::propagator::{Propagator, motion, stepper};
 use shadowstep_scenes::run::Run as Steps;
 
 use crate::Error;
 use crate::escape::Escape;
-use crate::estimator;
 use crate::run::Run;
 use crate::states::{Recorded, Watched};
 
@@ -60,6 +59,9 @@ pub(crate) struct Orbit {
 /// How often, at most, a computation asks whether it is to continue.
 const OFTEN: Duration = Duration::from_millis(50);
 
+/// Estimates along states of any source.
+type Estimates<'a> = ShadowRun<&'a mut dyn States<Number = Float>, Box<dyn Estimator<Float>>>;
+
 /// A run that is measured.
 pub(crate) struct Measure<'a> {
     pub(crate) run: &'a Run,
@@ -71,11 +73,7 @@ pub(crate) struct Measure<'a> {
 
 impl Measure<'_> {
     pub(crate) fn drift(&self, settings: &EstimatorSettings) -> Result<Drift, Error> {
-        let reach = estimator::reach(settings);
-        let found = self.with_states(reach, &mut |states| {
-            let mut estimates = ShadowRun::of(states, self.estimator(settings)?, &self.step_size());
-            estimates.drift()
-        })?;
+        let found = self.with_estimates(settings, &mut |mut estimates| estimates.drift())?;
         let permanent = found.permanent.map(|permanent| Permanent {
             change: permanent.change.to_text(),
             largest_jump: permanent.largest_jump.to_text(),
@@ -86,11 +84,9 @@ impl Measure<'_> {
     }
 
     pub(crate) fn energies(&self, settings: &EstimatorSettings) -> Result<Energies, Error> {
-        let reach = estimator::reach(settings);
         let h = self.run.h();
-        self.with_states(reach, &mut |states| {
+        self.with_estimates(settings, &mut |mut estimates| {
             let mut all = Energies::default();
-            let mut estimates = ShadowRun::of(states, self.estimator(settings)?, &self.step_size());
             while let Some((n, estimate)) = estimates.advance()? {
                 all.include(time_of_value(&h, n, settings), &estimate);
             }
@@ -148,11 +144,20 @@ impl Measure<'_> {
         StepSize::try_from(&self.run.h()).expect("figures have nonzero step sizes")
     }
 
-    fn estimator(
+    /// Gives the estimates along the run to `measure`.
+    fn with_estimates<T>(
         &self,
         settings: &EstimatorSettings,
-    ) -> Result<<EstimatorSettings as BuildEstimator<Float>>::Estimator, RunError> {
-        Ok(settings.build(&self.step_size(), self.run.dimension(), &self.run.precision())?)
+        measure: &mut dyn FnMut(Estimates<'_>) -> Result<T, RunError>,
+    ) -> Result<T, Error> {
+        let (h, context) = (self.step_size(), self.run.precision());
+        let estimator = BuildEstimator::<Float>::build(settings, &h, self.run.dimension(), &context);
+        let mut estimator = Some(estimator.expect("figures have valid orders"));
+        let reach = (estimator.as_ref().map_or(1, |estimator| estimator.states()) - 1) / 2;
+        self.with_states(reach, &mut |states| {
+            let estimator = estimator.take().expect("the states are given once");
+            measure(ShadowRun::of(states, estimator, &h))
+        })
     }
 
     /// Gives the states n = −reach, …, steps + reach to `measure`.

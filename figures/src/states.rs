@@ -32,7 +32,7 @@ impl Recorded {
 
     /// The states again, with fewer before 0 and after the last one of the run.
     pub(crate) fn states(&self, reach: usize) -> Replay<'_> {
-        let left_out = self.reach - reach;
+        let left_out = self.reach.checked_sub(reach).expect("enough states are recorded");
         Replay { states: self.states[left_out..self.states.len() - left_out].iter() }
     }
 }

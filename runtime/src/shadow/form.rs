@@ -1,10 +1,12 @@
 //! E_k as a form in the products of the newest states in pairs.
 
+use num_bigint::BigInt;
+
 use crate::Rational;
 use crate::number::Number;
 use crate::shadow::error_estimate::{ErrorEstimate, Point};
 use crate::shadow::estimator::Estimate;
-use crate::shadow::weights::bilinear;
+use crate::shadow::weights::BilinearWeights;
 use crate::shadow::window::Window;
 use crate::system::Increments;
 
@@ -59,14 +61,10 @@ pub(super) struct Form<N> {
 
 impl<N: Number> Form<N> {
     pub(super) fn new(k: u32, with_error: bool, h: &Rational, context: &N::Context) -> Self {
-        let twice_h = h * Rational::from_integer(2.into());
-        // of rows that read the same backwards the first halves
-        let number = |weight: &Rational| N::from_rational(&(weight / &twice_h), context);
-        let half = |row: &Vec<Rational>| row[..row.len().div_ceil(2)].iter().map(number).collect();
         let has_error = with_error && k > 1;
         Form {
-            weights: bilinear(k).iter().map(half).collect(),
-            last_term: if has_error { last_term_weights(k).iter().map(half).collect() } else { Vec::new() },
+            weights: weights(k, h, context),
+            last_term: if has_error { last_term_weights(k, h, context) } else { Vec::new() },
             error_estimate: ErrorEstimate::new(if has_error { around(k) } else { 0 }, context),
             sum: N::zero(context),
         }
@@ -115,17 +113,33 @@ fn around(k: u32) -> usize {
     1 + root as usize + usize::from(root * root < k)
 }
 
-/// P_{j+ℓ,j} of E_k less those of the mean of E_{k−1} over its two windows within.
-fn last_term_weights(k: u32) -> Vec<Vec<Rational>> {
-    let two = Rational::from_integer(2.into());
-    let mut rows = bilinear(k);
-    for (row, last) in rows.iter_mut().zip(bilinear(k - 1)) {
-        for (j, weight) in last.iter().enumerate() {
-            row[j] -= weight / &two;
-            row[j + 1] -= weight / &two;
-        }
-    }
-    rows
+/// P_{j+ℓ,j}/(2h) of E_k, of the rows the first halves, each rounded once.
+fn weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> Vec<Vec<N>> {
+    let of_k = BilinearWeights::new(k);
+    of_halves(k, |lag, j| {
+        let above = of_k.numerator(lag, j) * h.denom();
+        let below = of_k.denominator(lag) * h.numer() * 2;
+        N::from_rational(&Rational::new(above, below), context)
+    })
+}
+
+/// The same of P_{j+ℓ,j} of E_k less those of the mean of E_{k−1} over its two windows within.
+fn last_term_weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> Vec<Vec<N>> {
+    let [of_k, before] = [k, k - 1].map(BilinearWeights::new);
+    of_halves(k, |lag, j| {
+        // one common denominator, as reducing fractions takes most of the time
+        let [own, other] = [of_k.denominator(lag), before.denominator(lag)];
+        let sum =
+            before.numerator(lag, j) + j.checked_sub(1).map_or_else(BigInt::default, |j| before.numerator(lag, j));
+        let above = (of_k.numerator(lag, j) * &other * 2 - sum * &own) * h.denom();
+        N::from_rational(&Rational::new(above, own * other * h.numer() * 4), context)
+    })
+}
+
+/// The first halves of rows that read the same backwards: row ℓ − 1 has j = 0..=k−ℓ.
+fn of_halves<N>(k: u32, weight: impl Fn(usize, usize) -> N) -> Vec<Vec<N>> {
+    let k = k as usize;
+    (1..=k).map(|lag| (0..(k - lag + 1).div_ceil(2)).map(|j| weight(lag, j)).collect()).collect()
 }
 
 /// Σ_ℓ Σ_j w_{j+ℓ,j} (the pair of the states j + ℓ and j), two of them at once; states counted back from `back`.
@@ -141,6 +155,35 @@ fn sum_up<N: Number>(weights: &[Vec<N>], products: &Products<N>, back: usize, su
                 sum.assign_sum(pair, other);
                 value.add_product(weight, sum);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact;
+    use crate::shadow::weights::bilinear;
+
+    /// By the definition: rows of exact weights, and those of E_{k−1} at two places subtracted.
+    #[test]
+    fn weights_are_those_of_the_definition() {
+        let h = exact("-3/7").unwrap();
+        let twice_h = &h * Rational::from_integer(2.into());
+        let half = |row: &Vec<Rational>| -> Vec<f64> {
+            row[..row.len().div_ceil(2)].iter().map(|weight| f64::from_rational(&(weight / &twice_h), &())).collect()
+        };
+        for k in 2..=20 {
+            let mut rows = bilinear(k);
+            assert_eq!(weights::<f64>(k, &h, &()), rows.iter().map(half).collect::<Vec<_>>());
+            let two = Rational::from_integer(2.into());
+            for (row, last) in rows.iter_mut().zip(bilinear(k - 1)) {
+                for (j, weight) in last.iter().enumerate() {
+                    row[j] -= weight / &two;
+                    row[j + 1] -= weight / &two;
+                }
+            }
+            assert_eq!(last_term_weights::<f64>(k, &h, &()), rows.iter().map(half).collect::<Vec<_>>(), "k = {k}");
         }
     }
 }

@@ -61,13 +61,36 @@ pub fn stirling(m: u32) -> Vec<Rational> {
 /// assert_eq!(bilinear(1), [[exact("-1").unwrap()]]);
 /// ```
 pub fn bilinear(k: u32) -> Vec<Vec<Rational>> {
-    let binomials: Vec<BigInt> = IterBinomial::new(BigInt::from(k)).collect();
-    let of_2k: BigInt = binomials.iter().map(|c| c * c).sum();
-    let weight = |lag: usize, j: usize| {
-        let above = BigInt::from(if lag.is_multiple_of(2) { 2 } else { -2 }) * &binomials[j + lag] * &binomials[j];
-        Rational::new(above, BigInt::from(lag) * &of_2k)
-    };
+    let weights = BilinearWeights::new(k);
+    let weight = |lag: usize, j: usize| Rational::new(weights.numerator(lag, j), weights.denominator(lag));
     (1..=k as usize).map(|lag| (0..=k as usize - lag).map(|j| weight(lag, j)).collect()).collect()
+}
+
+/// P_{j+ℓ,j} as numerators and denominators, which need not be in lowest terms.
+pub(super) struct BilinearWeights {
+    /// C(k,0), …, C(k,k)
+    binomials: Vec<BigInt>,
+    /// C(2k,k)
+    of_2k: BigInt,
+}
+
+impl BilinearWeights {
+    pub(super) fn new(k: u32) -> Self {
+        let binomials: Vec<BigInt> = IterBinomial::new(BigInt::from(k)).collect();
+        let of_2k = binomials.iter().map(|c| c * c).sum();
+        BilinearWeights { binomials, of_2k }
+    }
+
+    /// 2 (−1)^ℓ C(k,j+ℓ) C(k,j), which is 0 beyond the last state.
+    pub(super) fn numerator(&self, lag: usize, j: usize) -> BigInt {
+        let Some(later) = self.binomials.get(j + lag) else { return BigInt::default() };
+        BigInt::from(if lag.is_multiple_of(2) { 2 } else { -2 }) * later * &self.binomials[j]
+    }
+
+    /// ℓ C(2k,k)
+    pub(super) fn denominator(&self, lag: usize) -> BigInt {
+        BigInt::from(lag) * &self.of_2k
+    }
 }
 
 #[cfg(test)]
