@@ -127,7 +127,7 @@ pub(crate) fn same_rates(first: &ExponentialDecay, others: &[(&str, &Exponential
 }
 
 /// drift = 10^a · h^−r · e^(−c/h): c and r with their intervals, by least squares; `None` for fewer than five points.
-pub(crate) fn with_power(drifts: &[(f64, f64)]) -> Option<(Interval, Interval)> {
+fn with_power(drifts: &[(f64, f64)]) -> Option<(Interval, Interval)> {
     let used = drifts.iter().filter(|(h, y)| *h > 0.0 && y.is_finite());
     let points: Vec<([f64; 3], f64)> = used.map(|(h, y)| ([1.0, LOG10_E / h, -h.log10()], *y)).collect();
     if points.len() < 5 {
@@ -144,6 +144,16 @@ pub(crate) fn with_power(drifts: &[(f64, f64)]) -> Option<(Interval, Interval)> 
         Interval::about(sign * found[i], (variance * inverse[i][i]).sqrt(), points.len(), freedom)
     };
     Some((interval(1, -1.0), interval(2, 1.0)))
+}
+
+/// The rate of (h, log₁₀ drift) beside π ρ, that of the aliasing of differences of samples, in words.
+pub(crate) fn against_aliasing(drifts: &[(f64, f64)], theory: f64) -> Option<String> {
+    let (c, power) = with_power(drifts)?;
+    let place = if c.within(theory, theory) == Verdict::Differs { "outside" } else { "within" };
+    Some(format!(
+        "Aliasing of differences of samples gives the rate π ρ = {theory:.3} with a power of h before the exponential. Fitted with a power, c is \
+         {c:.3} and the factor is h^−r, r = {power:.1}: π ρ is {place} that interval."
+    ))
 }
 
 /// The inverse of a symmetric matrix by its cofactors; `None` if it is singular.

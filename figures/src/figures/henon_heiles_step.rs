@@ -83,10 +83,11 @@ fn rates(drawing: &mut Drawing, fits: &[Fitted]) {
     drawing.table("Rates", &DECAY_HEADER, rows);
 }
 
-/// Where the drifts leave the fitted line: the round-off is visible at the first step from which on all are a decade above it.
+/// Where the drifts leave the fitted line: the round-off is visible at the first step from which on all are above it by three
+/// standard deviations.
 fn round_off(drawing: &mut Drawing, points: &[(f64, f64)], fit: &ExponentialDecay) {
     let line = |n: f64| fit.a - fit.c * std::f64::consts::LOG10_E * n;
-    let on_it = points.iter().rposition(|(n, y)| *y <= line(*n) + 1.0);
+    let on_it = points.iter().rposition(|(n, y)| *y <= line(*n) + 3.0 * fit.deviation);
     let Some((first, last)) = on_it.and_then(|at| Some((points.get(at + 1)?.0, points[at].0))) else { return };
     let (n, y) = points.last().expect("there are steps");
     let verdict = match () {

@@ -126,7 +126,7 @@ fn check_escapes(drawing: &mut Drawing, scans: &[Scan]) {
     let apart = ranges.windows(2).all(|pair| pair[0].1.1 < pair[1].1.0);
     drawing.check(
         "An instability occurs at an eccentricity that depends on the step size.",
-        format!("it begins between {}", list.join(", ")),
+        format!("it begins at e = {}", list.join(", ")),
         apart && ranges.len() == scans.len(),
     );
     for scan in scans {

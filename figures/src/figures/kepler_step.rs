@@ -9,7 +9,7 @@ use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::estimator::{BEST, central};
 use crate::figure::Figure;
-use crate::fit::{DECAY_HEADER, decay_row, theory_row};
+use crate::fit::{DECAY_HEADER, against_aliasing, decay_row, theory_row};
 use crate::numbers::{number, power};
 use crate::results::Results;
 use crate::run::EXACT_FLOW;
@@ -43,6 +43,10 @@ fn draw(results: &Results) -> Drawing {
             format!("over h ≤ 1/10, {}", fit.described()),
             fit.is_exponential(),
         );
+    }
+    let by_step: Vec<_> = best.iter().filter(|(n, _)| *n >= 10.0).map(|(n, y)| (1.0 / n, *y)).collect();
+    if let Some(found) = against_aliasing(&by_step, PI * singularity(0.6)) {
+        drawing.found(found);
     }
     errors_against_m(results, &mut drawing);
     drawing.table(

@@ -10,7 +10,7 @@ use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::estimator::central;
 use crate::figure::Figure;
-use crate::fit::{DECAY_HEADER, ROUND_OFF, decay, decay_row, theory_row, with_power};
+use crate::fit::{DECAY_HEADER, ROUND_OFF, against_aliasing, decay, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
@@ -95,12 +95,8 @@ fn check_limit(drawing: &mut Drawing, limit: &[(f64, f64)]) {
         drawing.check("The limit follows exp(−c/h).", fit.described(), fit.is_exponential());
     }
     let theory = PI * singularity(1.0);
-    if let Some((c, power)) = with_power(limit) {
-        drawing.found(format!(
-            "Aliasing of differences of samples gives the rate π ρ = {theory:.3} with a power of h before the exponential. Fitted with a power, \
-             c is {c:.3} and the drift has the factor h^−r, r = {power:.1}: π ρ is {} that interval.",
-            if c.within(theory, theory) == Verdict::Differs { "outside" } else { "within" }
-        ));
+    if let Some(found) = against_aliasing(limit, theory) {
+        drawing.found(found);
     }
     let rows = vec![
         decay_row("limit", fit.as_ref()),
