@@ -1,7 +1,8 @@
 //! The progress of a run, on a terminal.
 
 use std::fmt::Write;
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 
@@ -9,18 +10,22 @@ use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 pub(crate) struct Progress {
     bar: ProgressBar,
     shown: bool,
+    /// When the first state was reached: the states that only the estimator needs come before.
+    begin: Arc<Mutex<Option<Instant>>>,
 }
 
-/// The first steps of a run, with the states that only the estimator needs, are no measure of the others: no time left is shown
-/// before this, and before a hundredth of the run.
+/// The first steps of a run are no measure of the others: no time left is shown before this, and before a hundredth of the run.
 const EARLY: Duration = Duration::from_secs(2);
 
 impl Progress {
     pub(crate) fn new(wanted: bool, run: String, steps: u64) -> Self {
         let bar = if wanted { ProgressBar::new(steps) } else { ProgressBar::hidden() };
-        let left = |state: &ProgressState, writer: &mut dyn Write| {
-            let length = state.len().unwrap_or(0);
-            if let Some(left) = time_left(state.elapsed(), state.pos(), length) {
+        let begin: Arc<Mutex<Option<Instant>>> = Arc::default();
+        let first = Arc::clone(&begin);
+        let left = move |state: &ProgressState, writer: &mut dyn Write| {
+            let first = *first.lock().unwrap_or_else(PoisonError::into_inner);
+            let elapsed = first.map(|first| first.elapsed()).unwrap_or_default();
+            if let Some(left) = time_left(elapsed, state.pos(), state.len().unwrap_or(0)) {
                 // the bar draws what it can
                 let _ = write!(writer, "{} left", HumanDuration(left));
             }
@@ -28,14 +33,22 @@ impl Progress {
         let style = ProgressStyle::with_template("{prefix}  {wide_bar}  {pos}/{len}  {left}");
         bar.set_style(style.expect("the template is well formed").with_key("left", left));
         bar.set_prefix(run);
-        Progress { shown: !bar.is_hidden(), bar }
+        Progress { shown: !bar.is_hidden(), bar, begin }
     }
 
     /// The run is at step n; without a bar it costs nothing.
     pub(crate) fn reach(&self, n: i64) {
         if self.shown {
+            self.begin.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert_with(Instant::now);
             self.bar.set_position(n.unsigned_abs());
         }
+    }
+
+    /// Another run as long as this one begins.
+    pub(crate) fn restart(&self, run: String) {
+        self.begin.lock().unwrap_or_else(PoisonError::into_inner).take();
+        self.bar.set_position(0);
+        self.bar.set_prefix(run);
     }
 
     /// Takes the bar away while something else is written.

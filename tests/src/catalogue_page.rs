@@ -28,6 +28,8 @@ Everything on this page is computed from the tables: the orders are proved, none
 - *order*: for every T(p), and for quadratic T = ½pᵀM⁻¹p. A scheme whose table says `kinetic = \"quadratic\"` is meant for
   quadratic T.
 - *A + εB*: the orders in the powers of ε for near-integrable systems: (8,6,4) has the local error O(εh⁹ + ε²h⁷ + ε³h⁵).
+  They pay only if the drift solves A exactly and εB is small, as where drifts are Kepler motions and kicks the attractions of
+  planets: a `System` of your own. With H = T + U nothing is small, and such a scheme gains nothing over its order for T + U.
   The drifts move by A. Blank where the table claims none.
 - *forces*: evaluations of U_q a step, the first kick taking over what the last one of the step before evaluated.
 - *effective error*: forces · ‖E‖^{1/order}, where h^{order+1} E is the leading error of the step's logarithm in

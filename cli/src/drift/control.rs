@@ -17,6 +17,7 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::estimates::Estimates;
 use shadowstep_scenes::library::EXACT_FLOW;
 use shadowstep_scenes::propagator::Propagator;
+use shadowstep_scenes::readable::shortened;
 use shadowstep_scenes::run::Run;
 
 use super::measure::measure;
@@ -115,6 +116,7 @@ fn control<N: Rounded + 'static>(
     seconds: Duration,
     (progress, interrupt): (&Progress, &Interrupt),
 ) -> Found {
+    progress.restart(format!("on the exact flow, step {}", shortened(estimates.run.h, 20)));
     let begin = Instant::now();
     let (steps, mut expected) = (estimates.run.steps as f64, None);
     let found = measure::<N>(estimates, context, |n| {
