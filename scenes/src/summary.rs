@@ -60,6 +60,8 @@ pub struct ModifiedEnergySummary {
     pub round_off: String,
     /// The newest accurate H̄ less the first one.
     pub permanent_change: String,
+    /// A permanent change of the energy in the run is excluded above this; `None` where nothing is excluded.
+    pub permanent_bound: Option<String>,
     /// To what H̄ is known.
     pub resolution: Option<String>,
     /// In how many windows it was estimated.
@@ -124,13 +126,16 @@ impl Summary {
     }
 
     fn modified_energy_text(&self) -> String {
-        let Some(ModifiedEnergySummary { method, round_off, permanent_change, resolution, .. }) = &self.modified_energy
-        else {
+        let Some(modified) = &self.modified_energy else {
             return "the run is too short for an estimate".to_owned();
         };
+        let ModifiedEnergySummary { method, round_off, permanent_change, permanent_bound, resolution, .. } = modified;
         let known = resolution.as_ref().map_or(String::new(), |error| format!(", known to {}", short(error)));
+        let excluded = permanent_bound.as_ref().map_or(String::new(), |bound| {
+            format!("; a permanent change of the energy above {} is excluded", short(bound))
+        });
         format!(
-            "method's part of H {} rms; round-off {} expected; permanent change {}{known}",
+            "method's part of H {} rms; round-off {} expected; permanent change {}{known}{excluded}",
             short(method),
             short(round_off),
             short(permanent_change)

@@ -118,6 +118,7 @@ impl<S: Scheme + Clone, N: Number> Watch<S, N> {
             method: report.method_rms.to_text(),
             round_off: report.round_off.to_text(),
             permanent_change: report.change.to_text(),
+            permanent_bound: report.permanent_bound.as_ref().map(N::to_text),
             resolution: report.resolution.as_ref().map(N::to_text),
             windows: report.windows,
         });
