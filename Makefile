@@ -22,7 +22,7 @@ check:
 	cargo check -p shadowstep --no-default-features --locked
 
 docs:
-	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
+	RUSTDOCFLAGS="-D warnings --html-in-header $(CURDIR)/runtime/katex.html" cargo doc --workspace --no-deps --locked
 
 bench: deps
 	cargo bench --workspace --locked

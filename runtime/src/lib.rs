@@ -89,14 +89,25 @@ pub mod stepper;
 pub mod system;
 pub mod tables;
 
+#[doc(inline)]
 pub use kinetic::{DiagonalMasses, FullMasses, Kinetic, UnitMasses};
+#[doc(inline)]
 pub use motion::{Coordinates, Motion, MotionError};
+#[doc(inline)]
 pub use number::Number;
+#[doc(inline)]
 pub use potential::Potential;
+#[doc(inline)]
 pub use potential_check::check_potential;
+#[doc(inline)]
 pub use scheme::{Scheme, StepWeights, Summary, ValidFor};
+#[doc(inline)]
 pub use shadowstep_macros::{kinetic, potential, splitting_scheme};
+#[doc(inline)]
 pub use shadowstep_symbolic::{Rational, exact};
+#[doc(inline)]
 pub use step_size::{StepSize, StepSizeError};
+#[doc(inline)]
 pub use stepper::Stepper;
+#[doc(inline)]
 pub use system::{Increments, System};

@@ -1,8 +1,11 @@
 //! Estimators of the modified energy H̄ at a state of a trajectory.
 //!
-//! The states (p, q, β) of a trajectory lie on the flow of the modified Hamiltonian H̄ and of its homogeneous extension,
-//! for which β' = q̄ᵀH̄_q + p̄ᵀH̄_p − 2H̄. So H̄ = ½(−q̄ᵀp̄' + p̄ᵀq̄' − β') (Moan & Niesen, eq. skModEn), and the
-//! derivatives can be had from neighbouring states.
+//! The states $(p, q, \beta)$ of a trajectory lie on the flow of the modified Hamiltonian $\bar H$ and of its homogeneous extension,
+//! for which $\beta' = \bar q^{\mathsf T} \bar H_q + \bar p^{\mathsf T} \bar H_p - 2\bar H$. So
+//!
+//! $$\bar H = \tfrac12 \left( -\bar q^{\mathsf T} \bar p' + \bar p^{\mathsf T} \bar q' - \beta' \right)$$
+//!
+//! (Moan & Niesen, eq. 3), and the derivatives are computed from neighbouring states. [`weights`] has the formulas, and their proofs.
 //!
 //! # Double precision
 //!

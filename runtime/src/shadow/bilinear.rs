@@ -1,30 +1,6 @@
 //! The bilinear estimator: products of the newest k + 1 states in pairs, of order 2k.
 //!
-//! With states counted back from the newest, i = 0..k,
-//!
-//! E_k = 1/(2h) Σ_{i>j} P_ij (q_i·p_j − p_i·q_j + β_j − β_i),   P_ij = 2 (−1)^{i−j} C(k,i) C(k,j) / ((i−j) C(2k,k)).
-//!
-//! This is the estimator of Skeel & Hardy (SIAM J. Sci. Comput. 23 (2001) 1172) and Engle, Skeel & Drees (J. Comput. Phys.
-//! 206 (2005) 432), whose weights were printed as tables for k = 2, 4, …, 12, in closed formula.
-//!
-//! **Proof.** Let X = e^{−x} and Y = e^{−y} shift the first and the second factor of a product back by a step, x and y being h d/dt
-//! on each. P is antisymmetric, so that the sum over i > j of P_ij (q_i·p_j − p_i·q_j) is that over all i ≠ j of P_ij q_i·p_j,
-//! which is 2F/C(2k,k) on q·p with
-//!
-//! F(X,Y) = Σ_{i≠j} (−1)^{i−j} C(k,i) C(k,j) X^i Y^j / (i−j).
-//!
-//! Then (X∂_X − Y∂_Y) F = Σ_{i≠j} (−1)^{i−j} C(k,i) C(k,j) X^i Y^j = (1−X)^k (1−Y)^k − G(XY) with G(z) = Σ_i C(k,i)² z^i. In
-//! s = x + y and d = x − y the operator is −2∂_d, and F is odd in d, so
-//!
-//! F = ½ d G(e^{−s}) − ½ ∫₀^d (1−X)^k (1−Y)^k dd'.
-//!
-//! The second term is of degree 2k + 1 in h. The first is the mean of ½(x − y), the derivative in ½h(q'·p − q·p'), at the
-//! states i with the weights C(k,i)². So, as G(1) = C(2k,k), and likewise for β, whose weights are Σ_j P_ij,
-//!
-//! E_k = Σ_i C(k,i)²/C(2k,k) · ½(q'·p − q·p' − β')(state i) + O(h^{2k}):
-//!
-//! a mean of the modified energy over the window, about its middle, k/2 steps back. ∎ Nothing is assumed of the scheme but that
-//! it has a modified Hamiltonian: it need not be a palindrome.
+//! The formula and its proof are in [`weights`](crate::shadow::weights).
 
 use num_traits::Signed;
 use shadowstep_symbolic::decimal::to_significant;
