@@ -34,7 +34,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.digits_held("the drift at h = 1/10, p₁ = 0.5", results.digits_held(&chaotic, &BEST, 200));
     let chart = drawing.chart(
         "Störmer–Verlet, Hénon–Heiles, q₁ = q₂ = p₂ = 0",
-        Axis::linear("p₁(0)"),
+        Axis::linear("p₁(0)").over(0.0, 0.6),
         Axis::drift(),
         curves,
         "Marks: H = 1/12, beyond which there are chaotic motions, and H = 1/6, beyond which the body can escape.",

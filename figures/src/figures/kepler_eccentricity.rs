@@ -200,26 +200,27 @@ fn table(drawing: &mut Drawing, scans: &[Scan]) {
     );
 }
 
-/// The orbits on both sides of the first escape, at h = 1/10: the last that stays, one that stays with less, and the escape.
+/// The orbits on both sides of the instability, at h = 1/10: one that stays, the last that stays, the next, which escapes, and the
+/// first escape if that is before them.
 fn orbits(results: &Results, drawing: &mut Drawing, scans: &[Scan]) {
     let Some(scan) = scans.iter().find(|scan| scan.n == 10) else { return };
-    let Some((first, _)) = scan.escapes().next() else { return };
-    let stays = |least: u32| {
-        let bound = scan.found.iter().rev().find(|(e, returns, _)| *e < first && *e <= least && returns.is_none());
-        bound.map(|(e, ..)| *e)
-    };
-    let [Some(before), Some(well_before)] = [stays(first), stays(first - 30)] else { return };
-    let curve = |(e, label, colour): (u32, &str, usize)| {
-        let orbit = results.orbit(&of(scan.n, e));
+    let bound = |below: u32| scan.found.iter().rev().find(|(e, returns, _)| *e < below && returns.is_none());
+    let Some(last) = bound(u32::MAX).map(|(e, ..)| *e) else { return };
+    let mut shown: Vec<(u32, String)> = bound(last - 30).map(|(e, ..)| (*e, "stays".to_owned())).into_iter().collect();
+    let first = scan.escapes().next().filter(|(e, _)| *e < last);
+    shown.extend(first.map(|(e, returns)| (e, format!("escapes at encounter {returns}"))));
+    shown.push((last, "stays".to_owned()));
+    shown.extend(scan.escapes().find(|(e, _)| *e > last).map(|(e, _)| (e, "escapes".to_owned())));
+    let curve = |(i, (e, label)): (usize, &(u32, String))| {
+        let orbit = results.orbit(&of(scan.n, *e));
         let points = orbit.map_or_else(Vec::new, |orbit| orbit.x.into_iter().zip(orbit.y).collect());
-        Curve::line(format!("e = {}, {label}", thousandths(e)), points, colour)
+        Curve::line(format!("e = {}, {label}", thousandths(*e)), points, i)
     };
-    let curves = [(well_before, "stays", 0), (before, "stays", 1), (first, "escapes", 2)].map(curve);
     drawing.chart(
-        "The orbits on both sides of the first escape, h = 1/10",
-        Axis::linear("q₁").over(-16.0, 6.0),
-        Axis::linear("q₂").over(-9.0, 9.0),
-        curves.into(),
+        "The orbits on both sides of the instability, h = 1/10",
+        Axis::linear("q₁").over(-30.0, 10.0),
+        Axis::linear("q₂").over(-16.0, 16.0),
+        shown.iter().enumerate().map(curve).collect(),
         "Störmer–Verlet, t ≤ 100; the states are joined by lines. The exact orbit reaches |q| = 1 + e.",
     );
 }
