@@ -1,6 +1,5 @@
 //! Schemes by their names: shipped ones, and tables in files.
 
-use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -8,6 +7,7 @@ use shadowstep::exact_flow;
 use shadowstep::problems::Problem;
 use shadowstep::tables::{self, Faults, Source, TableScheme, shipped_names};
 use shadowstep_analysis::best_for_every_kinetic;
+use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
 use shadowstep_schemes::{First, shipped, shipped_hint};
 use thiserror::Error;
 
@@ -101,7 +101,7 @@ fn source_from(word: &str, folder: &Path) -> Result<Source, LibraryError> {
 
 /// The text of a table.
 fn file(path: &str) -> Result<Source, LibraryError> {
-    match fs::read_to_string(path) {
+    match read_text(path, LARGEST_TABLE) {
         Ok(text) => Ok(Source { path: path.to_owned(), text }),
         Err(error) if error.kind() == ErrorKind::NotFound => {
             let shipped = path.strip_suffix(".toml").filter(|name| shipped_names().contains(name));
@@ -126,7 +126,7 @@ fn not_found(message: impl Into<String>, hint: impl Into<String>) -> LibraryErro
 /// bases only.
 pub fn beside_or_shipped(base: &str, from: &Source) -> Option<Source> {
     shadowstep_schemes::library::beside_or_shipped(base, from, |path| {
-        let text = fs::read_to_string(path).ok()?;
+        let text = read_text(path, LARGEST_TABLE).ok()?;
         Some(Source { path: path.to_str()?.to_owned(), text })
     })
 }

@@ -14,12 +14,11 @@ mod reader;
 mod run;
 mod shipped;
 
-use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
 use shadowstep::tables::{Faults, Source};
-use shadowstep_schemes::document::document;
+use shadowstep_schemes::document::{document, read_text};
 use shadowstep_symbolic::nearest;
 use toml::de::DeTable;
 
@@ -29,6 +28,9 @@ use crate::keys::{self, SECTIONS};
 use crate::note::Note;
 use crate::read::reader::Reader;
 use crate::scene::{Outputs, Scene, System};
+
+/// The most bytes of a scene, which may have the initial values of many bodies.
+const LARGEST_SCENE: u64 = 16 << 20;
 
 impl Scene {
     /// Reads a scene from its file.
@@ -79,7 +81,7 @@ pub fn source(path: &Path) -> Result<Source, Error> {
     let refuse = |message: String| {
         Error::usage(message, "give the path of a scene; `shadowstep scene kepler > scene.toml` writes one")
     };
-    match fs::read_to_string(path) {
+    match read_text(path, LARGEST_SCENE) {
         Ok(text) if text.trim().is_empty() => Err(refuse(format!("{shown} is empty"))),
         Ok(text) => Ok(Source { path: shown, text }),
         Err(error) if error.kind() == ErrorKind::NotFound => Err(refuse(format!("there is no file {shown}"))),

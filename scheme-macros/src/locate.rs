@@ -5,6 +5,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
 use shadowstep_schemes::library::beside_or_shipped;
 use shadowstep_schemes::{Source, nearest, shipped, shipped_hint, shipped_names};
 
@@ -62,7 +63,7 @@ impl Locator {
         if !path.is_file() {
             return Ok(None);
         }
-        let text = fs::read_to_string(path).map_err(|e| format!("{} cannot be read: {e}", path.display()))?;
+        let text = read_text(path, LARGEST_TABLE).map_err(|e| format!("{} cannot be read: {e}", path.display()))?;
         self.files.borrow_mut().push(path.to_path_buf());
         Ok(Some(Source { path: name.to_owned(), text }))
     }

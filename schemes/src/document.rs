@@ -2,6 +2,7 @@
 //!
 //! | file | what it has |
 //! | --- | --- |
+//! | `file` | a file → its text, up to a stated size |
 //! | `fault` | a text with its name, and what is wrong at a place of it |
 //! | `value` | values with their places: a text, a list, a number as it is written |
 //! | `keys` | the keys that a table may have |
@@ -41,11 +42,13 @@
 //! ```
 
 mod fault;
+mod file;
 mod keys;
 mod reader;
 mod value;
 
 pub use fault::{Fault, Faults, Source};
+pub use file::{LARGEST_TABLE, read_text};
 pub use keys::{Key, Keys};
 pub use reader::{Reader, Section, document};
 pub use value::{Placed, Text, Value};

@@ -17,16 +17,13 @@ use crate::map::{merged, stages_of};
 use crate::parse;
 use crate::scheme::{ExactScheme, Held};
 use crate::shipped::shipped_hint;
-use crate::table::{Cell, Table, Weights};
+use crate::table::{Cell, MOST_STAGES, Table, Weights};
 
 /// Digits to which an irrational constant is rounded.
 pub const DIGITS: u32 = 300;
 
 /// The largest weight that is accepted; a larger one is surely a mistake.
 const LARGEST_WEIGHT: u32 = 1000;
-
-/// The most stages a table may have, compositions written out.
-const MOST_STAGES: usize = 2000;
 
 /// The most stages of a composition before neighbours are merged: what is refused must not be written out first.
 const MOST_UNMERGED: usize = 10 * MOST_STAGES;
@@ -78,7 +75,7 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
 }
 
 fn too_long(table: &Table, stages: usize) -> Fault {
-    let message = format!("{stages} stages are an absurd size");
+    let message = format!("{stages} stages are too many");
     table.source.fault(&table.name.at, message).hint(format!("at most {MOST_STAGES} are allowed"))
 }
 
@@ -105,7 +102,7 @@ fn base_scheme(
     chain.push(source.path.clone());
     if chain.len() > MOST_NESTED {
         let help = "write the stages out, or compose them in fewer tables";
-        return fault(format!("{} compositions within each other are an absurd size", chain.len()), help.into());
+        return fault(format!("{} compositions within each other are too many", chain.len()), help.into());
     }
     if chain.contains(&found.path) {
         let help = "a composition must end at a table with [stages]";

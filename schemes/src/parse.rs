@@ -7,7 +7,7 @@ use crate::claims::{HIGHEST_NEAR_INTEGRABLE_ORDER, HIGHEST_ORDER, Kinetic, NearI
 use crate::document::{Fault, Key, Keys, Placed, Reader, Section, Source, Text, Value, document};
 use crate::map::MapKind;
 use crate::spelling::spelling;
-use crate::table::{Cell, Table, Weights};
+use crate::table::{Cell, MOST_STAGES, Table, Weights};
 
 const TABLE: [Key; 15] = [
     Key::new("name", "\"yoshida4\""),
@@ -33,6 +33,9 @@ const COMPOSITION: [Key; 2] =
     [Key::new("base", "\"stormer-verlet\""), Key::new("gamma", "[\"g1\", \"1 - 2*g1\", \"g1\"]")];
 
 const CELL_EXAMPLES: &str = "1, 0.25 or an expression in quotes, \"1/(2 - 2^(1/3))\"";
+
+/// The most names in a list.
+const MOST_NAMES: usize = 200;
 
 /// Reads a table's text and all its faults: of the TOML, unknown or missing or repeated keys, values of the wrong kind.
 ///
@@ -121,7 +124,8 @@ fn list<T>(
     what: &str,
     read: impl FnMut(&mut Reader<'_>, &Value<'_>) -> Option<T>,
 ) -> Vec<T> {
-    root.get(key).map_or_else(Vec::new, |value| reader.readable_members(value, what, read))
+    let value = root.get(key).filter(|value| reader.has_at_most(value, MOST_NAMES, "names"));
+    value.map_or_else(Vec::new, |value| reader.readable_members(value, what, read))
 }
 
 fn near_integrable(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Option<NearIntegrable> {
@@ -134,6 +138,10 @@ fn near_integrable(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Option<Ne
         }
         return None;
     };
+    // words of n letters have at most n B's
+    if !reader.has_at_most(value, HIGHEST_NEAR_INTEGRABLE_ORDER as usize, "orders") {
+        return None;
+    }
     let order = |reader: &mut Reader<'_>, v: &Value<'_>| reader.whole(v, 1..=HIGHEST_NEAR_INTEGRABLE_ORDER, "an order");
     let orders = reader.readable_members(value, "a list of orders, such as [8, 2]", order);
     for pair in orders.windows(2).filter(|pair| pair[0].value < pair[1].value) {
@@ -160,6 +168,9 @@ fn constants(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Vec<(Placed<Str
         return Vec::new();
     };
     let mut constants = Vec::new();
+    if !reader.has_at_most(value, MOST_STAGES, "constants") {
+        return constants;
+    }
     for (key, value) in table {
         let name = Placed { value: key.get_ref().to_string(), at: key.span() };
         if !is_constant_name(&name.value) {
@@ -228,6 +239,9 @@ fn stages(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<Weights>
 }
 
 fn cells(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Placed<Vec<Cell>>> {
+    if !reader.has_at_most(value, MOST_STAGES, "weights") {
+        return None;
+    }
     reader.list(value, "a list of weights, such as [\"1/2\", \"1/2\"]", cell)
 }
 

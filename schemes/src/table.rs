@@ -5,6 +5,9 @@
 use crate::claims::{Kinetic, NearIntegrable};
 use crate::document::{Placed, Source};
 
+/// The most stages a table may have, compositions written out.
+pub(crate) const MOST_STAGES: usize = 2000;
+
 /// A cell: the text of an exact expression.
 pub type Cell = Placed<String>;
 

@@ -356,28 +356,30 @@ mine.toml:10:1: stages and a composition are both given
     );
 }
 
+/// Refused before any cell is computed, with the limit.
 #[test]
-fn an_absurd_number_of_stages() {
-    let gamma = vec!["\"1/5000\""; 5000].join(", ");
-    assert_refused(
-        &format!(
-            r#"name = "mine"
-order = 2
-kinetic = "any"
-reference = "none"
-
-[composition]
-base = "stormer-verlet"
-gamma = [{gamma}]
-"#
+fn lists_that_are_too_long() {
+    let head = "name = \"mine\"\norder = 2\nkinetic = \"any\"\nreference = \"none\"\n";
+    let list = |member: &str, count: usize| vec![member; count].join(", ");
+    let verlet = "[stages]\nkick = [0.5, 0.5]\ndrift = [1, 0]\n";
+    let roots = list("\"sqrt(2)\"", 5000);
+    let constants: String = (0..2001).map(|i| format!("a{i} = \"sqrt(2)\"\n")).collect();
+    for (lines, place, what, most) in [
+        (
+            format!("[composition]\nbase = \"stormer-verlet\"\ngamma = [{}]\n", list("\"1/5000\"", 5000)),
+            "7:9",
+            "5000 weights",
+            2000,
         ),
-        r#"
-mine.toml:1:8: 5001 stages are an absurd size
-  1 | name = "mine"
-    |        ^^^^^^
-  hint: at most 2000 are allowed
-"#,
-    );
+        (format!("[stages]\nkick = [{roots}]\ndrift = [{roots}]\n"), "6:8", "5000 weights", 2000),
+        (format!("near_integrable = [{}]\n{verlet}", list("2", 100_000)), "5:19", "100000 orders", 12),
+        (format!("aliases = [{}]\n{verlet}", list("\"a\"", 100_000)), "5:11", "100000 names", 200),
+        (format!("[constants]\n{constants}{verlet}"), "5:1", "2001 constants", 2000),
+    ] {
+        let faults = judge(&format!("{head}{lines}")).unwrap_err().to_string();
+        assert!(faults.starts_with(&format!("mine.toml:{place}: {what} are too many\n")), "{faults}");
+        assert!(faults.contains(&format!("hint: at most {most} are allowed")), "{faults}");
+    }
 }
 
 /// Places are counted in characters, not bytes: the letters before the fault are two bytes each.
@@ -570,11 +572,11 @@ fn a_composition_of_absurd_size() {
     let table = format!(
         "name = \"mine\"\norder = 1\nkinetic = \"any\"\nreference = \"none\"\n\n\
          [composition]\nbase = \"base\"\ngamma = [{}]\n",
-        ones(20_000)
+        ones(2000)
     );
     let source = |path: &str, text: &str| Source { path: path.to_owned(), text: text.to_owned() };
     let faults = read(&source("mine.toml", &table), &|_, _| Some(source("base.toml", &base))).unwrap_err().to_string();
-    assert!(faults.starts_with("mine.toml:1:8: 40000000 stages are an absurd size"), "{faults}");
+    assert!(faults.starts_with("mine.toml:1:8: 4000000 stages are too many"), "{faults}");
     assert!(faults.ends_with("hint: at most 2000 are allowed"), "{faults}");
 }
 

@@ -242,6 +242,20 @@ impl Reader<'_> {
         self.members(value, what, read).into_iter().flat_map(|members| members.value).flatten().collect()
     }
 
+    /// Whether a list has at most this many members; adds the fault of one that has more, of which none is read. `what` is
+    /// what they are: `weights`.
+    pub fn has_at_most(&mut self, value: &Value<'_>, most: usize, what: &str) -> bool {
+        let count = match value.get_ref() {
+            DeValue::Array(array) => array.len(),
+            DeValue::Table(table) => table.len(),
+            _ => 0,
+        };
+        if count > most {
+            self.fault(&value.span(), format!("{count} {what} are too many"), format!("at most {most} are allowed"));
+        }
+        count <= most
+    }
+
     fn members<T>(
         &mut self,
         value: &Value<'_>,

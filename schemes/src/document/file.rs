@@ -1,0 +1,47 @@
+//! The text of a file, up to a stated size: a path may lead to an endless device.
+
+use std::fs::File;
+use std::io::{Error, ErrorKind, Read, Result};
+use std::path::Path;
+
+/// The most bytes of a table.
+pub const LARGEST_TABLE: u64 = 1 << 20;
+
+/// Reads a text of at most `most` bytes in UTF-8.
+///
+/// # Errors
+/// Those of the file system; `FileTooLarge` for a longer file, of which no more is read; `InvalidData` for a file that is not
+/// in UTF-8.
+///
+/// ```
+/// use shadowstep_schemes::document::read_text;
+///
+/// let error = read_text(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"), 10).unwrap_err();
+/// assert_eq!(error.to_string(), "it is longer than 10 bytes");
+/// ```
+pub fn read_text(path: impl AsRef<Path>, most: u64) -> Result<String> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        return Err(Error::new(ErrorKind::FileTooLarge, format!("it is longer than {}", size(most))));
+    }
+    String::from_utf8(bytes).map_err(|error| Error::new(ErrorKind::InvalidData, error))
+}
+
+fn size(bytes: u64) -> String {
+    match bytes {
+        bytes if bytes.is_multiple_of(1 << 20) => format!("{} MiB", bytes >> 20),
+        bytes => format!("{bytes} bytes"),
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_endless_device_is_read_to_the_limit_only() {
+        let error = read_text("/dev/zero", LARGEST_TABLE).unwrap_err();
+        assert_eq!((error.kind(), error.to_string().as_str()), (ErrorKind::FileTooLarge, "it is longer than 1 MiB"));
+    }
+}
