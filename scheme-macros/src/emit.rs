@@ -199,7 +199,7 @@ fn documentation(proved: &Proved) -> Vec<String> {
             products = cost.products_per_dimension,
             beta = cost.products_for_beta
         ),
-        format!(" - Reference: {}{doi}.", table.reference),
+        format!(" - Reference: {}{doi}.", table.reference.as_deref().unwrap_or("none")),
     ]
 }
 

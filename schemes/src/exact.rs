@@ -6,9 +6,11 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use num_traits::{Signed, Zero};
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Signed, Zero};
 use shadowstep_symbolic::decimal::to_significant;
-use shadowstep_symbolic::{Exact, Rational, evaluate, parse as formula};
+use shadowstep_symbolic::{Budget, Exact, Rational, evaluate, evaluate_within, parse as formula};
 
 use crate::document::Placed;
 use crate::document::{Fault, Source};
@@ -25,6 +27,12 @@ pub const DIGITS: u32 = 300;
 /// The largest weight that is accepted; a larger one is surely a mistake.
 const LARGEST_WEIGHT: u32 = 1000;
 
+/// The most bits of a weight's numerator or denominator: 1500 digits.
+const LONGEST_WEIGHT: u64 = 5000;
+
+/// The most bits of the common denominator of exact weights, with which their conditions are proved.
+const LONGEST_DENOMINATOR: u64 = 20_000;
+
 /// The most stages of a composition before neighbours are merged: what is refused must not be written out first.
 const MOST_UNMERGED: usize = 10 * MOST_STAGES;
 
@@ -40,7 +48,8 @@ pub fn scheme(source: &Source, library: Library<'_>) -> (Option<ExactScheme>, Ve
 fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Option<ExactScheme>, Vec<Fault>) {
     let (table, mut faults) = parse::table(source);
     let Some(table) = table else { return (None, faults) };
-    let mut cells = Cells { table: &table, known: BTreeMap::new(), rounded: false, faults: Vec::new() };
+    let mut cells =
+        Cells { table: &table, known: BTreeMap::new(), rounded: false, budget: Budget::default(), faults: Vec::new() };
     cells.constants();
     cells.free();
     let weights = match &table.weights {
@@ -67,11 +76,28 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
     if let Some((kick, ..)) = weights.as_ref().filter(|(kick, ..)| kick.len() > MOST_STAGES) {
         cells.faults.push(too_long(&table, kick.len()));
     }
+    if let Some((kick, drift, Held::Exactly, _)) = &weights
+        && cells.faults.is_empty()
+        && !have_short_denominator(kick.iter().chain(drift))
+    {
+        let digits = LONGEST_DENOMINATOR * 3 / 10;
+        let message = format!("the common denominator of the weights has more than {digits} digits");
+        let hint = "round the weights, and write `digits = …`";
+        cells.faults.push(table.source.fault(&table.name.at, message).hint(hint));
+    }
     let good = cells.faults.is_empty();
     faults.extend(cells.faults);
     let scheme =
         weights.filter(|_| good).map(|(kick, drift, held, base)| ExactScheme { table, kick, drift, held, base });
     (scheme, faults)
+}
+
+fn have_short_denominator<'a>(mut weights: impl Iterator<Item = &'a Rational>) -> bool {
+    let mut denominator = BigInt::one();
+    weights.all(|weight| {
+        denominator = denominator.lcm(weight.denom());
+        denominator.bits() <= LONGEST_DENOMINATOR
+    })
 }
 
 fn too_long(table: &Table, stages: usize) -> Fault {
@@ -121,6 +147,7 @@ struct Cells<'a> {
     table: &'a Table,
     known: BTreeMap<String, Exact>,
     rounded: bool,
+    budget: Budget,
     faults: Vec<Fault>,
 }
 
@@ -169,12 +196,20 @@ impl Cells<'_> {
                 let help = format!("weights are fractions of a step, at most {LARGEST_WEIGHT}");
                 self.faults.push(self.table.source.fault(&cell.at, message).hint(help));
             }
+            if value.numer().bits().max(value.denom().bits()) > LONGEST_WEIGHT {
+                let message = format!("a weight has more than {} digits", LONGEST_WEIGHT * 3 / 10);
+                self.faults.push(self.table.source.fault(&cell.at, message).hint("round it, and write `digits = …`"));
+            }
             value
         };
         cells.iter().map(weight).collect()
     }
 
     fn cell(&mut self, cell: &Cell) -> Option<Exact> {
+        // the cell that took the rest has its fault
+        if self.budget.is_spent() {
+            return None;
+        }
         let place = |range: &Range<usize>| cell.at.start + range.start..cell.at.start + range.end;
         let expression = match formula(&cell.value) {
             Ok(expression) => expression,
@@ -183,7 +218,7 @@ impl Cells<'_> {
                 return None;
             }
         };
-        match evaluate(&expression, &self.known, DIGITS) {
+        match evaluate_within(&expression, &self.known, DIGITS, &self.budget) {
             Ok(value) => Some(value),
             Err(error) => {
                 let at = place(&error.range);

@@ -56,7 +56,7 @@ fn read(reader: &mut Reader<'_>, document: &DeTable<'_>) -> Table {
     let kinetic = reader.required(root, "kinetic").and_then(|v| {
         reader.word(v, &[("any", Kinetic::Any), ("quadratic", Kinetic::Quadratic)]).map(|kinetic| kinetic.value)
     });
-    let reference = reader.required(root, "reference").and_then(|v| trimmed(reader, v));
+    let reference = root.get("reference").and_then(|v| trimmed(reader, v));
     let title = root.get("title").and_then(|v| trimmed(reader, v));
     let aliases = aliases(reader, root, name.as_ref());
     let near_integrable = near_integrable(reader, root);
@@ -76,7 +76,7 @@ fn read(reader: &mut Reader<'_>, document: &DeTable<'_>) -> Table {
         near_integrable,
         symmetric,
         digits,
-        reference: reference.map_or(String::new(), |r| r.value),
+        reference: reference.map(|r| r.value),
         doi: doi.map(|d| d.value),
         constants,
         free,

@@ -10,7 +10,7 @@ use std::ops::Range;
 use num_bigint::BigInt;
 use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
 use shadowstep_symbolic::decimal::from_text;
-use shadowstep_symbolic::{Exact, Expression, Kind, Rational, evaluate, parse};
+use shadowstep_symbolic::{Budget, Exact, Expression, Kind, Rational, evaluate_within, parse};
 
 use crate::document::Source;
 use crate::map::MapKind;
@@ -178,13 +178,22 @@ struct Cells<'a> {
     first: usize,
     exact: BTreeMap<String, Exact>,
     sloped: BTreeMap<String, Sloped>,
+    budget: Budget,
 }
 
 impl Cells<'_> {
     fn of<'a>(table: &'a Table, decimals: &'a mut Vec<Decimal>) -> Cells<'a> {
         let digits = table.digits.as_ref().map(|digits| digits.value);
         let first = decimals.len();
-        Cells { table, digits, decimals, first, exact: BTreeMap::new(), sloped: BTreeMap::new() }
+        Cells {
+            table,
+            digits,
+            decimals,
+            first,
+            exact: BTreeMap::new(),
+            sloped: BTreeMap::new(),
+            budget: Budget::default(),
+        }
     }
 
     /// The values of a list of cells, after those of the constants.
@@ -206,7 +215,7 @@ impl Cells<'_> {
 
     fn cell(&mut self, name: &str, cell: &Cell, moves: bool) -> Option<(Exact, Sloped)> {
         let expression = parse(&cell.value).ok()?;
-        let exact = evaluate(&expression, &self.exact, DIGITS).ok()?;
+        let exact = evaluate_within(&expression, &self.exact, DIGITS, &self.budget).ok()?;
         let mut sloped = Sloped::constant(exact.value.to_f64()?);
         for input in inputs(&expression) {
             let own = match &input {
@@ -253,9 +262,11 @@ impl Cells<'_> {
             Input::Name(name) => {
                 let mut names = self.exact.clone();
                 names.get_mut(name)?.value += &step;
-                evaluate(expression, &names, DIGITS)
+                evaluate_within(expression, &names, DIGITS, &self.budget)
             }
-            Input::Literal(range) => evaluate(&with_moved(expression, range, &step), &self.exact, DIGITS),
+            Input::Literal(range) => {
+                evaluate_within(&with_moved(expression, range, &step), &self.exact, DIGITS, &self.budget)
+            }
         };
         ((moved.ok()?.value - &at.value) / step).to_f64()
     }

@@ -32,8 +32,8 @@ pub struct Table {
     pub symmetric: Option<Placed<bool>>,
     /// How many digits of the cells are right, where they were rounded.
     pub digits: Option<Placed<u32>>,
-    /// Who published it where.
-    pub reference: String,
+    /// Who published it where; `None` for an unpublished table.
+    pub reference: Option<String>,
     /// Digital object identifier, without the resolver.
     pub doi: Option<String>,
     /// Named constants in the order of the text.

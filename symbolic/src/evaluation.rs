@@ -4,6 +4,7 @@
 //! ends of the whole formula's interval round to the same decimal, that is the value; if not, the formula is computed
 //! again with twice the digits.
 
+pub(crate) mod budget;
 mod domain;
 mod evaluator;
 pub(crate) mod value;
@@ -13,6 +14,7 @@ use std::collections::BTreeMap;
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
+use crate::evaluation::budget::Budget;
 use crate::evaluation::domain::Attempt;
 use crate::evaluation::evaluator::Evaluator;
 use crate::evaluation::value::{AttemptError, Exact, Value};
@@ -49,13 +51,27 @@ const ATTEMPTS: u32 = 4;
 /// # Errors
 /// A [`SemanticError`] for an unknown name or function, a division by zero, `0^0`, an even root
 /// of a negative number, a function outside its domain, an exponent that is not an exact rational,
-/// and for numbers that are too large, too small or too near to each other to compute with.
+/// and for numbers that are too large, too small or too near to each other to compute with, or that take longer than a
+/// [`Budget`] of their own.
 pub fn evaluate(expression: &Expression, names: &BTreeMap<String, Exact>, digits: u32) -> Result<Exact, SemanticError> {
+    evaluate_within(expression, names, digits, &Budget::default())
+}
+
+/// Computes an expression as [`evaluate`] does, within a budget that it shares with others.
+///
+/// # Errors
+/// As [`evaluate`].
+pub fn evaluate_within(
+    expression: &Expression,
+    names: &BTreeMap<String, Exact>,
+    digits: u32,
+    budget: &Budget,
+) -> Result<Exact, SemanticError> {
     let digits = digits.clamp(1, MOST_DIGITS);
     for attempt in 0..ATTEMPTS {
         let last = attempt + 1 == ATTEMPTS;
         let attempt = Attempt { digits: (digits + GUARD_DIGITS) << attempt, last };
-        match (Evaluator { names, attempt }).value(expression) {
+        match (Evaluator { names, attempt, budget }).value(expression) {
             Ok(Value::Exact(exact)) => return Ok(exact),
             Ok(Value::Enclosed(interval)) => {
                 if let Some(value) = settled(&interval, digits, last) {

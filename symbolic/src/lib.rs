@@ -53,6 +53,7 @@
 //! | `text/token`, `text/syntax` | text → tokens → syntax tree |
 //! | `text/names` | the names in a formula: functions, π, unknown names |
 //! | `evaluation` | **syntax tree → value** |
+//! | `evaluation/budget` | how much computing formulas may take |
 //! | `evaluation/value` | exact or enclosed values |
 //! | `evaluation/domain` | the domains of roots, quotients and functions |
 //! | `evaluation/evaluator` | one computation with a given number of digits |
@@ -75,7 +76,7 @@ mod text;
 
 use std::collections::BTreeMap;
 
-pub use evaluation::{evaluate, value::Exact};
+pub use evaluation::{budget::Budget, evaluate, evaluate_within, value::Exact};
 pub use graph::pair::{Separation, is_symmetric};
 pub use graph::{Form, Graph, Node};
 pub use number::fraction::Fraction;

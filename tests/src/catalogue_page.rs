@@ -157,7 +157,7 @@ fn stable(stability: &Stability) -> String {
 
 fn reference(table: &Table) -> String {
     let doi = table.doi.as_ref().map(|doi| format!(", [doi:{doi}](https://doi.org/{doi})"));
-    format!("{}{}", table.reference, doi.unwrap_or_default())
+    format!("{}{}", table.reference.as_deref().expect("shipped tables are published"), doi.unwrap_or_default())
 }
 
 /// The weights as the table has them.

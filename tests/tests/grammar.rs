@@ -29,10 +29,6 @@ mine.toml:1:1: unknown key `nam`
   1 | nam = "Mine"
     | ^^^
   hint: did you mean `name`?
-mine.toml:1:1: the key `reference` is missing
-  1 | nam = "Mine"
-    | ^
-  hint: add `reference = "H. Yoshida, Phys. Lett. A 150 (1990) 262-268"`
 mine.toml:2:9: 40 is out of range
   2 | order = 40
     |         ^^
@@ -297,10 +293,6 @@ mine.toml:1:1: the key `kinetic` is missing
   1 | 
     | ^
   hint: add `kinetic = "any"`
-mine.toml:1:1: the key `reference` is missing
-  1 | 
-    | ^
-  hint: add `reference = "H. Yoshida, Phys. Lett. A 150 (1990) 262-268"`
 mine.toml:1:1: the weights are missing
   1 | 
     | ^
@@ -379,6 +371,23 @@ fn lists_that_are_too_long() {
         let faults = judge(&format!("{head}{lines}")).unwrap_err().to_string();
         assert!(faults.starts_with(&format!("mine.toml:{place}: {what} are too many\n")), "{faults}");
         assert!(faults.contains(&format!("hint: at most {most} are allowed")), "{faults}");
+    }
+}
+
+/// Numbers that would take minutes to compute with.
+#[test]
+fn numbers_that_are_too_long() {
+    let head = "name = \"mine\"\norder = 1\nkinetic = \"any\"\n\n[stages]\n";
+    let fractions =
+        |count: usize| (0..count).map(|i| format!("\"1/{}^490\"", 1009 + 2 * i)).collect::<Vec<_>>().join(", ");
+    for (kick, drift, place, message) in [
+        ("\"1e999999999\"".to_owned(), "1".to_owned(), "6:10", "the exponent of this number is out of range"),
+        ("\"2^999999999\"".to_owned(), "1".to_owned(), "6:10", "a number is too long"),
+        ("\"1/3^5000\"".to_owned(), "1".to_owned(), "6:10", "a weight has more than 1500 digits"),
+        (fractions(5), fractions(5), "1:8", "the common denominator of the weights has more than 6000 digits"),
+    ] {
+        let faults = judge(&format!("{head}kick = [{kick}]\ndrift = [{drift}]\n")).unwrap_err().to_string();
+        assert!(faults.contains(&format!("mine.toml:{place}: {message}")), "{faults}");
     }
 }
 

@@ -84,7 +84,7 @@ struct Record {
     kick: Vec<String>,
     drift: Vec<String>,
     maps: Vec<Map>,
-    reference: String,
+    reference: Option<String>,
     doi: Option<String>,
     table_hash: String,
     notes: Vec<String>,
@@ -253,8 +253,8 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
 }
 
 fn source(table: &Table) -> [(String, String); 2] {
-    let doi = table.doi.as_deref().unwrap_or("none");
-    [("reference".to_owned(), table.reference.clone()), ("doi".to_owned(), doi.to_owned())]
+    let or_none = |text: &Option<String>| text.as_deref().unwrap_or("none").to_owned();
+    [("reference".to_owned(), or_none(&table.reference)), ("doi".to_owned(), or_none(&table.doi))]
 }
 
 fn near_integrable_fact(proved: &Proved) -> String {

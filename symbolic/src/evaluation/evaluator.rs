@@ -6,6 +6,7 @@ use std::ops::Range;
 use num_integer::Integer;
 use num_traits::{Signed, ToPrimitive, Zero};
 
+use crate::evaluation::budget::Budget;
 use crate::evaluation::domain::Attempt;
 use crate::evaluation::value::{AttemptError, Exact, Value, fault};
 use crate::number::elementary::{image, pi};
@@ -21,7 +22,12 @@ use crate::text::syntax::{Expression, Kind, Operation};
 pub(super) struct Evaluator<'a> {
     pub(super) names: &'a BTreeMap<String, Exact>,
     pub(super) attempt: Attempt,
+    pub(super) budget: &'a Budget,
 }
+
+/// What a root, a function and π cost, in operations.
+const ROOT: u64 = 20;
+const FUNCTION: u64 = 100;
 
 impl Evaluator<'_> {
     pub(super) fn value(&self, expression: &Expression) -> Result<Value, AttemptError> {
@@ -40,6 +46,9 @@ impl Evaluator<'_> {
             return Ok(Value::Exact(exact.clone()));
         }
         if name == PI {
+            if !self.budget.take(FUNCTION, u64::from(self.attempt.digits) * 10 / 3) {
+                return Err(SemanticFault::TooMuchWork);
+            }
             return Ok(Value::Enclosed(pi(self.attempt.digits)));
         }
         let known: Vec<&str> = self.names.keys().map(String::as_str).collect();
@@ -60,6 +69,7 @@ impl Evaluator<'_> {
         {
             return Ok(Value::Exact(Exact { value, rounded: *rounded }));
         }
+        self.charge(FUNCTION, &[&value], range)?;
         let digits = self.attempt.digits;
         let interval = self.attempt.in_domain(function, value.interval(), &argument.range)?;
         self.enclosed(image(function, &interval, digits).and_then(|image| image.outward(digits)), range)
@@ -89,7 +99,19 @@ impl Evaluator<'_> {
         }
     }
 
+    /// Takes the cost of some operations on numbers as long as these from the budget.
+    fn charge(&self, operations: u64, values: &[&Value], range: &Range<usize>) -> Result<(), AttemptError> {
+        let enclosed = u64::from(self.attempt.digits) * 10 / 3;
+        let bits = |value: &&Value| match value {
+            Value::Exact(exact) => exact.value.numer().bits().max(exact.value.denom().bits()),
+            Value::Enclosed(_) => enclosed,
+        };
+        let bits = values.iter().map(bits).sum::<u64>() + if operations > 1 { enclosed } else { 0 };
+        if self.budget.take(operations, bits) { Ok(()) } else { Err(fault(SemanticFault::TooMuchWork, range)) }
+    }
+
     fn sum(&self, a: &Value, b: &Value, range: &Range<usize>) -> Result<Value, AttemptError> {
+        self.charge(1, &[a, b], range)?;
         match (a, b) {
             (Value::Exact(a), Value::Exact(b)) => exact(&a.value + &b.value, a.rounded || b.rounded, range),
             _ => self.enclosed(a.interval().add(&b.interval()).outward(self.attempt.digits), range),
@@ -97,6 +119,7 @@ impl Evaluator<'_> {
     }
 
     fn product(&self, a: &Value, b: &Value, range: &Range<usize>) -> Result<Value, AttemptError> {
+        self.charge(1, &[a, b], range)?;
         match (a, b) {
             (Value::Exact(a), Value::Exact(b)) => exact(&a.value * &b.value, a.rounded || b.rounded, range),
             _ => self.enclosed(a.interval().multiply(&b.interval()).outward(self.attempt.digits), range),
@@ -132,6 +155,7 @@ impl Evaluator<'_> {
         if order == 1 {
             return Ok(base);
         }
+        self.charge(ROOT, &[&base], range)?;
         let mut interval = base.interval();
         if order.is_even() {
             interval = self.attempt.not_negative(interval, range)?;

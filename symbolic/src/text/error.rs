@@ -110,6 +110,10 @@ pub enum SemanticFault {
     #[error("a number is too long: it has more than about 30000 digits")]
     TooLong,
 
+    /// In [`evaluate`](crate::evaluate()): the [`Budget`](crate::Budget) of computing time is used up.
+    #[error("this takes too long to compute: its numbers are too long, or there are too many of them")]
+    TooMuchWork,
+
     /// In [`evaluate`](crate::evaluate()): a periodic function of a number that is not known to within 1.
     #[error("the argument of {0} is not known to within 1: it is too large, or its terms almost cancel")]
     ImpreciseArgument(Function),
