@@ -613,3 +613,15 @@ fn sums_off_by_less_than_the_digits_shown() {
     let said = judge(table).unwrap_err().to_string();
     assert!(said.contains("found 1 + 3e-28, needed 1"), "{said}");
 }
+
+/// Fractions and formulas are texts: without quotes the parser stops within them.
+#[test]
+fn a_fraction_without_quotes() {
+    let head = "name = \"mine\"\norder = 1\nkinetic = \"any\"\n\n[stages]\n";
+    for (cells, formula) in
+        [("kick = [1/2, 0.5]", "1/2"), ("kick = [0.5, 2^(1/3)]", "2^(1/3)"), ("kick = 1/20", "1/20")]
+    {
+        let faults = judge(&format!("{head}{cells}\ndrift = [1, 0]\n")).unwrap_err().to_string();
+        assert!(faults.contains(&format!("hint: write fractions and formulas in quotes: \"{formula}\"")), "{faults}");
+    }
+}

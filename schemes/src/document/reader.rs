@@ -32,8 +32,27 @@ fn syntax_fault(source: &Source, error: &Error) -> Fault {
             source.fault(&at, "a bare word is not a value").hint("write numbers in digits and texts in quotes")
         }
         message if is_repeated_key(error) => source.fault(&at, message).hint("keep one of the two"),
-        message => source.fault(&at, message.replace('\n', ", ")),
+        message => {
+            let fault = source.fault(&at, message.replace('\n', ", "));
+            match unquoted_formula(&source.text, at.start) {
+                Some(formula) => fault.hint(format!("write fractions and formulas in quotes: \"{formula}\"")),
+                None => fault,
+            }
+        }
     }
+}
+
+/// A formula such as `1/20` without quotes around a place of the text.
+fn unquoted_formula(text: &str, place: usize) -> Option<&str> {
+    let is_formula = |c: char| c.is_ascii_alphanumeric() || "+-*/^(). _".contains(c);
+    let (before, after) = (text.get(..place)?, text.get(place..)?);
+    let begin = before.rfind(|c| !is_formula(c)).map_or(0, |i| i + 1);
+    let end = after.find(|c| !is_formula(c)).unwrap_or(after.len());
+    let formula = text.get(begin..place + end)?.trim();
+    let is_value = before[..begin].trim_end().ends_with(['=', '[', ',']);
+    let has_operator = formula.contains(['/', '*', '^', '('])
+        && formula.starts_with(|c: char| c.is_ascii_alphanumeric() || "+-.(".contains(c));
+    (is_value && has_operator).then_some(formula)
 }
 
 /// A table of the document with the keys that it may have; an empty one where the document leaves it out.
