@@ -56,7 +56,7 @@ impl Matrix {
         ];
         scenes.extend(["0", "0.3", "0.6", "0.9"].map(kepler));
         scenes.extend(
-            [Cutoff::Smooth, Cutoff::ForceShifted, Cutoff::Shifted, Cutoff::Truncated].map(|kind| fluid(kind, 64)),
+            [Cutoff::Smooth, Cutoff::ForceShifted, Cutoff::Shifted, Cutoff::Truncated].map(|kind| fluid(kind, 32)),
         );
         Matrix {
             scenes,
