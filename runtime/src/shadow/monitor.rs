@@ -7,6 +7,7 @@
 //! | `change`, `trend` | what these say: a permanent change and its uncertainty; constant, random walk or line |
 //! | `statistics` | extremes and sums over the windows |
 //! | `recent` | round-off, turning and consistency, from the newest states of a window |
+//! | `rate` | whether the rate is qᵀU_q − 2U |
 //! | `roughness` | whether the forces are smooth |
 //! | `report`, `verdict`, `text` | the result in numbers, as a verdict, and as text |
 
@@ -14,6 +15,7 @@ mod arithmetic;
 mod blocks;
 mod change;
 mod estimated;
+mod rate;
 mod recent;
 mod report;
 mod roughness;
@@ -30,10 +32,11 @@ pub use verdict::{Advice, Criterion, Missing, Verdict};
 
 use self::blocks::Blocks;
 use self::estimated::Estimated;
+use self::rate::RateCheck;
 use self::recent::Recent;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
-use crate::number::{Number, epsilon};
+use crate::number::Number;
 use crate::run::{Quantity, RunError, State, check_value};
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
@@ -136,8 +139,7 @@ pub struct ShadowEnergy<S: Scheme, N: Number, E> {
     unknown: Increments<N>,
     /// H − H̄
     method: N,
-    /// Windows in which the rate is not qᵀU_q − 2U.
-    wrong_rates: u64,
+    rate: RateCheck<N>,
     /// The first state that was not finite, or whose energy was not.
     not_finite: Option<u64>,
 }
@@ -192,7 +194,7 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
             recent: Recent::new(states, stepper.step_size(), dimension, &context)?,
             unknown: Increments::of_beta(N::zero(&context)),
             method: N::zero(&context),
-            wrong_rates: 0,
+            rate: RateCheck::new(dimension, &context),
             not_finite: None,
             stepper,
         };
@@ -271,7 +273,7 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
         if self.schedule.is_middle(self.n) && !self.schedule.overlaps() {
             // while the gradient is kept from which the energy follows
             system.assign_energies(&mut self.newest.energy, &mut self.newest.kinetic);
-            self.check_rate(system);
+            self.rate.compare(system, &self.newest.energy, self.statistics.windows);
         }
         let begins = self.schedule.begins(self.n);
         let increments = if begins { &self.unknown } else { system.increments() };
@@ -302,27 +304,6 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
         Ok(true)
     }
 
-    /// Compares H from the gradient and the rate with H itself, in some windows.
-    ///
-    /// Both are rounded; a difference of 10⁹ last places of |H| + T is not.
-    fn check_rate<M: System<Number = N>>(&mut self, system: &mut M) {
-        let windows = self.statistics.windows;
-        if windows >= RATES_CHECKED && !windows.is_multiple_of(RATES_CHECKED) {
-            return;
-        }
-        let (q, p) = (system.q().to_vec(), system.p().to_vec());
-        let mut off = system.energy_at(&q, &p);
-        off.subtract(&self.newest.energy);
-        off.make_absolute();
-        let mut largest: N = epsilon(&self.method.context());
-        largest.multiply_integer(1_000_000_000);
-        let mut size = self.newest.energy.clone();
-        size.make_absolute();
-        size.add(&self.newest.kinetic);
-        largest.multiply(&size);
-        self.wrong_rates += u64::from(off > largest);
-    }
-
     fn end_window(&mut self, states: usize) -> Result<(), RunError> {
         let Newest { n, modified, energy, kinetic, .. } = &self.newest;
         check_value(energy, Quantity::Energy, number(*n))?;
@@ -340,9 +321,6 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
         Sample { n: *n, modified: &modified.value, error: has_error.then_some(&modified.error), energy }
     }
 }
-
-/// H is compared with that from the rate in so many windows, and then in one of so many.
-const RATES_CHECKED: u64 = 8;
 
 /// The number of a state as trajectories count them.
 fn number(n: u64) -> i64 {

@@ -147,7 +147,7 @@ impl<N: Number> Recent<N> {
         if states >= STATES {
             self.add_turning();
         }
-        let angle = turning(&self.window).map(|turning| turning.angle);
+        let angle = turning(&self.window, &mut self.x).map(|turning| turning.angle);
         self.roughness.end(angle, &self.square_kick);
     }
 
@@ -226,15 +226,14 @@ impl<N: Number> Recent<N> {
 
     /// `None` where the windows are too short, or nothing moves.
     pub(super) fn turning(&self) -> Option<Turning> {
-        turning(&self.sums)
+        turning(&self.sums, &mut self.x.clone())
     }
 }
 
-fn turning<N: Number>(Sums { squares, products, neighbours }: &Sums<N>) -> Option<Turning> {
-    let ratio = |a: &N| {
-        let mut ratio = a.clone();
-        ratio.divide(squares);
-        ratio.to_f64()
+fn turning<N: Number>(Sums { squares, products, neighbours }: &Sums<N>, quotient: &mut N) -> Option<Turning> {
+    let mut ratio = |a: &N| {
+        quotient.assign_quotient(a, squares);
+        quotient.to_f64()
     };
     let (twice_cosine, rest) = (ratio(products), ratio(neighbours));
     let turning = Turning { angle: (twice_cosine / 2.0).acos(), irregular: (rest - twice_cosine * twice_cosine) / 2.0 };

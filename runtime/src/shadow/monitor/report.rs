@@ -143,7 +143,7 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
             steps_per_turn: turning.map(Turning::steps),
             irregular: turning.map(|turning| turning.irregular),
             mismatches: self.recent.mismatches(),
-            wrong_rates: self.wrong_rates,
+            wrong_rates: self.rate.wrong,
             not_finite: self.not_finite,
             verdict: Verdict::Undecided(Missing::Windows),
         };

@@ -86,8 +86,8 @@ impl<N: Number> Roughness<N> {
         }
         self.windows += 1;
         self.kicks.add(square_kick);
-        for (sum, terms) in self.squares.iter_mut().zip([&spacings.fine, &spacings.coarse]) {
-            sum.add(&terms.mean_square());
+        for (sum, terms) in self.squares.iter_mut().zip([&mut spacings.fine, &mut spacings.coarse]) {
+            sum.add(terms.mean_square());
         }
     }
 
@@ -200,10 +200,9 @@ impl<N: Number> LastTerms<N> {
         self.before.assign(lower.value);
     }
 
-    fn mean_square(&self) -> N {
-        let mut mean = self.squares.clone();
-        mean.divide_integer(i32::try_from(self.count - self.k).expect("a window has few states"));
-        mean
+    fn mean_square(&mut self) -> &N {
+        self.squares.divide_integer(i32::try_from(self.count - self.k).expect("a window has few states"));
+        &self.squares
     }
 }
 
