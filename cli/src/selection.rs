@@ -47,7 +47,7 @@ impl Selection {
             let note = arithmetic.suits(scheme).map_err(|error| {
                 Error::usage(error.to_string(), format!("use --digits {}, or {OTHER_SCHEME}", error.most))
             })?;
-            note.iter().for_each(report::note);
+            scheme.note().iter().chain(&note).for_each(report::note);
         }
         selection.note_ends();
         if !arguments.no_summary {

@@ -3,15 +3,16 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use shadowstep::exact_flow;
 use shadowstep::problems::Problem;
 use shadowstep::tables::{self, Faults, Source, TableScheme, shipped_names};
+use shadowstep::{Scheme, exact_flow};
 use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
 use shadowstep_schemes::{First, shipped, shipped_hint};
 use thiserror::Error;
 
 use crate::error::Error;
+use crate::note::Note;
 
 /// The name of the exact flow in place of a scheme.
 pub const EXACT_FLOW: &str = "exact-flow";
@@ -39,6 +40,17 @@ pub enum LibraryError {
     /// The table has faults.
     #[error(transparent)]
     Faults(#[from] Faults),
+}
+
+impl NamedScheme {
+    /// A remark on a table in a file that has the name of a shipped scheme with other weights.
+    pub fn note(&self) -> Option<Note> {
+        let own = self.scheme.proved();
+        let scheme = self.scheme.summary().name;
+        let shipped = tables::shipped(scheme).filter(|_| self.name != scheme)?;
+        let differs = shipped.proved().scheme.maps() != own.scheme.maps();
+        differs.then(|| Note::NameOfShipped { path: self.name.clone(), scheme: scheme.to_owned() })
+    }
 }
 
 impl From<LibraryError> for Error {

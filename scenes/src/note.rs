@@ -30,6 +30,13 @@ pub enum Note {
         /// The digits to which that order holds.
         digits: u32,
     },
+    /// A table in a file has the name of a shipped scheme with other weights.
+    NameOfShipped {
+        /// The file.
+        path: String,
+        /// The name.
+        scheme: String,
+    },
     /// Steps of this size are beyond the stability limit of the scheme.
     Unstable {
         /// The scheme's name.
@@ -103,6 +110,9 @@ impl fmt::Display for Note {
                     "{scheme} has order {order} to {} only; errors below that have a lower order",
                     digits_of(*digits)
                 )
+            }
+            Note::NameOfShipped { path, scheme } => {
+                write!(f, "the table in {path} is named {scheme} like a shipped scheme, and has other weights")
             }
             Note::Unstable { scheme, limit, h_omega, omega, quadratic } => {
                 let digits = |limit: &String| from_text(limit).map(|limit| format!("{} ", to_significant(&limit, 6)));

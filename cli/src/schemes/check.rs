@@ -10,7 +10,7 @@ use crate::output::Output;
 use crate::report::{self, Status};
 use crate::schemes::facts::{near_integrable, near_integrable_text};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::library;
+use shadowstep_scenes::library::{self, NamedScheme};
 use shadowstep_scenes::readable::digits as in_digits;
 
 const EXAMPLE: &str = "\
@@ -39,7 +39,10 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
             }
         };
         match tables::read(&source, &library::beside_or_shipped, None) {
-            Ok(scheme) => write!(output, "{}", verdict(path, scheme.proved()))?,
+            Ok(scheme) => {
+                write!(output, "{}", verdict(path, scheme.proved()))?;
+                NamedScheme { name: path.clone(), scheme }.note().iter().for_each(report::note);
+            }
             Err(faults) => {
                 writeln!(output, "{faults}")?;
                 status = status.max(Status::NegativeAnswer);

@@ -18,7 +18,7 @@ use shadowstep_schemes::{ExactScheme, First, Kinetic, Proved, to_significant, to
 
 use crate::output::Output;
 use crate::readable::{shortened, table, wrapped};
-use crate::report::Status;
+use crate::report::{self, Status};
 use crate::schemes::analysis;
 use crate::schemes::analysis::{ErrorRecord, Gap, Phase, Sizes};
 use crate::schemes::facts::{aliases, digits, kinetic, near_integrable, near_integrable_text};
@@ -106,7 +106,9 @@ struct Map {
 }
 
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let scheme = library::scheme(&arguments.name)?.scheme;
+    let named = library::scheme(&arguments.name)?;
+    named.note().iter().for_each(report::note);
+    let scheme = named.scheme;
     let analysis = Analysis::of(scheme.proved());
     let mut output = Output::stdout();
     if arguments.json {

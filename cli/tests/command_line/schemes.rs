@@ -270,6 +270,26 @@ fn check_notes_claims_below_the_proved_order() {
 }
 
 #[test]
+fn a_table_with_the_name_of_a_shipped_scheme_is_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let verlet = fs::read_to_string("../schemes/tables/stormer-verlet.toml").unwrap();
+    let other = verlet
+        .replace("kick  = [\"1/2\", \"1/2\"]", "kick  = [0, 1]")
+        .replace("drift = [1, 0]", "drift = [\"1/2\", \"1/2\"]");
+    let (same, other) = (write(folder.path(), "same.toml", &verlet), write(folder.path(), "other.toml", &other));
+    let remark =
+        format!("note: the table in {other} is named stormer-verlet like a shipped scheme, and has other weights");
+    let commands = [format!("schemes check {other}"), format!("schemes show {other}")];
+    for command in commands {
+        let result = shadowstep(&command);
+        assert!(result.code == 0 && result.err.contains(&remark), "{command}: {}", result.err);
+    }
+    assert_eq!(shadowstep(&format!("schemes check {same}")).err, "");
+    let run = format!("trace --problem kepler --step 1/10 --until 1 --double --no-summary --scheme {other}");
+    assert!(shadowstep(&run).err.contains(&remark), "{}", shadowstep(&run).err);
+}
+
+#[test]
 fn check_shows_the_place_of_each_fault() {
     let folder = tempfile::tempdir().unwrap();
     let good = write(folder.path(), "good.toml", GOOD);

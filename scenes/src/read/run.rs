@@ -69,6 +69,7 @@ fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>, general: b
     if general && let Err((message, hint)) = library::check_general(&named) {
         return reader.toml.wrong(&word.at, message, hint);
     }
+    reader.notes.extend(named.note());
     match reader.arithmetic.suits(&named) {
         Ok(note) => {
             reader.notes.extend(note);
