@@ -281,7 +281,7 @@ enum Input {
 
 fn inputs(expression: &Expression) -> Vec<Input> {
     let mut found = Vec::new();
-    visit(expression, &mut |part| {
+    expression.visit(&mut |part| {
         let input = match &part.kind {
             Kind::Name(name) => Input::Name(name.clone()),
             Kind::Number(_) => Input::Literal(part.range.clone()),
@@ -292,19 +292,6 @@ fn inputs(expression: &Expression) -> Vec<Input> {
         }
     });
     found
-}
-
-fn visit(expression: &Expression, look: &mut impl FnMut(&Expression)) {
-    look(expression);
-    match &expression.kind {
-        Kind::Number(_) | Kind::Name(_) => {}
-        Kind::Negate(inner) => visit(inner, look),
-        Kind::Binary(_, left, right) => {
-            visit(left, look);
-            visit(right, look);
-        }
-        Kind::Call { arguments, .. } => arguments.iter().for_each(|argument| visit(argument, look)),
-    }
 }
 
 /// The expression with the literal at a place moved by a step.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use shadowstep_symbolic::{Expression, Kind, parse};
+use shadowstep_symbolic::{Kind, parse};
 
 use shadowstep_schemes::table::{Cell, Table, Weights};
 
@@ -11,7 +11,7 @@ pub(super) fn unused_constants(table: &Table) -> Vec<&str> {
     let mut used = BTreeSet::new();
     let use_names = |cell: &Cell, used: &mut BTreeSet<String>| {
         if let Ok(expression) = parse(&cell.value) {
-            visit(&expression, &mut |part| {
+            expression.visit(&mut |part| {
                 if let Kind::Name(name) = &part.kind {
                     used.insert(name.clone());
                 }
@@ -43,7 +43,7 @@ pub(super) fn cells_with_decimals(table: &Table) -> Vec<String> {
         if let Ok(expression) = parse(&cell.value) {
             let stands_alone = matches!(&expression.kind, Kind::Number(_))
                 || matches!(&expression.kind, Kind::Negate(inner) if matches!(inner.kind, Kind::Number(_)));
-            visit(&expression, &mut |part| {
+            expression.visit(&mut |part| {
                 let digits = |text: &str| text.bytes().filter(u8::is_ascii_digit).skip_while(|&c| c == b'0').count();
                 let text = &cell.value[part.range.clone()];
                 let is_long = text.contains('.') && digits(text) >= SHORTEST_ROUNDED;
@@ -70,18 +70,4 @@ fn weights(table: &Table) -> Vec<(String, &Cell)> {
             cells.value.iter().enumerate().map(move |(i, cell)| (format!("{list}[{}]", i + 1), cell))
         })
         .collect()
-}
-
-/// Calls `look` with an expression and all that it consists of.
-fn visit(expression: &Expression, look: &mut impl FnMut(&Expression)) {
-    look(expression);
-    match &expression.kind {
-        Kind::Number(_) | Kind::Name(_) => {}
-        Kind::Negate(inner) => visit(inner, look),
-        Kind::Binary(_, left, right) => {
-            visit(left, look);
-            visit(right, look);
-        }
-        Kind::Call { arguments, .. } => arguments.iter().for_each(|argument| visit(argument, look)),
-    }
 }

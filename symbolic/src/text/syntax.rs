@@ -309,3 +309,19 @@ fn too_deep(range: Range<usize>) -> SyntaxError {
     let message = format!("nested more than {DEEPEST} levels deep: group a long chain of operators by parentheses");
     SyntaxError { message, range }
 }
+
+impl Expression {
+    /// Calls `look` with this expression and all that it consists of.
+    pub fn visit(&self, look: &mut impl FnMut(&Expression)) {
+        look(self);
+        match &self.kind {
+            Kind::Number(_) | Kind::Name(_) => {}
+            Kind::Negate(inner) => inner.visit(look),
+            Kind::Binary(_, left, right) => {
+                left.visit(look);
+                right.visit(look);
+            }
+            Kind::Call { arguments, .. } => arguments.iter().for_each(|argument| argument.visit(look)),
+        }
+    }
+}
