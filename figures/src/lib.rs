@@ -17,13 +17,12 @@
 //!
 //! | file | what it is |
 //! | --- | --- |
-//! | `reproduction`, `observer` | from a request to the files; how a caller follows it |
+//! | `reproduction` | from a request to the files |
 //! | `figures` | the list of all figures, and one file for each |
 //! | `figure`, `drawing` | a figure of the list; its charts, tables and statements |
 //! | `results` | the results that figures request |
 //! | `calculation`, `run`, `estimator` | the calculations, and the runs and estimators that they are of |
 //! | `measured`, `states`, `escape`, `noise` | what is measured along runs at many digits, and in double precision |
-//! | `tasks` | calculations on all cores; their outcomes stay in a file |
 //! | `fit`, `interval`, `verdict` | lines through points, intervals of confidence, and what they decide |
 //! | `numbers`, `indices` | numbers and subscripts in texts |
 //! | `chart` | curves → SVG |
@@ -43,15 +42,12 @@ mod interval;
 mod measured;
 mod noise;
 mod numbers;
-mod observer;
 mod report;
 mod reproduction;
 mod results;
 mod run;
 mod states;
-mod tasks;
 mod verdict;
 
-pub use observer::{Observer, Progress};
 pub use reproduction::{Request, Summary, names, reproduce};
-pub use shadowstep_scenes::Error;
+pub use shadowstep_tasks::{Error, Observer, Progress};

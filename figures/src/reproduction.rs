@@ -11,8 +11,8 @@ use crate::figure::Figure;
 use crate::figures::FIGURES;
 use crate::report::{Report, Section};
 use crate::results::Results;
-use crate::tasks::Store;
 use crate::{Error, Observer};
+use shadowstep_tasks::Store;
 
 /// Which figures are wanted, and where.
 #[derive(Clone, Debug)]

@@ -17,8 +17,8 @@ use crate::measured::{Drift, Energies, Orbit};
 use crate::noise::{Block, Differences};
 use crate::numbers::{log10, number};
 use crate::run::Run;
-use crate::tasks::{self, Store};
 use crate::{Error, Observer};
+use shadowstep_tasks::{self as tasks, Store};
 
 /// The results of all figures.
 pub(crate) struct Results {

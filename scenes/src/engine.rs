@@ -92,8 +92,8 @@ impl<N: Number + 'static> Work<N> for Recorder<'_, '_, N> {
 
     fn with<S, M>(mut self, stepper: &Stepper<S, N>, system: M) -> Self::Output
     where
-        S: Scheme + Clone + ValidFor<M::Class>,
-        M: System<Number = N>,
+        S: Scheme + Clone + ValidFor<M::Class> + 'static,
+        M: System<Number = N> + 'static,
     {
         match &self.scene.output.modified_energy {
             None => self.plain(stepper, system, self.from.unwrap_or(0)),

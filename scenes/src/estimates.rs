@@ -88,8 +88,8 @@ where
 
     fn with<S, M>(mut self, stepper: &Stepper<S, N>, mut system: M) -> Self::Output
     where
-        S: Scheme + Clone + ValidFor<M::Class>,
-        M: shadowstep::System<Number = N>,
+        S: Scheme + Clone + ValidFor<M::Class> + 'static,
+        M: shadowstep::System<Number = N> + 'static,
     {
         let Estimates { system: described, run, settings, summarised, .. } = self.estimates;
         let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);

@@ -77,7 +77,7 @@
 //! | [`library`] | schemes by their names: shipped ones and files |
 //! | [`estimator`] | estimators of the modified energy with their settings |
 //! | [`run`], [`steps`], [`propagator`] | one run of a scheme or of the exact flow with one step size |
-//! | [`estimates`], `start` | the modified energies along such a run; a system at a state with its stepper |
+//! | [`estimates`], [`start`] | the modified energies along such a run; a system at a state with its stepper |
 //! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
 //! | `watch`, `summary` | what a run shows: the error of H, the modified energy, close encounters, the verdict |
 //! | [`readable`], `error` | numbers and texts for people; what can go wrong |
@@ -103,7 +103,7 @@ pub mod run;
 mod scene;
 mod snapshots;
 pub mod stability;
-mod start;
+pub mod start;
 pub mod steps;
 mod summary;
 mod template;

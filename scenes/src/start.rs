@@ -5,16 +5,16 @@ use shadowstep::{Motion, MotionError, Number, Rational, Scheme, Stepper, System,
 
 use crate::scene::{self, ClassifiedKinetic};
 
-/// What is done with a system, whatever the class of its kinetic energy.
-pub(crate) trait Work<N: Number> {
+/// What is done with a system at a state and a stepper, whatever the class of its kinetic energy.
+pub trait Work<N: Number> {
     /// Its result.
     type Output;
 
     /// Does it.
     fn with<S, M>(self, stepper: &Stepper<S, N>, system: M) -> Self::Output
     where
-        S: Scheme + Clone + ValidFor<M::Class>,
-        M: System<Number = N>;
+        S: Scheme + Clone + ValidFor<M::Class> + 'static,
+        M: System<Number = N> + 'static;
 }
 
 impl scene::System {
@@ -25,7 +25,7 @@ impl scene::System {
     ///
     /// # Panics
     /// If the step size is 0 or the scheme is not valid for T(p), which reading a system and its scheme excludes.
-    pub(crate) fn with<N: Number + 'static, W: Work<N>>(
+    pub fn with<N: Number + 'static, W: Work<N>>(
         &self,
         (scheme, h): (&TableScheme, &Rational),
         (q, p): (Vec<N>, Vec<N>),

@@ -60,7 +60,7 @@ pub(crate) enum ClassifiedKinetic<N> {
 
 impl System {
     /// Positions and momenta at t = 0.
-    pub(crate) fn start<N: Number>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
+    pub fn start<N: Number>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
         let numbers = |values: &[Exact]| values.iter().map(|v| N::from_rational(&v.value, context)).collect();
         (numbers(&self.q), numbers(&self.p))
     }

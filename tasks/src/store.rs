@@ -20,7 +20,7 @@ const NAME: &str = "results.jsonl";
 
 /// Outcomes by the JSON of their tasks.
 #[derive(Debug)]
-pub(crate) struct Store {
+pub struct Store {
     file: File,
     outcomes: HashMap<String, String>,
 }
@@ -41,13 +41,14 @@ impl Store {
     /// Opens `results.jsonl` in a folder, which is created if it does not exist.
     ///
     /// A file of another version of the program is renamed. An incomplete last line, from an interrupted program, is dropped.
-    /// It is an error if another process has the file, or if a line is not an outcome of a task.
-    pub(crate) fn open(folder: &Path, observer: &mut dyn Observer) -> Result<Store, Error> {
+    /// # Errors
+    /// Another process has the file; a line is not an outcome of a task.
+    pub fn open(folder: &Path, observer: &mut dyn Observer) -> Result<Store, Error> {
         Store::open_as(folder, env!("CARGO_PKG_VERSION"), observer)
     }
 
     /// Whether a folder has such a file.
-    pub(crate) fn is_in(folder: &Path) -> bool {
+    pub fn is_in(folder: &Path) -> bool {
         folder.join(NAME).exists()
     }
 

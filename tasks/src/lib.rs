@@ -3,10 +3,12 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | `task` | what tasks are, and how their computation is followed |
+//! | `observer` | how a caller follows it |
 //! | `threads` | groups of tasks on all cores |
 //! | `progress` | how much is done |
 //! | `store` | the file of outcomes |
 
+mod observer;
 mod progress;
 mod store;
 mod task;
@@ -16,18 +18,19 @@ use std::collections::HashMap;
 
 use serde::Serialize;
 
-use crate::{Error, Observer};
-pub(crate) use store::Store;
-pub(crate) use task::{Task, Watcher};
+pub use observer::{Observer, Progress};
+pub use shadowstep_scenes::Error;
+pub use store::Store;
+pub use task::{Task, Watcher};
 use threads::{Group, compute};
 
 /// The outcomes of several tasks.
 #[derive(Debug)]
-pub(crate) struct Outcomes<O> {
+pub struct Outcomes<O> {
     /// In the order of the tasks; `None` if the task failed.
-    pub(crate) outcomes: Vec<Option<O>>,
+    pub outcomes: Vec<Option<O>>,
     /// The failures, each with the place of its task.
-    pub(crate) failures: Vec<(usize, Error)>,
+    pub failures: Vec<(usize, Error)>,
 }
 
 /// Computes the tasks whose outcomes the store lacks, the most expensive first, and returns all outcomes.
@@ -35,7 +38,10 @@ pub(crate) struct Outcomes<O> {
 /// It uses all threads of the current rayon pool: one per core, or the number of `RAYON_NUM_THREADS` or of the caller's pool.
 /// Outcomes are always read back from their JSON, so that they depend neither on the threads nor on earlier calls. A
 /// failed task stops no other; only a store that cannot be written stops all.
-pub(crate) fn run<T: Task>(
+///
+/// # Errors
+/// A store that cannot be written; an observer that stops the computation.
+pub fn run<T: Task>(
     tasks: &[T],
     store: &mut Store,
     observer: &mut dyn Observer,
@@ -82,7 +88,7 @@ fn groups<T: Task>(tasks: &[T], due: &[usize]) -> Vec<Group> {
 }
 
 /// All outcomes if the store has them; nothing is computed.
-pub(crate) fn kept<T: Task>(tasks: &[T], store: &Store) -> Option<Vec<T::Outcome>> {
+pub fn kept<T: Task>(tasks: &[T], store: &Store) -> Option<Vec<T::Outcome>> {
     tasks.iter().map(|task| serde_json::from_str(store.outcome(&key(task).ok()?)?).ok()).collect()
 }
 

@@ -9,7 +9,7 @@ use crate::Error;
 ///
 /// Tasks of different types may share a store only if their JSON differs, as that of an `enum` does. Numbers of more than
 /// 64 bits must be texts.
-pub(crate) trait Task: Serialize + Sync + Sized {
+pub trait Task: Serialize + Sync + Sized {
     /// Floating-point numbers in it must be finite, because JSON has no others.
     type Outcome: Serialize + DeserializeOwned;
 
@@ -26,7 +26,7 @@ pub(crate) trait Task: Serialize + Sync + Sized {
 }
 
 /// Follows the computation of a group.
-pub(crate) trait Watcher<O> {
+pub trait Watcher<O> {
     /// This part of the cost of the group is done, from 0 to 1. Returns whether the computation is to continue.
     fn continues(&self, part: f64) -> bool;
 

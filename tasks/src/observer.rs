@@ -1,8 +1,8 @@
-//! How a caller follows the computation of figures.
+//! How a caller follows the computation.
 
 use crate::Error;
 
-/// Receives what happens while figures are computed; `()` ignores it. Calls come from several threads, one at a time.
+/// Receives what happens while tasks are computed; `()` ignores it. Calls come from several threads, one at a time.
 pub trait Observer: Send {
     /// Some tasks are due, or one of them is done.
     fn progress(&mut self, progress: Progress) {
@@ -19,7 +19,7 @@ pub trait Observer: Send {
         let _ = note;
     }
 
-    /// A calculation failed; the others continue, and its values are missing from the figures.
+    /// A calculation failed; the others continue, and its values are missing from the results.
     fn failed(&mut self, error: &Error) {
         let _ = error;
     }
