@@ -17,6 +17,7 @@ use crate::measured::{Drift, Energies, Orbit};
 use crate::noise::{Block, Differences};
 use crate::numbers::{log10, number};
 use crate::run::Run;
+use crate::verdict::Coverage;
 use crate::{Error, Observer};
 use shadowstep_tasks::{self as tasks, Store};
 
@@ -168,6 +169,11 @@ impl Results {
         let Outcome::Blocks(blocks) = outcome else { unreachable!("blocks were requested") };
         self.using(Used::Blocks(differences, blocks.clone()));
         Some(blocks)
+    }
+
+    /// Which of the values of the full grids are computed.
+    pub(crate) fn coverage(&self) -> Coverage {
+        if self.quick { Coverage::Some } else { Coverage::All }
     }
 
     /// The values of a grid: all, or for a quick figure some of them.

@@ -41,6 +41,38 @@ impl From<bool> for Verdict {
     }
 }
 
+/// Which of the values that a statement is about were computed: all of the grid of a full report, or some of them.
+///
+/// What some of the values cannot decide is not decided, so that no verdict on a coarse grid contradicts the one on the whole grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Coverage {
+    All,
+    Some,
+}
+
+impl Coverage {
+    /// A statement about every value: one value contradicts it, and only all of them confirm it.
+    pub(crate) fn every(self, holds: bool) -> Verdict {
+        self.unless_partial(holds, Verdict::Agrees)
+    }
+
+    /// A statement that there is a value: one confirms it, and only all of them contradict it.
+    pub(crate) fn any(self, holds: bool) -> Verdict {
+        self.unless_partial(holds, Verdict::Differs)
+    }
+
+    /// A statement that some of the values decide neither way.
+    pub(crate) fn only_all(self, verdict: impl Into<Verdict>) -> Verdict {
+        if self == Coverage::All { verdict.into() } else { Verdict::NotDecided }
+    }
+
+    /// The verdict, which is not decided if it is the one that needs all values.
+    fn unless_partial(self, holds: bool, needs_all: Verdict) -> Verdict {
+        let verdict = Verdict::from(holds);
+        if verdict == needs_all { self.only_all(verdict) } else { verdict }
+    }
+}
+
 /// How many verdicts there are of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Counts {
@@ -80,6 +112,26 @@ impl fmt::Display for Counts {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// For every set of four values and each part of it.
+    #[test]
+    fn a_part_of_the_values_never_contradicts_all_of_them() {
+        let holds = |set: u32, part: u32| (0..4).filter(move |n| part >> n & 1 == 1).map(move |n| set >> n & 1 == 1);
+        let [mut decided, whole] = [0, 0b1111];
+        for (set, part) in (0..16).flat_map(|set| (0..16).map(move |part| (set, part))) {
+            let every = |coverage: Coverage, of: u32| coverage.every(holds(set, of).all(|holds| holds));
+            let any = |coverage: Coverage, of: u32| coverage.any(holds(set, of).any(|holds| holds));
+            for (some, all) in [
+                (every(Coverage::Some, part), every(Coverage::All, whole)),
+                (any(Coverage::Some, part), any(Coverage::All, whole)),
+            ] {
+                assert!(all != Verdict::NotDecided && (some == all || some == Verdict::NotDecided), "{set} {part}");
+                decided += u32::from(some == all);
+            }
+        }
+        assert!(decided > 0, "a part can decide");
+        assert_eq!(Coverage::Some.only_all(false), Verdict::NotDecided);
+    }
 
     #[test]
     fn one_difference_is_one_and_nothing_decides_nothing() {

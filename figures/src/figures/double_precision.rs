@@ -6,6 +6,7 @@ use crate::figure::Figure;
 use crate::noise::{Block, Differences};
 use crate::numbers::scientific;
 use crate::results::Results;
+use crate::verdict::Coverage;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "double-precision", title: "The noise floor of double precision", of_paper: "", draw };
@@ -38,33 +39,42 @@ fn draw(results: &Results) -> Drawing {
         (1..3).map(|n| curve(n, &|block| block.wander.abs().log10())).collect(),
         "The effect of the round-off of the steps, which no estimator can remove.",
     );
-    let last = |n: usize| blocks[n].1.last();
-    if let (Some(sums), Some(beta), Some(increments)) = (last(0), last(1), last(2)) {
-        compare(&mut drawing, sums, beta, increments);
-    }
+    let [sums, beta, increments] = &blocks;
+    compare(&mut drawing, &[&sums.1, &beta.1, &increments.1], results.coverage());
     drawing
 }
 
-/// The last blocks, by a running sum of β, by increments of β, and by increments of q, p and β.
-fn compare(drawing: &mut Drawing, sums: &Block, beta: &Block, increments: &Block) {
+/// The blocks by a running sum of β, by increments of β, and by increments of q, p and β; a part of them in a quick report, which is
+/// shorter.
+fn compare(drawing: &mut Drawing, [all_sums, all_beta, all_increments]: &[&Vec<Block>; 3], coverage: Coverage) {
+    let [Some(sums), Some(beta), Some(increments)] = [all_sums.last(), all_beta.last(), all_increments.last()] else {
+        return;
+    };
+    let largest = all_increments.iter().map(|block| block.scatter).fold(0.0, f64::max);
     drawing.check(
         "Increments keep the scatter at apocentre below 2e-15 to the end of the run.",
-        format!("{} after {} steps", scientific(increments.scatter), increments.steps),
-        increments.scatter < 2e-15,
+        format!("at most {} in {} steps", scientific(largest), increments.steps),
+        coverage.every(largest < 2e-15),
     );
     drawing.check(
         "A running sum of β loses digits in proportion to the length of the run.",
         format!(
-            "{}, {:.0} times as much as with increments of β",
+            "{} after {} steps, {:.0} times as much as with increments of β",
             scientific(sums.scatter),
+            sums.steps,
             sums.scatter / beta.scatter
         ),
-        sums.scatter > 100.0 * beta.scatter,
+        coverage.any(sums.scatter > 100.0 * beta.scatter),
     );
     drawing.check(
         "Differences of q and p from increments reduce the scatter a little more.",
-        format!("{} against {}", scientific(increments.scatter), scientific(beta.scatter)),
-        increments.scatter < beta.scatter,
+        format!(
+            "{} against {} after {} steps",
+            scientific(increments.scatter),
+            scientific(beta.scatter),
+            increments.steps
+        ),
+        coverage.every(all_increments.iter().zip(*all_beta).all(|(own, other)| own.scatter < other.scatter)),
     );
     drawing.found(format!(
         "The mean wanders by {} in {} steps: this is the round-off of the states, which does not depend on how differences are taken.",

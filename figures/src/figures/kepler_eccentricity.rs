@@ -9,6 +9,7 @@ use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
+use crate::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "kepler-eccentricity",
@@ -34,7 +35,7 @@ fn draw(results: &Results) -> Drawing {
     let scans: Vec<Scan> = STEPS.iter().filter_map(|&n| Scan::of(results, n)).collect();
     drifts(results, &mut drawing, &scans);
     if !scans.is_empty() {
-        check_escapes(&mut drawing, &scans);
+        check_escapes(&mut drawing, &scans, results.coverage());
         table(&mut drawing, &scans);
         orbits(results, &mut drawing, &scans);
     }
@@ -103,16 +104,36 @@ impl Scan {
         self.found.iter().rev().find(|(_, returns, _)| returns.is_none()).map(|(e, ..)| thousandths(*e))
     }
 
-    /// The range within which the instability begins: from the last e before the first escape, or the first escape
-    /// itself if orbits with larger e stay, to the e from which on all escape.
+    /// The range within which the instability begins: from the last e before the first escape to the e from which on all
+    /// escape.
     fn range(&self) -> Option<(f64, f64)> {
-        let (first, last) = (self.first()?, self.last_bound()?);
-        Some((first.min(last), first.max(last)))
+        let before = |e: f64| self.found.iter().map(|(e, ..)| thousandths(*e)).rfind(|other| *other < e);
+        let after = |e: f64| self.found.iter().map(|(e, ..)| thousandths(*e)).find(|other| *other > e);
+        Some((before(self.first()?)?, after(self.last_bound()?)?))
     }
 
-    /// Whether all orbits beyond the first escape escape.
-    fn is_one_value(&self) -> Option<bool> {
-        Some(self.first()? > self.last_bound()?)
+    /// How the orbits escape within the range.
+    fn described(&self) -> Option<String> {
+        let (low, high) = self.range()?;
+        if self.first()? > self.last_bound()? {
+            let scanned = self.found.len();
+            return Some(format!("of {scanned} orbits none escapes up to e = {low:.3}, and all from {high:.3} on"));
+        }
+        let within = |e: u32| (low..=high).contains(&thousandths(e));
+        let between = self.found.iter().filter(|(e, ..)| within(*e)).count();
+        let escaped = self.escapes().filter(|(e, _)| within(*e)).count();
+        Some(format!("from e = {low:.3} to {high:.3}, {escaped} of {between} orbits escape"))
+    }
+
+    /// Whether all orbits beyond the first escape escape; between the eccentricities of a coarse scan others may stay.
+    fn is_one_value(&self, coverage: Coverage) -> Option<Verdict> {
+        Some(coverage.every(self.first()? > self.last_bound()?))
+    }
+
+    /// Whether all that escape do so on the first way out; `None` without an escape.
+    fn escapes_at_once(&self, coverage: Coverage) -> Option<Verdict> {
+        self.escapes().next()?;
+        Some(coverage.every(self.escapes().all(|(_, returns)| returns == 0)))
     }
 }
 
@@ -120,41 +141,34 @@ fn thousandths(e: u32) -> f64 {
     f64::from(e) / 1000.0
 }
 
-fn check_escapes(drawing: &mut Drawing, scans: &[Scan]) {
+fn check_escapes(drawing: &mut Drawing, scans: &[Scan], coverage: Coverage) {
     let ranges: Vec<_> = scans.iter().filter_map(|scan| Some((scan.n, scan.range()?))).collect();
     let list: Vec<_> = ranges.iter().map(|(n, (low, high))| format!("{low:.3} to {high:.3} at h = 1/{n}")).collect();
-    let apart = ranges.windows(2).all(|pair| pair[0].1.1 < pair[1].1.0);
     drawing.check(
         "An instability occurs at an eccentricity that depends on the step size.",
         format!("it begins at e = {}", list.join(", ")),
-        apart && ranges.len() == scans.len(),
+        depends_on_step(&scans.iter().map(Scan::range).collect::<Vec<_>>()),
     );
     for scan in scans {
-        let Some(is_one) = scan.is_one_value() else { continue };
-        let (low, high) = scan.range().expect("there are escapes");
-        let within = |e: f64| (low..=high).contains(&e);
-        let between = scan.found.iter().filter(|(e, ..)| within(thousandths(*e))).count();
-        let escaped = scan.escapes().filter(|(e, _)| within(thousandths(*e))).count();
-        let found = match is_one {
-            true => {
-                format!("of {} orbits none escapes up to e = {low:.3}, and all from {high:.3} on", scan.found.len())
-            }
-            false => format!("from e = {low:.3} to {high:.3}, {escaped} of {between} orbits escape"),
-        };
-        drawing.check(&format!("h = 1/{}: it is one critical eccentricity.", scan.n), found, is_one);
+        let (Some(verdict), Some(found)) = (scan.is_one_value(coverage), scan.described()) else { continue };
+        drawing.check(&format!("h = 1/{}: it is one critical eccentricity, to within 0.001.", scan.n), found, verdict);
     }
-    topology(drawing, scans);
+    topology(drawing, scans, coverage);
+}
+
+/// Ranges that are apart belong to different eccentricities; those that overlap, or are not known, allow both.
+fn depends_on_step(ranges: &[Option<(f64, f64)>]) -> Verdict {
+    let apart = |pair: &[Option<(f64, f64)>]| pair[0].zip(pair[1]).is_some_and(|(left, right)| left.1 < right.0);
+    if ranges.windows(2).all(apart) { Verdict::Agrees } else { Verdict::NotDecided }
 }
 
 /// A level set that is unbounded from the start is left on the first way out; an escape after a return needs a change of the
 /// modified energy itself.
-fn topology(drawing: &mut Drawing, scans: &[Scan]) {
+fn topology(drawing: &mut Drawing, scans: &[Scan], coverage: Coverage) {
     for scan in scans {
         let (all, late) =
             scan.escapes().fold((0, 0), |(all, late), (_, returns)| (all + 1, late + usize::from(returns > 0)));
-        if all == 0 {
-            continue;
-        }
+        let Some(verdict) = scan.escapes_at_once(coverage) else { continue };
         let critical = critical(1.0 / f64::from(scan.n));
         let others = match late {
             0 => String::new(),
@@ -169,7 +183,7 @@ fn topology(drawing: &mut Drawing, scans: &[Scan]) {
             "h = 1/{}: the trajectories are unbounded since the level sets of the modified energy are.",
             scan.n
         );
-        drawing.check(&statement, found, late == 0);
+        drawing.check(&statement, found, verdict);
     }
     drawing.found(
         "A body has escaped when it is farther than 2, moves outward, and H̄ = H + h² (pᵀU_qq p/12 − |U_q|²/24), the modified energy up to \
@@ -236,14 +250,43 @@ mod tests {
     #[test]
     fn one_critical_value_is_between_the_last_that_stays_and_the_first_escape() {
         let one = scan(&[(600, None), (610, None), (620, Some(0)), (630, Some(0))]);
-        assert_eq!((one.is_one_value(), one.range()), (Some(true), Some((0.61, 0.62))));
+        assert_eq!(one.is_one_value(Coverage::All), Some(Verdict::Agrees));
+        assert_eq!(one.is_one_value(Coverage::Some), Some(Verdict::NotDecided));
+        assert_eq!(one.range(), Some((0.61, 0.62)));
     }
 
     #[test]
     fn escapes_among_orbits_that_stay_are_a_range() {
         let several = scan(&[(600, None), (610, Some(1)), (620, None), (630, None), (640, Some(0))]);
-        assert_eq!((several.is_one_value(), several.range()), (Some(false), Some((0.61, 0.63))));
+        assert_eq!(several.is_one_value(Coverage::Some), Some(Verdict::Differs));
+        assert_eq!(several.range(), Some((0.6, 0.64)));
         let never = scan(&[(600, None)]);
-        assert_eq!((never.is_one_value(), never.range()), (None, None));
+        assert_eq!((never.is_one_value(Coverage::All), never.range()), (None, None));
+    }
+
+    #[test]
+    fn overlapping_ranges_do_not_decide_whether_the_step_matters() {
+        assert_eq!(depends_on_step(&[Some((0.6, 0.62)), Some((0.63, 0.64))]), Verdict::Agrees);
+        assert_eq!(depends_on_step(&[Some((0.6, 0.62)), Some((0.61, 0.64))]), Verdict::NotDecided);
+        assert_eq!(depends_on_step(&[Some((0.6, 0.62)), None]), Verdict::NotDecided);
+    }
+
+    /// Each of six orbits stays, escapes at once or later; a quick report has every second one.
+    #[test]
+    fn a_coarse_scan_never_contradicts_the_fine_one() {
+        let kinds = [None, Some(0), Some(1)];
+        for code in 0..3_u32.pow(6) {
+            let fine: Vec<_> = (0..6).map(|n| (600 + n, kinds[(code / 3_u32.pow(n) % 3) as usize])).collect();
+            let coarse: Vec<_> = fine.iter().copied().step_by(2).collect();
+            let verdicts = |found: &[(u32, Option<u32>)], coverage| {
+                let scan = scan(found);
+                [scan.is_one_value(coverage), scan.escapes_at_once(coverage)]
+            };
+            let both = verdicts(&coarse, Coverage::Some).into_iter().zip(verdicts(&fine, Coverage::All));
+            for (quick, full) in both {
+                let quick = quick.unwrap_or(Verdict::NotDecided);
+                assert!(quick == Verdict::NotDecided || Some(quick) == full, "{fine:?}: {quick:?}, {full:?}");
+            }
+        }
     }
 }

@@ -89,7 +89,7 @@ fn errors_against_m(results: &Results, drawing: &mut Drawing) {
                 power(least),
                 power(*at_last)
             ),
-            *at_last > least + 3.0,
+            results.coverage().any(*at_last > least + 3.0),
         );
     }
     drawing.chart(

@@ -14,7 +14,7 @@ use crate::fit::{DECAY_HEADER, ROUND_OFF, decay, decay_row, logarithms, theory_r
 use crate::numbers::{decimal, power};
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, Run};
-use crate::verdict::Verdict;
+use crate::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "pendulum-bilinear", title: "The pendulum by the bilinear estimator", of_paper: "", draw };
@@ -65,7 +65,7 @@ fn draw(results: &Results) -> Drawing {
         (format!("E_{highest_k}"), highest.as_slice(), control_highest.as_slice()),
     ];
     relative_to_the_flow(&mut drawing, &pairs);
-    own_drift(&mut drawing, &of, &control_highest);
+    own_drift(&mut drawing, &of, &control_highest, results.coverage());
     let checked = Run::of(Problem::Pendulum, SCHEME, "1/10");
     let held = results.digits_held(&checked, &bilinear(40), 200);
     drawing.digits_held("the drift at h = 1/10 by E_40", held);
@@ -105,7 +105,7 @@ fn relative_to_the_flow(drawing: &mut Drawing, pairs: &[Pair<'_>]) {
 }
 
 /// What the two largest k show is the scheme's own drift if k no longer matters, and if the exact flow shows far less.
-fn own_drift(drawing: &mut Drawing, of: &[(u32, Vec<(f64, f64)>)], control: &[(f64, f64)]) {
+fn own_drift(drawing: &mut Drawing, of: &[(u32, Vec<(f64, f64)>)], control: &[(f64, f64)], coverage: Coverage) {
     let [.., (before, lower), (k, highest)] = of else { return };
     let own = |((_, before), (_, now)): (&(f64, f64), &(f64, f64)), exact: f64| {
         (before - now).abs() < 0.1 && now - exact > 1.0
@@ -114,7 +114,7 @@ fn own_drift(drawing: &mut Drawing, of: &[(u32, Vec<(f64, f64)>)], control: &[(f
     let all: Vec<_> = all.map(|((before, now), (_, exact))| (now.0, own((before, now), *exact))).collect();
     let settled: Vec<_> = all.iter().filter(|(_, own)| *own).map(|(n, _)| format!("1/{n}")).collect();
     let verdict = match settled.len() {
-        count if count == all.len() => Verdict::Agrees,
+        count if count == all.len() => coverage.every(true),
         _ => Verdict::NotDecided,
     };
     drawing.check(

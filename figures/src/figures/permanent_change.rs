@@ -9,7 +9,7 @@ use crate::fit::{DECAY_HEADER, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, FORCES, SCHEMES};
-use crate::verdict::Verdict;
+use crate::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "permanent-change", title: "The permanent change of the schemes", of_paper: "", draw };
@@ -93,7 +93,7 @@ fn draw(results: &Results) -> Drawing {
     let per_time = Axis::linear("force evaluations per unit of time");
     drawing.chart("At equal cost", per_time, y(), equal_cost.clone(), "Lower is better.");
     drift_and_change(results, &mut drawing, &equal_steps);
-    rank(&mut drawing, &equal_steps, &equal_cost);
+    rank(&mut drawing, &equal_steps, &equal_cost, results.coverage());
     let shown = |(change, jump)| format!("{} ({})", power(change), power(jump));
     let row = |n: &u32| {
         let cells = SCHEMES.map(|(scheme, _)| change(results, scheme, *n).map_or("not resolved".to_owned(), shown));
@@ -108,7 +108,7 @@ fn draw(results: &Results) -> Drawing {
 }
 
 /// Which schemes change less, at equal step sizes and at equal cost.
-fn rank(drawing: &mut Drawing, equal_steps: &[Curve], equal_cost: &[Curve]) {
+fn rank(drawing: &mut Drawing, equal_steps: &[Curve], equal_cost: &[Curve], coverage: Coverage) {
     let at = |scheme: usize| equal_steps[scheme].points.iter().map(|(_, y)| *y);
     let both = at(0).zip(at(1)).filter(|(verlet, yoshida)| verlet.is_finite() && yoshida.is_finite());
     let (larger, count) =
@@ -124,7 +124,7 @@ fn rank(drawing: &mut Drawing, equal_steps: &[Curve], equal_cost: &[Curve]) {
             others.len(),
             10_f64.powf(most)
         ),
-        of_counts(least, others.len()),
+        of_counts(least, others.len(), coverage),
     );
     drawing.found(format!(
         "Störmer–Verlet changes more than Yoshida 4 at {larger} of {count} step sizes: which of the two changes more depends on the phases of the encounters."
@@ -141,13 +141,14 @@ fn rank(drawing: &mut Drawing, equal_steps: &[Curve], equal_cost: &[Curve]) {
             behind.len(),
             power(behind.iter().copied().fold(f64::NEG_INFINITY, f64::max))
         ),
-        of_counts(least, behind.len()),
+        // changes between the steps of a coarse grid are interpolated over too wide a range
+        coverage.only_all(of_counts(least, behind.len(), coverage)),
     );
 }
 
 /// A statement about several steps, of which one that contradicts it is enough; without any step it is not decided.
-fn of_counts(hold: usize, all: usize) -> Verdict {
-    if all == 0 { Verdict::NotDecided } else { (hold == all).into() }
+fn of_counts(hold: usize, all: usize, coverage: Coverage) -> Verdict {
+    if all == 0 { Verdict::NotDecided } else { coverage.every(hold == all) }
 }
 
 /// Linear interpolation between points in the order of x.
