@@ -90,13 +90,15 @@ impl Chart {
         let other = |point: (f64, f64)| plot.borrow_secondary().plotting_area().map_coordinate(&point);
         let right = (self.second_y.is_some()).then_some((second, &other as &dyn Fn((f64, f64)) -> Pixel));
         minor_ticks(area, x, y, &first, (columns.start, rows.end - 1))?;
-        self.draw_marks(area, (x, y), &first, rows.clone())?;
+        let column = |x: f64| first((x, y.range.0)).0;
+        self.draw_marks(area, x, &column, &rows)?;
         let mut ends = Vec::new();
         for (n, curve) in self.curves.iter().enumerate() {
             let (span, place) = right.filter(|_| curve.side == Side::Second).unwrap_or((y, &first));
             let frame = Frame { x: x.range, y: span.range };
             ends.push(draw_curve(area, curve, n, self.curves.len() > 1, frame, place)?);
         }
+        self.label_marks(area, (x, y), &column, &rows)?;
         // left and bottom are the axes
         let (left, top, end, bottom) = (columns.start, rows.start, columns.end - 1, rows.end - 1);
         area.draw(&PathElement::new([(left, top), (end, top), (end, bottom)], stroke(Ink::Text, 1.0)))?;
@@ -115,25 +117,40 @@ impl Chart {
         above.len() <= below.len()
     }
 
-    /// Vertical lines with their labels one below the other, at the end and on the side where there is room.
-    fn draw_marks(
+    /// The marks within the chart.
+    fn visible_marks(&self, x: &Span) -> Vec<&Mark> {
+        self.marks.iter().filter(|mark| (x.range.0..=x.range.1).contains(&mark.x)).collect()
+    }
+
+    /// Vertical lines, behind the curves.
+    fn draw_marks(&self, area: &Area<'_>, x: &Span, place: &dyn Fn(f64) -> i32, rows: &Range<i32>) -> DrawResult {
+        for mark in self.visible_marks(x) {
+            let column = place(mark.x);
+            area.draw(&PathElement::new([(column, rows.start), (column, rows.end - 1)], stroke(Ink::Leader, 1.2)))?;
+        }
+        Ok(())
+    }
+
+    /// The labels of the marks one below the other, at the end and on the side where there is room, before the curves.
+    fn label_marks(
         &self,
         area: &Area<'_>,
         (x, y): (&Span, &Span),
-        place: &dyn Fn((f64, f64)) -> Pixel,
-        rows: Range<i32>,
+        place: &dyn Fn(f64) -> i32,
+        rows: &Range<i32>,
     ) -> DrawResult {
-        let visible: Vec<_> = self.marks.iter().filter(|mark| (x.range.0..=x.range.1).contains(&mark.x)).collect();
+        let visible = self.visible_marks(x);
         let at_the_top = self.is_emptier_above(&visible, x, y);
         for (n, mark) in visible.into_iter().enumerate() {
-            let column = place((mark.x, 0.0)).0;
-            area.draw(&PathElement::new([(column, rows.start), (column, rows.end - 1)], stroke(Ink::Leader, 1.2)))?;
             let on_the_left = mark.x > f64::midpoint(x.range.0, x.range.1);
             let (side, shift) = if on_the_left { (HPos::Right, -fine(5.0)) } else { (HPos::Left, fine(5.0)) };
             let down = fine(LINE * (n as f64 + 0.6));
             let row = if at_the_top { rows.start + down } else { rows.end - down };
             let style = text(TEXT * 0.9, (side, VPos::Center));
-            area.draw(&Text::new(mark.label.clone(), (column + shift, row), style))?;
+            let halo = TextStyle { color: Ink::Halo.placeholder().to_backend_color(), ..style.clone() };
+            for style in [halo, style] {
+                area.draw(&Text::new(mark.label.clone(), (place(mark.x) + shift, row), style))?;
+            }
         }
         Ok(())
     }

@@ -18,6 +18,8 @@ pub(super) enum Ink {
     Grid,
     /// From a curve to its label.
     Leader,
+    /// Behind a text that lies on lines: the same text, broad and in the colour of the paper.
+    Halo,
     /// A continuous line, or a marker, of a colour.
     Curve(usize),
     /// A dashed line of a colour.
@@ -30,7 +32,7 @@ pub(super) const FINE: f64 = 10.0;
 impl Ink {
     fn all() -> impl Iterator<Item = Ink> {
         let curves = (0..looks::COUNT).flat_map(|index| [Ink::Curve(index), Ink::Dashed(index)]);
-        [Ink::Text, Ink::Grid, Ink::Leader].into_iter().chain(curves)
+        [Ink::Text, Ink::Grid, Ink::Leader, Ink::Halo].into_iter().chain(curves)
     }
 
     /// The placeholder colour until the picture is finished.
@@ -39,6 +41,7 @@ impl Ink {
             Ink::Text => RGBColor(1, 0, 0),
             Ink::Grid => RGBColor(1, 0, 1),
             Ink::Leader => RGBColor(1, 0, 2),
+            Ink::Halo => RGBColor(1, 0, 3),
             Ink::Curve(index) => RGBColor(2, 0, (index % looks::COUNT) as u8),
             Ink::Dashed(index) => RGBColor(2, 1, (index % looks::COUNT) as u8),
         }
@@ -49,6 +52,7 @@ impl Ink {
             Ink::Text => "#000000",
             Ink::Grid => "#DDDDDD",
             Ink::Leader => "#888888",
+            Ink::Halo => "#FFFFFF",
             Ink::Curve(index) | Ink::Dashed(index) => looks::colour(index),
         }
     }
@@ -59,6 +63,7 @@ impl Ink {
             Ink::Text | Ink::Curve(looks::BLACK) | Ink::Dashed(looks::BLACK) => Some("ink"),
             Ink::Curve(looks::BLUE) | Ink::Dashed(looks::BLUE) => Some("blue"),
             Ink::Grid => Some("grid"),
+            Ink::Halo => Some("halo"),
             _ => None,
         }
     }
@@ -67,6 +72,9 @@ impl Ink {
         let mut text = format!("{paint}=\"{}\"", self.colour());
         if let Some(class) = self.class() {
             text += &format!(" class=\"{class}-{paint}\"");
+        }
+        if let Ink::Halo = self {
+            text += &format!(" stroke=\"{}\" stroke-width=\"{}\" aria-hidden=\"true\"", self.colour(), 5.0 * FINE);
         }
         if let Ink::Dashed(index) = self {
             let lengths: Vec<_> =
@@ -140,6 +148,7 @@ svg.chart text { font-family: Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans'
 svg.chart polyline { stroke-linejoin: round; }
 @media screen and (prefers-color-scheme: dark) {
   svg.chart .paper { fill: #16191d; }
+  svg.chart .halo-fill { fill: #16191d; stroke: #16191d; }
   svg.chart .ink-fill { fill: #e8e8e8; }
   svg.chart .ink-stroke { stroke: #e8e8e8; }
   svg.chart .blue-fill { fill: #3c97d6; }

@@ -140,6 +140,18 @@ fn labels_do_not_overlap_with_many_curves_of_one_end() {
     assert!(rows.windows(2).all(|pair| pair[1] - pair[0] >= 190.0), "{rows:?}");
 }
 
+/// A label of a mark is read over curves and lines: it comes after them, on its halo.
+#[test]
+fn labels_of_marks_have_a_halo() {
+    let svg = Chart { marks: vec![Mark::at(20.0, "escape")], ..bumps() }.svg().unwrap();
+    let halo = svg.find("stroke=\"#FFFFFF\"").unwrap();
+    assert_eq!(svg.matches(">escape</text>").count(), 2);
+    // of the curves with 600 points, the pieces of the last one
+    let long = svg.match_indices(" points=\"").filter(|(at, _)| svg[at + 9..].find('"').is_some_and(|end| end > 1000));
+    let last_of_a_curve = long.map(|(at, _)| at).last().unwrap();
+    assert!(last_of_a_curve < halo && halo < svg.find(">escape</text>").unwrap());
+}
+
 /// Values of failed computations; none may cause a panic or an endless loop.
 #[test]
 fn strange_values_are_drawn_or_left_out() {

@@ -113,13 +113,14 @@ impl<N: Number> AllOrders<N> {
         }
     }
 
-    /// ∇^0, ∇^1, … of the newest state. The increments are first differences, of q and p too where they are known.
+    /// ∇^0, ∇^1, … of the newest state, as far as there are states before it. The increments are first differences, of q and p too where
+    /// they are known.
     fn update_table(&mut self, q: &[N], p: &[N], increments: &Increments<N>) {
         std::mem::swap(&mut self.table, &mut self.previous);
         for (entry, value) in self.table[0].iter_mut().zip(q.iter().chain(p)) {
             entry.assign(value);
         }
-        for r in 1..self.table.len() {
+        for r in 1..self.table.len().min(self.pushed + 1) {
             let (lower, upper) = self.table.split_at_mut(r);
             let below = lower[r - 1].iter().zip(&self.previous[r - 1]);
             upper[0].iter_mut().zip(below).for_each(|(own, (this, last))| own.assign_difference(this, last));
@@ -138,10 +139,11 @@ impl<N: Number> AllOrders<N> {
         newest
     }
 
-    /// Term k of the state n is complete when n + k has come.
+    /// Term k of the state n is complete when n + k has come. States with fewer than M before them get no value.
     fn add_terms(&mut self, newest: usize) {
         let size = self.ring.len();
-        for k in 1..=self.largest {
+        let newest_with_value = (self.pushed - 1).saturating_sub(self.largest);
+        for k in 1..=self.largest.min(newest_with_value) {
             let (this, last) = (&self.table[2 * k - 1], &self.previous[2 * k - 1]);
             for ((mean, this), last) in self.mean.iter_mut().zip(this).zip(last) {
                 mean.assign_sum(this, last);

@@ -14,22 +14,33 @@ use crate::system::Increments;
 #[derive(Clone, Debug)]
 pub(super) struct Products<N> {
     window: Window<N>,
-    /// q_i·p − p_i·q + (β − β_i) of each state in the window and the i-th before it, i = 1, 2, …; the state n in place n mod the
-    /// number of states.
-    pairs: Vec<Vec<N>>,
+    /// The number of states in the window.
+    states: usize,
+    /// q_i·p − p_i·q + (β − β_i) of each state in the window and the i-th before it, by i = 1, 2, …, as they are summed: for each i
+    /// one after the other in memory, the state n in place n mod the number of states.
+    pairs: Vec<N>,
+    /// Those of the newest state.
+    of_newest: Vec<N>,
 }
 
 impl<N: Number> Products<N> {
     /// For windows of `states` states, each with `lags` states before it.
     pub(super) fn new(states: usize, lags: usize, dimension: usize, context: &N::Context) -> Self {
         let zero = N::zero(context);
-        Products { window: Window::new(states, dimension, context), pairs: vec![vec![zero; lags]; states] }
+        Products {
+            window: Window::new(states, dimension, context),
+            states,
+            pairs: vec![zero.clone(); lags * states],
+            of_newest: vec![zero; lags],
+        }
     }
 
     pub(super) fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) {
         self.window.push(q, p, increments);
         let newest = self.window.place(0);
-        self.window.pairs(&mut self.pairs[newest]);
+        let count = self.window.pairs(&mut self.of_newest);
+        let of_lags = self.pairs.chunks_exact_mut(self.states);
+        of_lags.zip(&self.of_newest[..count]).for_each(|(of_lag, pair)| of_lag[newest].assign(pair));
     }
 
     /// How many states have come.
@@ -42,9 +53,9 @@ impl<N: Number> Products<N> {
         self.window.state(back)
     }
 
-    /// The product of the state `back` places before the newest with the `lag`-th before it.
-    fn pair(&self, back: usize, lag: usize) -> &N {
-        &self.pairs[self.window.place(back)][lag - 1]
+    /// The products of each state with the `lag`-th before it, by the place of the later one.
+    fn of_lag(&self, lag: usize) -> &[N] {
+        &self.pairs[(lag - 1) * self.states..lag * self.states]
     }
 }
 
@@ -96,8 +107,13 @@ impl<N: Number> Form<N> {
     /// The value from the k + 1 states that end `back` places before the newest one.
     pub(super) fn add_value(&mut self, products: &Products<N>, back: usize) {
         let Point { value, last_term, order } = self.error_estimate.next();
-        sum_up(&self.weights, products, back, &mut self.sum, value);
-        sum_up(&self.last_term, products, back, &mut self.sum, last_term);
+        value.assign_zero();
+        last_term.assign_zero();
+        for lag in 1..=self.weights.len() {
+            let of_term = self.last_term.get(lag - 1).map_or(&[][..], Vec::as_slice);
+            let mut sums = [(&self.weights[lag - 1][..], &mut *value), (of_term, &mut *last_term)];
+            add_row(&mut sums, products, (back, lag, self.weights.len() - lag), &mut self.sum);
+        }
         last_term.make_absolute();
         *order = self.weights.len() as u32;
     }
@@ -142,18 +158,29 @@ fn of_halves<N>(k: u32, weight: impl Fn(usize, usize) -> N) -> Vec<Vec<N>> {
     (1..=k).map(|lag| (0..(k - lag + 1).div_ceil(2)).map(|j| weight(lag, j)).collect()).collect()
 }
 
-/// Σ_ℓ Σ_j w_{j+ℓ,j} (the pair of the states j + ℓ and j), two of them at once; states counted back from `back`.
-fn sum_up<N: Number>(weights: &[Vec<N>], products: &Products<N>, back: usize, sum: &mut N, value: &mut N) {
-    value.assign_zero();
-    for (lag, row) in (1..).zip(weights) {
-        let last = weights.len() - lag;
-        for (j, weight) in row.iter().enumerate() {
-            let [pair, other] = [j, last - j].map(|j| products.pair(back + j, lag));
-            if last - j == j {
+/// Adds Σ_j w_{j+ℓ,j} (the pair of the states j + ℓ and j), j = 0..=last, for each row of weights that is not empty; two pairs at once,
+/// whose sum all rows use. States are counted back from `back`.
+fn add_row<N: Number>(
+    sums: &mut [(&[N], &mut N); 2],
+    products: &Products<N>,
+    (back, lag, last): (usize, usize, usize),
+    sum: &mut N,
+) {
+    let pairs = products.of_lag(lag);
+    let newest = products.window.place(back);
+    // the place of the state j places before
+    let place = |j: usize| if j <= newest { newest - j } else { newest + pairs.len() - j };
+    for j in 0..=last / 2 {
+        let [pair, other] = [j, last - j].map(|j| &pairs[place(j)]);
+        let pair = if last - j == j {
+            pair
+        } else {
+            sum.assign_sum(pair, other);
+            &*sum
+        };
+        for (weights, value) in sums.iter_mut() {
+            if let Some(weight) = weights.get(j) {
                 value.add_product(weight, pair);
-            } else {
-                sum.assign_sum(pair, other);
-                value.add_product(weight, sum);
             }
         }
     }
