@@ -1,14 +1,40 @@
-//! A chart: curves over two or three axes, as an SVG picture.
+//! Charts: curves over two or three axes, as SVG pictures.
+//!
+//! A [`Chart`] has a title, two axes and curves. A curve is recognised by its marker and, beyond the ninth, by its dashes as well as by
+//! its colour; the colours are those of Okabe and Ito, which people with any colour vision can distinguish. Labels stand at the right
+//! ends of the curves, without overlaps. [`Chart::svg`] follows `prefers-color-scheme`; [`Chart::svg_for_print`] has fixed
+//! colours on white.
+//!
+//! Axes are linear, or logarithmic: then the points hold log₁₀ of the values, so that 1e-400 is −400 instead of 0.
+//! [`log10_of`] takes logarithms of plain numbers.
+//!
+//! ```
+//! use shadowstep_figures::chart::{Axis, Chart, Curve, log10_of};
+//!
+//! let verlet = [(1e3, 2.1e-2), (2e3, 5.3e-3), (4e3, 1.3e-3)];
+//! let yoshida = [(3e3, 4.0e-3), (6e3, 2.6e-4), (12e3, 1.6e-5)];
+//! let chart = Chart::new(
+//!     "Kepler, e = 0.6, over [0, 100]",
+//!     Axis::log10("force evaluations"),
+//!     Axis::log10("relative error of H"),
+//!     vec![
+//!         Curve::marked("Störmer–Verlet", log10_of(&verlet, (true, true)), 0),
+//!         Curve::marked("Yoshida 4", log10_of(&yoshida, (true, true)), 1),
+//!     ],
+//! );
+//! assert!(chart.svg()?.starts_with("<svg "));
+//! # Ok::<(), shadowstep_figures::Error>(())
+//! ```
 //!
 //! | file | what it is |
 //! | --- | --- |
-//! | [`draw`] | the picture as a whole: title, axes, curves, labels, notes |
-//! | [`layout`] | what the axes show, and the sizes of all parts |
-//! | [`ticks`] | round numbers and decades on an axis |
-//! | [`clip`] | the visible part of a curve |
-//! | [`labels`] | labels beside the chart, without overlaps |
-//! | [`looks`] | colours, dashes and markers |
-//! | [`ink`] | from the plain colours of plotters to classes that a style sheet can change |
+//! | `draw` | the picture as a whole: title, axes, curves, labels, notes |
+//! | `layout` | what the axes show, and the sizes of all parts |
+//! | `ticks` | round numbers and decades on an axis |
+//! | `clip` | the visible part of a curve |
+//! | `labels` | labels beside the chart, without overlaps |
+//! | `looks` | colours, dashes and markers |
+//! | `ink` | from the plain colours of plotters to classes that a style sheet can change |
 
 mod clip;
 mod draw;
@@ -22,68 +48,84 @@ pub(crate) use ticks::power_of_ten;
 
 /// The content of one picture.
 #[derive(Clone, Debug)]
-pub(crate) struct Chart {
-    pub(crate) title: String,
-    pub(crate) x: Axis,
-    pub(crate) y: Axis,
+pub struct Chart {
+    /// Above the picture; T_{m,m} and E_40 get subscripts, here and in all labels.
+    pub title: String,
+    /// The axis below.
+    pub x: Axis,
+    /// The axis at the left.
+    pub y: Axis,
     /// A second vertical axis, at the right.
-    pub(crate) second_y: Option<Axis>,
+    pub second_y: Option<Axis>,
     /// Values of x that matter.
-    pub(crate) marks: Vec<Mark>,
+    pub marks: Vec<Mark>,
     /// Labelled at their ends, or with a second axis in a legend above the chart.
-    pub(crate) curves: Vec<Curve>,
+    pub curves: Vec<Curve>,
     /// Short remarks below the chart.
-    pub(crate) notes: Vec<String>,
+    pub notes: Vec<String>,
+}
+
+impl Chart {
+    /// A chart without marks, notes, and a second vertical axis.
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis, curves: Vec<Curve>) -> Self {
+        Chart { title: title.into(), x, y, second_y: None, marks: Vec::new(), curves, notes: Vec::new() }
+    }
+}
+
+/// (x, y) with log₁₀ of each coordinate whose axis is logarithmic. A value that is not positive becomes NaN, a missing point.
+pub fn log10_of(points: &[(f64, f64)], (x_is_log, y_is_log): (bool, bool)) -> Vec<(f64, f64)> {
+    let log10 = |value: f64| if value > 0.0 { value.log10() } else { f64::NAN };
+    let of = |value: f64, is_log: bool| if is_log { log10(value) } else { value };
+    points.iter().map(|&(x, y)| (of(x, x_is_log), of(y, y_is_log))).collect()
 }
 
 /// A vertical line with a label.
 #[derive(Clone, Debug)]
-pub(crate) struct Mark {
-    pub(crate) x: f64,
-    pub(crate) label: String,
+pub struct Mark {
+    /// In the values of the axis.
+    pub x: f64,
+    /// Beside the line.
+    pub label: String,
 }
 
 /// An axis along one side.
 #[derive(Clone, Debug)]
-pub(crate) struct Axis {
+pub struct Axis {
     /// The quantity, with its unit.
-    pub(crate) label: String,
-    pub(crate) scale: Scale,
+    pub label: String,
+    /// Linear or logarithmic.
+    pub scale: Scale,
     /// The smallest and the largest value; `None` for those of the curves with a margin.
-    pub(crate) range: Option<(f64, f64)>,
+    pub range: Option<(f64, f64)>,
 }
 
 impl Mark {
-    pub(crate) fn at(x: f64, label: impl Into<String>) -> Self {
+    /// A line at x, in the values of the axis.
+    pub fn at(x: f64, label: impl Into<String>) -> Self {
         Mark { x, label: label.into() }
     }
 }
 
 impl Axis {
     /// An axis with the values themselves.
-    pub(crate) fn linear(label: &str) -> Self {
+    pub fn linear(label: &str) -> Self {
         Axis { label: label.to_owned(), scale: Scale::Linear, range: None }
     }
 
     /// The axis from one value to another.
-    pub(crate) fn over(self, least: f64, most: f64) -> Self {
+    pub fn over(self, least: f64, most: f64) -> Self {
         Axis { range: Some((least, most)), ..self }
     }
 
-    /// The axis of drifts over [0, 100].
-    pub(crate) fn drift() -> Self {
-        Axis::log10("drift of the modified energy over [0, 100]")
-    }
-
     /// An axis with decades, of the logarithms to the base 10.
-    pub(crate) fn log10(label: &str) -> Self {
+    pub fn log10(label: &str) -> Self {
         Axis { label: label.to_owned(), scale: Scale::Log10, range: None }
     }
 }
 
 /// The scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Scale {
+pub enum Scale {
     /// The values themselves.
     Linear,
     /// log₁₀ of the values, so that 1e-400 is −400 instead of 0.
@@ -92,48 +134,59 @@ pub(crate) enum Scale {
 
 /// Points, and how they are shown.
 #[derive(Clone, Debug)]
-pub(crate) struct Curve {
-    pub(crate) label: String,
+pub struct Curve {
+    /// At its right end, or in the legend.
+    pub label: String,
     /// In the order of the line; NaN and infinite values are missing points, which interrupt the line.
-    pub(crate) points: Vec<(f64, f64)>,
-    pub(crate) look: Look,
-    pub(crate) side: Side,
-    /// The number of its colour, markers, and dashes, which repeat after the ninth.
-    pub(crate) colour: usize,
+    pub points: Vec<(f64, f64)>,
+    /// How it is drawn.
+    pub look: Look,
+    /// Which vertical axis it belongs to.
+    pub side: Side,
+    /// The number of its colour, markers, and dashes. There are 9 colours, also of dashes, and 12 markers; a line with markers is
+    /// dashed from the tenth on, so that 12 curves differ in print as well.
+    pub colour: usize,
 }
 
 impl Curve {
     /// A line with a few of its points marked.
-    pub(crate) fn line(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+    pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
         Curve { label: label.into(), points, look: Look::Line, side: Side::First, colour }
     }
 
+    /// A line with all of its points marked: for few points, as of a work–precision diagram.
+    pub fn marked(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+        Curve { look: Look::Marked, ..Curve::line(label, points, colour) }
+    }
+
     /// A broad line.
-    pub(crate) fn thick(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+    pub fn thick(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
         Curve { look: Look::Thick, ..Curve::line(label, points, colour) }
     }
 
     /// A dashed line.
-    pub(crate) fn dashed(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+    pub fn dashed(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
         Curve { look: Look::Dashed, ..Curve::line(label, points, colour) }
     }
 
     /// Points without a line.
-    pub(crate) fn dots(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize, marker: Marker) -> Self {
+    pub fn dots(label: impl Into<String>, points: Vec<(f64, f64)>, colour: usize, marker: Marker) -> Self {
         Curve { look: Look::Points(marker), ..Curve::line(label, points, colour) }
     }
 
     /// The curve on the axis at the right.
-    pub(crate) fn on_the_right(self) -> Self {
+    pub fn on_the_right(self) -> Self {
         Curve { side: Side::Second, ..self }
     }
 }
 
 /// How a curve is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Look {
+pub enum Look {
     /// A line; a few of its points are marked if there are other curves.
     Line,
+    /// A line with all points marked.
+    Marked,
     /// A dashed line, with the dashes of its colour.
     Dashed,
     /// A broad line.
@@ -144,24 +197,37 @@ pub(crate) enum Look {
 
 /// The shape of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Marker {
+pub enum Marker {
+    /// ○
     Circle,
+    /// □
     Square,
+    /// △
     Triangle,
+    /// ◇
     Diamond,
     /// ×
     Cross,
+    /// +
     Plus,
-    /// A filled circle.
+    /// ●
     Dot,
-    /// A triangle that points down.
+    /// ▽
     Nabla,
+    /// + and × together
     Star,
+    /// ■
+    FilledSquare,
+    /// ▲
+    FilledTriangle,
+    /// ◆
+    FilledDiamond,
 }
 
 /// Which vertical axis a curve belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
+pub enum Side {
+    /// The left one.
     First,
     /// [`Chart::second_y`]; without one, the first.
     Second,

@@ -5,6 +5,11 @@ use crate::chart::{Axis, Chart, Curve};
 use crate::report::{Picture, Section, Statement, Table};
 use crate::verdict::Verdict;
 
+/// The axis of drifts over [0, 100].
+pub(crate) fn drift_axis() -> Axis {
+    Axis::log10("drift of the modified energy over [0, 100]")
+}
+
 /// The content of a figure.
 #[derive(Clone, Debug)]
 pub(crate) struct Drawing {
@@ -49,9 +54,7 @@ impl Drawing {
         curves: Vec<Curve>,
         caption: &str,
     ) -> &mut Chart {
-        let marks = Vec::new();
-        let chart = Chart { title: title.to_owned(), x, y, second_y, marks, curves, notes: Vec::new() };
-        self.charts.push((chart, caption.to_owned()));
+        self.charts.push((Chart { second_y, ..Chart::new(title, x, y, curves) }, caption.to_owned()));
         &mut self.charts.last_mut().expect("it has just been added").0
     }
 

@@ -25,11 +25,11 @@
 //! | `measured`, `states`, `escape`, `noise` | what is measured along runs at many digits, and in double precision |
 //! | `fit`, `interval`, `verdict` | lines through points, intervals of confidence, and what they decide |
 //! | `numbers`, `indices` | numbers and subscripts in texts |
-//! | `chart` | curves → SVG |
+//! | [`chart`] | curves → SVG; a library of its own within this one |
 //! | `report`, `data` | figures → HTML; results → CSV |
 
 mod calculation;
-mod chart;
+pub mod chart;
 mod data;
 mod drawing;
 mod escape;

@@ -8,7 +8,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::clip::Frame;
-use super::ink::{FINE, Ink, finished};
+use super::ink::{FINE, Ink, Theme, finished};
 use super::labels::separate;
 use super::layout::{GAP, LINE, Layout, MARGIN, SAMPLE, Span, TEXT, TICK, TITLE, UNDER, in_legend};
 use super::looks::{self, Shape};
@@ -41,7 +41,22 @@ impl Chart {
     ///
     /// It has no `id`s and no scripts; text stays text, and on dark screens the picture is dark. Every point is written, so
     /// curves of many thousand points should be thinned out before.
-    pub(crate) fn svg(&self) -> Result<String, Error> {
+    ///
+    /// # Errors
+    /// The picture cannot be drawn.
+    pub fn svg(&self) -> Result<String, Error> {
+        self.svg_of(Theme::LightAndDark)
+    }
+
+    /// The same in fixed colours on white, for a paper.
+    ///
+    /// # Errors
+    /// The picture cannot be drawn.
+    pub fn svg_for_print(&self) -> Result<String, Error> {
+        self.svg_of(Theme::Light)
+    }
+
+    fn svg_of(&self, theme: Theme) -> Result<String, Error> {
         let layout = Layout::of(self);
         let size = (layout.width.ceil() as u32, layout.height.ceil() as u32);
         let mut drawn = String::new();
@@ -49,7 +64,7 @@ impl Chart {
         let area = SVGBackend::with_string(&mut drawn, fine_size).into_drawing_area();
         self.draw(&area, &layout).map_err(io::Error::other)?;
         drop(area);
-        Ok(finished(&drawn, size, &self.title))
+        Ok(finished(&drawn, size, &self.title, theme))
     }
 
     fn draw(&self, area: &Area<'_>, layout: &Layout) -> DrawResult {
@@ -237,8 +252,9 @@ fn draw_curve(
     let apart = fine(64.0);
     let mut last = inside.first().map_or(0, |(x, _)| *x);
     let mut wait = apart * (n as i32 % 5 + 1) / 6;
-    for &point in inside.iter().filter(|_| marked && has_markers(curve.look)) {
-        if (point.0 - last).abs() >= wait {
+    let all = curve.look == Look::Marked;
+    for &point in inside.iter().filter(|_| all || marked && has_markers(curve.look)) {
+        if all || (point.0 - last).abs() >= wait {
             draw_marker(area, looks::marker(curve.colour), curve.colour, point)?;
             (last, wait) = (point.0, apart);
         }
@@ -252,14 +268,16 @@ fn rightmost(points: &[Pixel]) -> Option<Pixel> {
 }
 
 fn has_markers(look: Look) -> bool {
-    matches!(look, Look::Line)
+    matches!(look, Look::Line | Look::Marked)
 }
 
 fn line_style(curve: &Curve) -> ShapeStyle {
     match curve.look {
         Look::Dashed => stroke(Ink::Dashed(curve.colour), 1.8),
         Look::Thick => stroke(Ink::Curve(curve.colour), 3.6),
-        Look::Line | Look::Points(_) => stroke(Ink::Curve(curve.colour), 1.6),
+        // beyond the colours, a line with markers is dashed
+        Look::Line | Look::Marked if curve.colour >= looks::COUNT => stroke(Ink::Dashed(curve.colour), 1.6),
+        Look::Line | Look::Marked | Look::Points(_) => stroke(Ink::Curve(curve.colour), 1.6),
     }
 }
 
@@ -271,6 +289,7 @@ fn draw_marker(area: &Area<'_>, marker: Marker, colour: usize, at: Pixel) -> Dra
                 area.draw(&PathElement::new(path, style))?;
             }
         }
+        Shape::Filled(corners) => area.draw(&Polygon::new(corners, style.filled()))?,
         Shape::Circle { filled } => {
             area.draw(&Circle::new(at, fine(RADIUS), ShapeStyle { filled, ..style }))?;
         }
@@ -285,7 +304,7 @@ fn draw_label(area: &Area<'_>, curve: &Curve, marked: bool, (x, y): Pixel, label
     }
     let marker = match curve.look {
         Look::Points(marker) => Some(marker),
-        look => (marked && has_markers(look)).then(|| looks::marker(curve.colour)),
+        look => (look == Look::Marked || marked && has_markers(look)).then(|| looks::marker(curve.colour)),
     };
     if let Some(marker) = marker {
         draw_marker(area, marker, curve.colour, (x + fine(SAMPLE / 2.0), y))?;

@@ -142,10 +142,21 @@ fn without_marks(text: &str) -> String {
     all + rest
 }
 
+/// Whether a picture is dark on dark screens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Theme {
+    LightAndDark,
+    Light,
+}
+
 /// The style of all charts. It is the same in each, so that pictures on one page do not interfere.
 const STYLE: &str = "
 svg.chart text { font-family: Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif; }
 svg.chart polyline { stroke-linejoin: round; }
+";
+
+/// On dark screens, in addition.
+const DARK: &str = "\
 @media screen and (prefers-color-scheme: dark) {
   svg.chart .paper { fill: #16191d; }
   svg.chart .halo-fill { fill: #16191d; stroke: #16191d; }
@@ -160,7 +171,7 @@ svg.chart polyline { stroke-linejoin: round; }
 /// The picture of plotters with its size in pixels, a title, a style and a background.
 ///
 /// It has no `id`s, so that one page can contain many pictures.
-pub(super) fn finished(drawn: &str, (width, height): (u32, u32), title: &str) -> String {
+pub(super) fn finished(drawn: &str, (width, height): (u32, u32), title: &str, theme: Theme) -> String {
     let mut content = drawn.split_once(">\n").map_or("", |(_, content)| content).trim_end().to_owned();
     if let Some(end) = content.rfind("</svg>") {
         content.truncate(end);
@@ -179,7 +190,7 @@ pub(super) fn finished(drawn: &str, (width, height): (u32, u32), title: &str) ->
     let svg = html! {
         svg xmlns="http://www.w3.org/2000/svg" class="chart" role="img" width=(width) height=(height) viewBox=(view) {
             title { (without_marks(title)) }
-            style { (PreEscaped(STYLE)) }
+            style { (PreEscaped(STYLE)) @if theme == Theme::LightAndDark { (PreEscaped(DARK)) } }
             rect class="paper" width="100%" height="100%" fill="#FFFFFF" {}
             (PreEscaped(content))
         }

@@ -34,7 +34,7 @@ pub(super) fn dashes(index: usize) -> &'static [u32] {
 }
 
 pub(super) fn marker(index: usize) -> Marker {
-    const MARKERS: [Marker; COUNT] = [
+    const MARKERS: [Marker; 12] = [
         Marker::Circle,
         Marker::Square,
         Marker::Triangle,
@@ -44,22 +44,28 @@ pub(super) fn marker(index: usize) -> Marker {
         Marker::Plus,
         Marker::Dot,
         Marker::Star,
+        Marker::FilledSquare,
+        Marker::FilledTriangle,
+        Marker::FilledDiamond,
     ];
-    MARKERS[index % COUNT]
+    MARKERS[index % MARKERS.len()]
 }
 
 /// A shape about a point.
 pub(super) enum Shape {
     Strokes(Vec<Vec<(i32, i32)>>),
+    Filled(Vec<(i32, i32)>),
     Circle { filled: bool },
 }
 
 impl Marker {
     pub(super) fn shape(self, (x, y): (i32, i32), radius: f64) -> Shape {
         let at = |(dx, dy): (f64, f64)| (x + (dx * radius).round() as i32, y + (dy * radius).round() as i32);
-        let closed = |corners: &[(f64, f64)]| {
-            Shape::Strokes(vec![corners.iter().chain(corners.first()).copied().map(at).collect()])
-        };
+        let path = |corners: &[(f64, f64)]| corners.iter().chain(corners.first()).copied().map(at).collect();
+        let closed = |corners: &[(f64, f64)]| Shape::Strokes(vec![path(corners)]);
+        let square = [(-0.85, -0.85), (0.85, -0.85), (0.85, 0.85), (-0.85, 0.85)];
+        let triangle = [(0.0, -1.15), (1.05, 0.7), (-1.05, 0.7)];
+        let diamond = [(0.0, -1.25), (1.0, 0.0), (0.0, 1.25), (-1.0, 0.0)];
         let strokes =
             |lines: &[[(f64, f64); 2]]| Shape::Strokes(lines.iter().map(|ends| ends.map(at).to_vec()).collect());
         let plus = [[(-1.1, 0.0), (1.1, 0.0)], [(0.0, -1.1), (0.0, 1.1)]];
@@ -67,10 +73,13 @@ impl Marker {
         match self {
             Marker::Circle => Shape::Circle { filled: false },
             Marker::Dot => Shape::Circle { filled: true },
-            Marker::Square => closed(&[(-0.85, -0.85), (0.85, -0.85), (0.85, 0.85), (-0.85, 0.85)]),
-            Marker::Triangle => closed(&[(0.0, -1.15), (1.05, 0.7), (-1.05, 0.7)]),
+            Marker::Square => closed(&square),
+            Marker::Triangle => closed(&triangle),
             Marker::Nabla => closed(&[(0.0, 1.15), (1.05, -0.7), (-1.05, -0.7)]),
-            Marker::Diamond => closed(&[(0.0, -1.25), (1.0, 0.0), (0.0, 1.25), (-1.0, 0.0)]),
+            Marker::Diamond => closed(&diamond),
+            Marker::FilledSquare => Shape::Filled(path(&square)),
+            Marker::FilledTriangle => Shape::Filled(path(&triangle)),
+            Marker::FilledDiamond => Shape::Filled(path(&diamond)),
             Marker::Plus => strokes(&plus),
             Marker::Cross => strokes(&cross),
             Marker::Star => strokes(&[plus[0], plus[1], cross[0], cross[1]]),

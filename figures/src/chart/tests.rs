@@ -71,8 +71,8 @@ fn orders() -> Chart {
 }
 
 /// Samples with their names.
-pub(crate) fn samples() -> [(&'static str, Chart); 3] {
-    [("drifts", drifts()), ("bumps", bumps()), ("orders", orders())]
+pub(crate) fn samples() -> [(&'static str, Chart); 4] {
+    [("drifts", drifts()), ("bumps", bumps()), ("orders", orders()), ("schemes", schemes())]
 }
 
 /// `SHADOWSTEP_LOOK=DIR` keeps the pictures, for inspection.
@@ -138,6 +138,44 @@ fn labels_do_not_overlap_with_many_curves_of_one_end() {
     rows.sort_by(f64::total_cmp);
     assert_eq!(rows.len(), 25);
     assert!(rows.windows(2).all(|pair| pair[1] - pair[0] >= 190.0), "{rows:?}");
+}
+
+/// Twelve schemes of a work–precision diagram, whose curves end close together.
+fn schemes() -> Chart {
+    let of =
+        |n: i32| (0..7).map(move |i| (f64::from(i + n) * 200.0, 10_f64.powf(-1.0 - f64::from(i * (4 + n % 3)) / 4.0)));
+    let curves = (0..12).map(|n| {
+        let points: Vec<_> = of(n).collect();
+        Curve::marked(format!("scheme {}", n + 1), log10_of(&points, (true, true)), n as usize)
+    });
+    Chart::new("Work and precision", Axis::log10("force evaluations"), Axis::log10("error of H"), curves.collect())
+}
+
+/// A marker with its dashes is that of one curve only: without colours, and for any colour vision.
+#[test]
+fn twelve_curves_differ_without_colours() {
+    let looks = schemes().curves.iter().map(|curve| looks::marker(curve.colour)).collect::<Vec<_>>();
+    assert!((0..12).all(|n| !looks[..n].contains(&looks[n])), "{looks:?}");
+    let svg = schemes().svg().unwrap();
+    assert_eq!(svg.matches("stroke-dasharray").count(), 6, "three lines and their samples");
+    assert_eq!(svg.matches("<polygon").count(), 3 * 8, "seven points and a sample");
+}
+
+#[test]
+fn logarithms_of_what_is_not_positive_are_missing() {
+    let points = log10_of(&[(100.0, 1e-3), (0.0, 10.0), (10.0, -1.0)], (true, true));
+    assert_eq!(points[0], (2.0, -3.0));
+    assert!(points[1].0.is_nan() && points[1].1 == 1.0 && points[2].1.is_nan());
+    assert_eq!(log10_of(&[(-5.0, 10.0)], (false, true)), [(-5.0, 1.0)]);
+}
+
+/// For a paper the colours are fixed; otherwise the same picture.
+#[test]
+fn printed_pictures_do_not_follow_the_screen() {
+    let [screen, print] = [schemes().svg().unwrap(), schemes().svg_for_print().unwrap()];
+    assert!(screen.contains("prefers-color-scheme") && !print.contains("prefers-color-scheme"));
+    let [first, second] = [&screen, &print].map(|svg| svg.split_once("</style>").unwrap().1.to_owned());
+    assert_eq!(first, second);
 }
 
 /// A label of a mark is read over curves and lines: it comes after them, on its halo.

@@ -3,7 +3,7 @@
 use super::estimators::{BEST_UP_TO, BILINEAR, Family, ORDERS, STATES, against_states, even};
 use super::kepler::run;
 use crate::chart::{Axis, Curve};
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::fit::logarithms;
@@ -31,7 +31,7 @@ fn draw(results: &Results) -> Drawing {
         drawing.chart(
             &format!("{title}, h = 1/20"),
             Axis::log10(STATES),
-            Axis::drift(),
+            drift_axis(),
             curves,
             "All estimates are of the same states.",
         );

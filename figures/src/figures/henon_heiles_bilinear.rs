@@ -2,7 +2,7 @@
 
 use super::henon_heiles::{FEW_STEPS, STEPS, drifts};
 use crate::chart::{Axis, Curve};
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::fit::logarithms;
@@ -33,7 +33,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Störmer–Verlet, Hénon–Heiles, p₁(0) = 0.1",
         Axis::linear("1/h"),
-        Axis::drift(),
+        drift_axis(),
         curves,
         "The exact flow of this problem is not known, so the estimator's own error is not shown.",
     );

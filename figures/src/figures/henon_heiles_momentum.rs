@@ -2,7 +2,7 @@
 
 use super::henon_heiles::run;
 use crate::chart::{Axis, Curve, Mark};
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::results::Results;
@@ -35,7 +35,7 @@ fn draw(results: &Results) -> Drawing {
     let chart = drawing.chart(
         "Störmer–Verlet, Hénon–Heiles, q₁ = q₂ = p₂ = 0",
         Axis::linear("p₁(0)").over(0.0, 0.6),
-        Axis::drift(),
+        drift_axis(),
         curves,
         "Marks: H = 1/12, beyond which there are chaotic motions, and H = 1/6, beyond which the body can escape.",
     );

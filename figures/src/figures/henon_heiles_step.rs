@@ -2,7 +2,7 @@
 
 use super::henon_heiles::{FEW_STEPS, STEPS, drifts, run};
 use crate::chart::{Axis, Curve};
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, ExponentialDecay, Ratio, decay, decay_row, logarithms, same_rates};
@@ -32,7 +32,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Hénon–Heiles, p₁(0) = 0.1, the best m up to 200",
         Axis::linear("1/h"),
-        Axis::drift(),
+        drift_axis(),
         curves.collect(),
         "At 120 digits.",
     );

@@ -2,7 +2,7 @@
 
 use super::kepler::run;
 use crate::chart::{Axis, Curve, Mark};
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, drift_axis};
 use crate::escape::critical;
 use crate::estimator::BEST;
 use crate::figure::Figure;
@@ -62,7 +62,7 @@ fn drifts(results: &Results, drawing: &mut Drawing, scans: &[Scan]) {
     let chart = drawing.chart(
         "Störmer–Verlet, Kepler",
         Axis::linear("eccentricity e"),
-        Axis::drift(),
+        drift_axis(),
         curves,
         "The best m of each state, up to 200. Marks: the first eccentricity with which the body escapes.",
     );

@@ -2,7 +2,7 @@
 
 use super::kepler::{FEW_STEPS, STEPS, drifts, rate, run};
 use crate::chart::{Axis, Curve};
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, Ratio, decay_row, logarithms, same_rates};
@@ -43,7 +43,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Kepler, e = 0.6, the best m up to 200",
         Axis::linear("1/h"),
-        Axis::drift(),
+        drift_axis(),
         curves,
         "Dashed: the same estimator on the exact flow, whose energy is −1/2 at every state.",
     );

@@ -6,7 +6,7 @@ use shadowstep::Number;
 
 use super::kepler::{FEW_STEPS, STEPS, apocentre, drifts, rate, run, singularity};
 use crate::chart::{Axis, Curve};
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::{BEST, central};
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, against_aliasing, decay_row, theory_row};
@@ -32,7 +32,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Störmer–Verlet, Kepler, e = 0.6",
         Axis::linear("1/h"),
-        Axis::drift(),
+        drift_axis(),
         curves,
         "The same m at every state, and the best m of each state.",
     );

@@ -7,7 +7,7 @@ use shadowstep::shadow::EstimatorSettings;
 
 use super::pendulum::{SCHEME, singularity};
 use crate::chart::{Axis, Curve};
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::{bilinear, central};
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, ROUND_OFF, decay, decay_row, logarithms, theory_row};
@@ -46,7 +46,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Störmer–Verlet, pendulum, p(0) = 1",
         Axis::linear("1/h"),
-        Axis::drift(),
+        drift_axis(),
         curves,
         "Each estimator on the scheme, and on the exact flow, whose energy does not change.",
     );

@@ -2,7 +2,7 @@
 
 use super::pendulum::SCHEME;
 use crate::chart::{Axis, Curve};
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::numbers::power;
@@ -43,7 +43,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Störmer–Verlet, pendulum, q(0) = 0",
         Axis::linear("p(0)"),
-        Axis::drift(),
+        drift_axis(),
         curves,
         "Best m up to 200. For p(0) > 2 the pendulum rotates; p(0) = 2 is the separatrix.",
     );

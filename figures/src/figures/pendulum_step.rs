@@ -7,7 +7,7 @@ use shadowstep::problems::Problem;
 
 use super::pendulum::{SCHEME, singularity};
 use crate::chart::{Axis, Curve};
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::central;
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, ROUND_OFF, against_aliasing, decay, decay_row, theory_row};
@@ -63,7 +63,7 @@ fn draw(results: &Results) -> Drawing {
     drawing.chart(
         "Störmer–Verlet, pendulum, q(0) = 0, p(0) = 1",
         Axis::linear("1/h"),
-        Axis::drift(),
+        drift_axis(),
         curves,
         &format!(
             "The limit is taken at m = 3 ρ²/h², but at least 200. It is not known at {} of {} steps, where that is above {}.",
