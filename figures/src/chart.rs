@@ -32,6 +32,7 @@
 //! | `layout` | what the axes show, and the sizes of all parts |
 //! | `ticks` | round numbers and decades on an axis |
 //! | `clip` | the visible part of a curve |
+//! | `thin` | lines of many points |
 //! | `labels` | labels beside the chart, without overlaps |
 //! | `looks` | colours, dashes and markers |
 //! | `ink` | from the plain colours of plotters to classes that a style sheet can change |
@@ -42,6 +43,7 @@ mod ink;
 mod labels;
 mod layout;
 mod looks;
+mod thin;
 mod ticks;
 
 pub(crate) use ticks::power_of_ten;

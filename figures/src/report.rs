@@ -13,6 +13,8 @@ pub(crate) struct Report {
     pub(crate) title: String,
     /// Paragraphs on how it was computed.
     pub(crate) introduction: Vec<String>,
+    /// A remark beside the counts of verdicts, on what they cannot decide.
+    pub(crate) remark: Option<String>,
     /// How it was made, as pairs of a name and a value: version, command, digits.
     pub(crate) made_with: Vec<(String, String)>,
     pub(crate) sections: Vec<Section>,
@@ -79,6 +81,7 @@ impl Report {
                     h1 { (self.title) }
                     (self.findings())
                     (self.counts())
+                    @if let Some(remark) = &self.remark { p { (set(remark)) } }
                     nav aria-label="Figures" { (self.contents()) }
                     h2 { "How it was computed" }
                     (paragraphs(&self.introduction))
@@ -282,6 +285,7 @@ mod tests {
         use Verdict::{Agrees, Differs, NotDecided};
         Report {
             title: "Figures of a paper, computed again".to_owned(),
+            remark: Some("A quick report.".to_owned()),
             introduction: texts(["Each figure is computed from nothing but the equations."]),
             made_with: vec![("digits".to_owned(), "120".to_owned())],
             sections: vec![

@@ -154,7 +154,7 @@ fn write(folder: &Path, name: &str, text: &str) -> Result<(), Error> {
     file.finish()
 }
 
-const INTRODUCTION: [&str; 5] = [
+const INTRODUCTION: [&str; 4] = [
     "P. C. Moan and J. Niesen, “On an asymptotic method for computing the modified energy for symplectic methods”, follow the modified \
      energy of splitting schemes at 120 digits. Each of their figures is computed here again and compared with the statements of their text.",
     "Additional figures follow. They separate what belongs to the method from what belongs to the estimator: the same estimators on the exact \
@@ -165,9 +165,11 @@ const INTRODUCTION: [&str; 5] = [
      no part of the interval does; the interval is Student's, over the step sizes, as if these were independent. A factor that the paper prints with one \
      digit is what rounds to it. Drifts below 10⁻¹⁰⁸, where round-off of 120 digits may be visible, are left out. Other criteria are stated beside \
      their results.",
-    "With --quick there are fewer step sizes, eccentricities and orders. A statement about every value can then be contradicted and not confirmed, and \
-     a statement that there is a value can be confirmed and not contradicted; otherwise it is not decided.",
 ];
+
+/// What a quick report cannot decide.
+const QUICK: &str = "A quick report: with fewer step sizes, eccentricities and orders, a statement about all of them can be contradicted and not \
+     confirmed, and a statement that there is one can be confirmed and not contradicted. Without --quick more is decided.";
 
 /// `earlier` are the figures that are not requested.
 fn report(request: &Request, sections: Vec<Section>, earlier: &[String]) -> Report {
@@ -183,6 +185,7 @@ fn report(request: &Request, sections: Vec<Section>, earlier: &[String]) -> Repo
     }
     Report {
         title: "The modified energy of splitting schemes".to_owned(),
+        remark: request.quick.then(|| QUICK.to_owned()),
         introduction: INTRODUCTION.map(str::to_owned).to_vec(),
         made_with,
         sections,

@@ -12,6 +12,7 @@ use super::ink::{FINE, Ink, Theme, finished};
 use super::labels::separate;
 use super::layout::{GAP, LINE, Layout, MARGIN, SAMPLE, Span, TEXT, TICK, TITLE, UNDER, in_legend};
 use super::looks::{self, Shape};
+use super::thin::thinned;
 use super::{Chart, Curve, Look, Mark, Marker, Side};
 use crate::Error;
 
@@ -39,8 +40,8 @@ fn text(size: f64, anchor: (HPos, VPos)) -> TextStyle<'static> {
 impl Chart {
     /// The SVG text, for a separate file or as a part of an HTML page.
     ///
-    /// It has no `id`s and no scripts; text stays text, and on dark screens the picture is dark. Every point is written, so
-    /// curves of many thousand points should be thinned out before.
+    /// It has no `id`s and no scripts; text stays text, and on dark screens the picture is dark. Of a line, at most four points are
+    /// written for each column of a pixel; of [`Look::Points`], all.
     ///
     /// # Errors
     /// The picture cannot be drawn.
@@ -243,7 +244,7 @@ fn draw_curve(
     for piece in &pieces {
         let path: Vec<_> = piece.iter().map(|point| place(*point)).collect();
         visible.extend(&path);
-        area.draw(&PathElement::new(path, line_style(curve)))?;
+        area.draw(&PathElement::new(thinned(&path, fine(1.0)), line_style(curve)))?;
     }
     for point in frame.alone(&curve.points) {
         draw_marker(area, looks::marker(curve.colour), curve.colour, place(point))?;

@@ -169,6 +169,13 @@ fn logarithms_of_what_is_not_positive_are_missing() {
     assert_eq!(log10_of(&[(-5.0, 10.0)], (false, true)), [(-5.0, 1.0)]);
 }
 
+#[test]
+fn pictures_of_long_runs_stay_small() {
+    let wave = (0..200_000).map(f64::from).map(|t| (t, (t / 300.0).sin())).collect();
+    let svg = Chart::new("", Axis::linear("t"), Axis::linear("H"), vec![Curve::line("H", wave, 0)]).svg().unwrap();
+    assert!(svg.len() < 60_000, "{}", svg.len());
+}
+
 /// For a paper the colours are fixed; otherwise the same picture.
 #[test]
 fn printed_pictures_do_not_follow_the_screen() {
