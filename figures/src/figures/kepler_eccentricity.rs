@@ -116,8 +116,10 @@ impl Scan {
     fn described(&self) -> Option<String> {
         let (low, high) = self.range()?;
         if self.first()? > self.last_bound()? {
-            let scanned = self.found.len();
-            return Some(format!("of {scanned} orbits none escapes up to e = {low:.3}, and all from {high:.3} on"));
+            let (scanned, apart) = (self.found.len(), thousandths(self.found[1].0 - self.found[0].0));
+            return Some(format!(
+                "of {scanned} orbits, {apart} apart, none escapes up to e = {low:.3}, and all from {high:.3} on"
+            ));
         }
         let within = |e: u32| (low..=high).contains(&thousandths(e));
         let between = self.found.iter().filter(|(e, ..)| within(*e)).count();
