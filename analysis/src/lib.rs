@@ -6,8 +6,9 @@
 //! | [`error`](mod@error), [`bracket`] | the leading error: the terms of lowest order in the logarithm of a step |
 //! | [`trace`] | the trace of a step of the harmonic oscillator, and the leading error of its phase |
 //! | `period` | the part that a step repeats: it is stable where the step is |
+//! | `powers` | double roots of the trace ∓ 2 that the repetitions within a step explain |
 //! | [`stability`], `roots`, `squarefree` | where the harmonic oscillator is stable: roots of integer polynomials |
-//! | `prime` | residues modulo a prime, for `bracket` and `squarefree` |
+//! | `prime` | residues modulo a prime, for `bracket`, `squarefree` and `powers` |
 //! | `better` | [`best_for_every_kinetic`]: the shipped scheme to use for a T(p) that is not quadratic |
 //! | [`polish`](mod@polish) | a table of printed decimals → one whose order conditions hold to more digits |
 //!
@@ -19,6 +20,7 @@ pub mod bracket;
 pub mod error;
 mod period;
 pub mod polish;
+mod powers;
 mod prime;
 mod roots;
 mod squarefree;

@@ -2,14 +2,13 @@
 
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, Zero};
 
 use crate::prime::{self, PRIME};
 
 /// The product of the factors of odd multiplicity, each once, with the polynomial's sign.
 pub(crate) fn odd_part(polynomial: Vec<BigInt>) -> Vec<BigInt> {
-    let residue = |value: &BigInt| value.mod_floor(&PRIME.into()).to_u64().expect("it is less than the prime");
-    if polynomial.len() <= 2 || is_surely_squarefree(&polynomial.iter().map(residue).collect::<Vec<_>>()) {
+    if polynomial.len() <= 2 || is_surely_squarefree(&polynomial.iter().map(prime::residue).collect::<Vec<_>>()) {
         return polynomial;
     }
     // Yun's algorithm: the factors of multiplicity 1, 2, 3, …
@@ -142,9 +141,7 @@ mod tests {
 
     #[test]
     fn what_has_no_squares_stays_as_it_is() {
-        let residues = |polynomial: &[BigInt]| -> Vec<u64> {
-            polynomial.iter().map(|value| value.mod_floor(&PRIME.into()).to_u64().unwrap()).collect()
-        };
+        let residues = |polynomial: &[BigInt]| -> Vec<u64> { polynomial.iter().map(prime::residue).collect() };
         for polynomial in [integers(&[2, -4, 1]), integers(&[6, 0, -6]), integers(&[3, -2]), integers(&[5])] {
             assert!(is_surely_squarefree(&residues(&polynomial)));
             assert_eq!(odd_part(polynomial.clone()), polynomial);

@@ -10,10 +10,12 @@ use shadowstep_symbolic::Rational;
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::period::repeated_part;
-use crate::prime::PRIME;
+use crate::powers::{Powers, quotient, repeats_exchanged};
+use crate::prime::{PRIME, Residues};
 use crate::roots::{InDoubt, Isolated, Scaled, SignChanges};
 use crate::squarefree::is_surely_squarefree;
 use crate::trace::{Trace, residues, scaled};
+use shadowstep_schemes::arithmetic::{Fixed, FixedPoint};
 use shadowstep_schemes::map::Map;
 
 /// The most maps of a step, or of the part that it repeats, for which the polynomial is solved: the time grows with the
@@ -131,19 +133,29 @@ fn root_text(x: &Rational) -> String {
 enum Passing<'a> {
     /// Without multiple roots; the coefficients are computed as precisely as they are needed.
     Simple { maps: &'a [Map], level: i32 },
-    /// With its squares divided out, exactly.
+    /// With no simple root, except at 0.
+    Never,
+    /// With double roots that the powers in the step explain.
+    OfPowers { maps: &'a [Map], level: i32, powers: Powers },
+    /// With its squares divided out, exactly, which takes long for many digits.
     Exact(SignChanges),
 }
 
 impl Passing<'_> {
     fn of(maps: &[Map], level: i32) -> Passing<'_> {
         let below = usize::from(level == 2);
-        let is_simple = residues(maps).is_some_and(|mut residues| {
+        if let Some(mut residues) = residues(maps) {
             residues[0] = (residues[0] + PRIME).checked_add_signed(-i64::from(level)).expect("it is positive") % PRIME;
-            is_surely_squarefree(&residues[below..])
-        });
-        if is_simple {
-            return Passing::Simple { maps, level };
+            if is_surely_squarefree(&residues[below..]) {
+                return Passing::Simple { maps, level };
+            }
+            if level == 2 && repeats_exchanged(maps) {
+                return Passing::Never;
+            }
+            let explains = |powers: &Powers| is_squarefree_without(powers, &residues[below..], level);
+            if let Some(powers) = Powers::all_of(maps).into_iter().find(explains) {
+                return Passing::OfPowers { maps, level, powers };
+            }
         }
         let mut trace = Trace::of(maps);
         trace.integers[0] -= level;
@@ -154,13 +166,48 @@ impl Passing<'_> {
     fn scaled(&self, range: u64, bits: u64) -> Scaled {
         match self {
             Passing::Exact(polynomial) => polynomial.scaled(range, bits),
-            Passing::Simple { maps, level } => {
-                let mut coefficients = scaled(maps, range, bits);
-                coefficients[0] -= BigInt::from(*level) << bits;
-                Scaled::new(coefficients.split_off(usize::from(*level == 2)), bits)
-            }
+            Passing::Never => Scaled::new(vec![-BigInt::one() << bits], bits),
+            Passing::Simple { maps, level } => Scaled::new(less_level(maps, *level, range, bits), bits),
+            Passing::OfPowers { maps, level, powers } => (1..)
+                .find_map(|attempt| without_squares(maps, *level, powers, range, bits, attempt))
+                .expect("more bits do"),
         }
     }
+}
+
+/// tr − level on the x from 0 to `range`, for the level 2 without the root at 0.
+fn less_level(maps: &[Map], level: i32, range: u64, bits: u64) -> Vec<BigInt> {
+    let mut coefficients = scaled(maps, range, bits);
+    coefficients[0] -= BigInt::from(level) << bits;
+    coefficients.split_off(usize::from(level == 2))
+}
+
+/// Whether tr − level has no multiple root but those that the powers explain.
+fn is_squarefree_without(powers: &Powers, residues: &[u64], level: i32) -> bool {
+    let Some(trace) = crate::trace::residues(&powers.part) else { return false };
+    powers.square(&Residues, &trace, level).is_some_and(|(square, constant)| {
+        square.len() <= residues.len() && is_surely_squarefree(&quotient(&Residues, residues, &square, constant))
+    })
+}
+
+/// tr − level without the double roots that the powers explain; `None` if the bits of this attempt are too few.
+fn without_squares(maps: &[Map], level: i32, powers: &Powers, range: u64, bits: u64, attempt: u64) -> Option<Scaled> {
+    // divided for 0 ≤ x ≤ 1, where no coefficient is large, so that errors do not grow
+    let more = maps.len() as u64 / 2 * u64::from(range.ilog2() + 1) + 64 * attempt;
+    let arithmetic = FixedPoint::with_bits((bits + more) as u32);
+    let fixed = |values: Vec<BigInt>| values.into_iter().map(|units| Fixed::within(units, 2.0)).collect::<Vec<_>>();
+    let trace = fixed(scaled(&powers.part, 1, bits + more));
+    let (square, constant) = powers.square(&arithmetic, &trace, level).expect("it has double roots");
+    let quotient = quotient(&arithmetic, &fixed(less_level(maps, level, 1, bits + more)), &square, constant);
+    let mut coefficients = Vec::new();
+    for (power, value) in quotient.iter().enumerate() {
+        let grown = value.error().log2() + power as f64 * (range as f64).log2();
+        if grown >= more as f64 - 1.0 {
+            return None;
+        }
+        coefficients.push((&value.units * BigInt::from(range).pow(power as u32)) >> more);
+    }
+    Some(Scaled::new(coefficients, bits))
 }
 
 /// All x in 0 < x ≤ 1.01·`last` at which the trace passes ±2, in their order. A scheme whose weights sum to 1 up to
@@ -190,4 +237,84 @@ fn crossings_within(functions: &[Passing<'_>], range: u64, bits: u64) -> Result<
     all.sort_by(|a, b| a.lower.cmp(&b.lower));
     let parted = all.windows(2).all(|pair| pair[0].upper <= pair[1].lower);
     if parted { Ok(all) } else { Err(InDoubt) }
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowstep_schemes::MapKind::{self, Drift, Kick};
+
+    use super::*;
+
+    fn maps(weights: &[(MapKind, i64)]) -> Vec<Map> {
+        weights.iter().map(|&(kind, n)| Map { kind, weight: Rational::new(n.into(), 60.into()) }).collect()
+    }
+
+    fn merged(parts: &[&[Map]]) -> Vec<Map> {
+        let mut all: Vec<Map> = Vec::new();
+        for map in parts.concat() {
+            match all.last_mut() {
+                Some(last) if last.kind == map.kind => last.weight += map.weight,
+                _ => all.push(map),
+            }
+        }
+        repeated_part(&all)
+    }
+
+    /// The step as powers must give the roots that Euclid's algorithm gives.
+    fn assert_powers_explain(maps: &[Map], levels: &[i32]) {
+        for level in [2, -2] {
+            let passing = Passing::of(maps, level);
+            assert!(!matches!(passing, Passing::Exact(_)), "Euclid's algorithm for {level} of {maps:?}");
+            assert_eq!(matches!(passing, Passing::OfPowers { .. }), levels.contains(&level), "{level} of {maps:?}");
+            let mut trace = Trace::of(maps);
+            trace.integers[0] -= level;
+            let exact = SignChanges::of(&trace.integers[usize::from(level == 2)..], &trace.denominator);
+            let range = 4 * (maps.len() as u64).pow(2) + 1;
+            let roots = |scaled: Scaled| {
+                let mut roots = scaled.roots().unwrap();
+                roots.iter_mut().for_each(|root| scaled.refine(root, 150).unwrap());
+                roots
+            };
+            assert_eq!(roots(passing.scaled(range, 1024)), roots(exact.scaled(range, 1024)), "{level} of {maps:?}");
+        }
+    }
+
+    #[test]
+    fn repeated_parts_need_no_greatest_common_divisor() {
+        let part = maps(&[(Kick, 4), (Drift, 9), (Kick, 11), (Drift, 6)]);
+        let adjoint: Vec<Map> = part.iter().rev().cloned().collect();
+        let rotated = [&part[1..], &part[..1]].concat();
+        let (a, b, c) = (&part[..], &adjoint[..], &rotated[..]);
+        // an even number of powers has all its double roots where the trace is 2
+        assert_powers_explain(&merged(&[a, a, b, b]), &[2]);
+        assert_powers_explain(&merged(&[a, a, a, b, b, b]), &[2]);
+        assert_powers_explain(&merged(&[a, a, b, b, b, b, b, b]), &[2]);
+        assert_powers_explain(&merged(&[a, a, c, c, b, b, c, c]), &[2]);
+        // an odd number of squares has them at −2, of other powers at both, unless there are too few
+        assert_powers_explain(&merged(&[a, a, c, c, b, b]), &[-2]);
+        assert_powers_explain(&merged(&[a, a, a, a, b, b]), &[-2]);
+        assert_powers_explain(&merged(&[a, a, a, c, c, c, b, b, b]), &[2, -2]);
+        assert_powers_explain(&merged(&[a, a, a, a, c, c, c, c, b, b, b, b]), &[2, -2]);
+    }
+
+    #[test]
+    fn parts_of_different_traces_have_simple_roots() {
+        let (a, b) = (maps(&[(Kick, 4), (Drift, 9), (Kick, 4)]), maps(&[(Kick, 5), (Drift, 7), (Kick, 5)]));
+        assert_powers_explain(&merged(&[&a, &a, &b, &b]), &[]);
+    }
+
+    #[test]
+    fn a_step_followed_by_itself_with_kicks_and_drifts_exchanged_passes_minus_two_only() {
+        let step = maps(&[(Kick, 5), (Drift, 11), (Kick, 7), (Drift, 2), (Kick, 1)]);
+        let exchanged: Vec<Map> =
+            step.iter().map(|map| Map { kind: map.kind.other(), weight: map.weight.clone() }).collect();
+        for maps in [merged(&[&step, &exchanged]), merged(&[&step, &step, &exchanged, &exchanged])] {
+            assert!(matches!(Passing::of(&maps, 2), Passing::Never));
+            let mut trace = Trace::of(&maps);
+            trace.integers[0] -= 2;
+            let exact = SignChanges::of(&trace.integers[1..], &trace.denominator);
+            assert_eq!(exact.scaled(10_000, 1024).roots().unwrap(), []);
+            assert!(!matches!(Passing::of(&maps, -2), Passing::Exact(_)));
+        }
+    }
 }

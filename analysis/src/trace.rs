@@ -11,7 +11,7 @@ use num_integer::Integer;
 use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
 use shadowstep_symbolic::{Fraction, Rational};
 
-use crate::prime::{self, PRIME};
+use crate::prime::{PRIME, Residues, residue};
 use shadowstep_schemes::arithmetic::{Arithmetic, Fixed, FixedPoint, Sensitivity};
 use shadowstep_schemes::map::{Map, MapKind};
 use shadowstep_schemes::scheme::Held;
@@ -111,14 +111,11 @@ impl PhaseError {
 
 /// The terms of the trace modulo the prime, if no denominator is divisible by it.
 pub(crate) fn residues(maps: &[Map]) -> Option<Vec<u64>> {
-    let residue = |value: &BigInt| value.mod_floor(&PRIME.into()).to_u64().expect("it is less than the prime");
-    let weight = |map: &Map| {
-        let denominator = residue(map.weight.denom());
-        let inverse = prime::power(denominator, PRIME - 2);
-        (denominator != 0).then(|| (map.kind, prime::product(residue(map.weight.numer()), inverse)))
-    };
-    let maps: Vec<_> = maps.iter().map(weight).collect::<Option<_>>()?;
-    let mut residues = trace(&maps, usize::MAX, &0, &1, |sum, a, b| *sum = (*sum + prime::product(*a, *b)) % PRIME);
+    if maps.iter().any(|map| residue(map.weight.denom()) == 0) {
+        return None;
+    }
+    let weighed: Vec<_> = maps.iter().map(|map| (map.kind, Residues.weight(&map.weight))).collect();
+    let mut residues = trace(&weighed, usize::MAX, &0, &1, |sum, a, b| Residues.add_product(sum, a, b));
     residues.iter_mut().skip(1).step_by(2).for_each(|value| *value = (PRIME - *value) % PRIME);
     Some(residues)
 }

@@ -65,6 +65,11 @@ pub struct Fixed {
 }
 
 impl Fixed {
+    /// A value that is known to within `error` units.
+    pub fn within(units: BigInt, error: f64) -> Fixed {
+        Fixed { units, error }
+    }
+
     /// The bound of the error, in units.
     pub fn error(&self) -> f64 {
         self.error
