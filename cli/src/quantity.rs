@@ -1,19 +1,33 @@
 //! Exact numbers in flags: `--step 1/10`, `--set x=1/2`.
 
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use shadowstep::Rational;
 use shadowstep::problems::ProblemError;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::NUMBER_EXAMPLES;
-use shadowstep_symbolic::parse;
+use shadowstep_symbolic::{Budget, evaluate_within, parse};
+
+/// Digits of irrational numbers in flags.
+const DIGITS: u32 = 300;
+
+thread_local! {
+    /// How much computing the numbers of a command line may take together.
+    static BUDGET: Budget = Budget::default();
+}
 
 /// The number of a flag.
 pub(crate) fn number(flag: &str, text: &str) -> Result<Rational, Error> {
-    shadowstep::exact(text).map_err(|error| {
+    exact(text).map_err(|error| {
         let place = character(text, error.range().start);
         Error::usage(format!("{flag} `{text}`, character {place}: {error}"), NUMBER_EXAMPLES)
     })
+}
+
+fn exact(text: &str) -> Result<Rational, shadowstep_symbolic::Error> {
+    let expression = parse(text)?;
+    Ok(BUDGET.with(|budget| evaluate_within(&expression, &BTreeMap::new(), DIGITS, budget))?.value)
 }
 
 /// A whole number of a flag, within a range.

@@ -40,7 +40,7 @@ pub use values::Values;
 
 use std::collections::BTreeMap;
 
-use shadowstep_symbolic::{Exact, evaluate, parse, suggestion};
+use shadowstep_symbolic::{Budget, Exact, evaluate_within, parse, suggestion};
 
 use crate::Rational;
 #[cfg(feature = "mpfr")]
@@ -139,16 +139,16 @@ impl Problem {
         let defaults = parameters.iter().map(|p| (p.name.to_owned(), p.default.to_owned()));
         let all: Vec<(String, String)> = defaults.chain(positions).chain(momenta).collect();
         self.check_names(set, &all)?;
-        let mut known = BTreeMap::new();
+        let (mut known, budget) = (BTreeMap::new(), Budget::default());
         let mut named = Vec::new();
         for (name, default) in all {
             let text = set.iter().find(|(n, _)| *n == name).map_or(default, |(_, text)| text.clone());
-            let value = value_of(&name, &text, &known, digits)?;
+            let value = value_of(&name, &text, &known, digits, &budget)?;
             self.check_range(&name, &text, &value.value)?;
             known.insert(name.clone(), value.clone());
             named.push((name, value));
         }
-        let mass = |text: &String| value_of("mass", text, &known, digits);
+        let mass = |text: &String| value_of("mass", text, &known, digits, &budget);
         let masses = masses.map(|texts| texts.iter().map(mass).collect::<Result<_, ProblemError>>()).transpose()?;
         Ok(Setup { problem: self, values: Values::new(named, parameters.len(), masses) })
     }
@@ -177,10 +177,16 @@ impl Problem {
     }
 }
 
-fn value_of(name: &str, text: &str, known: &BTreeMap<String, Exact>, digits: u32) -> Result<Exact, ProblemError> {
+fn value_of(
+    name: &str,
+    text: &str,
+    known: &BTreeMap<String, Exact>,
+    digits: u32,
+    budget: &Budget,
+) -> Result<Exact, ProblemError> {
     let wrong = |why: String| ProblemError::NoValue { name: name.to_owned(), text: text.to_owned(), why };
     let expression = parse(text).map_err(|e| wrong(e.to_string()))?;
-    evaluate(&expression, known, digits).map_err(|e| wrong(e.to_string()))
+    evaluate_within(&expression, known, digits, budget).map_err(|e| wrong(e.to_string()))
 }
 
 impl Setup {

@@ -15,6 +15,9 @@ use shadowstep_scenes::lock::{LockError, open_locked};
 
 use crate::{Error, Observer};
 
+/// The most bytes of the file.
+const LARGEST: u64 = 1 << 30;
+
 /// The name of the file in its folder.
 const NAME: &str = "results.jsonl";
 
@@ -57,7 +60,10 @@ impl Store {
         let path = folder.join(NAME);
         let mut file = locked(&path)?;
         let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes)?;
+        if file.metadata()?.len() > LARGEST {
+            return Err(foreign(&path, &format!("it is longer than {} MiB", LARGEST >> 20)));
+        }
+        (&file).take(LARGEST).read_to_end(&mut bytes)?;
         let header = format!("{}\n", json!({ "shadowstep": version }));
         // the program ended within its first line
         if header.as_bytes().starts_with(&bytes) && bytes.len() < header.len() {

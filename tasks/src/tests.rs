@@ -183,6 +183,15 @@ fn two_stores_cannot_have_one_folder() {
 }
 
 #[test]
+fn a_file_beyond_the_limit_is_not_read() {
+    let folder = TempDir::new().unwrap();
+    // of zeros that take no place on the disk
+    fs::File::create(folder.path().join("results.jsonl")).unwrap().set_len((1 << 30) + 1).unwrap();
+    let refused = format!("{:?}", Store::open(folder.path(), &mut ()).unwrap_err());
+    assert!(refused.contains("it is longer than 1024 MiB"), "{refused}");
+}
+
+#[test]
 fn other_files_are_not_changed() {
     let head = format!("{{\"shadowstep\":\"{}\"}}\n", env!("CARGO_PKG_VERSION"));
     for (text, expected) in [

@@ -206,12 +206,50 @@ fn changed_rows_are_refused() {
 #[test]
 fn rows_without_a_checkpoint_are_replaced() {
     let scene = short(PLAIN);
+    let rows = undisturbed(&scene, "out.csv");
     let folder = folder(&scene);
-    fs::write(folder.path().join("out.csv.partial"), "of a run that was killed before its first checkpoint").unwrap();
+    // of a run that was killed before its first checkpoint
+    fs::write(folder.path().join("out.csv.partial"), &rows[..500]).unwrap();
     let result = run(folder.path(), "");
     assert_eq!((result.code, result.err.as_str()), (0, ""));
-    assert!(fs::read_to_string(folder.path().join("out.csv")).unwrap() == undisturbed(&scene, "out.csv"));
+    assert!(fs::read_to_string(folder.path().join("out.csv")).unwrap() == rows);
     assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+    let folder = self::folder(&scene.replace("out.csv", "out.jsonl"));
+    fs::write(folder.path().join("out.jsonl.partial"), "{\"n\":0,\"t\":0.0,").unwrap();
+    let result = run(folder.path(), "");
+    assert_eq!((result.code, result.err.as_str()), (0, ""));
+    let rows = fs::read_to_string(folder.path().join("out.jsonl")).unwrap();
+    assert!(rows.starts_with("{\"n\":0,"), "{}", &rows[..40]);
+}
+
+#[test]
+fn a_file_of_someone_else_with_the_name_of_a_partial_file_is_kept() {
+    let scene = short(PLAIN);
+    for name in ["out.csv.partial", "out.csv.checkpoint.new"] {
+        let folder = folder(&scene);
+        let strange = folder.path().join(name);
+        fs::write(&strange, "notes").unwrap();
+        for flags in ["", "--restart"] {
+            let result = run(folder.path(), flags);
+            assert_eq!(result.code, 2, "{name} {flags}: {}", result.err);
+            assert!(result.err.contains(&format!("{name} already exists and is not")), "{}", result.err);
+            assert_eq!(fs::read_to_string(&strange).unwrap(), "notes");
+        }
+    }
+    let folder = folder(&scene);
+    fs::write(folder.path().join("out.csv.partial"), "notes").unwrap();
+    assert_eq!(run(folder.path(), "--force").code, 0);
+    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_checkpoint_is_read_up_to_its_largest_size() {
+    let folder = stopped(PLAIN, "out.csv");
+    let checkpoint = folder.path().join("out.csv.checkpoint");
+    fs::remove_file(&checkpoint).unwrap();
+    std::os::unix::fs::symlink("/dev/zero", &checkpoint).unwrap();
+    refused(&folder, "out.csv.checkpoint is longer than 256 MiB");
 }
 
 #[test]

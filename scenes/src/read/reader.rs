@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use shadowstep_schemes::document::{self, Key, Keys, Placed, Section, Source, Text, Value};
 use shadowstep_symbolic::decimal::to_significant;
-use shadowstep_symbolic::{Exact, Graph, parse};
+use shadowstep_symbolic::{Budget, Exact, Graph, parse};
 use toml::de::DeTable;
 
 use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, NUMBER_EXAMPLES};
@@ -22,6 +22,8 @@ pub(super) struct Reader<'a> {
     pub(super) arithmetic: Arithmetic,
     /// The parameters, which values can contain.
     pub(super) known: BTreeMap<String, Exact>,
+    /// How much computing the values may take together.
+    budget: Budget,
     /// What the user should know.
     pub(super) notes: Vec<Note>,
 }
@@ -29,7 +31,13 @@ pub(super) struct Reader<'a> {
 impl<'a> Reader<'a> {
     pub(super) fn new(source: &'a Source) -> Self {
         let toml = document::Reader::new(source, Vec::new());
-        Reader { toml, arithmetic: Arithmetic::Double, known: BTreeMap::new(), notes: Vec::new() }
+        Reader {
+            toml,
+            arithmetic: Arithmetic::Double,
+            known: BTreeMap::new(),
+            budget: Budget::default(),
+            notes: Vec::new(),
+        }
     }
 
     /// A section of the scene; unknown keys are faults.
@@ -73,8 +81,12 @@ impl<'a> Reader<'a> {
 
     /// The value of a number, which can contain the parameters.
     pub(super) fn evaluate(&mut self, text: &Text) -> Option<Exact> {
+        // the value that took the rest has its fault
+        if self.budget.is_spent() {
+            return None;
+        }
         let digits = self.arithmetic.value_digits();
-        match text.evaluate(&self.known, digits) {
+        match text.evaluate(&self.known, digits, &self.budget) {
             Ok(exact) if !self.arithmetic.has_digits_of(&exact) => {
                 let message = format!(
                     "this value is irrational and computed to {MOST_VALUE_DIGITS} digits; the run needs {digits}"
@@ -128,4 +140,29 @@ impl<'a> Reader<'a> {
 fn keys_of(section: &str) -> Keys {
     let heading = keys::SECTIONS.iter().find(|known| known.name == section).map_or("a scene", |known| known.heading);
     Keys::new(heading, keys::of(section).map(|key| Key::new(key.name, key.example))).with_elsewhere(keys::section_with)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_numbers_of_a_scene_share_a_budget() {
+        let numbers: Vec<String> = (1..=100).map(|n| format!("\"sin({n})\"")).collect();
+        let source = Source { path: "mine.toml".to_owned(), text: format!("q = [{}]", numbers.join(", ")) };
+        let (document, _) = document::document(&source);
+        let document = document.unwrap();
+        let evaluated = |budget: Budget| {
+            let mut reader = Reader::new(&source);
+            reader.budget = budget;
+            let list = reader.numbers(document.get("q").unwrap(), "numbers").unwrap();
+            let values = list.value.iter().filter_map(|text| reader.evaluate(text)).count();
+            (values, reader.toml.faults.iter().map(|fault| fault.message.clone()).collect::<Vec<_>>())
+        };
+        assert_eq!(evaluated(Budget::default()), (100, Vec::new()));
+        // each costs less than 10⁷ bits squared at these digits, and more than 10⁵; one fault is enough
+        let (values, faults) = evaluated(Budget::new(10_000_000));
+        assert!((1..100).contains(&values), "{values}");
+        assert!(faults.len() == 1 && faults[0].starts_with("this takes too long"), "{faults:?}");
+    }
 }

@@ -10,6 +10,7 @@ use std::io::{self, BufReader, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
+use shadowstep_schemes::document::read_text;
 
 use crate::error::Error;
 use crate::lock::{LockError, open_locked};
@@ -17,12 +18,25 @@ use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity, SavedState};
 use crate::results::metadata::hexadecimal;
+use crate::results::options::FileOptions;
 
 /// The extension of a checkpoint.
 const CHECKPOINT: &str = "checkpoint";
 
 /// The extension of a checkpoint that is being written.
 const NEW_CHECKPOINT: &str = "checkpoint.new";
+
+/// How a checkpoint begins.
+const HEAD_OF_CHECKPOINT: &str = "{\n  \"checkpoint\": {";
+
+/// How a row of JSON lines begins.
+const HEAD_OF_ROW: &str = "{\"n\":";
+
+/// The most bytes of a checkpoint.
+const LARGEST_CHECKPOINT: u64 = 256 << 20;
+
+/// The metadata at the beginning of a file are shorter.
+pub(super) const LONGEST_HEAD: u64 = 1 << 20;
 
 /// The partial file of a run.
 pub(crate) struct Resumable {
@@ -36,11 +50,12 @@ pub(crate) struct Resumable {
 }
 
 impl Resumable {
-    /// Creates the file, or opens it at its checkpoint. With `restart` it is always created.
+    /// Creates the file, or opens it at its checkpoint. With `restart` it is always created. A partial file that has no
+    /// checkpoint and is not from this scene is replaced with `force` only.
     pub(crate) fn open(
         path: &Path,
         identity: Identity,
-        restart: bool,
+        FileOptions { restart, force }: FileOptions,
         observer: &mut dyn Observer,
     ) -> Result<(Resumable, Option<Checkpoint>), Error> {
         let [partial, checkpoint] = ["partial", CHECKPOINT].map(|ending| beside(path, ending));
@@ -55,20 +70,21 @@ impl Resumable {
             bytes: 0,
             hash: Sha256::new(),
         };
-        let found = match fs::read(&resumable.checkpoint) {
-            Err(error) if error.kind() == ErrorKind::NotFound => None,
-            Err(error) => return Err(error.into()),
-            Ok(_) if restart => None,
+        let found = match resumable.checkpoint.try_exists()? {
+            false if force || resumable.is_own_partial(length)? => None,
+            false => return Err(not_own(&resumable.partial)),
+            true if restart => None,
             // the run was complete, and ended just before it could remove the checkpoint
-            Ok(_) if length == 0 => {
+            true if length == 0 => {
                 observer.note(&Note::CheckpointWithoutRows { checkpoint: resumable.checkpoint.clone() });
                 None
             }
-            Ok(bytes) => Some(resumable.resume(&String::from_utf8_lossy(&bytes), length)?),
+            true => Some(resumable.resume(length)?),
         };
         if found.is_none() {
             resumable.remove_checkpoint()?;
             resumable.file.get_ref().set_len(0)?;
+            resumable.file.get_mut().rewind()?;
         }
         Ok((resumable, found))
     }
@@ -83,8 +99,24 @@ impl Resumable {
         beside(path, CHECKPOINT).exists()
     }
 
-    fn resume(&mut self, text: &str, length: u64) -> Result<Checkpoint, Error> {
-        let checkpoint = Checkpoint::read(text, &self.identity).map_err(|why| self.refused(&self.checkpoint, &why))?;
+    /// Whether the partial file is from a run of this scene that wrote no checkpoint, or removed it.
+    fn is_own_partial(&mut self, length: u64) -> Result<bool, Error> {
+        let mut head = Vec::new();
+        self.file.get_ref().take(LONGEST_HEAD).read_to_end(&mut head)?;
+        let hash = self.identity.scene().as_bytes();
+        let is_own = head.starts_with(HEAD_OF_ROW.as_bytes()) || head.windows(hash.len()).any(|part| part == hash);
+        Ok(length == 0 || is_own)
+    }
+
+    fn resume(&mut self, length: u64) -> Result<Checkpoint, Error> {
+        let text = read_text(&self.checkpoint, LARGEST_CHECKPOINT).map_err(|error| match error.kind() {
+            ErrorKind::FileTooLarge => {
+                self.refused(&self.checkpoint, &format!("is longer than {} MiB", LARGEST_CHECKPOINT >> 20))
+            }
+            ErrorKind::InvalidData => self.refused(&self.checkpoint, "is damaged"),
+            _ => error.into(),
+        })?;
+        let checkpoint = Checkpoint::read(&text, &self.identity).map_err(|why| self.refused(&self.checkpoint, &why))?;
         let file = self.file.get_mut();
         if length < checkpoint.bytes {
             return Err(self.refused(&self.partial, "is shorter than its checkpoint states"));
@@ -111,9 +143,15 @@ impl Resumable {
         self.file.get_ref().sync_data()?;
         let sha256 = hexadecimal(&self.hash.clone().finalize());
         let checkpoint = Checkpoint { identity: self.identity.clone(), n, bytes: self.bytes, sha256, state };
+        let text = checkpoint.to_text();
+        if text.len() as u64 > LARGEST_CHECKPOINT {
+            let message = format!("a checkpoint of this run is longer than {} MiB", LARGEST_CHECKPOINT >> 20);
+            return Err(Error::usage(message, "leave `checkpoint` out of [output]"));
+        }
         let new = beside(&self.path, NEW_CHECKPOINT);
-        let mut file = File::create(&new)?;
-        file.write_all(checkpoint.to_text().as_bytes())?;
+        remove_new_checkpoint(&new)?;
+        let mut file = File::create_new(&new)?;
+        file.write_all(text.as_bytes())?;
         file.sync_all()?;
         fs::rename(&new, &self.checkpoint)?;
         sync_folder(&self.path);
@@ -139,7 +177,7 @@ impl Resumable {
     /// Removes the checkpoint, and an incomplete one.
     fn remove_checkpoint(&self) -> Result<(), Error> {
         remove(&self.checkpoint)?;
-        remove(&beside(&self.path, NEW_CHECKPOINT))
+        remove_new_checkpoint(&beside(&self.path, NEW_CHECKPOINT))
     }
 }
 
@@ -194,6 +232,26 @@ fn locked(path: &Path, partial: &Path) -> Result<File, Error> {
 pub(super) fn beside(path: &Path, ending: &str) -> PathBuf {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     path.with_file_name(format!("{name}.{ending}"))
+}
+
+/// Removes the incomplete checkpoint of a run that was killed; any other file of this name is an error.
+fn remove_new_checkpoint(path: &Path) -> Result<(), Error> {
+    let mut begin = Vec::new();
+    match File::open(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(error.into()),
+        Ok(file) => file.take(HEAD_OF_CHECKPOINT.len() as u64).read_to_end(&mut begin)?,
+    };
+    if !HEAD_OF_CHECKPOINT.as_bytes().starts_with(&begin) {
+        let message = format!("{} already exists and is not a checkpoint", path.display());
+        return Err(Error::usage(message, "move it, or give this scene another file"));
+    }
+    remove(path)
+}
+
+fn not_own(partial: &Path) -> Error {
+    let message = format!("{} already exists and is not from this unchanged scene", partial.display());
+    Error::usage(message, "move it, give this scene another file, or replace it with --force")
 }
 
 fn remove(path: &Path) -> Result<(), Error> {

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity, SavedState};
 use crate::results::options::FileOptions;
-use crate::results::resumable::{Resumable, beside};
+use crate::results::resumable::{LONGEST_HEAD, Resumable, beside};
 use crate::scene::{Format, Scene};
 use crate::whole_file::WholeFile;
 
@@ -23,9 +23,6 @@ pub(crate) enum Target<'a> {
     /// A file with checkpoints.
     Resumable(Box<Resumable>),
 }
-
-/// Longer than the metadata of any file.
-const LONGEST_HEAD: u64 = 1 << 20;
 
 /// The extension of the file with the metadata of JSON lines.
 pub(super) const METADATA: &str = "metadata.json";
@@ -77,7 +74,7 @@ impl<'a> Target<'a> {
     /// The file of the scene, and the checkpoint from which the run is resumed; `None` if the file is complete.
     pub(crate) fn open(
         scene: &Scene,
-        FileOptions { restart, force }: FileOptions,
+        options: FileOptions,
         observer: &mut dyn Observer,
     ) -> Result<Option<(Target<'a>, Option<Checkpoint>)>, Error> {
         let Some((path, place)) = &scene.output.file else {
@@ -88,18 +85,18 @@ impl<'a> Target<'a> {
             return Err(at_place(Error::usage("the file is the scene itself", "give it another name")));
         }
         match origin(path, scene) {
-            Origin::Other if !force && !path.is_dir() => {
+            Origin::Other if !options.force && !path.is_dir() => {
                 let message = format!("{} already exists and is not from this unchanged scene", path.display());
                 let hint = "use another name, move the file, or replace it with --force";
                 return Err(at_place(Error::usage(message, hint)));
             }
-            Origin::Same if !restart && !Resumable::has_checkpoint(path) => return Ok(None),
+            Origin::Same if !options.restart && !Resumable::has_checkpoint(path) => return Ok(None),
             _ => {}
         }
         if scene.output.checkpoint.is_none() {
             return Ok(Some((Target::File(WholeFile::create(path, "file").map_err(at_place)?), None)));
         }
-        let opened = Resumable::open(path, Identity::of(scene), restart, observer);
+        let opened = Resumable::open(path, Identity::of(scene), options, observer);
         let (file, checkpoint) = opened.map_err(at_place)?;
         Ok(Some((Target::Resumable(Box::new(file)), checkpoint)))
     }

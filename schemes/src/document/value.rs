@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use shadowstep_symbolic::decimal::from_text;
-use shadowstep_symbolic::{Error, Exact, evaluate, parse};
+use shadowstep_symbolic::{Budget, Error, Exact, evaluate_within, parse};
 use toml::Spanned;
 use toml::de::{DeString, DeValue};
 
@@ -55,15 +55,15 @@ impl Text {
     }
 
     /// The value of the text as a number or an expression in `known` numbers. An irrational value is rounded to `digits`
-    /// significant digits.
+    /// significant digits. All formulas of a document share a budget.
     ///
     /// # Errors
     /// A text that is not a number or expression, or has no value; [`Error::range`] is a range of the text.
-    pub fn evaluate(&self, known: &BTreeMap<String, Exact>, digits: u32) -> Result<Exact, Error> {
+    pub fn evaluate(&self, known: &BTreeMap<String, Exact>, digits: u32, budget: &Budget) -> Result<Exact, Error> {
         // a number may be longer than a formula
         if let Ok(value) = from_text(&self.value) {
             return Ok(Exact { value, rounded: false });
         }
-        Ok(evaluate(&parse(&self.value)?, known, digits)?)
+        Ok(evaluate_within(&parse(&self.value)?, known, digits, budget)?)
     }
 }
