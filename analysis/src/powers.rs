@@ -151,7 +151,7 @@ impl<'a> Ring<'a> {
         let exponents = 2..=((length + 2) / (2 * size)).min(longest / size + 2);
         let of = |exponent: usize| {
             let cuts = |map: usize| [map, map + size].map(|of| Cut { map, left: self.weight(of).clone() });
-            (0..length).flat_map(cuts).find_map(|start| self.walk(start, size, exponent, &repeats))
+            (0..length).flat_map(cuts).find_map(|start| self.walk(&start, size, exponent, &repeats))
         };
         exponents.filter_map(of).collect()
     }
@@ -162,12 +162,12 @@ impl<'a> Ring<'a> {
     }
 
     /// The ring as powers with this exponent, the first of which begins at the cut.
-    fn walk(&self, start: Cut, size: usize, exponent: usize, repeats: &[usize]) -> Option<Powers> {
+    fn walk(&self, start: &Cut, size: usize, exponent: usize, repeats: &[usize]) -> Option<Powers> {
         let length = self.maps.len();
         let end = Cut { map: start.map + length, left: start.left.clone() };
         let (mut cut, mut count) = (start.clone(), 0);
         let window = |cut: &Cut| (cut.map + 1..=cut.map + size).map(|map| self.number(map)).collect::<Vec<_>>();
-        let first = window(&start);
+        let first = window(start);
         while cut != end {
             if cut.map >= end.map || count > 0 && !is_same_ring(&first, &window(&cut)) {
                 return None;
