@@ -66,6 +66,13 @@ impl<N: Number> Report<N> {
                  the energy, or something else acts; {check}"
             ),
             Verdict::NotSmooth => self.why_not_smooth(),
+            Verdict::NotConserved => format!(
+                "the energy error is {:.1e} of T, and {moved}, permanently, where round-off makes {}: the error grows with the length of the \
+                 run. A smaller step resolves encounters better; forces that are not smooth, or something other than the scheme, have \
+                 such effects, too",
+                self.relative_error(),
+                self.in_parts(&self.round_off)
+            ),
             Verdict::TooLarge(criterion) => self.why_too_large(criterion, &moved),
             Verdict::Fine if self.has_no_energy_error() => {
                 format!("the energy is the same in all windows of {steps} steps")

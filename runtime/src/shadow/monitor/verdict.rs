@@ -24,7 +24,8 @@ use super::trend::Trend;
 /// | not the gradient | a permanent change of a quarter is excluded, but H̄ changes from state to state as H does: they differ by 0.3 of what H̄ changes in a window, whose last terms are 0.004 of that, and the fastest motion turns once in 10 steps or more |
 /// | fine | a permanent change of a quarter is excluded, and the one above does not apply |
 /// | not smooth | forces are [not smooth](super::Report::rough) in a quarter of the windows |
-/// | too large: moves | H̄ moved permanently by half or more, its errors are a quarter or less, and the fastest motion turns once in 18 steps or less |
+/// | not conserved | H̄ moved permanently by half or more, its errors are a quarter or less, and the fastest motion turns once in 18 steps or less; but the energy error is below 1e-3 of T |
+/// | too large: moves | the same, and the energy error is 1e-3 of T or more |
 /// | undecided: resolution | none of these: the [advice](super::Report::advice) is what would decide |
 ///
 /// The thresholds come from a matrix of runs, and were tested with others: `docs/monitor.md`.
@@ -55,6 +56,9 @@ pub enum Verdict {
     /// The forces are not smooth, and most of the change of the energy comes from that: a smaller step helps as a low power of its
     /// size only, whatever the order of the scheme.
     NotSmooth,
+    /// No modified energy is conserved, but the energy error is small so far: it grows with the length of the run. The cause is encounters that
+    /// the steps do not resolve, forces that are not smooth, or something other than the scheme.
+    NotConserved,
     /// The states do not belong to the increments: plain steps were made where augmented ones were needed, or the state was changed
     /// between the steps.
     Inconsistent,
@@ -135,6 +139,8 @@ const ANGLE_LIMIT: f64 = 0.6;
 const ERROR_FACTOR: f64 = 3.0;
 /// The verdict is round-off if that makes this part of the energy error or more.
 const ROUND_OFF_PART: f64 = 0.5;
+/// An energy error below this part of the mean kinetic energy is small: it may grow, and the step size is not yet too large.
+const SMALL_ERROR: f64 = 1e-3;
 /// The energy error is too large from this part of the mean kinetic energy on.
 const KINETIC_LIMIT: f64 = 0.4;
 /// Round-off may be this many times what is expected.
@@ -226,7 +232,7 @@ impl Evidence {
         } else if self.rough {
             Verdict::NotSmooth
         } else if self.turns_fast() && self.permanent_move().is_some_and(|moved| moved >= PERMANENT_MOVE) {
-            Verdict::TooLarge(Criterion::Moved)
+            if self.of_kinetic < SMALL_ERROR { Verdict::NotConserved } else { Verdict::TooLarge(Criterion::Moved) }
         } else {
             Verdict::Undecided(Missing::Resolution)
         }
@@ -339,6 +345,7 @@ impl fmt::Display for Verdict {
             Verdict::Drifts => f.write_str("the modified energy drifts"),
             Verdict::NotTheGradient => f.write_str("the forces do not belong to the energy"),
             Verdict::NotSmooth => f.write_str("the forces are not smooth"),
+            Verdict::NotConserved => f.write_str("the modified energy is not conserved"),
             Verdict::Inconsistent => f.write_str("the states do not belong to the increments"),
             Verdict::TooLarge(_) => f.write_str("the step size is too large"),
             Verdict::RoundOff => f.write_str("the energy error is round-off"),
@@ -392,6 +399,8 @@ mod tests {
         assert_eq!(Evidence { windows: 15, ..FINE }.verdict(), Verdict::Undecided(Missing::Windows));
         assert_eq!([0.24, 0.26, 0.49, 0.5, 1.6].map(moved), [Verdict::Fine, UNRESOLVED, UNRESOLVED, MOVES, UNRESOLVED]);
         assert_eq!(Evidence { of_kinetic: 0.4, ..FINE }.verdict(), Verdict::TooLarge(Criterion::EnergyError));
+        let small = Evidence { moved: 0.5, range: 0.5, of_kinetic: 0.9e-3, ..FINE };
+        assert_eq!(small.verdict(), Verdict::NotConserved);
         let moves = Evidence { moved: 0.6, range: 0.6, ..FINE };
         let others = [
             Evidence { worst_error: 0.3, ..moves },
