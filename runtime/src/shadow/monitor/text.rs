@@ -165,10 +165,11 @@ impl<N: Number> Report<N> {
 
     fn why_too_large(&self, criterion: Criterion, moved: &str) -> String {
         // a wrapped angle or a changed momentum changes H̄, too
-        let other = "or something other than the scheme changed the state";
+        let other = "or something other than the scheme that changed the state";
         match criterion {
             Criterion::Moved => format!(
-                "{moved}, permanently, where round-off makes {}: no modified energy is conserved, {other}",
+                "{moved}, permanently, where round-off makes {}: no modified energy is conserved. Forces that are not smooth, \
+                 {other}, have such effects, too",
                 self.in_parts(&self.round_off)
             ),
             Criterion::EnergyError if self.relative_error().is_finite() => {
