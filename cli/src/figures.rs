@@ -1,17 +1,14 @@
 //! `shadowstep figures`: the figures of Moan and Niesen's paper, and additional ones.
 
-mod progress;
-
 use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use shadowstep_figures::{Error, Observer, Progress, Request, reproduce};
+use shadowstep_figures::{Error, Request, reproduce};
 
-use crate::interrupt::Interrupt;
 use crate::output::Output;
-use crate::report::{self, Status};
-use progress::Bar;
+use crate::report::Status;
+use crate::tasks::Terminal;
 
 const EXAMPLE: &str = "\
 Examples:
@@ -43,44 +40,10 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let Arguments { names, quick, out, force } = arguments;
     let request = Request { names: names.clone(), quick: *quick, folder: out.clone(), force: *force };
-    let mut terminal = Terminal { bar: None, status: Status::Success, interrupt: Interrupt::listen() };
+    let mut terminal = Terminal::listen();
     let summary = reproduce(&request, &mut terminal)?;
     let mut output = Output::stdout();
     writeln!(output, "{}\n{}", summary.report.display(), summary.verdicts)?;
     output.finish()?;
     Ok(terminal.status)
-}
-
-/// Shows on stderr what happens.
-struct Terminal {
-    /// While there are tasks.
-    bar: Option<Bar>,
-    status: Status,
-    interrupt: Interrupt,
-}
-
-impl Observer for Terminal {
-    fn progress(&mut self, progress: Progress) {
-        self.bar.get_or_insert_with(Bar::new).show(progress);
-        if progress.done == progress.tasks {
-            self.bar = None;
-        }
-    }
-
-    fn stops(&mut self) -> bool {
-        let asked = self.interrupt.asked();
-        if asked {
-            self.bar = None;
-        }
-        asked
-    }
-
-    fn note(&mut self, note: &str) {
-        report::note(note);
-    }
-
-    fn failed(&mut self, error: &Error) {
-        self.bar = None;
-        self.status = self.status.max(report::error(error));
-    }
 }

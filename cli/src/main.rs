@@ -8,10 +8,11 @@
 //! | [`drift`], [`trace`] | runs of problems: one line a run, or one line a step |
 //! | [`run`], [`scene`] | runs that a file describes; such files |
 //! | [`schemes`], [`problems`] | what can be run |
+//! | [`work_precision`] | speed against error |
 //! | [`figures`] | the figures of the paper, and additional ones |
 //! | [`run_arguments`], [`quantity`] | the flags of runs; exact numbers |
 //! | [`selection`], [`system`] | flags → schemes and steps; flags → the system |
-//! | [`readable`], [`output`], [`progress`] | tables, lines and bars |
+//! | [`readable`], [`output`], [`progress`], [`tasks`] | tables, lines and bars |
 //! | [`report`], [`colour`], [`interrupt`] | messages on stderr and the exit status; colours; Ctrl-C |
 
 mod drift;
@@ -21,6 +22,7 @@ mod run;
 mod scene;
 mod schemes;
 mod trace;
+mod work_precision;
 
 mod colour;
 mod interrupt;
@@ -32,6 +34,7 @@ mod report;
 mod run_arguments;
 mod selection;
 mod system;
+mod tasks;
 
 use std::process::ExitCode;
 
@@ -62,6 +65,7 @@ commands! {
     Run: run,
     Scene: scene,
     Schemes: schemes,
+    WorkPrecision: work_precision,
     Figures: figures,
     Problems: problems,
 }

@@ -66,14 +66,17 @@ pub(crate) struct RunArguments {
 pub(crate) struct SystemArguments {
     /// A shipped problem, such as kepler, or a scene's file, such as mine.toml, of which [problem] and [initial] are used;
     /// `shadowstep problems` lists the shipped ones
-    #[arg(long, value_name = "NAME|FILE", required_unless_present = "potential")]
-    pub(crate) problem: Option<String>,
+    #[arg(value_name = "PROBLEM|SCENE", required_unless_present_any = ["problem", "potential"])]
+    name: Option<String>,
+    /// The same as PROBLEM|SCENE
+    #[arg(long, value_name = "NAME|FILE", conflicts_with = "name")]
+    problem: Option<String>,
     /// A parameter or initial value of a shipped problem, or a parameter of --potential, exact, such as eccentricity=1/3 or
     /// "px=sqrt(2)/2"; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
     /// U(q), a smooth formula in the coordinates of --q, in place of --problem: "-1/sqrt(x^2 + y^2)"
-    #[arg(long, value_name = "FORMULA", conflicts_with = "problem", requires_all = ["q", "p"], allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORMULA", conflicts_with_all = ["name", "problem"], requires_all = ["q", "p"], allow_hyphen_values = true)]
     pub(crate) potential: Option<String>,
     /// The coordinates of --potential at t = 0: x=0.4,y=0
     #[arg(
@@ -96,6 +99,13 @@ pub(crate) struct SystemArguments {
     /// The masses of the coordinates [default: all are 1]
     #[arg(long, value_name = "VALUE,…", value_delimiter = ',', requires = "potential")]
     pub(crate) masses: Vec<String>,
+}
+
+impl SystemArguments {
+    /// The name of a shipped problem or the path of a scene.
+    pub(crate) fn problem(&self) -> Option<&String> {
+        self.name.as_ref().or(self.problem.as_ref())
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

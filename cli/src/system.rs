@@ -24,7 +24,7 @@ pub(crate) struct Described {
 
 impl Described {
     pub(crate) fn read(arguments: &SystemArguments, arithmetic: Arithmetic) -> Result<Self, Error> {
-        match (&arguments.problem, &arguments.potential) {
+        match (arguments.problem(), &arguments.potential) {
             (_, Some(formula)) => by_formula(arguments, formula, arithmetic),
             (Some(path), None) if is_file(path) => of_scene(arguments, path, arithmetic),
             (Some(name), None) => shipped(arguments, name, arithmetic),
@@ -33,7 +33,7 @@ impl Described {
     }
 }
 
-fn is_file(word: &str) -> bool {
+pub(crate) fn is_file(word: &str) -> bool {
     word.ends_with(".toml") || word.contains(std::path::is_separator)
 }
 

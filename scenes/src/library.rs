@@ -96,7 +96,7 @@ pub fn scheme_from(word: &str, folder: &Path, first: Option<First>) -> Result<Na
 ///
 /// # Errors
 /// What is wrong, and which scheme would be right.
-pub(crate) fn check_general(named: &NamedScheme) -> Result<(), (String, String)> {
+pub fn check_general(named: &NamedScheme) -> Result<(), (String, String)> {
     let Err(error) = named.scheme.clone().for_every_kinetic() else { return Ok(()) };
     let claimed = named.scheme.proved().scheme.table.order.value;
     let better = best_for_every_kinetic(claimed).expect("there are shipped schemes for every T(p)");

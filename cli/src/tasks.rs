@@ -1,14 +1,58 @@
-//! How far tasks of very different costs are, on a terminal.
+//! Tasks of very different costs on a terminal: how far they are, notes and failures, Ctrl-C.
 
 use std::fmt::Write;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
-use shadowstep_figures::Progress;
+use shadowstep_tasks::{Error, Observer, Progress};
+
+use crate::interrupt::Interrupt;
+use crate::report::{self, Status};
+
+/// Shows on stderr what happens, and ends on Ctrl-C.
+pub(crate) struct Terminal {
+    /// While there are tasks.
+    bar: Option<Bar>,
+    /// The worst that has happened.
+    pub(crate) status: Status,
+    interrupt: Interrupt,
+}
+
+impl Terminal {
+    pub(crate) fn listen() -> Self {
+        Terminal { bar: None, status: Status::Success, interrupt: Interrupt::listen() }
+    }
+}
+
+impl Observer for Terminal {
+    fn progress(&mut self, progress: Progress) {
+        self.bar.get_or_insert_with(Bar::new).show(progress);
+        if progress.done == progress.tasks {
+            self.bar = None;
+        }
+    }
+
+    fn stops(&mut self) -> bool {
+        let asked = self.interrupt.asked();
+        if asked {
+            self.bar = None;
+        }
+        asked
+    }
+
+    fn note(&mut self, note: &str) {
+        report::note(note);
+    }
+
+    fn failed(&mut self, error: &Error) {
+        self.bar = None;
+        self.status = self.status.max(report::error(error));
+    }
+}
 
 /// A bar on stderr, if that is a terminal; its length is the cost of all tasks, not their number.
-pub(super) struct Bar {
+struct Bar {
     bar: ProgressBar,
     /// The time that all tasks take together, as estimated from what is done.
     expected: Arc<Mutex<Option<Duration>>>,
@@ -18,7 +62,7 @@ impl Bar {
     /// The positions of the bar.
     const LENGTH: f64 = 10_000.0;
 
-    pub(super) fn new() -> Bar {
+    fn new() -> Bar {
         let bar = ProgressBar::new(Self::LENGTH as u64);
         let expected = Arc::new(Mutex::new(None));
         let seen = Arc::clone(&expected);
@@ -37,7 +81,7 @@ impl Bar {
         Bar { bar, expected }
     }
 
-    pub(super) fn show(&self, Progress { done, tasks, fraction }: Progress) {
+    fn show(&self, Progress { done, tasks, fraction }: Progress) {
         *self.expected.lock().unwrap_or_else(PoisonError::into_inner) = in_all(self.bar.elapsed(), fraction);
         self.bar.set_prefix(format!("{done} of {tasks} calculations"));
         self.bar.set_position((fraction * Self::LENGTH) as u64);

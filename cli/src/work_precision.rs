@@ -1,0 +1,174 @@
+//! `shadowstep work-precision`: what each scheme pays for an error on a problem, from its stability limit down to round-off.
+
+mod problem;
+mod table;
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+use shadowstep::Rational;
+use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::{Error, System};
+use shadowstep_symbolic::decimal::to_text;
+use shadowstep_work_precision::files::write;
+use shadowstep_work_precision::ladder::Rungs;
+use shadowstep_work_precision::problem::Problem;
+use shadowstep_work_precision::schemes::default_schemes;
+use shadowstep_work_precision::study::Request;
+
+use crate::colour::on_stdout;
+use crate::output::Output;
+use crate::quantity;
+use crate::report::{self, Status};
+use crate::run_arguments::SystemArguments;
+use crate::tasks::Terminal;
+pub(crate) use problem::{Posed, PosedArguments};
+use table::readable;
+
+const EXAMPLE: &str = "\
+Examples:
+  shadowstep work-precision kepler --until 100 --out kepler
+  shadowstep work-precision mine.toml --schemes +mine-4.toml --out mine
+  shadowstep work-precision --potential \"x^4/4\" --q x=1 --p 0 --until 50 --digits 40 --out quartic
+  shadowstep work-precision henon-heiles --until 100 --schemes all --out henon-heiles
+
+DIR gets work-precision.csv and .jsonl, charts as SVG, report.html, and plot.py, which makes PDF or PGF of the CSV by Matplotlib.
+Results are saved in DIR/results.jsonl one by one. After Ctrl-C (exit code 3) the same command computes only what is missing.
+Errors of positions are |q - q_ref|, beside the exact flow where it is known, else beside a scheme of order 10 with more digits, whose
+own error is estimated. Times are those of the bare steps of tables that are read at run time, in one thread.";
+
+/// Speed against error: what each scheme pays for an error on a problem.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    system: SystemArguments,
+    #[command(flatten)]
+    posed: PosedArguments,
+    /// Shipped schemes or files of tables, such as yoshida4,mine.toml; +mine.toml adds to the default ones, all are those of the
+    /// catalogue that are valid for the kinetic energy [default: a dozen that are]
+    #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
+    schemes: Vec<String>,
+    /// Step sizes, exact, which the end of the runs must be multiples of, such as 1/10,1/20 [default: from the stability limit down to
+    /// round-off, at equal numbers of evaluations for all schemes]
+    #[arg(long, value_name = "H,…", value_delimiter = ',', allow_hyphen_values = true)]
+    steps: Vec<String>,
+    /// The time for the runs of a scheme, in seconds, unless --steps are given
+    #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, conflicts_with = "steps")]
+    seconds: f64,
+    /// The folder for charts, data and results
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Replaces files of the folder that are not from this program
+    #[arg(long)]
+    force: bool,
+}
+
+/// The reference may take so many times the time of a scheme.
+const REFERENCE: f64 = 10.0;
+
+/// Makes the runs, and writes charts and data.
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
+    let posed = Posed::read(&arguments.system, &arguments.posed)?;
+    let problem = posed.problem();
+    let schemes = schemes(&arguments.schemes, &posed)?;
+    let rungs = rungs(arguments, &posed.until)?;
+    let mut terminal = Terminal::listen();
+    let reference_time = Duration::from_secs_f64(REFERENCE * arguments.seconds);
+    let request = Request { problem, schemes: &schemes, rungs, reference_time, folder: arguments.out.clone() };
+    let study = request.study(arguments.force, &mut terminal)?;
+    let files = write(&study, &posed.title(), &command(), &arguments.out)?;
+    let mut output = Output::stdout();
+    write!(output, "{}", readable(&posed, &study, on_stdout()))?;
+    writeln!(output, "{}", files.report.display())?;
+    output.finish()?;
+    Ok(terminal.status)
+}
+
+/// The command line as it was given, for the head of the files.
+fn command() -> String {
+    let words = std::env::args().skip(1).map(|word| if word.contains(' ') { format!("\"{word}\"") } else { word });
+    format!("shadowstep {}", words.collect::<Vec<_>>().join(" "))
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (1e-3..=1e6).contains(&seconds) => Ok(seconds),
+        _ => Err("write a number of seconds from 0.001 to 1000000".to_owned()),
+    }
+}
+
+/// The schemes, each once, that are valid for the system and have the digits of the runs.
+fn schemes(words: &[String], posed: &Posed) -> Result<Vec<NamedScheme>, Error> {
+    let system = &posed.described.system;
+    let (added, mut named): (Vec<&str>, Vec<&str>) =
+        words.iter().map(String::as_str).partition(|word| word.starts_with('+'));
+    let all = named.contains(&"all");
+    if all {
+        named.retain(|word| *word != "all");
+        named.extend(shadowstep::tables::shipped_names());
+    } else if named.is_empty() {
+        named.extend(default_schemes(system.has_general_kinetic()));
+    }
+    named.extend(added.iter().map(|word| &word[1..]));
+    let mut found: Vec<NamedScheme> = Vec::new();
+    for word in named {
+        if word.trim().is_empty() {
+            return Err(Error::usage("--schemes has an empty value", "write --schemes yoshida4,+mine.toml"));
+        }
+        let scheme = scheme(word)?;
+        let is_valid = is_valid(&scheme, system, posed);
+        if found.iter().any(|other| other.name == scheme.name) || (all && is_valid.is_err()) {
+            continue;
+        }
+        is_valid?;
+        scheme.note().iter().for_each(report::note);
+        found.push(scheme);
+    }
+    Ok(found)
+}
+
+fn is_valid(scheme: &NamedScheme, system: &System, posed: &Posed) -> Result<(), Error> {
+    if system.has_general_kinetic() {
+        shadowstep_scenes::library::check_general(scheme).map_err(|(message, hint)| Error::usage(message, hint))?;
+    }
+    let suits = posed.arithmetic.suits(scheme);
+    suits.map(drop).map_err(|error| Error::usage(error.to_string(), format!("use --digits {}", error.most)))
+}
+
+/// The steps: those of the flag, or chosen for each scheme.
+fn rungs(arguments: &Arguments, until: &Rational) -> Result<Rungs, Error> {
+    if arguments.steps.is_empty() {
+        return Ok(Rungs::Automatic { seconds: arguments.seconds });
+    }
+    let count = |text: &String| {
+        let h = quantity::number("--steps", text)?;
+        let end = to_text(until);
+        let count = shadowstep_scenes::steps::count((&h, text), (until, &end), "--");
+        let count = count.map_err(|error| Error::usage(error.message, error.hint))?;
+        if &(&h * Rational::from_integer(count.into())) != until {
+            let message =
+                format!("--until {end} is not a multiple of the step {text}, so that runs would end at other times");
+            return Err(Error::usage(message, "use steps that divide the time"));
+        }
+        Ok(count)
+    };
+    let mut steps = arguments.steps.iter().map(count).collect::<Result<Vec<u64>, Error>>()?;
+    steps.sort_unstable();
+    steps.dedup();
+    Ok(Rungs::Steps(steps))
+}
+
+impl Posed {
+    fn problem(&self) -> Problem<'_> {
+        Problem { system: &self.described.system, until: &self.until, arithmetic: self.arithmetic }
+    }
+
+    /// The problem, the time and the number type in a line.
+    fn title(&self) -> String {
+        let Posed { described, until, arithmetic } = self;
+        format!("{}, t = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
+    }
+}

@@ -1,0 +1,63 @@
+//! Arguments → what schemes are compared on: a system, the end of the runs, a number type.
+
+use std::path::Path;
+
+use clap::Args;
+use shadowstep::Rational;
+use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
+use shadowstep_scenes::{Error, Scene};
+
+use crate::quantity::{self, whole};
+use crate::run_arguments::SystemArguments;
+use crate::system::{Described, is_file};
+
+/// The end of the runs and the number type.
+#[derive(Debug, Args)]
+pub(crate) struct PosedArguments {
+    /// The time at which runs end, exact, such as 100 [default: that of the scene]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    until: Option<String>,
+    /// Decimal digits of all numbers, such as 50 [default: those of the scene, else double precision]
+    #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS))]
+    digits: Option<u32>,
+    /// Double precision (f64) instead of the digits of the scene
+    #[arg(long, conflicts_with = "digits")]
+    double: bool,
+}
+
+/// A system with the end of the runs and the number type.
+#[derive(Debug)]
+pub(crate) struct Posed {
+    pub(crate) described: Described,
+    pub(crate) until: Rational,
+    pub(crate) arithmetic: Arithmetic,
+}
+
+impl Posed {
+    pub(crate) fn read(system: &SystemArguments, arguments: &PosedArguments) -> Result<Self, Error> {
+        let path = system.problem().filter(|word| is_file(word));
+        let is_complete = arguments.until.is_some() && (arguments.double || arguments.digits.is_some());
+        // without [run], a scene is only a system
+        let scene = path.filter(|_| !is_complete).map(|path| Scene::open(Path::new(path)));
+        let scene = match (scene, &arguments.until) {
+            (Some(Err(error)), None) => return Err(error),
+            (scene, _) => scene.and_then(Result::ok),
+        };
+        let arithmetic = match (arguments.digits, &scene) {
+            (Some(digits), _) => {
+                Arithmetic::with_digits(digits).map_err(|error| Error::usage(error.to_string(), "use --digits 120"))?
+            }
+            (None, Some(scene)) if !arguments.double => scene.arithmetic,
+            (None, _) => Arithmetic::Double,
+        };
+        let until = match (&arguments.until, &scene) {
+            (Some(text), _) => quantity::number("--until", text)?,
+            (None, Some(scene)) => &scene.h * Rational::from_integer(scene.steps.into()),
+            (None, None) => return Err(Error::usage("--until is missing", "give the end of the runs: --until 100")),
+        };
+        if until == Rational::from_integer(0.into()) {
+            return Err(Error::usage("--until 0: the runs must have a length", "write --until 100"));
+        }
+        Ok(Posed { described: Described::read(system, arithmetic)?, until, arithmetic })
+    }
+}

@@ -1,0 +1,131 @@
+//! What a study is made of: the reference, the runs of each scheme, the time of their steps. Each is identified by its JSON.
+
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+use shadowstep_scenes::Error;
+use shadowstep_scenes::library::NamedScheme;
+use shadowstep_symbolic::decimal::to_text;
+use shadowstep_tasks::{Task, Watcher};
+
+use crate::ladder::{Climb, Ladder, Rungs};
+use crate::problem::{Problem, fingerprint};
+use crate::reference::Reference;
+use crate::timing::{StepTime, time_of_steps};
+
+/// Outcomes of another revision are computed again; a change of what is computed needs a new one.
+const REVISION: u32 = 1;
+
+/// A calculation with what it needs.
+#[derive(Serialize)]
+pub(crate) struct Calculation<'a> {
+    revision: u32,
+    /// The fingerprint of the problem.
+    on: String,
+    quantity: Quantity,
+    #[serde(skip)]
+    problem: Problem<'a>,
+    #[serde(skip)]
+    schemes: Vec<&'a NamedScheme>,
+    #[serde(skip)]
+    reference: Option<&'a Reference>,
+}
+
+/// What is computed.
+#[derive(Clone, Debug, Serialize)]
+enum Quantity {
+    /// The reference, with a limit in seconds.
+    Reference { samples: u64, seconds: f64 },
+    /// The runs of a scheme, which is identified by its weights.
+    Ladder { scheme: String, samples: u64, rungs: Rungs },
+    /// The time of a step of each scheme, with so many steps to the end.
+    Times { schemes: Vec<(String, u64)> },
+}
+
+/// The result of a calculation.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) enum Outcome {
+    Reference(Reference),
+    Ladder(Ladder),
+    Times(Vec<StepTime>),
+}
+
+impl<'a> Calculation<'a> {
+    pub(crate) fn reference(problem: Problem<'a>, samples: u64, time: Duration) -> Self {
+        let quantity = Quantity::Reference { samples, seconds: time.as_secs_f64() };
+        Calculation::new(problem, quantity, Vec::new(), None)
+    }
+
+    pub(crate) fn ladder(
+        problem: Problem<'a>,
+        scheme: &'a NamedScheme,
+        reference: &'a Reference,
+        rungs: &Rungs,
+    ) -> Self {
+        let quantity =
+            Quantity::Ladder { scheme: identity(scheme), samples: reference.samples(), rungs: rungs.clone() };
+        Calculation::new(problem, quantity, vec![scheme], Some(reference))
+    }
+
+    pub(crate) fn times(problem: Problem<'a>, schemes: &[(&'a NamedScheme, u64)]) -> Self {
+        let named = schemes.iter().map(|(scheme, steps)| (identity(scheme), *steps)).collect();
+        let schemes = schemes.iter().map(|(scheme, _)| *scheme).collect();
+        Calculation::new(problem, Quantity::Times { schemes: named }, schemes, None)
+    }
+
+    fn new(
+        problem: Problem<'a>,
+        quantity: Quantity,
+        schemes: Vec<&'a NamedScheme>,
+        reference: Option<&'a Reference>,
+    ) -> Self {
+        Calculation { revision: REVISION, on: problem.fingerprint(), quantity, problem, schemes, reference }
+    }
+
+    fn outcome(&self, continues: &dyn Fn(f64) -> bool) -> Result<Outcome, Error> {
+        match &self.quantity {
+            Quantity::Reference { samples, seconds } => {
+                let time = Duration::from_secs_f64(*seconds);
+                Reference::compute(self.problem, *samples, time, &|| continues(0.5)).map(Outcome::Reference)
+            }
+            Quantity::Ladder { rungs, .. } => {
+                let reference = self.reference.expect("a ladder has one");
+                let climb = Climb { problem: self.problem, scheme: self.schemes[0], reference, rungs };
+                let stopped = || Error::run("the calculation was stopped", "the same command resumes it");
+                climb.make(continues)?.map(Outcome::Ladder).ok_or_else(stopped)
+            }
+            Quantity::Times { schemes } => {
+                let steps = self.schemes.iter().copied().zip(schemes.iter().map(|(_, steps)| *steps));
+                time_of_steps(self.problem, &steps.collect::<Vec<_>>()).map(Outcome::Times)
+            }
+        }
+    }
+}
+
+impl Task for Calculation<'_> {
+    type Outcome = Outcome;
+
+    fn cost(group: &[&Self]) -> f64 {
+        let seconds = |calculation: &&Self| match &calculation.quantity {
+            Quantity::Reference { seconds, .. } | Quantity::Ladder { rungs: Rungs::Automatic { seconds }, .. } => {
+                *seconds
+            }
+            Quantity::Ladder { rungs: Rungs::Steps(steps), .. } => steps.iter().sum::<u64>() as f64 * 1e-6,
+            Quantity::Times { schemes } => schemes.len() as f64 * 0.1,
+        };
+        group.iter().map(seconds).sum()
+    }
+
+    fn compute(group: &[&Self], watcher: &dyn Watcher<Outcome>) {
+        for (place, calculation) in group.iter().enumerate() {
+            watcher.take(place, calculation.outcome(&|part| watcher.continues(part)));
+        }
+    }
+}
+
+/// The name of a scheme with a hash of its weights: a table that is changed is another scheme.
+fn identity(scheme: &NamedScheme) -> String {
+    let maps = scheme.scheme.proved().scheme.maps();
+    let weights: Vec<String> = maps.iter().map(|map| format!("{:?} {}", map.kind, to_text(&map.weight))).collect();
+    format!("{} {}", scheme.name, fingerprint(&weights.join(",")))
+}

@@ -1,0 +1,186 @@
+//! The numbers of steps with which a scheme runs: equal numbers of evaluations for all schemes, from about the stability limit down to
+//! round-off, or to the end of a budget of time.
+
+use std::time::{Duration, Instant};
+
+use num_traits::ToPrimitive;
+use serde::{Deserialize, Serialize};
+use shadowstep::number::Rounded;
+use shadowstep::{Rational, Scheme};
+use shadowstep_analysis::stability::Stability;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::library::NamedScheme;
+
+use crate::problem::Problem;
+use crate::reference::Reference;
+use crate::run::{Measurement, Measuring};
+use crate::size::Size;
+
+/// Evaluations grow by the factor 2^(1/2) from run to run.
+const RUNGS_PER_DOUBLING: f64 = 2.0;
+/// The first step is so many times the stability limit.
+const BEYOND: f64 = 1.5;
+/// Round-off is reached where so many runs, each with more evaluations, have improved neither error.
+const WITHOUT_GAIN: usize = 6;
+/// A run has some precision if its position errs by less than this part of its size, log₁₀.
+const SOME_PRECISION: f64 = -1.0;
+/// The most runs of a scheme.
+const MOST_RUNGS: i32 = 80;
+
+/// The runs of a scheme, the one with the fewest steps first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ladder {
+    /// What its runs have shown.
+    pub runs: Vec<Measurement>,
+    /// Why there are no more.
+    pub end: End,
+}
+
+/// Why a ladder ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum End {
+    /// All steps that were asked for are made.
+    Complete,
+    /// Round-off is reached.
+    RoundOff,
+    /// The time is over.
+    Time,
+}
+
+/// Which steps a scheme makes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Rungs {
+    /// From the stability limit on.
+    Automatic {
+        /// The time for all runs of a scheme, in seconds.
+        seconds: f64,
+    },
+    /// These numbers of steps.
+    Steps(Vec<u64>),
+}
+
+/// The runs of a scheme on a problem.
+pub(crate) struct Climb<'a> {
+    pub(crate) problem: Problem<'a>,
+    pub(crate) scheme: &'a NamedScheme,
+    pub(crate) reference: &'a Reference,
+    pub(crate) rungs: &'a Rungs,
+}
+
+impl Climb<'_> {
+    /// Makes the runs until `continues` with the part that is done returns false: then there is no ladder.
+    pub(crate) fn make(&self, continues: &dyn Fn(f64) -> bool) -> Result<Option<Ladder>, Error> {
+        match self.rungs {
+            Rungs::Automatic { seconds } => self.automatic(*seconds, continues),
+            Rungs::Steps(steps) => {
+                let mut runs = Vec::new();
+                for (done, &steps) in steps.iter().enumerate() {
+                    if !continues(done as f64 / self.rungs.len() as f64) {
+                        return Ok(None);
+                    }
+                    runs.push(self.measure(steps)?);
+                }
+                Ok(Some(Ladder { runs, end: End::Complete }))
+            }
+        }
+    }
+
+    fn automatic(&self, seconds: f64, continues: &dyn Fn(f64) -> bool) -> Result<Option<Ladder>, Error> {
+        let begin = Instant::now();
+        let mut runs: Vec<Measurement> = Vec::new();
+        let mut end = End::Time;
+        for rung in self.first_rung()..self.first_rung() + MOST_RUNGS {
+            let steps = self.steps(rung);
+            if runs.last().is_some_and(|last| last.steps == steps) {
+                continue;
+            }
+            if !continues((begin.elapsed().as_secs_f64() / seconds).min(1.0)) {
+                return Ok(None);
+            }
+            let this = Instant::now();
+            runs.push(self.measure(steps)?);
+            if is_round_off(&runs) {
+                end = End::RoundOff;
+                break;
+            }
+            if begin.elapsed() + next(this.elapsed()) > Duration::from_secs_f64(seconds) {
+                break;
+            }
+        }
+        Ok(Some(Ladder { runs, end }))
+    }
+
+    /// The number of steps on a rung: the scheme's evaluations are about samples · 2^(rung/2), and the samples are at states.
+    fn steps(&self, rung: i32) -> u64 {
+        let each = self.scheme.scheme.summary().evaluations as f64;
+        let per_sample = (f64::from(rung) / RUNGS_PER_DOUBLING).exp2() / each;
+        self.reference.samples() * per_sample.round().max(1.0).to_u64().unwrap_or(1)
+    }
+
+    /// The first rung whose step is below the stability limit times a factor.
+    fn first_rung(&self) -> i32 {
+        let evaluations = self.scheme.scheme.summary().evaluations as f64;
+        let steps = coarsest(self.problem, self.scheme) / self.reference.samples() as f64;
+        (RUNGS_PER_DOUBLING * (steps.max(1.0) * evaluations).log2()).floor().to_i32().unwrap_or(0)
+    }
+
+    fn measure(&self, steps: u64) -> Result<Measurement, Error> {
+        self.problem.arithmetic.compute(Run { climb: self, steps })
+    }
+}
+
+/// The number of steps of 1.5 times the stability limit of the fastest oscillation.
+pub(crate) fn coarsest(problem: Problem<'_>, scheme: &NamedScheme) -> f64 {
+    let stability = Stability::of_scheme(scheme.scheme.proved());
+    // no limit exceeds 2 a force
+    let most = 2.0 * scheme.scheme.summary().evaluations as f64;
+    let limit = stability.and_then(|stability| stability.limit.parse().ok()).unwrap_or(most);
+    let omega = problem.system.fastest_frequency().map_or(0.0, |frequency| frequency.omega);
+    (problem.duration() * omega / (BEYOND * limit)).max(1.0)
+}
+
+impl Rungs {
+    fn len(&self) -> usize {
+        match self {
+            Rungs::Automatic { .. } => 0,
+            Rungs::Steps(steps) => steps.len(),
+        }
+    }
+}
+
+/// The next run takes this longer.
+fn next(last: Duration) -> Duration {
+    last.mul_f64((1.0 / RUNGS_PER_DOUBLING).exp2())
+}
+
+/// Whether the last runs improve neither the error of the position nor that of H.
+fn is_round_off(runs: &[Measurement]) -> bool {
+    let Some(first) = runs.len().checked_sub(WITHOUT_GAIN) else { return false };
+    let (before, last) = runs.split_at(first);
+    let least =
+        |runs: &[Measurement], error: fn(&Measurement) -> f64| runs.iter().map(error).fold(f64::INFINITY, f64::min);
+    let errors: [fn(&Measurement) -> f64; 2] =
+        [|run| run.position.known().map_or(f64::INFINITY, Size::log10), |run| run.energy.log10()];
+    before.iter().any(|run| run.energy.log10() < SOME_PRECISION)
+        && errors.into_iter().all(|error| least(last, error) >= least(before, error))
+}
+
+/// One run in any number type.
+struct Run<'a> {
+    climb: &'a Climb<'a>,
+    steps: u64,
+}
+
+impl Computation for Run<'_> {
+    type Output = Result<Measurement, Error>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+        let Climb { problem, scheme, reference, .. } = self.climb;
+        let h: Rational = problem.step_size(self.steps);
+        let work = Measuring { steps: self.steps, reference };
+        let start = problem.system.start::<N>(context);
+        let found = problem.system.with((&scheme.scheme, &h), start, context, work);
+        found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))
+    }
+}

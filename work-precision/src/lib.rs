@@ -1,0 +1,31 @@
+//! Speed against error: work–precision diagrams of splitting schemes, and advice on scheme and step size.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | [`study`], `calculation` | the runs of several schemes on a problem; what is computed and saved |
+//! | [`problem`] | a system, an interval of time, a number type |
+//! | [`reference`] | the positions with which those of the schemes are compared, and their own error |
+//! | `positions` | positions at the times at which errors are taken |
+//! | [`ladder`] | the runs of a scheme, from its stability limit down to round-off |
+//! | [`run`] | one run: errors of position and energy, the modified energy |
+//! | [`timing`] | the time of a step |
+//! | [`order`], `best` | the measured order; the scheme that needs the least for an error |
+//! | [`schemes`] | the schemes that are compared if none are named |
+//! | [`files`] | what is written |
+//! | `records` | the results as CSV and JSON lines |
+//! | [`size`] | sizes beyond the range of `f64` |
+
+mod best;
+mod calculation;
+pub mod files;
+pub mod ladder;
+pub mod order;
+mod positions;
+pub mod problem;
+mod records;
+pub mod reference;
+pub mod run;
+pub mod schemes;
+pub mod size;
+pub mod study;
+pub mod timing;

@@ -1,0 +1,50 @@
+//! What schemes are compared on: a system, an interval of time, a number type.
+
+use num_traits::Signed;
+use sha2::{Digest, Sha256};
+use shadowstep::{Number, Rational};
+use shadowstep_scenes::System;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_symbolic::decimal::to_text;
+
+/// Errors along a run are taken at so many times at most.
+pub const MOST_SAMPLES: u64 = 64;
+
+/// A system from t = 0 to `until` in a number type.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<'a> {
+    /// H and the initial state.
+    pub system: &'a System,
+    /// The end of the runs; negative for runs back in time.
+    pub until: &'a Rational,
+    /// The number type.
+    pub arithmetic: Arithmetic,
+}
+
+impl Problem<'_> {
+    /// |until| as an `f64`.
+    pub(crate) fn duration(&self) -> f64 {
+        <f64 as Number>::from_rational(self.until, &()).abs()
+    }
+
+    /// The step size of this number of steps.
+    pub(crate) fn step_size(&self, steps: u64) -> Rational {
+        self.until / Rational::from_integer(steps.into())
+    }
+
+    /// Whether the runs go forward in time.
+    pub fn is_forward(&self) -> bool {
+        self.until.is_positive()
+    }
+
+    /// What distinguishes its results from those of all other problems.
+    pub(crate) fn fingerprint(&self) -> String {
+        let all = format!("{:?} {} {:?}", self.system, to_text(self.until), self.arithmetic.label());
+        fingerprint(&all)
+    }
+}
+
+/// The first digits of a hash.
+pub(crate) fn fingerprint(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}

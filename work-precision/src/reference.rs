@@ -1,0 +1,203 @@
+//! The positions with which those of the schemes are compared: of the exact flow where it is known, else of a scheme of order 10
+//! with more digits and small steps, with an estimate of its own error.
+
+use std::time::{Duration, Instant};
+
+use num_traits::ToPrimitive;
+use rug::Float;
+use serde::{Deserialize, Serialize};
+use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
+use shadowstep::number::Precision;
+use shadowstep::run::States;
+use shadowstep::{Number, StepSize};
+use shadowstep_scenes::Error;
+use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_symbolic::decimal::from_text;
+
+use crate::positions::{Positions, square_distance};
+use crate::problem::Problem;
+use crate::size::Size;
+
+/// Of order 10 for every T(p); its weights have 250 digits.
+const SCHEME: &str = "sofroniou-spaletta10-35";
+/// Digits beyond those of the schemes' runs.
+const MORE_DIGITS: u32 = 12;
+/// The digits of the reference, which its scheme's weights must have.
+const MOST_DIGITS: u32 = 240;
+/// Halving the step of a scheme of order 10 divides its error by 1024; where it divides the differences by this and more, the scheme shows
+/// its order, and the error is less than the last difference by this factor.
+const GAIN: f64 = 256.0;
+
+/// Positions q(i T/samples), i = 1, …, samples, as decimal texts, and their errors.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reference {
+    /// Of each sample: all coordinates.
+    positions: Vec<Vec<String>>,
+    /// Of each sample: the estimated error |δq|.
+    errors: Vec<Size>,
+    /// How it was computed.
+    pub origin: Origin,
+}
+
+/// How a reference was computed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Origin {
+    /// From the exact flow.
+    ExactFlow,
+    /// By a scheme.
+    Scheme {
+        /// Its name.
+        name: String,
+        /// The number of its steps.
+        steps: u64,
+        /// The digits of its numbers.
+        digits: u32,
+    },
+}
+
+impl Reference {
+    /// The reference of a problem; `time` limits what a scheme takes for it, and `continues` stops it.
+    ///
+    /// # Errors
+    /// More digits than a reference can have; states that are not finite; a computation that is stopped.
+    pub(crate) fn compute(
+        problem: Problem<'_>,
+        samples: u64,
+        time: Duration,
+        continues: &dyn Fn() -> bool,
+    ) -> Result<Reference, Error> {
+        match problem.system.setup().filter(|setup| has_exact_flow(setup).is_ok()) {
+            Some(_) => of_exact_flow(problem, samples),
+            None => of_scheme(problem, samples, time, continues),
+        }
+    }
+
+    /// The largest of its estimated errors.
+    pub fn error(&self) -> Size {
+        self.errors.iter().copied().fold(Size::ZERO, |a, b| if b > a { b } else { a })
+    }
+
+    /// The estimated error of a sample.
+    pub(crate) fn error_at(&self, sample: usize) -> Size {
+        self.errors[sample]
+    }
+
+    /// The number of samples.
+    pub(crate) fn samples(&self) -> u64 {
+        self.positions.len() as u64
+    }
+
+    /// The positions as sums of two numbers each: rounded ones and what rounding took away.
+    pub(crate) fn in_two_parts<N: Number>(&self, context: &N::Context) -> Vec<[Vec<N>; 2]> {
+        let parts = |position: &Vec<String>| {
+            let (mut first, mut second) = (Vec::new(), Vec::new());
+            for text in position {
+                let exact = from_text(text).expect("the program has written it");
+                let rounded = N::from_rational(&exact, context);
+                let back = from_text(&rounded.to_text()).expect("it is finite");
+                second.push(N::from_rational(&(exact - back), context));
+                first.push(rounded);
+            }
+            [first, second]
+        };
+        self.positions.iter().map(parts).collect()
+    }
+}
+
+fn of_exact_flow(problem: Problem<'_>, samples: u64) -> Result<Reference, Error> {
+    let setup = problem.system.setup().expect("the caller has checked it");
+    let digits = problem.arithmetic.digits() + MORE_DIGITS;
+    let precision = Precision::digits(digits).map_err(|error| Error::usage(error.to_string(), "use fewer digits"))?;
+    let h = StepSize::try_from(&problem.step_size(samples)).expect("the run has a nonzero length");
+    let failed =
+        |error: String| Error::run(format!("the exact flow cannot be followed: {error}"), "use a shorter time");
+    let mut flow =
+        ExactFlow::<Float>::new(&setup, &h, samples, 0, &precision).map_err(|error| failed(error.to_string()))?;
+    let mut positions = Vec::new();
+    while let Some(state) = flow.advance().map_err(|error| failed(error.to_string()))? {
+        if state.n > 0 {
+            positions.push(state.q.iter().map(Number::to_text).collect());
+        }
+    }
+    let errors = vec![Size::ZERO; positions.len()];
+    Ok(Reference { positions, errors, origin: Origin::ExactFlow })
+}
+
+/// Halves the step until the error is below the round-off of the schemes' runs, or the time is over.
+fn of_scheme(
+    problem: Problem<'_>,
+    samples: u64,
+    time: Duration,
+    continues: &dyn Fn() -> bool,
+) -> Result<Reference, Error> {
+    let digits = problem.arithmetic.digits() + MORE_DIGITS;
+    if digits > MOST_DIGITS {
+        let most = MOST_DIGITS - MORE_DIGITS;
+        let message = format!("a reference is computed to {MOST_DIGITS} digits at most, for runs of {most}");
+        return Err(Error::usage(
+            message,
+            format!("use --digits {most} or less, or a problem whose exact flow is known"),
+        ));
+    }
+    let precision = Precision::digits(digits).map_err(|error| Error::usage(error.to_string(), "use fewer digits"))?;
+    let named = scheme(SCHEME)?;
+    let begin = Instant::now();
+    let mut steps = first_steps(problem, samples);
+    let (mut last, mut last_difference): (Option<Vec<Vec<Float>>>, f64) = (None, f64::INFINITY);
+    let mut best: Option<Reference> = None;
+    while continues() {
+        let found = positions(problem, &named, (steps, samples), &precision)?;
+        if let Some(before) = last.filter(|before| before.len() == found.len() && found.len() as u64 == samples) {
+            let differences = distances(&before, &found, &precision);
+            let difference = differences.iter().map(|size| size.log10()).fold(f64::NEG_INFINITY, f64::max);
+            let shows_order = last_difference - difference >= GAIN.log10();
+            let gain = if shows_order { GAIN.log10() } else { 0.0 };
+            let errors = differences.iter().map(|size| size.times_power_of_ten(-gain)).collect();
+            let target = largest(&found) - f64::from(problem.arithmetic.digits() + 2);
+            let texts = |position: &Vec<Float>| position.iter().map(Number::to_text).collect();
+            let origin = Origin::Scheme { name: SCHEME.to_owned(), steps, digits };
+            best = Some(Reference { positions: found.iter().map(texts).collect(), errors, origin });
+            if difference - gain <= target {
+                break;
+            }
+            last_difference = difference;
+        }
+        // the next one takes twice as long as this
+        if best.is_some() && begin.elapsed() * 2 > time || begin.elapsed() > time * 4 {
+            break;
+        }
+        last = Some(found);
+        steps *= 2;
+    }
+    best.ok_or_else(|| Error::run("there is no reference: its states are not finite", "use a shorter time"))
+}
+
+/// So many steps that the fastest oscillation turns by about a radian in each.
+fn first_steps(problem: Problem<'_>, samples: u64) -> u64 {
+    let omega = problem.system.fastest_frequency().map_or(1.0, |frequency| frequency.omega);
+    let per_sample = (omega * problem.duration() / samples as f64).ceil().to_u64().unwrap_or(1);
+    samples * per_sample.max(1)
+}
+
+fn positions(
+    problem: Problem<'_>,
+    named: &NamedScheme,
+    (steps, samples): (u64, u64),
+    precision: &Precision,
+) -> Result<Vec<Vec<Float>>, Error> {
+    let start = problem.system.start::<Float>(precision);
+    let work = Positions { steps, samples };
+    let found = problem.system.with((&named.scheme, &problem.step_size(steps)), start, precision, work);
+    found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))
+}
+
+/// |a − b| of each sample.
+fn distances(a: &[Vec<Float>], b: &[Vec<Float>], precision: &Precision) -> Vec<Size> {
+    let distance = |(a, b): (&Vec<Float>, &Vec<Float>)| Size::of(&square_distance(a, b, precision).sqrt());
+    a.iter().zip(b).map(distance).collect()
+}
+
+/// log₁₀ of the largest coordinate.
+fn largest(positions: &[Vec<Float>]) -> f64 {
+    positions.iter().flatten().map(Number::log10_abs).fold(f64::NEG_INFINITY, f64::max)
+}

@@ -1,0 +1,202 @@
+//! One run: the errors of its positions and of H, and its modified energy.
+
+use serde::{Deserialize, Serialize};
+use shadowstep::shadow::{Bilinear, ShadowEnergy};
+use shadowstep::{Number, Scheme, Stepper, System, ValidFor};
+use shadowstep_scenes::start::Work;
+
+use crate::reference::Reference;
+use crate::size::Size;
+
+/// The monitor's estimator is E_8 with its error, in a window of 9 states.
+const MONITOR_ORDER: u32 = 8;
+/// The monitor has about so many windows.
+const WINDOWS: u64 = 256;
+/// An error is known if it is so many times as large as that of the reference; log₁₀.
+const KNOWN: f64 = 0.7;
+
+/// What a run with some number of steps has shown.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Measurement {
+    /// The number of steps.
+    pub steps: u64,
+    /// Evaluations of the gradient for these steps.
+    pub evaluations: u64,
+    /// |q − q_ref| at the end.
+    pub position: PositionError,
+    /// The largest |q − q_ref| at the samples, where it is known.
+    pub largest_position: PositionError,
+    /// The largest |H(t) − H(0)| at the states, as a part of |H(0)| unless that is 0.
+    pub energy: Size,
+    /// |H − H(0)| at the end, likewise.
+    pub energy_at_end: Size,
+    /// The modified energy H̄, likewise; `None` where the run is too short for an estimate.
+    pub modified: Option<Modified>,
+    /// The verdict of the monitor on the step size.
+    pub verdict: String,
+    /// The time at which a state was not finite, as a part of the run: the errors are those until then.
+    pub failed: Option<f64>,
+}
+
+/// An error of positions as far as the reference resolves it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum PositionError {
+    /// It is known.
+    Known(Size),
+    /// It is not larger than some times the error of the reference: this is a bound.
+    Below(Size),
+    /// The run has no finite states there.
+    None,
+}
+
+impl PositionError {
+    /// The error, where it is known.
+    pub fn known(self) -> Option<Size> {
+        match self {
+            PositionError::Known(size) => Some(size),
+            PositionError::Below(_) | PositionError::None => None,
+        }
+    }
+}
+
+/// The modified energy of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Modified {
+    /// max − min of the accurate estimates.
+    pub drift: Size,
+    /// The newest accurate estimate less the first one.
+    pub change: Size,
+    /// A permanent change above this is excluded.
+    pub bound: Option<Size>,
+}
+
+/// Makes a run of so many steps and measures it.
+pub(crate) struct Measuring<'a> {
+    pub(crate) steps: u64,
+    pub(crate) reference: &'a Reference,
+}
+
+impl<N: Number> Work<N> for Measuring<'_> {
+    type Output = Measurement;
+
+    fn with<S, M>(self, stepper: &Stepper<S, N>, mut system: M) -> Measurement
+    where
+        S: Scheme + Clone + ValidFor<M::Class> + 'static,
+        M: System<Number = N> + 'static,
+    {
+        let Measuring { steps, reference } = self;
+        let evaluations = steps * stepper.scheme().summary().evaluations as u64;
+        let failed =
+            |sample: usize| Measurement::failed(steps, evaluations, sample as f64 / reference.samples() as f64);
+        let monitor = ShadowEnergy::new(stepper.clone(), &mut system, &Bilinear::with_error(MONITOR_ORDER));
+        let Ok(monitor) = monitor else { return failed(0) };
+        let mut monitor = monitor.every((steps / WINDOWS).max(1));
+        let mut energy = EnergyError::new(system.energy());
+        let (mut position, mut largest_position) = (PositionError::None, PositionError::None);
+        for (sample, expected) in reference.in_two_parts::<N>(&system.context()).iter().enumerate() {
+            for _ in 0..steps / reference.samples() {
+                // what is not finite stays so, and is seen at the sample
+                let _ = monitor.step(&mut system);
+                energy.include(&system.energy());
+            }
+            let distance = distance(system.q(), expected);
+            if !distance.is_finite() || !energy.last.is_finite() {
+                return failed(sample);
+            }
+            position = PositionError::of(distance, reference.error_at(sample));
+            largest_position = largest_position.or_larger(position);
+        }
+        let report = monitor.report();
+        let modified = (report.windows > 0).then(|| Modified {
+            drift: energy.relative(&report.range),
+            change: energy.relative(&report.change),
+            bound: report.permanent_bound.as_ref().map(|bound| energy.relative(bound)),
+        });
+        Measurement {
+            steps,
+            evaluations,
+            position,
+            largest_position,
+            energy: energy.relative(&energy.largest),
+            energy_at_end: energy.relative(&energy.last),
+            modified,
+            verdict: report.verdict.to_string(),
+            failed: None,
+        }
+    }
+}
+
+/// |q − a − b| where a + b is the reference.
+fn distance<N: Number>(q: &[N], [a, b]: &[Vec<N>; 2]) -> Size {
+    let context = q[0].context();
+    let [mut sum, mut difference] = [N::zero(&context), N::zero(&context)];
+    for ((q, a), b) in q.iter().zip(a).zip(b) {
+        difference.assign_difference(q, a);
+        difference.subtract(b);
+        sum.add_product(&difference, &difference);
+    }
+    difference.assign_sqrt(&sum);
+    Size::of(&difference)
+}
+
+/// |H(t) − H(0)|, the largest and the last one.
+struct EnergyError<N> {
+    initial: N,
+    largest: N,
+    last: N,
+}
+
+impl<N: Number> EnergyError<N> {
+    fn new(initial: N) -> Self {
+        let zero = N::zero(&initial.context());
+        EnergyError { initial, largest: zero.clone(), last: zero }
+    }
+
+    fn include(&mut self, energy: &N) {
+        self.last.assign_difference(energy, &self.initial);
+        self.last.make_absolute();
+        // also where one of them is not a number
+        if self.last > self.largest || !self.last.is_finite() {
+            self.largest.assign(&self.last);
+        }
+    }
+
+    /// The size of a difference of energies as a part of |H(0)|, unless that is 0.
+    fn relative(&self, difference: &N) -> Size {
+        let initial = Size::of(&self.initial).log10();
+        let part = if initial.is_finite() { -initial } else { 0.0 };
+        Size::of(difference).times_power_of_ten(part)
+    }
+}
+
+impl PositionError {
+    fn of(distance: Size, error: Size) -> PositionError {
+        let bound = error.times_power_of_ten(KNOWN);
+        if distance >= bound { PositionError::Known(distance) } else { PositionError::Below(bound) }
+    }
+
+    fn or_larger(self, other: PositionError) -> PositionError {
+        let size = |error: PositionError| match error {
+            PositionError::Known(size) => size,
+            PositionError::Below(_) | PositionError::None => Size::ZERO,
+        };
+        if matches!(self, PositionError::None) || size(other) > size(self) { other } else { self }
+    }
+}
+
+impl Measurement {
+    fn failed(steps: u64, evaluations: u64, part: f64) -> Measurement {
+        let (position, infinite) = (PositionError::None, Size::INFINITE);
+        Measurement {
+            steps,
+            evaluations,
+            position,
+            largest_position: position,
+            energy: infinite,
+            energy_at_end: infinite,
+            modified: None,
+            verdict: "a state is not finite".to_owned(),
+            failed: Some(part),
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! A study: the runs of several schemes on a problem, beside the same reference.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use num_integer::Integer;
+use shadowstep::Scheme;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::library::NamedScheme;
+use shadowstep_tasks::{Observer, Store, run};
+
+use crate::best::{Curve, cost_of};
+use crate::calculation::{Calculation, Outcome};
+use crate::files;
+use crate::ladder::{Ladder, Rungs, coarsest};
+use crate::order::MeasuredOrder;
+use crate::problem::{MOST_SAMPLES, Problem};
+use crate::reference::Reference;
+use crate::run::Measurement;
+use crate::size::Size;
+use crate::timing::StepTime;
+
+/// The coarsest run has so many steps between samples, so that rounding to samples changes the number of steps little.
+const STEPS_PER_SAMPLE: u64 = 8;
+
+/// What is compared, and where the outcomes are saved.
+pub struct Request<'a> {
+    /// The system, the interval of time and the number type.
+    pub problem: Problem<'a>,
+    /// The schemes.
+    pub schemes: &'a [NamedScheme],
+    /// The steps.
+    pub rungs: Rungs,
+    /// The limit of the time for the reference.
+    pub reference_time: Duration,
+    /// Outcomes are saved in this folder one by one; what it has already is not computed again.
+    pub folder: PathBuf,
+}
+
+/// The results.
+#[derive(Debug)]
+pub struct Study<'a> {
+    /// What was compared.
+    pub problem: Problem<'a>,
+    /// With what positions are compared.
+    pub reference: Reference,
+    /// In the order of the request; schemes that failed are left out.
+    pub schemes: Vec<Studied<'a>>,
+}
+
+/// The results of a scheme.
+#[derive(Debug)]
+pub struct Studied<'a> {
+    /// The scheme.
+    pub scheme: &'a NamedScheme,
+    /// Its runs.
+    pub ladder: Ladder,
+    /// The time of a step.
+    pub time: StepTime,
+}
+
+/// The error by which schemes are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Of {
+    /// That of the position at the end, where the reference resolves it.
+    Position,
+    /// The largest error of H.
+    Energy,
+}
+
+/// What an error costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cost {
+    /// Evaluations of the gradient.
+    Evaluations,
+    /// Seconds.
+    Seconds,
+}
+
+impl<'a> Request<'a> {
+    /// Makes all runs that the folder lacks, on all cores, and then times the steps of all schemes by turns. With `force`, files of other
+    /// origin in the folder may be replaced.
+    ///
+    /// # Errors
+    /// No reference; a folder with files of other origin, or that cannot be written or that another process uses; an observer that stops. A scheme that fails is
+    /// reported to the observer.
+    pub fn study(&self, force: bool, observer: &mut dyn Observer) -> Result<Study<'a>, Error> {
+        if !force {
+            files::refuse_foreign(&self.folder)?;
+        }
+        let mut store = Store::open(&self.folder, observer)?;
+        let problem = self.problem;
+        let wanted = Calculation::reference(problem, self.samples(), self.reference_time);
+        let Some(Outcome::Reference(reference)) = only(&[wanted], &mut store, observer)? else {
+            return Err(Error::run("there is no reference", "use a shorter time"));
+        };
+        let ladder = |scheme| Calculation::ladder(problem, scheme, &reference, &self.rungs);
+        let found = run(&self.schemes.iter().map(ladder).collect::<Vec<_>>(), &mut store, observer)?;
+        found.failures.iter().for_each(|(_, error)| observer.failed(error));
+        let ladders: Vec<(&NamedScheme, Ladder)> = self
+            .schemes
+            .iter()
+            .zip(found.outcomes)
+            .filter_map(|(scheme, outcome)| match outcome {
+                Some(Outcome::Ladder(ladder)) => Some((scheme, ladder)),
+                _ => None,
+            })
+            .collect();
+        let timed = ladders.iter().map(|(scheme, ladder)| (*scheme, ladder.runs.last().map_or(1, |run| run.steps)));
+        let wanted = Calculation::times(problem, &timed.collect::<Vec<_>>());
+        let Some(Outcome::Times(times)) = only(&[wanted], &mut store, observer)? else {
+            return Err(Error::run("the steps were not timed", "run the command again"));
+        };
+        let schemes = ladders.into_iter().zip(times);
+        let schemes = schemes.map(|((scheme, ladder), time)| Studied { scheme, ladder, time }).collect();
+        Ok(Study { problem, reference, schemes })
+    }
+
+    /// The number of samples: they are at states of all runs.
+    fn samples(&self) -> u64 {
+        match &self.rungs {
+            Rungs::Steps(steps) => {
+                let common = steps.iter().fold(0, |common: u64, steps| common.gcd(steps)).max(1);
+                (1..=MOST_SAMPLES).rev().find(|samples| common.is_multiple_of(*samples)).unwrap_or(1)
+            }
+            Rungs::Automatic { .. } => {
+                let steps = self.schemes.iter().map(|scheme| coarsest(self.problem, scheme)).fold(f64::MAX, f64::min);
+                (steps as u64 / STEPS_PER_SAMPLE).clamp(1, MOST_SAMPLES)
+            }
+        }
+    }
+}
+
+/// The outcome of a single task; its failure is an error.
+fn only(task: &[Calculation<'_>; 1], store: &mut Store, observer: &mut dyn Observer) -> Result<Option<Outcome>, Error> {
+    let mut found = run(task, store, observer)?;
+    match found.failures.pop() {
+        Some((_, error)) => Err(error),
+        None => Ok(found.outcomes.pop().flatten()),
+    }
+}
+
+impl Study<'_> {
+    /// The schemes that meet an error, with their costs, the cheapest first.
+    pub fn cheapest(&self, of: Of, cost: Cost, error: Size) -> Vec<(&Studied<'_>, f64)> {
+        let cost_of = |studied| Some((studied, cost_of(&Studied::curve(studied, of, cost), error)?));
+        let mut all: Vec<(&Studied<'_>, f64)> = self.schemes.iter().filter_map(cost_of).collect();
+        all.sort_by(|a, b| a.1.total_cmp(&b.1));
+        all
+    }
+
+    /// The decades of an error that some scheme reaches, from the largest one.
+    pub fn decades(&self, of: Of) -> impl Iterator<Item = Size> {
+        let errors = self.schemes.iter().flat_map(|studied| &studied.ladder.runs).filter_map(|run| of.error(run));
+        let logs = errors.map(Size::log10).filter(|log10| log10.is_finite());
+        let (least, most) =
+            logs.fold((f64::INFINITY, -1.0_f64), |(least, most), log10| (least.min(log10), most.max(log10)));
+        // relative errors above 1/10 are no precision
+        let most = most.min(-1.0).floor() as i32;
+        let least = if least.is_finite() { least.ceil() as i32 } else { most + 1 };
+        (least..=most).rev().map(|exponent| Size::power_of_ten(f64::from(exponent)))
+    }
+}
+
+impl Studied<'_> {
+    /// The seconds of a run without anything but its steps.
+    pub fn seconds(&self, run: &Measurement) -> f64 {
+        self.time.median * run.steps as f64
+    }
+
+    /// The proved order for the kinetic energy of the problem.
+    pub fn proved_order(&self, problem: Problem<'_>) -> u32 {
+        let summary = self.scheme.scheme.summary();
+        if problem.system.has_general_kinetic() { summary.order } else { summary.order_quadratic }
+    }
+
+    /// Evaluations of the gradient in a step.
+    pub fn evaluations_per_step(&self) -> u64 {
+        self.scheme.scheme.summary().evaluations as u64
+    }
+
+    /// The measured order with the steps at which it holds, of the position or of H.
+    pub fn order(&self, problem: Problem<'_>, of: Of) -> Option<MeasuredOrder> {
+        let step = |run: &Measurement| problem.duration() / run.steps as f64;
+        let points = self.ladder.runs.iter().filter_map(|run| Some((step(run), of.error(run)?.log10())));
+        MeasuredOrder::of(&points.filter(|(_, error)| error.is_finite()).collect::<Vec<_>>())
+    }
+
+    fn curve(&self, of: Of, cost: Cost) -> Curve {
+        let cost = |run: &Measurement| match cost {
+            Cost::Evaluations => run.evaluations as f64,
+            Cost::Seconds => self.seconds(run),
+        };
+        self.ladder.runs.iter().filter_map(|run| Some((cost(run), of.error(run)?.log10()))).collect()
+    }
+}
+
+impl Of {
+    /// The error of a run; `None` where it failed or the reference does not resolve it.
+    pub fn error(self, run: &Measurement) -> Option<Size> {
+        let error = match self {
+            Of::Position => run.position.known()?,
+            Of::Energy => run.energy,
+        };
+        (run.failed.is_none() && error.is_finite()).then_some(error)
+    }
+}
