@@ -12,7 +12,7 @@ use shadowstep::Rational;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_work_precision::files::write;
+use shadowstep_work_precision::files::{refuse_foreign, write};
 use shadowstep_work_precision::ladder::Rungs;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::schemes::default_schemes;
@@ -72,13 +72,16 @@ const REFERENCE: f64 = 10.0;
 /// Makes the runs, and writes charts and data.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let posed = Posed::read(&arguments.system, &arguments.posed)?;
+    if !arguments.force {
+        refuse_foreign(&arguments.out)?;
+    }
     let problem = posed.problem();
     let schemes = schemes(&arguments.schemes, &posed)?;
     let rungs = rungs(arguments, &posed.until)?;
     let mut terminal = Terminal::listen();
     let reference_time = Duration::from_secs_f64(REFERENCE * arguments.seconds);
     let request = Request { problem, schemes: &schemes, rungs, reference_time, folder: arguments.out.clone() };
-    let study = request.study(arguments.force, &mut terminal)?;
+    let study = request.study(&mut terminal)?;
     let files = write(&study, &posed.title(), &command(), &arguments.out)?;
     let mut output = Output::stdout();
     write!(output, "{}", readable(&posed, &study, on_stdout()))?;

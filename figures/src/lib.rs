@@ -23,13 +23,11 @@
 //! | `results` | the results that figures request |
 //! | `calculation`, `run`, `estimator` | the calculations, and the runs and estimators that they are of |
 //! | `measured`, `states`, `escape`, `noise` | what is measured along runs at many digits, and in double precision |
-//! | `fit`, `interval`, `verdict` | lines through points, intervals of confidence, and what they decide |
-//! | `numbers`, `indices` | numbers and subscripts in texts |
-//! | [`chart`] | curves → SVG; a library of its own within this one |
-//! | `report`, `data` | figures → HTML; results → CSV |
+//! | `fit`, `interval` | lines through points, intervals of confidence, and what they decide |
+//! | `numbers` | numbers in texts |
+//! | `data` | results → CSV |
 
 mod calculation;
-pub mod chart;
 mod data;
 mod drawing;
 mod escape;
@@ -37,17 +35,14 @@ mod estimator;
 mod figure;
 mod figures;
 mod fit;
-mod indices;
 mod interval;
 mod measured;
 mod noise;
 mod numbers;
-mod report;
 mod reproduction;
 mod results;
 mod run;
 mod states;
-mod verdict;
 
 pub use reproduction::{Request, Summary, names, reproduce};
 pub use shadowstep_tasks::{Error, Observer, Progress};

@@ -9,9 +9,9 @@ use shadowstep_symbolic::suggestion;
 use crate::data;
 use crate::figure::Figure;
 use crate::figures::FIGURES;
-use crate::report::{Report, Section};
 use crate::results::Results;
 use crate::{Error, Observer};
+use shadowstep_report::page::{Report, Section};
 use shadowstep_tasks::Store;
 
 /// Which figures are wanted, and where.

@@ -17,8 +17,8 @@ use crate::measured::{Drift, Energies, Orbit};
 use crate::noise::{Block, Differences};
 use crate::numbers::{log10, number};
 use crate::run::Run;
-use crate::verdict::Coverage;
 use crate::{Error, Observer};
+use shadowstep_report::verdict::Coverage;
 use shadowstep_tasks::{self as tasks, Store};
 
 /// The results of all figures.

@@ -11,7 +11,6 @@ use shadowstep_tasks::{Observer, Store, run};
 
 use crate::best::{Curve, cost_of};
 use crate::calculation::{Calculation, Outcome};
-use crate::files;
 use crate::ladder::{Ladder, Rungs, coarsest};
 use crate::order::MeasuredOrder;
 use crate::problem::{MOST_SAMPLES, Problem};
@@ -78,16 +77,12 @@ pub enum Cost {
 }
 
 impl<'a> Request<'a> {
-    /// Makes all runs that the folder lacks, on all cores, and then times the steps of all schemes by turns. With `force`, files of other
-    /// origin in the folder may be replaced.
+    /// Makes all runs that the folder lacks, on all cores, and then times the steps of all schemes by turns.
     ///
     /// # Errors
     /// No reference; a folder with files of other origin, or that cannot be written or that another process uses; an observer that stops. A scheme that fails is
     /// reported to the observer.
-    pub fn study(&self, force: bool, observer: &mut dyn Observer) -> Result<Study<'a>, Error> {
-        if !force {
-            files::refuse_foreign(&self.folder)?;
-        }
+    pub fn study(&self, observer: &mut dyn Observer) -> Result<Study<'a>, Error> {
         let mut store = Store::open(&self.folder, observer)?;
         let problem = self.problem;
         let wanted = Calculation::reference(problem, self.samples(), self.reference_time);

@@ -2,10 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::chart::{Axis, Curve, Marker};
 use crate::drawing::Drawing;
 use crate::figure::Figure;
 use crate::results::Results;
+use shadowstep_report::chart::{Axis, Curve, Marker};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "contour",

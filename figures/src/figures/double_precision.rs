@@ -1,12 +1,12 @@
 //! The noise floor of double precision against the length of the run, for several ways to take differences of states.
 
-use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::figure::Figure;
 use crate::noise::{Block, Differences};
 use crate::numbers::scientific;
 use crate::results::Results;
-use crate::verdict::Coverage;
+use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_report::verdict::Coverage;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "double-precision", title: "The noise floor of double precision", of_paper: "", draw };

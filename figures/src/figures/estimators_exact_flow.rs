@@ -2,13 +2,13 @@
 
 use super::estimators::{BEST_UP_TO, BILINEAR, CENTRAL, Family, ORDERS, STATES, against_states, even};
 use super::kepler::run;
-use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::estimator::bilinear;
 use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::EXACT_FLOW;
+use shadowstep_report::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "estimators-exact-flow", title: "Estimators on the exact flow", of_paper: "", draw };

@@ -2,7 +2,6 @@
 
 use super::estimators::{BEST_UP_TO, BILINEAR, Family, ORDERS, STATES, against_states, even};
 use super::kepler::run;
-use crate::chart::{Axis, Curve};
 use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
@@ -10,6 +9,7 @@ use crate::fit::logarithms;
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, SCHEMES};
+use shadowstep_report::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "estimators-schemes", title: "Estimators on schemes", of_paper: "", draw };

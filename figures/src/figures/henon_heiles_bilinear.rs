@@ -1,13 +1,13 @@
 //! The Hénon–Heiles problem by the bilinear estimator.
 
 use super::henon_heiles::{FEW_STEPS, STEPS, drifts};
-use crate::chart::{Axis, Curve};
 use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::fit::logarithms;
 use crate::numbers::{decimal, power};
 use crate::results::Results;
+use shadowstep_report::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "henon-heiles-bilinear", title: "Hénon–Heiles by the bilinear estimator", of_paper: "", draw };

@@ -1,12 +1,12 @@
 //! The Hénon–Heiles problem: the drift against the initial momentum.
 
 use super::henon_heiles::run;
-use crate::chart::{Axis, Curve, Mark};
 use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::results::Results;
-use crate::verdict::Verdict;
+use shadowstep_report::chart::{Axis, Curve, Mark};
+use shadowstep_report::verdict::Verdict;
 
 pub(super) const FIGURE: Figure = Figure {
     name: "henon-heiles-momentum",

@@ -1,7 +1,6 @@
 //! The Hénon–Heiles problem: the drift against the step size.
 
 use super::henon_heiles::{FEW_STEPS, STEPS, drifts, run};
-use crate::chart::{Axis, Curve};
 use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::BEST;
 use crate::figure::Figure;
@@ -9,7 +8,8 @@ use crate::fit::{DECAY_HEADER, ExponentialDecay, Ratio, decay, decay_row, logari
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::SCHEMES;
-use crate::verdict::Verdict;
+use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_report::verdict::Verdict;
 
 pub(super) const FIGURE: Figure = Figure {
     name: "henon-heiles-step",

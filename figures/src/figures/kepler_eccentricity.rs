@@ -1,7 +1,6 @@
 //! Kepler's problem: the drift against the eccentricity, and the eccentricities with which the body escapes.
 
 use super::kepler::run;
-use crate::chart::{Axis, Curve, Mark};
 use crate::drawing::{Drawing, drift_axis};
 use crate::escape::critical;
 use crate::estimator::BEST;
@@ -9,7 +8,8 @@ use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
-use crate::verdict::{Coverage, Verdict};
+use shadowstep_report::chart::{Axis, Curve, Mark};
+use shadowstep_report::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "kepler-eccentricity",

@@ -4,7 +4,6 @@ use rug::Float;
 use shadowstep::Number;
 
 use super::kepler::{FAR, NEAR, apocentre, off, run};
-use crate::chart::{Axis, Curve, Mark, power_of_ten};
 use crate::drawing::Drawing;
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
@@ -12,7 +11,8 @@ use crate::measured::Energies;
 use crate::numbers::{number, power};
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, SCHEMES};
-use crate::verdict::Verdict;
+use shadowstep_report::chart::{Axis, Curve, Mark, power_of_ten};
+use shadowstep_report::verdict::Verdict;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "kepler-energies", title: "Kepler: the modified energy in time", of_paper: "figure 4", draw };

@@ -4,7 +4,6 @@ use shadowstep::Number;
 use shadowstep::shadow::StoppingRule;
 
 use super::kepler::{FAR, NEAR, off, run};
-use crate::chart::{Axis, Curve, Marker};
 use crate::drawing::Drawing;
 use crate::estimator::best;
 use crate::figure::Figure;
@@ -12,6 +11,7 @@ use crate::interval::Interval;
 use crate::measured::Energies;
 use crate::numbers::{number, power};
 use crate::results::Results;
+use shadowstep_report::chart::{Axis, Curve, Marker};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "kepler-orders",

@@ -1,7 +1,6 @@
 //! Kepler's problem: the drift of several schemes, and of the exact flow.
 
 use super::kepler::{FEW_STEPS, STEPS, drifts, rate, run};
-use crate::chart::{Axis, Curve};
 use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::BEST;
 use crate::figure::Figure;
@@ -9,6 +8,7 @@ use crate::fit::{DECAY_HEADER, Ratio, decay_row, logarithms, same_rates};
 use crate::interval::Interval;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, SCHEMES};
+use shadowstep_report::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "kepler-schemes",

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use shadowstep::Number;
 
 use super::kepler::{FEW_STEPS, STEPS, apocentre, drifts, rate, run, singularity};
-use crate::chart::{Axis, Curve};
 use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::{BEST, central};
 use crate::figure::Figure;
@@ -13,6 +12,7 @@ use crate::fit::{DECAY_HEADER, against_aliasing, decay_row, theory_row};
 use crate::numbers::{number, power};
 use crate::results::Results;
 use crate::run::EXACT_FLOW;
+use shadowstep_report::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "kepler-step", title: "Kepler: drift against the step size", of_paper: "figure 3, left", draw };

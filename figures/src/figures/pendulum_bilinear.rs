@@ -6,7 +6,6 @@ use shadowstep::problems::Problem;
 use shadowstep::shadow::EstimatorSettings;
 
 use super::pendulum::{SCHEME, singularity};
-use crate::chart::{Axis, Curve};
 use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::{bilinear, central};
 use crate::figure::Figure;
@@ -14,7 +13,8 @@ use crate::fit::{DECAY_HEADER, ROUND_OFF, decay, decay_row, logarithms, theory_r
 use crate::numbers::{decimal, power};
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, Run};
-use crate::verdict::{Coverage, Verdict};
+use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_report::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "pendulum-bilinear", title: "The pendulum by the bilinear estimator", of_paper: "", draw };

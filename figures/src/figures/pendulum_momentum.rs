@@ -1,7 +1,6 @@
 //! The pendulum: the drift against the initial momentum.
 
 use super::pendulum::SCHEME;
-use crate::chart::{Axis, Curve};
 use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::BEST;
 use crate::figure::Figure;
@@ -9,6 +8,7 @@ use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
 use shadowstep::problems::Problem;
+use shadowstep_report::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "pendulum-momentum",

@@ -6,7 +6,6 @@ use std::f64::consts::PI;
 use shadowstep::problems::Problem;
 
 use super::pendulum::{SCHEME, singularity};
-use crate::chart::{Axis, Curve};
 use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::central;
 use crate::figure::Figure;
@@ -14,7 +13,8 @@ use crate::fit::{DECAY_HEADER, ROUND_OFF, against_aliasing, decay, decay_row, th
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
-use crate::verdict::{Coverage, Verdict};
+use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_report::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "pendulum-step", title: "The pendulum: drift against the step size", of_paper: "figure 1", draw };

@@ -1,7 +1,6 @@
 //! The permanent change of the modified energy of the schemes, between low-error states.
 
 use super::kepler::{self, run};
-use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
@@ -9,7 +8,8 @@ use crate::fit::{DECAY_HEADER, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, FORCES, SCHEMES};
-use crate::verdict::{Coverage, Verdict};
+use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_report::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "permanent-change", title: "The permanent change of the schemes", of_paper: "", draw };

@@ -4,7 +4,6 @@ use shadowstep::Number;
 use shadowstep::problems::Problem;
 use shadowstep::shadow::{EstimatorSettings, StoppingRule};
 
-use crate::chart::{Axis, Curve};
 use crate::drawing::Drawing;
 use crate::estimator::{best, bilinear, central};
 use crate::figure::Figure;
@@ -12,6 +11,7 @@ use crate::measured::Energies;
 use crate::numbers::number;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, Run};
+use shadowstep_report::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "reliability", title: "Estimated errors against true errors", of_paper: "", draw };

@@ -4,7 +4,6 @@ use rug::Float;
 use shadowstep::Number;
 use shadowstep::problems::Problem;
 
-use crate::chart::{Axis, Curve, Marker};
 use crate::drawing::Drawing;
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
@@ -12,6 +11,7 @@ use crate::fit::{DECAY_HEADER, decay, decay_row};
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
+use shadowstep_report::chart::{Axis, Curve, Marker};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "scattering",

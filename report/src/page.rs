@@ -9,65 +9,78 @@ use subscripts::set;
 
 /// The whole page. All texts are plain; they are escaped when the page is written.
 #[derive(Clone, Debug)]
-pub(crate) struct Report {
-    pub(crate) title: String,
+pub struct Report {
+    /// Its heading.
+    pub title: String,
     /// Paragraphs on how it was computed.
-    pub(crate) introduction: Vec<String>,
+    pub introduction: Vec<String>,
     /// A remark beside the counts of verdicts, on what they cannot decide.
-    pub(crate) remark: Option<String>,
+    pub remark: Option<String>,
     /// How it was made, as pairs of a name and a value: version, command, digits.
-    pub(crate) made_with: Vec<(String, String)>,
-    pub(crate) sections: Vec<Section>,
+    pub made_with: Vec<(String, String)>,
+    /// In their order on the page.
+    pub sections: Vec<Section>,
 }
 
-/// The section of one figure.
+/// The section of one figure or study.
 #[derive(Clone, Debug)]
-pub(crate) struct Section {
-    pub(crate) title: String,
+pub struct Section {
+    /// Its heading.
+    pub title: String,
     /// The paper's figure; none for an additional one.
-    pub(crate) of_paper: Option<String>,
+    pub of_paper: Option<String>,
     /// What the paper states, in paragraphs.
-    pub(crate) stated: Vec<String>,
-    pub(crate) pictures: Vec<Picture>,
+    pub stated: Vec<String>,
+    /// Charts with captions.
+    pub pictures: Vec<Picture>,
     /// Results for the first page.
-    pub(crate) findings: Vec<String>,
+    pub findings: Vec<String>,
     /// The results, in paragraphs.
-    pub(crate) found: Vec<String>,
-    pub(crate) statements: Vec<Statement>,
-    pub(crate) tables: Vec<Table>,
+    pub found: Vec<String>,
+    /// Statements with their verdicts.
+    pub statements: Vec<Statement>,
+    /// After the text.
+    pub tables: Vec<Table>,
     /// Names of the files beside the page: SVG, CSV.
-    pub(crate) files: Vec<String>,
+    pub files: Vec<String>,
 }
 
 /// A picture and its caption.
 #[derive(Clone, Debug)]
-pub(crate) struct Picture {
+pub struct Picture {
     /// An `<svg>` element without `id`s, as [`Chart::svg`](crate::chart::Chart::svg) gives it. It is not escaped.
-    pub(crate) svg: String,
-    pub(crate) caption: String,
+    pub svg: String,
+    /// Below it.
+    pub caption: String,
 }
 
 /// A statement, what was found, and whether that agrees with it.
 #[derive(Clone, Debug)]
-pub(crate) struct Statement {
-    pub(crate) statement: String,
-    pub(crate) found: String,
-    pub(crate) verdict: Verdict,
+pub struct Statement {
+    /// What is stated.
+    pub statement: String,
+    /// The result.
+    pub found: String,
+    /// Whether it agrees.
+    pub verdict: Verdict,
 }
 
 /// A table of numbers or short texts. Each row has as many cells as the header.
 #[derive(Clone, Debug)]
-pub(crate) struct Table {
-    pub(crate) caption: String,
-    pub(crate) header: Vec<String>,
-    pub(crate) rows: Vec<Vec<String>>,
+pub struct Table {
+    /// Above it.
+    pub caption: String,
+    /// The names of the columns.
+    pub header: Vec<String>,
+    /// The cells.
+    pub rows: Vec<Vec<String>>,
 }
 
-const STYLE: &str = include_str!("report.css");
+const STYLE: &str = include_str!("page.css");
 
 impl Report {
     /// The text of the page: first what was found, then how.
-    pub(crate) fn html(&self) -> String {
+    pub fn html(&self) -> String {
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -80,21 +93,26 @@ impl Report {
                 body {
                     h1 { (self.title) }
                     (self.findings())
-                    (self.counts())
+                    @if self.is_of_paper() { (self.counts()) }
                     @if let Some(remark) = &self.remark { p { (set(remark)) } }
-                    nav aria-label="Figures" { (self.contents()) }
+                    @if self.sections.len() > 1 { nav aria-label="Figures" { (self.contents()) } }
                     h2 { "How it was computed" }
                     (paragraphs(&self.introduction))
                     dl { @for (name, value) in &self.made_with { dt { (name) } dd { (value) } } }
-                    main { @for (n, figure) in self.sections.iter().enumerate() { (figure.section(n + 1)) } }
+                    main { @for (n, figure) in self.sections.iter().enumerate() { (figure.section(n + 1, self.is_of_paper())) } }
                 }
             }
         };
         page.into_string()
     }
 
+    /// Whether it compares anything with figures of a paper.
+    fn is_of_paper(&self) -> bool {
+        self.sections.iter().any(|figure| figure.of_paper.is_some())
+    }
+
     /// How many statements agree, differ, and are not decided: of the paper, and additional ones.
-    pub(crate) fn verdicts(&self) -> String {
+    pub fn verdicts(&self) -> String {
         let [paper, additional] = [true, false].map(|of_paper| self.count(of_paper));
         let lines = [("statements of the paper", paper), ("additional statements", additional)];
         let lines = lines.into_iter().filter(|(_, counts)| counts.all() > 0);
@@ -165,18 +183,21 @@ impl Section {
         badge(self.word())
     }
 
-    fn section(&self, n: usize) -> Markup {
+    /// The n-th section, of a report that compares with figures of a paper or not.
+    fn section(&self, n: usize, in_report_of_paper: bool) -> Markup {
         let counts = Counts::of(self.statements.iter().map(|statement| statement.verdict));
         html! {
             section id={ "figure-" (n) } {
                 h2 { (set(&self.title)) }
-                p class="verdict-line" {
-                    (self.badge()) " "
-                    @match &self.of_paper {
-                        Some(of_paper) => { "Of the paper: " (of_paper) ". " }
-                        None => { "The paper has no such figure. " }
+                @if in_report_of_paper {
+                    p class="verdict-line" {
+                        (self.badge()) " "
+                        @match &self.of_paper {
+                            Some(of_paper) => { "Of the paper: " (of_paper) ". " }
+                            None => { "The paper has no such figure. " }
+                        }
+                        @if counts.all() > 0 { "Statements: " (counts) "." }
                     }
-                    @if counts.all() > 0 { "Statements: " (counts) "." }
                 }
                 @if !self.stated.is_empty() {
                     div class="stated" { h3 { "The paper states" } (paragraphs(&self.stated)) }

@@ -130,7 +130,7 @@ fn few_decades(least: f64, most: f64) -> Ticks {
 }
 
 /// 10ⁿ, with 1 and 10 as such.
-pub(crate) fn power_of_ten(n: i64) -> String {
+pub fn power_of_ten(n: i64) -> String {
     match n {
         0 => "1".to_owned(),
         1 => "10".to_owned(),

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// The result of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Verdict {
+pub enum Verdict {
     /// The results agree with the statement, with all of their uncertainty.
     Agrees,
     /// They contradict it, with all of their uncertainty.
@@ -15,7 +15,7 @@ pub(crate) enum Verdict {
 
 impl Verdict {
     /// What several verdicts are together: one difference is one, and what is not decided leaves the whole so.
-    pub(crate) fn of_all(all: impl IntoIterator<Item = Verdict>) -> Verdict {
+    pub fn of_all(all: impl IntoIterator<Item = Verdict>) -> Verdict {
         let all: Vec<_> = all.into_iter().collect();
         match () {
             () if all.contains(&Verdict::Differs) => Verdict::Differs,
@@ -25,7 +25,7 @@ impl Verdict {
     }
 
     /// The word for it.
-    pub(crate) fn word(self) -> &'static str {
+    pub fn word(self) -> &'static str {
         match self {
             Verdict::Agrees => "agrees",
             Verdict::Differs => "differs",
@@ -45,24 +45,26 @@ impl From<bool> for Verdict {
 ///
 /// What some of the values cannot decide is not decided, so that no verdict on a coarse grid contradicts the one on the whole grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Coverage {
+pub enum Coverage {
+    /// All of them.
     All,
+    /// Some of them.
     Some,
 }
 
 impl Coverage {
     /// A statement about every value: one value contradicts it, and only all of them confirm it.
-    pub(crate) fn every(self, holds: bool) -> Verdict {
+    pub fn every(self, holds: bool) -> Verdict {
         self.unless_partial(holds, Verdict::Agrees)
     }
 
     /// A statement that there is a value: one confirms it, and only all of them contradict it.
-    pub(crate) fn any(self, holds: bool) -> Verdict {
+    pub fn any(self, holds: bool) -> Verdict {
         self.unless_partial(holds, Verdict::Differs)
     }
 
     /// A statement that some of the values decide neither way.
-    pub(crate) fn only_all(self, verdict: impl Into<Verdict>) -> Verdict {
+    pub fn only_all(self, verdict: impl Into<Verdict>) -> Verdict {
         if self == Coverage::All { verdict.into() } else { Verdict::NotDecided }
     }
 
@@ -75,14 +77,18 @@ impl Coverage {
 
 /// How many verdicts there are of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Counts {
-    pub(crate) agree: usize,
-    pub(crate) differ: usize,
-    pub(crate) not_decided: usize,
+pub struct Counts {
+    /// Those that agree.
+    pub agree: usize,
+    /// Those that differ.
+    pub differ: usize,
+    /// Those that are not decided.
+    pub not_decided: usize,
 }
 
 impl Counts {
-    pub(crate) fn of(all: impl IntoIterator<Item = Verdict>) -> Counts {
+    /// Counts these verdicts.
+    pub fn of(all: impl IntoIterator<Item = Verdict>) -> Counts {
         let mut counts = Counts::default();
         for verdict in all {
             match verdict {
@@ -94,7 +100,8 @@ impl Counts {
         counts
     }
 
-    pub(crate) fn all(&self) -> usize {
+    /// How many there are in all.
+    pub fn all(&self) -> usize {
         self.agree + self.differ + self.not_decided
     }
 }
