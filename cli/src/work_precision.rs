@@ -12,7 +12,7 @@ use shadowstep::Rational;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_work_precision::files::{refuse_foreign, write};
+use shadowstep_work_precision::files::{Title, refuse_foreign, write};
 use shadowstep_work_precision::ladder::Rungs;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::schemes::default_schemes;
@@ -82,10 +82,12 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let reference_time = Duration::from_secs_f64(REFERENCE * arguments.seconds);
     let request = Request { problem, schemes: &schemes, rungs, reference_time, folder: arguments.out.clone() };
     let study = request.study(&mut terminal)?;
-    let files = write(&study, &posed.title(), &command(), &arguments.out)?;
+    let (title, command) = (posed.title(), command());
+    let title = Title { title: &title, hamiltonian: &posed.described.hamiltonian, command: &command };
+    let report = write(&study, title, &arguments.out)?;
     let mut output = Output::stdout();
     write!(output, "{}", readable(&posed, &study, on_stdout()))?;
-    writeln!(output, "{}", files.report.display())?;
+    writeln!(output, "{}", report.display())?;
     output.finish()?;
     Ok(terminal.status)
 }

@@ -3,44 +3,79 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use shadowstep_report::page::{self, Report, Section};
 use shadowstep_scenes::{Error, WholeFile};
 use shadowstep_tasks::Store;
 
-use crate::reference::Origin;
 use crate::study::Study;
 
 const DATA: &str = "work-precision.csv";
 const LINES: &str = "work-precision.jsonl";
 
-/// What was written.
-#[derive(Clone, Debug)]
-pub struct Written {
-    /// The file to look at first.
-    pub report: PathBuf,
+const SCRIPT: &str = "plot.py";
+const REPORT: &str = "report.html";
+
+/// Makes PDF and PGF of the CSV.
+const PLOT: &str = include_str!("plot.py");
+
+/// What a study is called in its files.
+#[derive(Clone, Copy, Debug)]
+pub struct Title<'a> {
+    /// The problem, the time and the number type.
+    pub title: &'a str,
+    /// H.
+    pub hamiltonian: &'a str,
+    /// The command that makes the study.
+    pub command: &'a str,
 }
 
-/// Writes the data and the charts.
+/// Writes data, charts, and a page that contains them; returns the path of the page.
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write(study: &Study<'_>, title: &str, command: &str, folder: &Path) -> Result<Written, Error> {
-    let reference = match &study.reference.origin {
-        Origin::ExactFlow => "reference: the exact flow".to_owned(),
-        Origin::Scheme { name, steps, digits } => {
-            let error = study.reference.error();
-            format!("reference: {name}, {steps} steps, {digits} digits, estimated error {error}")
-        }
-    };
-    let head = [
-        format!("shadowstep: {}", env!("CARGO_PKG_VERSION")),
-        format!("command: {command}"),
-        title.to_owned(),
-        reference,
-    ];
+pub fn write(study: &Study<'_>, title: Title<'_>, folder: &Path) -> Result<PathBuf, Error> {
+    let reference = study.reference.described();
+    let version = format!("shadowstep {}", env!("CARGO_PKG_VERSION"));
+    let head = [version.clone(), format!("command: {}", title.command), title.title.to_owned(), reference.clone()];
     write_file(folder, DATA, &study.csv(&head)?)?;
     write_file(folder, LINES, &study.json_lines()?)?;
-    Ok(Written { report: folder.join(DATA) })
+    write_file(folder, SCRIPT, PLOT)?;
+    let mut pictures = Vec::new();
+    let mut files = [DATA, LINES, SCRIPT].map(str::to_owned).to_vec();
+    for picture in study.pictures(title.title) {
+        let [name, for_print] = ["", "-print"].map(|kind| format!("{}{kind}.svg", picture.name));
+        let svg = picture.chart.svg()?;
+        write_file(folder, &name, &svg)?;
+        write_file(folder, &for_print, &picture.chart.svg_for_print()?)?;
+        pictures.push(page::Picture { svg, caption: picture.caption.to_owned() });
+        files.extend([name, for_print]);
+    }
+    let section = Section {
+        title: title.title.to_owned(),
+        of_paper: None,
+        stated: Vec::new(),
+        pictures,
+        findings: Vec::new(),
+        found: vec![format!("H = {}.", title.hamiltonian), reference, TIMES.to_owned()],
+        statements: Vec::new(),
+        tables: study.tables(),
+        files,
+    };
+    let made_with = [("program", version), ("command", title.command.to_owned())];
+    let page = Report {
+        title: "Speed against error".to_owned(),
+        introduction: Vec::new(),
+        remark: None,
+        made_with: made_with.map(|(name, value)| (name.to_owned(), value)).to_vec(),
+        sections: vec![section],
+    };
+    write_file(folder, REPORT, &page.html())?;
+    Ok(folder.join(REPORT))
 }
+
+const TIMES: &str = "Times are those of the bare steps of tables that are read at run time, in one thread: medians of nine repeats, all \
+                     schemes by turns. Orders are slopes of the largest range of steps in which no error is off the line by more than 0.1 \
+                     decades.";
 
 fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Error> {
     let mut file = WholeFile::create(&folder.join(name), "the file")?;
@@ -49,8 +84,11 @@ fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Error> {
 }
 
 /// Files of this program have its results beside them. Without them, files of the same names are not replaced.
-pub(crate) fn refuse_foreign(folder: &Path) -> Result<(), Error> {
-    let foreign = [DATA, LINES].into_iter().map(|name| folder.join(name)).find(|path| path.exists());
+///
+/// # Errors
+/// Such a file.
+pub fn refuse_foreign(folder: &Path) -> Result<(), Error> {
+    let foreign = [DATA, LINES, SCRIPT, REPORT].into_iter().map(|name| folder.join(name)).find(|path| path.exists());
     match foreign.filter(|_| !Store::is_in(folder)) {
         None => Ok(()),
         Some(path) => {

@@ -11,12 +11,15 @@
 //! | [`timing`] | the time of a step |
 //! | [`order`], `best` | the measured order; the scheme that needs the least for an error |
 //! | [`schemes`] | the schemes that are compared if none are named |
-//! | [`files`] | what is written |
+//! | [`files`] | what is written: data, charts, a page |
+//! | `charts` | work–precision diagrams |
+//! | [`tables`] | the best schemes for each decade of an error, and measured orders |
 //! | `records` | the results as CSV and JSON lines |
 //! | [`size`] | sizes beyond the range of `f64` |
 
 mod best;
 mod calculation;
+mod charts;
 pub mod files;
 pub mod ladder;
 pub mod order;
@@ -28,4 +31,5 @@ pub mod run;
 pub mod schemes;
 pub mod size;
 pub mod study;
+pub mod tables;
 pub mod timing;

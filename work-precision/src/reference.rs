@@ -72,6 +72,17 @@ impl Reference {
         }
     }
 
+    /// What positions are compared with, in a sentence.
+    pub fn described(&self) -> String {
+        match &self.origin {
+            Origin::ExactFlow => "Positions are compared with the exact flow.".to_owned(),
+            Origin::Scheme { name, steps, digits } => format!(
+                "Positions are compared with those of {name} in {steps} steps with {digits} digits, whose error is about {}.",
+                self.error()
+            ),
+        }
+    }
+
     /// The largest of its estimated errors.
     pub fn error(&self) -> Size {
         self.errors.iter().copied().fold(Size::ZERO, |a, b| if b > a { b } else { a })

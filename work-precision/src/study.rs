@@ -80,7 +80,7 @@ impl<'a> Request<'a> {
     /// Makes all runs that the folder lacks, on all cores, and then times the steps of all schemes by turns.
     ///
     /// # Errors
-    /// No reference; a folder with files of other origin, or that cannot be written or that another process uses; an observer that stops. A scheme that fails is
+    /// No reference; a folder that cannot be written or that another process uses; an observer that stops. A scheme that fails is
     /// reported to the observer.
     pub fn study(&self, observer: &mut dyn Observer) -> Result<Study<'a>, Error> {
         let mut store = Store::open(&self.folder, observer)?;
@@ -181,7 +181,8 @@ impl Studied<'_> {
         MeasuredOrder::of(&points.filter(|(_, error)| error.is_finite()).collect::<Vec<_>>())
     }
 
-    fn curve(&self, of: Of, cost: Cost) -> Curve {
+    /// Costs and log₁₀ of errors, in the order of cost.
+    pub(crate) fn curve(&self, of: Of, cost: Cost) -> Curve {
         let cost = |run: &Measurement| match cost {
             Cost::Evaluations => run.evaluations as f64,
             Cost::Seconds => self.seconds(run),

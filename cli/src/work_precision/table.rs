@@ -2,9 +2,8 @@
 
 use shadowstep_scenes::readable::wrapped_to;
 use shadowstep_work_precision::order::MeasuredOrder;
-use shadowstep_work_precision::reference::{Origin, Reference};
-use shadowstep_work_precision::size::Size;
-use shadowstep_work_precision::study::{Cost, Of, Studied, Study};
+use shadowstep_work_precision::study::{Of, Studied, Study};
+use shadowstep_work_precision::tables::Cheapest;
 
 use super::Posed;
 use crate::colour::heading;
@@ -16,9 +15,9 @@ const WIDTH: usize = 80;
 pub(super) fn readable(posed: &Posed, study: &Study<'_>, coloured: bool) -> String {
     let title = |text: &str| if coloured { heading(text) } else { text.to_owned() };
     let mut text = wrapped_to(&posed.title(), "", WIDTH);
-    text += &wrapped_to(&origin(&study.reference), "", WIDTH);
+    text += &wrapped_to(&study.reference.described(), "", WIDTH);
     for (of, name) in [(Of::Position, "error of the position at the end"), (Of::Energy, "largest error of H")] {
-        let rows: Vec<_> = study.decades(of).filter_map(|error| row(study, of, error)).collect();
+        let rows: Vec<_> = study.cheapest_by_decade(of).into_iter().map(row).collect();
         if rows.is_empty() {
             text += &format!("{}: no scheme has one below 1/10\n", title(name));
             continue;
@@ -35,13 +34,9 @@ pub(super) fn readable(posed: &Posed, study: &Study<'_>, coloured: bool) -> Stri
 }
 
 /// The best schemes for an error.
-fn row(study: &Study<'_>, of: Of, error: Size) -> Option<[String; 5]> {
-    let (by_forces, forces) = study.cheapest(of, Cost::Evaluations, error).into_iter().next()?;
-    let (by_time, seconds) = study.cheapest(of, Cost::Seconds, error).into_iter().next()?;
-    let (forces, seconds) = (format!("{forces:.0}"), format!("{seconds:.2e}"));
-    let names = [by_forces, by_time].map(|studied| studied.scheme.name.clone());
-    let [by_forces, by_time] = names;
-    Some([format!("1e{}", error.log10()), by_forces, forces, by_time, seconds])
+fn row(Cheapest { error, by_evaluations, by_time }: Cheapest<'_>) -> [String; 5] {
+    let (evaluations, seconds) = (format!("{:.0}", by_evaluations.1), format!("{:.2e}", by_time.1));
+    [format!("1e{}", error.log10()), by_evaluations.0.to_owned(), evaluations, by_time.0.to_owned(), seconds]
 }
 
 /// A scheme with the orders that it shows.
@@ -61,14 +56,4 @@ fn orders(study: &Study<'_>, studied: &Studied<'_>) -> [String; 8] {
         to,
         shown(energy),
     ]
-}
-
-fn origin(reference: &Reference) -> String {
-    match &reference.origin {
-        Origin::ExactFlow => "Positions are compared with the exact flow.".to_owned(),
-        Origin::Scheme { name, steps, digits } => format!(
-            "Positions are compared with those of {name} in {steps} steps with {digits} digits, whose error is about {}.",
-            reference.error()
-        ),
-    }
 }
