@@ -41,7 +41,6 @@ fn watch_by(settings: &Bilinear, name: &str, set: &[(&str, &str)], scheme: &str,
 }
 
 const FINE: Verdict = Verdict::Fine;
-const MOVES: Verdict = Verdict::TooLarge(Criterion::Moved);
 const ENERGY_ERROR: Verdict = Verdict::TooLarge(Criterion::EnergyError);
 
 /// Steps of the size h, which `step` makes, watched by a monitor with a stepper of the size `monitored`; `step` gets whether the

@@ -24,8 +24,8 @@ use super::trend::Trend;
 /// | not the gradient | a permanent change of a quarter is excluded, but H̄ changes from state to state as H does: they differ by 0.3 of what H̄ changes in a window, whose last terms are 0.004 of that, and the fastest motion turns once in 10 steps or more |
 /// | fine | a permanent change of a quarter is excluded, and the one above does not apply |
 /// | not smooth | forces are [not smooth](super::Report::rough) in a quarter of the windows |
-/// | not conserved | H̄ moved permanently by half or more, its errors are a quarter or less, and the fastest motion turns once in 18 steps or less; but the energy error is below 1e-3 of T |
-/// | too large: moves | the same, and the energy error is 1e-3 of T or more |
+/// | not conserved | H̄ moved permanently by half or more, its errors are a quarter or less, and the fastest motion turns once in 18 steps or less; but the energy error is below 0.05 of T |
+/// | too large: moves | the same, and the energy error is 0.05 of T or more |
 /// | undecided: resolution | none of these: the [advice](super::Report::advice) is what would decide |
 ///
 /// The thresholds come from a matrix of runs, and were tested with others: `docs/monitor.md`.
@@ -140,7 +140,7 @@ const ERROR_FACTOR: f64 = 3.0;
 /// The verdict is round-off if that makes this part of the energy error or more.
 const ROUND_OFF_PART: f64 = 0.5;
 /// An energy error below this part of the mean kinetic energy is small: it may grow, and the step size is not yet too large.
-const SMALL_ERROR: f64 = 1e-3;
+const SMALL_ERROR: f64 = 0.05;
 /// The energy error is too large from this part of the mean kinetic energy on.
 const KINETIC_LIMIT: f64 = 0.4;
 /// Round-off may be this many times what is expected.
@@ -371,7 +371,7 @@ mod tests {
         error_rms: 1e-9,
         distance: 1.0,
         last_term: 1.0,
-        of_kinetic: 1e-2,
+        of_kinetic: 0.1,
         action: 1.0,
         turning: None,
         trend: Some(Trend::RandomWalk),
@@ -399,7 +399,7 @@ mod tests {
         assert_eq!(Evidence { windows: 15, ..FINE }.verdict(), Verdict::Undecided(Missing::Windows));
         assert_eq!([0.24, 0.26, 0.49, 0.5, 1.6].map(moved), [Verdict::Fine, UNRESOLVED, UNRESOLVED, MOVES, UNRESOLVED]);
         assert_eq!(Evidence { of_kinetic: 0.4, ..FINE }.verdict(), Verdict::TooLarge(Criterion::EnergyError));
-        let small = Evidence { moved: 0.5, range: 0.5, of_kinetic: 0.9e-3, ..FINE };
+        let small = Evidence { moved: 0.5, range: 0.5, of_kinetic: 0.04, ..FINE };
         assert_eq!(small.verdict(), Verdict::NotConserved);
         let moves = Evidence { moved: 0.6, range: 0.6, ..FINE };
         let others = [
@@ -465,7 +465,7 @@ mod tests {
         assert_eq!(Evidence { mismatches: true, ..FINE }.verdict(), Verdict::Inconsistent);
         assert_eq!(Evidence { moved: 1001.0, turning: turning(20.0, 0.0), ..FINE }.verdict(), Verdict::Inconsistent);
         // of a circle in 20 steps θ²T/12 is some 0.8 of this energy error
-        let off = |offset| Evidence { offset, turning: turning(20.0, 0.0), ..FINE };
+        let off = |offset| Evidence { offset, of_kinetic: 1e-2, turning: turning(20.0, 0.0), ..FINE };
         assert_eq!([off(1.6).verdict(), off(1.7).verdict()], [FINE.verdict(), Verdict::Inconsistent]);
         assert_eq!(Evidence { resolution: 0.6, ..off(1.7) }.verdict(), UNRESOLVED);
         assert_eq!(
