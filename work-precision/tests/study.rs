@@ -1,0 +1,128 @@
+//! Studies of problems whose solution is known, and of others beside a reference with an estimated error.
+
+use std::path::Path;
+use std::time::Duration;
+
+use shadowstep::Rational;
+use shadowstep::problems::problem;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::{PotentialEnergy, System};
+use shadowstep_work_precision::ladder::{End, Rungs};
+use shadowstep_work_precision::problem::Problem;
+use shadowstep_work_precision::reference::Origin;
+use shadowstep_work_precision::size::Size;
+use shadowstep_work_precision::study::{Cost, Of, Request, Study};
+
+fn system(name: &str) -> System {
+    System::of_setup(problem(name).unwrap().setup(&[], 60).unwrap())
+}
+
+fn schemes(names: &[&str]) -> Vec<NamedScheme> {
+    names.iter().map(|name| scheme(name).unwrap()).collect()
+}
+
+fn study<'a>(problem: Problem<'a>, schemes: &'a [NamedScheme], rungs: Rungs, folder: &Path) -> Study<'a> {
+    let reference_time = Duration::from_secs(20);
+    Request { problem, schemes, rungs, reference_time, folder: folder.to_owned() }.study(&mut ()).unwrap()
+}
+
+fn until(t: i64) -> Rational {
+    Rational::from_integer(t.into())
+}
+
+/// Every error is that of the exact solution, and falls as the proved order says.
+#[test]
+fn schemes_show_their_orders_beside_the_exact_flow() {
+    let (system, until, folder) = (system("pendulum"), until(10), tempfile::tempdir().unwrap());
+    let schemes = schemes(&["stormer-verlet", "blanes-moan-s6", "blanes-moan-srkn11b"]);
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::with_digits(30).unwrap() };
+    let rungs = Rungs::Steps(vec![100, 200, 400, 800, 1600]);
+    let study = study(problem, &schemes, rungs, folder.path());
+    assert_eq!(study.reference.origin, Origin::ExactFlow);
+    for (studied, order) in study.schemes.iter().zip([2.0, 4.0, 6.0]) {
+        assert_eq!((studied.ladder.runs.len(), studied.ladder.end), (5, End::Complete));
+        for of in [Of::Position, Of::Energy] {
+            // the slope still has a part of the next term: 0.1 of the order at these steps
+            let found = studied.order(problem, of).unwrap();
+            assert!((found.order - order).abs() < 0.1, "{}, {of:?}: {found:?}", studied.scheme.name);
+        }
+        assert_eq!(studied.ladder.runs[0].evaluations, 100 * studied.evaluations_per_step());
+    }
+}
+
+/// The reference is a scheme of order 10, whose estimated error is not smaller than its error.
+#[test]
+fn the_error_of_a_reference_is_estimated() {
+    let (system, until, folder) = (system("kepler"), until(20), tempfile::tempdir().unwrap());
+    let formula = System {
+        potential: PotentialEnergy::Formula("-1/sqrt(x^2 + y^2)".to_owned()),
+        parameters: Vec::new(),
+        ..self::system("kepler")
+    };
+    let schemes = schemes(&["kahan-li8"]);
+    let runs = |system| {
+        let folder = folder.path().join(format!("{system:p}"));
+        let problem = Problem { system, until: &until, arithmetic: Arithmetic::Double };
+        study(problem, &schemes, Rungs::Steps(vec![500, 1000, 2000]), &folder)
+    };
+    let (exact, estimated) = (runs(&system), runs(&formula));
+    assert!(matches!(estimated.reference.origin, Origin::Scheme { .. }));
+    let error = estimated.reference.error();
+    assert!(error < Size::power_of_ten(-15.0) && error > Size::power_of_ten(-30.0), "{error}");
+    for (a, b) in exact.schemes[0].ladder.runs.iter().zip(&estimated.schemes[0].ladder.runs) {
+        let [a, b] = [a, b].map(|run| run.position.known().unwrap().log10());
+        // the same error to three digits, as round-off differs with the form of the potential
+        assert!((a - b).abs() < 4e-4 || a < -13.0, "{a} {b}");
+    }
+}
+
+#[test]
+fn ladders_go_from_instability_to_round_off() {
+    let (system, until, folder) = (system("harmonic-oscillator"), until(10), tempfile::tempdir().unwrap());
+    let schemes = schemes(&["stormer-verlet", "bce-rkn8-17"]);
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
+    let study = study(problem, &schemes, Rungs::Automatic { seconds: 5.0 }, folder.path());
+    let [verlet, rkn] = &study.schemes[..] else { panic!() };
+    for studied in [verlet, rkn] {
+        let runs = &studied.ladder.runs;
+        assert!(runs[0].failed.is_some() || runs[0].energy > Size::power_of_ten(-1.0), "{:?}", runs[0]);
+        // equal numbers of evaluations, as nearly as steps and samples allow
+        assert!(runs.windows(2).all(|runs| runs[0].steps < runs[1].steps));
+    }
+    assert_eq!(rkn.ladder.end, End::RoundOff);
+    let best = study.cheapest(Of::Position, Cost::Evaluations, Size::power_of_ten(-10.0));
+    assert_eq!(best[0].0.scheme.name, "bce-rkn8-17");
+}
+
+/// A second call takes everything from the folder.
+#[test]
+fn results_are_kept() {
+    let (system, until, folder) = (system("henon-heiles"), until(5), tempfile::tempdir().unwrap());
+    let schemes = schemes(&["stormer-verlet", "yoshida4"]);
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
+    let again = || study(problem, &schemes, Rungs::Steps(vec![50, 100]), folder.path()).csv(&[]).unwrap();
+    let (first, bytes) = (again(), std::fs::read(folder.path().join("results.jsonl")).unwrap());
+    assert_eq!((again(), std::fs::read(folder.path().join("results.jsonl")).unwrap()), (first.clone(), bytes));
+    let rows: Vec<&str> = first.lines().collect();
+    assert!(rows.len() == 5 && rows[1].starts_with("stormer-verlet,2,1/10,50,50,"), "{first}");
+}
+
+/// A run whose states are not finite is kept as failed.
+#[test]
+fn runs_that_fail_are_kept_as_failed() {
+    let (until, folder) = (until(10), tempfile::tempdir().unwrap());
+    // far from the centre the force is large: the coarse steps overshoot ever more
+    let setup = problem("pendulum").unwrap().setup(&[("p".to_owned(), "10".to_owned())], 60).unwrap();
+    let quartic = System {
+        potential: PotentialEnergy::Formula("x^4".to_owned()),
+        coordinates: vec!["x".to_owned()],
+        ..System::of_setup(setup)
+    };
+    let schemes = schemes(&["stormer-verlet"]);
+    let problem = Problem { system: &quartic, until: &until, arithmetic: Arithmetic::Double };
+    let study = study(problem, &schemes, Rungs::Steps(vec![20, 4000]), folder.path());
+    let runs = &study.schemes[0].ladder.runs;
+    assert!(runs[0].failed.is_some() && runs[1].failed.is_none(), "{runs:?}");
+    assert!(study.csv(&[]).unwrap().lines().nth(1).unwrap().contains(",a state is not finite,"));
+}
