@@ -109,7 +109,7 @@ pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Re
     }
     let equations = Equations::of(&model, table, wanted.split_kicks);
     let problem = Problem { model: &model, equations: &equations };
-    let printed_digits = model.unknowns.iter().map(|u| u.digits).max().unwrap_or(1);
+    let printed_digits = model.unknowns.iter().map(|u| u.decimal.significant).max().unwrap_or(1);
     let residual_printed = problem.residual(&model.printed(), printed_digits);
     let most_digits = wanted.digits.unwrap_or(MOST_DIGITS);
     let solution = problem.solve(&held, most_digits).map_err(|failure| {
@@ -196,8 +196,8 @@ fn weight(
     PolishedWeight {
         name: printed.name.clone(),
         constant: constant.to_owned(),
-        printed: printed.printed.clone(),
-        printed_digits: printed.digits,
+        printed: printed.decimal.value.clone(),
+        printed_digits: printed.decimal.significant,
         polished: polished.clone(),
         right: printed.right_digits(polished),
         role: match written {

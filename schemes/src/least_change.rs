@@ -71,22 +71,47 @@ impl LeastChange {
         false
     }
 
-    /// The entry without which the others solve the equations with the least squares and its value then, if theirs are
-    /// within a limit on average; else the largest entry of the solution of least squares. Whether it is the former.
-    pub(crate) fn to_blame(&self, limit: f64) -> Option<(usize, f64, bool)> {
+    /// The entries one of which suffices: with it free, the others solve the equations and stay within a limit.
+    ///
+    /// Each with its value in the solution in which the others have the least squares. The entry that was changed is among
+    /// them, as far as the equations are linear; where there are several, nothing here decides between them.
+    pub(crate) fn sufficient(&self, limit: f64) -> Vec<(usize, f64)> {
         let change = self.transposed(&self.y);
-        let leverage = |j: usize| self.q.iter().map(|row| row[j] * row[j]).sum::<f64>();
-        let saved = |j: usize| if leverage(j) > DEPENDENT { change[j] * change[j] / leverage(j) } else { 0.0 };
-        let blamed = (0..change.len()).max_by(|&i, &j| saved(i).total_cmp(&saved(j)))?;
-        let alone = change[blamed] / leverage(blamed);
-        // the equations themselves are linear to first order only
-        let limit = limit.max(LINEAR * alone.abs());
-        let rest = square(&self.y) - saved(blamed);
-        if self.contradiction <= limit && rest <= limit * limit * change.len() as f64 {
-            return Some((blamed, alone, true));
-        }
-        let largest = (0..change.len()).max_by(|&i, &j| change[i].abs().total_cmp(&change[j].abs()))?;
-        Some((largest, change[largest], false))
+        let suffices = |j: usize| {
+            let leverage = self.q.iter().map(|row| row[j] * row[j]).sum::<f64>();
+            if leverage <= DEPENDENT {
+                return None;
+            }
+            let alone = change[j] / leverage;
+            // the equations themselves are linear to first order only
+            let limit = limit.max(LINEAR * alone.abs());
+            let rest = square(&self.y) - change[j] * alone;
+            // the least squares are the cheaper test, and never the stricter one
+            let is_near = self.contradiction <= limit && rest <= limit * limit * change.len() as f64;
+            (is_near && !self.without(j).exceeds(limit)).then_some((j, alone))
+        };
+        (0..change.len()).filter_map(suffices).collect()
+    }
+
+    /// The largest entry of the solution of least squares.
+    pub(crate) fn farthest(&self) -> Option<(usize, f64)> {
+        let change = self.transposed(&self.y);
+        change.into_iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+    }
+
+    /// The equations for the other entries where entry j may have any value.
+    fn without(&self, j: usize) -> LeastChange {
+        let column: Vec<_> = self.q.iter().map(|row| row[j]).collect();
+        let length = square(&column);
+        let (along_y, along) = (dot(&column, &self.y), self.transposed(&column));
+        let rest = |(row, c): (&Vec<f64>, &f64)| -> Vec<f64> {
+            let mut rest: Vec<_> = row.iter().zip(&along).map(|(x, along)| x - c * along / length).collect();
+            rest[j] = 0.0;
+            rest
+        };
+        let rows: Vec<_> = self.q.iter().zip(&column).map(rest).collect();
+        let y: Vec<_> = self.y.iter().zip(&column).map(|(y, c)| y - c * along_y / length).collect();
+        LeastChange { contradiction: self.contradiction, ..LeastChange::of(&rows, &y) }
     }
 
     /// What is left to change after entry j has been moved by this much.
@@ -158,14 +183,26 @@ mod tests {
     }
 
     #[test]
-    fn one_entry_is_blamed_where_it_suffices() {
+    fn one_entry_suffices() {
         // three equations in four unknowns, met by (0, 0, 900, 0) and a rounding
         let rows: [&[f64]; 3] = [&[1.0, 1.0, 1.0, 1.0], &[0.2, -0.7, 0.4, 1.5], &[0.3, 0.5, -0.9, 0.1]];
         let b = rows.map(|row| 900.0 * row[2] + 0.3 * row[0] - 0.4 * row[3]);
-        let (blamed, by, alone) = change(&rows, &b).to_blame(1.0).unwrap();
-        assert!(blamed == 2 && alone && (by - 900.0).abs() < 1.0, "{blamed} by {by}");
+        let [(blamed, by)] = change(&rows, &b).sufficient(1.0)[..] else { panic!("not one") };
+        assert!(blamed == 2 && (by - 900.0).abs() < 1.0, "{blamed} by {by}");
         // two entries are off
         let b = rows.map(|row| 900.0 * row[2] + 700.0 * row[0]);
-        assert!(!change(&rows, &b).to_blame(1.0).unwrap().2);
+        assert!(change(&rows, &b).sufficient(1.0).is_empty());
+    }
+
+    #[test]
+    fn entries_that_explain_the_same_are_all_sufficient() {
+        // the first two columns differ by little, and the third makes up for it
+        let rows: [&[f64]; 2] = [&[1.0, 1.0, 0.2], &[0.5, 0.5001, -0.4]];
+        let found = change(&rows, &rows.map(|row| 900.0 * row[0])).sufficient(1.0);
+        assert_eq!(found.iter().map(|(j, _)| *j).collect::<Vec<_>>(), [0, 1], "{found:?}");
+        // what the third would have to make up for is beyond the limit
+        let rows: [&[f64]; 2] = [&[1.0, 1.0, 0.2], &[0.5, 0.6, -0.4]];
+        let found = change(&rows, &rows.map(|row| 900.0 * row[0])).sufficient(1.0);
+        assert_eq!(found.iter().map(|(j, _)| *j).collect::<Vec<_>>(), [0], "{found:?}");
     }
 }

@@ -10,7 +10,7 @@
 //! | [`library`], `shipped`, `spelling` | the name of a table → its text |
 //! | [`order`], [`nystrom`], [`near_integrable`] | kicks and drifts → order conditions, for every T(p), for quadratic T, for H = A + εB |
 //! | [`arithmetic`], `conditions`, `digits` | the values of the conditions, exactly or with bounds, and how exactly they must be met |
-//! | `printed`, `rounding`, `least_change` | printed decimals → whether their rounding explains how far the conditions are off |
+//! | [`decimal`], `printed`, `rounding`, `least_change` | printed decimals → whether their rounding explains how far the conditions are off |
 //! | [`proof`] | conditions → what is true of the scheme → the claims that differ from it |
 //! | `wording` | such a claim → a sentence with its place |
 //! | [`plan`] | scheme → the plan of a step: maps, shared constants, cost |
@@ -27,6 +27,7 @@
 pub mod arithmetic;
 pub mod claims;
 mod conditions;
+pub mod decimal;
 mod digits;
 pub mod document;
 pub mod exact;

@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use num_bigint::BigInt;
-use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
-use shadowstep_symbolic::decimal::from_text;
+use num_traits::{FromPrimitive, Signed, ToPrimitive};
 use shadowstep_symbolic::{Budget, Exact, Expression, Kind, Rational, evaluate_within, parse};
 
+use crate::decimal::PrintedDecimal;
 use crate::document::Source;
 use crate::map::MapKind;
 use crate::scheme::{ExactScheme, Held};
@@ -234,7 +234,7 @@ impl Cells<'_> {
     /// The decimal at a place of a cell, where it is a rounded one: 1 is its derivative with respect to itself.
     fn decimal(&mut self, name: &str, cell: &Cell, range: &Range<usize>) -> Option<Sloped> {
         let text = cell.value[range.clone()].trim_matches(|c: char| "()+ \t\n".contains(c));
-        let (places, significant) = places(text)?;
+        let PrintedDecimal { places, significant, .. } = PrintedDecimal::of(text)?;
         let claimed = self.digits.filter(|digits| 2 * significant > *digits)?;
         let known = self.decimals[self.first..].iter().position(|decimal| decimal.text == text);
         let index = self.first + known.unwrap_or(self.decimals.len() - self.first);
@@ -308,18 +308,6 @@ fn with_moved(expression: &Expression, at: &Range<usize>, step: &Rational) -> Ex
         },
     };
     Expression { kind, range: expression.range.clone() }
-}
-
-/// The places behind the point and the significant digits of a decimal such as `0.25` or `1.5e-3`; nothing for a whole
-/// number and for 0.
-fn places(text: &str) -> Option<(i64, u32)> {
-    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-    let (whole, fraction) = mantissa.split_once('.')?;
-    from_text(&text.replace('_', "")).ok().filter(|value| !value.is_zero())?;
-    let count = |text: &str| text.bytes().filter(u8::is_ascii_digit).count();
-    let digits: String = format!("{whole}{fraction}").chars().filter(char::is_ascii_digit).collect();
-    let significant = digits.trim_start_matches('0').len() as u32;
-    Some((count(fraction) as i64 - exponent.parse::<i64>().ok()?, significant))
 }
 
 impl ExactScheme {

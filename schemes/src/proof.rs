@@ -181,7 +181,8 @@ fn digits_finding<'a>(scheme: &'a ExactScheme, proof: &Proof, refused: bool) -> 
         (Some(linearised), Held::Digits(claimed)) => {
             let unexplained = linearised.unexplained(scheme)?;
             // of a table that is refused, only what would mend it is of use
-            (!refused || unexplained.alone).then_some(Finding::Unexplained { claimed, unexplained, refused })
+            let is_of_use = !refused || matches!(unexplained, Unexplained::OneOf(_));
+            is_of_use.then_some(Finding::Unexplained { claimed, unexplained, refused })
         }
         _ => {
             let claimed = scheme.table.digits.as_ref()?;

@@ -6,7 +6,8 @@
 //! least λᵀ(needed − found) / Σ_j |(Jᵀλ)_j| u_j: a single λ with a value above 1 proves that rounding does not explain the
 //! table. Unit vectors λ would judge each condition by itself.
 //!
-//! The decimal to blame is the one without which the others need to move least.
+//! A decimal is to blame if the others need to move by no more than a unit where it may have any value. Several decimals
+//! may do: then the conditions do not show which of them is wrong.
 
 use crate::arithmetic::Arithmetic;
 use crate::conditions::{Family, evaluated, values_at};
@@ -23,13 +24,18 @@ const NEAR: f64 = 1e-3;
 
 /// What has to move for the conditions of a table to hold, beyond rounding.
 #[derive(Clone, Debug)]
-pub(crate) struct Unexplained {
-    /// The decimal to blame.
+pub(crate) enum Unexplained {
+    /// One of these decimals, each of which suffices; one at least.
+    OneOf(Vec<Off>),
+    /// Several: of the nearest weights that meet the conditions, the one that is off by most.
+    Several(Off),
+}
+
+/// A decimal and by how many units of its last printed place it has to move.
+#[derive(Clone, Debug)]
+pub(crate) struct Off {
     pub(crate) decimal: Decimal,
-    /// By how many units of its last printed place it has to move.
     pub(crate) units: f64,
-    /// Whether the others need to move by no more than rounding then.
-    pub(crate) alone: bool,
 }
 
 /// The conditions that a table claims as linear functions of the errors of its printed decimals.
@@ -67,10 +73,15 @@ impl Linearised {
         if farthest > NEAR * 10_f64.powi(self.places as i32) || !change.exceeds(ROUNDING) {
             return None;
         }
-        let (blamed, units, alone) = change.to_blame(ROUNDING)?;
-        let decimal = self.decimals[blamed].clone();
-        let units = units * 10_f64.powi((decimal.places - decimal.rounded) as i32);
-        Some(Unexplained { decimal, units, alone })
+        let off = |(place, units): (usize, f64)| {
+            let decimal = self.decimals[place].clone();
+            let units = units * 10_f64.powi((decimal.places - decimal.rounded) as i32);
+            Off { decimal, units }
+        };
+        match change.sufficient(ROUNDING) {
+            none if none.is_empty() => change.farthest().map(|farthest| Unexplained::Several(off(farthest))),
+            sufficient => Some(Unexplained::OneOf(sufficient.into_iter().map(off).collect())),
+        }
     }
 
     /// How far the farthest condition is from what is needed, and the least change that mends all.

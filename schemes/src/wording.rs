@@ -13,9 +13,12 @@ use crate::document::{Fault, Placed};
 use crate::map::MapKind;
 use crate::order::Condition;
 use crate::proof::{Finding, Order, Proof};
-use crate::rounding::Unexplained;
+use crate::rounding::{Off, Unexplained};
 use crate::scheme::ExactScheme;
 use crate::table::{Table, Weights};
+
+/// More decimals than these are counted, not named.
+const MOST_NAMED: usize = 4;
 
 /// A finding as a sentence at the place of the claim.
 pub(crate) fn worded(finding: &Finding<'_>, scheme: &ExactScheme, proof: &Proof) -> Fault {
@@ -42,7 +45,11 @@ pub(crate) fn worded(finding: &Finding<'_>, scheme: &ExactScheme, proof: &Proof)
             );
             table.source.fault(&claimed.at, message).hint(hint)
         }
-        Finding::Unexplained { claimed, unexplained, .. } => not_rounding(unexplained, *claimed),
+        Finding::Unexplained { claimed, unexplained, .. } => match unexplained {
+            Unexplained::OneOf(off) if off.len() == 1 => not_rounding(&off[0]),
+            Unexplained::OneOf(off) => not_decided(off),
+            Unexplained::Several(off) => several_off(off, *claimed),
+        },
     }
 }
 
@@ -111,34 +118,66 @@ fn with_rounding_hint(fault: Fault, table: &Table, distance: &Rational) -> Fault
     })
 }
 
-/// What has to move beyond rounding, at the decimal.
-fn not_rounding(unexplained: &Unexplained, claimed: u32) -> Fault {
-    let Unexplained { decimal, units, alone } = unexplained;
-    let by = match units.abs() {
-        size if size < 100.0 => format!("{size:.1}"),
-        size if size < 1e6 => format!("{size:.0}"),
-        size => format!("{size:.2e}"),
-    };
-    let fault = |message: String| decimal.source.fault(&decimal.at, message);
-    if !alone {
-        let message = format!(
-            "rounding does not explain the digits: the nearest weights that meet the order conditions differ by up to {by} \
-             units of the last digit, most in `{}`",
-            decimal.name
-        );
-        let lost = (units.abs().log10() - (decimal.places - decimal.rounded) as f64).ceil();
-        let holding = (f64::from(claimed) - lost).max(1.0);
-        return fault(message).hint(format!("write `digits = {holding}`, or look for a better source"));
-    }
+/// One decimal has to move beyond rounding.
+fn not_rounding(off: &Off) -> Fault {
+    let Off { decimal, units } = off;
     let message = format!(
-        "rounding does not explain the digits of `{}`: the order conditions hold if it changes by {by} units of its last digit",
-        decimal.name
+        "rounding does not explain the digits of `{}`: the order conditions hold if it changes by {} units of its last digit",
+        decimal.name,
+        in_units(*units)
     );
     let hint = match decimal.transposed(*units) {
         Some(text) => format!("two digits may be transposed: {text}"),
         None => "compare it with its source".to_owned(),
     };
-    fault(message).values(&decimal.text, format!("about {}", decimal.moved(*units))).hint(hint)
+    let fault = decimal.source.fault(&decimal.at, message);
+    fault.values(&decimal.text, format!("about {}", decimal.moved(*units))).hint(hint)
+}
+
+/// One of several decimals has to move beyond rounding; at the first of them.
+fn not_decided(off: &[Off]) -> Fault {
+    let first = &off[0].decimal;
+    let which = match off.len() {
+        count if count > MOST_NAMED => format!("one of {count} decimals changes"),
+        _ => {
+            let by = |Off { decimal, units }: &Off| format!("`{}` by {}", decimal.name, in_units(*units));
+            let others: Vec<_> = off[1..].iter().map(by).collect();
+            let by = in_units(off[0].units);
+            format!("either `{}` changes by {by} units of its last digit, or {}", first.name, others.join(", or "))
+        }
+    };
+    let message =
+        format!("rounding does not explain the digits: the order conditions hold if {which}; they do not decide which");
+    let transposed = off.iter().filter_map(|off| Some((&off.decimal.name, off.decimal.transposed(off.units)?)));
+    let transposed: Vec<_> = transposed.map(|(name, text)| format!("`{name}` = {text}")).collect();
+    first.source.fault(&first.at, message).hint(match transposed.len() {
+        1..=MOST_NAMED => format!("two digits may be transposed: {}", transposed.join(", or ")),
+        _ => "compare them with their source".to_owned(),
+    })
+}
+
+/// Several decimals have to move beyond rounding; at the one that is off by most.
+fn several_off(off: &Off, claimed: u32) -> Fault {
+    let Off { decimal, units } = off;
+    let message = format!(
+        "rounding does not explain the digits: the nearest weights that meet the order conditions differ by up to {} \
+         units of the last digit, most in `{}`",
+        in_units(*units),
+        decimal.name
+    );
+    let lost = (units.abs().log10() - (decimal.places - decimal.rounded) as f64).ceil();
+    let holding = (f64::from(claimed) - lost).max(1.0);
+    let hint = format!("write `digits = {holding}`, or look for a better source");
+    decimal.source.fault(&decimal.at, message).hint(hint)
+}
+
+/// The size of a change in units, as people read it.
+fn in_units(units: f64) -> String {
+    match units.abs() {
+        size if size < 100.0 => format!("{size:.1}"),
+        size if size < 1e6 => format!("{size:.0}"),
+        size => format!("{size:.2e}"),
+    }
 }
 
 fn not_a_palindrome(scheme: &ExactScheme, claim: &Placed<bool>) -> Fault {

@@ -77,7 +77,7 @@ impl Problem<'_> {
     /// Solves for the unknowns that need it, with those of `held` as printed.
     pub(super) fn solve(&self, held: &[usize], digits: u32) -> Result<Solution, Failure> {
         let printed = self.model.printed();
-        let most_digits = self.model.unknowns.iter().map(|u| u.digits).max().unwrap_or(1);
+        let most_digits = self.model.unknowns.iter().map(|u| u.decimal.significant).max().unwrap_or(1);
         let first_digits = 2 * most_digits + GUARD_DIGITS;
         let failure = |what| Failure { residual: f64::INFINITY, condition_number: f64::NAN, moving: 0, what };
         let linear = self.linear(&printed, first_digits).ok_or(failure(What::Singular))?;
@@ -127,7 +127,7 @@ impl Problem<'_> {
 
     /// The `rank` unknowns to solve for.
     fn choose(&self, linear: &Linear, free: &[usize], factors: &Factors, rank: usize) -> Vec<usize> {
-        let digits = |unknown: usize| self.model.unknowns[unknown].digits;
+        let digits = |unknown: usize| self.model.unknowns[unknown].decimal.significant;
         let most = free.iter().map(|&u| digits(u)).max().unwrap_or(1);
         let mut few_digits: Vec<usize> = free.iter().copied().filter(|&u| 2 * digits(u) <= most).collect();
         few_digits.sort_by_key(|&u| digits(u));

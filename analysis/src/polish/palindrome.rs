@@ -20,7 +20,7 @@ impl Model {
         let mut second = 1;
         while let Some(unknown) = self.unknowns.get(second) {
             let first = self.unknowns[..second].iter().position(|other| text(other) == text(unknown));
-            let is_one = unknown.digits >= DIGITS_OF_ONE_NUMBER && !is_free(unknown);
+            let is_one = unknown.decimal.significant >= DIGITS_OF_ONE_NUMBER && !is_free(unknown);
             match first.filter(|&first| is_one && !is_free(&self.unknowns[first])) {
                 Some(first) => self.replace(second, Cell::Unknown(first), Mirrored::Unknown(first)),
                 None => second += 1,
@@ -59,7 +59,7 @@ impl Model {
     /// One unit of a cell's last digit; for formulas one of 250 digits.
     fn unit(&self, (list, stage): (usize, usize)) -> Rational {
         match &self.lists[list][stage] {
-            Cell::Unknown(unknown) => self.unknowns[*unknown].unit.clone(),
+            Cell::Unknown(unknown) => self.unknowns[*unknown].decimal.unit(),
             Cell::Formula(_) => Rational::new(1.into(), BigInt::from(10).pow(250)),
         }
     }

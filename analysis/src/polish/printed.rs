@@ -14,7 +14,7 @@ use shadowstep_schemes::table::Table;
 
 /// What is proved if all digits of the decimals are trusted, whatever `digits` the table claims.
 pub(super) fn proof(scheme: &ExactScheme, model: &Model) -> Proof {
-    let lengths = || model.unknowns.iter().map(|unknown| unknown.digits);
+    let lengths = || model.unknowns.iter().map(|unknown| unknown.decimal.significant);
     let most = lengths().max().unwrap_or(1);
     // those that are far shorter than others were chosen, and are not rounded
     let fewest = lengths().filter(|digits| 2 * digits > most).min().unwrap_or(1);
@@ -58,7 +58,7 @@ pub(super) fn verlet_steps(scheme: &ExactScheme, model: &Model) -> Option<String
         return None;
     }
     // 2a − γ − γ′ of rounded decimals is off by two units at most
-    let close = model.unknowns.iter().map(|unknown| &unknown.unit).max()? * Rational::from_integer(2.into());
+    let close = model.unknowns.iter().map(|unknown| unknown.decimal.unit()).max()? * Rational::from_integer(2.into());
     let zero = Rational::zero();
     let is_half_of_neighbours = |(i, map): (usize, &Map)| {
         let [before, after] = [i.checked_sub(1), Some(i)].map(|s| s.and_then(|s| gamma.get(s)).map_or(&zero, |g| g));

@@ -9,12 +9,12 @@ use std::ops::Range;
 
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
-use shadowstep_symbolic::decimal::from_text;
 use shadowstep_symbolic::{Exact, Expression, Rational, SemanticError, evaluate, parse};
 
 use crate::polish::dual::{Dual, Duals};
 use crate::polish::formulas;
 use shadowstep_schemes::ExactScheme;
+use shadowstep_schemes::decimal::PrintedDecimal;
 use shadowstep_schemes::document::Faults;
 use shadowstep_schemes::table::{self, Table, Weights};
 
@@ -27,21 +27,17 @@ pub(super) struct Unknown {
     pub(super) is_constant: bool,
     /// Where the decimal stands.
     pub(super) at: Range<usize>,
-    /// Its value.
-    pub(super) printed: Rational,
-    /// One unit of its last digit.
-    pub(super) unit: Rational,
-    /// Its significant digits.
-    pub(super) digits: u32,
+    /// The decimal itself.
+    pub(super) decimal: PrintedDecimal,
 }
 
 impl Unknown {
     /// The most leading digits k for which the printed value is within 0.55 units of the k-th digit: half a unit is
     /// rounding, a tenth of that more a rounding of a rounding.
     pub(super) fn right_digits(&self, value: &Rational) -> u32 {
-        let distance = (&self.printed - value).abs();
-        let mut allowed = &self.unit * Rational::new(11.into(), 20.into());
-        let mut right = self.digits;
+        let distance = (&self.decimal.value - value).abs();
+        let mut allowed = self.decimal.unit() * Rational::new(11.into(), 20.into());
+        let mut right = self.decimal.significant;
         while right > 0 && distance > allowed {
             allowed *= Rational::from_integer(10.into());
             right -= 1;
@@ -143,7 +139,7 @@ impl Model {
 
     /// The printed decimals.
     pub(super) fn printed(&self) -> Vec<Rational> {
-        self.unknowns.iter().map(|u| u.printed.clone()).collect()
+        self.unknowns.iter().map(|u| u.decimal.value.clone()).collect()
     }
 
     /// How many lists of weights there are, each with the sum 1.
@@ -194,9 +190,8 @@ impl Model {
     }
 
     fn cell(&mut self, cell: &table::Cell, name: &str, is_constant: bool) -> Cell {
-        if let Some((printed, unit, digits)) = decimal(&cell.value) {
-            let at = cell.at.clone();
-            self.unknowns.push(Unknown { name: name.to_owned(), is_constant, at, printed, unit, digits });
+        if let Some(decimal) = PrintedDecimal::of(&cell.value) {
+            self.unknowns.push(Unknown { name: name.to_owned(), is_constant, at: cell.at.clone(), decimal });
             return Cell::Unknown(self.unknowns.len() - 1);
         }
         match self.constants.iter().find(|(constant, _)| *constant == cell.value.trim()) {
@@ -213,27 +208,15 @@ fn value(cell: &Cell, x: &[Rational], known: &BTreeMap<String, Exact>, digits: u
     }
 }
 
-/// The value, one unit of the last digit, and the significant digits of a decimal such as `-0.25` or `1.5e-3`.
-fn decimal(text: &str) -> Option<(Rational, Rational, u32)> {
-    let text = text.trim();
-    let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-    let (whole, fraction) = mantissa.split_once('.')?;
-    // 0.0 is not a rounded number
-    let value = from_text(text).ok().filter(|value| !value.is_zero())?;
-    let places = fraction.len() as i32 - exponent.parse::<i32>().ok()?;
-    let power = Rational::from_integer(BigInt::from(10).pow(places.unsigned_abs()));
-    let unit = if places < 0 { power } else { power.recip() };
-    let digits = format!("{whole}{fraction}").trim_start_matches(['-', '+', '0']).len();
-    Some((value, unit, digits.max(1) as u32))
-}
-
 #[cfg(test)]
 mod tests {
+    use shadowstep_symbolic::decimal::from_text;
+
     use super::*;
 
     fn right_digits(printed: &str, value: &str) -> u32 {
-        let (value, (printed, unit, digits)) = (from_text(value).unwrap(), decimal(printed).unwrap());
-        Unknown { name: "w".to_owned(), is_constant: true, at: 0..0, printed, unit, digits }.right_digits(&value)
+        let (value, decimal) = (from_text(value).unwrap(), PrintedDecimal::of(printed).unwrap());
+        Unknown { name: "w".to_owned(), is_constant: true, at: 0..0, decimal }.right_digits(&value)
     }
 
     #[test]
