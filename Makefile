@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything. Both fetch what is missing.
 
-.PHONY: run test deps format lint check docs bench package
+.PHONY: run test deps format lint check docs bench rivals package
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run: deps
@@ -26,6 +26,10 @@ docs:
 
 bench: deps
 	cargo bench --workspace --locked
+
+# Speed against error of Shadowstep and of what one would use instead: writes docs/speed-against-error.md.
+rivals: deps
+	rivals/run.sh
 
 # Packs every crate but the tests as for crates.io, and builds each from its package. cargo would build again with the
 # packages that an earlier run has unpacked, so these are removed first.

@@ -1,0 +1,155 @@
+"""The contestants: their programs, and for each problem their methods with the steps or tolerances that are swept."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+HERE = Path(__file__).parent
+BUILD = HERE / "build"
+PYTHON = BUILD / "venv" / "bin" / "python"
+
+
+@dataclass(frozen=True)
+class Method:
+    """A method of a rival; `scheme` is the shipped scheme that it is, or its twin with kicks and drifts exchanged."""
+
+    name: str
+    # Force evaluations a step; none for methods that choose their steps by a tolerance.
+    forces: int | None = None
+    scheme: str | None = None
+    # The systems that it is used for; none for all.
+    systems: tuple[str, ...] | None = None
+
+    def takes_part(self, system):
+        return self.systems is None or system in self.systems
+
+
+@dataclass(frozen=True)
+class Rival:
+    name: str
+    # How it is made and used, for the page.
+    how: str
+    # Why it is fast where it is the fastest.
+    why: str
+    command: list
+    methods: list[Method]
+    systems: tuple[str, ...]
+    # The most force evaluations of a sweep in parts of the problem's: less where each is slow.
+    share: float = 1.0
+    # Whether its time is for one trajectory of many at once.
+    many: bool = False
+    tolerances: list[float] = field(default_factory=list)
+
+    def sweep(self, problem, method):
+        """The steps or tolerances of a problem."""
+        if method.forces is None:
+            return [f"{tolerance:.2g}" for tolerance in self.tolerances]
+        fewest, most, factor = problem.evaluations
+        parameters, evaluations = [], fewest
+        while evaluations <= most * self.share * 1.001:
+            samples = round(evaluations / method.forces / problem.samples)
+            if samples > 0:
+                parameters.append(str(problem.samples * samples))
+            evaluations *= factor
+        return list(dict.fromkeys(parameters))
+
+
+SMALL = ("kepler", "henon-heiles", "outer-solar-system", "fput-alpha")
+ALL = (*SMALL, "argon")
+GRAVITY = ("kepler", "outer-solar-system")
+PLANETS = ("outer-solar-system",)
+
+SCHEMES = [
+    Method("stormer-verlet", 1, "stormer-verlet"),
+    Method("yoshida4", 3, "yoshida4"),
+    Method("mclachlan-sb3a5", 5, "mclachlan-sb3a5"),
+    Method("omelyan-4mn5fv", 5, "omelyan-4mn5fv"),
+    Method("blanes-moan-srkn6b", 6, "blanes-moan-srkn6b"),
+    Method("blanes-moan-srkn11b", 11, "blanes-moan-srkn11b"),
+    Method("blanes-moan-srkn14a", 14, "blanes-moan-srkn14a"),
+    Method("bce-rkn8-17", 17, "bce-rkn8-17"),
+    Method("sofroniou-spaletta10-35", 35, "sofroniou-spaletta10-35"),
+]
+
+def decades(first, last):
+    return [10.0**-n for n in range(first, last + 1)]
+
+
+RIVALS = [
+    Rival(
+        "Shadowstep",
+        "generated steps and potentials, `-C target-cpu=native`, LTO",
+        "the schemes of order 6 to 10 need few evaluations, and their steps are unrolled into the potential",
+        [BUILD / "cargo" / "release" / "ours"],
+        SCHEMES,
+        ALL,
+    ),
+    Rival(
+        "C by hand",
+        "gcc -O3 -march=native, the potentials and loops written for each problem, merged kicks",
+        "gcc uses fused multiply-add and vector instructions where rustc keeps the order of operations",
+        [BUILD / "by_hand"],
+        SCHEMES,
+        ALL,
+    ),
+    Rival(
+        "REBOUND",
+        "its Python package, one call of its C library for each run; safe_mode = 0",
+        "WHFast, SABA and EOS split off the Kepler orbits around the Sun, so that only the small attractions of the planets are left "
+        "to the splitting; IAS15 is of order 15 with compensated sums",
+        [PYTHON, HERE / "python" / "rebound_rival.py"],
+        [
+            Method("leapfrog-2", 1, "stormer-verlet"),
+            Method("leapfrog-4", 3, "yoshida4"),
+            Method("leapfrog-8", 17),
+            Method("ias15"),
+            Method("eos-LF4-LF4-2", 3, systems=GRAVITY),
+            Method("eos-PMLF6-LF8-4", 5, systems=PLANETS),
+            Method("whfast", 1, systems=PLANETS),
+            Method("whfast-17", 1, systems=PLANETS),
+            Method("saba-4", 4, systems=PLANETS),
+            Method("saba-10_6_4", 8, systems=PLANETS),
+            Method("saba-H_10_6_4", 9, systems=PLANETS),
+        ],
+        GRAVITY,
+        share=0.5,
+        tolerances=[1e-1, 1e-2, 1e-3, 1e-5, 1e-7, 1e-9, 1e-11],
+    ),
+    Rival(
+        "heyoka",
+        "its Python package; Taylor series, compiled for each problem and tolerance before the time is taken",
+        "Taylor series of order 10 to 20 with steps chosen along the orbit, compiled with vector instructions, and compensated sums "
+        "of the time",
+        [PYTHON, HERE / "python" / "heyoka_rival.py"],
+        [Method("taylor")],
+        SMALL,
+        tolerances=decades(4, 16),
+    ),
+    Rival(
+        "heyoka, batch",
+        "the same for as many trajectories at once as the vectors hold; the time is for one of them",
+        "it computes several trajectories in one vector",
+        [PYTHON, HERE / "python" / "heyoka_rival.py"],
+        [Method("batch")],
+        SMALL,
+        many=True,
+        tolerances=decades(4, 16),
+    ),
+    Rival(
+        "scipy",
+        "`solve_ivp`, DOP853, the forces in Python or numpy",
+        "its method of order 8 adapts the steps",
+        [PYTHON, HERE / "python" / "scipy_rival.py"],
+        [Method("DOP853")],
+        ALL,
+        tolerances=[1e-5, 1e-7, 1e-9, 1e-11, 1e-13],
+    ),
+    Rival(
+        "pyhamsys",
+        "`solve_ivp_symp`, the package's maps for H = T + U, the forces in Python or numpy",
+        "its schemes of order 6 need few evaluations",
+        [PYTHON, HERE / "python" / "pyhamsys_rival.py"],
+        [Method("Verlet", 1, "stormer-verlet"), Method("RKN6b", 11, "blanes-moan-srkn11b")],
+        ALL,
+        share=0.03,
+    ),
+]

@@ -1,0 +1,110 @@
+"""Writes docs/speed-against-error.md from the results. Every number and every verdict on it is computed here."""
+
+import json
+
+from compare import OURS, all_results, listed, verdicts
+from contestants import HERE, RIVALS
+from math import inf
+from picture import draw
+
+PAGE = HERE.parent / "docs" / "speed-against-error.md"
+MACHINE = HERE / "results" / "machine.json"
+ERRORS = {"position_error": "error of the position", "energy_error": "error of H"}
+
+INTRODUCTION = """<!-- Written by `make rivals`; do not edit. -->
+
+# Speed against error
+
+The same problems, solved by Shadowstep and by what one would use instead, in one run on one machine. All contestants start from the
+same bits; errors are measured in the same way for all of them. The times are medians of {rounds}; the contestants take turns in an
+order that changes from round to round. A time is that of the bare integration: programs are started and compiled before.
+Where the times of two differ by less than 10 %, neither is called faster.
+
+The *error of the position* is the distance from the exact position at the end, summed over all coordinates; the *error of H* is
+max |H − H(0)| as a part of |H(0)|, at {samples} equally spaced times. *Time at equal error* is interpolated between the runs of a
+sweep over steps or tolerances; each rival has the best of its methods, which is named. An error counts as reached only if the next
+two finer runs have no larger one.
+
+{machine}
+"""
+
+
+def milliseconds(seconds):
+    return f"{1000 * seconds:.3g}"
+
+
+def table(header, rows):
+    lines = [header, ["---"] * len(header), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def time_table(results, error):
+    """Milliseconds at each second decade, with the method; the fastest one of single trajectories is bold."""
+    first, last = results.problem.decades
+    decades = range(first, last + 1, 2)
+    best = {}
+    for decade in decades:
+        best[decade] = min(results.time_at(rival, error, 10.0**-decade)[0] for rival in results.rivals if not rival.many)
+    rows = []
+    for rival in results.rivals:
+        cells = [rival.name]
+        for decade in decades:
+            seconds, method = results.time_at(rival, error, 10.0**-decade)
+            text = milliseconds(seconds) if seconds < inf else "–"
+            text = f"**{text}**" if seconds == best[decade] < inf else text
+            cells.append(text if seconds == inf else f"{text} {method}")
+        rows.append(cells)
+    return table([f"ms at {ERRORS[error]}", *(f"1e-{decade}" for decade in decades)], rows)
+
+
+def speed_table(results):
+    schemes = [method.scheme for method in RIVALS[0].methods]
+    rows = []
+    for scheme in schemes:
+        speeds = [results.steps_per_second(rival, scheme) for rival in results.rivals]
+        if sum(speed is not None for speed in speeds) > 1:
+            rows.append([scheme, *(f"{speed:.3g}" if speed else "–" for speed in speeds)])
+    used = [i for i in range(len(results.rivals)) if any(row[i + 1] != "–" for row in rows)]
+    header = ["steps a second", *(results.rivals[i].name for i in used)]
+    return table(header, [[row[0], *(row[i + 1] for i in used)] for row in rows])
+
+
+def who_wins(results, error):
+    sentences, reasons = verdicts(results, error)
+    lines = [f"- {sentence}" for sentence in sentences]
+    return "\n".join(lines), reasons
+
+
+def section(results):
+    problem = results.problem
+    errors = [error for error in ERRORS if error == "energy_error" and problem.energy
+              or error == "position_error" and problem.reference_steps is not None]
+    parts = [f"## {problem.title}", problem.description]
+    if results.uncertainty:
+        parts[-1] += f" The reference solution has 40 digits and order 10; with twice the step it differs by {results.uncertainty:.0e}."
+    parts.append(f"![Error against time](pictures/{draw(results, errors[0], ERRORS[errors[0]])})")
+    why = []
+    for error in errors:
+        text, reasons = who_wins(results, error)
+        parts += [time_table(results, error), f"Who is the fastest, by the {ERRORS[error]}:\n\n{text}"]
+        why += [rival for rival in reasons if rival not in why]
+    parts.append("Why: " + "; ".join(f"{rival.name}: {rival.why}" for rival in why) + ".")
+    parts += ["The same scheme, in steps a second of the longest run:", speed_table(results)]
+    return "\n\n".join(parts)
+
+
+def contestants():
+    rows = [[rival.name, rival.how, listed([f"`{method.name}`" for method in rival.methods])] for rival in RIVALS]
+    return "## The contestants\n\n" + table(["", "how", "methods"], rows)
+
+
+def page(every, machine):
+    introduction = INTRODUCTION.format(rounds=machine["rounds"], samples=machine["samples"], machine=machine["text"])
+    sections = [section(results) for results in every]
+    missing = "## Not measured\n\n" + (HERE / "missing.md").read_text()
+    return "\n\n".join([introduction.strip(), *sections, contestants(), missing.strip()]) + "\n"
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(all_results(), json.loads(MACHINE.read_text())))
+    print(f"written: {PAGE}")

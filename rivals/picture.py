@@ -1,0 +1,43 @@
+"""A picture of a problem: error against time, for each rival what its best method reaches."""
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
+
+from contestants import HERE, RIVALS
+
+matplotlib.rcParams |= {"svg.hashsalt": "shadowstep", "svg.fonttype": "none", "font.family": "sans-serif", "font.size": 11}
+
+# the colours of Okabe and Ito, which the colour blind can tell apart, and a marker for each rival
+COLOURS = ["#D55E00", "#000000", "#0072B2", "#009E73", "#56B4E9", "#CC79A7", "#E69F00", "#7F7F7F", "#8B4513", "#5D3A9B"]
+MARKERS = "osD^v<>PX*"
+
+
+def front(results, rival, error):
+    """The runs that are more exact than every faster one, of all methods of the rival."""
+    points = sorted(point for method in rival.methods for point in results.curve(rival, method.name, error))
+    best = []
+    for seconds, size in points:
+        if size < 1 and (not best or size < best[-1][1]):
+            best.append((seconds, size))
+    return best
+
+
+def draw(results, error, label):
+    figure, axes = plt.subplots(figsize=(8, 5))
+    for rival in results.rivals:
+        place = RIVALS.index(rival)
+        points = front(results, rival, error)
+        if points:
+            axes.loglog(*zip(*points), marker=MARKERS[place], color=COLOURS[place], markersize=5, linewidth=1.3,
+                        linestyle="--" if rival.many else "-", label=rival.name)
+    axes.set_xlabel("seconds")
+    axes.set_ylabel(label)
+    axes.grid(True, color="#DDDDDD", linewidth=0.6)
+    axes.set_title(results.problem.title)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False)
+    path = HERE.parent / "docs" / "pictures" / f"rivals-{results.problem.key}.svg"
+    figure.savefig(path, metadata={"Date": None}, bbox_inches="tight", facecolor="white")
+    plt.close(figure)
+    return path.name

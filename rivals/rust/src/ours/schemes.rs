@@ -1,0 +1,40 @@
+//! The schemes that take part, compiled from their tables.
+
+use shadowstep::Scheme;
+
+/// What is done with a scheme once its type is known.
+pub trait WithScheme {
+    type Result;
+
+    fn with<S: Scheme>(self, scheme: S) -> Self::Result;
+}
+
+macro_rules! schemes {
+    ($($Name:ident: $name:literal = $table:literal,)+) => {
+        $(
+            #[shadowstep::splitting_scheme($table)]
+            struct $Name;
+        )+
+
+        /// Calls with the scheme of this name.
+        pub fn with_scheme<W: WithScheme>(name: &str, work: W) -> W::Result {
+            match name {
+                $($name => work.with($Name),)+
+                _ => panic!("no scheme {name} takes part"),
+            }
+        }
+    };
+}
+
+schemes! {
+    StormerVerlet: "stormer-verlet" = "stormer-verlet.toml",
+    Yoshida4: "yoshida4" = "yoshida4.toml",
+    MclachlanSb3a4: "mclachlan-sb3a4" = "mclachlan-sb3a4.toml",
+    MclachlanSb3a5: "mclachlan-sb3a5" = "mclachlan-sb3a5.toml",
+    Omelyan: "omelyan-4mn5fv" = "omelyan-4mn5fv.toml",
+    BlanesMoan6: "blanes-moan-srkn6b" = "blanes-moan-srkn6b.toml",
+    BlanesMoan11: "blanes-moan-srkn11b" = "blanes-moan-srkn11b.toml",
+    BlanesMoan14: "blanes-moan-srkn14a" = "blanes-moan-srkn14a.toml",
+    Nystrom8: "bce-rkn8-17" = "bce-rkn8-17.toml",
+    SofroniouSpaletta10: "sofroniou-spaletta10-35" = "sofroniou-spaletta10-35.toml",
+}
