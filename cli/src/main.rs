@@ -8,13 +8,14 @@
 //! | [`drift`], [`trace`] | runs of problems: one line a run, or one line a step |
 //! | [`run`], [`scene`] | runs that a file describes; such files |
 //! | [`schemes`], [`problems`] | what can be run |
-//! | [`work_precision`] | speed against error |
+//! | [`work_precision`], [`advise`] | speed against error; a scheme and a step size for a tolerance |
 //! | [`figures`] | the figures of the paper, and additional ones |
 //! | [`run_arguments`], [`quantity`] | the flags of runs; exact numbers |
-//! | [`selection`], [`system`] | flags → schemes and steps; flags → the system |
+//! | [`selection`], [`system`], [`posed`] | flags → schemes and steps; flags → the system; with end and number type |
 //! | [`readable`], [`output`], [`progress`], [`tasks`] | tables, lines and bars |
 //! | [`report`], [`colour`], [`interrupt`] | messages on stderr and the exit status; colours; Ctrl-C |
 
+mod advise;
 mod drift;
 mod figures;
 mod problems;
@@ -27,6 +28,7 @@ mod work_precision;
 mod colour;
 mod interrupt;
 mod output;
+mod posed;
 mod progress;
 mod quantity;
 mod readable;
@@ -66,6 +68,7 @@ commands! {
     Scene: scene,
     Schemes: schemes,
     WorkPrecision: work_precision,
+    Advise: advise,
     Figures: figures,
     Problems: problems,
 }
@@ -73,7 +76,7 @@ commands! {
 const EXIT_CODES: &str = "\
 Exit codes:
   0  success
-  1  negative answer: a checked table has faults, a table cannot be polished; with --strict, a verdict worse than fine
+  1  negative answer: a checked table has faults, a table cannot be polished, no scheme meets a tolerance; with --strict, a verdict worse than fine
   2  usage error: an unknown flag, name or file, a number out of range, a fault in a scene
   3  a run failed: a state or an energy was not finite, the output could not be written, or it was interrupted";
 

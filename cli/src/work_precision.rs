@@ -1,6 +1,5 @@
 //! `shadowstep work-precision`: what each scheme pays for an error on a problem, from its stability limit down to round-off.
 
-mod problem;
 mod table;
 
 use std::io::Write;
@@ -14,17 +13,16 @@ use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::files::{Title, refuse_foreign, write};
 use shadowstep_work_precision::ladder::Rungs;
-use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::schemes::default_schemes;
 use shadowstep_work_precision::study::Request;
 
 use crate::colour::on_stdout;
 use crate::output::Output;
+use crate::posed::{Posed, PosedArguments};
 use crate::quantity;
 use crate::report::{self, Status};
 use crate::run_arguments::SystemArguments;
 use crate::tasks::Terminal;
-pub(crate) use problem::{Posed, PosedArguments};
 use table::readable;
 
 const EXAMPLE: &str = "\
@@ -106,7 +104,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 /// The schemes, each once, that are valid for the system and have the digits of the runs.
-fn schemes(words: &[String], posed: &Posed) -> Result<Vec<NamedScheme>, Error> {
+pub(crate) fn schemes(words: &[String], posed: &Posed) -> Result<Vec<NamedScheme>, Error> {
     let system = &posed.described.system;
     let (added, mut named): (Vec<&str>, Vec<&str>) =
         words.iter().map(String::as_str).partition(|word| word.starts_with('+'));
@@ -146,7 +144,7 @@ fn is_valid(scheme: &NamedScheme, system: &System, posed: &Posed) -> Result<(), 
 /// The steps: those of the flag, or chosen for each scheme.
 fn rungs(arguments: &Arguments, until: &Rational) -> Result<Rungs, Error> {
     if arguments.steps.is_empty() {
-        return Ok(Rungs::Automatic { seconds: arguments.seconds });
+        return Ok(Rungs::Automatic { seconds: arguments.seconds, target: None });
     }
     let count = |text: &String| {
         let h = quantity::number("--steps", text)?;
@@ -164,16 +162,4 @@ fn rungs(arguments: &Arguments, until: &Rational) -> Result<Rungs, Error> {
     steps.sort_unstable();
     steps.dedup();
     Ok(Rungs::Steps(steps))
-}
-
-impl Posed {
-    fn problem(&self) -> Problem<'_> {
-        Problem { system: &self.described.system, until: &self.until, arithmetic: self.arithmetic }
-    }
-
-    /// The problem, the time and the number type in a line.
-    fn title(&self) -> String {
-        let Posed { described, until, arithmetic } = self;
-        format!("{}, t = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
-    }
 }

@@ -14,7 +14,7 @@ use crate::reference::Reference;
 use crate::timing::{StepTime, time_of_steps};
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
-const REVISION: u32 = 1;
+const REVISION: u32 = 2;
 
 /// A calculation with what it needs.
 #[derive(Serialize)]
@@ -36,6 +36,8 @@ pub(crate) struct Calculation<'a> {
 enum Quantity {
     /// The reference, with a limit in seconds.
     Reference { samples: u64, seconds: f64 },
+    /// The same from a run of this scheme with so many steps, of which the errors of others are estimated by Richardson's rule.
+    Halved { scheme: String, samples: u64, steps: u64 },
     /// The runs of a scheme, which is identified by its weights.
     Ladder { scheme: String, samples: u64, rungs: Rungs },
     /// The time of a step of each scheme, with so many steps to the end.
@@ -54,6 +56,10 @@ impl<'a> Calculation<'a> {
     pub(crate) fn reference(problem: Problem<'a>, samples: u64, time: Duration) -> Self {
         let quantity = Quantity::Reference { samples, seconds: time.as_secs_f64() };
         Calculation::new(problem, quantity, Vec::new(), None)
+    }
+
+    pub(crate) fn halved(problem: Problem<'a>, scheme: &'a NamedScheme, (samples, steps): (u64, u64)) -> Self {
+        Calculation::new(problem, Quantity::Halved { scheme: identity(scheme), samples, steps }, vec![scheme], None)
     }
 
     pub(crate) fn ladder(
@@ -88,6 +94,9 @@ impl<'a> Calculation<'a> {
                 let time = Duration::from_secs_f64(*seconds);
                 Reference::compute(self.problem, *samples, time, &|| continues(0.5)).map(Outcome::Reference)
             }
+            Quantity::Halved { samples, steps, .. } => {
+                Reference::of_run(self.problem, self.schemes[0], (*samples, *steps)).map(Outcome::Reference)
+            }
             Quantity::Ladder { rungs, .. } => {
                 let reference = self.reference.expect("a ladder has one");
                 let climb = Climb { problem: self.problem, scheme: self.schemes[0], reference, rungs };
@@ -107,9 +116,10 @@ impl Task for Calculation<'_> {
 
     fn cost(group: &[&Self]) -> f64 {
         let seconds = |calculation: &&Self| match &calculation.quantity {
-            Quantity::Reference { seconds, .. } | Quantity::Ladder { rungs: Rungs::Automatic { seconds }, .. } => {
+            Quantity::Reference { seconds, .. } | Quantity::Ladder { rungs: Rungs::Automatic { seconds, .. }, .. } => {
                 *seconds
             }
+            Quantity::Halved { steps, .. } => *steps as f64 * 1e-6,
             Quantity::Ladder { rungs: Rungs::Steps(steps), .. } => steps.iter().sum::<u64>() as f64 * 1e-6,
             Quantity::Times { schemes } => schemes.len() as f64 * 0.1,
         };

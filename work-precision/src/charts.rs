@@ -2,7 +2,8 @@
 
 use shadowstep_report::chart::{Axis, Chart, Curve};
 
-use crate::study::{Cost, Of, Study};
+use crate::of::Of;
+use crate::study::{Cost, Study};
 
 /// A chart with the end of its file's name and its caption.
 pub(crate) struct Picture {
@@ -39,14 +40,17 @@ impl Study<'_> {
             Cost::Evaluations => "evaluations of the gradient",
             Cost::Seconds => "time of the steps in seconds",
         });
-        let y = Axis::log10(match of {
-            Of::Position => "error of the position at the end",
-            Of::Energy => "largest error of H",
-        });
+        let y = Axis::log10(of.name());
         let curve = |(n, studied): (usize, &crate::study::Studied<'_>)| {
-            let points = studied.curve(of, cost).into_iter().map(|(cost, log10)| (cost.log10(), log10)).collect();
+            let points = until_round_off(studied.curve(of, cost)).map(|(cost, log10)| (cost.log10(), log10)).collect();
             Curve::marked(studied.scheme.name.clone(), points, n)
         };
         Chart::new(title, x, y, self.schemes.iter().enumerate().map(curve).collect())
     }
+}
+
+/// Beyond the smallest error there is only round-off: two points show that.
+fn until_round_off(curve: Vec<(f64, f64)>) -> impl Iterator<Item = (f64, f64)> {
+    let least = (0..curve.len()).min_by(|&a, &b| curve[a].1.total_cmp(&curve[b].1)).unwrap_or(0);
+    curve.into_iter().take(least + 3)
 }

@@ -12,6 +12,7 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::library::NamedScheme;
 
+use crate::of::Of;
 use crate::problem::Problem;
 use crate::reference::Reference;
 use crate::run::{Measurement, Measuring};
@@ -48,6 +49,15 @@ pub enum End {
     Time,
 }
 
+/// An error that is small enough.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Target {
+    /// Which error.
+    pub of: Of,
+    /// Its size.
+    pub error: Size,
+}
+
 /// Which steps a scheme makes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Rungs {
@@ -55,6 +65,8 @@ pub enum Rungs {
     Automatic {
         /// The time for all runs of a scheme, in seconds.
         seconds: f64,
+        /// The error that is small enough; without one they go on to round-off.
+        target: Option<Target>,
     },
     /// These numbers of steps.
     Steps(Vec<u64>),
@@ -72,7 +84,7 @@ impl Climb<'_> {
     /// Makes the runs until `continues` with the part that is done returns false: then there is no ladder.
     pub(crate) fn make(&self, continues: &dyn Fn(f64) -> bool) -> Result<Option<Ladder>, Error> {
         match self.rungs {
-            Rungs::Automatic { seconds } => self.automatic(*seconds, continues),
+            Rungs::Automatic { seconds, target } => self.automatic(*seconds, *target, continues),
             Rungs::Steps(steps) => {
                 let mut runs = Vec::new();
                 for (done, &steps) in steps.iter().enumerate() {
@@ -86,7 +98,12 @@ impl Climb<'_> {
         }
     }
 
-    fn automatic(&self, seconds: f64, continues: &dyn Fn(f64) -> bool) -> Result<Option<Ladder>, Error> {
+    fn automatic(
+        &self,
+        seconds: f64,
+        target: Option<Target>,
+        continues: &dyn Fn(f64) -> bool,
+    ) -> Result<Option<Ladder>, Error> {
         let begin = Instant::now();
         let mut runs: Vec<Measurement> = Vec::new();
         let mut end = End::Time;
@@ -100,6 +117,10 @@ impl Climb<'_> {
             }
             let this = Instant::now();
             runs.push(self.measure(steps)?);
+            if target.is_some_and(|target| target.is_met(&runs)) {
+                end = End::Complete;
+                break;
+            }
             if is_round_off(&runs) {
                 end = End::RoundOff;
                 break;
@@ -132,12 +153,24 @@ impl Climb<'_> {
 
 /// The number of steps of 1.5 times the stability limit of the fastest oscillation.
 pub(crate) fn coarsest(problem: Problem<'_>, scheme: &NamedScheme) -> f64 {
+    stable_step(problem, scheme).map_or(1.0, |limit| (problem.duration() / (BEYOND * limit)).max(1.0))
+}
+
+/// The largest stable step for the fastest oscillation, linearised at the initial state; `None` where nothing oscillates.
+pub(crate) fn stable_step(problem: Problem<'_>, scheme: &NamedScheme) -> Option<f64> {
     let stability = Stability::of_scheme(scheme.scheme.proved());
     // no limit exceeds 2 a force
     let most = 2.0 * scheme.scheme.summary().evaluations as f64;
-    let limit = stability.and_then(|stability| stability.limit.parse().ok()).unwrap_or(most);
-    let omega = problem.system.fastest_frequency().map_or(0.0, |frequency| frequency.omega);
-    (problem.duration() * omega / (BEYOND * limit)).max(1.0)
+    let limit: f64 = stability.and_then(|stability| stability.limit.parse().ok()).unwrap_or(most);
+    problem.system.fastest_frequency().map(|frequency| limit / frequency.omega)
+}
+
+impl Target {
+    /// Two successive runs meet it, as one alone may do so by accident.
+    fn is_met(self, runs: &[Measurement]) -> bool {
+        let meets = |run: &Measurement| self.of.error(run).is_some_and(|error| error <= self.error);
+        runs.len() > 1 && runs[runs.len() - 2..].iter().all(meets)
+    }
 }
 
 impl Rungs {

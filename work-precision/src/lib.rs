@@ -9,7 +9,8 @@
 //! | [`ladder`] | the runs of a scheme, from its stability limit down to round-off |
 //! | [`run`] | one run: errors of position and energy, the modified energy |
 //! | [`timing`] | the time of a step |
-//! | [`order`], `best` | the measured order; the scheme that needs the least for an error |
+//! | [`of`], [`order`], `best` | which error; the measured order; the scheme that needs the least for an error |
+//! | [`advise`], [`convenient`] | advice on scheme and step size; step sizes that are easy to write |
 //! | [`schemes`] | the schemes that are compared if none are named |
 //! | [`files`] | what is written: data, charts, a page |
 //! | `charts` | work–precision diagrams |
@@ -17,11 +18,14 @@
 //! | `records` | the results as CSV and JSON lines |
 //! | [`size`] | sizes beyond the range of `f64` |
 
+pub mod advise;
 mod best;
 mod calculation;
 mod charts;
+pub mod convenient;
 pub mod files;
 pub mod ladder;
+pub mod of;
 pub mod order;
 mod positions;
 pub mod problem;

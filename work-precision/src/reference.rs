@@ -7,10 +7,11 @@ use num_traits::ToPrimitive;
 use rug::Float;
 use serde::{Deserialize, Serialize};
 use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
-use shadowstep::number::Precision;
+use shadowstep::number::{Precision, Rounded};
 use shadowstep::run::States;
 use shadowstep::{Number, StepSize};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_symbolic::decimal::from_text;
 
@@ -72,6 +73,13 @@ impl Reference {
         }
     }
 
+    /// The positions of a run in the number type of the problem, with no estimate of their error.
+    pub(crate) fn of_run(problem: Problem<'_>, named: &NamedScheme, run: (u64, u64)) -> Result<Reference, Error> {
+        let positions = problem.arithmetic.compute(Texts { problem, named, run })?;
+        let origin = Origin::Scheme { name: named.name.clone(), steps: run.1, digits: problem.arithmetic.digits() };
+        Ok(Reference { errors: vec![Size::ZERO; positions.len()], positions, origin })
+    }
+
     /// What positions are compared with, in a sentence.
     pub fn described(&self) -> String {
         match &self.origin {
@@ -112,6 +120,27 @@ impl Reference {
             [first, second]
         };
         self.positions.iter().map(parts).collect()
+    }
+}
+
+/// The positions of a run as texts, in any number type.
+struct Texts<'a> {
+    problem: Problem<'a>,
+    named: &'a NamedScheme,
+    /// Samples and steps.
+    run: (u64, u64),
+}
+
+impl Computation for Texts<'_> {
+    type Output = Result<Vec<Vec<String>>, Error>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+        let Texts { problem, named, run: (samples, steps) } = self;
+        let found = positions::<N>(problem, named, (steps, samples), context)?;
+        if (found.len() as u64) < samples {
+            return Err(Error::run("the states of a run with half the step are not finite", "use a shorter time"));
+        }
+        Ok(found.iter().map(|position| position.iter().map(Number::to_text).collect()).collect())
     }
 }
 
@@ -157,7 +186,7 @@ fn of_scheme(
     let (mut last, mut last_difference): (Option<Vec<Vec<Float>>>, f64) = (None, f64::INFINITY);
     let mut best: Option<Reference> = None;
     while continues() {
-        let found = positions(problem, &named, (steps, samples), &precision)?;
+        let found = positions::<Float>(problem, &named, (steps, samples), &precision)?;
         if let Some(before) = last.filter(|before| before.len() == found.len() && found.len() as u64 == samples) {
             let differences = distances(&before, &found, &precision);
             let difference = differences.iter().map(|size| size.log10()).fold(f64::NEG_INFINITY, f64::max);
@@ -190,15 +219,15 @@ fn first_steps(problem: Problem<'_>, samples: u64) -> u64 {
     samples * per_sample.max(1)
 }
 
-fn positions(
+fn positions<N: Number + 'static>(
     problem: Problem<'_>,
     named: &NamedScheme,
     (steps, samples): (u64, u64),
-    precision: &Precision,
-) -> Result<Vec<Vec<Float>>, Error> {
-    let start = problem.system.start::<Float>(precision);
+    context: &N::Context,
+) -> Result<Vec<Vec<N>>, Error> {
+    let start = problem.system.start::<N>(context);
     let work = Positions { steps, samples };
-    let found = problem.system.with((&named.scheme, &problem.step_size(steps)), start, precision, work);
+    let found = problem.system.with((&named.scheme, &problem.step_size(steps)), start, context, work);
     found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))
 }
 

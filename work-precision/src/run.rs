@@ -30,10 +30,14 @@ pub struct Measurement {
     pub energy: Size,
     /// |H − H(0)| at the end, likewise.
     pub energy_at_end: Size,
+    /// The largest error of the position and of H in the first half of the run.
+    pub in_first_half: (PositionError, Size),
     /// The modified energy H̄, likewise; `None` where the run is too short for an estimate.
     pub modified: Option<Modified>,
     /// The verdict of the monitor on the step size.
     pub verdict: String,
+    /// Whether that is fine, or round-off.
+    pub fine: bool,
     /// The time at which a state was not finite, as a part of the run: the errors are those until then.
     pub failed: Option<f64>,
 }
@@ -93,6 +97,7 @@ impl<N: Number> Work<N> for Measuring<'_> {
         let mut monitor = monitor.every((steps / WINDOWS).max(1));
         let mut energy = EnergyError::new(system.energy());
         let (mut position, mut largest_position) = (PositionError::None, PositionError::None);
+        let mut in_first_half = (PositionError::None, Size::ZERO);
         for (sample, expected) in reference.in_two_parts::<N>(&system.context()).iter().enumerate() {
             for _ in 0..steps / reference.samples() {
                 // what is not finite stays so, and is seen at the sample
@@ -105,6 +110,9 @@ impl<N: Number> Work<N> for Measuring<'_> {
             }
             position = PositionError::of(distance, reference.error_at(sample));
             largest_position = largest_position.or_larger(position);
+            if 2 * (sample as u64 + 1) <= reference.samples() {
+                in_first_half = (largest_position, energy.relative(&energy.largest));
+            }
         }
         let report = monitor.report();
         let modified = (report.windows > 0).then(|| Modified {
@@ -119,8 +127,10 @@ impl<N: Number> Work<N> for Measuring<'_> {
             largest_position,
             energy: energy.relative(&energy.largest),
             energy_at_end: energy.relative(&energy.last),
+            in_first_half,
             modified,
             verdict: report.verdict.to_string(),
+            fine: report.verdict.is_fine(),
             failed: None,
         }
     }
@@ -194,8 +204,10 @@ impl Measurement {
             largest_position: position,
             energy: infinite,
             energy_at_end: infinite,
+            in_first_half: (position, infinite),
             modified: None,
             verdict: "a state is not finite".to_owned(),
+            fine: false,
             failed: Some(part),
         }
     }

@@ -12,6 +12,7 @@ use shadowstep_tasks::{Observer, Store, run};
 use crate::best::{Curve, cost_of};
 use crate::calculation::{Calculation, Outcome};
 use crate::ladder::{Ladder, Rungs, coarsest};
+use crate::of::Of;
 use crate::order::MeasuredOrder;
 use crate::problem::{MOST_SAMPLES, Problem};
 use crate::reference::Reference;
@@ -56,15 +57,6 @@ pub struct Studied<'a> {
     pub ladder: Ladder,
     /// The time of a step.
     pub time: StepTime,
-}
-
-/// The error by which schemes are compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Of {
-    /// That of the position at the end, where the reference resolves it.
-    Position,
-    /// The largest error of H.
-    Energy,
 }
 
 /// What an error costs.
@@ -126,8 +118,18 @@ impl<'a> Request<'a> {
     }
 }
 
+/// The proved order of a scheme for the kinetic energy of a problem.
+pub(crate) fn proved_order(scheme: &NamedScheme, problem: Problem<'_>) -> u32 {
+    let summary = scheme.scheme.summary();
+    if problem.system.has_general_kinetic() { summary.order } else { summary.order_quadratic }
+}
+
 /// The outcome of a single task; its failure is an error.
-fn only(task: &[Calculation<'_>; 1], store: &mut Store, observer: &mut dyn Observer) -> Result<Option<Outcome>, Error> {
+pub(crate) fn only(
+    task: &[Calculation<'_>; 1],
+    store: &mut Store,
+    observer: &mut dyn Observer,
+) -> Result<Option<Outcome>, Error> {
     let mut found = run(task, store, observer)?;
     match found.failures.pop() {
         Some((_, error)) => Err(error),
@@ -165,8 +167,7 @@ impl Studied<'_> {
 
     /// The proved order for the kinetic energy of the problem.
     pub fn proved_order(&self, problem: Problem<'_>) -> u32 {
-        let summary = self.scheme.scheme.summary();
-        if problem.system.has_general_kinetic() { summary.order } else { summary.order_quadratic }
+        proved_order(self.scheme, problem)
     }
 
     /// Evaluations of the gradient in a step.
@@ -188,16 +189,5 @@ impl Studied<'_> {
             Cost::Seconds => self.seconds(run),
         };
         self.ladder.runs.iter().filter_map(|run| Some((cost(run), of.error(run)?.log10()))).collect()
-    }
-}
-
-impl Of {
-    /// The error of a run; `None` where it failed or the reference does not resolve it.
-    pub fn error(self, run: &Measurement) -> Option<Size> {
-        let error = match self {
-            Of::Position => run.position.known()?,
-            Of::Energy => run.energy,
-        };
-        (run.failed.is_none() && error.is_finite()).then_some(error)
     }
 }

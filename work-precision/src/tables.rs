@@ -2,9 +2,10 @@
 
 use shadowstep_report::page::Table;
 
+use crate::of::Of;
 use crate::order::MeasuredOrder;
 use crate::size::Size;
-use crate::study::{Cost, Of, Studied, Study};
+use crate::study::{Cost, Studied, Study};
 
 /// The schemes that need the least for an error.
 #[derive(Clone, Debug, PartialEq)]

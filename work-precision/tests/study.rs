@@ -9,10 +9,11 @@ use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::{PotentialEnergy, System};
 use shadowstep_work_precision::ladder::{End, Rungs};
+use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::reference::Origin;
 use shadowstep_work_precision::size::Size;
-use shadowstep_work_precision::study::{Cost, Of, Request, Study};
+use shadowstep_work_precision::study::{Cost, Request, Study};
 
 fn system(name: &str) -> System {
     System::of_setup(problem(name).unwrap().setup(&[], 60).unwrap())
@@ -82,7 +83,7 @@ fn ladders_go_from_instability_to_round_off() {
     let (system, until, folder) = (system("harmonic-oscillator"), until(10), tempfile::tempdir().unwrap());
     let schemes = schemes(&["stormer-verlet", "bce-rkn8-17"]);
     let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
-    let study = study(problem, &schemes, Rungs::Automatic { seconds: 5.0 }, folder.path());
+    let study = study(problem, &schemes, Rungs::Automatic { seconds: 5.0, target: None }, folder.path());
     let [verlet, rkn] = &study.schemes[..] else { panic!() };
     for studied in [verlet, rkn] {
         let runs = &studied.ladder.runs;

@@ -1,8 +1,9 @@
 //! The schemes that need the least for an error, and the orders that the schemes show, as tables of at most 80 columns.
 
 use shadowstep_scenes::readable::wrapped_to;
+use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::order::MeasuredOrder;
-use shadowstep_work_precision::study::{Of, Studied, Study};
+use shadowstep_work_precision::study::{Studied, Study};
 use shadowstep_work_precision::tables::Cheapest;
 
 use super::Posed;
@@ -16,13 +17,13 @@ pub(super) fn readable(posed: &Posed, study: &Study<'_>, coloured: bool) -> Stri
     let title = |text: &str| if coloured { heading(text) } else { text.to_owned() };
     let mut text = wrapped_to(&posed.title(), "", WIDTH);
     text += &wrapped_to(&study.reference.described(), "", WIDTH);
-    for (of, name) in [(Of::Position, "error of the position at the end"), (Of::Energy, "largest error of H")] {
+    for of in [Of::Position, Of::Energy] {
         let rows: Vec<_> = study.cheapest_by_decade(of).into_iter().map(row).collect();
         if rows.is_empty() {
-            text += &format!("{}: no scheme has one below 1/10\n", title(name));
+            text += &format!("{}: no scheme has one below 1/10\n", title(of.name()));
             continue;
         }
-        text += &format!("{}\n", title(name));
+        text += &format!("{}\n", title(of.name()));
         text += &table(["error", "fewest forces", "", "shortest time", "seconds"], rows, 2..3);
         text += "\n";
     }

@@ -6,6 +6,8 @@ use clap::Args;
 use shadowstep::Rational;
 use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
 use shadowstep_scenes::{Error, Scene};
+use shadowstep_symbolic::decimal::to_text;
+use shadowstep_work_precision::problem::Problem;
 
 use crate::quantity::{self, whole};
 use crate::run_arguments::SystemArguments;
@@ -59,5 +61,15 @@ impl Posed {
             return Err(Error::usage("--until 0: the runs must have a length", "write --until 100"));
         }
         Ok(Posed { described: Described::read(system, arithmetic)?, until, arithmetic })
+    }
+
+    pub(crate) fn problem(&self) -> Problem<'_> {
+        Problem { system: &self.described.system, until: &self.until, arithmetic: self.arithmetic }
+    }
+
+    /// The problem, the time and the number type in a line.
+    pub(crate) fn title(&self) -> String {
+        let Posed { described, until, arithmetic } = self;
+        format!("{}, t = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
     }
 }

@@ -1,0 +1,188 @@
+//! `shadowstep advise`: a scheme and a step size for a tolerance, with the evidence.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use shadowstep::number::Number;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::readable::wrapped_to;
+use shadowstep_symbolic::decimal::to_text;
+use shadowstep_work_precision::advise::{Advice, Choice, Question};
+use shadowstep_work_precision::of::Of;
+use shadowstep_work_precision::size::Size;
+use shadowstep_work_precision::study::Cost;
+
+use crate::colour::{heading, on_stdout};
+use crate::output::Output;
+use crate::posed::{Posed, PosedArguments};
+use crate::quantity;
+use crate::report::Status;
+use crate::run_arguments::SystemArguments;
+use crate::tasks::Terminal;
+use crate::work_precision::schemes;
+
+const EXAMPLE: &str = "\
+Examples:
+  shadowstep advise kepler --until 100 --tolerance 1e-8
+  shadowstep advise mine.toml --tolerance 1e-10 --of energy --cost time
+  shadowstep advise outer-solar-system --until 200000 --tolerance 1e-6 --schemes +mine.toml
+
+All schemes are run over a part of the time; errors are extrapolated to all of it by their growth. The best choice is then verified by a run over
+all of the time, whose error is printed beside the prediction; without an exact flow, that of positions is the difference to a run with half the
+step. Exit code 1 if no scheme meets the tolerance.";
+
+/// A scheme and a step size for a tolerance: predicted, and verified by a run.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    system: SystemArguments,
+    #[command(flatten)]
+    posed: PosedArguments,
+    /// The largest error, such as 1e-8
+    #[arg(long, value_name = "ERROR")]
+    tolerance: String,
+    /// Which error
+    #[arg(long, value_name = "WHICH", default_value = "position")]
+    of: Which,
+    /// What is to be small
+    #[arg(long, value_name = "WHAT", default_value = "forces")]
+    cost: What,
+    /// The schemes to choose from, as in work-precision [default: a dozen]
+    #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
+    schemes: Vec<String>,
+    /// Keeps the results in a folder, for another tolerance
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Which {
+    /// |q - q_exact| at the end, in the units of the problem
+    Position,
+    /// The largest |H(t) - H(0)|, as a part of |H(0)| unless that is 0
+    Energy,
+    /// A permanent change of the modified energy, likewise
+    Permanent,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum What {
+    /// Evaluations of the gradient
+    Forces,
+    /// Seconds on this machine
+    Time,
+}
+
+/// Asks for advice and writes it.
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
+    let tolerance = quantity::number("--tolerance", &arguments.tolerance)?;
+    let tolerance = Size::power_of_ten(tolerance_log10(&tolerance, &arguments.tolerance)?);
+    let posed = Posed::read(&arguments.system, &arguments.posed)?;
+    let schemes = schemes(&arguments.schemes, &posed)?;
+    let temporary = tempfile::tempdir()?;
+    let folder = arguments.out.clone().unwrap_or_else(|| temporary.path().to_owned());
+    let of = match arguments.of {
+        Which::Position => Of::Position,
+        Which::Energy => Of::Energy,
+        Which::Permanent => Of::Permanent,
+    };
+    let cost = match arguments.cost {
+        What::Forces => Cost::Evaluations,
+        What::Time => Cost::Seconds,
+    };
+    let mut terminal = Terminal::listen();
+    let question = Question { problem: posed.problem(), schemes: &schemes, of, tolerance, cost, folder };
+    let advice = question.answer(&mut terminal)?;
+    let mut output = Output::stdout();
+    write!(output, "{}", readable(&posed, &question, &advice, on_stdout()))?;
+    output.finish()?;
+    Ok(match advice {
+        Advice::Found { .. } => terminal.status,
+        Advice::OutOfReach { .. } => terminal.status.max(Status::NegativeAnswer),
+    })
+}
+
+fn tolerance_log10(tolerance: &shadowstep::Rational, text: &str) -> Result<f64, Error> {
+    let digits = shadowstep::number::Precision::digits(20).expect("20 digits are possible");
+    let value = <shadowstep::number::Float as Number>::from_rational(tolerance, &digits);
+    if !value.is_finite() || value.is_below_zero() || value.log10_abs() == f64::NEG_INFINITY {
+        return Err(Error::usage(
+            format!("--tolerance {text}: the tolerance must be positive"),
+            "write --tolerance 1e-8",
+        ));
+    }
+    Ok(value.log10_abs())
+}
+
+const WIDTH: usize = 80;
+
+fn readable(posed: &Posed, question: &Question<'_>, advice: &Advice<'_>, coloured: bool) -> String {
+    let mut text = wrapped_to(&posed.title(), "", WIDTH);
+    text += &wrapped_to(&format!("tolerance {}: {}", question.tolerance, question.of.name()), "", WIDTH);
+    match advice {
+        Advice::OutOfReach { least, part } => {
+            let runs = over(*part);
+            let found = match least {
+                Some((error, name)) => format!("the smallest error was {error}, of {name}, {runs}"),
+                None => format!("no error is known {runs}"),
+            };
+            let digits = posed.arithmetic.described();
+            text += &wrapped_to(&format!("No scheme meets the tolerance in {digits}: {found}."), "", WIDTH);
+        }
+        Advice::Found { choices, verified, part } => {
+            let best = &choices[0];
+            let name = format!("{}, step {}", best.scheme.name, to_text(&best.step));
+            text += &format!("{}\n", if coloured { heading(&name) } else { name });
+            text += &evidence(best, *verified, *part);
+            for other in &choices[1..] {
+                let Choice { scheme, step, error, .. } = other;
+                let (evaluations, seconds) = (other.evaluations(), other.seconds());
+                let line = format!(
+                    "or {}, step {}: predicted {error}, {evaluations:.0} forces, {seconds:.2e} s",
+                    scheme.name,
+                    to_text(step)
+                );
+                text += &wrapped_to(&line, "    ", WIDTH);
+            }
+        }
+    }
+    text
+}
+
+fn evidence(best: &Choice<'_>, verified: Size, part: f64) -> String {
+    let mut lines = vec![
+        ("predicted", format!("{}, from runs {}", best.error, over(part))),
+        ("verified", format!("{verified}, by a run over all of the time")),
+        ("cost", format!("{:.0} forces, {:.2e} s", best.evaluations(), best.seconds())),
+    ];
+    if let Some(stable) = best.stable_step {
+        let part = best.size() / stable;
+        lines.push(("stability", format!("{part:.2} of the stability limit of the fastest oscillation at the start")));
+    }
+    lines.push((
+        "modified energy",
+        match best.conserved_up_to {
+            Some(largest) => {
+                format!(
+                    "conserved up to steps of {largest:.2e}, {:.1} times this one, as far as runs were made",
+                    largest / best.size()
+                )
+            }
+            None => "not conserved at any step that was run, or not decided".to_owned(),
+        },
+    ));
+    let line = |(name, text): (&str, String)| {
+        format!("  {name:<18}{}", wrapped_to(&text, &" ".repeat(20), WIDTH).trim_start())
+    };
+    lines.into_iter().map(line).collect()
+}
+
+/// `over all of the time`, `over 1/8 of the time`
+fn over(part: f64) -> String {
+    match part {
+        1.0 => "over all of the time".to_owned(),
+        part => format!("over 1/{} of the time", (1.0 / part).round()),
+    }
+}

@@ -1,0 +1,243 @@
+//! Advice: a scheme and a step size for an error, from runs over a part of the time, verified by one run over all of it.
+
+use std::f64::consts::TAU;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use num_traits::ToPrimitive;
+use shadowstep::exact_flow::has_exact_flow;
+use shadowstep::{Number, Rational, Scheme};
+use shadowstep_scenes::Error;
+use shadowstep_scenes::library::NamedScheme;
+use shadowstep_tasks::{Observer, Store};
+
+use crate::best::cost_of;
+use crate::calculation::{Calculation, Outcome};
+use crate::convenient::convenient_step;
+use crate::ladder::{Rungs, Target, stable_step};
+use crate::of::Of;
+use crate::problem::{MOST_SAMPLES, Problem};
+use crate::run::Measurement;
+use crate::size::Size;
+use crate::study::{Cost, Request, Studied, Study, only, proved_order};
+use crate::timing::time_of_steps;
+
+/// What is wanted.
+pub struct Question<'a> {
+    /// The system, the interval of time and the number type.
+    pub problem: Problem<'a>,
+    /// The schemes to choose from.
+    pub schemes: &'a [NamedScheme],
+    /// Which error.
+    pub of: Of,
+    /// Its largest size.
+    pub tolerance: Size,
+    /// What is to be small.
+    pub cost: Cost,
+    /// Outcomes are saved in this folder.
+    pub folder: PathBuf,
+}
+
+/// A scheme and a step size with what is expected of them.
+#[derive(Clone, Debug)]
+pub struct Choice<'a> {
+    /// The scheme.
+    pub scheme: &'a NamedScheme,
+    /// The exact step size.
+    pub step: Rational,
+    /// The number of steps.
+    pub steps: u64,
+    /// The predicted error at the end.
+    pub error: Size,
+    /// Seconds for a step alone.
+    pub seconds_per_step: f64,
+    /// The largest stable step for the fastest oscillation, linearised at the start; `None` where nothing oscillates.
+    pub stable_step: Option<f64>,
+    /// The largest step of the scheme up to which the monitor's verdict was fine; `None` if it was at no step.
+    pub conserved_up_to: Option<f64>,
+}
+
+impl Choice<'_> {
+    /// Evaluations of the gradient in the run.
+    pub fn evaluations(&self) -> f64 {
+        self.steps as f64 * self.scheme.scheme.summary().evaluations as f64
+    }
+
+    /// Seconds of the run, for its steps alone.
+    pub fn seconds(&self) -> f64 {
+        self.steps as f64 * self.seconds_per_step
+    }
+
+    /// |h|
+    pub fn size(&self) -> f64 {
+        <f64 as Number>::from_rational(&self.step, &()).abs()
+    }
+}
+
+/// The answer.
+#[derive(Debug)]
+pub enum Advice<'a> {
+    /// A scheme with a step that meets the tolerance, with up to two alternatives.
+    Found {
+        /// The best first.
+        choices: Vec<Choice<'a>>,
+        /// The error that a run of the first one had.
+        verified: Size,
+        /// The part of the time over which runs were made.
+        part: f64,
+    },
+    /// No scheme has so small an error in this number type.
+    OutOfReach {
+        /// The smallest error that some scheme had, over the part of the time, and its name; `None` if there is none.
+        least: Option<(Size, &'a str)>,
+        /// The part of the time over which runs were made.
+        part: f64,
+    },
+}
+
+/// Runs over the part of the time take about so many seconds each.
+const SECONDS: f64 = 0.5;
+/// A run with a small error has about so many evaluations in a turn of the fastest oscillation.
+const EVALUATIONS_PER_TURN: f64 = 400.0;
+/// The predicted error is to be this part of the tolerance, log₁₀: predictions are that accurate.
+const MARGIN: f64 = -0.1;
+/// One choice and two alternatives.
+const SHOWN: usize = 3;
+/// The step is reduced so often if the verification does not meet the tolerance.
+const ATTEMPTS: usize = 4;
+
+impl<'a> Question<'a> {
+    /// Studies the schemes over a part of the time that takes seconds, extrapolates to all of it, and verifies the best.
+    ///
+    /// # Errors
+    /// As [`Request::study`].
+    pub fn answer(&self, observer: &mut dyn Observer) -> Result<Advice<'a>, Error> {
+        let halvings = self.halvings()?;
+        let until = self.problem.until / Rational::from_integer((1_i64 << halvings).into());
+        let problem = Problem { until: &until, ..self.problem };
+        let study = self.request(problem, halvings).study(observer)?;
+        let part = 0.5_f64.powi(halvings);
+        let mut choices: Vec<Choice<'a>> =
+            study.schemes.iter().filter_map(|studied| self.choice(&study, studied, halvings)).collect();
+        for _ in 0..ATTEMPTS {
+            choices.sort_by(|a, b| self.cost_of(a).total_cmp(&self.cost_of(b)));
+            let Some(best) = choices.first_mut() else { break };
+            let error = self.verify(best, observer)?;
+            if let Some(verified) = error.filter(|error| *error <= self.tolerance) {
+                choices.truncate(SHOWN);
+                return Ok(Advice::Found { choices, verified, part });
+            }
+            self.reduce(best, error);
+        }
+        let runs = study.schemes.iter().flat_map(|studied| studied.ladder.runs.iter().map(move |run| (studied, run)));
+        let errors = runs.filter_map(|(studied, run)| Some((self.of.error(run)?, self.named(studied).name.as_str())));
+        Ok(Advice::OutOfReach { least: errors.min_by(|a, b| a.0.log10().total_cmp(&b.0.log10())), part })
+    }
+
+    /// How often the time is halved, so that runs over the part take about a second.
+    fn halvings(&self) -> Result<i32, Error> {
+        let Some(frequency) = self.problem.system.fastest_frequency() else { return Ok(0) };
+        let evaluations = EVALUATIONS_PER_TURN * frequency.omega * self.problem.duration() / TAU;
+        let steps = evaluations.to_u64().unwrap_or(u64::MAX).max(1);
+        let first = &self.schemes[0];
+        let time = time_of_steps(self.problem, &[(first, steps)])?[0].median;
+        let seconds = time * evaluations / first.scheme.summary().evaluations as f64;
+        Ok((seconds / SECONDS).log2().ceil().clamp(0.0, 40.0) as i32)
+    }
+
+    /// Runs until the error over the part is small enough for the whole.
+    fn request<'b>(&'b self, problem: Problem<'b>, halvings: i32) -> Request<'b> {
+        // positions err like the square of the time at most, where the motion is regular
+        let growth = f64::from(halvings) * 2_f64.log10();
+        let growth = match self.of {
+            Of::Position => 2.0 * growth,
+            Of::Energy => 0.5 * growth,
+            Of::Permanent => growth,
+        };
+        let error = self.tolerance.times_power_of_ten(MARGIN - growth);
+        let rungs = Rungs::Automatic { seconds: 8.0 * SECONDS, target: Some(Target { of: self.of, error }) };
+        let reference_time = Duration::from_secs_f64(40.0 * SECONDS);
+        Request { problem, schemes: self.schemes, rungs, reference_time, folder: self.folder.clone() }
+    }
+
+    /// The largest convenient step of a scheme that is expected to meet the tolerance.
+    fn choice(&self, study: &Study<'_>, studied: &Studied<'_>, halvings: i32) -> Option<Choice<'a>> {
+        let whole = |run: &Measurement| {
+            let error = self.of.error(run)?;
+            Some((run.steps as f64, error.log10() + f64::from(halvings) * self.of.growth(run).log10()))
+        };
+        let curve: Vec<(f64, f64)> = studied.ladder.runs.iter().filter_map(whole).collect();
+        let error = self.tolerance.times_power_of_ten(MARGIN);
+        let largest = study.problem.duration() / cost_of(&curve, error)?;
+        let fine = studied.ladder.runs.iter().rev().take_while(|run| run.fine).last();
+        let choice = Choice {
+            scheme: self.named(studied),
+            step: Rational::from_integer(0.into()),
+            steps: 0,
+            error,
+            seconds_per_step: studied.time.median,
+            stable_step: stable_step(self.problem, studied.scheme),
+            conserved_up_to: fine.map(|run| study.problem.duration() / run.steps as f64),
+        };
+        Some(self.with_step(choice, largest))
+    }
+
+    /// The same scheme with a convenient step of at most h, at which its error is known.
+    fn with_step(&self, choice: Choice<'a>, h: f64) -> Choice<'a> {
+        let step = convenient_step(h.min(self.problem.duration()));
+        let size = <f64 as Number>::from_rational(&step, &());
+        let steps = (self.problem.duration() / size * (1.0 + 1e-12)).floor() as u64;
+        let error = choice.error.times_power_of_ten(self.order(choice.scheme) * (size / h).log10());
+        Choice { step: if self.problem.is_forward() { step } else { -step }, steps, error, ..choice }
+    }
+
+    /// A smaller step, so that an error of this size comes to the tolerance as the order says; at least an eighth smaller.
+    fn reduce(&self, choice: &mut Choice<'a>, error: Option<Size>) {
+        let error = error.unwrap_or(Size::power_of_ten(0.0)).log10();
+        let target = self.tolerance.times_power_of_ten(2.0 * MARGIN);
+        let factor = 10_f64.powf((target.log10() - error) / self.order(choice.scheme)).min(0.89);
+        let h = choice.size() * factor;
+        *choice = self.with_step(Choice { error: target, ..choice.clone() }, h);
+    }
+
+    /// The error of a run over all of the time, which ends with the last whole step; of positions beside the exact flow or, by
+    /// Richardson's rule, beside a run with half the step.
+    fn verify(&self, choice: &Choice<'a>, observer: &mut dyn Observer) -> Result<Option<Size>, Error> {
+        let until = &choice.step * Rational::from_integer(choice.steps.into());
+        let problem = Problem { until: &until, ..self.problem };
+        let samples = samples(choice.steps);
+        let is_known = problem.system.setup().is_some_and(|setup| has_exact_flow(&setup).is_ok());
+        let wanted = match is_known {
+            true => Calculation::reference(problem, samples, Duration::ZERO),
+            false => Calculation::halved(problem, choice.scheme, (samples, 2 * choice.steps)),
+        };
+        let mut store = Store::open(&self.folder, observer)?;
+        let Some(Outcome::Reference(reference)) = only(&[wanted], &mut store, observer)? else { return Ok(None) };
+        let wanted = Calculation::ladder(problem, choice.scheme, &reference, &Rungs::Steps(vec![choice.steps]));
+        let Some(Outcome::Ladder(ladder)) = only(&[wanted], &mut store, observer)? else { return Ok(None) };
+        let error = ladder.runs.first().and_then(|run| self.of.error(run));
+        let half = if is_known || self.of != Of::Position { 0.0 } else { (-self.order(choice.scheme)).exp2() };
+        Ok(error.map(|error| error.times_power_of_ten(-(1.0 - half).log10())))
+    }
+
+    fn cost_of(&self, choice: &Choice<'_>) -> f64 {
+        match self.cost {
+            Cost::Evaluations => choice.evaluations(),
+            Cost::Seconds => choice.seconds(),
+        }
+    }
+
+    /// The proved order.
+    fn order(&self, scheme: &NamedScheme) -> f64 {
+        f64::from(proved_order(scheme, self.problem))
+    }
+
+    fn named(&self, studied: &Studied<'_>) -> &'a NamedScheme {
+        self.schemes.iter().find(|scheme| scheme.name == studied.scheme.name).expect("it was studied")
+    }
+}
+
+/// Samples are at states of the run.
+fn samples(steps: u64) -> u64 {
+    (1..=MOST_SAMPLES).rev().find(|samples| steps.is_multiple_of(*samples)).unwrap_or(1)
+}

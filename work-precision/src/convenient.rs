@@ -1,0 +1,71 @@
+//! Step sizes that are easy to write: 1/20, 1/250, 0.45, 2, 45.
+
+use shadowstep::Rational;
+
+/// The digits of convenient numbers: neighbours differ by an eighth at most.
+const DIGITS: [i64; 22] =
+    [100, 110, 120, 125, 140, 150, 160, 180, 200, 220, 240, 250, 280, 300, 320, 360, 400, 450, 500, 600, 700, 800];
+/// A unit fraction is preferred to a decimal number that is larger by this factor at most.
+const PREFERENCE: f64 = 1.04;
+
+/// The largest convenient step size that is not larger than h: a convenient number of up to three digits, or 1 divided by a whole
+/// one if that is about as large.
+///
+/// ```
+/// use shadowstep_work_precision::convenient::convenient_step;
+/// use shadowstep::exact;
+///
+/// assert_eq!(convenient_step(0.0526), exact("1/20").unwrap());
+/// assert_eq!(convenient_step(0.72), exact("0.7").unwrap());
+/// assert_eq!(convenient_step(47.0), exact("45").unwrap());
+/// ```
+///
+/// # Panics
+/// If h is not positive and finite.
+pub fn convenient_step(h: f64) -> Rational {
+    assert!(h > 0.0 && h.is_finite(), "a step size is positive");
+    // a last place off is the same step
+    let most = h * (1.0 + 1e-12);
+    let decimal = around(h).rfind(|&number| value(number) <= most).expect("there are smaller ones");
+    let whole = |&(digits, zeros): &(i64, i32)| match zeros {
+        0.. => true,
+        -2 | -1 => digits % 10_i64.pow(zeros.unsigned_abs()) == 0,
+        _ => false,
+    };
+    match around(1.0 / h).filter(whole).find(|&number| value(number) * most >= 1.0) {
+        Some(number) if value(number) * value(decimal) <= PREFERENCE => scaled(number).recip(),
+        _ => scaled(decimal),
+    }
+}
+
+/// Convenient numbers from a tenth to ten times x and beyond, in their order: digits and a power of ten.
+fn around(x: f64) -> impl DoubleEndedIterator<Item = (i64, i32)> {
+    let decade = x.log10().floor() as i32;
+    // the digits have three places
+    (decade - 3..=decade - 1).flat_map(|zeros| DIGITS.into_iter().map(move |digits| (digits, zeros)))
+}
+
+fn value((digits, zeros): (i64, i32)) -> f64 {
+    digits as f64 * 10_f64.powi(zeros)
+}
+
+fn scaled((digits, zeros): (i64, i32)) -> Rational {
+    let power = |zeros: i32| num_traits::pow(Rational::from_integer(10.into()), zeros.unsigned_abs() as usize);
+    let number = Rational::from_integer(digits.into());
+    if zeros >= 0 { number * power(zeros) } else { number / power(zeros) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shadowstep::Number;
+
+    #[test]
+    fn convenient_steps_are_a_little_smaller() {
+        for i in -300..300 {
+            let h = 10_f64.powf(f64::from(i) / 37.0);
+            let step = <f64 as Number>::from_rational(&convenient_step(h), &());
+            assert!(step <= h * (1.0 + 1e-9) && step > 0.8 * h, "{h}: {step}");
+        }
+    }
+}
