@@ -179,16 +179,16 @@ impl<'a> Question<'a> {
             stable_step: stable_step(self.problem, studied.scheme),
             conserved_up_to: fine.map(|run| study.problem.duration() / run.steps as f64),
         };
-        Some(self.with_step(choice, largest))
+        Some(self.with_step(&choice, largest))
     }
 
     /// The same scheme with a convenient step of at most h, at which its error is known.
-    fn with_step(&self, choice: Choice<'a>, h: f64) -> Choice<'a> {
-        let step = convenient_step(h.min(self.problem.duration()));
+    fn with_step(&self, choice: &Choice<'a>, h: f64) -> Choice<'a> {
+        let step = convenient_step(h.min(self.problem.duration()), self.problem.until);
         let size = <f64 as Number>::from_rational(&step, &());
         let steps = (self.problem.duration() / size * (1.0 + 1e-12)).floor() as u64;
         let error = choice.error.times_power_of_ten(self.order(choice.scheme) * (size / h).log10());
-        Choice { step: if self.problem.is_forward() { step } else { -step }, steps, error, ..choice }
+        Choice { step: if self.problem.is_forward() { step } else { -step }, steps, error, ..choice.clone() }
     }
 
     /// A smaller step, so that an error of this size comes to the tolerance as the order says; at least an eighth smaller.
@@ -197,7 +197,7 @@ impl<'a> Question<'a> {
         let target = self.tolerance.times_power_of_ten(2.0 * MARGIN);
         let factor = 10_f64.powf((target.log10() - error) / self.order(choice.scheme)).min(0.89);
         let h = choice.size() * factor;
-        *choice = self.with_step(Choice { error: target, ..choice.clone() }, h);
+        *choice = self.with_step(&Choice { error: target, ..choice.clone() }, h);
     }
 
     /// The error of a run over all of the time, which ends with the last whole step; of positions beside the exact flow or, by

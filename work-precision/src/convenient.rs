@@ -5,41 +5,45 @@ use shadowstep::Rational;
 /// The digits of convenient numbers: neighbours differ by an eighth at most.
 const DIGITS: [i64; 22] =
     [100, 110, 120, 125, 140, 150, 160, 180, 200, 220, 240, 250, 280, 300, 320, 360, 400, 450, 500, 600, 700, 800];
-/// A unit fraction is preferred to a decimal number that is larger by this factor at most.
-const PREFERENCE: f64 = 1.04;
+/// A step of which the time is a multiple is preferred to one that is larger by this factor at most.
+const PREFERENCE: f64 = 1.09;
 
-/// The largest convenient step size that is not larger than h: a convenient number of up to three digits, or 1 divided by a whole
-/// one if that is about as large.
+/// The largest convenient step size that is not larger than h: a number of up to three digits, or 1 divided by a whole one. One of which
+/// the time is a multiple is preferred, if it is about as large.
 ///
 /// ```
 /// use shadowstep_work_precision::convenient::convenient_step;
 /// use shadowstep::exact;
 ///
-/// assert_eq!(convenient_step(0.0526), exact("1/20").unwrap());
-/// assert_eq!(convenient_step(0.72), exact("0.7").unwrap());
-/// assert_eq!(convenient_step(47.0), exact("45").unwrap());
+/// let step = |h: f64, time: &str| convenient_step(h, &exact(time).unwrap());
+/// assert_eq!(step(0.0526, "100"), exact("1/20").unwrap());
+/// assert_eq!(step(0.72, "100"), exact("7/10").unwrap());
+/// assert_eq!(step(47.0, "20000"), exact("45").unwrap());
 /// ```
 ///
 /// # Panics
 /// If h is not positive and finite.
-pub fn convenient_step(h: f64) -> Rational {
+pub fn convenient_step(h: f64, time: &Rational) -> Rational {
     assert!(h > 0.0 && h.is_finite(), "a step size is positive");
     // a last place off is the same step
     let most = h * (1.0 + 1e-12);
-    let decimal = around(h).rfind(|&number| value(number) <= most).expect("there are smaller ones");
+    let decimals = around(h).filter(|&number| value(number) <= most).map(|number| (value(number), scaled(number)));
     let whole = |&(digits, zeros): &(i64, i32)| match zeros {
         0.. => true,
         -2 | -1 => digits % 10_i64.pow(zeros.unsigned_abs()) == 0,
         _ => false,
     };
-    match around(1.0 / h).filter(whole).find(|&number| value(number) * most >= 1.0) {
-        Some(number) if value(number) * value(decimal) <= PREFERENCE => scaled(number).recip(),
-        _ => scaled(decimal),
-    }
+    let fractions = around(1.0 / h).filter(whole).filter(|&number| value(number) * most >= 1.0);
+    let fractions = fractions.map(|number| (1.0 / value(number), scaled(number).recip()));
+    let mut all: Vec<(f64, Rational)> = decimals.chain(fractions).collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let (largest, step) = all.first().expect("there are smaller ones").clone();
+    let near = all.into_iter().take_while(|(size, _)| size * PREFERENCE >= largest);
+    near.map(|(_, step)| step).find(|step| (time / step).is_integer()).unwrap_or(step)
 }
 
 /// Convenient numbers from a tenth to ten times x and beyond, in their order: digits and a power of ten.
-fn around(x: f64) -> impl DoubleEndedIterator<Item = (i64, i32)> {
+fn around(x: f64) -> impl Iterator<Item = (i64, i32)> {
     let decade = x.log10().floor() as i32;
     // the digits have three places
     (decade - 3..=decade - 1).flat_map(|zeros| DIGITS.into_iter().map(move |digits| (digits, zeros)))
@@ -64,7 +68,7 @@ mod tests {
     fn convenient_steps_are_a_little_smaller() {
         for i in -300..300 {
             let h = 10_f64.powf(f64::from(i) / 37.0);
-            let step = <f64 as Number>::from_rational(&convenient_step(h), &());
+            let step = <f64 as Number>::from_rational(&convenient_step(h, &Rational::from_integer(100.into())), &());
             assert!(step <= h * (1.0 + 1e-9) && step > 0.8 * h, "{h}: {step}");
         }
     }
