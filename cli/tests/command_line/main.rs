@@ -12,4 +12,5 @@ mod scene_pairs;
 mod scenes;
 mod schemes;
 mod trace;
+mod work_precision;
 mod wrong_usage;

@@ -1,0 +1,78 @@
+//! `shadowstep work-precision` and `shadowstep advise`.
+
+use std::fs;
+
+use tempfile::TempDir;
+
+use crate::program::{objects, quietly, shadowstep, text};
+
+#[test]
+fn a_study_is_data_charts_and_a_page() {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path().display();
+    let command = format!(
+        "work-precision kepler --until 10 --schemes stormer-verlet,yoshida4 --steps 1/20,1/40,1/80,1/160 --digits 25 --out {out}"
+    );
+    let printed = quietly(&command);
+    assert!(printed.lines().all(|line| line.chars().count() <= 80 || line.contains("report.html")), "{printed}");
+    assert!(printed.contains("Positions are compared with the exact flow."), "{printed}");
+    let rows = objects(&fs::read_to_string(folder.path().join("work-precision.jsonl")).unwrap());
+    assert_eq!(rows.len(), 8);
+    let (first, last) = (&rows[0], &rows[7]);
+    assert_eq!(
+        (text(first, "scheme"), text(first, "step"), &first["evaluations"]),
+        ("stormer-verlet", "1/20", &200.into())
+    );
+    assert_eq!((text(last, "scheme"), &last["evaluations"]), ("yoshida4", &(3 * 1600).into()));
+    // four halvings of the step of order 4, and the next order
+    let error = |row| text(row, "position_error").parse::<f64>().unwrap();
+    let gain = (error(&rows[4]) / error(last)).log2() / 3.0;
+    assert!((gain - 4.0).abs() < 0.4, "{gain}");
+    let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert_eq!(page.matches("<svg ").count(), 4);
+    for name in ["position-forces.svg", "energy-time-print.svg", "work-precision.csv", "plot.py"] {
+        assert!(page.contains(name) && folder.path().join(name).exists(), "{name}");
+    }
+    // nothing is computed again
+    let results = fs::read(folder.path().join("results.jsonl")).unwrap();
+    assert_eq!(quietly(&command), printed);
+    assert_eq!(fs::read(folder.path().join("results.jsonl")).unwrap(), results);
+}
+
+#[test]
+fn advice_is_verified() {
+    let printed = quietly("advise pendulum --until 20 --tolerance 1e-6 --schemes stormer-verlet,blanes-moan-srkn11b");
+    assert!(printed.lines().nth(2).unwrap().starts_with("blanes-moan-srkn11b, step "), "{printed}");
+    let verified = printed.lines().find(|line| line.trim_start().starts_with("verified")).unwrap();
+    let error: f64 = verified.split_whitespace().nth(1).unwrap().trim_end_matches(',').parse().unwrap();
+    assert!(error <= 1e-6 && error > 1e-9, "{printed}");
+}
+
+#[test]
+fn what_is_out_of_reach_is_a_negative_answer() {
+    let refused = shadowstep("advise pendulum --until 20 --tolerance 1e-30 --schemes blanes-moan-srkn11b");
+    assert_eq!(refused.code, 1, "{}", refused.err);
+    assert!(refused.out.contains("No scheme meets the tolerance in double precision"), "{}", refused.out);
+}
+
+#[test]
+fn wrong_requests_are_refused() {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path().display();
+    for (words, message) in [
+        (format!("work-precision kepler --out {out}"), "--until is missing"),
+        (format!("work-precision kepler --until 0 --out {out}"), "the runs must have a length"),
+        (
+            format!("work-precision kepler --until 1 --steps 1/3,2/7 --out {out}"),
+            "--until 1 is not a multiple of the step 2/7",
+        ),
+        (format!("work-precision kepler --until 1 --schemes yoshida5 --out {out}"), "there is no scheme `yoshida5`"),
+        ("advise kepler --until 1 --tolerance 0".to_owned(), "the tolerance must be positive"),
+    ] {
+        let refused = shadowstep(&words);
+        assert!(refused.code == 2 && refused.err.contains(message), "{words}: {} {}", refused.code, refused.err);
+    }
+    fs::write(folder.path().join("work-precision.csv"), "mine").unwrap();
+    let refused = shadowstep(&format!("work-precision kepler --until 1 --steps 1/10 --out {out}"));
+    assert!(refused.code == 2 && refused.err.contains("without results of this program beside it"), "{}", refused.err);
+}
