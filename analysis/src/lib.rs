@@ -5,6 +5,7 @@
 //! | `analysis` | [`Analysis`]: everything below for one scheme, and the sizes of its weights |
 //! | [`error`](mod@error), [`bracket`] | the leading error: the terms of lowest order in the logarithm of a step |
 //! | [`trace`] | the trace of a step of the harmonic oscillator, and the leading error of its phase |
+//! | [`oscillator`] | trace and phase of a step of the harmonic oscillator at a given hω, in f64 |
 //! | `period` | the part that a step repeats: it is stable where the step is |
 //! | `powers` | double roots of the trace ∓ 2 that the repetitions within a step explain |
 //! | [`stability`], `roots`, `squarefree` | where the harmonic oscillator is stable: roots of integer polynomials |
@@ -18,6 +19,7 @@ mod analysis;
 mod better;
 pub mod bracket;
 pub mod error;
+pub mod oscillator;
 mod period;
 pub mod polish;
 mod powers;

@@ -2,9 +2,12 @@
 
 mod analysis;
 mod check;
+mod columns;
 mod facts;
 mod list;
+mod plot;
 mod polish;
+mod record;
 mod show;
 
 use clap::{Args, Subcommand};

@@ -33,6 +33,7 @@
 //! | `ticks` | round numbers and decades on an axis |
 //! | `clip` | the visible part of a curve |
 //! | `thin` | lines of many points |
+//! | `stack` | several charts as one picture |
 //! | `labels` | labels beside the chart, without overlaps |
 //! | `looks` | colours, dashes and markers |
 //! | `ink` | from the plain colours of plotters to classes that a style sheet can change |
@@ -43,9 +44,11 @@ mod ink;
 mod labels;
 mod layout;
 mod looks;
+mod stack;
 mod thin;
 mod ticks;
 
+pub use stack::stacked;
 pub use ticks::power_of_ten;
 
 /// The content of one picture.

@@ -1,8 +1,8 @@
 //! The step size of a run beside the stability limit of its scheme.
 
 use shadowstep::Rational;
+use shadowstep_analysis::oscillator::Oscillator;
 use shadowstep_analysis::stability::Stability;
-use shadowstep_schemes::map::{Map, MapKind};
 
 use crate::frequency::Frequency;
 use crate::library::NamedScheme;
@@ -15,7 +15,8 @@ const ROUNDING: f64 = 1e-9;
 pub fn unstable(frequency: Frequency, named: &NamedScheme, h: &Rational) -> Option<Note> {
     let proved = named.scheme.proved();
     let h_omega = frequency.omega * <f64 as shadowstep::Number>::from_rational(h, &()).abs();
-    let trace = trace(&proved.scheme.maps(), h_omega);
+    let nearest = |weight: &Rational| shadowstep::Number::from_rational(weight, &());
+    let trace = Oscillator::of(&proved.scheme.maps(), nearest).trace(h_omega);
     (trace.abs() > 2.0 + ROUNDING).then(|| Note::Unstable {
         scheme: named.name.clone(),
         limit: Stability::of_scheme(proved).map(|stability| stability.limit),
@@ -23,22 +24,6 @@ pub fn unstable(frequency: Frequency, named: &NamedScheme, h: &Rational) -> Opti
         omega: format!("{:.4}", frequency.omega),
         quadratic: frequency.quadratic,
     })
-}
-
-/// The trace of a step for H = (p² + ω²q²)/2, of (q, hp).
-fn trace(maps: &[Map], h_omega: f64) -> f64 {
-    // where the step takes (1, 0) and (0, 1)
-    let mut columns = [[1.0, 0.0], [0.0, 1.0]];
-    for map in maps {
-        let weight: f64 = shadowstep::Number::from_rational(&map.weight, &());
-        for [q, p] in &mut columns {
-            match map.kind {
-                MapKind::Kick => *p -= weight * h_omega * h_omega * *q,
-                MapKind::Drift => *q += weight * *p,
-            }
-        }
-    }
-    columns[0][0] + columns[1][1]
 }
 
 #[cfg(test)]

@@ -4,19 +4,17 @@ use std::io::Write;
 
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
-use serde::Serialize;
 use shadowstep::tables::{TableScheme, shipped, shipped_names};
-use shadowstep_analysis::Analysis;
 use shadowstep_schemes::Kinetic;
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 
 use crate::output::Output;
 use crate::quantity::whole;
-use crate::readable::{rounded, table, wrapped_to};
+use crate::readable::wrapped_to;
 use crate::report::{self, Status};
-use crate::schemes::facts::{
-    NEAR_INTEGRABLE, aliases, digits, digits_text, kinetic, near_integrable, near_integrable_text,
-};
+use crate::schemes::columns;
+use crate::schemes::facts::NEAR_INTEGRABLE;
+use crate::schemes::record::Record;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{self, NamedScheme};
 
@@ -36,7 +34,10 @@ pub(crate) struct Arguments {
     /// What comes first
     #[arg(long, value_name = "KEY", default_value = "order")]
     sort: SortKey,
-    /// One JSON object a line
+    /// All columns; they need 163 characters a line
+    #[arg(long, conflicts_with = "json")]
+    wide: bool,
+    /// One JSON object a line, with all columns and more
     #[arg(long)]
     json: bool,
 }
@@ -47,6 +48,15 @@ enum KineticChoice {
     Any,
     /// T = ½pᵀM⁻¹p: all schemes
     Quadratic,
+}
+
+impl KineticChoice {
+    fn kinetic(self) -> Kinetic {
+        match self {
+            KineticChoice::Any => Kinetic::Any,
+            KineticChoice::Quadratic => Kinetic::Quadratic,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -63,32 +73,6 @@ enum SortKey {
     Order,
 }
 
-#[derive(Serialize)]
-struct Record {
-    name: String,
-    shipped: bool,
-    aliases: Vec<String>,
-    order: u32,
-    order_quadratic: u32,
-    near_integrable: Vec<u32>,
-    /// Rows of the table of weights, those with a 0 included.
-    stages: usize,
-    evaluations: usize,
-    effective_error: f64,
-    effective_error_quadratic: f64,
-    stability_limit: Option<String>,
-    symmetric: bool,
-    kinetic: &'static str,
-    /// Whether the order claimed holds for every T(p).
-    #[serde(skip)]
-    moves_any: bool,
-    digits: Option<u32>,
-    title: Option<String>,
-}
-
-const COLUMNS: [&str; 8] =
-    ["order", "A + εB", "forces\na step", "eff.\nerror", "stable\nto hω", "digits", "T(p)", "name"];
-
 /// The shipped schemes that are asked for, and custom tables among them.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let custom = arguments.tables.iter().map(|word| table_of(word)).collect::<Result<Vec<_>, _>>()?;
@@ -98,33 +82,26 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         arguments.kinetic != Some(KineticChoice::Any) || scheme.proved().holds_for_every_kinetic()
     };
     let chosen = all.par_iter().filter(|(_, scheme)| of_order(scheme) && moves(scheme));
-    let mut records: Vec<Record> = chosen.map(|(name, scheme)| record(name, scheme, true)).collect();
+    let mut records: Vec<Record> = chosen.map(|(name, scheme)| Record::of(name, scheme, true)).collect();
     if let (true, Some(order)) = (records.is_empty(), arguments.order) {
         note_orders(&all, order, arguments);
     }
-    records.extend(custom.iter().map(|named| record(&named.name, &named.scheme, false)));
+    records.extend(custom.iter().map(|named| Record::of(&named.name, &named.scheme, false)));
     sort(&mut records, arguments);
     let mut output = Output::stdout();
     if arguments.json {
         records.iter().try_for_each(|record| output.json(record))?;
     } else {
-        let quadratic = for_quadratic(arguments);
-        let rows = records.iter().map(|record| row(record, quadratic)).collect();
-        writeln!(output, "{}", table(COLUMNS, rows, 0..6))?;
-        write!(output, "{}", wrapped_to(&legend(quadratic), "", 80))?;
+        let kinetic = arguments.kinetic.map(KineticChoice::kinetic);
+        let columns = if arguments.wide { columns::all() } else { columns::to_choose_by(kinetic) };
+        writeln!(output, "{}", columns::table_of(&columns, &records))?;
+        write!(output, "{}", wrapped_to(&columns::legend(arguments.wide, kinetic), "", 80))?;
         if records.iter().any(|record| !record.near_integrable.is_empty()) {
             write!(output, "{}", wrapped_to(NEAR_INTEGRABLE, "", 80))?;
         }
     }
     output.finish()?;
     Ok(Status::Success)
-}
-
-fn legend(quadratic: bool) -> String {
-    let class = if quadratic { "quadratic T" } else { "every T(p), for quadratic T with --for quadratic" };
-    format!(
-        "order: for every T(p), in brackets for quadratic T; eff. error: the effective error for {class}; T(p): what it is meant for"
-    )
 }
 
 /// A custom table.
@@ -178,50 +155,10 @@ fn sort(records: &mut [Record], arguments: &Arguments) {
             records.sort_by(|a, b| order(a).cmp(&order(b)).then(error(a).total_cmp(&error(b))));
         }
         SortKey::Stability => {
-            let limit = |record: &Record| {
-                record.stability_limit.as_ref().map_or(0.0, |limit| limit.parse::<f64>().unwrap_or(0.0))
-            };
+            let limit = |record: &Record| record.limit().unwrap_or(0.0);
             records.sort_by(|a, b| limit(b).total_cmp(&limit(a)));
         }
         SortKey::Evaluations => records.sort_by_key(|record| record.evaluations),
         SortKey::Order | SortKey::Name => {}
     }
-}
-
-fn record(name: &str, scheme: &TableScheme, shipped: bool) -> Record {
-    let proved = scheme.proved();
-    let analysis = Analysis::of(proved);
-    Record {
-        name: name.to_owned(),
-        shipped,
-        aliases: aliases(&proved.scheme.table),
-        order: proved.proof.general.order,
-        order_quadratic: proved.proof.quadratic.order,
-        near_integrable: near_integrable(&proved.proof),
-        stages: proved.scheme.kick.len(),
-        evaluations: analysis.evaluations,
-        effective_error: analysis.effective_error(Kinetic::Any),
-        effective_error_quadratic: analysis.effective_error(Kinetic::Quadratic),
-        stability_limit: analysis.stability.map(|stability| stability.limit),
-        symmetric: proved.proof.symmetric,
-        kinetic: kinetic(proved.scheme.table.kinetic),
-        moves_any: proved.holds_for_every_kinetic(),
-        digits: digits(proved.scheme.held),
-        title: proved.scheme.table.title.clone(),
-    }
-}
-
-fn row(record: &Record, quadratic: bool) -> [String; 8] {
-    let (any, of_quadratic) = (record.order, record.order_quadratic);
-    let error = if quadratic { record.effective_error_quadratic } else { record.effective_error };
-    [
-        if any == of_quadratic { any.to_string() } else { format!("{any} ({of_quadratic})") },
-        near_integrable_text(&record.near_integrable),
-        record.evaluations.to_string(),
-        format!("{error:.4}"),
-        record.stability_limit.as_ref().map_or_else(|| "–".to_owned(), |limit| rounded(limit, 4)),
-        digits_text(record.digits),
-        if record.moves_any { "any" } else { "quad" }.to_owned(),
-        record.name.clone(),
-    ]
 }

@@ -1,6 +1,7 @@
 //! `shadowstep schemes show`: everything that is known about a scheme.
 
 use std::io::Write;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
@@ -22,9 +23,10 @@ use crate::report::{self, Status};
 use crate::schemes::analysis;
 use crate::schemes::analysis::{ErrorRecord, Gap, Phase, Sizes};
 use crate::schemes::facts::{aliases, digits, kinetic, near_integrable, near_integrable_text};
-use shadowstep_scenes::Error;
+use crate::schemes::plot;
 use shadowstep_scenes::library;
 use shadowstep_scenes::readable::digits as in_digits;
+use shadowstep_scenes::{Error, WholeFile};
 
 /// Everything that is known about a scheme.
 #[derive(Debug, Args)]
@@ -35,6 +37,12 @@ pub(crate) struct Arguments {
     /// One JSON object with every digit of the weights
     #[arg(long)]
     json: bool,
+    /// Draws the stages along the step, its stability and the error of its phase over hω into a new file, such as yoshida4.svg
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+    /// Replaces the file of --plot if it exists
+    #[arg(long, requires = "plot")]
+    force: bool,
 }
 
 /// Digits of a weight that a person reads.
@@ -110,6 +118,9 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     named.note().iter().for_each(report::note);
     let scheme = named.scheme;
     let analysis = Analysis::of(scheme.proved());
+    if let Some(path) = &arguments.plot {
+        draw(path, arguments.force, &scheme, &analysis)?;
+    }
     let mut output = Output::stdout();
     if arguments.json {
         output.json(&record(&scheme, &analysis))?;
@@ -118,6 +129,15 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     }
     output.finish()?;
     Ok(Status::Success)
+}
+
+/// Draws into a file, which gets its name when it is complete.
+fn draw(path: &Path, force: bool, scheme: &TableScheme, analysis: &Analysis) -> Result<(), Error> {
+    let proved = scheme.proved();
+    let picture = plot::picture(&proved.scheme.table.name.value, proved, analysis)?;
+    let mut file = if force { WholeFile::create(path, "--plot")? } else { WholeFile::create_new(path, "--plot")? };
+    writeln!(file, "{picture}")?;
+    file.finish()
 }
 
 fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {

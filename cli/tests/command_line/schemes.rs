@@ -90,11 +90,9 @@ fn for_any_kinetic_energy_only_schemes_that_move_any_are_listed() {
     let [all, any] = ["--order 4", "--order 4 --for any"].map(names);
     let quadratic_only = |name: &str| all.contains(&name.to_owned()) && !any.contains(&name.to_owned());
     assert!(quadratic_only("blanes-moan-srkn11b") && !quadratic_only("blanes-moan-srkn6b"), "{any:?}");
-    let table = quietly("schemes --order 4");
-    assert!(
-        table.lines().any(|line| line.contains(" 4 (6) ") && line.contains("quad  blanes-moan-srkn11b")),
-        "{table}"
-    );
+    let line = line_of("--order 4", "blanes-moan-srkn11b");
+    assert!(line.starts_with(&["4", "(6)"].map(str::to_owned)), "{line:?}");
+    assert!(line.ends_with(&["quadratic", "T", "blanes-moan-srkn11b"].map(str::to_owned)), "{line:?}");
 }
 
 #[test]
@@ -114,9 +112,48 @@ fn a_custom_table_is_listed_among_the_shipped_ones() {
 
 #[test]
 fn the_list_fits_a_terminal() {
-    for line in quietly("schemes").lines() {
-        assert!(line.chars().count() <= 80, "{line}");
+    for flags in ["", "--for any", "--for quadratic"] {
+        for line in quietly(&format!("schemes {flags}")).lines() {
+            assert!(line.chars().count() <= 80, "{line}");
+        }
     }
+}
+
+/// The line of a scheme, by words.
+fn line_of(flags: &str, name: &str) -> Vec<String> {
+    let table = quietly(&format!("schemes {flags}"));
+    let line = table.lines().find(|line| line.trim_end().ends_with(&format!(" {name}")));
+    line.unwrap_or_else(|| panic!("{name} is missing in\n{table}")).split_whitespace().map(str::to_owned).collect()
+}
+
+#[test]
+fn the_list_shows_what_one_chooses_by() {
+    let verlet = ["2", "1", "0.3052", "2.000", "yes", "every", "T(p)", "stormer-verlet"];
+    assert_eq!(line_of("--order 2", "stormer-verlet"), verlet);
+    // for quadratic T, its order and its error
+    let classes = ["--order 4 --for any", "--order 4 --for quadratic"];
+    let [any, quadratic] = classes.map(|flags| line_of(flags, "blanes-moan-srkn6b"));
+    assert_eq!((any[2].as_str(), quadratic[2].as_str()), ("0.6975", "0.2911"));
+    assert_eq!(line_of("--order 6 --for quadratic", "blanes-moan-srkn11b")[0], "6");
+    assert!(line_of("--order 4", "aba864").ends_with(&["A+εB", "(8,6,4)", "aba864"].map(str::to_owned)));
+}
+
+/// The plan has 3 maps of Störmer–Verlet and 2 kicks: 3 products per dimension, 2 more for β.
+#[test]
+fn the_cost_of_a_step_is_in_the_wide_list_and_in_json() {
+    let wide = line_of("--wide --order 2", "stormer-verlet");
+    assert_eq!(wide[..6], ["2", "2", "2", "1", "3", "2"].map(str::to_owned));
+    let records = listed("--order 2");
+    let verlet = records.iter().find(|record| text(record, "name") == "stormer-verlet").unwrap();
+    assert_eq!((&verlet["products_per_dimension"], &verlet["products_for_beta"]), (&3.into(), &2.into()));
+    assert_eq!(verlet["stability_limit_per_force"], 2.0);
+    for record in &records {
+        let shown = &objects(&quietly(&format!("schemes show {} --json", text(record, "name"))))[0];
+        for key in ["evaluations", "products_per_dimension", "products_for_beta"] {
+            assert_eq!(record[key], shown[key], "{key} of {}", text(record, "name"));
+        }
+    }
+    assert_eq!(shadowstep("schemes --wide --json").code, 2);
 }
 
 #[test]
@@ -194,6 +231,26 @@ fn other_names_and_near_integrable_orders_are_shown() {
     assert!(!quietly("schemes --order 8").contains("A + εB: orders"));
     let listed = objects(&quietly("schemes --order 2 --json"));
     assert!(listed.iter().any(|scheme| scheme["near_integrable"] == serde_json::json!([4, 2])));
+}
+
+/// PEFRL is stable to 2.9894 and again from 3.5054; its phase is too slow at first.
+#[test]
+fn stages_stability_and_phase_are_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("pefrl.svg");
+    let plot = format!("schemes show pefrl --plot {}", path.display());
+    assert!(quietly(&plot).starts_with("pefrl: "));
+    let picture = fs::read_to_string(&path).unwrap();
+    assert_eq!(picture.matches("<svg").count(), 4, "three charts in one");
+    for text in
+        ["q: drifts", "p: kicks", "stable to 2.9894", "again from 3.5054", "2 cos hω", "too slow", "-6.054e-5 (hω)"]
+    {
+        assert!(picture.contains(text), "{text} is missing");
+    }
+    let again = shadowstep(&plot);
+    assert_eq!(again.code, 2, "a file that exists is not replaced");
+    assert!(again.err.contains("--force"), "{}", again.err);
+    quietly(&format!("{plot} --force"));
 }
 
 #[test]

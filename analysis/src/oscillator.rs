@@ -1,0 +1,112 @@
+//! A step of the harmonic oscillator in f64: its trace and its phase at a given hω.
+//!
+//! [`crate::trace`] has the trace as an exact polynomial, [`crate::stability`] decides where the step is stable.
+
+use std::f64::consts::TAU;
+
+use shadowstep_schemes::map::{Map, MapKind};
+use shadowstep_symbolic::Rational;
+
+/// The step that some maps make for H = (p² + ω²q²)/2, with weights in f64.
+#[derive(Clone, Debug)]
+pub struct Oscillator {
+    maps: Vec<(MapKind, f64)>,
+}
+
+impl Oscillator {
+    /// The step of these maps; `nearest` rounds a weight to the nearest f64.
+    pub fn of(maps: &[Map], nearest: impl Fn(&Rational) -> f64) -> Oscillator {
+        Oscillator { maps: maps.iter().map(|map| (map.kind, nearest(&map.weight))).collect() }
+    }
+
+    /// The trace of the step's matrix: 2 cos φ for a step that turns by φ, larger than 2 in size where it is unstable.
+    pub fn trace(&self, h_omega: f64) -> f64 {
+        // where the step takes (q, hp) = (1, 0) and (0, 1)
+        let mut columns = [[1.0, 0.0], [0.0, 1.0]];
+        for (kind, weight) in &self.maps {
+            for [q, p] in &mut columns {
+                match kind {
+                    MapKind::Kick => *p -= weight * h_omega * h_omega * *q,
+                    MapKind::Drift => *q += weight * *p,
+                }
+            }
+        }
+        columns[0][0] + columns[1][1]
+    }
+
+    /// The relative error of the phase (φ − hω)/hω, with the φ of 2 cos φ = tr for which it is nearest to `expected`; `None` where
+    /// the step is unstable. Rounding adds about 1e-16/(hω)² for each map.
+    ///
+    /// For a small step 0 is expected; beyond hω = π the error at a slightly smaller step continues to the right φ.
+    pub fn phase_error(&self, h_omega: f64, expected: f64) -> Option<f64> {
+        let trace = self.trace(h_omega);
+        if trace.abs() > 2.0 {
+            return None;
+        }
+        let near = h_omega * (1.0 + expected);
+        let angle = (trace / 2.0).acos();
+        let turned = |angle: f64| angle + TAU * ((near - angle) / TAU).round();
+        let [one, other] = [turned(angle), turned(-angle)];
+        let phase = if (one - near).abs() <= (other - near).abs() { one } else { other };
+        Some((phase - h_omega) / h_omega)
+    }
+
+    /// How many maps the step has.
+    pub fn maps(&self) -> usize {
+        self.maps.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use num_traits::ToPrimitive;
+    use shadowstep_schemes::shipped_proved;
+
+    use super::*;
+    use crate::Analysis;
+
+    fn oscillator(name: &str) -> Oscillator {
+        Oscillator::of(&shipped_proved(name).unwrap().scheme.maps(), |weight| weight.to_f64().unwrap())
+    }
+
+    #[test]
+    fn the_trace_of_the_leapfrog_is_known() {
+        let verlet = oscillator("stormer-verlet");
+        for h_omega in [0.1_f64, 1.0, 1.9, 2.5] {
+            assert!((verlet.trace(h_omega) - (2.0 - h_omega * h_omega)).abs() < 1e-14);
+            let phase = (h_omega < 2.0).then(|| 2.0 * (h_omega / 2.0).asin() / h_omega - 1.0);
+            match (verlet.phase_error(h_omega, 0.0), phase) {
+                (Some(found), Some(known)) => assert!((found - known).abs() < 1e-13, "{found} {known}"),
+                (found, known) => assert_eq!(found, known),
+            }
+        }
+    }
+
+    /// At small hω the error is its leading term, which the exact polynomial gives.
+    #[test]
+    fn phase_errors_approach_their_leading_terms() {
+        for (name, h_omega) in
+            [("stormer-verlet", 0.01), ("yoshida4", 0.05), ("blanes-moan-srkn6b", 0.2), ("kahan-li8", 0.3)]
+        {
+            let leading = Analysis::of(shipped_proved(name).unwrap()).phase;
+            let found = oscillator(name).phase_error(h_omega, 0.0).unwrap();
+            let ratio = found / (leading.coefficient * h_omega.powi(leading.power as i32));
+            assert!((ratio - 1.0).abs() < 0.05, "{name}: {ratio}");
+        }
+    }
+
+    /// Its trace nearly touches 2 at hω = 2π, where the phase continues to be too slow.
+    #[test]
+    fn the_phase_continues_beyond_half_a_turn() {
+        let (srkn11, mut error) = (oscillator("blanes-moan-srkn11b"), 0.0);
+        for n in 1..=900 {
+            let h_omega = f64::from(n) / 100.0;
+            if let Some(found) = srkn11.phase_error(h_omega, error) {
+                assert!(n < 30 || found < 0.0, "{found} at {h_omega}");
+                error = found;
+            }
+        }
+        // the trace returns to 2 at hω = 9.0736, a little beyond, where φ is 2π again
+        assert!((error - (TAU / 9.0 - 1.0)).abs() < 0.04, "{error}");
+    }
+}

@@ -1,0 +1,71 @@
+//! What the list knows about a scheme.
+
+use serde::Serialize;
+use shadowstep::tables::TableScheme;
+use shadowstep_analysis::Analysis;
+use shadowstep_schemes::Kinetic;
+
+use crate::schemes::facts::{aliases, digits, kinetic, near_integrable};
+
+#[derive(Serialize)]
+pub(super) struct Record {
+    pub(super) name: String,
+    pub(super) shipped: bool,
+    aliases: Vec<String>,
+    pub(super) order: u32,
+    pub(super) order_quadratic: u32,
+    pub(super) near_integrable: Vec<u32>,
+    /// Rows of the table of weights, those with a 0 included.
+    pub(super) stages: usize,
+    pub(super) evaluations: usize,
+    /// Products beside the forces, and as many additions.
+    pub(super) products_per_dimension: usize,
+    /// Products that a step carrying β adds, and as many additions.
+    pub(super) products_for_beta: usize,
+    pub(super) effective_error: f64,
+    pub(super) effective_error_quadratic: f64,
+    pub(super) stability_limit: Option<String>,
+    pub(super) stability_limit_per_force: Option<f64>,
+    pub(super) symmetric: bool,
+    kinetic: &'static str,
+    /// Whether the order claimed holds for every T(p).
+    #[serde(skip)]
+    pub(super) moves_any: bool,
+    pub(super) digits: Option<u32>,
+    title: Option<String>,
+}
+
+impl Record {
+    pub(super) fn of(name: &str, scheme: &TableScheme, shipped: bool) -> Record {
+        let proved = scheme.proved();
+        let (analysis, cost) = (Analysis::of(proved), scheme.plan().cost());
+        let mut record = Record {
+            name: name.to_owned(),
+            shipped,
+            aliases: aliases(&proved.scheme.table),
+            order: proved.proof.general.order,
+            order_quadratic: proved.proof.quadratic.order,
+            near_integrable: near_integrable(&proved.proof),
+            stages: proved.scheme.kick.len(),
+            evaluations: analysis.evaluations,
+            products_per_dimension: cost.products_per_dimension,
+            products_for_beta: cost.products_for_beta,
+            effective_error: analysis.effective_error(Kinetic::Any),
+            effective_error_quadratic: analysis.effective_error(Kinetic::Quadratic),
+            stability_limit: analysis.stability.map(|stability| stability.limit),
+            stability_limit_per_force: None,
+            symmetric: proved.proof.symmetric,
+            kinetic: kinetic(proved.scheme.table.kinetic),
+            moves_any: proved.holds_for_every_kinetic(),
+            digits: digits(proved.scheme.held),
+            title: proved.scheme.table.title.clone(),
+        };
+        record.stability_limit_per_force = record.limit().map(|limit| limit / record.evaluations as f64);
+        record
+    }
+
+    /// The stability limit as a number.
+    pub(super) fn limit(&self) -> Option<f64> {
+        self.stability_limit.as_ref()?.parse().ok()
+    }
+}
