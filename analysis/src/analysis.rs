@@ -61,7 +61,7 @@ impl Analysis {
             evaluations,
             general: LeadingError::of(&maps, proof, Kinetic::Any),
             quadratic: LeadingError::of(&maps, proof, Kinetic::Quadratic),
-            stability: Stability::of(&maps, evaluations),
+            stability: Stability::of_scheme(proved),
             phase: PhaseError::of(&maps, proved.scheme.held, proof.quadratic.order),
             kicks: Sizes::of(&maps, MapKind::Kick),
             drifts: Sizes::of(&maps, MapKind::Drift),

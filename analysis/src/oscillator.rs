@@ -106,7 +106,7 @@ mod tests {
                 error = found;
             }
         }
-        // the trace returns to 2 at hω = 9.0736, a little beyond, where φ is 2π again
-        assert!((error - (TAU / 9.0 - 1.0)).abs() < 0.04, "{error}");
+        // between the minimum of the trace and 2, to which it returns at hω = 9.0736: φ is a little more than 2π
+        assert!(error > TAU / 9.0 - 1.0 && error < 1.25 * TAU / 9.0 - 1.0, "{error}");
     }
 }

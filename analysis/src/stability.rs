@@ -17,6 +17,7 @@ use crate::squarefree::is_surely_squarefree;
 use crate::trace::{Trace, residues, scaled};
 use shadowstep_schemes::arithmetic::{Fixed, FixedPoint};
 use shadowstep_schemes::map::Map;
+use shadowstep_schemes::scheme::Held;
 
 /// The most maps of a step, or of the part that it repeats, for which the polynomial is solved: the time grows with the
 /// third power of the number.
@@ -24,6 +25,9 @@ pub const MOST_MAPS: usize = 400;
 
 /// Digits of limits and ends of gaps.
 const DIGITS: usize = 30;
+
+/// Digits of the weights by which a gap may be wider than their rounding.
+const DIGITS_LOST: i32 = 4;
 
 /// Bits of the first attempt. A third of them is the depth to which the roots in x are bisected at least: 2^−170 of the
 /// range is beyond 40 digits.
@@ -51,9 +55,17 @@ pub struct Gap {
 }
 
 impl Stability {
-    /// The stability of a proved scheme; `None` for a step of more than [`MOST_MAPS`].
+    /// The stability of a proved scheme; gaps that the rounding of its weights explains are left out. `None` for a step of more than [`MOST_MAPS`].
     pub fn of_scheme(proved: &Proved) -> Option<Stability> {
-        Stability::of(&proved.scheme.maps(), proved.plan.evaluations)
+        Some(Stability::of(&proved.scheme.maps(), proved.plan.evaluations)?.resolved(proved.scheme.held))
+    }
+
+    /// Without the gaps that rounding of the weights may have opened where the trace only touches ±2.
+    fn resolved(self, held: Held) -> Stability {
+        let Held::Digits(digits) = held else { return self };
+        let rounding = 10_f64.powi(DIGITS_LOST - digits as i32);
+        let gaps: Vec<_> = self.gaps.into_iter().filter(|gap| gap.width > rounding).collect();
+        Stability { limit: gaps.first().map_or(self.limit, |gap| gap.from.clone()), gaps }
     }
 
     /// The stability of the step that these maps make with this number of force evaluations.

@@ -31,6 +31,10 @@ Everything on this page is computed from the tables: the orders are proved, none
   They pay only if the drift solves A exactly and εB is small, as where drifts are Kepler motions and kicks the attractions of
   planets: a `System` of your own. With H = T + U nothing is small, and such a scheme gains nothing over its order for T + U.
   The drifts move by A. Blank where the table claims none.
+- *sampling*: `bcss2`, `bcss3`, `bcss4` and `predescu3` have order 2 and a small error of the energy in the mean over states in
+  equilibrium, as Hamiltonian Monte Carlo needs.
+- *first*: each scheme is listed in the roles of its publication. `first = \"drift\"` or `\"kick\"` exchanges the roles of kick and drift,
+  so that every table for every T(p) has its twin, as velocity and position Verlet are; it is proved anew.
 - *forces*: evaluations of U_q a step, the first kick taking over what the last one of the step before evaluated.
 - *effective error*: forces · ‖E‖^{1/order}, where h^{order+1} E is the leading error of the step's logarithm in
   right-nested brackets of kick and drift and ‖E‖ the Euclidean norm. At equal cost the smaller one is more accurate, if

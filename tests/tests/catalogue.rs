@@ -15,6 +15,9 @@ abah1064                  4  4   9  yes  drift  10,6,4
 abah844                   4  4   6  yes  drift  8,4
 abah864                   4  4   8  yes  drift  8,6,4
 bce-rkn8-17               4  8  17  yes  drift  -
+bcss2                     2  2   2  yes  kick   -
+bcss3                     2  2   3  yes  kick   -
+bcss4                     2  2   4  yes  kick   -
 blanes-moan-s10           6  6  10  yes  kick   -
 blanes-moan-s6            4  4   6  yes  kick   -
 blanes-moan-srkn11b       4  6  11  yes  kick   -
@@ -44,6 +47,7 @@ okunbor-skeel6-13         4  6   7  yes  drift  -
 omelyan-4mn5fp            4  4   5  yes  drift  -
 omelyan-4mn5fv            4  4   5  yes  kick   -
 pefrl                     4  4   4  yes  drift  -
+predescu3                 2  2   3  yes  kick   -
 ruth3                     3  3   3  no   kick   -
 saba2                     2  2   2  yes  drift  4,2
 saba3                     2  2   3  yes  drift  6,2

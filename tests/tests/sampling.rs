@@ -1,0 +1,100 @@
+//! Protects the schemes for sampling: the properties for which their authors chose the free weights.
+
+use shadowstep_analysis::Analysis;
+use shadowstep_schemes::map::MapKind;
+use shadowstep_schemes::{First, Proved, Source, read, read_first, shipped, shipped_proved, to_significant};
+use shadowstep_tests::rational;
+
+/// The largest ρ(hω) for 0 < hω < forces, sampled. Of an oscillator in equilibrium the expected error of the energy, for any number of
+/// steps, is at most ρ, times the temperature: (B + C)²/(2(1 − A²)) for the matrix (A B; C A) of a step (Blanes, Casas, Sanz-Serna 2014).
+fn largest_rho(proved: &Proved) -> f64 {
+    const POINTS: u32 = 20_000;
+    let weight = |weight: &_| to_significant(weight, 18).parse::<f64>().unwrap();
+    let maps: Vec<_> = proved.scheme.maps().iter().map(|map| (map.kind, weight(&map.weight))).collect();
+    let rho = |h_omega: f64| {
+        let mut columns = [[1.0, 0.0], [0.0, 1.0]];
+        for (kind, weight) in &maps {
+            for [q, p] in &mut columns {
+                match kind {
+                    MapKind::Kick => *p -= weight * h_omega * *q,
+                    MapKind::Drift => *q += weight * h_omega * *p,
+                }
+            }
+        }
+        let [[a, c], [b, d]] = columns;
+        let a = f64::midpoint(a, d);
+        (b + c).powi(2) / (2.0 * (1.0 - a * a))
+    };
+    let end = proved.plan.evaluations as f64;
+    let values = (1..POINTS).map(|n| rho(end * f64::from(n) / f64::from(POINTS)));
+    // where the trace touches −2, both parts of the fraction vanish
+    values.filter(|value| value.is_finite()).fold(0.0, f64::max)
+}
+
+/// A shipped table with another text in the place of a weight.
+fn changed(name: &str, from: &str, to: &str) -> Proved {
+    let source = shipped(name).unwrap();
+    let text = source.text.replace(&format!("\"{from}\""), &format!("\"{to}\""));
+    assert_ne!(text, source.text);
+    read(&Source { path: "changed.toml".to_owned(), text }, &|base, _| shipped(base))
+        .unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+#[test]
+fn two_and_three_stages_have_the_least_largest_error() {
+    for (name, printed, around) in
+        [("bcss2", "0.211781", ["0.2112", "0.2123"]), ("bcss3", "0.11888010966548", ["0.1187", "0.1190"])]
+    {
+        let least = largest_rho(shipped_proved(name).unwrap());
+        for other in around {
+            let other = largest_rho(&changed(name, printed, other));
+            assert!(least < other, "{name}: {least:e}, {other:e} with a weight changed");
+        }
+    }
+    // the rule of Gauss, which others take for it
+    let gauss = read_first(&shipped("saba2").unwrap(), &|base, _| shipped(base), Some(First::Kick)).unwrap();
+    let [chosen, gauss] = [shipped_proved("bcss2").unwrap(), &gauss].map(largest_rho);
+    assert!(chosen < 0.8 * gauss, "{chosen:e} {gauss:e}");
+}
+
+#[test]
+fn more_stages_have_smaller_errors_at_equal_cost() {
+    let errors = ["bcss2", "bcss3", "bcss4"].map(|name| largest_rho(shipped_proved(name).unwrap()));
+    assert!(errors.is_sorted_by(|a, b| *b < 0.3 * a), "{errors:?}");
+}
+
+/// The decimals of the paper are the closed forms, rounded.
+#[test]
+fn printed_decimals_are_what_the_formulas_give() {
+    for (name, is_kick, at, printed) in [
+        ("bcss3", false, 0, "0.29619504261126"),
+        ("predescu3", false, 0, "0.290485609075128726"),
+        ("bcss4", true, 0, "0.071353913450279725904"),
+        ("bcss4", true, 1, "0.26854879116123010582"),
+    ] {
+        let scheme = &shipped_proved(name).unwrap().scheme;
+        let weight = if is_kick { &scheme.kick[at] } else { &scheme.drift[at] };
+        let off = weight - &rational(printed);
+        let off: f64 = to_significant(&off, 3).parse().unwrap();
+        let unit = 10_f64.powi(-(printed.len() as i32 - 2));
+        assert!(off.abs() <= unit, "{name}: {printed} is off by {off:e}");
+    }
+}
+
+/// The trace of bcss4 touches −2 at hω = 3.043 and stays within [−2, 2].
+#[test]
+fn a_double_root_is_no_end_of_stability() {
+    for (name, limit) in [("bcss4", 5.353_717_672_2), ("bcss3", 4.661_846_078_2), ("predescu3", 4.583_767_923_8)] {
+        let stability = Analysis::of(shipped_proved(name).unwrap()).stability.unwrap();
+        let found: f64 = stability.limit.parse().unwrap();
+        assert!((found - limit).abs() < 1e-9, "{name}: {found}");
+    }
+}
+
+/// Then the error of the energy of an oscillator in equilibrium is of order 4.
+#[test]
+fn both_leading_errors_of_predescu_are_equal() {
+    let error = Analysis::of(shipped_proved("predescu3").unwrap()).quadratic;
+    let [(_, first), (_, second)] = &error.terms[..] else { panic!("{:?}", error.terms) };
+    assert!((first / second - 1.0).abs() < 1e-13, "{first} {second}");
+}
