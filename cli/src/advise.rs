@@ -20,7 +20,7 @@ use crate::quantity;
 use crate::report::Status;
 use crate::run_arguments::SystemArguments;
 use crate::tasks::Terminal;
-use crate::work_precision::schemes;
+use crate::work_precision::{schemes, seconds};
 
 const EXAMPLE: &str = "\
 Examples:
@@ -52,6 +52,9 @@ pub(crate) struct Arguments {
     /// The schemes to choose from, as in work-precision [default: a dozen]
     #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
     schemes: Vec<String>,
+    /// The time for the runs of a scheme, in seconds
+    #[arg(long, value_name = "SECONDS", default_value = "4", value_parser = seconds)]
+    seconds: f64,
     /// Keeps the results in a folder, for another tolerance
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -93,7 +96,15 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         What::Time => Cost::Seconds,
     };
     let mut terminal = Terminal::listen();
-    let question = Question { problem: posed.problem(), schemes: &schemes, of, tolerance, cost, folder };
+    let question = Question {
+        problem: posed.problem(),
+        schemes: &schemes,
+        of,
+        tolerance,
+        cost,
+        seconds: arguments.seconds,
+        folder,
+    };
     let advice = question.answer(&mut terminal)?;
     let mut output = Output::stdout();
     write!(output, "{}", readable(&posed, &question, &advice, on_stdout()))?;
@@ -122,14 +133,21 @@ fn readable(posed: &Posed, question: &Question<'_>, advice: &Advice<'_>, coloure
     let mut text = wrapped_to(&posed.title(), "", WIDTH);
     text += &wrapped_to(&format!("tolerance {}: {}", question.tolerance, question.of.name()), "", WIDTH);
     match advice {
-        Advice::OutOfReach { least, part } => {
+        Advice::OutOfReach { least, part, reference, in_time } => {
             let runs = over(*part);
             let found = match least {
                 Some((error, name)) => format!("the smallest error was {error}, of {name}, {runs}"),
+                None if question.of == Of::Position => format!(
+                    "positions are not known {runs}: those of the reference change by {reference} with its step, as they do where the motion \
+                     is chaotic; ask for --of energy, or for a shorter time"
+                ),
                 None => format!("no error is known {runs}"),
             };
-            let digits = posed.arithmetic.described();
-            text += &wrapped_to(&format!("No scheme meets the tolerance in {digits}: {found}."), "", WIDTH);
+            let limit = match in_time {
+                true => format!("in {}", posed.arithmetic.described()),
+                false => format!("in runs of {} s a scheme, which --seconds sets", question.seconds),
+            };
+            text += &wrapped_to(&format!("No scheme meets the tolerance {limit}: {found}."), "", WIDTH);
         }
         Advice::Found { choices, verified, part } => {
             let best = &choices[0];
@@ -161,18 +179,7 @@ fn evidence(best: &Choice<'_>, verified: Size, part: f64) -> String {
         let part = best.size() / stable;
         lines.push(("stability", format!("{part:.2} of the stability limit of the fastest oscillation at the start")));
     }
-    lines.push((
-        "modified energy",
-        match best.conserved_up_to {
-            Some(largest) => {
-                format!(
-                    "conserved up to steps of {largest:.2e}, {:.1} times this one, as far as runs were made",
-                    largest / best.size()
-                )
-            }
-            None => "not conserved at any step that was run, or not decided".to_owned(),
-        },
-    ));
+    lines.push(("modified energy", conserved(best)));
     let line = |(name, text): (&str, String)| {
         format!("  {name:<18}{}", wrapped_to(&text, &" ".repeat(20), WIDTH).trim_start())
     };
@@ -185,4 +192,16 @@ fn over(part: f64) -> String {
         1.0 => "over all of the time".to_owned(),
         part => format!("over 1/{} of the time", (1.0 / part).round()),
     }
+}
+
+/// Up to which step the modified energy is conserved, and from which on it is lost, as far as runs were made.
+fn conserved(best: &Choice<'_>) -> String {
+    let size = |h: f64| format!("{h:.2e}, {:.1} times this one", h / best.size());
+    let conserved = best.conserved_up_to.map_or("not conserved at any step that was run".to_owned(), |largest| {
+        format!("the verdict is fine up to steps of {}", size(largest))
+    });
+    let lost = best.lost_from.map_or("no step was run at which it is lost".to_owned(), |least| {
+        format!("it is lost at steps of {}", size(least))
+    });
+    format!("{conserved}; {lost}")
 }

@@ -96,7 +96,7 @@ fn command() -> String {
     format!("shadowstep {}", words.collect::<Vec<_>>().join(" "))
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if (1e-3..=1e6).contains(&seconds) => Ok(seconds),
         _ => Err("write a number of seconds from 0.001 to 1000000".to_owned()),

@@ -64,8 +64,15 @@ fn main() {
         for exponent in TOLERANCES {
             let tolerance = Size::power_of_ten(f64::from(exponent));
             let folder = folder.path().join(format!("{exponent}"));
-            let question =
-                Question { problem, schemes: &schemes, of: Of::Position, tolerance, cost: Cost::Evaluations, folder };
+            let question = Question {
+                problem,
+                schemes: &schemes,
+                of: Of::Position,
+                tolerance,
+                cost: Cost::Evaluations,
+                seconds: 4.0,
+                folder,
+            };
             let best = sweep.cheapest(Of::Position, Cost::Evaluations, tolerance).into_iter().next();
             all += 1;
             match (question.answer(&mut ()).unwrap(), best) {

@@ -14,7 +14,7 @@ use shadowstep_tasks::{Observer, Store};
 use crate::best::cost_of;
 use crate::calculation::{Calculation, Outcome};
 use crate::convenient::convenient_step;
-use crate::ladder::{Rungs, Target, stable_step};
+use crate::ladder::{End, Rungs, Target, stable_step};
 use crate::of::Of;
 use crate::problem::{MOST_SAMPLES, Problem};
 use crate::run::Measurement;
@@ -34,6 +34,8 @@ pub struct Question<'a> {
     pub tolerance: Size,
     /// What is to be small.
     pub cost: Cost,
+    /// The time for the runs of a scheme, in seconds.
+    pub seconds: f64,
     /// Outcomes are saved in this folder.
     pub folder: PathBuf,
 }
@@ -55,6 +57,8 @@ pub struct Choice<'a> {
     pub stable_step: Option<f64>,
     /// The largest step of the scheme up to which the monitor's verdict was fine; `None` if it was at no step.
     pub conserved_up_to: Option<f64>,
+    /// The smallest step whose verdict was another one than fine or undecided.
+    pub lost_from: Option<f64>,
 }
 
 impl Choice<'_> {
@@ -92,11 +96,19 @@ pub enum Advice<'a> {
         least: Option<(Size, &'a str)>,
         /// The part of the time over which runs were made.
         part: f64,
+        /// The error of the reference.
+        reference: Size,
+        /// Whether the time was over before round-off was reached.
+        in_time: bool,
     },
 }
 
-/// Runs over the part of the time take about so many seconds each.
-const SECONDS: f64 = 0.5;
+/// A run over the part of the time takes about this part of the time of a scheme.
+const PART_OF_TIME: f64 = 0.125;
+/// The reference may take so many times the time of a scheme.
+const REFERENCE: f64 = 5.0;
+/// Where the time was over, errors are extrapolated by the proved order to so many times the steps at most.
+const MOST_EXTRAPOLATED: f64 = 100.0;
 /// A run with a small error has about so many evaluations in a turn of the fastest oscillation.
 const EVALUATIONS_PER_TURN: f64 = 400.0;
 /// The predicted error is to be this part of the tolerance, log₁₀: predictions are that accurate.
@@ -131,7 +143,12 @@ impl<'a> Question<'a> {
         }
         let runs = study.schemes.iter().flat_map(|studied| studied.ladder.runs.iter().map(move |run| (studied, run)));
         let errors = runs.filter_map(|(studied, run)| Some((self.of.error(run)?, self.named(studied).name.as_str())));
-        Ok(Advice::OutOfReach { least: errors.min_by(|a, b| a.0.log10().total_cmp(&b.0.log10())), part })
+        Ok(Advice::OutOfReach {
+            least: errors.min_by(|a, b| a.0.log10().total_cmp(&b.0.log10())),
+            part,
+            reference: study.reference.error(),
+            in_time: study.schemes.iter().all(|studied| studied.ladder.end != End::Time),
+        })
     }
 
     /// How often the time is halved, so that runs over the part take about a second.
@@ -142,7 +159,7 @@ impl<'a> Question<'a> {
         let first = &self.schemes[0];
         let time = time_of_steps(self.problem, &[(first, steps)])?[0].median;
         let seconds = time * evaluations / first.scheme.summary().evaluations as f64;
-        Ok((seconds / SECONDS).log2().ceil().clamp(0.0, 40.0) as i32)
+        Ok((seconds / (PART_OF_TIME * self.seconds)).log2().ceil().clamp(0.0, 40.0) as i32)
     }
 
     /// Runs until the error over the part is small enough for the whole.
@@ -155,8 +172,8 @@ impl<'a> Question<'a> {
             Of::Permanent => growth,
         };
         let error = self.tolerance.times_power_of_ten(MARGIN - growth);
-        let rungs = Rungs::Automatic { seconds: 8.0 * SECONDS, target: Some(Target { of: self.of, error }) };
-        let reference_time = Duration::from_secs_f64(40.0 * SECONDS);
+        let rungs = Rungs::Automatic { seconds: self.seconds, target: Some(Target { of: self.of, error }) };
+        let reference_time = Duration::from_secs_f64(REFERENCE * self.seconds);
         Request { problem, schemes: self.schemes, rungs, reference_time, folder: self.folder.clone() }
     }
 
@@ -168,8 +185,11 @@ impl<'a> Question<'a> {
         };
         let curve: Vec<(f64, f64)> = studied.ladder.runs.iter().filter_map(whole).collect();
         let error = self.tolerance.times_power_of_ten(MARGIN);
-        let largest = study.problem.duration() / cost_of(&curve, error)?;
+        let steps = cost_of(&curve, error).or_else(|| self.extrapolated(studied, &curve, error))?;
+        let largest = study.problem.duration() / steps;
+        let size = |run: &Measurement| study.problem.duration() / run.steps as f64;
         let fine = studied.ladder.runs.iter().rev().take_while(|run| run.fine).last();
+        let lost = studied.ladder.runs.iter().rev().find(|run| !run.fine && !run.undecided);
         let choice = Choice {
             scheme: self.named(studied),
             step: Rational::from_integer(0.into()),
@@ -177,9 +197,17 @@ impl<'a> Question<'a> {
             error,
             seconds_per_step: studied.time.median,
             stable_step: stable_step(self.problem, studied.scheme),
-            conserved_up_to: fine.map(|run| study.problem.duration() / run.steps as f64),
+            conserved_up_to: fine.map(size),
+            lost_from: lost.map(size),
         };
         Some(self.with_step(&choice, largest))
+    }
+
+    /// The number of steps for an error that no run had the time for, by Richardson's rule with the proved order.
+    fn extrapolated(&self, studied: &Studied<'_>, curve: &[(f64, f64)], error: Size) -> Option<f64> {
+        let (steps, last) = curve.last().filter(|_| studied.ladder.end == End::Time)?;
+        let more = 10_f64.powf((last - error.log10()) / self.order(studied.scheme));
+        (1.0..=MOST_EXTRAPOLATED).contains(&more).then_some(steps * more)
     }
 
     /// The same scheme with a convenient step of at most h, at which its error is known.

@@ -1,7 +1,7 @@
 //! One run: the errors of its positions and of H, and its modified energy.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::shadow::{Bilinear, ShadowEnergy};
+use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::{Number, Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::start::Work;
 
@@ -38,6 +38,8 @@ pub struct Measurement {
     pub verdict: String,
     /// Whether that is fine, or round-off.
     pub fine: bool,
+    /// Whether it is undecided.
+    pub undecided: bool,
     /// The time at which a state was not finite, as a part of the run: the errors are those until then.
     pub failed: Option<f64>,
 }
@@ -131,6 +133,7 @@ impl<N: Number> Work<N> for Measuring<'_> {
             modified,
             verdict: report.verdict.to_string(),
             fine: report.verdict.is_fine(),
+            undecided: matches!(report.verdict, Verdict::Undecided(_)),
             failed: None,
         }
     }
@@ -208,6 +211,7 @@ impl Measurement {
             modified: None,
             verdict: "a state is not finite".to_owned(),
             fine: false,
+            undecided: false,
             failed: Some(part),
         }
     }
