@@ -135,19 +135,21 @@ fn readable(posed: &Posed, question: &Question<'_>, advice: &Advice<'_>, coloure
     match advice {
         Advice::OutOfReach { least, part, reference, in_time } => {
             let runs = over(*part);
-            let found = match least {
-                Some((error, name)) => format!("the smallest error was {error}, of {name}, {runs}"),
-                None if question.of == Of::Position => format!(
-                    "positions are not known {runs}: those of the reference change by {reference} with its step, as they do where the motion \
-                     is chaotic; ask for --of energy, or for a shorter time"
-                ),
-                None => format!("no error is known {runs}"),
-            };
             let limit = match in_time {
                 true => format!("in {}", posed.arithmetic.described()),
                 false => format!("in runs of {} s a scheme, which --seconds sets", question.seconds),
             };
-            text += &wrapped_to(&format!("No scheme meets the tolerance {limit}: {found}."), "", WIDTH);
+            let found = match least {
+                Some((error, name)) => {
+                    format!("No scheme meets the tolerance {limit}: the smallest error was {error}, of {name}, {runs}.")
+                }
+                None if question.of == Of::Position => format!(
+                    "No advice: the positions of the reference change by {reference} with its step {runs}, as they do where the motion is \
+                     chaotic. Ask for --of energy, or for a shorter time."
+                ),
+                None => format!("No advice: no error is known {runs}."),
+            };
+            text += &wrapped_to(&found, "", WIDTH);
         }
         Advice::Found { choices, verified, part } => {
             let best = &choices[0];

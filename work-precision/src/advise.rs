@@ -173,7 +173,9 @@ impl<'a> Question<'a> {
         };
         let error = self.tolerance.times_power_of_ten(MARGIN - growth);
         let rungs = Rungs::Automatic { seconds: self.seconds, target: Some(Target { of: self.of, error }) };
-        let reference_time = Duration::from_secs_f64(REFERENCE * self.seconds);
+        // energies need no positions of a reference
+        let reference = if self.of == Of::Position { REFERENCE } else { REFERENCE / 50.0 };
+        let reference_time = Duration::from_secs_f64(reference * self.seconds);
         Request { problem, schemes: self.schemes, rungs, reference_time, folder: self.folder.clone() }
     }
 
