@@ -56,7 +56,10 @@ pub fn write(study: &Study<'_>, title: Title<'_>, folder: &Path) -> Result<PathB
         stated: Vec::new(),
         pictures,
         findings: Vec::new(),
-        found: vec![format!("H = {}.", title.hamiltonian), reference, TIMES.to_owned()],
+        found: [format!("H = {}.", title.hamiltonian), reference, TIMES.to_owned()]
+            .into_iter()
+            .chain(study.remark_on_times())
+            .collect(),
         statements: Vec::new(),
         tables: study.tables(),
         files,

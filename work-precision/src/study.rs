@@ -23,6 +23,9 @@ use crate::timing::StepTime;
 /// The coarsest run has so many steps between samples, so that rounding to samples changes the number of steps little.
 const STEPS_PER_SAMPLE: u64 = 8;
 
+/// Medians of times are so many times the shortest repeat at most, on a machine without other load.
+const LARGEST_SPREAD: f64 = 1.3;
+
 /// What is compared, and where the outcomes are saved.
 pub struct Request<'a> {
     /// The system, the interval of time and the number type.
@@ -144,6 +147,14 @@ impl Study<'_> {
         let mut all: Vec<(&Studied<'_>, f64)> = self.schemes.iter().filter_map(cost_of).collect();
         all.sort_by(|a, b| a.1.total_cmp(&b.1));
         all
+    }
+
+    /// A remark where the times of steps vary by so much that they say little of the schemes.
+    pub fn remark_on_times(&self) -> Option<String> {
+        let spread = self.schemes.iter().map(|studied| studied.time.median / studied.time.least).fold(1.0, f64::max);
+        (spread > LARGEST_SPREAD).then(|| {
+            format!("Medians of times are up to {spread:.1} times the shortest repeat: the machine has other load, and times mean little.")
+        })
     }
 
     /// The decades of an error that some scheme reaches, from the largest one.

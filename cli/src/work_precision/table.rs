@@ -31,7 +31,8 @@ pub(super) fn readable(posed: &Posed, study: &Study<'_>, coloured: bool) -> Stri
     let rows = study.schemes.iter().map(|studied| orders(study, studied));
     text +=
         &table(["scheme", "forces", "µs", "order", "measured", "from h", "to", "of H"], rows.collect::<Vec<_>>(), 1..8);
-    text + "\n"
+    let remark = study.remark_on_times().map_or(String::new(), |remark| wrapped_to(&remark, "", WIDTH));
+    text + "\n" + &remark
 }
 
 /// The best schemes for an error.
