@@ -39,10 +39,13 @@ class Results:
         return min(candidates)
 
     def steps_per_second(self, rival, scheme):
-        """Of the longest sweep with so many steps; none if the rival does not have the scheme."""
-        names = [method.name for method in rival.methods if method.scheme == scheme]
-        rows = [row for row in self.rows if row["rival"] == rival.name and row["method"] in names]
-        return float(rows[-1]["parameter"]) / float(rows[-1]["seconds"]) if rows else None
+        """Of the longest runs of the rival's methods that are the scheme, the fastest; none if it does not have the scheme."""
+        speeds = []
+        for method in rival.methods:
+            rows = [row for row in self.rows if row["rival"] == rival.name and row["method"] == method.name]
+            if method.scheme == scheme and rows:
+                speeds.append(float(rows[-1]["parameter"]) / float(rows[-1]["seconds"]))
+        return max(speeds, default=None)
 
 
 def confirmed(curve):

@@ -33,8 +33,6 @@ class Rival:
     command: list
     methods: list[Method]
     systems: tuple[str, ...]
-    # The most force evaluations of a sweep in parts of the problem's: less where each is slow.
-    share: float = 1.0
     # Whether its time is for one trajectory of many at once.
     many: bool = False
     tolerances: list[float] = field(default_factory=list)
@@ -45,7 +43,7 @@ class Rival:
             return [f"{tolerance:.2g}" for tolerance in self.tolerances]
         fewest, most, factor = problem.evaluations
         parameters, evaluations = [], fewest
-        while evaluations <= most * self.share * 1.001:
+        while evaluations <= most * 1.001:
             samples = round(evaluations / method.forces / problem.samples)
             if samples > 0:
                 parameters.append(str(problem.samples * samples))
@@ -55,6 +53,7 @@ class Rival:
 
 SMALL = ("kepler", "henon-heiles", "outer-solar-system", "fput-alpha")
 ALL = (*SMALL, "argon")
+DIGITS = ("kepler-120",)
 GRAVITY = ("kepler", "outer-solar-system")
 PLANETS = ("outer-solar-system",)
 
@@ -81,7 +80,7 @@ RIVALS = [
         "the schemes of order 6 to 10 need few evaluations, and their steps are unrolled into the potential",
         [BUILD / "cargo" / "release" / "ours"],
         SCHEMES,
-        ALL,
+        (*ALL, *DIGITS),
     ),
     Rival(
         "C by hand",
@@ -111,7 +110,6 @@ RIVALS = [
             Method("saba-H_10_6_4", 9, systems=PLANETS),
         ],
         GRAVITY,
-        share=0.5,
         tolerances=[1e-1, 1e-2, 1e-3, 1e-5, 1e-7, 1e-9, 1e-11],
     ),
     Rival(
@@ -135,6 +133,51 @@ RIVALS = [
         tolerances=decades(4, 16),
     ),
     Rival(
+        "odeint",
+        "Boost 1.74, g++ -O3 -march=native, `std::array`, the forces of the C program",
+        "it is compiled as the C program is",
+        [BUILD / "odeint_rival"],
+        [
+            Method("velocity_verlet", 1, "stormer-verlet"),
+            Method("symplectic_rkn_sb3a_m4_mclachlan", 4),
+            Method("symplectic_rkn_sb3a_mclachlan", 5, "mclachlan-sb3a5"),
+            Method("runge_kutta_fehlberg78"),
+        ],
+        ALL,
+        tolerances=decades(4, 14),
+    ),
+    Rival(
+        "SUNDIALS",
+        "SPRKStep of ARKODE 7.1.1, from the source in the crate sundials-sys 0.6.2, gcc -O3 -march=native",
+        "its schemes of order 8 and 10 need few evaluations",
+        [BUILD / "sundials_rival"],
+        [
+            Method("LEAPFROG_2_2", 2, "stormer-verlet"),
+            Method("MCLACHLAN_4_4", 4),
+            Method("SUZUKI_UMENO_8_16", 16),
+            Method("SOFRONIOU_10_36", 36, "sofroniou-spaletta10-35"),
+        ],
+        SMALL,
+    ),
+    Rival(
+        "Rust crates",
+        "utsuroi 0.2.0, ode_solvers 0.6.2, differential-equations 0.7.0, LTO, `-C target-cpu=native`, the forces written by hand",
+        "DOP853 of order 8 adapts its steps",
+        [BUILD / "cargo" / "release" / "crates"],
+        [
+            Method("utsuroi/StormerVerlet", 2, "stormer-verlet"),
+            Method("utsuroi/Yoshida4", 6, "yoshida4"),
+            Method("utsuroi/Yoshida8", 30),
+            Method("utsuroi/Dop853"),
+            Method("ode_solvers/Dop853"),
+            Method("differential-equations/velocity_verlet", 1, "stormer-verlet"),
+            Method("differential-equations/ruth_forest", 3, "yoshida4"),
+            Method("differential-equations/dop853"),
+        ],
+        SMALL,
+        tolerances=decades(4, 14),
+    ),
+    Rival(
         "scipy",
         "`solve_ivp`, DOP853, the forces in Python or numpy",
         "its method of order 8 adapts the steps",
@@ -150,6 +193,21 @@ RIVALS = [
         [PYTHON, HERE / "python" / "pyhamsys_rival.py"],
         [Method("Verlet", 1, "stormer-verlet"), Method("RKN6b", 11, "blanes-moan-srkn11b")],
         ALL,
-        share=0.03,
+    ),
+    Rival(
+        "C with MPFR",
+        "Debian's MPFR 4.2.0 and GMP 6.2.1, gcc -O3 -march=native",
+        "neighbouring kicks are merged, and no operation is needless",
+        [BUILD / "mpfr_debian"],
+        [Method("stormer-verlet", 1, "stormer-verlet"), Method("yoshida4", 3, "yoshida4")],
+        DIGITS,
+    ),
+    Rival(
+        "C with our MPFR",
+        "the same program with the MPFR and GMP that Shadowstep is linked with",
+        "neighbouring kicks are merged, and no operation is needless",
+        [BUILD / "mpfr_ours"],
+        [Method("stormer-verlet", 1, "stormer-verlet"), Method("yoshida4", 3, "yoshida4")],
+        DIGITS,
     ),
 ]

@@ -7,8 +7,8 @@ import platform
 import subprocess
 from datetime import date
 
-from contestants import HERE
-from measure import LONG, ROUNDS, ROUNDS_OF_LONG
+from contestants import BUILD, HERE
+from measure import LONG, LONGEST, ROUNDS, ROUNDS_OF_LONG
 
 PACKAGES = ["rebound", "heyoka", "scipy", "numpy", "pyhamsys"]
 
@@ -22,15 +22,26 @@ def processor():
         return next(line.split(":")[1].strip() for line in file if line.startswith("model name"))
 
 
+def debian(package):
+    return first_line("dpkg-query", "--show", "--showformat=${Version}\n", package)
+
+
+def compile_times():
+    """The shortest and the longest time for which heyoka has compiled, from its messages."""
+    lines = (BUILD / "messages.txt").read_text().splitlines()
+    times = [float(line.split()[-2]) for line in lines if line.startswith("compiled ")]
+    return f"{min(times):.2f} to {max(times):.1f} s"
+
+
 def describe(load_before):
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in PACKAGES)
-    load = f"{load_before:.1f} when it began and {os.getloadavg()[0]:.1f} when it ended, itself included"
+    load = f"{load_before:.1f} when it began and {os.getloadavg()[0]:.1f} when it ended, its own 1 included"
     text = (
         f"Measured on {date.today()}: {processor()}, {os.cpu_count()} cores, {first_line('rustc', '--version')}, "
-        f"{first_line('gcc', '--version')}, Python {platform.python_version()}, {versions}. The load of the machine was {load}."
+        f"{first_line('gcc', '--version')}, Boost {debian('libboost-dev')}, MPFR {debian('libmpfr-dev')}, Python {platform.python_version()}, {versions}. The load of the machine was {load}."
     )
     rounds = f"{ROUNDS} rounds ({ROUNDS_OF_LONG} for runs above {LONG} s)"
-    return {"text": text, "rounds": rounds, "samples": "100 (argon: 10)"}
+    return {"machine": text, "rounds": rounds, "longest": LONGEST, "jit": compile_times()}
 
 
 def write(load_before):

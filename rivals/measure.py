@@ -24,8 +24,10 @@ getcontext().prec = 45
 
 # A run that takes longer is repeated in fewer rounds.
 ROUNDS = 7
-LONG = 0.3
+LONG = 0.1
 ROUNDS_OF_LONG = 3
+# A sweep ends with the first run that takes longer, in seconds.
+LONGEST = 1.0
 
 
 class Program:
@@ -70,7 +72,7 @@ class Run:
 
 
 def reference(problem, steps):
-    text = subprocess.check_output([OURS, "reference", problem.system, repr(problem.until), str(steps)], text=True)
+    text = subprocess.check_output([OURS, "reference", problem.initial, repr(problem.until), str(steps)], text=True)
     return [Decimal(word) for word in text.split()]
 
 
@@ -87,35 +89,44 @@ def references(problem):
 
 
 def measure_errors(run, problem, initial, exact):
-    _, states = run.program.run(problem.system, run.method.name, run.parameter, problem.samples, problem.until)
+    """Measures the errors of a run; the seconds that it took."""
+    seconds, states = run.program.run(problem.system, run.method.name, run.parameter, problem.samples, problem.until)
     half = len(initial.q)
     if not np.isfinite(states).all():
-        return
+        return seconds
     if exact is not None:
         run.position_error = distance(map(float, states[-1, :half]), exact)
     if problem.energy:
         start = energy(problem.system, initial.q, initial.p, initial)
         run.energy_error = max(abs(energy(problem.system, s[:half], s[half:], initial) - start) for s in states) / abs(start)
+    return seconds
 
 
-def runs_of(problem, programs):
+def sweeps_of(problem, programs):
+    """The runs of each method, from coarse to fine."""
     for rival in RIVALS:
         if problem.system in rival.systems:
             for method in rival.methods:
                 if method.takes_part(problem.system):
-                    for parameter in rival.sweep(problem, method):
-                        yield Run(rival, method, parameter, programs[rival.name])
+                    yield [Run(rival, method, parameter, programs[rival.name]) for parameter in rival.sweep(problem, method)]
+
+
+def runs_with_errors(problem, programs, initial, exact):
+    for sweep in sweeps_of(problem, programs):
+        for run in sweep:
+            seconds = measure_errors(run, problem, initial, exact)
+            yield run
+            if seconds > LONGEST:
+                break
 
 
 def measure(problem):
     """Measures a problem and writes its results."""
     here = [rival for rival in RIVALS if problem.system in rival.systems]
     programs = {rival.name: Program(rival.command) for rival in here}
-    initial = read_initial(problem.system)
+    initial = read_initial(problem.initial)
     exact, uncertainty = references(problem)
-    runs = list(runs_of(problem, programs))
-    for run in runs:
-        measure_errors(run, problem, initial, exact)
+    runs = list(runs_with_errors(problem, programs, initial, exact))
     order = random.Random(1)
     for _ in range(ROUNDS):
         order.shuffle(runs)

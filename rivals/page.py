@@ -1,11 +1,12 @@
 """Writes docs/speed-against-error.md from the results. Every number and every verdict on it is computed here."""
 
 import json
-
-from compare import OURS, all_results, listed, verdicts
-from contestants import HERE, RIVALS
 from math import inf
+
+from compare import all_results, listed, verdicts
+from contestants import HERE, RIVALS
 from picture import draw
+from readme import write_readme
 
 PAGE = HERE.parent / "docs" / "speed-against-error.md"
 MACHINE = HERE / "results" / "machine.json"
@@ -15,15 +16,19 @@ INTRODUCTION = """<!-- Written by `make rivals`; do not edit. -->
 
 # Speed against error
 
-The same problems, solved by Shadowstep and by what one would use instead, in one run on one machine. All contestants start from the
-same bits; errors are measured in the same way for all of them. The times are medians of {rounds}; the contestants take turns in an
-order that changes from round to round. A time is that of the bare integration: programs are started and compiled before.
-Where the times of two differ by less than 10 %, neither is called faster.
+The same problems, solved by Shadowstep and by what one would use instead, in one run on one machine, with pinned versions. All
+contestants start from the same bits; their errors are measured by the same code. The contestants take turns in an order that changes
+from round to round. The times are medians of {rounds}, in seconds of the processor, so that other programs on the machine count
+little. They are those of the bare integration: programs are started, imported and compiled before; heyoka compiles for {jit}
+for each problem and tolerance. Where two times differ by less than 10 %, neither is called faster.
 
-The *error of the position* is the distance from the exact position at the end, summed over all coordinates; the *error of H* is
-max |H − H(0)| as a part of |H(0)|, at {samples} equally spaced times. *Time at equal error* is interpolated between the runs of a
-sweep over steps or tolerances; each rival has the best of its methods, which is named. An error counts as reached only if the next
-two finer runs have no larger one.
+- The *error of the position* is the distance of all coordinates at the end from the exact ones.
+- The *error of H* is max |H − H(0)| as a part of |H(0)|, at 100 equally spaced times (argon: 10).
+- *Time at equal error* is interpolated between the runs of a sweep over steps or tolerances. Each rival has the best of its methods,
+  which is named. An error counts as reached only if the next two finer runs have no larger one; "–" means that no run reaches it.
+
+A sweep ends with the first run of more than {longest} s, so that slow contestants do not reach small errors. Every number and verdict is
+computed from the [results](../rivals/results) by the program that writes this page; [`rivals/`](../rivals/README.md) has the programs.
 
 {machine}
 """
@@ -95,16 +100,17 @@ def section(results):
 
 def contestants():
     rows = [[rival.name, rival.how, listed([f"`{method.name}`" for method in rival.methods])] for rival in RIVALS]
-    return "## The contestants\n\n" + table(["", "how", "methods"], rows)
+    return "## The contestants\n\n" + table(["contestant", "how", "methods"], rows)
 
 
 def page(every, machine):
-    introduction = INTRODUCTION.format(rounds=machine["rounds"], samples=machine["samples"], machine=machine["text"])
+    introduction = INTRODUCTION.format(**machine)
     sections = [section(results) for results in every]
     missing = "## Not measured\n\n" + (HERE / "missing.md").read_text()
     return "\n\n".join([introduction.strip(), *sections, contestants(), missing.strip()]) + "\n"
 
 
 if __name__ == "__main__":
+    write_readme()
     PAGE.write_text(page(all_results(), json.loads(MACHINE.read_text())))
     print(f"written: {PAGE}")

@@ -17,5 +17,5 @@ if __name__ == "__main__":
         if len(sys.argv) < 2 or problem.key in sys.argv[1:]:
             print(f"measuring {problem.key}", flush=True)
             measure.measure(problem)
-    machine.write(load)
+            machine.write(load)
     subprocess.run([sys.executable, HERE / "page.py"], check=True)

@@ -23,9 +23,9 @@ def answer(request, initial):
     size[size == 0] = 1
     tolerances = dict(rtol=request.tolerance, atol=request.tolerance * size)
     times = np.linspace(0, request.until, request.samples + 1)[1:]
-    start = time.perf_counter()
+    start = time.process_time()
     found = solve_ivp(right_side, (0, request.until), y, method="DOP853", t_eval=times, **tolerances)
-    seconds = time.perf_counter() - start
+    seconds = time.process_time() - start
     return seconds, [(y[:half], y[half:]) for y in found.y.T]
 
 

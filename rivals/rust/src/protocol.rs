@@ -3,7 +3,9 @@
 
 use std::fmt::Write as _;
 use std::io::BufRead as _;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use cpu_time::ProcessTime;
 
 /// One integration.
 pub struct Request {
@@ -46,9 +48,10 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Does a part of the integration and measures its time.
+    /// Does a part of the integration and measures its time on the processor, so that other programs on the
+    /// machine do not count.
     pub fn time<T>(&mut self, work: impl FnOnce() -> T) -> T {
-        let start = Instant::now();
+        let start = ProcessTime::now();
         let result = work();
         self.time += start.elapsed();
         result

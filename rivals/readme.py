@@ -1,0 +1,42 @@
+"""Writes the first picture and four lines of numbers into the README, between two comments."""
+
+from math import inf
+
+from compare import Results
+from contestants import HERE, RIVALS
+from problems import PROBLEMS
+
+README = HERE.parent / "README.md"
+BEGIN, END = "<!-- rivals: written by `make rivals` -->", "<!-- /rivals -->"
+
+# problem, error, its value, and what the line says of it
+LINES = [
+    ("kepler", "position_error", 1e-6, "Kepler, e = 0.6, 100 periods, position to 1e-6"),
+    ("henon-heiles", "position_error", 1e-6, "Hénon–Heiles to t = 10⁴, position to 1e-6"),
+    ("outer-200000", "position_error", 1e-6, "outer planets, 200 000 days, position to 1e-6"),
+    ("fput", "position_error", 1e-6, "chain of 32 bodies to t = 1000, position to 1e-6"),
+]
+COLUMNS = ["Shadowstep", "C by hand", "REBOUND", "heyoka", "odeint", "SUNDIALS", "scipy"]
+
+
+def cell(results, rival, error, target):
+    if rival not in results.rivals:
+        return ""
+    seconds, _ = results.time_at(rival, error, target)
+    return f"{1000 * seconds:.2g}" if seconds < inf else "–"
+
+
+def block():
+    problems = {problem.key: problem for problem in PROBLEMS}
+    rivals = {rival.name: rival for rival in RIVALS}
+    lines = ["| milliseconds | " + " | ".join(COLUMNS) + " |", "| --- " * (len(COLUMNS) + 1) + "|"]
+    for key, error, target, text in LINES:
+        results = Results(problems[key])
+        lines.append(f"| {text} | " + " | ".join(cell(results, rivals[name], error, target) for name in COLUMNS) + " |")
+    return "\n".join(["![Error against time on Kepler's problem](docs/pictures/rivals-kepler.svg)", "", *lines])
+
+
+def write_readme():
+    before, rest = README.read_text().split(BEGIN)
+    after = rest.split(END)[1]
+    README.write_text(f"{before}{BEGIN}\n{block()}\n{END}{after}")
