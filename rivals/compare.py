@@ -48,6 +48,21 @@ class Results:
         return max(speeds, default=None)
 
 
+def same_schemes(results):
+    """Sentences: how many steps a second Shadowstep makes beside each rival that has some of its schemes."""
+    ours, *others = results.rivals
+    sentences = []
+    for rival in others:
+        ratios = []
+        for method in ours.methods:
+            speed = results.steps_per_second(rival, method.scheme)
+            if speed:
+                ratios.append(results.steps_per_second(ours, method.scheme) / speed)
+        if ratios:
+            sentences.append(f"{rival.name}: {between(ratios)}")
+    return f"{OURS} makes this many times the steps a second of the same scheme as " + "; ".join(sentences) + "."
+
+
 def confirmed(curve):
     """Each run with the largest error of it and the next two finer ones, without the last run, which no finer one confirms:
     an error that is small by accident, as among round-off, does not count."""
@@ -86,8 +101,17 @@ def verdicts(results, error):
             sentences.append(f"{span}: no contestant reaches it.")
             continue
         sentences.append(f"{span}: {listed(names)} {'is' if len(names) == 1 else 'are'} the fastest{lag(group, names)}.")
-        reasons += [name for name in names if name not in reasons]
-    return sentences, [rival for rival in single if rival.name in reasons]
+        reasons += [(name, times[name][1]) for _, times, _ in group for name in names]
+    return sentences, reasons_of(single, reasons)
+
+
+def reasons_of(rivals, fastest):
+    """Rival → why, each reason once, for the fastest (rival, method)."""
+    found = {}
+    for rival in rivals:
+        methods = [method for method in rival.methods if (rival.name, method.name) in fastest]
+        found[rival.name] = list(dict.fromkeys(method.why or rival.why for method in methods))
+    return found
 
 
 def lag(group, names):

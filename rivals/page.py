@@ -3,7 +3,7 @@
 import json
 from math import inf
 
-from compare import all_results, listed, verdicts
+from compare import all_results, listed, same_schemes, verdicts
 from contestants import HERE, RIVALS
 from picture import draw
 from readme import write_readme
@@ -14,13 +14,13 @@ ERRORS = {"position_error": "error of the position", "energy_error": "error of H
 
 INTRODUCTION = """<!-- Written by `make rivals`; do not edit. -->
 
-# Speed against error
+# Speed against error: other programs
 
 The same problems, solved by Shadowstep and by what one would use instead, in one run on one machine, with pinned versions. All
 contestants start from the same bits; their errors are measured by the same code. The contestants take turns in an order that changes
 from round to round. The times are medians of {rounds}, in seconds of the processor, so that other programs on the machine count
-little. They are those of the bare integration: programs are started, imported and compiled before; heyoka compiles for {jit}
-for each problem and tolerance. Where two times differ by less than 10 %, neither is called faster.
+little. They are those of the bare integration: programs are started, imported and compiled before; heyoka compiles for up to
+{jit} for a problem and a tolerance. Where two times differ by less than 10 %, neither is called faster.
 
 - The *error of the position* is the distance of all coordinates at the end from the exact ones.
 - The *error of H* is max |H − H(0)| as a part of |H(0)|, at 100 equally spaced times (argon: 10).
@@ -86,15 +86,18 @@ def section(results):
               or error == "position_error" and problem.reference_steps is not None]
     parts = [f"## {problem.title}", problem.description]
     if results.uncertainty:
-        parts[-1] += f" The reference solution has 40 digits and order 10; with twice the step it differs by {results.uncertainty:.0e}."
+        own = results.uncertainty / (2**10 - 1)
+        parts[-1] += f" The reference solution is of order 10 at 40 digits; from the one with twice the step its error is about {own:.0e}."
     parts.append(f"![Error against time](pictures/{draw(results, errors[0], ERRORS[errors[0]])})")
-    why = []
+    why = {}
     for error in errors:
         text, reasons = who_wins(results, error)
         parts += [time_table(results, error), f"Who is the fastest, by the {ERRORS[error]}:\n\n{text}"]
-        why += [rival for rival in reasons if rival not in why]
-    parts.append("Why: " + "; ".join(f"{rival.name}: {rival.why}" for rival in why) + ".")
-    parts += ["The same scheme, in steps a second of the longest run:", speed_table(results)]
+        for name, texts in reasons.items():
+            why.setdefault(name, {}).update(dict.fromkeys(texts))
+    lines = [f"- {name}: {'. '.join(texts)}." for name, texts in why.items() if texts]
+    parts.append("Why:\n\n" + "\n".join(lines))
+    parts += ["The same scheme, in steps a second of the longest run:", speed_table(results), same_schemes(results)]
     return "\n\n".join(parts)
 
 

@@ -39,7 +39,7 @@ PROBLEMS = [
         "the exact position at the end; the semi-major axis is 1.",
     ),
     Problem(
-        "henon-heiles", "Hénon–Heiles to t = 10⁴", "henon-heiles", 1e4, 100, (3e4, 8e6, 2.0), 40_000, True,
+        "henon-heiles", "Hénon–Heiles to t = 10⁴", "henon-heiles", 1e4, 100, (3e4, 8e6, 2.0), 80_000, True,
         "The Hénon–Heiles problem from p₁ = 0.1, a regular orbit, to t = 10⁴, which are 1600 oscillations. Its size is about 0.1.",
     ),
     Problem(

@@ -39,6 +39,8 @@ pub(crate) fn integrate<const BOTH: usize>(newton: &Newton, request: &Request, s
         1000,
         OutputType::Sparse,
     );
-    stepper.integrate().expect("ode_solvers has stopped");
-    stepper.y_out().last().expect("a state").as_slice().to_vec()
+    match stepper.integrate() {
+        Ok(_) => stepper.y_out().last().expect("a state").as_slice().to_vec(),
+        Err(_) => vec![f64::NAN; BOTH],
+    }
 }
