@@ -32,7 +32,7 @@ Examples:
   shadowstep work-precision --potential \"x^4/4\" --q x=1 --p 0 --until 50 --digits 40 --out quartic
   shadowstep work-precision henon-heiles --until 100 --schemes all --out henon-heiles
 
-DIR gets work-precision.csv and .jsonl, charts as SVG, report.html, and plot.py, which makes PDF or PGF of the CSV by Matplotlib.
+DIR gets work-precision.csv and .jsonl, charts as SVG, report.html, and plot.py, which makes PDF of the CSV by Matplotlib (PGF with xelatex).
 Results are saved in DIR/results.jsonl one by one. After Ctrl-C (exit code 3) the same command computes only what is missing.
 Errors of positions are |q - q_ref|, beside the exact flow where it is known, else beside a scheme of order 10 with more digits, whose
 own error is estimated. Times are those of the bare steps of tables that are read at run time, in one thread.";

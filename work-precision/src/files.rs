@@ -15,7 +15,7 @@ const LINES: &str = "work-precision.jsonl";
 const SCRIPT: &str = "plot.py";
 const REPORT: &str = "report.html";
 
-/// Makes PDF and PGF of the CSV.
+/// Makes PDF of the CSV, or PGF.
 const PLOT: &str = include_str!("plot.py");
 
 /// What a study is called in its files.

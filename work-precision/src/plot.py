@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Work-precision diagrams as PDF and PGF from work-precision.csv beside this script, by Matplotlib.
+"""Work-precision diagrams as PDF, or PGF for LaTeX, from work-precision.csv beside this script, by Matplotlib.
 
-    python3 plot.py [FORMAT ...]      # pdf pgf png svg; pdf and pgf if none is named
+    python3 plot.py [FORMAT ...]      # pdf png svg, and pgf where xelatex is installed; pdf if none is named
 """
 
 import csv
@@ -48,7 +48,7 @@ def main():
     for cost in COSTS:
         for error in ERRORS:
             figure = plot(schemes, cost, error)
-            for kind in sys.argv[1:] or ["pdf", "pgf"]:
+            for kind in sys.argv[1:] or ["pdf"]:
                 name = folder / f"{error.split('_')[0]}-{'forces' if cost == 'evaluations' else 'time'}.{kind}"
                 figure.savefig(name, bbox_inches="tight")
                 print(name)
