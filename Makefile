@@ -24,8 +24,20 @@ check:
 docs:
 	RUSTDOCFLAGS="-D warnings --html-in-header $(CURDIR)/runtime/katex.html" cargo doc --workspace --no-deps --locked
 
+# What steps, potentials and the monitor cost: writes docs/benchmarks.md, on a machine without other load.
 bench: deps
-	cargo bench --workspace --locked
+	cargo bench -p shadowstep --locked --no-run
+	{ printf '<!-- Written by `make bench`; do not edit. -->\n\n# Benchmarks\n\n'; \
+	  printf 'Medians of 21 rounds in which all contestants take turns; ratios are medians of those to the first one in the same round.\n'; \
+	  printf 'Measured on %s: %s, %s cores, %s. The load of the machine was %s when it began.\n' "$$(date +%F)" \
+	    "$$(sed -n 's/^model name.*: //p' /proc/cpuinfo 2>/dev/null | head -1)" "$$(getconf _NPROCESSORS_ONLN)" \
+	    "$$(rustc --version)" "$$(cut -d' ' -f1 /proc/loadavg 2>/dev/null)"; \
+	  for name in steps potentials monitor; do \
+	    printf '\n## %s\n\n`cargo bench -p shadowstep --bench %s`\n' "$$name" "$$name"; \
+	    cargo bench -p shadowstep --locked --bench "$$name"; \
+	  done; } > docs/benchmarks.md.new
+	mv docs/benchmarks.md.new docs/benchmarks.md
+	cat docs/benchmarks.md
 
 # Speed against error of Shadowstep and of what one would use instead: writes docs/speed-against-error.md.
 rivals: deps

@@ -13,7 +13,7 @@ use shadowstep::problems::Kepler;
 use shadowstep::shadow::{BuildEstimator, Central, Estimator, StoppingRule};
 use shadowstep::{Motion, Potential, Scheme, Stepper, UnitMasses, exact, splitting_scheme, tables};
 
-use timing::{Contestant, compare, measure};
+use timing::{Contestant, compare, head, measure};
 
 #[splitting_scheme("stormer-verlet.toml")]
 struct StormerVerlet;
@@ -127,12 +127,12 @@ fn kepler_against_its_operations() {
     let counts = [0.0, 4.0, 2.0, 1.0, 1.0, 1.0, 1.0, 1.0, 2.0];
     let times: Vec<f64> = measure(&mut contestants, 5_000).iter().map(|measured| measured.nanoseconds).collect();
     let sum: f64 = times.iter().zip(counts).map(|(time, count)| time * count).sum();
-    println!("\nStörmer–Verlet on Kepler, 120 digits, against the sum of its MPFR operations");
+    head("Störmer–Verlet on Kepler, 120 digits, against the sum of its MPFR operations");
     for ((name, _), (time, count)) in contestants.iter().zip(times.iter().zip(counts)).skip(1) {
-        println!("  {count} × {name:<44} {time:>10.1} ns");
+        println!("| {count} × {name} | {time:.1} | |");
     }
-    println!("  {:<48} {sum:>10.1} ns", "sum");
-    println!("  {:<48} {:>10.1} ns {:>8.3}", "step", times[0], times[0] / sum);
+    println!("| sum | {sum:.1} | 1.000 |");
+    println!("| step | {:.1} | {:.3} |", times[0], times[0] / sum);
 }
 
 /// Störmer–Verlet on Kepler as a careful person writes it for f64.

@@ -35,11 +35,16 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// Prints the contestants' times and their ratios to the first one.
+/// Prints the contestants' times and their ratios to the first one, as a table of Markdown.
 pub(crate) fn compare(title: &str, mut contestants: Vec<Contestant<'_>>, repetitions: u32) {
     let measured = measure(&mut contestants, repetitions);
-    println!("\n{title}");
+    head(title);
     for ((name, _), Measured { nanoseconds, ratio }) in contestants.iter().zip(&measured) {
-        println!("  {name:<48} {nanoseconds:>10.1} ns {ratio:>8.3}");
+        println!("| {name} | {nanoseconds:.1} | {ratio:.3} |");
     }
+}
+
+/// The heading of a table, and its head.
+pub(crate) fn head(title: &str) {
+    println!("\n### {title}\n\n| | ns | ratio |\n| --- | --- | --- |");
 }
