@@ -12,9 +12,9 @@ use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::files::{Title, refuse_foreign, write};
-use shadowstep_work_precision::ladder::Rungs;
 use shadowstep_work_precision::schemes::default_schemes;
 use shadowstep_work_precision::study::Request;
+use shadowstep_work_precision::sweep::StepRange;
 
 use crate::colour::on_stdout;
 use crate::output::Output;
@@ -75,10 +75,10 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     }
     let problem = posed.problem();
     let schemes = schemes(&arguments.schemes, &posed)?;
-    let rungs = rungs(arguments, &posed.until)?;
+    let range = range(arguments, &posed.until)?;
     let mut terminal = Terminal::listen();
     let reference_time = Duration::from_secs_f64(REFERENCE * arguments.seconds);
-    let request = Request { problem, schemes: &schemes, rungs, reference_time, folder: arguments.out.clone() };
+    let request = Request { problem, schemes: &schemes, range, reference_time, folder: arguments.out.clone() };
     let study = request.study(&mut terminal)?;
     let (title, command) = (posed.title(), command());
     let title = Title { title: &title, hamiltonian: &posed.described.hamiltonian, command: &command };
@@ -142,9 +142,9 @@ fn is_valid(scheme: &NamedScheme, system: &System, posed: &Posed) -> Result<(), 
 }
 
 /// The steps: those of the flag, or chosen for each scheme.
-fn rungs(arguments: &Arguments, until: &Rational) -> Result<Rungs, Error> {
+fn range(arguments: &Arguments, until: &Rational) -> Result<StepRange, Error> {
     if arguments.steps.is_empty() {
-        return Ok(Rungs::Automatic { seconds: arguments.seconds, target: None });
+        return Ok(StepRange::Automatic { seconds: arguments.seconds, target: None });
     }
     let count = |text: &String| {
         let h = quantity::number("--steps", text)?;
@@ -161,5 +161,5 @@ fn rungs(arguments: &Arguments, until: &Rational) -> Result<Rungs, Error> {
     let mut steps = arguments.steps.iter().map(count).collect::<Result<Vec<u64>, Error>>()?;
     steps.sort_unstable();
     steps.dedup();
-    Ok(Rungs::Steps(steps))
+    Ok(StepRange::Given(steps))
 }

@@ -13,13 +13,13 @@ use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_work_precision::advise::{Advice, Choice, Question};
-use shadowstep_work_precision::ladder::Rungs;
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::run::PositionError;
 use shadowstep_work_precision::schemes::default_schemes;
 use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::{Cost, Request, Study};
+use shadowstep_work_precision::sweep::StepRange;
 
 /// Names, the sections of a scene, and times.
 const PROBLEMS: [(&str, &str, i64); 12] = [
@@ -99,19 +99,19 @@ fn main() {
 
 /// All schemes over all of the time, down to round-off.
 fn sweep<'a>(problem: Problem<'a>, schemes: &'a [NamedScheme], folder: &Path) -> Study<'a> {
-    let rungs = Rungs::Automatic { seconds: 4.0, target: None };
+    let range = StepRange::Automatic { seconds: 4.0, target: None };
     let reference_time = Duration::from_secs(60);
-    Request { problem, schemes, rungs, reference_time, folder: folder.to_owned() }.study(&mut ()).unwrap()
+    Request { problem, schemes, range, reference_time, folder: folder.to_owned() }.study(&mut ()).unwrap()
 }
 
 /// The error of the advised run beside a reference of more digits.
 fn measured(problem: Problem<'_>, choice: &Choice<'_>, folder: &Path) -> PositionError {
     let until = &choice.step * Rational::from_integer(choice.steps.into());
     let problem = Problem { until: &until, ..problem };
-    let (schemes, rungs) = ([choice.scheme.clone()], Rungs::Steps(vec![choice.steps]));
+    let (schemes, range) = ([choice.scheme.clone()], StepRange::Given(vec![choice.steps]));
     let reference_time = Duration::from_secs(60);
-    let request = Request { problem, schemes: &schemes, rungs, reference_time, folder: folder.to_owned() };
-    request.study(&mut ()).unwrap().schemes[0].ladder.runs[0].position
+    let request = Request { problem, schemes: &schemes, range, reference_time, folder: folder.to_owned() };
+    request.study(&mut ()).unwrap().schemes[0].sweep.runs[0].position
 }
 
 fn row(name: &str, exponent: i32, choice: &Choice<'_>, error: PositionError, best: Option<(&NamedScheme, f64)>) {

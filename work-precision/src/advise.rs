@@ -14,12 +14,12 @@ use shadowstep_tasks::{Observer, Store};
 use crate::best::cost_of;
 use crate::calculation::{Calculation, Outcome};
 use crate::convenient::convenient_step;
-use crate::ladder::{End, Rungs, Target, stable_step};
 use crate::of::Of;
 use crate::problem::{MOST_SAMPLES, Problem};
 use crate::run::Measurement;
 use crate::size::Size;
 use crate::study::{Cost, Request, Studied, Study, only, proved_order};
+use crate::sweep::{End, StepRange, Target, stable_step};
 use crate::timing::time_of_steps;
 
 /// What is wanted.
@@ -141,13 +141,13 @@ impl<'a> Question<'a> {
             }
             self.reduce(best, error);
         }
-        let runs = study.schemes.iter().flat_map(|studied| studied.ladder.runs.iter().map(move |run| (studied, run)));
+        let runs = study.schemes.iter().flat_map(|studied| studied.sweep.runs.iter().map(move |run| (studied, run)));
         let errors = runs.filter_map(|(studied, run)| Some((self.of.error(run)?, self.named(studied).name.as_str())));
         Ok(Advice::OutOfReach {
             least: errors.min_by(|a, b| a.0.log10().total_cmp(&b.0.log10())),
             part,
             reference: study.reference.error(),
-            in_time: study.schemes.iter().all(|studied| studied.ladder.end != End::Time),
+            in_time: study.schemes.iter().all(|studied| studied.sweep.end != End::Time),
         })
     }
 
@@ -172,11 +172,11 @@ impl<'a> Question<'a> {
             Of::Permanent => growth,
         };
         let error = self.tolerance.times_power_of_ten(MARGIN - growth);
-        let rungs = Rungs::Automatic { seconds: self.seconds, target: Some(Target { of: self.of, error }) };
+        let range = StepRange::Automatic { seconds: self.seconds, target: Some(Target { of: self.of, error }) };
         // energies need no positions of a reference
         let reference = if self.of == Of::Position { REFERENCE } else { REFERENCE / 50.0 };
         let reference_time = Duration::from_secs_f64(reference * self.seconds);
-        Request { problem, schemes: self.schemes, rungs, reference_time, folder: self.folder.clone() }
+        Request { problem, schemes: self.schemes, range, reference_time, folder: self.folder.clone() }
     }
 
     /// The largest convenient step of a scheme that is expected to meet the tolerance.
@@ -185,13 +185,13 @@ impl<'a> Question<'a> {
             let error = self.of.error(run)?;
             Some((run.steps as f64, error.log10() + f64::from(halvings) * self.of.growth(run).log10()))
         };
-        let curve: Vec<(f64, f64)> = studied.ladder.runs.iter().filter_map(whole).collect();
+        let curve: Vec<(f64, f64)> = studied.sweep.runs.iter().filter_map(whole).collect();
         let error = self.tolerance.times_power_of_ten(MARGIN);
         let steps = cost_of(&curve, error).or_else(|| self.extrapolated(studied, &curve, error))?;
         let largest = study.problem.duration() / steps;
         let size = |run: &Measurement| study.problem.duration() / run.steps as f64;
-        let fine = studied.ladder.runs.iter().rev().take_while(|run| run.fine).last();
-        let lost = studied.ladder.runs.iter().rev().find(|run| !run.fine && !run.undecided);
+        let fine = studied.sweep.runs.iter().rev().take_while(|run| run.fine).last();
+        let lost = studied.sweep.runs.iter().rev().find(|run| !run.fine && !run.undecided);
         let choice = Choice {
             scheme: self.named(studied),
             step: Rational::from_integer(0.into()),
@@ -207,7 +207,7 @@ impl<'a> Question<'a> {
 
     /// The number of steps for an error that no run had the time for, by Richardson's rule with the proved order.
     fn extrapolated(&self, studied: &Studied<'_>, curve: &[(f64, f64)], error: Size) -> Option<f64> {
-        let (steps, last) = curve.last().filter(|_| studied.ladder.end == End::Time)?;
+        let (steps, last) = curve.last().filter(|_| studied.sweep.end == End::Time)?;
         let more = 10_f64.powf((last - error.log10()) / self.order(studied.scheme));
         (1.0..=MOST_EXTRAPOLATED).contains(&more).then_some(steps * more)
     }
@@ -243,9 +243,9 @@ impl<'a> Question<'a> {
         };
         let mut store = Store::open(&self.folder, observer)?;
         let Some(Outcome::Reference(reference)) = only(&[wanted], &mut store, observer)? else { return Ok(None) };
-        let wanted = Calculation::ladder(problem, choice.scheme, &reference, &Rungs::Steps(vec![choice.steps]));
-        let Some(Outcome::Ladder(ladder)) = only(&[wanted], &mut store, observer)? else { return Ok(None) };
-        let error = ladder.runs.first().and_then(|run| self.of.error(run));
+        let wanted = Calculation::sweep(problem, choice.scheme, &reference, &StepRange::Given(vec![choice.steps]));
+        let Some(Outcome::Sweep(sweep)) = only(&[wanted], &mut store, observer)? else { return Ok(None) };
+        let error = sweep.runs.first().and_then(|run| self.of.error(run));
         let half = if is_known || self.of != Of::Position { 0.0 } else { (-self.order(choice.scheme)).exp2() };
         Ok(error.map(|error| error.times_power_of_ten(-(1.0 - half).log10())))
     }

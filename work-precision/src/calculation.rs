@@ -8,9 +8,9 @@ use shadowstep_scenes::library::NamedScheme;
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_tasks::{Task, Watcher};
 
-use crate::ladder::{Climb, Ladder, Rungs};
 use crate::problem::{Problem, fingerprint};
 use crate::reference::Reference;
+use crate::sweep::{StepRange, Sweep, Sweeping};
 use crate::timing::{StepTime, time_of_steps};
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
@@ -39,7 +39,7 @@ enum Quantity {
     /// The same from a run of this scheme with so many steps, of which the errors of others are estimated by Richardson's rule.
     Halved { scheme: String, samples: u64, steps: u64 },
     /// The runs of a scheme, which is identified by its weights.
-    Ladder { scheme: String, samples: u64, rungs: Rungs },
+    Sweep { scheme: String, samples: u64, range: StepRange },
     /// The time of a step of each scheme, with so many steps to the end.
     Times { schemes: Vec<(String, u64)> },
 }
@@ -48,7 +48,7 @@ enum Quantity {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) enum Outcome {
     Reference(Reference),
-    Ladder(Ladder),
+    Sweep(Sweep),
     Times(Vec<StepTime>),
 }
 
@@ -62,14 +62,13 @@ impl<'a> Calculation<'a> {
         Calculation::new(problem, Quantity::Halved { scheme: identity(scheme), samples, steps }, vec![scheme], None)
     }
 
-    pub(crate) fn ladder(
+    pub(crate) fn sweep(
         problem: Problem<'a>,
         scheme: &'a NamedScheme,
         reference: &'a Reference,
-        rungs: &Rungs,
+        range: &StepRange,
     ) -> Self {
-        let quantity =
-            Quantity::Ladder { scheme: identity(scheme), samples: reference.samples(), rungs: rungs.clone() };
+        let quantity = Quantity::Sweep { scheme: identity(scheme), samples: reference.samples(), range: range.clone() };
         Calculation::new(problem, quantity, vec![scheme], Some(reference))
     }
 
@@ -97,11 +96,11 @@ impl<'a> Calculation<'a> {
             Quantity::Halved { samples, steps, .. } => {
                 Reference::of_run(self.problem, self.schemes[0], (*samples, *steps)).map(Outcome::Reference)
             }
-            Quantity::Ladder { rungs, .. } => {
-                let reference = self.reference.expect("a ladder has one");
-                let climb = Climb { problem: self.problem, scheme: self.schemes[0], reference, rungs };
+            Quantity::Sweep { range, .. } => {
+                let reference = self.reference.expect("a sweep has one");
+                let sweeping = Sweeping { problem: self.problem, scheme: self.schemes[0], reference, range };
                 let stopped = || Error::run("the calculation was stopped", "the same command resumes it");
-                climb.make(continues)?.map(Outcome::Ladder).ok_or_else(stopped)
+                sweeping.make(continues)?.map(Outcome::Sweep).ok_or_else(stopped)
             }
             Quantity::Times { schemes } => {
                 let steps = self.schemes.iter().copied().zip(schemes.iter().map(|(_, steps)| *steps));
@@ -116,11 +115,10 @@ impl Task for Calculation<'_> {
 
     fn cost(group: &[&Self]) -> f64 {
         let seconds = |calculation: &&Self| match &calculation.quantity {
-            Quantity::Reference { seconds, .. } | Quantity::Ladder { rungs: Rungs::Automatic { seconds, .. }, .. } => {
-                *seconds
-            }
+            Quantity::Reference { seconds, .. }
+            | Quantity::Sweep { range: StepRange::Automatic { seconds, .. }, .. } => *seconds,
             Quantity::Halved { steps, .. } => *steps as f64 * 1e-6,
-            Quantity::Ladder { rungs: Rungs::Steps(steps), .. } => steps.iter().sum::<u64>() as f64 * 1e-6,
+            Quantity::Sweep { range: StepRange::Given(steps), .. } => steps.iter().sum::<u64>() as f64 * 1e-6,
             Quantity::Times { schemes } => schemes.len() as f64 * 0.1,
         };
         group.iter().map(seconds).sum()

@@ -6,7 +6,7 @@
 //! | [`problem`] | a system, an interval of time, a number type |
 //! | [`reference`] | the positions with which those of the schemes are compared, and their own error |
 //! | `positions` | positions at the times at which errors are taken |
-//! | [`ladder`] | the runs of a scheme, from its stability limit down to round-off |
+//! | [`sweep`] | the runs of a scheme, from its stability limit down to round-off |
 //! | [`run`] | one run: errors of position and energy, the modified energy |
 //! | [`timing`] | the time of a step |
 //! | [`of`], [`order`], `best` | which error; the measured order; the scheme that needs the least for an error |
@@ -24,7 +24,6 @@ mod calculation;
 mod charts;
 pub mod convenient;
 pub mod files;
-pub mod ladder;
 pub mod of;
 pub mod order;
 mod positions;
@@ -35,5 +34,6 @@ pub mod run;
 pub mod schemes;
 pub mod size;
 pub mod study;
+pub mod sweep;
 pub mod tables;
 pub mod timing;

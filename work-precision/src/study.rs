@@ -11,13 +11,13 @@ use shadowstep_tasks::{Observer, Store, run};
 
 use crate::best::{Curve, cost_of};
 use crate::calculation::{Calculation, Outcome};
-use crate::ladder::{Ladder, Rungs, coarsest};
 use crate::of::Of;
 use crate::order::MeasuredOrder;
 use crate::problem::{MOST_SAMPLES, Problem};
 use crate::reference::Reference;
 use crate::run::Measurement;
 use crate::size::Size;
+use crate::sweep::{StepRange, Sweep, coarsest};
 use crate::timing::StepTime;
 
 /// The coarsest run has so many steps between samples, so that rounding to samples changes the number of steps little.
@@ -33,7 +33,7 @@ pub struct Request<'a> {
     /// The schemes.
     pub schemes: &'a [NamedScheme],
     /// The steps.
-    pub rungs: Rungs,
+    pub range: StepRange,
     /// The limit of the time for the reference.
     pub reference_time: Duration,
     /// Outcomes are saved in this folder one by one; what it has already is not computed again.
@@ -57,7 +57,7 @@ pub struct Studied<'a> {
     /// The scheme.
     pub scheme: &'a NamedScheme,
     /// Its runs.
-    pub ladder: Ladder,
+    pub sweep: Sweep,
     /// The time of a step.
     pub time: StepTime,
 }
@@ -84,36 +84,36 @@ impl<'a> Request<'a> {
         let Some(Outcome::Reference(reference)) = only(&[wanted], &mut store, observer)? else {
             return Err(Error::run("there is no reference", "use a shorter time"));
         };
-        let ladder = |scheme| Calculation::ladder(problem, scheme, &reference, &self.rungs);
-        let found = run(&self.schemes.iter().map(ladder).collect::<Vec<_>>(), &mut store, observer)?;
+        let sweep = |scheme| Calculation::sweep(problem, scheme, &reference, &self.range);
+        let found = run(&self.schemes.iter().map(sweep).collect::<Vec<_>>(), &mut store, observer)?;
         found.failures.iter().for_each(|(_, error)| observer.failed(error));
-        let ladders: Vec<(&NamedScheme, Ladder)> = self
+        let sweeps: Vec<(&NamedScheme, Sweep)> = self
             .schemes
             .iter()
             .zip(found.outcomes)
             .filter_map(|(scheme, outcome)| match outcome {
-                Some(Outcome::Ladder(ladder)) => Some((scheme, ladder)),
+                Some(Outcome::Sweep(sweep)) => Some((scheme, sweep)),
                 _ => None,
             })
             .collect();
-        let timed = ladders.iter().map(|(scheme, ladder)| (*scheme, ladder.runs.last().map_or(1, |run| run.steps)));
+        let timed = sweeps.iter().map(|(scheme, sweep)| (*scheme, sweep.runs.last().map_or(1, |run| run.steps)));
         let wanted = Calculation::times(problem, &timed.collect::<Vec<_>>());
         let Some(Outcome::Times(times)) = only(&[wanted], &mut store, observer)? else {
             return Err(Error::run("the steps were not timed", "run the command again"));
         };
-        let schemes = ladders.into_iter().zip(times);
-        let schemes = schemes.map(|((scheme, ladder), time)| Studied { scheme, ladder, time }).collect();
+        let schemes = sweeps.into_iter().zip(times);
+        let schemes = schemes.map(|((scheme, sweep), time)| Studied { scheme, sweep, time }).collect();
         Ok(Study { problem, reference, schemes })
     }
 
     /// The number of samples: they are at states of all runs.
     fn samples(&self) -> u64 {
-        match &self.rungs {
-            Rungs::Steps(steps) => {
+        match &self.range {
+            StepRange::Given(steps) => {
                 let common = steps.iter().fold(0, |common: u64, steps| common.gcd(steps)).max(1);
                 (1..=MOST_SAMPLES).rev().find(|samples| common.is_multiple_of(*samples)).unwrap_or(1)
             }
-            Rungs::Automatic { .. } => {
+            StepRange::Automatic { .. } => {
                 let steps = self.schemes.iter().map(|scheme| coarsest(self.problem, scheme)).fold(f64::MAX, f64::min);
                 (steps as u64 / STEPS_PER_SAMPLE).clamp(1, MOST_SAMPLES)
             }
@@ -159,7 +159,7 @@ impl Study<'_> {
 
     /// The decades of an error that some scheme reaches, from the largest one.
     pub fn decades(&self, of: Of) -> impl Iterator<Item = Size> {
-        let errors = self.schemes.iter().flat_map(|studied| &studied.ladder.runs).filter_map(|run| of.error(run));
+        let errors = self.schemes.iter().flat_map(|studied| &studied.sweep.runs).filter_map(|run| of.error(run));
         let logs = errors.map(Size::log10).filter(|log10| log10.is_finite());
         let (least, most) =
             logs.fold((f64::INFINITY, -1.0_f64), |(least, most), log10| (least.min(log10), most.max(log10)));
@@ -189,7 +189,7 @@ impl Studied<'_> {
     /// The measured order with the steps at which it holds, of the position or of H.
     pub fn order(&self, problem: Problem<'_>, of: Of) -> Option<MeasuredOrder> {
         let step = |run: &Measurement| problem.duration() / run.steps as f64;
-        let points = self.ladder.runs.iter().filter_map(|run| Some((step(run), of.error(run)?.log10())));
+        let points = self.sweep.runs.iter().filter_map(|run| Some((step(run), of.error(run)?.log10())));
         MeasuredOrder::of(&points.filter(|(_, error)| error.is_finite()).collect::<Vec<_>>())
     }
 
@@ -199,6 +199,6 @@ impl Studied<'_> {
             Cost::Evaluations => run.evaluations as f64,
             Cost::Seconds => self.seconds(run),
         };
-        self.ladder.runs.iter().filter_map(|run| Some((cost(run), of.error(run)?.log10()))).collect()
+        self.sweep.runs.iter().filter_map(|run| Some((cost(run), of.error(run)?.log10()))).collect()
     }
 }

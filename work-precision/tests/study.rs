@@ -8,12 +8,12 @@ use shadowstep::problems::problem;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::{PotentialEnergy, System};
-use shadowstep_work_precision::ladder::{End, Rungs};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::reference::Origin;
 use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::{Cost, Request, Study};
+use shadowstep_work_precision::sweep::{End, StepRange};
 
 fn system(name: &str) -> System {
     System::of_setup(problem(name).unwrap().setup(&[], 60).unwrap())
@@ -23,9 +23,9 @@ fn schemes(names: &[&str]) -> Vec<NamedScheme> {
     names.iter().map(|name| scheme(name).unwrap()).collect()
 }
 
-fn study<'a>(problem: Problem<'a>, schemes: &'a [NamedScheme], rungs: Rungs, folder: &Path) -> Study<'a> {
+fn study<'a>(problem: Problem<'a>, schemes: &'a [NamedScheme], range: StepRange, folder: &Path) -> Study<'a> {
     let reference_time = Duration::from_secs(20);
-    Request { problem, schemes, rungs, reference_time, folder: folder.to_owned() }.study(&mut ()).unwrap()
+    Request { problem, schemes, range, reference_time, folder: folder.to_owned() }.study(&mut ()).unwrap()
 }
 
 fn until(t: i64) -> Rational {
@@ -38,17 +38,17 @@ fn schemes_show_their_orders_beside_the_exact_flow() {
     let (system, until, folder) = (system("pendulum"), until(10), tempfile::tempdir().unwrap());
     let schemes = schemes(&["stormer-verlet", "blanes-moan-s6", "blanes-moan-srkn11b"]);
     let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::with_digits(30).unwrap() };
-    let rungs = Rungs::Steps(vec![100, 200, 400, 800, 1600]);
-    let study = study(problem, &schemes, rungs, folder.path());
+    let range = StepRange::Given(vec![100, 200, 400, 800, 1600]);
+    let study = study(problem, &schemes, range, folder.path());
     assert_eq!(study.reference.origin, Origin::ExactFlow);
     for (studied, order) in study.schemes.iter().zip([2.0, 4.0, 6.0]) {
-        assert_eq!((studied.ladder.runs.len(), studied.ladder.end), (5, End::Complete));
+        assert_eq!((studied.sweep.runs.len(), studied.sweep.end), (5, End::Complete));
         for of in [Of::Position, Of::Energy] {
             // the slope still has a part of the next term: 0.1 of the order at these steps
             let found = studied.order(problem, of).unwrap();
             assert!((found.order - order).abs() < 0.1, "{}, {of:?}: {found:?}", studied.scheme.name);
         }
-        assert_eq!(studied.ladder.runs[0].evaluations, 100 * studied.evaluations_per_step());
+        assert_eq!(studied.sweep.runs[0].evaluations, 100 * studied.evaluations_per_step());
     }
 }
 
@@ -65,13 +65,13 @@ fn the_error_of_a_reference_is_estimated() {
     let runs = |system| {
         let folder = folder.path().join(format!("{system:p}"));
         let problem = Problem { system, until: &until, arithmetic: Arithmetic::Double };
-        study(problem, &schemes, Rungs::Steps(vec![500, 1000, 2000]), &folder)
+        study(problem, &schemes, StepRange::Given(vec![500, 1000, 2000]), &folder)
     };
     let (exact, estimated) = (runs(&system), runs(&formula));
     assert!(matches!(estimated.reference.origin, Origin::Scheme { .. }));
     let error = estimated.reference.error();
     assert!(error < Size::power_of_ten(-15.0) && error > Size::power_of_ten(-30.0), "{error}");
-    for (a, b) in exact.schemes[0].ladder.runs.iter().zip(&estimated.schemes[0].ladder.runs) {
+    for (a, b) in exact.schemes[0].sweep.runs.iter().zip(&estimated.schemes[0].sweep.runs) {
         let [a, b] = [a, b].map(|run| run.position.known().unwrap().log10());
         // the same error to three digits, as round-off differs with the form of the potential
         assert!((a - b).abs() < 4e-4 || a < -13.0, "{a} {b}");
@@ -79,19 +79,19 @@ fn the_error_of_a_reference_is_estimated() {
 }
 
 #[test]
-fn ladders_go_from_instability_to_round_off() {
+fn sweeps_go_from_instability_to_round_off() {
     let (system, until, folder) = (system("harmonic-oscillator"), until(10), tempfile::tempdir().unwrap());
     let schemes = schemes(&["stormer-verlet", "bce-rkn8-17"]);
     let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
-    let study = study(problem, &schemes, Rungs::Automatic { seconds: 5.0, target: None }, folder.path());
+    let study = study(problem, &schemes, StepRange::Automatic { seconds: 5.0, target: None }, folder.path());
     let [verlet, rkn] = &study.schemes[..] else { panic!() };
     for studied in [verlet, rkn] {
-        let runs = &studied.ladder.runs;
+        let runs = &studied.sweep.runs;
         assert!(runs[0].failed.is_some() || runs[0].energy > Size::power_of_ten(-1.0), "{:?}", runs[0]);
         // equal numbers of evaluations, as nearly as steps and samples allow
         assert!(runs.windows(2).all(|runs| runs[0].steps < runs[1].steps));
     }
-    assert_eq!(rkn.ladder.end, End::RoundOff);
+    assert_eq!(rkn.sweep.end, End::RoundOff);
     let best = study.cheapest(Of::Position, Cost::Evaluations, Size::power_of_ten(-10.0));
     assert_eq!(best[0].0.scheme.name, "bce-rkn8-17");
 }
@@ -102,7 +102,7 @@ fn results_are_kept() {
     let (system, until, folder) = (system("henon-heiles"), until(5), tempfile::tempdir().unwrap());
     let schemes = schemes(&["stormer-verlet", "yoshida4"]);
     let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
-    let again = || study(problem, &schemes, Rungs::Steps(vec![50, 100]), folder.path()).csv(&[]).unwrap();
+    let again = || study(problem, &schemes, StepRange::Given(vec![50, 100]), folder.path()).csv(&[]).unwrap();
     let (first, bytes) = (again(), std::fs::read(folder.path().join("results.jsonl")).unwrap());
     assert_eq!((again(), std::fs::read(folder.path().join("results.jsonl")).unwrap()), (first.clone(), bytes));
     let rows: Vec<&str> = first.lines().collect();
@@ -122,8 +122,8 @@ fn runs_that_fail_are_kept_as_failed() {
     };
     let schemes = schemes(&["stormer-verlet"]);
     let problem = Problem { system: &quartic, until: &until, arithmetic: Arithmetic::Double };
-    let study = study(problem, &schemes, Rungs::Steps(vec![20, 4000]), folder.path());
-    let runs = &study.schemes[0].ladder.runs;
+    let study = study(problem, &schemes, StepRange::Given(vec![20, 4000]), folder.path());
+    let runs = &study.schemes[0].sweep.runs;
     assert!(runs[0].failed.is_some() && runs[1].failed.is_none(), "{runs:?}");
     assert!(study.csv(&[]).unwrap().lines().nth(1).unwrap().contains(",a state is not finite,"));
 }

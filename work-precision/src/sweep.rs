@@ -19,26 +19,26 @@ use crate::run::{Measurement, Measuring};
 use crate::size::Size;
 
 /// Evaluations grow by the factor 2^(1/2) from run to run.
-const RUNGS_PER_DOUBLING: f64 = 2.0;
+const RUNS_PER_DOUBLING: f64 = 2.0;
 /// The first step is so many times the stability limit.
 const BEYOND: f64 = 1.5;
 /// Round-off is reached where so many runs, each with more evaluations, have improved neither error.
 const WITHOUT_GAIN: usize = 6;
-/// A run has some precision if its position errs by less than this part of its size, log₁₀.
+/// A run has some precision if the error of H is below this, log₁₀.
 const SOME_PRECISION: f64 = -1.0;
 /// The most runs of a scheme.
-const MOST_RUNGS: i32 = 80;
+const MOST_RUNS: i32 = 80;
 
 /// The runs of a scheme, the one with the fewest steps first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Ladder {
+pub struct Sweep {
     /// What its runs have shown.
     pub runs: Vec<Measurement>,
     /// Why there are no more.
     pub end: End,
 }
 
-/// Why a ladder ends.
+/// Why a sweep ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum End {
     /// All steps that were asked for are made.
@@ -60,7 +60,7 @@ pub struct Target {
 
 /// Which steps a scheme makes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Rungs {
+pub enum StepRange {
     /// From the stability limit on.
     Automatic {
         /// The time for all runs of a scheme, in seconds.
@@ -69,31 +69,31 @@ pub enum Rungs {
         target: Option<Target>,
     },
     /// These numbers of steps.
-    Steps(Vec<u64>),
+    Given(Vec<u64>),
 }
 
 /// The runs of a scheme on a problem.
-pub(crate) struct Climb<'a> {
+pub(crate) struct Sweeping<'a> {
     pub(crate) problem: Problem<'a>,
     pub(crate) scheme: &'a NamedScheme,
     pub(crate) reference: &'a Reference,
-    pub(crate) rungs: &'a Rungs,
+    pub(crate) range: &'a StepRange,
 }
 
-impl Climb<'_> {
-    /// Makes the runs until `continues` with the part that is done returns false: then there is no ladder.
-    pub(crate) fn make(&self, continues: &dyn Fn(f64) -> bool) -> Result<Option<Ladder>, Error> {
-        match self.rungs {
-            Rungs::Automatic { seconds, target } => self.automatic(*seconds, *target, continues),
-            Rungs::Steps(steps) => {
+impl Sweeping<'_> {
+    /// Makes the runs until `continues` with the part that is done returns false: then there is no sweep.
+    pub(crate) fn make(&self, continues: &dyn Fn(f64) -> bool) -> Result<Option<Sweep>, Error> {
+        match self.range {
+            StepRange::Automatic { seconds, target } => self.automatic(*seconds, *target, continues),
+            StepRange::Given(steps) => {
                 let mut runs = Vec::new();
                 for (done, &steps) in steps.iter().enumerate() {
-                    if !continues(done as f64 / self.rungs.len() as f64) {
+                    if !continues(done as f64 / self.range.len() as f64) {
                         return Ok(None);
                     }
                     runs.push(self.measure(steps)?);
                 }
-                Ok(Some(Ladder { runs, end: End::Complete }))
+                Ok(Some(Sweep { runs, end: End::Complete }))
             }
         }
     }
@@ -103,12 +103,12 @@ impl Climb<'_> {
         seconds: f64,
         target: Option<Target>,
         continues: &dyn Fn(f64) -> bool,
-    ) -> Result<Option<Ladder>, Error> {
+    ) -> Result<Option<Sweep>, Error> {
         let begin = Instant::now();
         let mut runs: Vec<Measurement> = Vec::new();
         let mut end = End::Time;
-        for rung in self.first_rung()..self.first_rung() + MOST_RUNGS {
-            let steps = self.steps(rung);
+        for index in self.first_index()..self.first_index() + MOST_RUNS {
+            let steps = self.steps(index);
             if runs.last().is_some_and(|last| last.steps == steps) {
                 continue;
             }
@@ -129,25 +129,25 @@ impl Climb<'_> {
                 break;
             }
         }
-        Ok(Some(Ladder { runs, end }))
+        Ok(Some(Sweep { runs, end }))
     }
 
-    /// The number of steps on a rung: the scheme's evaluations are about samples · 2^(rung/2), and the samples are at states.
-    fn steps(&self, rung: i32) -> u64 {
+    /// The number of steps of the run with this index: the scheme's evaluations are about samples · 2^(index/2), and the samples are at states.
+    fn steps(&self, index: i32) -> u64 {
         let each = self.scheme.scheme.summary().evaluations as f64;
-        let per_sample = (f64::from(rung) / RUNGS_PER_DOUBLING).exp2() / each;
+        let per_sample = (f64::from(index) / RUNS_PER_DOUBLING).exp2() / each;
         self.reference.samples() * per_sample.round().max(1.0).to_u64().unwrap_or(1)
     }
 
-    /// The first rung whose step is below the stability limit times a factor.
-    fn first_rung(&self) -> i32 {
+    /// The index of the first run, whose step is below the stability limit times a factor.
+    fn first_index(&self) -> i32 {
         let evaluations = self.scheme.scheme.summary().evaluations as f64;
         let steps = coarsest(self.problem, self.scheme) / self.reference.samples() as f64;
-        (RUNGS_PER_DOUBLING * (steps.max(1.0) * evaluations).log2()).floor().to_i32().unwrap_or(0)
+        (RUNS_PER_DOUBLING * (steps.max(1.0) * evaluations).log2()).floor().to_i32().unwrap_or(0)
     }
 
     fn measure(&self, steps: u64) -> Result<Measurement, Error> {
-        self.problem.arithmetic.compute(Run { climb: self, steps })
+        self.problem.arithmetic.compute(Run { sweeping: self, steps })
     }
 }
 
@@ -173,18 +173,18 @@ impl Target {
     }
 }
 
-impl Rungs {
+impl StepRange {
     fn len(&self) -> usize {
         match self {
-            Rungs::Automatic { .. } => 0,
-            Rungs::Steps(steps) => steps.len(),
+            StepRange::Automatic { .. } => 0,
+            StepRange::Given(steps) => steps.len(),
         }
     }
 }
 
 /// The next run takes this longer.
 fn next(last: Duration) -> Duration {
-    last.mul_f64((1.0 / RUNGS_PER_DOUBLING).exp2())
+    last.mul_f64((1.0 / RUNS_PER_DOUBLING).exp2())
 }
 
 /// Whether the last runs improve neither the error of the position nor that of H.
@@ -201,7 +201,7 @@ fn is_round_off(runs: &[Measurement]) -> bool {
 
 /// One run in any number type.
 struct Run<'a> {
-    climb: &'a Climb<'a>,
+    sweeping: &'a Sweeping<'a>,
     steps: u64,
 }
 
@@ -209,7 +209,7 @@ impl Computation for Run<'_> {
     type Output = Result<Measurement, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
-        let Climb { problem, scheme, reference, .. } = self.climb;
+        let Sweeping { problem, scheme, reference, .. } = self.sweeping;
         let h: Rational = problem.step_size(self.steps);
         let work = Measuring { steps: self.steps, reference };
         let start = problem.system.start::<N>(context);
