@@ -12,6 +12,7 @@
 //! | [`figures`] | the figures of the paper, and additional ones |
 //! | [`run_arguments`], [`quantity`] | the flags of runs; exact numbers |
 //! | [`selection`], [`system`], [`posed`] | flags → schemes and steps; flags → the system; with end and number type |
+//! | [`plot`] | charts of runs |
 //! | [`readable`], [`output`], [`progress`], [`tasks`] | tables, lines and bars |
 //! | [`report`], [`colour`], [`interrupt`] | messages on stderr and the exit status; colours; Ctrl-C |
 
@@ -28,6 +29,7 @@ mod work_precision;
 mod colour;
 mod interrupt;
 mod output;
+mod plot;
 mod posed;
 mod progress;
 mod quantity;

@@ -11,10 +11,10 @@ use shadowstep_scenes::{Error, WholeFile};
 #[derive(Debug, Args)]
 pub(crate) struct OutputArguments {
     /// Writes to a file, such as out.json, which gets its name when it is complete; a file that exists is not replaced
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", group = "written")]
     pub(crate) output: Option<PathBuf>,
-    /// Replaces the file of --output if it exists
-    #[arg(long, requires = "output")]
+    /// Replaces files that exist
+    #[arg(long, requires = "written")]
     pub(crate) force: bool,
 }
 

@@ -1,6 +1,7 @@
 //! `shadowstep run`: a run that a file describes.
 
 use std::io::{self, IsTerminal};
+use std::path::Path;
 use std::time::Instant;
 
 use clap::Args;
@@ -8,6 +9,7 @@ use shadowstep_scenes::{Error, FileOptions, Format, Note, Observer, Outcome, Sce
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
+use crate::plot::{PlotFiles, Plots, of_rows};
 use crate::progress::Progress;
 use crate::report::{self, Status};
 
@@ -46,6 +48,8 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let scene = Scene::open(&arguments.scene)?;
     scene.notes.iter().for_each(report::note);
+    let plot = scene.output.plot.as_ref();
+    let files = plot.map(|plot| PlotFiles::of_scene(&scene, plot, arguments.force)).transpose()?;
     let begin = Instant::now();
     let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), scene.steps);
     let mut terminal =
@@ -57,6 +61,13 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     };
     let summary = terminal.summary.take();
     drop(terminal);
+    if let Some(files) = &files {
+        let is_new = matches!(outcome, Outcome::Complete { .. });
+        let is_missing = outcome == Outcome::AlreadyComplete && !files.exist();
+        if is_new || is_missing {
+            draw(&scene, files)?;
+        }
+    }
     match outcome {
         Outcome::Complete { force_evaluations } => {
             if io::stderr().is_terminal() {
@@ -79,6 +90,15 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
             Err(Error::run(format!("{}: interrupted at n = {n}", scene.source.path), hint))
         }
     }
+}
+
+/// Draws the charts from the rows of the complete file: those of a resumed run show all of it.
+fn draw(scene: &Scene, files: &PlotFiles) -> Result<(), Error> {
+    let (Some(plot), Some((rows, _))) = (&scene.output.plot, &scene.output.file) else { return Ok(()) };
+    let title = Path::new(&scene.source.path).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let mut plots = Plots::new(title, plot.pictures.clone());
+    of_rows(&mut plots, scene, rows, scene.as_run().name())?;
+    files.write(&plots.svgs()?)
 }
 
 /// Writes the summary, and gives the status that it means.

@@ -66,6 +66,11 @@ impl Selection {
         })
     }
 
+    /// The problem in a line.
+    pub(crate) fn title(&self) -> String {
+        self.problem.title.clone()
+    }
+
     /// The name of a run, the n-th of several.
     pub(crate) fn numbered(&self, n: usize, run: Run<'_>) -> String {
         match self.count() {

@@ -2,7 +2,7 @@
 
 mod rows;
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 use shadowstep::number::Rounded;
 use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::estimates::{Estimates, Finished};
@@ -13,6 +13,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
+use crate::plot::{CHARTS, PlotArguments, Plots, Values};
 use crate::progress::Progress;
 use crate::report::{self, Status};
 use crate::run_arguments::RunArguments;
@@ -20,8 +21,9 @@ use crate::selection::Selection;
 use rows::{Row, RunName, Writer, writer};
 
 const EXAMPLE: &str = "\
-Example:
+Examples:
   shadowstep trace --problem pendulum --scheme yoshida4 --step 1/10 --until 20 --digits 40 --csv > pendulum.csv
+  shadowstep trace kepler --scheme yoshida4 --step 1/20 --until 40 --plot kepler.svg --plot-of energies,orbit=x:y
 
 A line has n, t, energy, modified_energy, estimate and order: the m or k used. The estimate is the estimated error of
 modified_energy, of the right size also near close encounters. With --order 1 there is no reliable estimate: it is empty, in
@@ -34,7 +36,7 @@ const NOT_RESUMED: &str = "begin again; `shadowstep run` with a checkpoint in it
 
 /// Energy and modified energy at each step.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLE)]
+#[command(after_help = format!("{CHARTS}\n\n{EXAMPLE}"), group = ArgGroup::new("written").multiple(true))]
 pub(crate) struct Arguments {
     #[command(flatten)]
     run: RunArguments,
@@ -47,33 +49,61 @@ pub(crate) struct Arguments {
     /// Positions and momenta too
     #[arg(long)]
     states: bool,
+    #[command(flatten)]
+    plot: PlotArguments,
+}
+
+impl Arguments {
+    /// A plot alone is without rows.
+    fn writes_rows(&self) -> bool {
+        !self.plot.is_given() || self.json || self.csv || self.states || self.run.output.output.is_some()
+    }
 }
 
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let selection = Selection::read(&arguments.run)?;
-    if arguments.states && selection.estimator.is_between() {
-        let sentence = "with --estimator bilinear and an odd --order the values are at times between the states";
-        return Err(Error::usage(sentence, "use an even order, or remove --states"));
-    }
+    let mut plots = arguments.plot.read(
+        &selection.problem.system,
+        &selection.title(),
+        selection.count(),
+        arguments.run.output.force,
+    )?;
+    refuse_states_between(&selection, arguments.states, plots.as_ref().is_some_and(|(plots, _)| plots.needs_states()))?;
     if !selection.estimator.gives_errors() {
         report::note("no error estimate at --order 1: the estimates are empty");
     }
     let mut output = Output::of(&arguments.run.output)?;
-    let bar = arguments.run.output.output.is_some();
+    let bar = arguments.run.output.output.is_some() || !arguments.writes_rows();
     let several = selection.count() > 1;
-    let mut write = writer(&selection, arguments.csv, arguments.states, &mut output)?;
+    let csv = arguments.csv && arguments.writes_rows();
+    let mut write = writer(&selection, csv, arguments.states, &mut output)?;
     let (mut summaries, interrupt) = (Vec::new(), Interrupt::listen());
     for (number, (propagator, run)) in (1..).zip(selection.runs()) {
         let progress = Progress::new(bar, selection.numbered(number, run), run.steps);
         let (selection, interrupt, write) = (&selection, &interrupt, &mut write);
-        let following = Following { selection, propagator, run, several, arguments, progress, interrupt, write };
+        let plots = plots.as_mut().map(|(plots, _)| plots);
+        let following = Following { selection, propagator, run, several, arguments, progress, interrupt, write, plots };
         summaries.extend(selection.arithmetic.compute(following)?.summary);
     }
     drop(write);
     output.finish()?;
-    summaries.iter().for_each(|summary| report::summary(summary, !arguments.csv));
+    if let Some((plots, files)) = &plots {
+        files.write(&plots.svgs()?)?;
+    }
+    let json = arguments.writes_rows() && !arguments.csv;
+    summaries.iter().for_each(|summary| report::summary(summary, json));
     let fine = !arguments.run.strict || summaries.iter().all(Summary::is_fine);
     Ok(if fine { Status::Success } else { Status::NegativeAnswer })
+}
+
+/// Refuses to show states beside modified energies that are between them.
+fn refuse_states_between(selection: &Selection, rows: bool, plot: bool) -> Result<(), Error> {
+    if !selection.estimator.is_between() || !(rows || plot) {
+        return Ok(());
+    }
+    let sentence = "with --estimator bilinear and an odd --order the values are at times between the states";
+    let hint = if rows { "use an even order, or remove --states" } else { "use an even order, or --plot-of energies" };
+    Err(Error::usage(sentence, hint))
 }
 
 /// The run and its rows, in any number type.
@@ -86,38 +116,60 @@ struct Following<'a, 'w> {
     progress: Progress,
     interrupt: &'a Interrupt,
     write: &'a mut Writer<'w>,
+    plots: Option<&'a mut Plots>,
 }
 
 impl Computation for Following<'_, '_> {
     type Output = Result<Finished, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
-        let Following { selection, propagator, run, several, arguments, progress, interrupt, write } = self;
+        let Following { selection, propagator, run, several, arguments, progress, interrupt, write, mut plots } = self;
         let (settings, between) = (selection.estimator.clone().with_errors(true), selection.estimator.is_between());
         let system = &selection.problem.system;
         let mut energy_of = system.energy::<N>(context);
         let name = several.then(|| RunName { scheme: run.propagator.to_owned(), step: to_text(run.h) });
         let summarised = !arguments.run.no_summary;
         let estimates = Estimates { system, propagator, run, settings: &settings, summarised };
-        estimates.take::<N>(context, |n, found| {
+        let with_states = plots.as_ref().is_some_and(|plots| plots.needs_states());
+        let mut lines = plots.as_ref().map(|plots| plots.run::<N>(run.name(), run.steps));
+        let finished = estimates.take::<N>(context, |n, found| {
             let energy = (!between).then(|| energy_of(found.q, found.p));
             if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
                 return Err(run.not_finite(&format!("the energy at n = {n}")));
+            }
+            let t = N::from_rational(&run.time_of_value(n, &selection.estimator), context);
+            if let Some(lines) = &mut lines {
+                let numbers = found.q.iter().chain(found.p).filter(|_| with_states);
+                lines.take(&Values {
+                    n: n.unsigned_abs(),
+                    t: t.to_f64(),
+                    energy: energy.as_ref(),
+                    modified_energy: Some(found.value),
+                    estimate: found.error,
+                    state: &numbers.map(N::to_f64).collect::<Vec<_>>(),
+                });
+            }
+            progress.reach(n);
+            interrupt.check(run, n, NOT_RESUMED)?;
+            if !arguments.writes_rows() {
+                return Ok(());
             }
             let texts = |numbers: &[N]| arguments.states.then(|| numbers.iter().map(N::to_text).collect());
             write(&Row {
                 run: name.clone(),
                 n,
-                t: N::from_rational(&run.time_of_value(n, &selection.estimator), context).to_text(),
+                t: t.to_text(),
                 energy: energy.as_ref().map(N::to_text),
                 modified_energy: found.value.to_text(),
                 estimate: found.error.map(N::to_text),
                 order: found.order,
                 q: texts(found.q),
                 p: texts(found.p),
-            })?;
-            progress.reach(n);
-            interrupt.check(run, n, NOT_RESUMED)
-        })
+            })
+        })?;
+        if let (Some(plots), Some(lines)) = (&mut plots, lines) {
+            plots.add(lines);
+        }
+        Ok(finished)
     }
 }

@@ -68,12 +68,23 @@ pub struct Chart {
     pub curves: Vec<Curve>,
     /// Short remarks below the chart.
     pub notes: Vec<String>,
+    /// Whether one unit is as long on both axes, unless the curves are much longer in one direction.
+    pub equal_scales: bool,
 }
 
 impl Chart {
     /// A chart without marks, notes, and a second vertical axis.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis, curves: Vec<Curve>) -> Self {
-        Chart { title: title.into(), x, y, second_y: None, marks: Vec::new(), curves, notes: Vec::new() }
+        Chart {
+            title: title.into(),
+            x,
+            y,
+            second_y: None,
+            marks: Vec::new(),
+            curves,
+            notes: Vec::new(),
+            equal_scales: false,
+        }
     }
 }
 

@@ -25,7 +25,7 @@ pub struct Key {
 }
 
 /// All sections, in the order of the explanation.
-pub const SECTIONS: [Section; 7] = [
+pub const SECTIONS: [Section; 8] = [
     section(
         "problem",
         "[problem]",
@@ -37,10 +37,11 @@ pub const SECTIONS: [Section; 7] = [
     section("output.energy", "[output.energy]", "A table in place of `energy = true`."),
     section("output.modified_energy", "[output.modified_energy]", "A table in place of `modified_energy = true`."),
     section("output.trajectory", "[output.trajectory]", "A table in place of `trajectory = true`."),
+    section("output.plot", "[output.plot]", "A table in place of `plot = \"kepler.svg\"`."),
 ];
 
 /// All keys, section by section.
-pub const KEYS: [Key; 35] = [
+pub const KEYS: [Key; 38] = [
     key(
         "problem",
         "name",
@@ -213,6 +214,14 @@ pub const KEYS: [Key; 35] = [
         "\"1 min\"",
         Some("none; a run that is stopped leaves no file"),
     ),
+    key(
+        "output",
+        "plot",
+        "The file for a chart of the energies; its path is relative to the scene's folder. Or a table, for other charts. Charts \
+         are drawn from the rows of `file` when it is complete, and are replaced as `file` is.",
+        "\"kepler.svg\"",
+        Some("none"),
+    ),
     key("output.energy", "every", "It is written at every n that is a multiple of this.", "10", Some("1")),
     key("output.modified_energy", "every", "It is written at every n that is a multiple of this.", "10", Some("1")),
     key(
@@ -262,6 +271,24 @@ pub const KEYS: [Key; 35] = [
         Some("none; the best k of each state"),
     ),
     key("output.trajectory", "every", "They are written at every n that is a multiple of this.", "100", Some("1")),
+    key(
+        "output.plot",
+        "file",
+        "The file of the first chart; the others have their names in addition: kepler-orbit-x-y.svg.",
+        "\"kepler.svg\"",
+        None,
+    ),
+    key(
+        "output.plot",
+        "of",
+        "The charts. \"energies\": |H - H(0)| and |H̄ - H̄(0)|, with the estimated error of H̄, in time; requires `energy` or \
+         `modified_energy`. \"orbit=x:y\": one coordinate or momentum against another; where there are bodies with \
+         coordinates such as x1, y1 or x_sun, y_sun, also x:y for all of them. \"distance\": of every two bodies in time, or \
+         without bodies from the origin; \"distance=1\" of body 1 from the others; \"distance=1:2\" of two. Orbits and \
+         distances require `trajectory`.",
+        "[\"energies\", \"orbit=x:y\", \"distance\"]",
+        Some("[\"energies\"]"),
+    ),
 ];
 
 const fn section(name: &'static str, heading: &'static str, meaning: &'static str) -> Section {

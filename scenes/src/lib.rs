@@ -77,6 +77,7 @@
 //! | [`library`] | schemes by their names: shipped ones and files |
 //! | [`estimator`] | estimators of the modified energy with their settings |
 //! | [`run`], [`steps`], [`propagator`] | one run of a scheme or of the exact flow with one step size |
+//! | [`plot`] | what charts of a run show |
 //! | [`estimates`], [`start`] | the modified energies along such a run; a system at a state with its stepper |
 //! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
 //! | `watch`, `summary` | what a run shows: the error of H, the modified energy, close encounters, the verdict |
@@ -95,6 +96,7 @@ pub mod library;
 pub mod lock;
 mod note;
 mod observer;
+pub mod plot;
 pub mod propagator;
 mod read;
 pub mod readable;

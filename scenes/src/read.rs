@@ -9,6 +9,7 @@ mod names;
 mod numbers;
 mod output;
 mod pair;
+mod plot;
 mod problem;
 mod reader;
 mod run;
@@ -122,7 +123,7 @@ fn parts(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<(System, run::St
     let system = problem::system(reader, &problem, &initial);
     let general = system.as_ref().is_some_and(System::has_general_kinetic);
     let steps = run::Steps::read(reader, &run, general);
-    let output = output::read(reader, &output);
+    let output = output::read(reader, &output, system.as_ref());
     arithmetic?;
     Some((system?, steps?, output?))
 }

@@ -120,6 +120,19 @@ fn a_killed_run_with_the_best_k_is_resumed_with_the_same_bytes() {
     survives_kills(&SHADOWED.replace("order = \"auto\", max_order = 12", keys), "out.jsonl");
 }
 
+#[test]
+fn the_plot_of_a_resumed_run_shows_the_whole_run() {
+    let scene = SHADOWED.replace("checkpoint = 50", "checkpoint = 50\nplot = \"out.svg\"");
+    let svg = |folder: &Path| fs::read_to_string(folder.join("out.svg")).unwrap();
+    let stopped = stopped(&scene, "out.jsonl");
+    assert!(!stopped.path().join("out.svg").exists());
+    let result = run(stopped.path(), "");
+    assert!(result.code == 0 && result.err.starts_with("note: resumed at n = "), "{}", result.err);
+    let undisturbed = folder(&scene);
+    assert_eq!(run(undisturbed.path(), "").code, 0);
+    assert!(svg(stopped.path()) == svg(undisturbed.path()), "other pictures");
+}
+
 /// A folder where a run was killed.
 fn stopped(scene: &str, file: &str) -> TempDir {
     let folder = folder(scene);

@@ -3,6 +3,7 @@
 mod checkpoints;
 mod drift;
 mod figures;
+mod plot;
 mod polish;
 mod problems;
 mod program;

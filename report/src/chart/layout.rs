@@ -23,6 +23,8 @@ pub(super) const UNDER: f64 = 2.0 * TICK + 2.0 * LINE + 4.0;
 const WIDTH: f64 = 660.0;
 const LEAST_PLOT_WIDTH: f64 = 400.0;
 const PLOT_HEIGHT: f64 = 330.0;
+/// Ranges of more different lengths have no common scale.
+const MOST_UNEQUAL: f64 = 5.0;
 
 /// The range and the ticks of an axis.
 pub(super) struct Span {
@@ -35,6 +37,13 @@ impl Span {
         let range = axis.range.map(|(a, b)| (a.min(b), a.max(b)));
         let range = range.filter(|&range| has_ticks(range, axis.scale)).unwrap_or_else(|| extent(values, axis.scale));
         Span { range, ticks: Ticks::new(axis.scale, range) }
+    }
+
+    /// The span that is so many times as long, with the same middle.
+    fn widened(self, times: f64, scale: Scale) -> Span {
+        let (middle, half) = (f64::midpoint(self.range.0, self.range.1), (self.range.1 - self.range.0) / 2.0);
+        let range = (middle - times * half, middle + times * half);
+        Span { range, ticks: Ticks::new(scale, range) }
     }
 
     /// The width of the labels of a vertical axis, with its description.
@@ -148,8 +157,28 @@ impl Layout {
         let above = legend.last().map_or(top + 4.0, |(_, y)| y + LINE / 2.0 + 6.0);
         let below = MARGIN + notes.len() as f64 * LINE + if notes.is_empty() { 0.0 } else { 8.0 };
         let plot = if chart.second_y.is_some() { 0.0 } else { (chart.curves.len() + 1) as f64 * LINE };
-        let height = above + plot.max(PLOT_HEIGHT) + UNDER + below;
+        let plot_width = picture - MARGIN - y.room() - beside - right;
+        let (x, y, plot) = match chart.equal_scales {
+            true => with_equal_scales(chart, (x, y), plot_width, plot.max(PLOT_HEIGHT)),
+            false => (x, y, plot.max(PLOT_HEIGHT)),
+        };
+        let height = above + plot + UNDER + below;
         Layout { x, y, second, title, legend, notes, above, below, right, width: picture, height }
+    }
+}
+
+/// Both axes with one scale and the height of the plot: a longer range of y makes the plot higher, then the other range longer. Axes
+/// of which one would be much too long stay as they are.
+fn with_equal_scales(chart: &Chart, (x, y): (Span, Span), width: f64, least: f64) -> (Span, Span, f64) {
+    let ratio = (y.range.1 - y.range.0) / (x.range.1 - x.range.0);
+    if !(1.0 / MOST_UNEQUAL..=MOST_UNEQUAL).contains(&ratio) {
+        return (x, y, least);
+    }
+    let height = (ratio * width).clamp(least, least.max(width));
+    let times = ratio * width / height;
+    match times > 1.0 {
+        true => (x.widened(times, chart.x.scale), y, height),
+        false => (x, y.widened(1.0 / times, chart.y.scale), height),
     }
 }
 

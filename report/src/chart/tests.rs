@@ -24,6 +24,7 @@ fn drifts() -> Chart {
         second_y: None,
         curves: curves.collect(),
         notes: vec!["120 digits; t = 0 to 100; estimator of the best order m.".to_owned()],
+        equal_scales: false,
     }
 }
 
@@ -46,6 +47,7 @@ fn bumps() -> Chart {
         second_y: None,
         curves: curves.collect(),
         notes: Vec::new(),
+        equal_scales: false,
     }
 }
 
@@ -67,6 +69,7 @@ fn orders() -> Chart {
             Curve { side: Side::Second, ..curve("m", 2, Look::Points(Marker::Cross), order) },
         ],
         notes: Vec::new(),
+        equal_scales: false,
     }
 }
 
@@ -124,6 +127,27 @@ fn curves_stay_within_the_plot() {
         assert!((left..=right).contains(&x) && (top..=bottom).contains(&y), "{x} {y} in {frame:?}");
     }
     assert!(of_curve.iter().filter(|line| line.iter().any(|point| point.1 == top)).count() >= 2, "no bend before");
+}
+
+/// A circle stays one, whether the curves are higher or wider than the plot; a thin ellipse fills the plot.
+#[test]
+fn equal_scales_show_circles() {
+    let ellipse = |a: f64, b: f64| {
+        let points = (0..=360).map(|i| f64::from(i).to_radians()).map(|t| (a * t.cos(), b * t.sin())).collect();
+        let curves = vec![Curve::line("orbit", points, 0)];
+        let chart = Chart { equal_scales: true, ..Chart::new("", Axis::linear("x"), Axis::linear("y"), curves) };
+        let svg = chart.svg().unwrap();
+        let line = polylines(&svg).into_iter().max_by_key(Vec::len).unwrap();
+        let extent = |values: Vec<f64>| {
+            let (least, most) = values.iter().fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(*v), b.max(*v)));
+            most - least
+        };
+        extent(line.iter().map(|point| point.0).collect()) / extent(line.iter().map(|point| point.1).collect())
+    };
+    for (a, b) in [(1.0, 1.0), (3.0, 1.0), (1.0, 3.0), (1e-8, 2e-8)] {
+        assert!((ellipse(a, b) / (a / b) - 1.0).abs() < 0.01, "{a} {b}: {}", ellipse(a, b));
+    }
+    assert!(ellipse(1.0, 1e-6) < 2.0, "{}", ellipse(1.0, 1e-6));
 }
 
 #[test]
@@ -219,8 +243,7 @@ fn strange_values_are_drawn_or_left_out() {
                         Curve { side: Side::Second, ..curve("b", 100, look, points.clone()) },
                     ];
                     let [x, y] = ["x", "y"].map(|name| axis(name, scale));
-                    let chart =
-                        Chart { x, y, second_y, marks: Vec::new(), curves, title: String::new(), notes: Vec::new() };
+                    let chart = Chart { second_y, ..Chart::new("", x, y, curves) };
                     let svg = chart.svg().unwrap();
                     assert!(svg.len() < 20_000 && !svg.contains("NaN"), "{points:?} {scale:?} {look:?}");
                 }

@@ -9,14 +9,15 @@ use shadowstep::shadow::{
 };
 use toml::de::DeValue;
 
+use super::plot;
 use super::reader::Reader;
 use crate::estimator::{ACCURACY_HINT, conflict};
-use crate::scene::{CheckpointInterval, Format, Outputs};
+use crate::scene::{CheckpointInterval, Format, Outputs, System};
 use crate::steps::MOST_STEPS;
 use shadowstep_schemes::document::{Section, Value};
 
 /// What is to be written, and where.
-pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<Outputs> {
+pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>, system: Option<&System>) -> Option<Outputs> {
     let before = reader.toml.faults.len();
     let file = output.get("file").and_then(|value| reader.toml.text(value));
     let format =
@@ -47,7 +48,9 @@ pub(super) fn read(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<
     let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
     let file = file.map(|name| (folder.join(&name.value), name.at));
     let checkpoint = checkpoint.and_then(|(_, interval)| interval);
-    Some(Outputs { file, format: format?, energy, modified_energy, trajectory, checkpoint })
+    let mut outputs = Outputs { file, format: format?, energy, modified_energy, trajectory, checkpoint, plot: None };
+    outputs.plot = plot::read(reader, output, system, &outputs);
+    Some(outputs)
 }
 
 /// The value of a key that is `true`, `false` or a table: the period, and the table.

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use shadowstep::shadow::EstimatorSettings;
 
+use crate::plot::Plot;
 use crate::scene::format::Format;
 
 /// What is to be written, and where. Periods are in steps: something is written at each n that is a multiple of its own.
@@ -23,6 +24,8 @@ pub struct Outputs {
     pub trajectory: Option<u64>,
     /// How often a checkpoint is made.
     pub checkpoint: Option<CheckpointInterval>,
+    /// Charts of the run, drawn from the rows of the file.
+    pub plot: Option<Plot>,
 }
 
 /// How often a checkpoint is made.

@@ -1,0 +1,150 @@
+//! The curves of a run, from its states one by one.
+
+use shadowstep::Number;
+use shadowstep_scenes::plot::{Content, Distance, Orbit, Picture};
+
+use super::RunOfChart;
+use super::thin::{InTime, Points};
+
+/// What is known at one time of a run.
+pub(crate) struct Values<'a, N> {
+    /// The step, from 0.
+    pub(crate) n: u64,
+    pub(crate) t: f64,
+    pub(crate) energy: Option<&'a N>,
+    pub(crate) modified_energy: Option<&'a N>,
+    /// The estimated error of the modified energy.
+    pub(crate) estimate: Option<&'a N>,
+    /// Positions, then momenta; empty where they are not known.
+    pub(crate) state: &'a [f64],
+}
+
+/// The points of the curves of one chart; those in time of energies are log₁₀ of the values.
+#[derive(Debug)]
+pub(super) enum Lines {
+    Energies {
+        energy: Vec<(f64, f64)>,
+        modified_energy: Vec<(f64, f64)>,
+        estimate: Vec<(f64, f64)>,
+    },
+    /// With the number of states of which one is shown.
+    Orbits(Vec<(Vec<(f64, f64)>, u64)>),
+    Distances(Vec<Vec<(f64, f64)>>),
+}
+
+/// A run that is being followed, and the energies at its beginning.
+pub(crate) struct RunLines<N> {
+    name: String,
+    steps: u64,
+    first: [Option<N>; 2],
+    charts: Vec<Followed>,
+}
+
+/// The curves of one chart as they are made.
+enum Followed {
+    Energies([InTime; 3]),
+    Orbits(Vec<(Orbit, Points)>),
+    Distances(Vec<(Distance, InTime)>),
+}
+
+impl<N: Number> RunLines<N> {
+    pub(super) fn new(name: String, steps: u64, pictures: &[Picture]) -> Self {
+        let charts = pictures.iter().map(|picture| match &picture.content {
+            Content::Energies => Followed::Energies(Default::default()),
+            Content::Orbit { curves, .. } => {
+                Followed::Orbits(curves.iter().map(|orbit| (orbit.clone(), Points::new())).collect())
+            }
+            Content::Distances(distances) => {
+                Followed::Distances(distances.iter().map(|of| (of.clone(), InTime::default())).collect())
+            }
+        });
+        RunLines { name, steps, first: [None, None], charts: charts.collect() }
+    }
+
+    /// Takes the next values of the run.
+    pub(crate) fn take(&mut self, values: &Values<'_, N>) {
+        let Values { n, t, energy, modified_energy, estimate, state } = *values;
+        let [first_energy, first_modified] = &mut self.first;
+        let heights = [
+            energy.map(|value| change(first_energy, value)),
+            modified_energy.map(|value| change(first_modified, value)),
+            estimate.map(N::log10_abs),
+        ];
+        for chart in &mut self.charts {
+            match chart {
+                Followed::Energies(lines) => {
+                    for (line, height) in lines.iter_mut().zip(heights) {
+                        height.into_iter().for_each(|height| line.take(n, self.steps, (t, height)));
+                    }
+                }
+                Followed::Orbits(orbits) if !state.is_empty() => {
+                    orbits.iter_mut().for_each(|(of, points)| points.take((state[of.values[0]], state[of.values[1]])));
+                }
+                Followed::Distances(lines) if !state.is_empty() => {
+                    lines.iter_mut().for_each(|(of, line)| line.take(n, self.steps, (t, distance(of, state))));
+                }
+                Followed::Orbits(_) | Followed::Distances(_) => {}
+            }
+        }
+    }
+
+    pub(super) fn finish(self) -> RunOfChart {
+        let lines = self.charts.into_iter().map(|chart| match chart {
+            Followed::Energies(lines) => {
+                let [energy, modified_energy, estimate] = lines.map(InTime::finish);
+                Lines::Energies { energy, modified_energy, estimate }
+            }
+            Followed::Orbits(orbits) => Lines::Orbits(orbits.into_iter().map(|(_, points)| points.finish()).collect()),
+            Followed::Distances(lines) => Lines::Distances(lines.into_iter().map(|(_, line)| line.finish()).collect()),
+        });
+        RunOfChart { name: self.name, lines: lines.collect() }
+    }
+}
+
+/// log₁₀ |value − first|, with the digits of the run.
+fn change<N: Number>(first: &mut Option<N>, value: &N) -> f64 {
+    let first = first.get_or_insert_with(|| value.clone());
+    let mut change = value.clone();
+    change.subtract(first);
+    change.log10_abs()
+}
+
+fn distance(of: &Distance, state: &[f64]) -> f64 {
+    let from = &state[of.from.clone()];
+    match &of.to {
+        Some(to) => from.iter().zip(&state[to.clone()]).map(|(a, b)| a - b).fold(0.0, f64::hypot),
+        None => from.iter().copied().fold(0.0, f64::hypot),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowstep::exact;
+    use shadowstep::number::{Float, Precision};
+    use shadowstep::problems::problem;
+    use shadowstep_scenes::System;
+
+    use super::*;
+
+    #[test]
+    fn changes_of_energies_have_the_digits_of_the_run() {
+        let system = System::of_setup(problem("kepler").unwrap().setup(&[], 50).unwrap());
+        let picture = |text: &str| Picture::read(text, &system).unwrap();
+        let pictures = ["energies", "orbit=y:x", "distance"].map(picture);
+        let mut run = RunLines::<Float>::new("run".to_owned(), 2, &pictures);
+        let number = |text: &str| Float::from_rational(&exact(text).unwrap(), &Precision::digits(50).unwrap());
+        let (error, energies) = (number("1e-40"), ["1", "1", "1 - 1e-45"].map(number));
+        for (n, energy) in (0..).zip(&energies) {
+            let (t, state) = (n as f64 / 4.0, [3.0, 4.0 * n as f64, 0.0, 0.0]);
+            let modified_energy = (n != 1).then_some(energy);
+            run.take(&Values { n, t, energy: Some(energy), modified_energy, estimate: Some(&error), state: &state });
+        }
+        let lines = run.finish().lines;
+        let Lines::Energies { energy, modified_energy, estimate } = &lines[0] else { panic!("{lines:?}") };
+        let is_near = |points: &[(f64, f64)], height: f64| matches!(points, [(t, found)] if *t == 0.5 && (found - height).abs() < 1e-4);
+        assert!(is_near(energy, -45.0) && is_near(modified_energy, -45.0), "{energy:?} {modified_energy:?}");
+        assert!(estimate.len() == 3 && estimate.iter().all(|(_, height)| (height + 40.0).abs() < 1e-9));
+        assert!(matches!(&lines[1], Lines::Orbits(all) if all[0] == (vec![(0.0, 3.0), (4.0, 3.0), (8.0, 3.0)], 1)));
+        assert!(matches!(&lines[2], Lines::Distances(all) if all[0][..2] == [(0.0, 3.0), (0.25, 5.0)]));
+    }
+}

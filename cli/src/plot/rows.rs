@@ -1,0 +1,116 @@
+//! The curves of a run from the file that it has written: CSV or JSON lines.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+use serde::Deserialize;
+use shadowstep::number::Rounded;
+use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::{Error, Format, Scene};
+use shadowstep_symbolic::decimal::from_text;
+
+use super::{Plots, Values};
+
+/// A row with the texts of its numbers; what is not there is `None`.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Row {
+    n: u64,
+    t: String,
+    energy: Option<String>,
+    modified_energy: Option<String>,
+    estimate: Option<String>,
+    q: Vec<String>,
+    p: Vec<String>,
+}
+
+/// Adds the curves of a scene's run from its complete file.
+///
+/// # Errors
+/// A file that cannot be read, or has other rows than those of the scene.
+pub(crate) fn of_rows(plots: &mut Plots, scene: &Scene, path: &Path, name: String) -> Result<(), Error> {
+    scene.arithmetic.compute(Reading { plots, scene, path, name })
+}
+
+struct Reading<'a> {
+    plots: &'a mut Plots,
+    scene: &'a Scene,
+    path: &'a Path,
+    name: String,
+}
+
+impl Computation for Reading<'_> {
+    type Output = Result<(), Error>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+        let Reading { plots, scene, path, name } = self;
+        let mut run = plots.run::<N>(name, scene.steps);
+        let damaged = |n: u64| {
+            let message = format!("{}: the row after n = {n} cannot be read, so there is no plot", path.display());
+            Error::usage(message, "--restart runs the scene again")
+        };
+        let number = |text: &str| from_text(text).ok().map(|exact| N::from_rational(&exact, context));
+        let mut last = 0;
+        each_row(scene, path, |row| {
+            let row = row.ok_or_else(|| damaged(last))?;
+            last = row.n;
+            let texts = [&row.energy, &row.modified_energy, &row.estimate];
+            let numbers = texts.map(|text| text.as_deref().map(number));
+            if numbers.iter().any(|number| matches!(number, Some(None))) {
+                return Err(damaged(last));
+            }
+            let [energy, modified_energy, estimate] = numbers.map(Option::flatten);
+            let state: Result<Vec<f64>, _> = row.q.iter().chain(&row.p).map(|text| text.parse()).collect();
+            let state = state.ok().filter(|state| state.is_empty() || state.len() == 2 * scene.system.q.len());
+            run.take(&Values {
+                n: row.n,
+                t: row.t.parse().map_err(|_| damaged(last))?,
+                energy: energy.as_ref(),
+                modified_energy: modified_energy.as_ref(),
+                estimate: estimate.as_ref(),
+                state: &state.ok_or_else(|| damaged(last))?,
+            });
+            Ok(())
+        })?;
+        plots.add(run);
+        Ok(())
+    }
+}
+
+/// Gives each row, or `None` for one that cannot be read, to `take`.
+fn each_row(scene: &Scene, path: &Path, mut take: impl FnMut(Option<Row>) -> Result<(), Error>) -> Result<(), Error> {
+    let file = File::open(path)?;
+    match scene.output.format {
+        Format::JsonLines => BufReader::new(file).lines().try_for_each(|line| take(serde_json::from_str(&line?).ok())),
+        Format::Csv => {
+            let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(file);
+            let header = reader.headers()?.clone();
+            let (coordinates, momenta) = (&scene.system.coordinates, &scene.system.momenta);
+            let column = |name: &str| header.iter().position(|known| known == name);
+            let all = |names: &[String]| names.iter().map(|name| column(name)).collect::<Vec<_>>();
+            let known = ["n", "t", "energy", "modified_energy", "estimate"].map(column);
+            let (q, p) = (all(coordinates), all(momenta));
+            for record in reader.records() {
+                let row = record.ok().and_then(|record| {
+                    let text = |number: &Option<usize>| {
+                        number.and_then(|number| record.get(number)).filter(|text| !text.is_empty()).map(str::to_owned)
+                    };
+                    let [n, t, energy, modified_energy, estimate] = known.each_ref().map(text);
+                    let state = |numbers: &[Option<usize>]| numbers.iter().filter_map(text).collect();
+                    Some(Row {
+                        n: n?.parse().ok()?,
+                        t: t?,
+                        energy,
+                        modified_energy,
+                        estimate,
+                        q: state(&q),
+                        p: state(&p),
+                    })
+                });
+                take(row)?;
+            }
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! `plot` in [output]: the charts and their file.
+
+use std::path::Path;
+
+use toml::de::DeValue;
+
+use super::reader::Reader;
+use crate::plot::{Content, Picture, PictureError, Plot};
+use crate::scene::{Outputs, System};
+use shadowstep_schemes::document::{self, Placed, Section, Text};
+
+/// The charts, if the rows that they are drawn from are written.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    output: &Section<'_, '_>,
+    system: Option<&System>,
+    outputs: &Outputs,
+) -> Option<Plot> {
+    let value = output.get("plot")?;
+    let (file, of) = match value.get_ref() {
+        DeValue::String(_) => (reader.toml.text(value), None),
+        DeValue::Table(table) => {
+            let table = reader.table(table, value, "output.plot");
+            let file = reader.toml.required(&table, "file").and_then(|value| reader.toml.text(value));
+            let of = table
+                .get("of")
+                .map(|value| reader.toml.list(value, "charts, such as [\"energies\"]", document::Reader::text));
+            (file, of)
+        }
+        _ => return reader.toml.wrong_kind(value, "the name of a file, or a table: { file = \"kepler.svg\" }"),
+    };
+    let file = file?;
+    if !file.value.ends_with(".svg") || file.value.ends_with("/.svg") || file.value == ".svg" {
+        let message = format!("`{}` is not a name of an SVG file", file.value);
+        return reader.toml.wrong(&file.at, message, "give a name such as kepler.svg");
+    }
+    let path = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new("")).join(&file.value);
+    match &outputs.file {
+        None if output.get("file").is_none() => {
+            let message = "a plot requires a file, from whose rows it is drawn";
+            return reader.toml.wrong(&value.span(), message, "add `file = \"out.csv\"`");
+        }
+        Some((rows, _)) if *rows == path => {
+            return reader.toml.wrong(
+                &file.at,
+                "the plot has the name of the file for the rows",
+                "give it another name",
+            );
+        }
+        _ => {}
+    }
+    let texts = match of {
+        None => vec![Placed { value: "energies".to_owned(), at: file.at.clone() }],
+        Some(of) => of?.value.into_iter().map(|Text { value, at, .. }| Placed { value, at }).collect(),
+    };
+    let pictures = pictures(reader, &texts, system?, outputs)?;
+    Some(Plot { file: path, at: file.at, pictures })
+}
+
+fn pictures(
+    reader: &mut Reader<'_>,
+    texts: &[Placed<String>],
+    system: &System,
+    outputs: &Outputs,
+) -> Option<Vec<Picture>> {
+    let mut pictures: Vec<Picture> = Vec::new();
+    for Placed { value: text, at } in texts {
+        let picture = Picture::read(text, system).and_then(|picture| match missing(&picture, outputs) {
+            Some(error) => Err(error),
+            None => Ok(picture),
+        });
+        match picture {
+            Ok(picture) if pictures.contains(&picture) => {
+                return reader.toml.wrong(at, format!("`{text}` is given twice"), "keep one");
+            }
+            Ok(picture) => pictures.push(picture),
+            Err(PictureError { message, hint }) => return reader.toml.wrong(at, message, hint),
+        }
+    }
+    Some(pictures)
+}
+
+/// The fault if the rows do not have what the chart shows.
+fn missing(picture: &Picture, outputs: &Outputs) -> Option<PictureError> {
+    let Picture { text, content } = picture;
+    let (is_there, message, hint) = match content {
+        Content::Energies => (
+            outputs.energy.is_some() || outputs.modified_energy.is_some(),
+            format!("the chart `{text}` requires rows with energies"),
+            "add `energy = true` or `modified_energy = true`",
+        ),
+        Content::Orbit { .. } | Content::Distances(_) => (
+            outputs.trajectory.is_some(),
+            format!("the chart `{text}` requires rows with positions and momenta"),
+            "add `trajectory = true`",
+        ),
+    };
+    (!is_there).then(|| PictureError { message, hint: hint.to_owned() })
+}
