@@ -122,7 +122,8 @@ fn a_killed_run_with_the_best_k_is_resumed_with_the_same_bytes() {
 
 #[test]
 fn the_plot_of_a_resumed_run_shows_the_whole_run() {
-    let scene = SHADOWED.replace("checkpoint = 50", "checkpoint = 50\nplot = \"out.svg\"");
+    let scene = SHADOWED.replace("steps = 15000", "steps = 5000");
+    let scene = scene.replace("checkpoint = 50", "checkpoint = 50\nplot = \"out.svg\"");
     let svg = |folder: &Path| fs::read_to_string(folder.join("out.svg")).unwrap();
     let stopped = stopped(&scene, "out.jsonl");
     assert!(!stopped.path().join("out.svg").exists());

@@ -157,9 +157,8 @@ impl Layout {
         let above = legend.last().map_or(top + 4.0, |(_, y)| y + LINE / 2.0 + 6.0);
         let below = MARGIN + notes.len() as f64 * LINE + if notes.is_empty() { 0.0 } else { 8.0 };
         let plot = if chart.second_y.is_some() { 0.0 } else { (chart.curves.len() + 1) as f64 * LINE };
-        let plot_width = picture - MARGIN - y.room() - beside - right;
         let (x, y, plot) = match chart.equal_scales {
-            true => with_equal_scales(chart, (x, y), plot_width, plot.max(PLOT_HEIGHT)),
+            true => with_equal_scales(chart, (x, y), picture - MARGIN - beside - right, plot.max(PLOT_HEIGHT)),
             false => (x, y, plot.max(PLOT_HEIGHT)),
         };
         let height = above + plot + UNDER + below;
@@ -167,19 +166,23 @@ impl Layout {
     }
 }
 
-/// Both axes with one scale and the height of the plot: a longer range of y makes the plot higher, then the other range longer. Axes
-/// of which one would be much too long stay as they are.
-fn with_equal_scales(chart: &Chart, (x, y): (Span, Span), width: f64, least: f64) -> (Span, Span, f64) {
-    let ratio = (y.range.1 - y.range.0) / (x.range.1 - x.range.0);
-    if !(1.0 / MOST_UNEQUAL..=MOST_UNEQUAL).contains(&ratio) {
+/// Both axes with one scale, and the height of the plot. A high range of y makes the plot higher, up to a square; beyond, one of the
+/// ranges becomes longer. Axes of which one would be much too long stay as they are.
+fn with_equal_scales(chart: &Chart, (x, y): (Span, Span), room: f64, least: f64) -> (Span, Span, f64) {
+    let ratio = |x: &Span, y: &Span| (y.range.1 - y.range.0) / (x.range.1 - x.range.0);
+    if !(1.0 / MOST_UNEQUAL..=MOST_UNEQUAL).contains(&ratio(&x, &y)) {
         return (x, y, least);
     }
-    let height = (ratio * width).clamp(least, least.max(width));
-    let times = ratio * width / height;
-    match times > 1.0 {
-        true => (x.widened(times, chart.x.scale), y, height),
-        false => (x, y.widened(1.0 / times, chart.y.scale), height),
-    }
+    let width = room - y.room();
+    let natural = ratio(&x, &y) * width;
+    let times = natural / natural.clamp(least, least.max(width));
+    let (x, y) = match times > 1.0 {
+        true => (x.widened(times, chart.x.scale), y),
+        false => (x, y.widened(1.0 / times, chart.y.scale)),
+    };
+    // the labels of a longer range may be wider
+    let height = ratio(&x, &y) * (room - y.room());
+    (x, y, height)
 }
 
 /// Entries from left to right, in as many rows as necessary.
