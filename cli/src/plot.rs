@@ -27,7 +27,7 @@ use shadowstep_scenes::plot::{MOST_CURVES, Picture};
 use shadowstep_scenes::{Error, System};
 use std::path::PathBuf;
 
-use lines::Lines;
+use lines::RunOfChart;
 
 /// What can be drawn, for the help.
 pub(crate) const CHARTS: &str = "\
@@ -56,13 +56,6 @@ pub(crate) struct Plots {
     title: String,
     pictures: Vec<Picture>,
     runs: Vec<RunOfChart>,
-}
-
-/// A run with its lines, one for each chart.
-#[derive(Debug)]
-struct RunOfChart {
-    name: String,
-    lines: Vec<Lines>,
 }
 
 impl PlotArguments {
@@ -122,6 +115,7 @@ impl Plots {
 
     /// The charts as SVG.
     pub(crate) fn svgs(&self) -> Result<Vec<String>, Error> {
-        (0..self.pictures.len()).map(|number| charts::chart(self, number).svg()).collect()
+        let charts = self.pictures.iter().enumerate();
+        charts.map(|(number, picture)| charts::chart(&self.title, picture, &self.runs, number).svg()).collect()
     }
 }

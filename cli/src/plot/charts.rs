@@ -1,19 +1,18 @@
 //! Curves of runs → charts.
 
 use shadowstep_report::chart::{Axis, Chart, Curve, Marker};
-use shadowstep_scenes::plot::{Content, Distance, Orbit};
+use shadowstep_scenes::plot::{Content, Distance, Orbit, Picture};
 
-use super::lines::Lines;
-use super::{Plots, RunOfChart};
+use super::lines::{Lines, RunOfChart};
 
-/// The chart of a picture, with the curves of all runs.
-pub(super) fn chart(plots: &Plots, number: usize) -> Chart {
-    let runs: Vec<(&RunOfChart, &Lines)> = plots.runs.iter().map(|run| (run, &run.lines[number])).collect();
+/// The chart of a picture, the one of this number, with the curves of all runs.
+pub(super) fn chart(title: &str, picture: &Picture, runs: &[RunOfChart], number: usize) -> Chart {
+    let runs: Vec<(&RunOfChart, &Lines)> = runs.iter().map(|run| (run, &run.lines[number])).collect();
     let title = match &runs[..] {
-        [(run, _)] => format!("{}: {}", plots.title, run.name),
-        _ => plots.title.clone(),
+        [(run, _)] => format!("{title}: {}", run.name),
+        _ => title.to_owned(),
     };
-    match &plots.pictures[number].content {
+    match &picture.content {
         Content::Energies => energies(title, &runs),
         Content::Orbit { axes, curves, is_in_space } => orbits(title, &runs, axes, curves, *is_in_space),
         Content::Distances(distances) => in_time(title, &runs, distances),

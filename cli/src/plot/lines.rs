@@ -3,7 +3,6 @@
 use shadowstep::Number;
 use shadowstep_scenes::plot::{Content, Distance, Orbit, Picture};
 
-use super::RunOfChart;
 use super::thin::{InTime, Points};
 
 /// What is known at one time of a run.
@@ -17,6 +16,13 @@ pub(crate) struct Values<'a, N> {
     pub(crate) estimate: Option<&'a N>,
     /// Positions, then momenta; empty where they are not known.
     pub(crate) state: &'a [f64],
+}
+
+/// A run with its lines, one for each chart.
+#[derive(Debug)]
+pub(crate) struct RunOfChart {
+    pub(super) name: String,
+    pub(super) lines: Vec<Lines>,
 }
 
 /// The points of the curves of one chart; those in time of energies are log₁₀ of the values.

@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use shadowstep_symbolic::nearest;
 
-use super::PictureError;
 use crate::scene::{PotentialEnergy, System};
 
 /// Bodies whose coordinates follow each other.
@@ -45,14 +44,16 @@ impl Bodies {
     }
 
     /// The number of a body from 0.
-    pub(super) fn number(&self, name: &str) -> Result<usize, PictureError> {
+    ///
+    /// # Errors
+    /// Which bodies there are.
+    pub(super) fn number(&self, name: &str) -> Result<usize, String> {
         self.names.iter().position(|known| known == name).ok_or_else(|| {
-            let hint = match (nearest(name, self.names.iter().map(String::as_str)), &self.names[..]) {
+            match (nearest(name, self.names.iter().map(String::as_str)), &self.names[..]) {
                 (Some(near), _) => format!("did you mean `{near}`?"),
                 (None, [first, .., last]) => format!("the bodies are {first} to {last}"),
                 (None, _) => "the system has one body".to_owned(),
-            };
-            PictureError { message: format!("there is no body `{name}`"), hint }
+            }
         })
     }
 }
