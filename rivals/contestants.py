@@ -39,6 +39,12 @@ class Rival:
     many: bool = False
     tolerances: list[float] = field(default_factory=list)
 
+    # The problems that would take it minutes.
+    too_slow_for: tuple[str, ...] = ()
+
+    def takes_part(self, problem):
+        return problem.system in self.systems and problem.key not in self.too_slow_for
+
     def sweep(self, problem, method):
         """The steps or tolerances of a problem."""
         if method.forces is None:
@@ -192,6 +198,7 @@ RIVALS = [
         [Method("DOP853")],
         ALL,
         tolerances=[1e-5, 1e-7, 1e-9, 1e-11, 1e-13],
+        too_slow_for=("outer-10000000",),
     ),
     Rival(
         "pyhamsys",
@@ -200,6 +207,7 @@ RIVALS = [
         [PYTHON, HERE / "python" / "pyhamsys_rival.py"],
         [Method("Verlet", 1, "stormer-verlet"), Method("RKN6b", 11, "blanes-moan-srkn11b")],
         ALL,
+        too_slow_for=("outer-10000000",),
     ),
     Rival(
         "C with MPFR",

@@ -8,7 +8,8 @@ import subprocess
 from datetime import date
 
 from contestants import BUILD, HERE
-from measure import LONG, LONGEST, ROUNDS, ROUNDS_OF_LONG
+from measure import LONG, LONGEST, ROUNDS_OF_LONG
+from problems import Problem
 
 PACKAGES = ["rebound", "heyoka", "scipy", "numpy", "pyhamsys"]
 
@@ -40,7 +41,7 @@ def describe(load_before):
         f"Measured on {date.today()}: {processor()}, {os.cpu_count()} cores, {first_line('rustc', '--version')}, "
         f"{first_line('gcc', '--version')}, Boost {debian('libboost-dev')}, MPFR {debian('libmpfr-dev')}, Python {platform.python_version()}, {versions}. The load of the machine was {load}."
     )
-    rounds = f"{ROUNDS} rounds ({ROUNDS_OF_LONG} for runs above {LONG} s)"
+    rounds = f"{Problem.rounds} rounds ({ROUNDS_OF_LONG} for runs above {LONG} s)"
     return {"machine": text, "rounds": rounds, "longest": LONGEST, "jit": compile_times()}
 
 

@@ -22,8 +22,7 @@ OURS = BUILD / "cargo" / "release" / "ours"
 os.environ |= {"INITIAL": str(INITIAL), "SCHEMES": str(SCHEMES), "OMP_NUM_THREADS": "1"}
 getcontext().prec = 45
 
-# A run that takes longer is repeated in fewer rounds.
-ROUNDS = 7
+# A run that takes longer, in seconds, is repeated in fewer rounds.
 LONG = 0.1
 ROUNDS_OF_LONG = 3
 # A sweep ends with the first run that takes longer, in seconds.
@@ -105,7 +104,7 @@ def measure_errors(run, problem, initial, exact):
 def sweeps_of(problem, programs):
     """The runs of each method, from coarse to fine."""
     for rival in RIVALS:
-        if problem.system in rival.systems:
+        if rival.takes_part(problem):
             for method in rival.methods:
                 if method.takes_part(problem.system):
                     yield [Run(rival, method, parameter, programs[rival.name]) for parameter in rival.sweep(problem, method)]
@@ -122,13 +121,13 @@ def runs_with_errors(problem, programs, initial, exact):
 
 def measure(problem):
     """Measures a problem and writes its results."""
-    here = [rival for rival in RIVALS if problem.system in rival.systems]
+    here = [rival for rival in RIVALS if rival.takes_part(problem)]
     programs = {rival.name: Program(rival.command) for rival in here}
     initial = read_initial(problem.initial)
     exact, uncertainty = references(problem)
     runs = list(runs_with_errors(problem, programs, initial, exact))
     order = random.Random(1)
-    for _ in range(ROUNDS):
+    for _ in range(problem.rounds):
         order.shuffle(runs)
         for run in runs:
             if not run.finished:
