@@ -22,7 +22,7 @@ use super::trend::Trend;
 /// | too large: energy error | the energy error is 0.4 of T or more; or T is 0 in all windows, and q changes |
 /// | drifts | H̄ moved by 1e-3 or more in a straight line |
 /// | not the gradient | a permanent change of a quarter is excluded, but H̄ changes from state to state as H does: they differ by 0.3 of what H̄ changes in a window, whose last terms are 0.004 of that, and the fastest motion turns once in 10 steps or more |
-/// | fine | a permanent change of a quarter is excluded, and the one above does not apply |
+/// | fine | a permanent change of a quarter is excluded, H̄ did not move by a quarter between any two windows as far as that is resolved, and the one above does not apply |
 /// | not smooth | forces are [not smooth](super::Report::rough) in a quarter of the windows |
 /// | not conserved | H̄ moved permanently by half or more, its errors are a quarter or less, and the fastest motion turns once in 18 steps or less; but the energy error is below 0.05 of T |
 /// | too large: moves | the same, and the energy error is 0.05 of T or more |
@@ -227,7 +227,7 @@ impl Evidence {
             Verdict::TooLarge(Criterion::EnergyError)
         } else if self.straight && self.has_errors && self.moved_beyond_round_off() >= LINEAR_MOVE {
             Verdict::Drifts
-        } else if self.bound().is_some_and(|bound| bound < PERMANENT_LIMIT) {
+        } else if self.excludes_a_permanent_change() {
             if self.follows_the_energy() { Verdict::NotTheGradient } else { Verdict::Fine }
         } else if self.rough {
             Verdict::NotSmooth
@@ -253,6 +253,12 @@ impl Evidence {
         let moved = self.moved_beyond_round_off();
         let resolved = self.has_errors && self.worst_error <= PERMANENT_LIMIT && moved > 0.0 && moved <= LARGEST_MOVE;
         (resolved && self.trend.is_some_and(|trend| trend != Trend::Steady)).then_some(moved)
+    }
+
+    /// Whether a permanent change of a quarter is excluded, and none is resolved between the windows.
+    fn excludes_a_permanent_change(&self) -> bool {
+        self.bound().is_some_and(|bound| bound < PERMANENT_LIMIT)
+            && self.permanent_move().is_none_or(|moved| moved < PERMANENT_LIMIT)
     }
 
     /// What would decide, for estimates of an order k or m.
