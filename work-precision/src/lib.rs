@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | [`study`], `calculation` | the runs of several schemes on a problem; what is computed and saved |
 //! | [`problem`] | a system, an interval of time, a number type |
-//! | [`reference`] | the positions with which those of the schemes are compared, and their own error |
+//! | [`reference`](mod@reference) | the positions with which those of the schemes are compared, and their own error |
 //! | `positions` | positions at the times at which errors are taken |
 //! | [`sweep`] | the runs of a scheme, from its stability limit down to round-off |
 //! | [`run`] | one run: errors of position and energy, the modified energy |
