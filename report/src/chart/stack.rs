@@ -6,7 +6,7 @@ use super::Chart;
 use super::layout::Layout;
 use crate::Error;
 
-/// The SVG text of charts below each other, for a file; `title` is what readers of the screen are told of the whole.
+/// The SVG text of charts below each other, for a file; `title` is the text of the whole for screen readers.
 ///
 /// # Errors
 /// A chart that cannot be drawn.
