@@ -18,7 +18,6 @@ use crate::output::Output;
 use crate::posed::{Posed, PosedArguments};
 use crate::quantity;
 use crate::report::Status;
-use crate::run_arguments::SystemArguments;
 use crate::tasks::Terminal;
 use crate::work_precision::{schemes, seconds};
 
@@ -36,8 +35,6 @@ step. Exit code 1 if no scheme meets the tolerance.";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
-    #[command(flatten)]
-    system: SystemArguments,
     #[command(flatten)]
     posed: PosedArguments,
     /// The largest error, such as 1e-8
@@ -82,7 +79,7 @@ enum What {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let tolerance = quantity::number("--tolerance", &arguments.tolerance)?;
     let tolerance = Size::power_of_ten(tolerance_log10(&tolerance, &arguments.tolerance)?);
-    let posed = Posed::read(&arguments.system, &arguments.posed)?;
+    let posed = Posed::read(&arguments.posed)?;
     let schemes = schemes(&arguments.schemes, &posed)?;
     let temporary = tempfile::tempdir()?;
     let folder = arguments.out.clone().unwrap_or_else(|| temporary.path().to_owned());
@@ -133,13 +130,16 @@ fn readable(posed: &Posed, question: &Question<'_>, advice: &Advice<'_>, coloure
     let mut text = wrapped_to(&posed.title(), "", WIDTH);
     text += &wrapped_to(&format!("tolerance {}: {}", question.tolerance, question.of.name()), "", WIDTH);
     match advice {
-        Advice::OutOfReach { least, part, reference, in_time } => {
+        Advice::OutOfReach { least, part, reference, in_time, missed } => {
             let runs = over(*part);
             let limit = match in_time {
                 true => format!("in {}", posed.arithmetic.described()),
                 false => format!("in runs of {} s a scheme, which --seconds sets", question.seconds),
             };
             let found = match least {
+                _ if *missed > 0 => format!(
+                    "No advice: {missed} runs over all of the time were expected to meet the tolerance from runs {runs}, and missed it."
+                ),
                 Some((error, name)) => {
                     format!("No scheme meets the tolerance {limit}: the smallest error was {error}, of {name}, {runs}.")
                 }

@@ -13,9 +13,11 @@ use crate::quantity::{self, whole};
 use crate::run_arguments::SystemArguments;
 use crate::system::{Described, is_file};
 
-/// The end of the runs and the number type.
+/// The system, the end of the runs and the number type.
 #[derive(Debug, Args)]
 pub(crate) struct PosedArguments {
+    #[command(flatten)]
+    system: SystemArguments,
     /// The time at which runs end, exact, such as 100 [default: that of the scene]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: Option<String>,
@@ -36,8 +38,8 @@ pub(crate) struct Posed {
 }
 
 impl Posed {
-    pub(crate) fn read(system: &SystemArguments, arguments: &PosedArguments) -> Result<Self, Error> {
-        let path = system.problem().filter(|word| is_file(word));
+    pub(crate) fn read(arguments: &PosedArguments) -> Result<Self, Error> {
+        let path = arguments.system.problem().filter(|word| is_file(word));
         let is_complete = arguments.until.is_some() && (arguments.double || arguments.digits.is_some());
         // without [run], a scene is only a system
         let scene = path.filter(|_| !is_complete).map(|path| Scene::open(Path::new(path)));
@@ -60,7 +62,7 @@ impl Posed {
         if until == Rational::from_integer(0.into()) {
             return Err(Error::usage("--until 0: the runs must have a length", "write --until 100"));
         }
-        Ok(Posed { described: Described::read(system, arithmetic)?, until, arithmetic })
+        Ok(Posed { described: Described::read(&arguments.system, arithmetic)?, until, arithmetic })
     }
 
     pub(crate) fn problem(&self) -> Problem<'_> {

@@ -21,7 +21,6 @@ use crate::output::Output;
 use crate::posed::{Posed, PosedArguments};
 use crate::quantity;
 use crate::report::{self, Status};
-use crate::run_arguments::SystemArguments;
 use crate::tasks::Terminal;
 use table::readable;
 
@@ -41,8 +40,6 @@ own error is estimated. Times are those of the bare steps of tables that are rea
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
-    #[command(flatten)]
-    system: SystemArguments,
     #[command(flatten)]
     posed: PosedArguments,
     /// Shipped schemes or files of tables, such as yoshida4,mine.toml; +mine.toml adds to the default ones, all are those of the
@@ -69,7 +66,7 @@ const REFERENCE: f64 = 10.0;
 
 /// Makes the runs, and writes charts and data.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let posed = Posed::read(&arguments.system, &arguments.posed)?;
+    let posed = Posed::read(&arguments.posed)?;
     if !arguments.force {
         refuse_foreign(&arguments.out)?;
     }

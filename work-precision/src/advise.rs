@@ -15,7 +15,7 @@ use crate::best::cost_of;
 use crate::calculation::{Calculation, Outcome};
 use crate::convenient::convenient_step;
 use crate::of::Of;
-use crate::problem::{MOST_SAMPLES, Problem};
+use crate::problem::{Problem, most_samples};
 use crate::run::Measurement;
 use crate::size::Size;
 use crate::study::{Cost, Request, Studied, Study, only, proved_order};
@@ -100,6 +100,8 @@ pub enum Advice<'a> {
         reference: Size,
         /// Whether the time was over before round-off was reached.
         in_time: bool,
+        /// How many runs over all of the time were expected to meet the tolerance, and missed it.
+        missed: usize,
     },
 }
 
@@ -131,7 +133,8 @@ impl<'a> Question<'a> {
         let part = 0.5_f64.powi(halvings);
         let mut choices: Vec<Choice<'a>> =
             study.schemes.iter().filter_map(|studied| self.choice(&study, studied, halvings)).collect();
-        for _ in 0..ATTEMPTS {
+        let mut missed = 0;
+        while missed < ATTEMPTS {
             choices.sort_by(|a, b| self.cost_of(a).total_cmp(&self.cost_of(b)));
             let Some(best) = choices.first_mut() else { break };
             let error = self.verify(best, observer)?;
@@ -140,6 +143,7 @@ impl<'a> Question<'a> {
                 return Ok(Advice::Found { choices, verified, part });
             }
             self.reduce(best, error);
+            missed += 1;
         }
         let runs = study.schemes.iter().flat_map(|studied| studied.sweep.runs.iter().map(move |run| (studied, run)));
         let errors = runs.filter_map(|(studied, run)| Some((self.of.error(run)?, self.named(studied).name.as_str())));
@@ -148,6 +152,7 @@ impl<'a> Question<'a> {
             part,
             reference: study.reference.error(),
             in_time: study.schemes.iter().all(|studied| studied.sweep.end != End::Time),
+            missed,
         })
     }
 
@@ -235,7 +240,7 @@ impl<'a> Question<'a> {
     fn verify(&self, choice: &Choice<'a>, observer: &mut dyn Observer) -> Result<Option<Size>, Error> {
         let until = &choice.step * Rational::from_integer(choice.steps.into());
         let problem = Problem { until: &until, ..self.problem };
-        let samples = samples(choice.steps);
+        let samples = most_samples(choice.steps);
         let is_known = problem.system.setup().is_some_and(|setup| has_exact_flow(&setup).is_ok());
         let wanted = match is_known {
             true => Calculation::reference(problem, samples, Duration::ZERO),
@@ -265,9 +270,4 @@ impl<'a> Question<'a> {
     fn named(&self, studied: &Studied<'_>) -> &'a NamedScheme {
         self.schemes.iter().find(|scheme| scheme.name == studied.scheme.name).expect("it was studied")
     }
-}
-
-/// Samples are at states of the run.
-fn samples(steps: u64) -> u64 {
-    (1..=MOST_SAMPLES).rev().find(|samples| steps.is_multiple_of(*samples)).unwrap_or(1)
 }

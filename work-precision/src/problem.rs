@@ -44,6 +44,11 @@ impl Problem<'_> {
     }
 }
 
+/// The most samples that are at states of a run with so many steps.
+pub(crate) fn most_samples(steps: u64) -> u64 {
+    (1..=MOST_SAMPLES).rev().find(|samples| steps.is_multiple_of(*samples)).unwrap_or(1)
+}
+
 /// The first digits of a hash.
 pub(crate) fn fingerprint(text: &str) -> String {
     Sha256::digest(text.as_bytes()).iter().take(8).map(|byte| format!("{byte:02x}")).collect()

@@ -13,7 +13,7 @@ use crate::best::{Curve, cost_of};
 use crate::calculation::{Calculation, Outcome};
 use crate::of::Of;
 use crate::order::MeasuredOrder;
-use crate::problem::{MOST_SAMPLES, Problem};
+use crate::problem::{MOST_SAMPLES, Problem, most_samples};
 use crate::reference::Reference;
 use crate::run::Measurement;
 use crate::size::Size;
@@ -111,7 +111,7 @@ impl<'a> Request<'a> {
         match &self.range {
             StepRange::Given(steps) => {
                 let common = steps.iter().fold(0, |common: u64, steps| common.gcd(steps)).max(1);
-                (1..=MOST_SAMPLES).rev().find(|samples| common.is_multiple_of(*samples)).unwrap_or(1)
+                most_samples(common)
             }
             StepRange::Automatic { .. } => {
                 let steps = self.schemes.iter().map(|scheme| coarsest(self.problem, scheme)).fold(f64::MAX, f64::min);
