@@ -23,7 +23,7 @@ def cell(results, rival, error, target):
     if rival not in results.rivals:
         return ""
     seconds, _ = results.time_at(rival, error, target)
-    return f"{1000 * seconds:.2g}" if seconds < inf else "–"
+    return f"{float(f'{1000 * seconds:.2g}'):g}" if seconds < inf else "–"
 
 
 def block():
