@@ -212,6 +212,45 @@ mod tests {
         }
     }
 
+    /// A checkpoint with other values, whose hash fits.
+    fn forge(path: &Path, change: impl Fn(&mut serde_json::Value)) {
+        let mut file: serde_json::Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+        change(&mut file["checkpoint"]);
+        let checkpoint: Checkpoint = serde_json::from_value(file["checkpoint"].take()).unwrap();
+        fs::write(path, checkpoint.to_text()).unwrap();
+    }
+
+    #[test]
+    fn a_checkpoint_that_no_run_writes_is_refused() {
+        use serde_json::json;
+        type Change = fn(&mut serde_json::Value);
+        let changes: [(Change, &str); 8] = [
+            (
+                |c| drop(c["state"]["q"].as_array_mut().unwrap().pop()),
+                "has 1 positions and 2 momenta, where the scene has 2 of each",
+            ),
+            (
+                |c| c["state"]["p"].as_array_mut().unwrap().push(json!("1")),
+                "has 2 positions and 3 momenta, where the scene has 2 of each",
+            ),
+            (|c| (c["state"]["q"], c["state"]["p"]) = (json!([]), json!([])), "has 0 positions and 0 momenta"),
+            (|c| c["n"] = json!(21), "is at n = 21, which is not a state of the run"),
+            (|c| c["n"] = json!(-1), "is at n = -1, which is not a state of the run"),
+            (|c| c["state"]["n"] = json!(13), "is at n = 12 and has the state n = 13"),
+            (|c| c["state"]["n"] = json!(i64::MIN), "is at n = 12 and has the state n = -9223372036854775808"),
+            (|c| c["state"]["q"][0] = json!("sqrt(2)"), "the state n = 12 of the checkpoint cannot be read"),
+        ];
+        for (change, message) in changes {
+            let folder = tempfile::tempdir().unwrap();
+            let scene = scene(folder.path(), KEPLER, "trajectory = true");
+            let stopped = scene.run_to_file(FileOptions::default(), &mut StopAfter(13)).unwrap();
+            assert_eq!(stopped, Outcome::Stopped { n: 12 });
+            forge(&folder.path().join("out.csv.checkpoint"), change);
+            let error = scene.run_to_file(FileOptions::default(), &mut ()).unwrap_err().to_string();
+            assert!(error.contains(message) && error.contains("--restart"), "{message}: {error}");
+        }
+    }
+
     #[test]
     fn a_plain_run_evaluates_the_gradient_once_a_step_and_once_to_begin() {
         let folder = tempfile::tempdir().unwrap();

@@ -15,6 +15,11 @@ pub(crate) struct Identity {
     platform: String,
     scene_sha256: String,
     tables_sha256: Vec<String>,
+    /// These two follow from the scene.
+    #[serde(skip)]
+    steps: u64,
+    #[serde(skip)]
+    dimension: usize,
 }
 
 impl Identity {
@@ -24,6 +29,8 @@ impl Identity {
             platform: platform(),
             scene_sha256: sha256(&scene.source.text),
             tables_sha256: table_hashes(scene),
+            steps: scene.steps,
+            dimension: scene.system.coordinates.len(),
         }
     }
 
@@ -96,10 +103,28 @@ impl Checkpoint {
         if seal(&sealed.checkpoint) != sealed.sha256 {
             return Err("was changed after it was written".to_owned());
         }
-        match identity.differs(&sealed.checkpoint.identity) {
-            Some(other) => Err(format!("was made with {other}")),
-            None => Ok(sealed.checkpoint),
+        if let Some(other) = identity.differs(&sealed.checkpoint.identity) {
+            return Err(format!("was made with {other}"));
         }
+        sealed.checkpoint.check(identity)?;
+        Ok(sealed.checkpoint)
+    }
+
+    /// Refuses what no run of the scene writes: a checkpoint may have been made by another program, with a hash that fits.
+    fn check(&self, &Identity { steps, dimension, .. }: &Identity) -> Result<(), String> {
+        let is_of_run = |n: i64| u64::try_from(n).is_ok_and(|n| n <= steps);
+        if !is_of_run(self.n) {
+            return Err(format!("is at n = {}, which is not a state of the run", self.n));
+        }
+        let Some(SavedState { n, q, p }) = &self.state else { return Ok(()) };
+        if !is_of_run(*n) || *n > self.n {
+            return Err(format!("is at n = {} and has the state n = {n}", self.n));
+        }
+        if (q.len(), p.len()) != (dimension, dimension) {
+            let (q, p) = (q.len(), p.len());
+            return Err(format!("has {q} positions and {p} momenta, where the scene has {dimension} of each"));
+        }
+        Ok(())
     }
 }
 
