@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use shadowstep::number::Number;
-use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::wrapped_to;
+use shadowstep_scenes::{Error, Temporary};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::advise::{Advice, Choice, Question};
 use shadowstep_work_precision::of::Of;
@@ -18,7 +18,7 @@ use crate::output::Output;
 use crate::posed::{Posed, PosedArguments};
 use crate::quantity;
 use crate::report::Status;
-use crate::tasks::Terminal;
+use crate::tasks::{SAVED, Terminal};
 use crate::work_precision::{schemes, seconds};
 
 const EXAMPLE: &str = "\
@@ -82,6 +82,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let posed = Posed::read(&arguments.posed)?;
     let schemes = schemes(&arguments.schemes, &posed)?;
     let temporary = tempfile::tempdir()?;
+    let _removed = Temporary::of(temporary.path());
     let folder = arguments.out.clone().unwrap_or_else(|| temporary.path().to_owned());
     let of = match arguments.of {
         Which::Position => Of::Position,
@@ -92,7 +93,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         What::Forces => Cost::Evaluations,
         What::Time => Cost::Seconds,
     };
-    let mut terminal = Terminal::listen();
+    let mut terminal = Terminal::listen(arguments.out.as_ref().map_or(NOT_SAVED, |_| SAVED));
     let question = Question {
         problem: posed.problem(),
         schemes: &schemes,
@@ -123,6 +124,9 @@ fn tolerance_log10(tolerance: &shadowstep::Rational, text: &str) -> Result<f64, 
     }
     Ok(value.log10_abs())
 }
+
+/// What can be done after an interruption without a folder.
+const NOT_SAVED: &str = "begin again; with --out DIR what is computed is saved";
 
 const WIDTH: usize = 80;
 

@@ -75,16 +75,14 @@ impl Arguments {
 /// Makes all runs; one that fails is reported, and the others are made.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let selection = Selection::read(&arguments.run)?;
-    let mut output = Output::of(&arguments.run.output)?;
+    let interrupt = Interrupt::listen("drift", NOT_RESUMED);
+    let mut records = Records::new(arguments, &selection)?;
     // a bar would run through the lines on the same terminal
     let bar = !arguments.json || arguments.run.output.output.is_some() || !std::io::stdout().is_terminal();
     let mut status = Status::Success;
-    let mut records = Vec::new();
     let mut controls = Controls::new(arguments.controls());
-    let interrupt = Interrupt::listen();
     for (number, (propagator, run)) in (1..).zip(selection.runs()) {
-        let name = selection.numbered(number, run);
-        let progress = Progress::new(bar, name, run.steps);
+        let progress = Progress::new(bar, selection.numbered(number, run), run.steps);
         let measurement = Measurement {
             selection: &selection,
             propagator,
@@ -94,32 +92,71 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
             interrupt: &interrupt,
             summarised: !arguments.run.no_summary,
         };
-        match selection.arithmetic.compute(measurement) {
+        let measured = interrupt.attended(
+            || selection.arithmetic.compute(measurement),
+            // the runs that are complete are written
+            || match records.write() {
+                Ok(()) => Error::run(format!("{}: interrupted", run.name()), NOT_RESUMED),
+                Err(error) => error,
+            },
+        );
+        match measured {
             Ok(record) => {
                 if arguments.run.strict && !record.is_fine() {
                     status = status.max(Status::NegativeAnswer);
                 }
-                if arguments.json {
-                    output.json(&record)?;
-                    output.flush()?;
-                } else {
-                    records.push((run, record));
-                }
+                records.take(run, record)?;
             }
             Err(error) => status = status.max(report::error(&error)),
         }
-        // the runs that are complete are written
         if interrupt.asked() {
             status = Status::RunFailed;
             break;
         }
     }
-    if !arguments.json && !records.is_empty() {
-        let coloured = arguments.run.output.output.is_none() && on_stdout();
-        write!(output, "{}", readable(&selection, &records, coloured))?;
-    }
-    output.finish()?;
+    records.write()?;
     Ok(status)
+}
+
+/// The results of the runs, and where they go.
+struct Records<'a> {
+    arguments: &'a Arguments,
+    selection: &'a Selection,
+    /// `None` when all is written.
+    output: Option<Output>,
+    any: bool,
+    /// Those of the table.
+    records: Vec<(Run<'a>, Record)>,
+}
+
+impl<'a> Records<'a> {
+    fn new(arguments: &'a Arguments, selection: &'a Selection) -> Result<Self, Error> {
+        let output = Some(Output::of(&arguments.run.output)?);
+        Ok(Records { arguments, selection, output, any: false, records: Vec::new() })
+    }
+
+    /// Takes the result of a run: a line of JSON is written at once.
+    fn take(&mut self, run: Run<'a>, record: Record) -> Result<(), Error> {
+        self.any = true;
+        match &mut self.output {
+            Some(output) if self.arguments.json => {
+                output.json(&record)?;
+                output.flush()?;
+            }
+            _ => self.records.push((run, record)),
+        }
+        Ok(())
+    }
+
+    /// Writes the table, and completes the file; without results there is none.
+    fn write(&mut self) -> Result<(), Error> {
+        let Some(mut output) = self.output.take().filter(|_| self.any) else { return Ok(()) };
+        if !self.records.is_empty() {
+            let coloured = self.arguments.run.output.output.is_none() && on_stdout();
+            write!(output, "{}", readable(self.selection, &self.records, coloured))?;
+        }
+        output.finish()
+    }
 }
 
 /// The measurement of one run, in any number type.

@@ -8,7 +8,7 @@ use shadowstep_figures::{Error, Request, reproduce};
 
 use crate::output::Output;
 use crate::report::Status;
-use crate::tasks::Terminal;
+use crate::tasks::{SAVED, Terminal};
 
 const EXAMPLE: &str = "\
 Examples:
@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let Arguments { names, quick, out, force } = arguments;
     let request = Request { names: names.clone(), quick: *quick, folder: out.clone(), force: *force };
-    let mut terminal = Terminal::listen();
+    let mut terminal = Terminal::listen(SAVED);
     let summary = reproduce(&request, &mut terminal)?;
     let mut output = Output::stdout();
     writeln!(output, "{}\n{}", summary.report.display(), summary.verdicts)?;

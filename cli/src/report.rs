@@ -26,7 +26,7 @@ pub(crate) fn error(error: &Error) -> Status {
     }
     match error {
         Error::Usage { .. } | Error::Faults(_) => Status::UsageError,
-        Error::Run { .. } | Error::Output(_) => Status::RunFailed,
+        Error::Run { .. } | Error::File(_) | Error::Output(_) => Status::RunFailed,
     }
 }
 

@@ -52,8 +52,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let files = plot.map(|plot| PlotFiles::of_scene(&scene, plot, arguments.force)).transpose()?;
     let begin = Instant::now();
     let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), scene.steps);
-    let mut terminal =
-        Terminal { progress, interrupt: Interrupt::listen(), summarises: !arguments.no_summary, summary: None };
+    let interrupt = Interrupt::listen(&scene.source.path, again(&scene));
+    let mut terminal = Terminal { progress, interrupt, summarises: !arguments.no_summary, summary: None };
     let options = FileOptions { restart: arguments.restart, force: arguments.force };
     let outcome = match scene.output.file {
         Some(_) => scene.run_to_file(options, &mut terminal)?,
@@ -83,12 +83,16 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
             Ok(Status::Success)
         }
         Outcome::Stopped { n } => {
-            let hint = match scene.output.checkpoint {
-                Some(_) => "run the scene again to resume it",
-                None => "with `checkpoint = \"1 min\"` in [output] it could be resumed",
-            };
-            Err(Error::run(format!("{}: interrupted at n = {n}", scene.source.path), hint))
+            Err(Error::run(format!("{}: interrupted at n = {n}", scene.source.path), again(&scene)))
         }
+    }
+}
+
+/// What can be done after an interruption.
+fn again(scene: &Scene) -> &'static str {
+    match scene.output.checkpoint {
+        Some(_) => "run the scene again to resume it",
+        None => "with `checkpoint = \"1 min\"` in [output] it could be resumed",
     }
 }
 
@@ -140,6 +144,6 @@ impl Observer for Terminal {
     }
 
     fn stops(&mut self) -> bool {
-        self.interrupt.asked()
+        self.interrupt.ends()
     }
 }

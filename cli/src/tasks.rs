@@ -19,9 +19,13 @@ pub(crate) struct Terminal {
     interrupt: Interrupt,
 }
 
+/// What can be done after an interruption.
+pub(crate) const SAVED: &str = "the same command computes what is not saved yet";
+
 impl Terminal {
-    pub(crate) fn listen() -> Self {
-        Terminal { bar: None, status: Status::Success, interrupt: Interrupt::listen() }
+    /// After an interruption, `hint` can be done.
+    pub(crate) fn listen(hint: &str) -> Self {
+        Terminal { bar: None, status: Status::Success, interrupt: Interrupt::listen("the command", hint) }
     }
 }
 

@@ -72,12 +72,13 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     if !selection.estimator.gives_errors() {
         report::note("no error estimate at --order 1: the estimates are empty");
     }
+    let interrupt = Interrupt::listen("trace", NOT_RESUMED);
     let mut output = Output::of(&arguments.run.output)?;
     let bar = arguments.run.output.output.is_some() || !arguments.writes_rows();
     let several = selection.count() > 1;
     let csv = arguments.csv && arguments.writes_rows();
     let mut write = writer(&selection, csv, arguments.states, &mut output)?;
-    let (mut summaries, interrupt) = (Vec::new(), Interrupt::listen());
+    let mut summaries = Vec::new();
     for (number, (propagator, run)) in (1..).zip(selection.runs()) {
         let progress = Progress::new(bar, selection.numbered(number, run), run.steps);
         let (selection, interrupt, write) = (&selection, &interrupt, &mut write);

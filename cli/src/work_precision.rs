@@ -21,7 +21,7 @@ use crate::output::Output;
 use crate::posed::{Posed, PosedArguments};
 use crate::quantity;
 use crate::report::{self, Status};
-use crate::tasks::Terminal;
+use crate::tasks::{SAVED, Terminal};
 use table::readable;
 
 const EXAMPLE: &str = "\
@@ -73,7 +73,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let problem = posed.problem();
     let schemes = schemes(&arguments.schemes, &posed)?;
     let range = range(arguments, &posed.until)?;
-    let mut terminal = Terminal::listen();
+    let mut terminal = Terminal::listen(SAVED);
     let reference_time = Duration::from_secs_f64(REFERENCE * arguments.seconds);
     let request = Request { problem, schemes: &schemes, range, reference_time, folder: arguments.out.clone() };
     let study = request.study(&mut terminal)?;

@@ -1,6 +1,6 @@
 //! The run of a scene: only what it asks for is computed.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use shadowstep::run::{RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::EstimatorSettings;
@@ -57,6 +57,7 @@ pub(crate) fn follow<N: Number + 'static>(
         rows,
         written: checkpoint.map_or(-1, |checkpoint| checkpoint.n),
         last_checkpoint: Instant::now(),
+        last_state: Instant::now(),
         observer,
         from: saved.map(|saved| saved.n),
     };
@@ -73,6 +74,9 @@ fn unreadable(n: i64) -> Error {
     Error::usage(format!("the state n = {n} of the checkpoint cannot be read"), "begin again with --restart")
 }
 
+/// Where a state takes longer than this, each has its checkpoint: a program that is asked to end may not wait for the next one.
+const LONG: Duration = Duration::from_millis(500);
+
 /// Follows the states of a run in the order of time.
 struct Recorder<'a, 'r, N: Number> {
     scene: &'a Scene,
@@ -82,6 +86,7 @@ struct Recorder<'a, 'r, N: Number> {
     /// Rows up to this n are in the file already.
     written: i64,
     last_checkpoint: Instant,
+    last_state: Instant,
     observer: &'a mut dyn Observer,
     /// The state from which the run is resumed; `None` at its beginning.
     from: Option<i64>,
@@ -261,11 +266,7 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
     /// `state` is the one from which the run can be resumed; `None` for the state at t = 0.
     fn ends(&mut self, n: i64, state: Option<State<'_, N>>) -> Result<bool, Error> {
         let stops = self.observer.stops();
-        let due = match self.scene.output.checkpoint {
-            None => false,
-            Some(CheckpointInterval::Steps(every)) => n.unsigned_abs().is_multiple_of(every),
-            Some(CheckpointInterval::Time(time)) => self.last_checkpoint.elapsed() >= time,
-        };
+        let due = self.scene.output.checkpoint.is_some_and(|interval| self.is_time_for_a_checkpoint(n, interval));
         if n > self.written && (due || stops) {
             match state.map(|(n, q, p)| SavedState::of(n, q, p)) {
                 Some(None) => self.observer.note(&Note::NoCheckpoint { n }),
@@ -274,5 +275,15 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
             self.last_checkpoint = Instant::now();
         }
         Ok(stops)
+    }
+
+    fn is_time_for_a_checkpoint(&mut self, n: i64, interval: CheckpointInterval) -> bool {
+        let now = Instant::now();
+        let took = now.duration_since(std::mem::replace(&mut self.last_state, now));
+        took >= LONG
+            || match interval {
+                CheckpointInterval::Steps(every) => n.unsigned_abs().is_multiple_of(every),
+                CheckpointInterval::Time(time) => now.duration_since(self.last_checkpoint) >= time,
+            }
     }
 }

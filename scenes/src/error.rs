@@ -1,6 +1,7 @@
 //! What can go wrong with a scene, its schemes and its run.
 
-use std::io;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
 
 use shadowstep::tables::Faults;
 use thiserror::Error;
@@ -29,9 +30,45 @@ pub enum Error {
         /// What may help.
         hint: String,
     },
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] NotWritten),
     /// The output cannot be written.
     #[error("the output cannot be written: {0}")]
-    Output(#[from] io::Error),
+    Output(io::Error),
+}
+
+/// A file that cannot be written: the disk is full, for example.
+///
+/// Writers give it within an [`io::Error`].
+#[derive(Debug, Error)]
+#[error("{} cannot be written: {error}\n  hint: {hint}", path.display())]
+pub struct NotWritten {
+    path: PathBuf,
+    error: io::Error,
+    hint: String,
+}
+
+/// A file cannot be written; `then` is what helps when that is mended, such as `run the scene again`.
+pub fn not_written(path: &Path, error: io::Error, then: &str) -> NotWritten {
+    let hint = match error.kind() {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => format!("make room on the disk, then {then}"),
+        ErrorKind::FileTooLarge => format!("allow larger files, see `ulimit -f`, then {then}"),
+        _ => format!("look after the disk and the folder, then {then}"),
+    };
+    NotWritten { path: path.to_owned(), error, hint }
+}
+
+impl From<NotWritten> for io::Error {
+    fn from(error: NotWritten) -> Self {
+        io::Error::new(error.error.kind(), error)
+    }
+}
+
+impl From<io::Error> for Error {
+    fn from(error: io::Error) -> Self {
+        error.downcast().map_or_else(Error::Output, Error::File)
+    }
 }
 
 impl Error {
@@ -48,12 +85,15 @@ impl Error {
 
 impl From<serde_json::Error> for Error {
     fn from(error: serde_json::Error) -> Self {
-        Error::Output(error.into())
+        io::Error::from(error).into()
     }
 }
 
 impl From<csv::Error> for Error {
     fn from(error: csv::Error) -> Self {
-        Error::Output(error.into())
+        match error.into_kind() {
+            csv::ErrorKind::Io(error) => error.into(),
+            kind => Error::Output(io::Error::other(format!("{kind:?}"))),
+        }
     }
 }

@@ -72,7 +72,7 @@
 //! | `execute`, `engine`, `snapshots` | the run of a scene |
 //! | `observer`, `note` | how a caller watches a run and stops it |
 //! | `results` | rows, the head of a file, checkpoints, and where they go |
-//! | `whole_file`, [`lock`] | files that get their names when they are complete, and that one process has alone |
+//! | `whole_file`, [`lock`], `temporary` | files that get their names when they are complete, that one process has alone, and that are removed if the program ends early |
 //! | [`arithmetic`] | number types and their digits |
 //! | [`library`] | schemes by their names: shipped ones and files |
 //! | [`estimator`] | estimators of the modified energy with their settings |
@@ -109,11 +109,12 @@ pub mod start;
 pub mod steps;
 mod summary;
 mod template;
+mod temporary;
 mod watch;
 mod whole_file;
 
 pub use engine::Outcome;
-pub use error::Error;
+pub use error::{Error, NotWritten, not_written};
 pub use explain::explain;
 pub use frequency::Frequency;
 pub use note::Note;
@@ -125,5 +126,6 @@ pub use scene::{
 };
 pub use summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use template::template;
+pub use temporary::{Temporary, remove_temporary_files};
 pub use watch::Encounter;
 pub use whole_file::WholeFile;

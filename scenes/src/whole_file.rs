@@ -1,12 +1,20 @@
 //! A file that gets its name when it is complete.
 
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use crate::error::Error;
+use crate::error::{Error, not_written};
+use crate::lock::{LockError, open_locked};
+use crate::temporary::Temporary;
 
-/// A file under a temporary name, which is removed unless the file is finished.
+/// What the name of a file has after it until it is complete.
+const ENDING: &str = "shadowstep-partial";
+
+/// A file under a temporary name, `FILE.shadowstep-partial`, which is removed unless the file is finished.
+///
+/// One process has it at a time. What a process that was killed has left is replaced. Where the name is a symbolic link, the file
+/// that it leads to is written.
 ///
 /// ```
 /// use std::io::Write;
@@ -22,9 +30,12 @@ use crate::error::Error;
 /// # Ok::<(), shadowstep_scenes::Error>(())
 /// ```
 pub struct WholeFile {
+    /// Removed before the lock of the writer ends.
+    temporary: Temporary,
     writer: BufWriter<File>,
-    temporary: PathBuf,
     path: PathBuf,
+    /// Whether a file that is there is replaced.
+    replaces: bool,
 }
 
 impl WholeFile {
@@ -35,26 +46,27 @@ impl WholeFile {
     /// As [`WholeFile::create`]; a file that exists.
     pub fn create_new(path: &Path, named: &str) -> Result<Self, Error> {
         if path.is_file() {
-            let message = format!("{named} {} already exists", path.display());
-            return Err(Error::usage(message, "use another name, move the file, or replace it with --force"));
+            return Err(exists(&format!("{named} {}", path.display())));
         }
-        WholeFile::create(path, named)
+        Ok(WholeFile { replaces: false, ..WholeFile::create(path, named)? })
     }
 
     /// Creates the temporary file beside `path`; a file that is there is replaced by the complete new one.
     ///
     /// # Errors
-    /// A path that is not of a file, a folder that cannot be written.
+    /// A path that is not of a file, a folder that cannot be written, a file that another process is writing.
     pub fn create(path: &Path, named: &str) -> Result<Self, Error> {
+        let path = &destination(path)?;
         let name = path.file_name().filter(|_| path.is_file() || !path.exists()).ok_or_else(|| {
             Error::usage(format!("{named} {} is not a file", path.display()), "give the name of a file")
         })?;
-        let temporary = path.with_file_name(format!("{}.{}.partial", name.display(), std::process::id()));
-        let file = File::create_new(&temporary).map_err(|error| {
-            let message = format!("{named} {} cannot be written: {error}", path.display());
-            Error::usage(message, "give a file in a folder that exists and can be written")
-        })?;
-        Ok(WholeFile { writer: BufWriter::new(file), temporary, path: path.to_owned() })
+        let partial = path.with_file_name(format!("{}.{ENDING}", name.display()));
+        let options = OpenOptions::new().write(true).create(true).truncate(false).to_owned();
+        let file = open_locked(&partial, &options)
+            .map_err(|error| cannot_write(&format!("{named} {}", path.display()), error))?;
+        let temporary = Temporary::of(&partial);
+        file.set_len(0).map_err(|error| not_written(path, error, AGAIN))?;
+        Ok(WholeFile { temporary, writer: BufWriter::new(file), path: path.to_owned(), replaces: true })
     }
 
     /// The name that it gets.
@@ -65,26 +77,58 @@ impl WholeFile {
     /// Gives the file its name.
     ///
     /// # Errors
-    /// The file cannot be written or renamed.
+    /// The file cannot be written or renamed; a file that was created in the meantime and must not be replaced.
     pub fn finish(mut self) -> Result<(), Error> {
         self.flush()?;
-        Ok(fs::rename(&self.temporary, &self.path)?)
+        if !self.replaces && self.path.exists() {
+            return Err(exists(&format!("file {}", self.path.display())));
+        }
+        let WholeFile { temporary, path, .. } = self;
+        temporary.rename(|partial| fs::rename(partial, &path)).map_err(|error| not_written(&path, error, AGAIN).into())
     }
+}
+
+/// What helps after a file could not be written.
+const AGAIN: &str = "run the command again";
+
+fn exists(file: &str) -> Error {
+    Error::usage(format!("{file} already exists"), "use another name, move the file, or replace it with --force")
+}
+
+/// Why the file of a flag or key cannot be written.
+pub(crate) fn cannot_write(file: &str, error: LockError) -> Error {
+    match error {
+        LockError::Io(error) => {
+            let message = format!("{file} cannot be written: {error}");
+            Error::usage(message, "give a file in a folder that exists and can be written")
+        }
+        LockError::Taken => {
+            let message = format!("another process is writing {file}");
+            Error::usage(message, "wait until it ends, or give another file")
+        }
+    }
+}
+
+/// The file that a path leads to through symbolic links, which need not exist.
+///
+/// # Errors
+/// A circle of links.
+pub(crate) fn destination(path: &Path) -> Result<PathBuf, Error> {
+    const MOST: usize = 40;
+    let mut end = path.to_owned();
+    for _ in 0..MOST {
+        let Ok(target) = fs::read_link(&end) else { return Ok(end) };
+        end = end.parent().unwrap_or(Path::new("")).join(target);
+    }
+    Err(Error::usage(format!("{} is a circle of symbolic links", path.display()), "give the name of a file"))
 }
 
 impl Write for WholeFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.writer.write(bytes)
+        self.writer.write(bytes).map_err(|error| not_written(&self.path, error, AGAIN).into())
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.writer.flush()
-    }
-}
-
-impl Drop for WholeFile {
-    fn drop(&mut self) {
-        // after `finish` this file does not exist
-        let _ = fs::remove_file(&self.temporary);
+        self.writer.flush().map_err(|error| not_written(&self.path, error, AGAIN).into())
     }
 }

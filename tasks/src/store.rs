@@ -12,11 +12,15 @@ use std::time::Duration;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use shadowstep_scenes::lock::{LockError, open_locked};
+use shadowstep_scenes::not_written;
 
 use crate::{Error, Observer};
 
 /// The most bytes of the file.
 const LARGEST: u64 = 1 << 30;
+
+/// What helps after an outcome could not be written.
+const MISSING: &str = "run the command again: it computes what is not saved yet";
 
 /// The name of the file in its folder.
 const NAME: &str = "results.jsonl";
@@ -24,6 +28,7 @@ const NAME: &str = "results.jsonl";
 /// Outcomes by the JSON of their tasks.
 #[derive(Debug)]
 pub struct Store {
+    path: PathBuf,
     file: File,
     outcomes: HashMap<String, String>,
 }
@@ -67,9 +72,9 @@ impl Store {
         let header = format!("{}\n", json!({ "shadowstep": version }));
         // the program ended within its first line
         if header.as_bytes().starts_with(&bytes) && bytes.len() < header.len() {
-            file.set_len(0)?;
-            file.write_all(header.as_bytes())?;
-            return Ok(Store { file, outcomes: HashMap::new() });
+            let written = file.set_len(0).and_then(|()| file.write_all(header.as_bytes()));
+            written.map_err(|error| not_written(&path, error, MISSING))?;
+            return Ok(Store { path, file, outcomes: HashMap::new() });
         }
         let whole = bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
         let text = std::str::from_utf8(&bytes[..whole]).map_err(|_| foreign(&path, "it is not UTF-8 text"))?;
@@ -94,7 +99,7 @@ impl Store {
             outcomes.insert(task.to_string(), outcome.to_string());
         }
         file.set_len(whole as u64)?;
-        Ok(Store { file, outcomes })
+        Ok(Store { path, file, outcomes })
     }
 
     /// The JSON of the outcome of a task.
@@ -107,8 +112,8 @@ impl Store {
         let seconds = (took.as_secs_f64() * 1e3).round() / 1e3;
         // one write, so that only the system can split it
         let line = format!("{{\"task\":{task},\"outcome\":{outcome},\"seconds\":{seconds}}}\n");
-        self.file.write_all(line.as_bytes())?;
-        self.file.sync_data()?;
+        let written = self.file.write_all(line.as_bytes()).and_then(|()| self.file.sync_data());
+        written.map_err(|error| not_written(&self.path, error, MISSING))?;
         self.outcomes.insert(task.to_owned(), outcome);
         Ok(())
     }

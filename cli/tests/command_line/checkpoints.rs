@@ -278,6 +278,22 @@ fn a_checkpoint_left_by_a_complete_run_is_ignored() {
     assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
 }
 
+/// A run is killed after its file has its name and before its checkpoint is removed.
+#[test]
+fn a_checkpoint_beside_a_complete_file_is_removed() {
+    let scene = PLAIN.replace("steps = 100000000", "steps = 200000");
+    let folder = stopped(&scene, "out.csv");
+    let path = |name: &str| folder.path().join(name);
+    let checkpoint = fs::read_to_string(path("out.csv.checkpoint")).unwrap();
+    assert_eq!(run(folder.path(), "").code, 0);
+    let rows = fs::metadata(path("out.csv")).unwrap().modified().unwrap();
+    fs::write(path("out.csv.checkpoint"), checkpoint).unwrap();
+    let result = run(folder.path(), "");
+    assert!(result.code == 0 && result.err.contains("its file is complete"), "{}", result.err);
+    assert_eq!(fs::metadata(path("out.csv")).unwrap().modified().unwrap(), rows);
+    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+}
+
 #[test]
 fn two_runs_do_not_write_one_file() {
     let folder = folder(PLAIN);

@@ -3,6 +3,7 @@
 mod checkpoints;
 mod drift;
 mod figures;
+mod output_files;
 mod plot;
 mod polish;
 mod problems;
@@ -12,6 +13,8 @@ mod scene_kinetic;
 mod scene_pairs;
 mod scenes;
 mod schemes;
+#[cfg(unix)]
+mod signals;
 mod trace;
 mod work_precision;
 mod wrong_usage;

@@ -1,9 +1,9 @@
-//! A file whose run can be resumed after it was stopped at any moment.
+//! The file of a scene, whose run can be resumed after it was stopped at any moment.
 //!
 //! Rows go to `FILE.partial`. `FILE.checkpoint` has the length of its valid bytes and the state from which the run is
 //! resumed. It is written after those bytes are on the disk, under another name until it is complete. When all rows are
 //! written, `FILE.partial` is renamed to `FILE` and the checkpoint is removed. A run holds a lock on `FILE.partial`,
-//! which the system releases however the run ends.
+//! which the system releases however the run ends. Rows that no checkpoint belongs to are removed when the run stops.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -12,22 +12,29 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 use shadowstep_schemes::document::read_text;
 
-use crate::error::Error;
+use crate::error::{Error, NotWritten, not_written};
 use crate::lock::{LockError, open_locked};
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity, SavedState};
 use crate::results::metadata::hexadecimal;
 use crate::results::options::FileOptions;
+use crate::temporary::Temporary;
+
+/// The extension of rows that are not complete.
+const PARTIAL: &str = "partial";
 
 /// The extension of a checkpoint.
-const CHECKPOINT: &str = "checkpoint";
+pub(super) const CHECKPOINT: &str = "checkpoint";
 
 /// The extension of a checkpoint that is being written.
-const NEW_CHECKPOINT: &str = "checkpoint.new";
+pub(super) const NEW_CHECKPOINT: &str = "checkpoint.new";
 
 /// How a checkpoint begins.
 const HEAD_OF_CHECKPOINT: &str = "{\n  \"checkpoint\": {";
+
+/// How a file of CSV begins.
+const HEAD_OF_CSV: &str = "# shadowstep: ";
 
 /// How a row of JSON lines begins.
 const HEAD_OF_ROW: &str = "{\"n\":";
@@ -44,6 +51,10 @@ pub(crate) struct Resumable {
     path: PathBuf,
     partial: PathBuf,
     checkpoint: PathBuf,
+    /// Whether checkpoints are made.
+    saves: bool,
+    /// The partial file while there is no checkpoint; removed before the lock of `file` ends.
+    temporary: Option<Temporary>,
     file: BufWriter<File>,
     bytes: u64,
     hash: Sha256,
@@ -51,14 +62,15 @@ pub(crate) struct Resumable {
 
 impl Resumable {
     /// Creates the file, or opens it at its checkpoint. With `restart` it is always created. A partial file that has no
-    /// checkpoint and is not from this scene is replaced with `force` only.
+    /// checkpoint and is not from this program is replaced with `force` only. Without `saves`, no checkpoints are made.
     pub(crate) fn open(
         path: &Path,
         identity: Identity,
+        saves: bool,
         FileOptions { restart, force }: FileOptions,
         observer: &mut dyn Observer,
     ) -> Result<(Resumable, Option<Checkpoint>), Error> {
-        let [partial, checkpoint] = ["partial", CHECKPOINT].map(|ending| beside(path, ending));
+        let [partial, checkpoint] = [PARTIAL, CHECKPOINT].map(|ending| beside(path, ending));
         let file = locked(path, &partial)?;
         let length = file.metadata()?.len();
         let mut resumable = Resumable {
@@ -66,6 +78,8 @@ impl Resumable {
             path: path.to_owned(),
             partial,
             checkpoint,
+            saves,
+            temporary: None,
             file: BufWriter::new(file),
             bytes: 0,
             hash: Sha256::new(),
@@ -74,7 +88,7 @@ impl Resumable {
             false if force || resumable.is_own_partial(length)? => None,
             false => return Err(not_own(&resumable.partial)),
             true if restart => None,
-            // the run was complete, and ended just before it could remove the checkpoint
+            // its partial file was removed
             true if length == 0 => {
                 observer.note(&Note::CheckpointWithoutRows { checkpoint: resumable.checkpoint.clone() });
                 None
@@ -82,6 +96,7 @@ impl Resumable {
             true => Some(resumable.resume(length)?),
         };
         if found.is_none() {
+            resumable.temporary = Some(Temporary::of(&resumable.partial));
             resumable.remove_checkpoint()?;
             resumable.file.get_ref().set_len(0)?;
             resumable.file.get_mut().rewind()?;
@@ -94,18 +109,24 @@ impl Resumable {
         &self.path
     }
 
-    /// Whether a run of this file could be resumed.
-    pub(crate) fn has_checkpoint(path: &Path) -> bool {
-        beside(path, CHECKPOINT).exists()
+    /// Whether the run of a complete file was begun again.
+    ///
+    /// A checkpoint without rows is that of the run that wrote the file, and ended just before it could remove it.
+    pub(crate) fn is_begun_again(path: &Path) -> bool {
+        let has_rows = fs::metadata(beside(path, PARTIAL)).is_ok_and(|partial| partial.len() > 0);
+        if !has_rows {
+            // if it stays, the next run finds it again
+            let _ = fs::remove_file(beside(path, CHECKPOINT));
+        }
+        has_rows
     }
 
-    /// Whether the partial file is from a run of this scene that wrote no checkpoint, or removed it.
+    /// Whether the partial file is from a run that wrote no checkpoint, or removed it.
     fn is_own_partial(&mut self, length: u64) -> Result<bool, Error> {
         let mut head = Vec::new();
-        self.file.get_ref().take(LONGEST_HEAD).read_to_end(&mut head)?;
-        let hash = self.identity.scene().as_bytes();
-        let is_own = head.starts_with(HEAD_OF_ROW.as_bytes()) || head.windows(hash.len()).any(|part| part == hash);
-        Ok(length == 0 || is_own)
+        self.file.get_ref().take(HEAD_OF_CSV.len() as u64).read_to_end(&mut head)?;
+        let is_head = |own: &str| head.starts_with(own.as_bytes()) || own.as_bytes().starts_with(&head);
+        Ok(length == 0 || is_head(HEAD_OF_ROW) || is_head(HEAD_OF_CSV))
     }
 
     fn resume(&mut self, length: u64) -> Result<Checkpoint, Error> {
@@ -139,8 +160,11 @@ impl Resumable {
 
     /// Writes a checkpoint: all rows up to n are written, and the run can be resumed from `state`.
     pub(crate) fn keep(&mut self, n: i64, state: Option<SavedState>) -> Result<(), Error> {
-        self.file.flush()?;
-        self.file.get_ref().sync_data()?;
+        if !self.saves {
+            return Ok(());
+        }
+        let synchronized = self.file.flush().and_then(|()| self.file.get_ref().sync_data());
+        synchronized.map_err(|error| self.not_written(&self.partial, error))?;
         let sha256 = hexadecimal(&self.hash.clone().finalize());
         let checkpoint = Checkpoint { identity: self.identity.clone(), n, bytes: self.bytes, sha256, state };
         let text = checkpoint.to_text();
@@ -150,26 +174,54 @@ impl Resumable {
         }
         let new = beside(&self.path, NEW_CHECKPOINT);
         remove_new_checkpoint(&new)?;
-        let mut file = File::create_new(&new)?;
+        self.replace_checkpoint(&new, &text).map_err(|error| self.not_written(&new, error))?;
+        if let Some(temporary) = self.temporary.take() {
+            temporary.keep();
+        }
+        Ok(())
+    }
+
+    fn replace_checkpoint(&self, new: &Path, text: &str) -> io::Result<()> {
+        let mut file = File::create_new(new)?;
+        let temporary = Temporary::of(new);
         file.write_all(text.as_bytes())?;
         file.sync_all()?;
-        fs::rename(&new, &self.checkpoint)?;
+        temporary.rename(|new| fs::rename(new, &self.checkpoint))?;
         sync_folder(&self.path);
         Ok(())
     }
 
+    fn not_written(&self, path: &Path, error: io::Error) -> NotWritten {
+        let then = match self.temporary {
+            Some(_) => "run the scene again",
+            None => "run the scene again: it is resumed from its last checkpoint",
+        };
+        not_written(path, error, then)
+    }
+
     /// Gives the file its name.
     pub(crate) fn finish(mut self) -> Result<(), Error> {
-        self.file.flush()?;
-        self.file.get_ref().sync_all()?;
-        fs::rename(&self.partial, &self.path)?;
+        let written = self.file.flush().and_then(|()| self.file.get_ref().sync_all());
+        written.map_err(|error| self.not_written(&self.partial, error))?;
+        let rename = |partial: &Path| fs::rename(partial, &self.path);
+        let renamed = match self.temporary.take() {
+            Some(temporary) => temporary.rename(rename),
+            None => rename(&self.partial),
+        };
+        renamed.map_err(|error| self.not_written(&self.path, error))?;
         sync_folder(&self.path);
         self.remove_checkpoint()
     }
 
-    /// After a run that failed: its rows stay in the partial file.
+    /// After a run that failed: its rows stay in the partial file if checkpoints are made.
     pub(crate) fn give_up(mut self, observer: &mut dyn Observer) -> Result<(), Error> {
-        self.file.flush()?;
+        if !self.saves {
+            return Ok(());
+        }
+        self.file.flush().map_err(|error| self.not_written(&self.partial, error))?;
+        if let Some(temporary) = self.temporary.take() {
+            temporary.keep();
+        }
         observer.note(&Note::RowsKept { partial: self.partial.clone() });
         self.remove_checkpoint()
     }
@@ -183,7 +235,7 @@ impl Resumable {
 
 impl Write for Resumable {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let written = self.file.write(bytes)?;
+        let written = self.file.write(bytes).map_err(|error| self.not_written(&self.partial, error))?;
         self.hash.update(&bytes[..written]);
         self.bytes += written as u64;
         Ok(written)
@@ -250,7 +302,7 @@ fn remove_new_checkpoint(path: &Path) -> Result<(), Error> {
 }
 
 fn not_own(partial: &Path) -> Error {
-    let message = format!("{} already exists and is not from this unchanged scene", partial.display());
+    let message = format!("{} already exists and is not from this program", partial.display());
     Error::usage(message, "move it, give this scene another file, or replace it with --force")
 }
 

@@ -1,9 +1,9 @@
-//! Where rows go: a writer of the caller, a file that gets its name when it is complete, or one that can be resumed.
+//! Where rows go: a writer of the caller, or a file that gets its name when it is complete.
 
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use shadowstep::tables::Faults;
 
@@ -11,17 +11,15 @@ use crate::error::Error;
 use crate::observer::Observer;
 use crate::results::checkpoint::{Checkpoint, Identity, SavedState};
 use crate::results::options::FileOptions;
-use crate::results::resumable::{LONGEST_HEAD, Resumable, beside};
+use crate::results::resumable::{CHECKPOINT, LONGEST_HEAD, NEW_CHECKPOINT, Resumable, beside};
 use crate::scene::{Format, Scene};
-use crate::whole_file::WholeFile;
+use crate::whole_file::destination;
 
 pub(crate) enum Target<'a> {
     /// A writer of the caller.
     Writer(&'a mut dyn Write),
-    /// A file without checkpoints.
-    File(WholeFile),
-    /// A file with checkpoints.
-    Resumable(Box<Resumable>),
+    /// The file of a scene.
+    File(Box<Resumable>),
 }
 
 /// The extension of the file with the metadata of JSON lines.
@@ -70,6 +68,28 @@ fn at(scene: &Scene, place: &Range<usize>, error: Error) -> Error {
     }
 }
 
+/// Refuses what is neither a file nor absent: to open a named pipe waits for its other end.
+fn refuse_special(path: &Path) -> Result<(), Error> {
+    let is_special = path.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir());
+    let others = [METADATA, CHECKPOINT, NEW_CHECKPOINT].map(|ending| beside(path, ending));
+    let special = is_special.then_some(path).or(others.iter().map(PathBuf::as_path).find(|path| is_pipe(path)));
+    special.map_or(Ok(()), |special| {
+        let message = format!("{} is not a file", special.display());
+        Err(Error::usage(message, "give the name of a file; rows go to stdout where no file is given"))
+    })
+}
+
+#[cfg(unix)]
+fn is_pipe(path: &Path) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    path.metadata().is_ok_and(|found| found.file_type().is_fifo())
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: &Path) -> bool {
+    false
+}
+
 impl<'a> Target<'a> {
     /// The file of the scene, and the checkpoint from which the run is resumed; `None` if the file is complete.
     pub(crate) fn open(
@@ -81,6 +101,8 @@ impl<'a> Target<'a> {
             return Err(Error::usage("the scene names no file", "add `file = \"out.csv\"` to [output]"));
         };
         let at_place = |error| at(scene, place, error);
+        let path = &destination(path).map_err(at_place)?;
+        refuse_special(path).map_err(at_place)?;
         if same_file::is_same_file(path, &scene.source.path).unwrap_or(false) {
             return Err(at_place(Error::usage("the file is the scene itself", "give it another name")));
         }
@@ -90,15 +112,13 @@ impl<'a> Target<'a> {
                 let hint = "use another name, move the file, or replace it with --force";
                 return Err(at_place(Error::usage(message, hint)));
             }
-            Origin::Same if !options.restart && !Resumable::has_checkpoint(path) => return Ok(None),
+            Origin::Same if !options.restart && !Resumable::is_begun_again(path) => return Ok(None),
             _ => {}
         }
-        if scene.output.checkpoint.is_none() {
-            return Ok(Some((Target::File(WholeFile::create(path, "file").map_err(at_place)?), None)));
-        }
-        let opened = Resumable::open(path, Identity::of(scene), options, observer);
+        let saves = scene.output.checkpoint.is_some();
+        let opened = Resumable::open(path, Identity::of(scene), saves, options, observer);
         let (file, checkpoint) = opened.map_err(at_place)?;
-        Ok(Some((Target::Resumable(Box::new(file)), checkpoint)))
+        Ok(Some((Target::File(Box::new(file)), checkpoint)))
     }
 
     /// The name of the file when it is complete; `None` for a writer.
@@ -106,15 +126,14 @@ impl<'a> Target<'a> {
         match self {
             Target::Writer(_) => None,
             Target::File(file) => Some(file.path()),
-            Target::Resumable(file) => Some(file.path()),
         }
     }
 
     /// Makes a checkpoint, where there can be one.
     pub(crate) fn keep(&mut self, n: i64, state: Option<SavedState>) -> Result<(), Error> {
         match self {
-            Target::Writer(_) | Target::File(_) => Ok(()),
-            Target::Resumable(file) => file.keep(n, state),
+            Target::Writer(_) => Ok(()),
+            Target::File(file) => file.keep(n, state),
         }
     }
 
@@ -122,15 +141,14 @@ impl<'a> Target<'a> {
         match self {
             Target::Writer(writer) => Ok(writer.flush()?),
             Target::File(file) => file.finish(),
-            Target::Resumable(file) => file.finish(),
         }
     }
 
     /// After a run that failed.
     pub(crate) fn give_up(self, observer: &mut dyn Observer) -> Result<(), Error> {
         match self {
-            Target::Writer(_) | Target::File(_) => Ok(()),
-            Target::Resumable(file) => file.give_up(observer),
+            Target::Writer(_) => Ok(()),
+            Target::File(file) => file.give_up(observer),
         }
     }
 }
@@ -140,7 +158,6 @@ impl Write for Target<'_> {
         match self {
             Target::Writer(writer) => writer.write(bytes),
             Target::File(file) => file.write(bytes),
-            Target::Resumable(file) => file.write(bytes),
         }
     }
 
@@ -148,7 +165,6 @@ impl Write for Target<'_> {
         match self {
             Target::Writer(writer) => writer.flush(),
             Target::File(file) => file.flush(),
-            Target::Resumable(file) => file.flush(),
         }
     }
 }

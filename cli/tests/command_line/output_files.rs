@@ -1,0 +1,210 @@
+//! Files that commands write: complete or absent, of one process at a time, with messages that name them.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::program::shadowstep;
+use crate::scenes::{folder, names, run};
+
+/// Too long to complete in a test.
+const LONG: &str = r#"
+[problem]
+name = "kepler"
+[run]
+scheme = "stormer-verlet"
+step = "1/1000"
+steps = 100000000
+digits = "double"
+[output]
+trajectory = { every = 1000 }
+file = "out.csv"
+"#;
+
+fn short() -> String {
+    LONG.replace("steps = 100000000", "steps = 3000")
+}
+
+fn program() -> Command {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_shadowstep"));
+    program.stdout(Stdio::null()).stderr(Stdio::null());
+    program
+}
+
+/// Waits for something that the child does.
+pub(crate) fn wait_until(what: &str, mut happens: impl FnMut() -> bool) {
+    let begun = Instant::now();
+    while !happens() {
+        assert!(begun.elapsed() < Duration::from_secs(60), "{what} does not come");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// A run that has begun to write.
+fn begin(folder: &Path, scene: &str) -> Child {
+    let child = program().arg("run").arg(folder.join(scene)).spawn().unwrap();
+    let partial = folder.join("out.csv.partial");
+    wait_until("a file with rows", || fs::metadata(&partial).is_ok_and(|file| file.len() > 0));
+    child
+}
+
+fn kill(mut child: Child) {
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+const TRACE: &str = "trace kepler --scheme stormer-verlet --step 1/1000 --double --order 2 --csv --no-summary --force";
+
+fn trace(until: &str, file: &Path) -> String {
+    format!("{TRACE} --until {until} --output {}", file.display())
+}
+
+#[test]
+fn two_scenes_without_checkpoints_do_not_write_one_file() {
+    let folder = folder(LONG);
+    fs::write(folder.path().join("other.toml"), short()).unwrap();
+    let child = begin(folder.path(), "scene.toml");
+    let result = shadowstep(&format!("run {} --force", folder.path().join("other.toml").display()));
+    kill(child);
+    assert_eq!(result.code, 2, "{}", result.err);
+    assert!(result.err.contains("another run is writing"), "{}", result.err);
+}
+
+#[test]
+fn two_traces_do_not_write_one_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("out.csv");
+    let child = program().args(trace("1000000", &file).split(' ')).spawn().unwrap();
+    wait_until("a file", || !names(folder.path()).is_empty());
+    let result = shadowstep(&trace("1", &file));
+    kill(child);
+    assert_eq!(result.code, 2, "{}", result.err);
+    assert!(result.err.contains("another process is writing --output"), "{}", result.err);
+}
+
+#[test]
+fn what_a_killed_program_leaves_is_replaced() {
+    let folder = folder(LONG);
+    kill(begin(folder.path(), "scene.toml"));
+    assert_eq!(names(folder.path()), ["out.csv.partial", "scene.toml"]);
+    // also by a run of a changed scene
+    fs::write(folder.path().join("scene.toml"), short()).unwrap();
+    assert_eq!(run(folder.path(), "").code, 0);
+    assert_eq!(names(folder.path()), ["out.csv", "scene.toml"]);
+
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("out.csv");
+    let child = program().args(trace("1000000", &file).split(' ')).spawn().unwrap();
+    wait_until("a file", || !names(folder.path()).is_empty());
+    kill(child);
+    assert_eq!(names(folder.path()), ["out.csv.shadowstep-partial"]);
+    assert_eq!(shadowstep(&trace("1", &file)).code, 0);
+    assert_eq!(names(folder.path()), ["out.csv"]);
+    assert_eq!(fs::read_to_string(&file).unwrap().lines().count(), 1002);
+}
+
+#[cfg(unix)]
+#[test]
+fn symbolic_links_are_followed() {
+    use std::os::unix::fs::symlink;
+    let is_link = |path: &Path| path.symlink_metadata().unwrap().is_symlink();
+    for checkpoint in ["", "checkpoint = 1000"] {
+        let folder = folder(&format!("{}{checkpoint}", short()));
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir(path("data")).unwrap();
+        symlink("data/second", path("out.csv")).unwrap();
+        symlink("rows.csv", path("data/second")).unwrap();
+        for _ in 0..2 {
+            assert_eq!(run(folder.path(), "").code, 0);
+            assert!(is_link(&path("out.csv")) && is_link(&path("data/second")));
+            assert_eq!(names(&path("data")), ["rows.csv", "second"]);
+            assert_eq!(names(folder.path()), ["data", "out.csv", "scene.toml"]);
+        }
+        assert_eq!(
+            fs::read_to_string(path("data/rows.csv")).unwrap().lines().last().map(|row| &row[..4]),
+            Some("3000")
+        );
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("out.csv");
+    symlink("rows.csv", &file).unwrap();
+    assert_eq!(shadowstep(&trace("1", &file)).code, 0);
+    assert!(is_link(&file) && folder.path().join("rows.csv").is_file());
+    let circle = folder.path().join("circle.csv");
+    symlink("circle.csv", &circle).unwrap();
+    let result = shadowstep(&trace("1", &circle));
+    assert!(result.code == 2 && result.err.contains("is a circle of symbolic links"), "{}", result.err);
+}
+
+#[cfg(unix)]
+#[test]
+fn named_pipes_are_refused() {
+    for (format, pipe) in [
+        ("csv", "out.csv"),
+        ("csv", "out.csv.checkpoint"),
+        ("csv", "out.csv.checkpoint.new"),
+        ("jsonl", "out.jsonl"),
+        ("jsonl", "out.jsonl.metadata.json"),
+    ] {
+        let scene = short().replace("out.csv", &format!("out.{format}")) + "checkpoint = 1000";
+        let folder = folder(&scene);
+        let path = folder.path().join(pipe);
+        assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
+        let result = run(folder.path(), "--force");
+        assert_eq!(result.code, 2, "{pipe}: {}", result.err);
+        assert!(result.err.contains(&format!("{pipe} is not a file")), "{}", result.err);
+    }
+}
+
+/// Runs the program where files may have this number of blocks of 512 bytes.
+#[cfg(unix)]
+fn with_small_files(blocks: u32, words: &str) -> Output {
+    let program = env!("CARGO_BIN_EXE_shadowstep");
+    let command = format!("trap '' XFSZ; ulimit -f {blocks}; exec {program} {words}");
+    Command::new("sh").args(["-c", &command]).output().unwrap()
+}
+
+#[cfg(unix)]
+fn failed(output: &Output, parts: &[&str]) {
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{err}");
+    for part in parts {
+        assert!(err.contains(part), "{part}: {err}");
+    }
+}
+
+/// A file that cannot grow is as a full disk, for everybody and everywhere.
+#[cfg(unix)]
+#[test]
+fn a_file_that_cannot_grow_is_named() {
+    let rows = |folder: &Path| fs::read_to_string(folder.join("out.csv")).unwrap();
+    let plain = short().replace("every = 1000", "every = 10");
+    let undisturbed = folder(&plain);
+    assert_eq!(run(undisturbed.path(), "").code, 0);
+    for (checkpoint, then, left) in [
+        (
+            "checkpoint = 100",
+            "run the scene again: it is resumed from its last checkpoint",
+            &["out.csv.checkpoint", "out.csv.partial", "scene.toml"][..],
+        ),
+        ("", "run the scene again\n", &["scene.toml"][..]),
+    ] {
+        let folder = folder(&format!("{plain}{checkpoint}"));
+        let scene = folder.path().join("scene.toml");
+        let output = with_small_files(20, &format!("run --no-summary {}", scene.display()));
+        failed(&output, &["out.csv.partial cannot be written: File too large", "ulimit -f", then]);
+        assert_eq!(names(folder.path()), left);
+        assert_eq!(run(folder.path(), "").code, 0);
+        let without_head =
+            |rows: String| rows.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect::<Vec<_>>();
+        assert_eq!(without_head(rows(folder.path())), without_head(rows(undisturbed.path())));
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("out.csv");
+    let output = with_small_files(20, &trace("10", &file));
+    failed(&output, &["out.csv cannot be written: File too large", "then run the command again"]);
+    assert!(names(folder.path()).is_empty());
+    let output = with_small_files(1, &format!("figures scattering --quick --out {}", folder.path().display()));
+    failed(&output, &["results.jsonl cannot be written: File too large", "it computes what is not saved yet"]);
+}
