@@ -41,6 +41,9 @@ const ATTEMPTS: u32 = 4;
 /// value of a function, or with `pi` (unless a name hides it), the value of the whole expression is
 /// correctly rounded to `digits` significant decimal digits (at least 1, at most 5000), half to even.
 ///
+/// sin, cos and tan of a rational multiple of π subtract the nearest multiple of π/2 exactly, so that `sin(1000000*pi/9)` takes
+/// no more than `sin(pi/9)`.
+///
 /// The functions are sqrt, cbrt, exp, log (the natural logarithm), sin, cos, tan, sinh, cosh, tanh,
 /// atan, asin and acos. They are enclosed rigorously, in integer arithmetic alone.
 ///
@@ -71,13 +74,13 @@ pub fn evaluate_within(
     for attempt in 0..ATTEMPTS {
         let last = attempt + 1 == ATTEMPTS;
         let attempt = Attempt { digits: (digits + GUARD_DIGITS) << attempt, last };
-        match (Evaluator { names, attempt, budget }).value(expression) {
-            Ok(Value::Exact(exact)) => return Ok(exact),
-            Ok(Value::Enclosed(interval)) => {
-                if let Some(value) = settled(&interval, digits, last) {
-                    return Ok(Exact { value, rounded: true });
-                }
-            }
+        let found = (Evaluator { names, attempt, budget }).value(expression).map(|value| match value {
+            Value::Exact(exact) => Some(exact),
+            other => settled(&other.interval(), digits, last).map(|value| Exact { value, rounded: true }),
+        });
+        match found {
+            Ok(Some(exact)) => return Ok(exact),
+            Ok(None) => {}
             Err(AttemptError::Fault(error)) => return Err(error),
             Err(AttemptError::Undecided) => {}
         }

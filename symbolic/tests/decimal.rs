@@ -48,7 +48,9 @@ fn only_numbers_are_read() {
         assert_eq!(from_text(text).unwrap(), ratio(expected), "{text}");
     }
     let wrong = ["", "-", "--1", "1/", "/2", "1/0", "1/-2", "1/2/3", "x", "1 ", "2*3", "e5", ".", "1e10001", "½"];
-    for text in wrong {
+    // the least and the largest i64, and one beyond
+    let exponents = ["1e-9223372036854775808", "1e9223372036854775807", "1e-9223372036854775809"];
+    for text in wrong.into_iter().chain(exponents) {
         let error = from_text(text).expect_err(text);
         let reason = "is not a number: write an integer, a decimal such as -0.25 or a fraction such as 7/24";
         assert_eq!(error.to_string(), format!("`{text}` {reason}"));

@@ -6,7 +6,7 @@ use num_traits::Signed;
 use proptest::prelude::*;
 use rug::Float;
 use shadowstep_symbolic::decimal::{from_text, round_significant};
-use shadowstep_symbolic::{Exact, Function, Rational, SemanticError, evaluate, parse};
+use shadowstep_symbolic::{Budget, Exact, Function, Rational, SemanticError, evaluate, evaluate_within, parse};
 
 fn evaluated(text: &str, digits: u32) -> Result<Exact, SemanticError> {
     evaluate(&parse(text).unwrap(), &BTreeMap::new(), digits)
@@ -305,6 +305,47 @@ fn what_cannot_be_distinguished_from_zero_counts_as_zero() {
         }
     }
     assert_eq!(value("exp(sin(pi))", 30), Rational::from_integer(1.into()));
+}
+
+/// The start values of chains: zeros and small values take no more digits than others, which a budget counts.
+#[test]
+fn multiples_of_pi_take_one_attempt() {
+    let one = Budget::new(100 * (2 * 467) * (2 * 467) + 20 * 467 * 467);
+    evaluate_within(&parse("sin(pi/9)").unwrap(), &BTreeMap::new(), 120, &one).unwrap();
+    for text in [
+        "sin(9*pi)",
+        "sin(90000*pi/9)",
+        "cos(7*pi/2)",
+        "tan(10^40*pi)",
+        "sin(pi/10^40)",
+        "cos(pi/2 - pi/10^30)",
+        "sin(2*pi*3/4 - pi/2)",
+        "cos(-pi)",
+        "tan(5*pi/4)",
+    ] {
+        let one = Budget::new(100 * (2 * 467) * (2 * 467) + 20 * 467 * 467);
+        assert!(evaluate_within(&parse(text).unwrap(), &BTreeMap::new(), 120, &one).is_ok(), "{text}");
+    }
+    // and they are right
+    for (multiple, text) in [
+        ("sin(12345*pi/9)", "-sqrt(3)/2"),
+        ("cos(10^30*pi + pi/3)", "1/2"),
+        ("tan(-7*pi/4)", "1"),
+        (
+            "sin(pi/10^40)",
+            "sin(3.141592653589793238462643383279502884197169399375105820974944592307816406286208998628e-40)",
+        ),
+        (
+            "cos(pi/2 - pi/10^30)*10^30",
+            "3.14159265358979323846264338327950288419716939937510582097494459230781640628620899863",
+        ),
+        (
+            "tan(pi/2 + pi/10^30)/10^30",
+            "-0.318309886183790671537767526745028724068919291480912897495334688117793595268453070180",
+        ),
+    ] {
+        assert_eq!(value(multiple, 50), round_significant(&value(text, 70), 50), "{multiple}");
+    }
 }
 
 #[test]

@@ -4,16 +4,17 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use num_integer::Integer;
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use crate::evaluation::budget::Budget;
 use crate::evaluation::domain::Attempt;
 use crate::evaluation::value::{AttemptError, Exact, Value, fault};
-use crate::number::elementary::{image, pi};
+use crate::number::elementary::{image, pi, sin_and_cos_of_pi};
 use crate::number::function::{Function, exact_value};
 use crate::number::interval::Interval;
 use crate::number::power::{MOST_BITS, perfect_root, rational_power};
 use crate::number::rational::Rational;
+use crate::text::decimal::to_significant;
 use crate::text::error::{HIGHEST_ROOT, SemanticFault};
 use crate::text::names::{Callee, PI, callee, unknown_name};
 use crate::text::syntax::{Expression, Kind, Operation};
@@ -46,10 +47,11 @@ impl Evaluator<'_> {
             return Ok(Value::Exact(exact.clone()));
         }
         if name == PI {
-            if !self.budget.take(FUNCTION, u64::from(self.attempt.digits) * 10 / 3) {
+            // computed once for these digits
+            if !self.budget.take(1, self.enclosed_bits()) {
                 return Err(SemanticFault::TooMuchWork);
             }
-            return Ok(Value::Enclosed(pi(self.attempt.digits)));
+            return Ok(Value::OfPi(Rational::one(), Box::new(pi(self.attempt.digits))));
         }
         let known: Vec<&str> = self.names.keys().map(String::as_str).collect();
         Err(unknown_name(name, &known))
@@ -71,8 +73,33 @@ impl Evaluator<'_> {
         }
         self.charge(FUNCTION, &[&value], range)?;
         let digits = self.attempt.digits;
+        if let (Value::OfPi(multiple, number), Function::Sin | Function::Cos | Function::Tan) = (&value, function) {
+            return self.of_multiple(function, (multiple, number), argument, range);
+        }
         let interval = self.attempt.in_domain(function, value.interval(), &argument.range)?;
         self.enclosed(image(function, &interval, digits).and_then(|image| image.outward(digits)), range)
+    }
+
+    /// sin, cos or tan of a rational multiple of π, which an interval encloses.
+    fn of_multiple(
+        &self,
+        function: Function,
+        (multiple, number): (&Rational, &Interval),
+        argument: &Expression,
+        range: &Range<usize>,
+    ) -> Result<Value, AttemptError> {
+        let digits = self.attempt.digits;
+        let (sin, cos) = sin_and_cos_of_pi(multiple, digits);
+        let image = match function {
+            Function::Sin => sin,
+            Function::Cos => cos,
+            _ if cos.contains_zero() => {
+                let number = to_significant(&number.low, 12);
+                return Err(fault(SemanticFault::OutsideDomain { function, argument: number }, &argument.range));
+            }
+            _ => sin.multiply(&cos.reciprocal()),
+        };
+        self.enclosed(image.outward(digits), range)
     }
 
     fn binary(
@@ -101,10 +128,10 @@ impl Evaluator<'_> {
 
     /// Takes the cost of some operations on numbers as long as these from the budget.
     fn charge(&self, operations: u64, values: &[&Value], range: &Range<usize>) -> Result<(), AttemptError> {
-        let enclosed = u64::from(self.attempt.digits) * 10 / 3;
+        let enclosed = self.enclosed_bits();
         let bits = |value: &&Value| match value {
             Value::Exact(exact) => exact.value.numer().bits().max(exact.value.denom().bits()),
-            Value::Enclosed(_) => enclosed,
+            Value::OfPi(..) | Value::Enclosed(_) => enclosed,
         };
         let bits = values.iter().map(bits).sum::<u64>() + if operations > 1 { enclosed } else { 0 };
         if self.budget.take(operations, bits) { Ok(()) } else { Err(fault(SemanticFault::TooMuchWork, range)) }
@@ -114,6 +141,7 @@ impl Evaluator<'_> {
         self.charge(1, &[a, b], range)?;
         match (a, b) {
             (Value::Exact(a), Value::Exact(b)) => exact(&a.value + &b.value, a.rounded || b.rounded, range),
+            (Value::OfPi(a, x), Value::OfPi(b, y)) => self.of_pi(a + b, &x.add(y), range),
             _ => self.enclosed(a.interval().add(&b.interval()).outward(self.attempt.digits), range),
         }
     }
@@ -122,6 +150,9 @@ impl Evaluator<'_> {
         self.charge(1, &[a, b], range)?;
         match (a, b) {
             (Value::Exact(a), Value::Exact(b)) => exact(&a.value * &b.value, a.rounded || b.rounded, range),
+            (Value::OfPi(multiple, x), Value::Exact(factor)) | (Value::Exact(factor), Value::OfPi(multiple, x)) => {
+                self.of_pi(multiple * &factor.value, &x.multiply(&Interval::point(&factor.value)), range)
+            }
             _ => self.enclosed(a.interval().multiply(&b.interval()).outward(self.attempt.digits), range),
         }
     }
@@ -146,7 +177,7 @@ impl Evaluator<'_> {
                 let power = rational_power(&value, count).ok_or_else(|| fault(SemanticFault::TooLong, range))?;
                 exact(power, rounded, range)
             }
-            Value::Enclosed(root) => self.enclosed(root.power(count, self.attempt.digits), range),
+            other => self.enclosed(other.interval().power(count, self.attempt.digits), range),
         }
     }
 
@@ -173,12 +204,31 @@ impl Evaluator<'_> {
         match value {
             Value::Exact(exact) if exact.value.is_zero() => Err(fault(otherwise, range)),
             Value::Exact(_) => Ok(()),
-            Value::Enclosed(interval) => self.attempt.without_zero(interval, otherwise, range),
+            other => self.attempt.without_zero(&other.interval(), otherwise, range),
         }
     }
 
     fn enclosed(&self, interval: Option<Interval>, range: &Range<usize>) -> Result<Value, AttemptError> {
-        interval.map(Value::Enclosed).ok_or_else(|| fault(SemanticFault::TooLong, range))
+        let interval = interval.ok_or_else(|| fault(SemanticFault::TooLong, range))?;
+        // a single number needs no more digits to be distinguished from zero
+        Ok(match interval.is_point() {
+            true => Value::Exact(Exact { value: interval.low, rounded: true }),
+            false => Value::Enclosed(interval),
+        })
+    }
+
+    /// A multiple of π, as such unless it is longer than the numbers of this attempt.
+    fn of_pi(&self, multiple: Rational, interval: &Interval, range: &Range<usize>) -> Result<Value, AttemptError> {
+        let is_short = multiple.numer().bits().max(multiple.denom().bits()) <= self.enclosed_bits();
+        Ok(match self.enclosed(interval.outward(self.attempt.digits), range)? {
+            Value::Enclosed(interval) if is_short => Value::OfPi(multiple, Box::new(interval)),
+            other => other,
+        })
+    }
+
+    /// The bits of the ends of intervals, about.
+    fn enclosed_bits(&self) -> u64 {
+        u64::from(self.attempt.digits) * 10 / 3
     }
 }
 

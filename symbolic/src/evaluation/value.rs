@@ -18,6 +18,8 @@ pub struct Exact {
 /// The value of a part of the expression.
 pub(super) enum Value {
     Exact(Exact),
+    /// A rational multiple of π, which the interval encloses; boxed, as a deep recursion holds many values.
+    OfPi(Rational, Box<Interval>),
     /// Some number in the interval.
     Enclosed(Interval),
 }
@@ -26,6 +28,7 @@ impl Value {
     pub(super) fn interval(&self) -> Interval {
         match self {
             Value::Exact(exact) => Interval::point(&exact.value),
+            Value::OfPi(_, interval) => (**interval).clone(),
             Value::Enclosed(interval) => interval.clone(),
         }
     }
@@ -33,6 +36,7 @@ impl Value {
     pub(super) fn negate(self) -> Self {
         match self {
             Value::Exact(exact) => Value::Exact(Exact { value: -exact.value, ..exact }),
+            Value::OfPi(multiple, interval) => Value::OfPi(-multiple, Box::new(interval.negate())),
             Value::Enclosed(interval) => Value::Enclosed(interval.negate()),
         }
     }
@@ -41,6 +45,7 @@ impl Value {
     pub(super) fn reciprocal(self) -> Self {
         match self {
             Value::Exact(exact) => Value::Exact(Exact { value: exact.value.recip(), ..exact }),
+            Value::OfPi(_, interval) => Value::Enclosed(interval.reciprocal()),
             Value::Enclosed(interval) => Value::Enclosed(interval.reciprocal()),
         }
     }

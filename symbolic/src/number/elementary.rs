@@ -61,6 +61,22 @@ pub(crate) fn sin_and_cos(interval: &Interval, digits: u32) -> (Interval, Interv
     (spread(sin), spread(cos))
 }
 
+/// sin and cos of a multiple of π, from its exact distance to the nearest multiple of π/2: they are known to all digits also next to
+/// their zeros, and the zeros are 0.
+pub(crate) fn sin_and_cos_of_pi(multiple: &Rational, digits: u32) -> (Interval, Interval) {
+    let half = Rational::new(1.into(), 2.into());
+    let quarter = (multiple * Rational::from_integer(2.into()) + &half).floor();
+    let rest = multiple - &quarter * half;
+    let distance = pi(digits + 2).multiply(&Interval::point(&rest));
+    let (sin, cos) = sin_and_cos(&distance, digits + 2);
+    match (quarter.to_integer() & BigInt::from(3)).to_u8().expect("a number below 4") {
+        0 => (sin, cos),
+        1 => (cos, sin.negate()),
+        2 => (sin.negate(), cos.negate()),
+        _ => (cos.negate(), sin),
+    }
+}
+
 /// From the lower end's lower value to the higher end's higher one.
 fn increasing(interval: &Interval, function: impl Fn(&Rational) -> Option<Interval>) -> Option<Interval> {
     let low = function(&interval.low)?;

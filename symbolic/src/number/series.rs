@@ -3,13 +3,16 @@
 //! A series is short for a small argument. So the argument is halved about √bits times, and the result doubled as often;
 //! extra bits compensate for the errors that the doublings magnify.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
+
 use num_bigint::BigInt;
 use num_traits::One;
 
 use crate::number::ball::Ball;
 
 /// The curve of the points (cos t, sin t) or (cosh t, sinh t): the formulas differ in signs only.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Curve {
     Circle,
     Hyperbola,
@@ -107,10 +110,56 @@ fn combination(curve: Curve, parts: &[(i32, u64)], bits: u64) -> Ball {
 
 /// π/2 by Machin's formula, to within few units.
 pub(crate) fn half_pi(bits: u64) -> Ball {
-    combination(Curve::Circle, &[(8, 5), (-2, 239)], bits)
+    remembered(Curve::Circle, bits, || combination(Curve::Circle, &[(8, 5), (-2, 239)], bits))
 }
 
 /// log 2, to within few units.
 pub(crate) fn log_two(bits: u64) -> Ball {
-    combination(Curve::Hyperbola, &[(18, 26), (-2, 4801), (8, 8749)], bits)
+    remembered(Curve::Hyperbola, bits, || combination(Curve::Hyperbola, &[(18, 26), (-2, 4801), (8, 8749)], bits))
+}
+
+/// The most values of π/2 and log 2 that a thread keeps: the formulas of a document need them with few different numbers of bits.
+const MOST_REMEMBERED: usize = 32;
+
+thread_local! {
+    /// Values of π/2 (of the circle) and log 2 (of the hyperbola), by their bits. One with more bits does not stand for one with
+    /// fewer: what is computed must not depend on what was computed before.
+    static REMEMBERED: RefCell<HashMap<(Curve, u64), Ball>> = RefCell::default();
+}
+
+/// The constant of a curve, computed once for each number of bits.
+fn remembered(curve: Curve, bits: u64, compute: impl FnOnce() -> Ball) -> Ball {
+    REMEMBERED.with_borrow_mut(|remembered| {
+        if remembered.len() == MOST_REMEMBERED && !remembered.contains_key(&(curve, bits)) {
+            remembered.clear();
+        }
+        remembered.entry((curve, bits)).or_insert_with(compute).clone()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::Cell;
+
+    #[test]
+    fn a_constant_is_computed_once_for_its_bits() {
+        let computed = Cell::new(0);
+        let constant = |curve, bits| {
+            remembered(curve, bits, || {
+                computed.set(computed.get() + 1);
+                Ball::one(bits)
+            })
+        };
+        // bits that nothing else has in this thread
+        for _ in 0..5 {
+            constant(Curve::Circle, 12_345);
+            constant(Curve::Circle, 12_346);
+            constant(Curve::Hyperbola, 12_345);
+        }
+        assert_eq!(computed.get(), 3);
+        (0..1000).for_each(|bits| drop(constant(Curve::Circle, 20_000 + bits)));
+        assert!(REMEMBERED.with_borrow(HashMap::len) <= MOST_REMEMBERED);
+        assert_eq!(half_pi(200).to_interval(1), combination(Curve::Circle, &[(8, 5), (-2, 239)], 200).to_interval(1));
+    }
 }

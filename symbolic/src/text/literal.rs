@@ -27,7 +27,8 @@ pub(crate) fn value(literal: &str) -> Option<Rational> {
     let literal = literal.replace('_', "");
     let (mantissa, exponent) = literal.split_once(['e', 'E']).unwrap_or((&literal, "0"));
     let exponent: i64 = exponent.parse().ok()?;
-    if exponent.abs() > LARGEST_EXPONENT {
+    // not by |exponent|: that of the least i64 overflows
+    if !(-LARGEST_EXPONENT..=LARGEST_EXPONENT).contains(&exponent) {
         return None;
     }
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
