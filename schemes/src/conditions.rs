@@ -87,9 +87,10 @@ pub(crate) fn evaluated(maps: &[Map], held: Held, family: Family, highest: u32) 
 /// Where the weights are exact, so are the values: a value of degree n is a multiple of 1/(Dⁿ n!), D the common denominator
 /// of the weights, and in fixed point with enough bits it is the only multiple within the bound of the error.
 fn evaluated_exactly(maps: &[Map], family: Family, highest: u32) -> Vec<Evaluated> {
-    let order = worth_exactness(maps, family, highest);
     let denominator = maps.iter().fold(BigInt::one(), |lcm, map| lcm.lcm(map.weight.denom()));
-    let grids: Vec<_> = (0..=order).map(|n| denominator.pow(n) * factorial(n)).collect();
+    let grid = |n: u32| denominator.pow(n) * factorial(n);
+    let order = worth_exactness(maps, family, highest, |order| grid(order).bits());
+    let grids: Vec<_> = (0..=order).map(grid).collect();
     let mut bits = grids[order as usize].bits() as u32 + 2 * MARGIN_BITS;
     loop {
         let arithmetic = FixedPoint::with_bits(bits);
@@ -137,15 +138,24 @@ fn evaluated_within(maps: &[Map], digits: u32, family: Family, highest: u32) -> 
 }
 
 /// The first order that certainly fails, or the highest: exact arithmetic beyond it would be slow and decide nothing.
-fn worth_exactness(maps: &[Map], family: Family, highest: u32) -> u32 {
-    let arithmetic = FixedPoint::new(60);
-    let fails = |(condition, value): &(Condition, _)| {
-        let (found, error) = arithmetic.read(value);
-        let evaluated =
-            Evaluated { condition: condition.clone(), found, error: Rational::zero().into(), tolerance: error };
-        !evaluated.is_met()
-    };
-    values(maps, family, highest, &arithmetic).iter().find(|c| fails(c)).map_or(highest, |(c, _)| c.order)
+///
+/// The bits are doubled as long as exact arithmetic to that order takes more: weights of 250 digits, rounded but taken as exact, may
+/// have order 8 to 60 digits, and at 260 it is order 3 that fails.
+fn worth_exactness(maps: &[Map], family: Family, highest: u32, exact_bits: impl Fn(u32) -> u64) -> u32 {
+    let (mut order, mut arithmetic) = (highest, FixedPoint::new(60));
+    loop {
+        let fails = |(condition, value): &(Condition, _)| {
+            let (found, error) = arithmetic.read(value);
+            let evaluated =
+                Evaluated { condition: condition.clone(), found, error: Rational::zero().into(), tolerance: error };
+            !evaluated.is_met()
+        };
+        order = values(maps, family, order, &arithmetic).iter().find(|c| fails(c)).map_or(order, |(c, _)| c.order);
+        if 2 * u64::from(arithmetic.bits()) >= exact_bits(order) {
+            return order;
+        }
+        arithmetic = FixedPoint::with_bits(2 * arithmetic.bits());
+    }
 }
 
 /// The conditions of a family up to an order, low orders first, with their values.
@@ -193,6 +203,21 @@ mod tests {
                     assert!(found.found == value, "{}", condition.functional);
                     assert_eq!(found.holds(), value == condition.needed, "{}", condition.functional);
                 }
+            }
+        }
+    }
+
+    /// `digits = 250` forgotten: exact arithmetic to order 10 would take numbers of 80 000 bits, and a minute.
+    #[test]
+    fn rounded_weights_taken_as_exact_fail_at_the_first_order() {
+        for (name, highest) in [("hairer10-33", 10), ("yoshida8-a", 9)] {
+            let maps = crate::shipped_proved(name).unwrap().scheme.maps();
+            for kinetic in [Kinetic::Any, Kinetic::Quadratic] {
+                let found = evaluated_exactly(&maps, Family::Kinetic(kinetic), highest);
+                // a palindrome has order 2; order 3 holds to 250 digits, which is not exactly
+                assert_eq!(found.iter().map(|c| c.condition.order).max(), Some(3), "{name}");
+                let failing = found.iter().find(|c| !c.holds()).expect("a condition fails");
+                assert_eq!(failing.condition.order, 3, "{name}");
             }
         }
     }
