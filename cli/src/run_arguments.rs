@@ -33,7 +33,7 @@ pub(crate) struct RunArguments {
     /// How the modified energy is estimated
     #[arg(long, value_name = "NAME", default_value = EstimatorSettings::NAMES[0], value_parser = words(EstimatorSettings::NAMES, EstimatorSettings::SUMMARIES))]
     pub(crate) estimator: String,
-    /// The m of D_m or the k of E_k, such as 40, or auto for the best one of each state
+    /// The m of D_m, at most 1000, or the k of E_k, at most 256, such as 40; or auto for the best one of each state
     #[arg(long, default_value = "auto", value_name = "M|K|auto", value_parser = order)]
     pub(crate) order: OrderChoice,
     /// The largest m or k that --order auto tries, such as 100 [default: 200 of m, 64 of k]

@@ -128,6 +128,8 @@ fn estimator(arguments: &RunArguments) -> Result<EstimatorSettings, Error> {
         rule: arguments.rule,
         accuracy: arguments.accuracy.as_deref().map(accuracy).transpose()?,
     };
+    refuse_high_order(&arguments.estimator, "--order", options.order)?;
+    refuse_high_order(&arguments.estimator, "--max-order", options.max_order)?;
     match EstimatorSettings::from_options(&arguments.estimator, options) {
         Ok(settings) => Ok(settings.expect("only names of estimators are accepted")),
         Err(error) => {
@@ -136,6 +138,17 @@ fn estimator(arguments: &RunArguments) -> Result<EstimatorSettings, Error> {
                 conflict(&error, &flag(error.option), |name, value| format!("{} {value}", flag(name)));
             Err(Error::usage(message, hint))
         }
+    }
+}
+
+/// Refuses an order that the estimator does not have.
+fn refuse_high_order(estimator: &str, flag: &str, order: Option<u32>) -> Result<(), Error> {
+    match (order, EstimatorSettings::highest_order(estimator)) {
+        (Some(order), Some(highest)) if order > highest => Err(Error::usage(
+            format!("{flag} {order} is above {highest}, the largest order of --estimator {estimator}"),
+            format!("write {flag} {highest} or less"),
+        )),
+        _ => Ok(()),
     }
 }
 

@@ -6,6 +6,7 @@ use shadowstep::problems::problem;
 use shadowstep::tables::{Faults, Source};
 use shadowstep_scenes::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS};
 use shadowstep_scenes::{Error, KineticEnergy, PotentialEnergy, System, source};
+use shadowstep_symbolic::decimal::to_significant;
 
 use crate::quantity::{assignment, problem_error};
 use crate::report;
@@ -45,6 +46,13 @@ fn shipped(arguments: &SystemArguments, name: &str, arithmetic: Arithmetic) -> R
         return Err(Error::usage(
             format!("{name} is irrational and computed to {MOST_VALUE_DIGITS} digits; the run needs {digits}"),
             format!("use --digits {} or less, or set {name} to a fraction", MOST_VALUE_DIGITS - GUARD_DIGITS),
+        ));
+    }
+    if let Some(mass) = setup.values.masses().and_then(|masses| arithmetic.mass_out_of_range(masses)) {
+        let (mass, arithmetic) = (to_significant(&mass.value, 6), arithmetic.described());
+        return Err(Error::usage(
+            format!("a mass of {mass} or its inverse overflows or underflows in {arithmetic}"),
+            "use --digits 16 for numbers of any size",
         ));
     }
     let description = setup.problem.description();

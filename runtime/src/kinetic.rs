@@ -2,11 +2,14 @@
 //!
 //! [`crate::kinetic!`] makes one from its formula, [`crate::formula::FormulaKinetic`] from a text at run time.
 
+use std::cmp::Ordering;
+
 use thiserror::Error;
 
 use crate::Rational;
-use crate::number::Number;
-use num_traits::{Signed, Zero};
+use crate::number::{Number, epsilon};
+use num_traits::Signed;
+use shadowstep_symbolic::decimal::{to_significant, to_text};
 
 /// The class of T = ½pᵀM⁻¹p. Every scheme has its order for these ([`crate::ValidFor`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -142,12 +145,16 @@ impl<N: Number> DiagonalMasses<N> {
     /// Masses of the coordinates; each 1/m_i is rounded once.
     ///
     /// # Errors
-    /// A mass that is not positive.
+    /// A mass that is not positive, or whose 1/m overflows or underflows: 1e-400 in `f64`.
     pub fn new(masses: &[Rational], context: &N::Context) -> Result<Self, MassError> {
-        if let Some(index) = masses.iter().position(|m| !m.is_positive()) {
-            return Err(MassError::NotPositive { index, mass: shadowstep_symbolic::decimal::to_text(&masses[index]) });
-        }
-        Ok(DiagonalMasses { inverse: masses.iter().map(|m| N::from_rational(&m.recip(), context)).collect() })
+        let inverse = |(index, mass): (usize, &Rational)| {
+            if !mass.is_positive() {
+                return Err(MassError::NotPositive { index, mass: to_text(mass) });
+            }
+            in_range(N::from_rational(&mass.recip(), context))
+                .ok_or_else(|| MassError::OutOfRange { index, mass: to_significant(mass, 6) })
+        };
+        Ok(DiagonalMasses { inverse: masses.iter().enumerate().map(inverse).collect::<Result<_, _>>()? })
     }
 
     /// Masses of the coordinates as numbers, such as `f64`; each 1/m_i is rounded once.
@@ -161,7 +168,7 @@ impl<N: Number> DiagonalMasses<N> {
     /// ```
     ///
     /// # Errors
-    /// A mass that is not a positive finite number.
+    /// A mass that is not a positive finite number, or whose 1/m overflows.
     pub fn from_numbers(masses: &[N]) -> Result<Self, MassError> {
         let inverse = |(index, mass): (usize, &N)| {
             let zero = N::zero(&mass.context());
@@ -170,10 +177,16 @@ impl<N: Number> DiagonalMasses<N> {
             }
             let mut inverse = zero;
             inverse.assign_quotient(&N::from_rational(&Rational::from_integer(1.into()), &mass.context()), mass);
-            Ok(inverse)
+            in_range(inverse).ok_or_else(|| MassError::OutOfRange { index, mass: mass.to_text() })
         };
         Ok(DiagonalMasses { inverse: masses.iter().enumerate().map(inverse).collect::<Result<_, _>>()? })
     }
+}
+
+/// A positive number that has neither overflowed nor underflowed.
+fn in_range<N: Number>(number: N) -> Option<N> {
+    let zero = N::zero(&number.context());
+    (number.is_finite() && number > zero).then_some(number)
 }
 
 impl<N: Number> Kinetic<N> for DiagonalMasses<N> {
@@ -212,7 +225,16 @@ impl<N: Number> Kinetic<N> for DiagonalMasses<N> {
     }
 }
 
-/// A full symmetric M⁻¹.
+/// A full M⁻¹, symmetric and positive definite.
+///
+/// ```
+/// use shadowstep::{FullMasses, Rational};
+///
+/// let rows = |entries: [[i64; 2]; 2]| entries.map(|row| row.map(|entry| Rational::from_integer(entry.into())).to_vec());
+/// assert!(FullMasses::<f64>::from_inverse(&rows([[2, 1], [1, 2]]), &()).is_ok());
+/// let error = FullMasses::<f64>::from_inverse(&rows([[1, 2], [2, 1]]), &()).unwrap_err();
+/// assert_eq!(error.to_string(), "the inverse mass matrix is not positive definite: the pivot of row 1 is -3.0");
+/// ```
 #[derive(Clone, Debug)]
 pub struct FullMasses<N> {
     /// M⁻¹, row by row
@@ -223,7 +245,9 @@ impl<N: Number> FullMasses<N> {
     /// The rows of M⁻¹, each entry rounded once.
     ///
     /// # Errors
-    /// A matrix that is not square or not symmetric or has a diagonal entry that is not positive.
+    /// A matrix that is not square or not symmetric, has a diagonal entry that is not positive or overflows or underflows,
+    /// or is not positive definite. The last is decided by the pivots of Gauss's elimination: in row i of d one must be
+    /// larger than d ε times the diagonal entry, ε the last place of 1, as a smaller one may be round-off.
     pub fn from_inverse(rows: &[Vec<Rational>], context: &N::Context) -> Result<Self, MassError> {
         for (i, row) in rows.iter().enumerate() {
             if row.len() != rows.len() {
@@ -232,13 +256,40 @@ impl<N: Number> FullMasses<N> {
             if let Some(j) = (0..i).find(|&j| row[j] != rows[j][i]) {
                 return Err(MassError::NotSymmetric { row: i, column: j });
             }
-            if !row[i].is_positive() || row[i].is_zero() {
-                return Err(MassError::NotPositive { index: i, mass: shadowstep_symbolic::decimal::to_text(&row[i]) });
+            if !row[i].is_positive() {
+                return Err(MassError::NotPositive { index: i, mass: to_text(&row[i]) });
+            }
+            if in_range(N::from_rational(&row[i], context)).is_none() {
+                return Err(MassError::OutOfRange { index: i, mass: to_significant(&row[i].recip(), 6) });
             }
         }
         let number = |r: &Rational| N::from_rational(r, context);
-        Ok(FullMasses { inverse: rows.iter().map(|row| row.iter().map(number).collect()).collect() })
+        let inverse: Vec<Vec<N>> = rows.iter().map(|row| row.iter().map(number).collect()).collect();
+        check_positive_definite(&inverse, context)?;
+        Ok(FullMasses { inverse })
     }
+}
+
+/// Refuses a symmetric matrix with a pivot that is not positive, beyond round-off.
+fn check_positive_definite<N: Number>(rows: &[Vec<N>], context: &N::Context) -> Result<(), MassError> {
+    let mut rest = rows.to_vec();
+    let [mut bound, mut factor] = [N::zero(context), N::zero(context)];
+    let mut round_off = epsilon::<N>(context);
+    round_off.multiply_integer(i32::try_from(rows.len()).unwrap_or(i32::MAX));
+    for i in 0..rows.len() {
+        let (above, below) = rest.split_at_mut(i + 1);
+        let pivots = &above[i][i..];
+        bound.assign_product(&round_off, &rows[i][i]);
+        // NaN has no order
+        if pivots[0].partial_cmp(&bound) != Some(Ordering::Greater) {
+            return Err(MassError::NotPositiveDefinite { row: i, pivot: pivots[0].to_text() });
+        }
+        for row in below {
+            factor.assign_quotient(&row[i], &pivots[0]);
+            row[i..].iter_mut().zip(pivots).for_each(|(entry, pivot)| entry.subtract_product(&factor, pivot));
+        }
+    }
+    Ok(())
 }
 
 impl<N: Number> Kinetic<N> for FullMasses<N> {
@@ -293,6 +344,22 @@ pub enum MassError {
         index: usize,
         /// Its value.
         mass: String,
+    },
+    /// A mass so small or large that it or its inverse is infinite or 0 in the number type.
+    #[error("mass {index} is {mass}: the mass or its inverse overflows or underflows in this number type")]
+    OutOfRange {
+        /// Which, from 0.
+        index: usize,
+        /// Its value.
+        mass: String,
+    },
+    /// M⁻¹ is not positive definite.
+    #[error("the inverse mass matrix is not positive definite: the pivot of row {row} is {pivot}")]
+    NotPositiveDefinite {
+        /// The first row whose pivot in Gauss's elimination is not positive, from 0.
+        row: usize,
+        /// The pivot.
+        pivot: String,
     },
     /// A row of M⁻¹ is too short or too long.
     #[error("row {row} of the inverse mass matrix has {entries} entries, but there are {rows} rows")]

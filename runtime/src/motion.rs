@@ -135,7 +135,8 @@ where
         self.increments.beta.context()
     }
 
-    /// H = T(p) + U(q) at the present state.
+    /// H = T(p) + U(q) at the present state; NaN where squares of distances overflow, a coordinate above 3.8e153 in `f64`:
+    /// there a potential such as −1/r would be 0.
     pub fn energy(&mut self) -> N {
         let Motion { potential, kinetic, q, p, scratch, kinetic_scratch, increments, .. } = self;
         let [mut energy, mut kinetic_energy] = [increments.beta.clone(), increments.beta.clone()];
@@ -190,6 +191,16 @@ fn assign_energies<N: Number, P: Potential<N>, K: Kinetic<N>>(
     potential.update(q);
     potential.energy(q, energy, scratch);
     energy.add(kinetic_energy);
+    refuse_overflow(q, energy);
+}
+
+/// energy ← NaN where it is finite though squares of positions overflow: an infinite r² makes 0 of 1/r.
+fn refuse_overflow<N: Number>(q: &[N], energy: &mut N) {
+    if energy.is_finite() && !q.iter().all(N::has_finite_square) {
+        energy.assign_zero();
+        let zero = energy.clone();
+        energy.divide(&zero);
+    }
 }
 
 /// Checks that dimensions and precisions agree; returns the context of the numbers.
@@ -337,6 +348,7 @@ where
             potential.energy(q.as_ref(), energy, scratch);
         }
         energy.add(kinetic_energy);
+        refuse_overflow(q.as_ref(), energy);
     }
 
     fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic_energy: &mut N) {

@@ -190,6 +190,11 @@ pub trait Number: Clone + PartialOrd + fmt::Debug + fmt::Display {
     /// Whether x is neither infinite nor NaN.
     fn is_finite(&self) -> bool;
 
+    /// Whether r² of two points in space with such coordinates is finite: |x| ≤ 3.8e153 in `f64`.
+    fn has_finite_square(&self) -> bool {
+        self.is_finite()
+    }
+
     /// The nearest `f64`; infinite or 0 where that overflows or underflows.
     fn to_f64(&self) -> f64;
 

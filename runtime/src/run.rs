@@ -18,8 +18,8 @@ mod state;
 mod trajectory;
 
 pub use drift::{DriftRecorder, EnergyDrift, energy_drift};
-pub(crate) use error::check_value;
 pub use error::{NotFinite, Quantity, RunError};
+pub(crate) use error::{check_energy, check_value};
 pub use permanent::{Finding, LowErrorStates, PermanentChange};
 pub use shadow_run::{Estimated, ShadowRun};
 #[cfg(feature = "mpfr")]

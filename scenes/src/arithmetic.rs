@@ -136,6 +136,20 @@ impl Computation for Holds<'_> {
     }
 }
 
+/// Whether r² of points with such coordinates is finite in a number type.
+struct HasSquare<'a>(&'a Rational);
+
+impl Computation for HasSquare<'_> {
+    type Output = bool;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> bool {
+        N::from_rational(self.0, context).has_finite_square()
+    }
+}
+
+/// What helps where a number overflows or underflows in double precision.
+pub const ANY_SIZE: &str = "write digits = 16 in [run] for numbers of any size";
+
 impl Arithmetic {
     /// Multiprecision numbers with this many decimal digits.
     ///
@@ -148,6 +162,16 @@ impl Arithmetic {
     /// Whether a value neither overflows nor becomes 0.
     pub fn holds(self, value: &Rational) -> bool {
         self.compute(Holds(value))
+    }
+
+    /// Whether r² of two points in space with such coordinates is finite.
+    pub fn has_square_of(self, value: &Rational) -> bool {
+        self.compute(HasSquare(value))
+    }
+
+    /// The first of these masses that overflows or underflows, or whose inverse does.
+    pub fn mass_out_of_range(self, masses: &[Exact]) -> Option<&Exact> {
+        masses.iter().find(|mass| !(self.holds(&mass.value) && self.holds(&mass.value.recip())))
     }
 
     /// The digits to which exact values of the run are computed.

@@ -235,7 +235,8 @@ pub const KEYS: [Key; 38] = [
     key(
         "output.modified_energy",
         "order",
-        "The m of D_m, or the k of the bilinear estimator, which must be even; or \"auto\" for the best one of each state.",
+        "The m of D_m, at most 1000, or the k of the bilinear estimator, which must be even and at most 256; or \"auto\" for the \
+         best one of each state.",
         "40",
         Some("\"auto\""),
     ),

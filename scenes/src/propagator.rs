@@ -152,9 +152,9 @@ pub(crate) fn exact_flow<N: Rounded, B: BuildEstimator<N>>(
 /// The problem at its initial state.
 ///
 /// # Panics
-/// If a mass is not positive, which problems exclude.
+/// If a mass or its inverse is 0 or infinite in the number type, which the reading of a problem excludes.
 pub fn motion<N: Number + 'static>(setup: &Setup, context: &N::Context) -> ProblemMotion<N> {
-    setup.motion(context).expect("problems allow positive masses only")
+    setup.motion(context).expect("the masses were read with the problem")
 }
 
 fn take_all<T: States, E: Estimator<T::Number>>(

@@ -291,3 +291,16 @@ fn the_first_orders_have_no_error() {
     let mut run = ShadowRun::new(&verlet, motion(), 10, &Central::fixed_with_error(1)).unwrap();
     assert!(run.advance().unwrap().unwrap().1.error.is_none());
 }
+
+/// A state at k = 1000 would take half a million products: 4000 steps at 120 digits took minutes.
+#[test]
+fn a_k_that_takes_too_long_is_refused() {
+    let h = shadowstep::StepSize::try_from("1/10").unwrap();
+    let refusal =
+        |settings: Bilinear| BuildEstimator::<f64>::build(&settings, &h, 2, &()).err().map(|error| error.to_string());
+    assert_eq!(refusal(Bilinear::new(256)), None);
+    assert_eq!(refusal(Bilinear::best(256)), None);
+    let sentence = "must be at most 256, not 257: the cost of a state grows like the square of it";
+    assert_eq!(refusal(Bilinear::with_error(257)), Some(format!("k {sentence}")));
+    assert_eq!(refusal(Bilinear::best(257)), Some(format!("the largest k {sentence}")));
+}

@@ -5,8 +5,8 @@ use rug::Float;
 use shadowstep::kinetic::Quadratic;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
 use shadowstep::run::{EnergyDrift, Quantity, RunError, ShadowRun, energy_drift};
-use shadowstep::shadow::{Central, SelectionRule, StoppingRule};
-use shadowstep::{Kinetic, Motion, MotionError, Number, Potential, UnitMasses};
+use shadowstep::shadow::{Central, SelectionRule, ShadowEnergy, StoppingRule};
+use shadowstep::{Kinetic, Motion, MotionError, Number, Potential, System, UnitMasses};
 use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, stepper};
 
 type State<P, N> = Motion<N, Vec<N>, P, UnitMasses>;
@@ -54,6 +54,29 @@ fn a_head_on_collision_names_its_step() {
         panic!("the settings are valid")
     };
     assert_eq!(step, 2, "the same at 120 digits");
+}
+
+/// r² overflows, so 1/r is 0: the energy would be that of a free body.
+#[test]
+fn positions_whose_squares_overflow_are_refused() {
+    let start = |x: &str| state::<_, f64>(Kepler, &[x, "0"], &["0", "1"], &());
+    let error = drift("stormer-verlet", start("-1e160"), "1/10", 5, 2).unwrap_err().to_string();
+    let sentence = "the run stopped at step 0: q1 = -1e160, whose square overflows; try a smaller step size or other \
+                    initial values";
+    assert_eq!(error, sentence);
+    assert!(start("1e160").energy().is_nan() && start("1e160").energy_at(&[1.0, 0.0], &[0.0, 1.0]) == -0.5);
+    assert_eq!(start("3e153").energy(), 0.5);
+    // where the gradient is kept, the energy follows from it
+    let mut kicked = start("1e160");
+    kicked.kick_augmented(&0.0);
+    let [mut energy, mut kinetic] = [0.0; 2];
+    kicked.assign_energies(&mut energy, &mut kinetic);
+    assert!(energy.is_nan() && kinetic == 0.5);
+    let monitor = ShadowEnergy::new(stepper("stormer-verlet", "1/10", &()), &mut kicked, &Central::fixed(2));
+    assert!(monitor.err().unwrap().to_string().contains("q1 = 1e160, whose square overflows"));
+    // numbers with larger exponents have r²
+    let far = state::<_, Float>(Kepler, &["1e160", "0"], &["0", "0"], &precision(30)).energy();
+    assert!((far.log10_abs() + 160.0).abs() < 1e-12, "{far}");
 }
 
 /// The state that is not finite may lie before the start, where an estimator needs states too.

@@ -252,6 +252,58 @@ fn masses_that_are_not_positive_numbers_are_refused() {
     }
 }
 
+/// 1/m is infinite or 0, so that the body would be lost, or not move.
+#[test]
+fn masses_that_overflow_or_underflow_are_refused() {
+    for (mass, text) in [("1e-400", "1e-400"), ("1e400", "1e400"), ("1e-310", "1e-310")] {
+        let error = DiagonalMasses::<f64>::new(&[rational("1"), rational(mass)], &()).unwrap_err();
+        assert_eq!(error, MassError::OutOfRange { index: 1, mass: text.to_owned() });
+        let sentence = "the mass or its inverse overflows or underflows in this number type";
+        assert_eq!(error.to_string(), format!("mass 1 is {text}: {sentence}"));
+        assert!(DiagonalMasses::<Float>::new(&[rational(mass)], &precision(20)).is_ok());
+    }
+    let error = DiagonalMasses::from_numbers(&[1e-310]).unwrap_err();
+    assert_eq!(error, MassError::OutOfRange { index: 0, mass: "1e-310".to_owned() });
+    assert!(DiagonalMasses::from_numbers(&[1e-300, 1e300]).is_ok());
+}
+
+#[test]
+fn an_inverse_mass_matrix_must_be_positive_definite() {
+    fn refusal<N: Number>(rows: &[&[&str]], context: &N::Context) -> Option<MassError> {
+        let rows: Vec<Vec<_>> = rows.iter().map(|row| row.iter().map(|entry| rational(entry)).collect()).collect();
+        FullMasses::<N>::from_inverse(&rows, context).err()
+    }
+    let row = |error: Option<MassError>| match error {
+        Some(MassError::NotPositiveDefinite { row, .. }) => Some(row),
+        None => None,
+        other => panic!("{other:?}"),
+    };
+    // eigenvalues 3 and −1; 2/3 and 0; 4, 3 and −1
+    assert_eq!(row(refusal::<f64>(&[&["1", "2"], &["2", "1"]], &())), Some(1));
+    assert_eq!(row(refusal::<f64>(&[&["1/3", "1/3"], &["1/3", "1/3"]], &())), Some(1));
+    assert_eq!(row(refusal::<f64>(&[&["4", "0", "0"], &["0", "1", "2"], &["0", "2", "1"]], &())), Some(2));
+    // positive definite, by 12 and by 30 digits
+    let nearly = |off: &str| [["1", off].map(str::to_owned), [off, "1"].map(str::to_owned)];
+    let decide = |off: &str, digits: Option<u32>| {
+        let rows = nearly(off);
+        let rows: Vec<Vec<&str>> = rows.iter().map(|row| row.iter().map(String::as_str).collect()).collect();
+        let rows: Vec<&[&str]> = rows.iter().map(Vec::as_slice).collect();
+        match digits {
+            None => row(refusal::<f64>(&rows, &())),
+            Some(digits) => row(refusal::<Float>(&rows, &precision(digits))),
+        }
+    };
+    assert_eq!(decide("1 - 1e-12", None), None);
+    assert_eq!(decide("1 - 1e-30", None), Some(1), "beyond double precision");
+    assert_eq!(decide("1 - 1e-30", Some(40)), None);
+    assert_eq!(decide("1 + 1e-30", Some(40)), Some(1));
+    // the scales of the coordinates do not matter
+    assert_eq!(row(refusal::<f64>(&[&["1e-200", "0.9"], &["0.9", "1e200"]], &())), None);
+    assert_eq!(row(refusal::<f64>(&[&["1e-200", "1.1"], &["1.1", "1e200"]], &())), Some(1));
+    let error = refusal::<f64>(&[&["1e400", "0"], &["0", "1"]], &()).unwrap();
+    assert_eq!(error, MassError::OutOfRange { index: 0, mass: "1e-400".to_owned() });
+}
+
 // ---------------------------------------------------------------------------------------------------------------
 // A potential from a closure
 

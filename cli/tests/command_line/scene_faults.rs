@@ -98,6 +98,12 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ("energy = true", "energy = \"yes\"", "15:10: this value is of the wrong kind", "needed true, or a table"),
     ("energy = true", "modified_energy = { order = 0 }", "15:29: 0 is out of range", "from 1 to 1000"),
     ("energy = true", "modified_energy = { order = \"best\" }", "15:29: `best` is not known", "write \"auto\""),
+    (
+        "energy = true",
+        "modified_energy = { estimator = \"bilinear\", order = 1000 }",
+        "15:53: 1000 is out of range",
+        "from 1 to 256",
+    ),
     ("energy = true", "modified_energy = { max_order = 1 }", "15:33: 1 is out of range", "from 2 to 1000"),
     (
         "energy = true",
@@ -384,6 +390,23 @@ fn complains(scene: &str, sentence: &str, help: &str) {
     let at = message.find(&place).unwrap_or_else(|| panic!("{sentence}: {scene}\n{message}"));
     assert!(message[at..].contains(help), "{help}: {message}");
     assert_eq!(names(folder.path()), ["scene.toml"], "{scene}");
+}
+
+/// In double precision.
+#[test]
+fn numbers_whose_squares_or_inverses_overflow_are_refused() {
+    let good = GOOD.replace("digits = 30", "digits = \"double\"");
+    for (part, replacement, sentence) in [
+        ("q = [1, 0]", "q = [1, -1e160]", "7:9: the square of the position -1e160 overflows in double precision"),
+        ("[1, 2]", "[1e-310, 2]", "5:11: a mass of 1e-310 or its inverse overflows or underflows in double precision"),
+    ] {
+        complains(&good.replace(part, replacement), sentence, "digits = 16");
+        assert_eq!(run(folder(&GOOD.replace(part, replacement)).path(), "").code, 0, "{replacement}");
+    }
+    let sentence = "a mass of 1e-310 or its inverse overflows or underflows in double precision";
+    let planets = "[problem]\nname = \"outer-solar-system\"\nparameters = { m_pluto = 1e-310 }\n[run]\n\
+                   scheme = \"ruth3\"\nsteps = 2\nstep = 1\ndigits = \"double\"\n[output]\nenergy = true\n";
+    complains(planets, &format!("2:8: {sentence}"), "digits = 16");
 }
 
 #[test]

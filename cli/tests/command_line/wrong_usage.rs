@@ -25,6 +25,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("--step 0", "--step 0: the step size must be nonzero", "such as 1/10"),
     ("--step -1/10", "steps of -1/10 never reach --until 2: the signs differ", "positive values for both"),
     ("--step 3", "--step 3 is longer than the run until 2", "smaller step size"),
+    ("--step 1e-9223372036854775808", "the exponent of this number is out of range: -10000 to 10000", "1e-3"),
     ("--step 1e-20", "steps of 1e-20 until 2 are 2e20 steps", "the limit is 1e10"),
     ("--until 0", "--until 0: the time must be nonzero", "--until 100"),
     ("--until 2..", "--until `2..`, character 3", "1/10"),
@@ -34,6 +35,11 @@ const WRONG: &[(&str, &str, &str)] = &[
         "--digits 300",
     ),
     ("--digits 6000 --set py=sqrt(2)", "py is irrational and computed to 5000 digits", "--digits 4980"),
+    (
+        "--problem outer-solar-system --set m_pluto=1e-310 --double",
+        "a mass of 1e-310 or its inverse overflows or underflows in double precision",
+        "--digits 16",
+    ),
     ("--order 4 --max-order 8", "--max-order requires --order auto, not --order 4", "remove it"),
     ("--order 4 --stop early", "--stop requires --order auto, not --order 4", "write --order auto"),
     ("--order 4 --rule robust", "--rule requires --order auto, not --order 4", "remove it"),
@@ -49,6 +55,16 @@ const WRONG: &[(&str, &str, &str)] = &[
         "write --estimator central",
     ),
     ("--estimator bilinear --order auto --rule least", "--rule requires --estimator central, not", "remove it"),
+    (
+        "--estimator bilinear --order 1000",
+        "--order 1000 is above 256, the largest order of --estimator bilinear",
+        "write --order 256 or less",
+    ),
+    (
+        "--estimator bilinear --order auto --max-order 257",
+        "--max-order 257 is above 256, the largest order of --estimator bilinear",
+        "write --max-order 256 or less",
+    ),
     ("--estimator bilinear --order auto --accuracy 0", "--accuracy 0 is not a valid target error", "such as 1e-20"),
     (
         "--estimator bilinear --order auto --accuracy -1e-9",

@@ -154,6 +154,10 @@ impl<N: Number> Number for Counting<N> {
         self.0.is_finite()
     }
 
+    fn has_finite_square(&self) -> bool {
+        self.0.has_finite_square()
+    }
+
     fn to_f64(&self) -> f64 {
         self.0.to_f64()
     }
@@ -182,7 +186,7 @@ mod tests {
         assert_eq!(y.to_text(), b.to_text());
         assert_eq!(y.to_string(), b.to_string());
         assert_eq!([y.to_f64(), y.log10_abs()], [b, b.log10_abs()]);
-        assert!(y.is_below_zero() && y.is_finite());
+        assert!(y.is_below_zero() && y.is_finite() && y.has_finite_square());
     }
 
     #[test]

@@ -26,6 +26,9 @@ impl DerefMut for Copied {
     }
 }
 
+/// 3 (2x)² is below the largest `f64`, 1.797e308.
+const LARGEST_SQUARED: f64 = 3.8e153;
+
 impl Number for f64 {
     type Context = ();
     const KEEPS_INCREMENTS: bool = true;
@@ -180,6 +183,10 @@ impl Number for f64 {
         f64::is_finite(*self)
     }
 
+    fn has_finite_square(&self) -> bool {
+        self.abs() <= LARGEST_SQUARED
+    }
+
     fn to_f64(&self) -> f64 {
         *self
     }
@@ -328,6 +335,9 @@ mod tests {
         }
         for (x, finite) in [(1e300, true), (f64::NAN, false), (f64::NEG_INFINITY, false)] {
             assert_eq!(Number::is_finite(&x), finite);
+        }
+        for (x, finite) in [(-3.8e153, true), (3.9e153, false), (1e300, false), (f64::NAN, false), (-0.0, true)] {
+            assert_eq!(x.has_finite_square(), finite);
         }
         assert_eq!((-0.001).log10_abs(), -3.0);
         assert_eq!(0.0.log10_abs(), f64::NEG_INFINITY);

@@ -4,7 +4,7 @@ use super::Number;
 use crate::Rational;
 use num_bigint::BigInt;
 use num_traits::Signed;
-use rug::float::Special;
+use rug::float::{self, Special};
 use rug::integer::Order;
 use rug::{Assign, Float, Integer};
 use std::f64::consts::{LOG2_10, LOG10_2};
@@ -227,6 +227,11 @@ impl Number for Float {
         Float::is_finite(self)
     }
 
+    fn has_finite_square(&self) -> bool {
+        // 0 has no exponent; 3 (2x)² < (4x)²
+        Float::is_finite(self) && self.get_exp().is_none_or(|exponent| exponent < float::exp_max() / 2 - 2)
+    }
+
     fn to_f64(&self) -> f64 {
         Float::to_f64(self)
     }
@@ -422,5 +427,16 @@ mod tests {
         x.divide_integer(0);
         assert!(!Number::is_finite(&x));
         assert_eq!(x.to_text(), "inf");
+    }
+
+    #[test]
+    fn squares_are_finite_up_to_half_of_the_exponents() {
+        let mut x = float(-3.0);
+        assert!(x.has_finite_square() && float(0.0).has_finite_square());
+        x <<= rug::float::exp_max() / 2;
+        assert!(Number::is_finite(&x) && !x.has_finite_square());
+        let same = x.clone();
+        x.multiply(&same);
+        assert!(!Number::is_finite(&x) && !x.has_finite_square());
     }
 }

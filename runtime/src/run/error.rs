@@ -29,12 +29,12 @@ pub enum RunError {
     Estimator(#[from] EstimatorError),
 }
 
-/// A value that is infinite or NaN.
+/// A value that is infinite or NaN, or a position whose square is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotFinite {
     /// What it is a value of.
     pub quantity: Quantity,
-    /// The value as text: `NaN`, `inf` or `-inf`.
+    /// The value as text: `NaN`, `inf` or `-inf`; or such as `1e160, whose square overflows`.
     pub value: String,
 }
 
@@ -85,4 +85,17 @@ pub(crate) fn check_value<N: Number>(value: &N, quantity: Quantity, step: i64) -
         return Ok(());
     }
     Err(RunError::NotFinite { step, value: NotFinite { quantity, value: value.to_text() } })
+}
+
+/// Refuses an energy that is not finite; names the position from which that comes, where its square overflows.
+pub(crate) fn check_energy<N: Number>(energy: &N, q: &[N], step: i64) -> Result<(), RunError> {
+    let overflows = |position: &N| position.is_finite() && !position.has_finite_square();
+    // NaN is not ordered
+    match q.iter().position(overflows).filter(|_| energy.partial_cmp(energy).is_none()) {
+        Some(index) => {
+            let value = format!("{}, whose square overflows", q[index].to_text());
+            Err(RunError::NotFinite { step, value: NotFinite { quantity: Quantity::Position(index), value } })
+        }
+        None => check_value(energy, Quantity::Energy, step),
+    }
 }

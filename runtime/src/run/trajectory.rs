@@ -1,6 +1,6 @@
 //! The states of a trajectory in the order of time, with those that an estimator needs on both sides.
 
-use crate::run::error::{Quantity, RunError, check_value};
+use crate::run::error::{RunError, check_energy};
 use crate::run::state::{State, States, last};
 use crate::scheme::{Scheme, ValidFor};
 use crate::stepper::Stepper;
@@ -65,7 +65,7 @@ impl<'s, S: Scheme + ValidFor<M::Class>, M: System> Trajectory<'s, S, M> {
     /// The states after `from`, with increments, up to a last one that [`extend`](Self::extend) sets; the system is at the state
     /// `from`.
     pub(super) fn after(stepper: &'s Stepper<S, M::Number>, mut system: M, from: i64) -> Result<Self, RunError> {
-        check_value(&system.energy(), Quantity::Energy, from)?;
+        check_energy(&system.energy(), system.q(), from)?;
         Ok(Trajectory { stepper, system, augmented: true, before: Vec::new(), present: None, n: from, last: from })
     }
 

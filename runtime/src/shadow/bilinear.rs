@@ -15,10 +15,10 @@ use crate::shadow::options::EstimatorOptions;
 use crate::step_size::StepSize;
 use crate::system::Increments;
 
-/// The bilinear estimator E_k of order 2k from the newest k + 1 states, k ≥ 1.
+/// The bilinear estimator E_k of order 2k from the newest k + 1 states, 1 ≤ k ≤ 256.
 ///
 /// Its value belongs to the middle of these: for an odd k to the time between two states. A state costs k products of
-/// vectors and some k²/2 of numbers.
+/// vectors and some k²/2 of numbers; therefore a k above [`LARGEST_K`](Self::LARGEST_K) is refused.
 ///
 /// **Its error** is estimated by the larger of two: the range, max − min over the 1 + ⌈√k⌉ windows on either side (the
 /// modified energy is constant, so what changes from window to window is the estimator's error, or round-off), and the largest
@@ -73,14 +73,14 @@ use crate::system::Increments;
 pub enum Bilinear {
     /// One k ≥ 1.
     Fixed {
-        /// Half the order; one less than the states.
+        /// Half the order; one less than the states. At most [`Bilinear::LARGEST_K`].
         k: u32,
         /// Whether the last term and the error are computed as well.
         with_error: bool,
     },
     /// The best k of each state.
     Best {
-        /// The largest k allowed, at least 2; an odd one stands for the even one below it.
+        /// The largest k allowed, 2 to [`Bilinear::LARGEST_K`]; an odd one stands for the even one below it.
         largest: u32,
         /// The target error, in the units of the energy; `None` for the smallest possible.
         accuracy: Option<Rational>,
@@ -88,6 +88,9 @@ pub enum Bilinear {
 }
 
 impl Bilinear {
+    /// The largest k, which takes some 33 000 products of numbers a state.
+    pub const LARGEST_K: u32 = 256;
+
     /// E_k; no estimate of the error.
     pub fn new(k: u32) -> Self {
         Bilinear::Fixed { k, with_error: false }
@@ -117,6 +120,7 @@ impl Family for Bilinear {
     const SUMMARY: &'static str =
         "Products of states in pairs E_k: k + 1 states, order 2k; for an odd k between two states";
     const LETTER: &'static str = "k";
+    const HIGHEST_ORDER: u32 = Bilinear::LARGEST_K;
     const AUTO_OPTIONS: &'static [&'static str] = &["max_order", "accuracy"];
 
     fn from_options(options: EstimatorOptions) -> Self {
@@ -163,15 +167,17 @@ impl<N: Number> BuildEstimator<N> for Bilinear {
     type Estimator = BilinearEstimator<N>;
 
     /// # Errors
-    /// k = 0, a largest k below 2, or a negative target error.
+    /// k = 0, a largest k below 2, one above [`Bilinear::LARGEST_K`], or a negative target error.
     fn build(&self, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self::Estimator, EstimatorError> {
         Ok(BilinearEstimator(match self {
             Bilinear::Fixed { k, with_error } => {
                 EstimatorError::check_order("k", *k, 1)?;
+                EstimatorError::check_high_order("k", *k, Bilinear::LARGEST_K)?;
                 Kind::Fixed(FixedOrder::new(*k, *with_error, h.exact(), dimension, context))
             }
             Bilinear::Best { largest, accuracy } => {
                 EstimatorError::check_order("the largest k", *largest, 2)?;
+                EstimatorError::check_high_order("the largest k", *largest, Bilinear::LARGEST_K)?;
                 if accuracy.as_ref().is_some_and(Signed::is_negative) {
                     return Err(EstimatorError::NegativeAccuracy);
                 }

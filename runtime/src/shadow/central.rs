@@ -9,7 +9,7 @@ use crate::shadow::differences::{SelectionRule, StoppingRule};
 use crate::shadow::error_estimate::{ErrorEstimate, Point};
 use crate::shadow::estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
 use crate::shadow::family::Family;
-use crate::shadow::options::EstimatorOptions;
+use crate::shadow::options::{EstimatorOptions, HIGHEST_ORDER};
 use crate::shadow::weights::central;
 use crate::shadow::window::Window;
 use crate::step_size::StepSize;
@@ -94,6 +94,7 @@ impl Family for Central {
     const NAME: &'static str = "central";
     const SUMMARY: &'static str = "Central differences D_m: 2m + 1 states, order 2m";
     const LETTER: &'static str = "m";
+    const HIGHEST_ORDER: u32 = HIGHEST_ORDER;
     const AUTO_OPTIONS: &'static [&'static str] = &["max_order", "stop", "rule"];
 
     fn from_options(options: EstimatorOptions) -> Self {

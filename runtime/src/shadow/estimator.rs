@@ -31,6 +31,16 @@ pub enum EstimatorError {
         /// The value.
         found: u32,
     },
+    /// An order, or a largest order, that is too large.
+    #[error("{name} must be at most {most}, not {found}: the cost of a state grows like the square of it")]
+    HighOrder {
+        /// Its name: k or the largest k.
+        name: &'static str,
+        /// The largest valid value.
+        most: u32,
+        /// The value.
+        found: u32,
+    },
     /// A negative target error.
     #[error("the target error must not be negative")]
     NegativeAccuracy,
@@ -40,6 +50,11 @@ impl EstimatorError {
     /// Checks that an order is not too small.
     pub(super) fn check_order(name: &'static str, found: u32, least: u32) -> Result<(), EstimatorError> {
         if found >= least { Ok(()) } else { Err(EstimatorError::Order { name, least, found }) }
+    }
+
+    /// Checks that an order is not too large.
+    pub(super) fn check_high_order(name: &'static str, found: u32, most: u32) -> Result<(), EstimatorError> {
+        if found <= most { Ok(()) } else { Err(EstimatorError::HighOrder { name, most, found }) }
     }
 }
 

@@ -10,6 +10,8 @@ pub(super) trait Family: Sized {
     const SUMMARY: &'static str;
     /// The letter of its order: m or k.
     const LETTER: &'static str;
+    /// The highest order in flags and scenes.
+    const HIGHEST_ORDER: u32;
     /// The options that it has besides the order, where the order is `auto`.
     const AUTO_OPTIONS: &'static [&'static str];
 

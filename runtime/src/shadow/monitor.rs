@@ -37,7 +37,7 @@ use self::recent::Recent;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
 use crate::number::Number;
-use crate::run::{Quantity, RunError, State, check_value};
+use crate::run::{Quantity, RunError, State, check_energy, check_value};
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
 use crate::stepper::Stepper;
@@ -183,7 +183,7 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
         let states = estimator.states();
         let [mut energy, mut kinetic] = [N::zero(&context), N::zero(&context)];
         system.assign_energies(&mut energy, &mut kinetic);
-        check_value(&energy, Quantity::Energy, 0)?;
+        check_energy(&energy, system.q(), 0)?;
         let mut monitor = ShadowEnergy {
             schedule: Schedule::new(states, 1),
             estimator,

@@ -9,7 +9,7 @@ use thiserror::Error;
 use crate::Rational;
 use crate::shadow::differences::{SelectionRule, StoppingRule};
 
-/// Above this order the exact weights take longer than any run.
+/// Above this order of central differences the exact weights take longer than any run.
 pub const HIGHEST_ORDER: u32 = 1000;
 
 /// The power of ten of the largest valid target error.

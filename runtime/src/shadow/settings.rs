@@ -53,6 +53,14 @@ macro_rules! estimators {
                 }
             }
 
+            /// The highest m or k of an estimator in flags and scenes; `None` if there is no such name.
+            pub fn highest_order(name: &str) -> Option<u32> {
+                match name {
+                    $($family::NAME => Some($family::HIGHEST_ORDER),)*
+                    _ => None,
+                }
+            }
+
             /// Names with the options that each has where its order is `auto`.
             const AUTO_OPTIONS: &'static [(&'static str, &'static [&'static str])] =
                 &[$(($family::NAME, $family::AUTO_OPTIONS)),*];

@@ -3,9 +3,11 @@
 use std::ops::Range;
 
 use shadowstep_symbolic::Exact;
+use shadowstep_symbolic::decimal::to_significant;
 
 use super::numbers::Numbers;
 use super::reader::Reader;
+use crate::arithmetic::ANY_SIZE;
 use shadowstep_schemes::document::Section;
 
 /// The initial state in the form in which the scene gives it.
@@ -62,6 +64,9 @@ impl State {
         masses: Option<&[Exact]>,
     ) -> (Option<Vec<Exact>>, Option<Vec<Exact>>) {
         let q = self.q.as_ref().and_then(|numbers| read(reader, numbers));
+        if let (Some(numbers), Some(q)) = (&self.q, &q) {
+            refuse_overflow(reader, numbers, q);
+        }
         let mut p = self.p.as_ref().and_then(|numbers| read(reader, numbers));
         if let (Some(_), Some(p), Some(masses)) = (&self.velocities, &mut p, masses) {
             for (p, mass) in p.iter_mut().zip(masses) {
@@ -70,5 +75,14 @@ impl State {
             }
         }
         (q, p)
+    }
+}
+
+/// Refuses a position whose square overflows: a potential of distances would be 0 there.
+fn refuse_overflow(reader: &mut Reader<'_>, numbers: &Numbers, q: &[Exact]) {
+    if let Some(index) = q.iter().position(|position| !reader.arithmetic.has_square_of(&position.value)) {
+        let position = to_significant(&q[index].value, 6);
+        let message = format!("the square of the position {position} overflows in {}", reader.arithmetic.described());
+        reader.toml.fault(numbers.place(index), message, ANY_SIZE);
     }
 }

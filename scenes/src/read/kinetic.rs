@@ -1,11 +1,15 @@
 //! T(p): by masses, or by a formula in the momenta.
 
+use std::slice::from_ref;
+
 use num_traits::{One, Signed};
 use shadowstep_symbolic::Exact;
+use shadowstep_symbolic::decimal::to_significant;
 
 use super::given::Given;
 use super::numbers::Numbers;
 use super::reader::Reader;
+use crate::arithmetic::{ANY_SIZE, Arithmetic};
 use crate::scene::{KineticEnergy, formula_kinetic};
 
 /// T(p), where it is given by its formula.
@@ -36,13 +40,29 @@ pub(super) fn by_formula(
 /// The masses, unless all are 1.
 pub(super) fn masses(reader: &mut Reader<'_>, numbers: &Numbers, values: Vec<Exact>) -> Option<Vec<Exact>> {
     let mut last_fault = None;
-    for (index, value) in values.iter().enumerate().filter(|(_, value)| !value.value.is_positive()) {
+    for (index, value) in values.iter().enumerate() {
+        let positive = value.value.is_positive();
+        if positive && reader.arithmetic.mass_out_of_range(from_ref(value)).is_none() {
+            continue;
+        }
         // all masses of a formula have one place
         let at = numbers.place(index);
         if last_fault.replace(at) != Some(at) {
-            let message = format!("a mass of {} is not positive", reader.arithmetic.text(value));
-            reader.toml.fault(at, message, "masses must be positive");
+            let (message, help) = match positive {
+                false => {
+                    let mass = reader.arithmetic.text(value);
+                    (format!("a mass of {mass} is not positive"), "masses must be positive")
+                }
+                true => (out_of_range(value, reader.arithmetic), ANY_SIZE),
+            };
+            reader.toml.fault(at, message, help);
         }
     }
     values.iter().any(|mass| !mass.value.is_one()).then_some(values)
+}
+
+/// The message for a mass that a number type does not hold, or whose inverse it does not.
+pub(super) fn out_of_range(mass: &Exact, arithmetic: Arithmetic) -> String {
+    let mass = to_significant(&mass.value, 6);
+    format!("a mass of {mass} or its inverse overflows or underflows in {}", arithmetic.described())
 }

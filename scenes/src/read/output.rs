@@ -90,7 +90,7 @@ fn modified_energy(reader: &mut Reader<'_>, output: &Section<'_, '_>) -> Option<
             name = reader.word(value, &words(EstimatorSettings::NAMES))?;
         }
         options.order = table.get("order").and_then(|value| order(reader, value, name));
-        options.max_order = table.get("max_order").and_then(|value| up_to(reader, value, 2));
+        options.max_order = table.get("max_order").and_then(|value| up_to(reader, value, 2, name));
         let stop = table.get("stop").and_then(|value| reader.word(value, &words(StoppingRule::NAMES)));
         options.stop = stop.and_then(|word| word.parse().ok());
         let rule = table.get("rule").and_then(|value| reader.word(value, &words(SelectionRule::NAMES)));
@@ -126,7 +126,7 @@ fn order(reader: &mut Reader<'_>, value: &Value<'_>, estimator: &str) -> Option<
         reader.word(value, &[("auto", ())]);
         return None;
     }
-    let order = up_to(reader, value, 1)?;
+    let order = up_to(reader, value, 1, estimator)?;
     let options = EstimatorOptions { order: Some(order), ..Default::default() };
     let settings = EstimatorSettings::from_options(estimator, options).ok().flatten();
     if settings.is_some_and(|settings| settings.is_between()) {
@@ -137,8 +137,9 @@ fn order(reader: &mut Reader<'_>, value: &Value<'_>, estimator: &str) -> Option<
 }
 
 /// The m of a central difference, or the k of E_k.
-fn up_to(reader: &mut Reader<'_>, value: &Value<'_>, least: u64) -> Option<u32> {
-    reader.whole(value, least..=HIGHEST_ORDER.into()).and_then(|m| u32::try_from(m).ok())
+fn up_to(reader: &mut Reader<'_>, value: &Value<'_>, least: u64, estimator: &str) -> Option<u32> {
+    let highest = EstimatorSettings::highest_order(estimator).unwrap_or(HIGHEST_ORDER);
+    reader.whole(value, least..=highest.into()).and_then(|m| u32::try_from(m).ok())
 }
 
 fn accuracy(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Rational> {

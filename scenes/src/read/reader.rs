@@ -8,7 +8,7 @@ use shadowstep_symbolic::decimal::to_significant;
 use shadowstep_symbolic::{Budget, Exact, Graph, parse};
 use toml::de::DeTable;
 
-use crate::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, NUMBER_EXAMPLES};
+use crate::arithmetic::{ANY_SIZE, Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, NUMBER_EXAMPLES};
 use crate::keys;
 use crate::note::Note;
 
@@ -100,7 +100,7 @@ impl<'a> Reader<'a> {
                     to_significant(&exact.value, 6),
                     self.arithmetic.described()
                 );
-                self.toml.wrong(&text.at, message, "write digits = 16 in [run] for numbers of any size")
+                self.toml.wrong(&text.at, message, ANY_SIZE)
             }
             Ok(exact) => Some(exact),
             Err(error) => self.toml.wrong(&text.place(&error.range()), error.to_string(), NUMBER_EXAMPLES),

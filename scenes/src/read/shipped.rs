@@ -4,8 +4,9 @@ use shadowstep::problems::{ProblemError, Setup, problem};
 use shadowstep_symbolic::{evaluate, nearest, parse};
 
 use super::given::Given;
+use super::kinetic;
 use super::reader::Reader;
-use crate::arithmetic::{GUARD_DIGITS, MOST_VALUE_DIGITS};
+use crate::arithmetic::{ANY_SIZE, GUARD_DIGITS, MOST_VALUE_DIGITS};
 use crate::scene::{KineticEnergy, PotentialEnergy, System};
 use shadowstep_schemes::document::Text;
 
@@ -23,6 +24,10 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Opt
     let (coordinates, q): (Vec<_>, Vec<_>) = setup.values.positions().iter().cloned().unzip();
     let (momenta, p): (Vec<_>, Vec<_>) = setup.values.momenta().iter().cloned().unzip();
     let masses = setup.values.masses().map(<[_]>::to_vec);
+    if let Some(mass) = masses.as_deref().and_then(|masses| reader.arithmetic.mass_out_of_range(masses)) {
+        let message = kinetic::out_of_range(mass, reader.arithmetic);
+        reader.toml.fault(&name.at, message, ANY_SIZE);
+    }
     let (own_q, own_p) =
         given.state.values(reader, |reader, numbers| numbers.values(reader, coordinates.len()), masses.as_deref());
     for (own, names, values) in [(&own_q, &coordinates, &q), (&own_p, &momenta, &p)] {
