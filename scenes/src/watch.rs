@@ -4,7 +4,7 @@ mod encounters;
 mod energy;
 
 use shadowstep::run::RunError;
-use shadowstep::shadow::{Bilinear, BuildEstimator, ShadowEnergy};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Criterion, Missing, Report, ShadowEnergy, Verdict};
 use shadowstep::{Number, Scheme, Stepper, System};
 
 pub use self::encounters::Encounter;
@@ -18,6 +18,12 @@ const MONITOR_ORDER: u32 = 16;
 
 /// The monitor has one window in this part of a run, so that it costs the same however long the run is.
 const WINDOWS: u64 = 256;
+
+/// In runs of at most this many steps H is computed at each: the monitor has no verdict on the shortest ones.
+const SHORT_RUN: u64 = 64;
+
+/// Without a verdict of the monitor, an error of H from this part of the mean T on is too large. The monitor has the same limit.
+const KINETIC_LIMIT: f64 = 0.4;
 
 /// Which energies are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +63,7 @@ impl<S: Scheme + Clone, N: Number> Watch<S, N> {
         energies: Energies,
         summarised: bool,
     ) -> Result<Self, RunError> {
+        let energies = if run.steps <= SHORT_RUN { Energies::All } else { energies };
         let every = (run.steps.saturating_sub(from.unsigned_abs()) / WINDOWS).max(1);
         let mut observed = None;
         if summarised {
@@ -75,7 +82,11 @@ impl<S: Scheme + Clone, N: Number> Watch<S, N> {
     pub(crate) fn include<M: System<Number = N>>(&mut self, n: i64, system: &mut M) {
         self.n = n;
         if self.energies == Energies::All {
-            self.energy.include(n, &system.energy());
+            let mut energy = N::zero(&system.context());
+            let mut kinetic = energy.clone();
+            system.assign_energies(&mut energy, &mut kinetic);
+            self.energy.include(n, &energy);
+            self.energy.include_kinetic(&kinetic);
         }
         let Some(Observed { monitor, encounters }) = &mut self.observed else { return };
         encounters.include(n, system.p());
@@ -110,15 +121,19 @@ impl<S: Scheme + Clone, N: Number> Watch<S, N> {
     /// What has been found, if a summary is made.
     pub(crate) fn summary(self, run: Run<'_>) -> Option<Summary> {
         let energy = self.energy();
+        let of_kinetic = self.energy.of_kinetic();
         let Watch { observed, from, n, .. } = self;
         let Observed { monitor, encounters } = observed?;
         let report = monitor.report();
+        let (verdict, reason) = conclusion(&report, of_kinetic);
+        // where the energy is lost, the modified energy does not bound it
+        let bounds = !matches!(verdict, Verdict::TooLarge(Criterion::EnergyError | Criterion::NotFinite));
         let (encounters, closest) = encounters.found(n);
         let modified_energy = (report.windows > 0).then(|| ModifiedEnergySummary {
             method: report.method_rms.to_text(),
             round_off: report.round_off.to_text(),
             permanent_change: report.change.to_text(),
-            permanent_bound: report.permanent_bound.as_ref().map(N::to_text),
+            permanent_bound: report.permanent_bound.as_ref().filter(|_| bounds).map(N::to_text),
             resolution: report.resolution.as_ref().map(N::to_text),
             windows: report.windows,
         });
@@ -131,9 +146,19 @@ impl<S: Scheme + Clone, N: Number> Watch<S, N> {
             modified_energy,
             encounters,
             closest,
-            fine: report.verdict.is_fine(),
-            verdict: report.verdict.to_string(),
-            reason: report.reason(),
+            fine: verdict.is_fine(),
+            verdict: verdict.to_string(),
+            reason,
         })
     }
+}
+
+/// The verdict of the monitor with its reason. Of a run that is too short for it, one on the error of H.
+fn conclusion<N: Number>(report: &Report<N>, of_kinetic: f64) -> (Verdict, String) {
+    let short = report.verdict == Verdict::Undecided(Missing::Windows);
+    if short && of_kinetic.is_finite() && of_kinetic >= KINETIC_LIMIT {
+        let reason = format!("the energy error is {of_kinetic:.1e} of the mean kinetic energy");
+        return (Verdict::TooLarge(Criterion::EnergyError), reason);
+    }
+    (report.verdict, report.reason())
 }

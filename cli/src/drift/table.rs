@@ -1,9 +1,11 @@
 //! The results of `drift` as a table of at most 80 columns, with the verdicts under it.
 
+use num_traits::Zero;
 use shadowstep::run::Finding;
 use shadowstep_scenes::Summary;
 use shadowstep_scenes::readable::{shortened, wrapped_to};
 use shadowstep_scenes::run::Run;
+use shadowstep_symbolic::decimal::from_text;
 
 use super::record::{NOT_SEEN, Permanent, Record};
 use crate::colour::{heading, of_verdict, styled};
@@ -59,10 +61,16 @@ impl Permanent {
     fn shown(&self) -> String {
         match self.seen {
             Finding::Resolved => rounded(&self.change, DIGITS),
+            Finding::BelowResolution if is_zero(&self.resolution) => "0".to_owned(),
             Finding::BelowResolution => format!("< {}", rounded(&self.resolution, 2)),
             Finding::OneSided => NOT_SEEN.to_owned(),
         }
     }
+}
+
+/// Whether a number is exactly 0.
+fn is_zero(text: &str) -> bool {
+    from_text(text).is_ok_and(|value| value.is_zero())
 }
 
 /// The meanings of the marks in a table, if there are any.

@@ -3,6 +3,7 @@
 mod checkpoints;
 mod drift;
 mod figures;
+mod lost_energy;
 mod output_files;
 mod plot;
 mod polish;

@@ -12,12 +12,37 @@ pub(super) struct EnergyError<N> {
     /// At how many states H was computed.
     pub(super) states: u64,
     size: N,
+    /// Over the states of which T is known.
+    sum_of_kinetic: N,
+    states_of_kinetic: u64,
 }
 
 impl<N: Number> EnergyError<N> {
     pub(super) fn new(initial: N) -> Self {
         let zero = N::zero(&initial.context());
-        EnergyError { initial, largest: zero.clone(), at: 0, last: zero.clone(), states: 1, size: zero }
+        EnergyError {
+            initial,
+            largest: zero.clone(),
+            at: 0,
+            last: zero.clone(),
+            states: 1,
+            size: zero.clone(),
+            sum_of_kinetic: zero,
+            states_of_kinetic: 0,
+        }
+    }
+
+    /// Takes T of a state.
+    pub(super) fn include_kinetic(&mut self, kinetic: &N) {
+        self.sum_of_kinetic.add(kinetic);
+        self.states_of_kinetic += 1;
+    }
+
+    /// The largest error as a part of the mean T; not finite where no T is known or all are 0.
+    pub(super) fn of_kinetic(&self) -> f64 {
+        let mut part = self.largest.clone();
+        part.divide(&self.sum_of_kinetic);
+        part.to_f64() * self.states_of_kinetic as f64
     }
 
     /// Takes H of the state n.
