@@ -9,6 +9,7 @@
 //! | [`run`], [`scene`] | runs that a file describes; such files |
 //! | [`schemes`], [`problems`] | what can be run |
 //! | [`work_precision`], [`advise`] | speed against error; a scheme and a step size for a tolerance |
+//! | [`stability`] | hard cases
 //! | [`figures`] | the figures of the paper, and additional ones |
 //! | [`run_arguments`], [`quantity`] | the flags of runs; exact numbers |
 //! | [`selection`], [`system`], [`posed`] | flags → schemes and steps; flags → the system; with end and number type |
@@ -23,6 +24,7 @@ mod problems;
 mod run;
 mod scene;
 mod schemes;
+mod stability;
 mod trace;
 mod work_precision;
 
@@ -71,6 +73,7 @@ commands! {
     Schemes: schemes,
     WorkPrecision: work_precision,
     Advise: advise,
+    Stability: stability,
     Figures: figures,
     Problems: problems,
 }

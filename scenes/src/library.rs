@@ -3,12 +3,14 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
 use shadowstep::problems::Problem;
 use shadowstep::tables::{self, Faults, Source, TableScheme, shipped_names};
 use shadowstep::{Rational, Scheme, exact_flow};
 use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
 use shadowstep_schemes::{First, Map, shipped, shipped_hint};
+use shadowstep_symbolic::decimal::to_text;
 use thiserror::Error;
 
 use crate::error::Error;
@@ -43,6 +45,13 @@ pub enum LibraryError {
 }
 
 impl NamedScheme {
+    /// Its name with a hash of its weights: a table that is changed is another scheme.
+    pub fn identity(&self) -> String {
+        let maps = self.scheme.proved().scheme.maps();
+        let weights: Vec<String> = maps.iter().map(|map| format!("{:?} {}", map.kind, to_text(&map.weight))).collect();
+        format!("{} {}", self.name, fingerprint(&weights.join(",")))
+    }
+
     /// A remark on a table in a file that has the name of a shipped scheme with other weights.
     pub fn note(&self) -> Option<Note> {
         let own = self.scheme.proved();
@@ -56,6 +65,11 @@ impl NamedScheme {
         let differs = own.len() != shipped.len() || !own.iter().zip(&shipped).all(alike);
         differs.then(|| Note::NameOfShipped { path: self.name.clone(), scheme: scheme.to_owned() })
     }
+}
+
+/// The first digits of a hash.
+pub fn fingerprint(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }
 
 impl From<LibraryError> for Error {

@@ -36,6 +36,7 @@ Everything on this page is computed from the tables: the orders are proved, none
 - *first*: each scheme is listed in the roles of its publication. `first = \"drift\"` or `\"kick\"` exchanges the roles of kick and drift,
   so that every table for every T(p) has its twin, as velocity and position Verlet are; it is proved anew.
 - *forces*: evaluations of U_q a step, the first kick taking over what the last one of the step before evaluated.
+- *operations*: products and additions a step and dimension besides these, one for each kick and each drift.
 - *effective error*: forces · ‖E‖^{1/order}, where h^{order+1} E is the leading error of the step's logarithm in
   right-nested brackets of kick and drift and ‖E‖ the Euclidean norm. At equal cost the smaller one is more accurate, if
   the orders are the same; schemes of different orders are not compared by it.
@@ -58,8 +59,8 @@ pub fn catalogue_page() -> String {
         (proved.proof.general.order, proved.proof.quadratic.order, analysis.evaluations)
     });
     let mut page = HEAD.to_owned();
-    page += "| name | order | quadratic T | A + εB | forces | symmetric | effective error | for quadratic T | stable to hω | per force |\n";
-    page += "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    page += "| name | order | quadratic T | A + εB | forces | operations | symmetric | effective error | for quadratic T | stable to hω | per force |\n";
+    page += "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
     for (name, proved, analysis) in &schemes {
         page += &row(name, proved, analysis);
     }
@@ -81,6 +82,7 @@ fn row(name: &str, proved: &Proved, analysis: &Analysis) -> String {
         proved.proof.quadratic.order.to_string(),
         near_integrable(proved),
         analysis.evaluations.to_string(),
+        proved.plan.cost().products_per_dimension.to_string(),
         if proved.proof.symmetric { "yes" } else { "no" }.to_owned(),
         format!("{:.4}", analysis.effective_error(Kinetic::Any)),
         format!("{:.4}", analysis.effective_error(Kinetic::Quadratic)),

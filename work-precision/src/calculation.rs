@@ -5,10 +5,9 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_symbolic::decimal::to_text;
 use shadowstep_tasks::{Task, Watcher};
 
-use crate::problem::{Problem, fingerprint};
+use crate::problem::Problem;
 use crate::reference::Reference;
 use crate::sweep::{StepRange, Sweep, Sweeping};
 use crate::timing::{StepTime, time_of_steps};
@@ -59,7 +58,7 @@ impl<'a> Calculation<'a> {
     }
 
     pub(crate) fn halved(problem: Problem<'a>, scheme: &'a NamedScheme, (samples, steps): (u64, u64)) -> Self {
-        Calculation::new(problem, Quantity::Halved { scheme: identity(scheme), samples, steps }, vec![scheme], None)
+        Calculation::new(problem, Quantity::Halved { scheme: scheme.identity(), samples, steps }, vec![scheme], None)
     }
 
     pub(crate) fn sweep(
@@ -68,12 +67,13 @@ impl<'a> Calculation<'a> {
         reference: &'a Reference,
         range: &StepRange,
     ) -> Self {
-        let quantity = Quantity::Sweep { scheme: identity(scheme), samples: reference.samples(), range: range.clone() };
+        let quantity =
+            Quantity::Sweep { scheme: scheme.identity(), samples: reference.samples(), range: range.clone() };
         Calculation::new(problem, quantity, vec![scheme], Some(reference))
     }
 
     pub(crate) fn times(problem: Problem<'a>, schemes: &[(&'a NamedScheme, u64)]) -> Self {
-        let named = schemes.iter().map(|(scheme, steps)| (identity(scheme), *steps)).collect();
+        let named = schemes.iter().map(|(scheme, steps)| (scheme.identity(), *steps)).collect();
         let schemes = schemes.iter().map(|(scheme, _)| *scheme).collect();
         Calculation::new(problem, Quantity::Times { schemes: named }, schemes, None)
     }
@@ -129,11 +129,4 @@ impl Task for Calculation<'_> {
             watcher.take(place, calculation.outcome(&|part| watcher.continues(part)));
         }
     }
-}
-
-/// The name of a scheme with a hash of its weights: a table that is changed is another scheme.
-fn identity(scheme: &NamedScheme) -> String {
-    let maps = scheme.scheme.proved().scheme.maps();
-    let weights: Vec<String> = maps.iter().map(|map| format!("{:?} {}", map.kind, to_text(&map.weight))).collect();
-    format!("{} {}", scheme.name, fingerprint(&weights.join(",")))
 }

@@ -2,8 +2,15 @@
 
 use shadowstep_report::chart::{Axis, Chart, Curve};
 
+use crate::best::{self, cost_of};
 use crate::of::Of;
+use crate::size::Size;
 use crate::study::{Cost, Study};
+
+/// So many curves can be told apart.
+const MOST_CURVES: usize = 12;
+/// A scheme that does not meet an error counts as one that needs so many times the least.
+const NOT_MET: f64 = 100.0;
 
 /// A chart with the end of its file's name and its caption.
 pub(crate) struct Picture {
@@ -41,16 +48,61 @@ impl Study<'_> {
             Cost::Seconds => "time of the steps in seconds",
         });
         let y = Axis::log10(of.name());
-        let curve = |(n, studied): (usize, &crate::study::Studied<'_>)| {
-            let points = until_round_off(studied.curve(of, cost)).map(|(cost, log10)| (cost.log10(), log10)).collect();
-            Curve::marked(studied.scheme.name.clone(), points, n)
+        let curves: Vec<_> = self.schemes.iter().map(|studied| studied.curve(of, cost)).collect();
+        let shown = shown(&curves);
+        let named = shown.iter().map(|&place| (self.schemes[place].scheme.name.clone(), curves[place].clone()));
+        let curve = |(n, (name, curve)): (usize, (String, best::Curve))| {
+            let points = until_round_off(curve).map(|(cost, log10)| (cost.log10(), log10)).collect();
+            Curve::marked(name, points, n)
         };
-        Chart::new(title, x, y, self.schemes.iter().enumerate().map(curve).collect())
+        let mut chart = Chart::new(title, x, y, named.enumerate().map(curve).collect());
+        if shown.len() < curves.len() {
+            chart.notes.push(format!("The {} of {} schemes that need the least.", shown.len(), curves.len()));
+        }
+        chart
     }
+}
+
+/// The curves that are drawn, in their order: those that need the least for an error of 1e-1, 1e-2, …, then those that need the least
+/// more than these.
+fn shown(curves: &[best::Curve]) -> Vec<usize> {
+    let least = curves.iter().flatten().map(|(_, log10)| *log10).fold(0.0, f64::min);
+    let mut extra = vec![0.0; curves.len()];
+    let mut is_best = vec![false; curves.len()];
+    for target in (1..=(-least) as u32).map(|decade| Size::power_of_ten(-f64::from(decade))) {
+        let costs: Vec<Option<f64>> = curves.iter().map(|curve| cost_of(curve, target)).collect();
+        let Some(lowest) = costs.iter().flatten().copied().reduce(f64::min) else { continue };
+        for (place, cost) in costs.into_iter().enumerate() {
+            extra[place] += cost.map_or(NOT_MET, |cost| (cost / lowest).min(NOT_MET)).ln();
+            is_best[place] |= cost == Some(lowest);
+        }
+    }
+    let mut places: Vec<usize> = (0..curves.len()).collect();
+    places.sort_by(|&a, &b| is_best[b].cmp(&is_best[a]).then(extra[a].total_cmp(&extra[b])));
+    places.truncate(MOST_CURVES);
+    places.sort_unstable();
+    places
 }
 
 /// Beyond the smallest error there is only round-off: two points show that.
 fn until_round_off(curve: Vec<(f64, f64)>) -> impl Iterator<Item = (f64, f64)> {
     let least = (0..curve.len()).min_by(|&a, &b| curve[a].1.total_cmp(&curve[b].1)).unwrap_or(0);
     curve.into_iter().take(least + 3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Twenty schemes of order 2, of which each is a little more expensive than the last; and one that is the best for small errors only.
+    #[test]
+    fn the_best_schemes_are_drawn() {
+        let of_order =
+            |order: f64, first: f64| (0..20).map(|i| (first * 2_f64.powi(i), -0.3 * order * f64::from(i))).collect();
+        let mut curves: Vec<best::Curve> = (0..20).map(|n| of_order(2.0, 10.0 + f64::from(n))).collect();
+        assert_eq!(shown(&curves[..12]), (0..12).collect::<Vec<_>>());
+        curves.push(of_order(8.0, 1e4));
+        let shown = shown(&curves);
+        assert_eq!(shown, (0..11).chain([20]).collect::<Vec<_>>());
+    }
 }

@@ -1,10 +1,10 @@
 //! What schemes are compared on: a system, an interval of time, a number type.
 
 use num_traits::Signed;
-use sha2::{Digest, Sha256};
 use shadowstep::{Number, Rational};
 use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::library::fingerprint;
 use shadowstep_symbolic::decimal::to_text;
 
 /// Errors along a run are taken at so many times at most.
@@ -47,9 +47,4 @@ impl Problem<'_> {
 /// The most samples that are at states of a run with so many steps.
 pub(crate) fn most_samples(steps: u64) -> u64 {
     (1..=MOST_SAMPLES).rev().find(|samples| steps.is_multiple_of(*samples)).unwrap_or(1)
-}
-
-/// The first digits of a hash.
-pub(crate) fn fingerprint(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }

@@ -1,0 +1,154 @@
+//! `shadowstep stability`: hard cases with what theory predicts of them, on any scheme.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use serde::Serialize;
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
+use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_stability::{CaseEntry, Finding, Row, Suite, entries, examine, files, names};
+
+use crate::output::Output;
+use crate::quantity::whole;
+use crate::readable::wrapped_to;
+use crate::report::{self, Status};
+use crate::tasks::Terminal;
+
+const EXAMPLE: &str = "\
+Examples:
+  shadowstep stability --quick
+  shadowstep stability oscillator --schemes yoshida4,mine.toml
+  shadowstep stability --out stability
+
+DIR gets report.html with charts, stability.md with all verdicts, and results.jsonl, in which results are saved one by one: after Ctrl-C
+(exit code 3) the same command computes only what is missing. Exit code 1: a row differs from theory.";
+
+/// Hard cases: what theory predicts, what happens, and whether it agrees.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    /// Only these cases; all, if none is named
+    #[arg(value_name = "CASE", value_parser = PossibleValuesParser::new(names()))]
+    cases: Vec<String>,
+    /// Shipped schemes or files of tables, such as yoshida4,mine.toml [default: those that each case needs; all shipped ones where
+    /// that is cheap]
+    #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
+    schemes: Vec<String>,
+    /// Decimal digits of all numbers in cases that are not about a number type [default: double precision]
+    #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS))]
+    digits: Option<u32>,
+    /// Fewer and shorter trials
+    #[arg(long)]
+    quick: bool,
+    /// One JSON object a line
+    #[arg(long)]
+    json: bool,
+    /// The folder for the report, its charts and the results
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replaces files of the folder that are not from this program
+    #[arg(long, requires = "out")]
+    force: bool,
+}
+
+/// Makes the trials and writes what they show.
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
+    let cases = entries(&arguments.cases)?;
+    let suite = suite(arguments)?;
+    if let Some(folder) = arguments.out.as_ref().filter(|_| !arguments.force) {
+        files::refuse_foreign(folder)?;
+    }
+    let mut terminal = Terminal::listen();
+    let temporary = tempfile::tempdir()?;
+    let folder = arguments.out.as_deref().unwrap_or(temporary.path());
+    let findings = examine(&suite, &cases, folder, &mut terminal)?;
+    let mut output = Output::stdout();
+    for (case, finding) in &findings {
+        match arguments.json {
+            true => finding.rows.iter().try_for_each(|row| output.json(&Record { case: case.name(), row }))?,
+            false => write!(output, "{}", readable(*case, finding))?,
+        }
+    }
+    let counts = files::counts(&findings);
+    if let Some(folder) = &arguments.out {
+        let report = files::write(&findings, &command(arguments), folder)?;
+        if !arguments.json {
+            writeln!(output, "{}", report.display())?;
+        }
+    }
+    if !arguments.json {
+        writeln!(output, "{counts}")?;
+    }
+    output.finish()?;
+    let differs = findings.iter().flat_map(|(_, finding)| &finding.rows).any(|row| row.verdict == Verdict::Differs);
+    Ok(if differs { terminal.status.max(Status::NegativeAnswer) } else { terminal.status })
+}
+
+fn suite(arguments: &Arguments) -> Result<Suite, Error> {
+    let arithmetic = match arguments.digits {
+        Some(digits) => {
+            Arithmetic::with_digits(digits).map_err(|error| Error::usage(error.to_string(), "use --digits 120"))?
+        }
+        None => Arithmetic::Double,
+    };
+    let mut schemes: Vec<NamedScheme> = Vec::new();
+    for word in &arguments.schemes {
+        let named = scheme(word)?;
+        let suits = arithmetic.suits(&named);
+        suits.map(drop).map_err(|error| Error::usage(error.to_string(), format!("use --digits {}", error.most)))?;
+        named.note().iter().for_each(report::note);
+        if !schemes.iter().any(|other| other.name == named.name) {
+            schemes.push(named);
+        }
+    }
+    Ok(Suite::new(schemes, arithmetic, arguments.quick))
+}
+
+/// The command that writes the same files.
+fn command(arguments: &Arguments) -> String {
+    let mut words = vec!["shadowstep stability".to_owned()];
+    words.extend(arguments.cases.iter().cloned());
+    if !arguments.schemes.is_empty() {
+        words.push(format!("--schemes {}", arguments.schemes.join(",")));
+    }
+    words.extend(arguments.digits.map(|digits| format!("--digits {digits}")));
+    if arguments.quick {
+        words.push("--quick".to_owned());
+    }
+    words.extend(arguments.out.as_ref().map(|out| format!("--out {}", out.display())));
+    words.join(" ")
+}
+
+#[derive(Serialize)]
+struct Record<'a> {
+    case: &'a str,
+    #[serde(flatten)]
+    row: &'a Row,
+}
+
+/// The columns of a terminal, and the margin behind a verdict.
+const WIDTH: usize = 100;
+const MARGIN: &str = "               ";
+
+/// A case: its heading, its rows, its remarks.
+fn readable(case: CaseEntry, finding: &Finding) -> String {
+    let mut text = format!("{}: {}\n", case.name(), case.title());
+    for row in &finding.rows {
+        let line = format!("{}: {}", row.subject, row.found);
+        let word = match row.verdict {
+            Verdict::Agrees => "agrees",
+            Verdict::Differs => "DIFFERS",
+            Verdict::NotDecided => "not decided",
+        };
+        let lines = wrapped_to(&line, MARGIN, WIDTH);
+        text += &format!("  {word:<11}  {}\n", lines.trim());
+    }
+    for remark in &finding.remarks {
+        text += &format!("{}\n", wrapped_to(remark, "  ", WIDTH).trim_end());
+    }
+    text + "\n"
+}

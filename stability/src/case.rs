@@ -1,0 +1,151 @@
+//! What a case is, and its trials as tasks whose results are saved.
+
+use serde::de::DeserializeOwned;
+use serde::{Serialize, Serializer};
+use serde_json::{Value, json};
+use shadowstep::number::Rounded;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+use shadowstep_tasks::{Task, Watcher};
+
+use crate::finding::Finding;
+use crate::suite::Suite;
+
+/// Asked during a trial with the part of it that is done: whether it is to continue.
+pub(crate) type Continues<'a> = &'a dyn Fn(f64) -> bool;
+
+/// A hard case: what theory predicts, what is computed to see it, and whether it holds.
+pub(crate) trait Case {
+    /// The name by which it is requested.
+    const NAME: &'static str;
+    /// Its heading.
+    const TITLE: &'static str;
+    /// What theory predicts, in sentences.
+    const THEORY: &'static str;
+    /// Trials of another revision are computed again; a change of what is computed needs a new one.
+    const REVISION: u32;
+
+    /// One computation with all that it depends on: its JSON identifies it.
+    type Trial: Serialize + Sync + 'static;
+    /// What it has measured. Numbers must be finite.
+    type Measured: Serialize + DeserializeOwned;
+
+    /// All trials.
+    fn trials(suite: &Suite) -> Vec<Self::Trial>;
+
+    /// The number type of the trials.
+    fn arithmetic(suite: &Suite) -> Arithmetic {
+        suite.arithmetic
+    }
+
+    /// The time that a trial takes in double precision, in seconds, to a factor of a few.
+    fn seconds(suite: &Suite, trial: &Self::Trial) -> f64;
+
+    /// Makes a trial. One that is asked not to continue ends at once, with any result.
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Self::Trial,
+        context: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Self::Measured, Error>;
+
+    /// What the trials show; failed ones are left out.
+    fn judge(suite: &Suite, measured: &[(Self::Trial, Self::Measured)]) -> Finding;
+}
+
+/// A case in the list of all cases.
+pub(crate) struct Entry {
+    pub(crate) name: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) theory: &'static str,
+    trials: for<'a> fn(&'a Suite) -> Vec<Trial<'a>>,
+    finding: fn(&Suite, Vec<Option<Value>>) -> Finding,
+}
+
+impl Entry {
+    pub(crate) const fn of<C: Case>() -> Entry {
+        Entry { name: C::NAME, title: C::TITLE, theory: C::THEORY, trials: trials::<C>, finding: finding::<C> }
+    }
+
+    /// The computations of the case.
+    pub(crate) fn trials<'a>(&self, suite: &'a Suite) -> Vec<Trial<'a>> {
+        (self.trials)(suite)
+    }
+
+    /// What their results, in the same order, show.
+    pub(crate) fn finding(&self, suite: &Suite, results: Vec<Option<Value>>) -> Finding {
+        (self.finding)(suite, results)
+    }
+}
+
+fn trials<C: Case>(suite: &Suite) -> Vec<Trial<'_>> {
+    let arithmetic = C::arithmetic(suite);
+    let prepare = |trial: C::Trial| Trial {
+        key: json!({ "case": C::NAME, "revision": C::REVISION, "digits": arithmetic.label(), "trial": trial }),
+        seconds: C::seconds(suite, &trial) * arithmetic_cost(arithmetic),
+        measure: Box::new(move |continues| {
+            let measured = arithmetic.compute(Measure::<C> { suite, trial: &trial, continues })?;
+            Ok(serde_json::to_value(measured)?)
+        }),
+    };
+    C::trials(suite).into_iter().map(prepare).collect()
+}
+
+fn finding<C: Case>(suite: &Suite, results: Vec<Option<Value>>) -> Finding {
+    let measured = |result: Option<Value>| serde_json::from_value::<C::Measured>(result?).ok();
+    let pairs =
+        C::trials(suite).into_iter().zip(results).filter_map(|(trial, result)| Some((trial, measured(result)?)));
+    C::judge(suite, &pairs.collect::<Vec<_>>())
+}
+
+/// How many times the operations of `f64` cost more in a number type, approximately.
+fn arithmetic_cost(arithmetic: Arithmetic) -> f64 {
+    match arithmetic {
+        Arithmetic::Double => 1.0,
+        Arithmetic::Digits(digits, _) => 30.0 + f64::from(digits).powf(1.5) / 20.0,
+    }
+}
+
+/// Dispatches on the number type.
+struct Measure<'a, C: Case> {
+    suite: &'a Suite,
+    trial: &'a C::Trial,
+    continues: Continues<'a>,
+}
+
+impl<C: Case> Computation for Measure<'_, C> {
+    type Output = Result<C::Measured, Error>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+        C::measure::<N>(self.suite, self.trial, context, self.continues)
+    }
+}
+
+/// A computation of a case.
+pub(crate) struct Trial<'a> {
+    key: Value,
+    seconds: f64,
+    measure: Box<Measuring<'a>>,
+}
+
+type Measuring<'a> = dyn Fn(Continues<'_>) -> Result<Value, Error> + Sync + 'a;
+
+impl Serialize for Trial<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.key.serialize(serializer)
+    }
+}
+
+impl Task for Trial<'_> {
+    type Outcome = Value;
+
+    fn cost(group: &[&Self]) -> f64 {
+        group.iter().map(|trial| trial.seconds).sum()
+    }
+
+    fn compute(group: &[&Self], watcher: &dyn Watcher<Value>) {
+        for (place, trial) in group.iter().enumerate() {
+            watcher.take(place, (trial.measure)(&|part| watcher.continues(part)));
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! The argon crystal at steps from 10 to 120 femtoseconds.
+
+use shadowstep::number::Rounded;
+use shadowstep::{Rational, Scheme};
+use shadowstep_analysis::stability::Stability;
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::{Error, System};
+
+use crate::bounded::{LongRun, Stayed};
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::suite::{Examined, Suite};
+use crate::watched::setup;
+
+/// The case.
+pub(super) struct Argon;
+
+/// Femtoseconds for each force evaluation of a step.
+const STEPS: [i64; 7] = [10, 20, 40, 60, 80, 100, 120];
+/// In nanoseconds.
+const FEMTOSECOND: f64 = 1e-6;
+/// Vibrations of this size raise the largest frequency of the crystal at its start by up to so much.
+const WARM: f64 = 1.5;
+/// How much the error of H may differ between the first and the last fourth.
+const BOUNDED: f64 = 3.0;
+const SCHEMES: [&str; 3] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b"];
+
+impl Case for Argon {
+    const NAME: &'static str = "argon";
+    const TITLE: &'static str = "A crystal of seven argon atoms at steps from 10 to 120 fs";
+    const THEORY: &'static str = "The step is stable while hω is below the stability limit of the scheme, ω the largest frequency of the crystal. At \
+        this temperature collisions reach steeper parts of the potential, with frequencies up to half above those at the start: between the \
+        limit over 1.5 and the limit the run may be stable or not. Where it is not, atoms leave, and the monitor says so.";
+    const REVISION: u32 = 1;
+
+    type Trial = LongRun;
+    type Measured = Stayed;
+
+    fn trials(suite: &Suite) -> Vec<LongRun> {
+        let until = suite.thorough(2.0, 0.2);
+        let run = |scheme: &&Examined| {
+            let evaluations = scheme.scheme.scheme.summary().evaluations;
+            let steps = STEPS.map(|fs| Rational::new(fs.into(), 1_000_000.into()));
+            steps.map(|h| LongRun::at_equal_cost((&scheme.identity, evaluations), "argon-crystal", &h, until))
+        };
+        suite.schemes_or(&SCHEMES).iter().flat_map(run).collect()
+    }
+
+    fn seconds(suite: &Suite, trial: &LongRun) -> f64 {
+        trial.seconds(suite, 200e-9)
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &LongRun,
+        context: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Stayed, Error> {
+        trial.make::<N>(suite, context, continues)
+    }
+
+    fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {
+        let omega =
+            System::of_setup(setup("argon-crystal", &[])).fastest_frequency().map_or(f64::NAN, |found| found.omega);
+        let mut finding = Finding::default();
+        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
+            let named = suite.scheme(&all[0].0.scheme);
+            let stability = Stability::of_scheme(named.scheme.proved());
+            let limit = stability.and_then(|stability| stability.limit.parse::<f64>().ok()).unwrap_or(f64::NAN);
+            let evaluations = named.scheme.summary().evaluations as f64;
+            let (mut parts, mut verdicts) = (Vec::new(), Vec::new());
+            for ((_, stayed), fs) in all.iter().zip(STEPS) {
+                let h_omega = fs as f64 * FEMTOSECOND * evaluations * omega;
+                let stable = stayed.is_bounded(BOUNDED) && stayed.farthest < 10.0;
+                let state = match (stable, stayed.watched.fine) {
+                    (true, true) => "bounded",
+                    (true, false) => "bounded, reported",
+                    (false, false) => "lost, reported",
+                    (false, true) => "lost, not reported",
+                };
+                parts.push(format!("{:.2} {state}", h_omega / limit));
+                verdicts.push(match () {
+                    () if h_omega < limit / WARM => Verdict::from(stable),
+                    () if h_omega > limit => Verdict::from(!stable && !stayed.watched.fine),
+                    () => Verdict::from(stable || !stayed.watched.fine),
+                });
+            }
+            let found = format!("hω as a part of the limit {limit:.3}, ω = {omega:.0} per ns: {}", parts.join(", "));
+            finding.row(&named.name, found, Verdict::of_all(verdicts));
+        }
+        finding
+    }
+}

@@ -1,0 +1,205 @@
+//! Rotated and translated frames, other units, masses over twelve orders.
+
+use serde::{Deserialize, Serialize};
+use shadowstep::formula::FormulaPotential;
+use shadowstep::number::Rounded;
+use shadowstep::{DiagonalMasses, Motion, Rational, Scheme, Stepper};
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::suite::{Examined, Suite};
+
+/// The case.
+pub(super) struct Frames;
+
+/// Two bodies of masses 1 and 1/m on a line of sight, in some frame.
+#[derive(Clone, Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    frame: Frame,
+    steps: u64,
+}
+
+/// How the two bodies are described.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(super) enum Frame {
+    /// As they are.
+    Plain,
+    /// Turned by the angle of (3, 4, 5), exactly.
+    Rotated,
+    /// Moved by this distance in both directions.
+    Translated(f64),
+    /// Lengths in units of this; masses and times so that G = 1.
+    Units(f64),
+    /// The second body's mass is this.
+    Mass(f64),
+}
+
+/// What a run has shown.
+#[derive(Clone, Serialize, Deserialize)]
+pub(super) struct Measured {
+    /// The largest |H − H(0)|/|H(0)|.
+    energy_error: f64,
+    /// The relative position at the end, turned, moved and scaled back.
+    relative: [f64; 2],
+}
+
+/// The eccentricity of the orbit is 0.6, with steps of a fortieth of a unit of time for each evaluation.
+const STEPS_A_UNIT: i64 = 100;
+/// The energy error of another frame may differ by this factor.
+const SAME: f64 = 1.01;
+const SCHEMES: [&str; 3] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b"];
+const FRAMES: [Frame; 9] = [
+    Frame::Plain,
+    Frame::Rotated,
+    Frame::Translated(1e4),
+    Frame::Translated(1e8),
+    Frame::Units(1e12),
+    Frame::Units(1e-12),
+    Frame::Mass(1e-6),
+    Frame::Mass(1e-12),
+    Frame::Mass(1e6),
+];
+
+impl Case for Frames {
+    const NAME: &'static str = "frames";
+    const TITLE: &'static str = "Rotated and translated frames, units, masses";
+    const THEORY: &'static str = "A splitting scheme commutes with rotations, translations and changes of units, so that the error of H is the same in \
+        all frames, up to round-off. That of a coordinate of size L is εL a step: from an offset of 1e8 positions keep eight digits of sixteen. Of \
+        two bodies the relative motion depends on the total mass only.";
+    const REVISION: u32 = 1;
+
+    type Trial = Trial;
+    type Measured = Measured;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let steps = suite.thorough(100_000, 10_000);
+        let of = |scheme: &&Examined| FRAMES.map(|frame| Trial { scheme: scheme.identity.clone(), frame, steps });
+        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+    }
+
+    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
+        trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 300e-9
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        context: &N::Context,
+        _: Continues<'_>,
+    ) -> Result<Measured, Error> {
+        let scheme = &suite.scheme(&trial.scheme).scheme;
+        let (mass, length) = (trial.frame.mass(), trial.frame.length());
+        // a = 1, G = 1: the period is 2π/√(m₁ + m₂)
+        let total = 1.0 + mass;
+        let time = (length * length * length / total).sqrt();
+        let h = scheme.summary().evaluations as f64 / STEPS_A_UNIT as f64 * time;
+        let number = |value: f64| N::from_rational(&Rational::from_float(value).expect("it is finite"), context);
+        let parameters: Vec<(&str, N)> = vec![("m", number(mass))];
+        let parameters: Vec<(String, N)> =
+            parameters.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
+        let borrowed: Vec<(&str, N)> = parameters.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
+        let names = ["x1", "y1", "x2", "y2"];
+        let potential = FormulaPotential::<N>::new(FORMULA, &names, &borrowed).expect("it is a formula");
+        let masses = [1.0, 1.0, mass, mass].map(|mass| Rational::from_float(mass).expect("it is finite"));
+        let kinetic = DiagonalMasses::new(&masses, context).expect("masses are positive");
+        let (q, p) = trial.frame.start(length, total);
+        let motion = Motion::new(potential, kinetic, q.map(number).to_vec(), p.map(number).to_vec());
+        let mut motion = motion.expect("four coordinates");
+        let stepper = Stepper::with_context(scheme.clone(), h, context).expect("it is positive");
+        let initial = motion.energy();
+        let mut energy_error = 0.0_f64;
+        for _ in 0..trial.steps {
+            stepper.step(&mut motion);
+            let mut difference = motion.energy();
+            difference.subtract(&initial);
+            energy_error = energy_error.max((difference.to_f64() / initial.to_f64()).abs());
+        }
+        let difference = |i: usize| {
+            let mut difference = motion.q()[i + 2].clone();
+            difference.subtract(&motion.q()[i]);
+            difference.to_f64() / length
+        };
+        let relative = trial.frame.turned_back([difference(0), difference(1)]);
+        Ok(Measured { energy_error, relative })
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Measured)]) -> Finding {
+        let mut finding = Finding::default();
+        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
+            let Some((_, plain)) = all.iter().find(|(trial, _)| trial.frame == Frame::Plain) else { continue };
+            let (mut parts, mut verdicts) = (Vec::new(), Vec::new());
+            for (trial, one) in all.iter().filter(|(trial, _)| trial.frame != Frame::Plain) {
+                let ratio = one.energy_error / plain.energy_error;
+                let off = (one.relative[0] - plain.relative[0]).hypot(one.relative[1] - plain.relative[1]);
+                parts.push(format!("{} {off:.0e}", trial.frame.described()));
+                // where coordinates of size L lose digits, H does as well
+                let lost = trial.frame.digits_lost() / plain.energy_error;
+                verdicts.push(Verdict::from((ratio - 1.0).abs() <= SAME - 1.0 + lost));
+            }
+            let found = format!(
+                "error of H {:.1e} in all frames; distance of the end from that of the plain frame: {}",
+                plain.energy_error,
+                parts.join(", ")
+            );
+            finding.row(&suite.scheme(&all[0].0.scheme).name, found, Verdict::of_all(verdicts));
+        }
+        finding
+    }
+}
+
+const FORMULA: &str = "-m/sqrt((x1 - x2)^2 + (y1 - y2)^2)";
+
+impl Frame {
+    fn mass(self) -> f64 {
+        match self {
+            Frame::Mass(mass) => mass,
+            _ => 1.0,
+        }
+    }
+
+    fn length(self) -> f64 {
+        match self {
+            Frame::Units(length) => length,
+            _ => 1.0,
+        }
+    }
+
+    /// The part of H that round-off of the coordinates may change, times a factor of safety for a walk over the run.
+    fn digits_lost(self) -> f64 {
+        match self {
+            Frame::Translated(distance) => 1e3 * f64::EPSILON * distance,
+            _ => 1e4 * f64::EPSILON,
+        }
+    }
+
+    /// Positions and momenta at the pericentre, with the centre of mass at rest.
+    fn start(self, length: f64, total: f64) -> ([f64; 4], [f64; 4]) {
+        let mass = self.mass();
+        // of the relative motion with e = 0.6
+        let distance = 0.4 * length;
+        let speed = (total / length).sqrt() * 2.0;
+        let (one, other) = (-distance * mass / total, distance / total);
+        let momentum = speed * mass / total;
+        let (cos, sin) = if self == Frame::Rotated { (0.6, 0.8) } else { (1.0, 0.0) };
+        let moved = if let Frame::Translated(distance) = self { distance } else { 0.0 };
+        let q = [one * cos + moved, one * sin + moved, other * cos + moved, other * sin + moved];
+        (q, [momentum * sin, -momentum * cos, -momentum * sin, momentum * cos])
+    }
+
+    fn turned_back(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        if self == Frame::Rotated { [0.6 * x + 0.8 * y, 0.6 * y - 0.8 * x] } else { [x, y] }
+    }
+
+    fn described(self) -> String {
+        match self {
+            Frame::Plain => "plain".to_owned(),
+            Frame::Rotated => "rotated".to_owned(),
+            Frame::Translated(distance) => format!("moved by {distance:.0e}"),
+            Frame::Units(length) => format!("lengths × {length:.0e}"),
+            Frame::Mass(mass) => format!("masses 1 and {mass:.0e}"),
+        }
+    }
+}

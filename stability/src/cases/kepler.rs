@@ -1,0 +1,291 @@
+//! Kepler's problem with eccentricities from 0 to 0.999 and steps from fine to hopeless: when the monitor says that a step is too
+//! large, and when the orbit is lost.
+
+use std::f64::consts::TAU;
+
+use num_traits::FromPrimitive;
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{RngCore, SeedableRng};
+use serde::{Deserialize, Serialize};
+use shadowstep::number::Rounded;
+use shadowstep::{Rational, Scheme};
+use shadowstep_report::chart::{Axis, Chart, Curve, Marker};
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+use shadowstep_symbolic::decimal::to_text;
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::suite::Suite;
+use crate::watched::{Next, Watched, setup, watched};
+
+/// The case.
+pub(super) struct Kepler;
+
+/// An orbit that begins at its pericentre.
+#[derive(Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    eccentricity: String,
+    h: String,
+    steps: u64,
+}
+
+/// What became of it.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Orbit {
+    watched: Watched,
+    /// The first state at which it is unbound, or its semi-major axis has changed by a factor of 2: far from the centre.
+    lost: Option<u64>,
+    /// The largest change of the energy between apocentres as a part of it, in the first and in the second half of the run.
+    changes: [f64; 2],
+}
+
+/// Windows of 9 states follow each other without a gap, so that the monitor speaks as early as it can.
+const EVERY: u64 = 9;
+const SEED: u64 = 20_061_122;
+/// The energy is looked at farther from the centre than the semi-major axis.
+const FAR: f64 = 1.0;
+/// An orbit whose energy at its apocentres changes by less is kept.
+const KEPT: f64 = 0.01;
+/// Its changes do not grow by more than this factor from the first half to the second.
+const GROWS: f64 = 1.5;
+/// The most alarms on orbits that are kept.
+const FALSE_ALARMS: f64 = 0.02;
+const SCHEMES: [&str; 5] = ["stormer-verlet", "mclachlan-atela4", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
+
+impl Case for Kepler {
+    const NAME: &'static str = "kepler";
+    const TITLE: &'static str = "Kepler orbits with e = 0 … 0.999 and steps from fine to hopeless";
+    const THEORY: &'static str = "Steps that do not resolve the pericentre change the energy of the orbit at each passage, until the orbit is lost. The \
+        modified energy changes with it: the monitor says that the step is too large, before the orbit is lost if that takes some passages, and \
+        does not say it of orbits that are kept.";
+    const REVISION: u32 = 1;
+
+    type Trial = Trial;
+    type Measured = Orbit;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let mut random = Pcg64Mcg::seed_from_u64(SEED);
+        let schemes = suite.schemes_or(&SCHEMES);
+        let (count, most_steps) = suite.thorough((500, 200_000.0), (60, 10_000.0));
+        let mut uniform = move |from: f64, to: f64| {
+            let unit = (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+            from + (to - from) * unit
+        };
+        let trial = |i: usize| {
+            let scheme = schemes[i % schemes.len()];
+            let gap = 10_f64.powf(uniform(-3.0, 0.0));
+            // a part of the period of a circle through the pericentre, for each evaluation of the force
+            let part = 10_f64.powf(uniform(-2.7, -0.5));
+            let h = part * TAU * gap.powf(1.5) * scheme.scheme.scheme.summary().evaluations as f64;
+            let exact = |value: f64| {
+                // few digits, to be read
+                let rounded: f64 = format!("{value:.4e}").parse().expect("it is a number");
+                to_text(&Rational::from_f64(rounded).expect("it is finite"))
+            };
+            let steps = (300.0 * TAU / h).min(most_steps) as u64;
+            Trial { scheme: scheme.identity.clone(), eccentricity: exact(1.0 - gap), h: exact(h), steps }
+        };
+        (0..count).map(trial).collect()
+    }
+
+    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
+        trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 30e-9
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        context: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Orbit, Error> {
+        let h = shadowstep::exact(&trial.h).expect("it is exact");
+        let setup = setup("kepler", &[("eccentricity", trial.eccentricity.clone())]);
+        let motion = setup.motion::<N>(context).expect("masses are 1");
+        let mut apocentres = Apocentres::new(trial.steps);
+        let watched = watched((suite.scheme(&trial.scheme), &h), EVERY, motion, trial.steps, continues, |n, motion| {
+            let [q, p] = [motion.q(), motion.p()].map(|v| [v[0].to_f64(), v[1].to_f64()]);
+            apocentres.include(n, q, p);
+            Next::Continue
+        });
+        Ok(Orbit { watched, lost: apocentres.lost, changes: apocentres.changes })
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Orbit)]) -> Finding {
+        let mut finding = Finding::default();
+        let schemes = suite.schemes_or(&SCHEMES);
+        for scheme in &schemes {
+            let own: Vec<_> = measured.iter().filter(|(trial, _)| trial.scheme == scheme.identity).collect();
+            let counts = Counts::of(own.iter().map(|(_, orbit)| orbit));
+            finding.row(scheme.name(), counts.described(), counts.verdict());
+        }
+        let all = Counts::of(measured.iter().map(|(_, orbit)| orbit));
+        finding.remarks.push(format!(
+            "All {} orbits, drawn with the seed {SEED}: {}.",
+            measured.len(),
+            all.described()
+        ));
+        finding.chart(chart(suite, measured), "Each orbit is at most 300 periods long, and starts at its pericentre.");
+        finding
+    }
+}
+
+/// Follows the energy far from the centre.
+struct Apocentres {
+    half: u64,
+    /// The distances of the last two states.
+    before: [f64; 2],
+    lost: Option<u64>,
+    changes: [f64; 2],
+}
+
+/// H of every orbit with a semi-major axis of 1.
+const ENERGY: f64 = -0.5;
+
+impl Apocentres {
+    fn new(steps: u64) -> Self {
+        Apocentres { half: steps / 2, before: [0.0; 2], lost: None, changes: [0.0; 2] }
+    }
+
+    fn include(&mut self, n: u64, q: [f64; 2], p: [f64; 2]) {
+        let distance = q[0].hypot(q[1]);
+        let [last, before_last] = self.before;
+        self.before = [distance, last];
+        if distance < FAR {
+            return;
+        }
+        let energy = (p[0] * p[0] + p[1] * p[1]) / 2.0 - 1.0 / distance;
+        // a = −1/2E
+        if !(2.0 * ENERGY..=ENERGY / 2.0).contains(&energy) {
+            self.lost.get_or_insert(n);
+        }
+        // the state before this one was the farthest: the energy there is nearly this one
+        if last > before_last && last >= distance {
+            let change = &mut self.changes[usize::from(n > self.half)];
+            *change = change.max(((energy - ENERGY) / ENERGY).abs()).min(f64::MAX);
+        }
+    }
+}
+
+/// What became of an orbit, and what the monitor said of it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    Kept { alarm: bool },
+    Changed { alarm: bool },
+    LostReportedBefore,
+    LostReportedAfter,
+    LostNotReported,
+}
+
+impl Orbit {
+    fn outcome(&self) -> Outcome {
+        let alarm = self.watched.alarm;
+        match (self.lost, alarm) {
+            (Some(lost), Some(alarm)) if alarm <= lost => Outcome::LostReportedBefore,
+            (Some(_), Some(_)) => Outcome::LostReportedAfter,
+            (Some(_), None) if self.watched.finite && self.watched.fine => Outcome::LostNotReported,
+            (Some(_), None) => Outcome::LostReportedAfter,
+            (None, _) => {
+                let [first, second] = self.changes;
+                let kept = first.max(second) <= KEPT && second <= GROWS * first.max(1e-12);
+                if kept {
+                    Outcome::Kept { alarm: alarm.is_some() }
+                } else {
+                    Outcome::Changed { alarm: alarm.is_some() }
+                }
+            }
+        }
+    }
+}
+
+/// How often each outcome occurred.
+#[derive(Default)]
+struct Counts {
+    kept: usize,
+    false_alarms: usize,
+    changed: usize,
+    changed_reported: usize,
+    before: usize,
+    after: usize,
+    not_reported: usize,
+    /// Parts of the time to the loss at which it was reported.
+    parts: Vec<f64>,
+}
+
+impl Counts {
+    fn of<'a>(orbits: impl Iterator<Item = &'a Orbit>) -> Counts {
+        let mut counts = Counts::default();
+        for orbit in orbits {
+            match orbit.outcome() {
+                Outcome::Kept { alarm } => {
+                    counts.kept += 1;
+                    counts.false_alarms += usize::from(alarm);
+                }
+                Outcome::Changed { alarm } => {
+                    counts.changed += 1;
+                    counts.changed_reported += usize::from(alarm);
+                }
+                Outcome::LostReportedBefore => {
+                    counts.before += 1;
+                    let part = orbit.watched.alarm.zip(orbit.lost).map(|(alarm, lost)| alarm as f64 / lost as f64);
+                    counts.parts.extend(part);
+                }
+                Outcome::LostReportedAfter => counts.after += 1,
+                Outcome::LostNotReported => counts.not_reported += 1,
+            }
+        }
+        counts.parts.sort_by(f64::total_cmp);
+        counts
+    }
+
+    fn described(&self) -> String {
+        let Counts { kept, false_alarms, changed, changed_reported, before, after, not_reported, parts } = self;
+        let lost = before + after + not_reported;
+        let early =
+            parts.get(parts.len() / 2).map_or(String::new(), |part| format!(" (after {part:.2} of the time, median)"));
+        format!(
+            "{lost} lost: {before} reported before{early}, {after} with or after the loss, {not_reported} called fine; {kept} kept, \
+             {false_alarms} of them reported; {changed} changed without a loss, {changed_reported} of them reported"
+        )
+    }
+
+    fn verdict(&self) -> Verdict {
+        let all = self.kept + self.changed + self.before + self.after + self.not_reported;
+        match () {
+            () if self.not_reported > 0 => Verdict::Differs,
+            () if self.false_alarms as f64 > FALSE_ALARMS * self.kept as f64 => Verdict::Differs,
+            // a few orbits do not show that nothing is missed
+            () if all < 20 => Verdict::NotDecided,
+            () => Verdict::Agrees,
+        }
+    }
+}
+
+fn chart(suite: &Suite, measured: &[(Trial, Orbit)]) -> Chart {
+    let kinds: [(&str, fn(Outcome) -> bool, Marker); 6] = [
+        ("kept", |o| o == Outcome::Kept { alarm: false }, Marker::Circle),
+        ("kept, reported", |o| o == Outcome::Kept { alarm: true }, Marker::FilledSquare),
+        ("changed", |o| matches!(o, Outcome::Changed { .. }), Marker::Plus),
+        ("lost, reported before", |o| o == Outcome::LostReportedBefore, Marker::Triangle),
+        ("lost, reported after", |o| o == Outcome::LostReportedAfter, Marker::Cross),
+        ("lost, called fine", |o| o == Outcome::LostNotReported, Marker::FilledTriangle),
+    ];
+    let place = |trial: &Trial| {
+        let number = |text: &str| text.parse::<f64>().unwrap_or(f64::NAN);
+        let gap = 1.0 - number(&trial.eccentricity);
+        let evaluations = suite.scheme(&trial.scheme).scheme.summary().evaluations as f64;
+        (gap.log10(), (number(&trial.h) / evaluations / (TAU * gap.powf(1.5))).log10())
+    };
+    let curves = kinds.iter().enumerate().filter_map(|(i, (label, is_of, marker))| {
+        let own = measured.iter().filter(|(_, orbit)| is_of(orbit.outcome()));
+        let points: Vec<_> = own.map(|(trial, _)| place(trial)).collect();
+        (!points.is_empty()).then(|| Curve::dots(*label, points, i, *marker))
+    });
+    Chart::new(
+        "Which orbits are lost, and when that is reported",
+        Axis::log10("1 − e"),
+        Axis::log10("h per evaluation, as a part of the period at the pericentre"),
+        curves.collect(),
+    )
+}

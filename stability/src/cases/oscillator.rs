@@ -1,0 +1,228 @@
+//! The harmonic oscillator from well inside the stability limit to beyond it, and in the gaps.
+
+use num_traits::{One, Zero};
+use serde::{Deserialize, Serialize};
+use shadowstep::number::Rounded;
+use shadowstep::problems::HarmonicOscillator;
+use shadowstep::tables::TableScheme;
+use shadowstep::{Motion, Number, Rational, Stepper, System, UnitMasses, exact};
+use shadowstep_analysis::stability::Stability;
+use shadowstep_report::chart::{Axis, Chart, Curve};
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::library::NamedScheme;
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::linear_step::LinearStep;
+use crate::suite::Suite;
+
+/// The case.
+pub(super) struct Oscillator;
+
+/// A scheme on H = (p² + q²)/2.
+#[derive(Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    /// The most steps of a run.
+    steps: u64,
+}
+
+/// What one step size has shown.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Point {
+    h_omega: f64,
+    /// log(|tr| + √(tr² − 4))/2) where |tr| > 2, else 0.
+    predicted: f64,
+    /// How fast log|(q, p)| grows, per step; or, where it is bounded, largest |q| beside the predicted one, less 1.
+    found: f64,
+    /// The growth is too slow to be seen in so many steps.
+    too_slow: bool,
+}
+
+/// From well inside to just beyond the limit, as parts of it.
+const PARTS: [&str; 8] = ["1/2", "9/10", "99/100", "999/1000", "1001/1000", "101/100", "11/10", "6/5"];
+/// Growth is measured when the growing part is e^25 times as large as the other.
+const SEPARATED: f64 = 25.0;
+/// Three digits of the growth rate.
+const GROWTH_TOLERANCE: f64 = 5e-4;
+/// Where a step is stable, its matrix differs from a rotation by a factor of 1/√(1 − (tr/2)²), 22 at a thousandth inside a simple limit, and
+/// round-off of 1e5 steps grows to 1e-9 or so.
+const BOUND_TOLERANCE: f64 = 1e-6;
+/// Gaps below this width are narrower than the rounding of the weights to double precision.
+const NARROW: f64 = 1e-9;
+
+impl Case for Oscillator {
+    const NAME: &'static str = "oscillator";
+    const TITLE: &'static str = "Harmonic oscillator about the stability limit";
+    const THEORY: &'static str = "A step of H = (p² + ω²q²)/2 is a matrix of determinant 1. While its trace, an exact polynomial in (hω)², is within \
+        [−2, 2], all states stay on an ellipse; beyond, |(q, p)| grows like exp(λn) after n steps with λ = arcosh(|tr|/2). Beyond the first \
+        limit come gaps and windows of stability.";
+    const REVISION: u32 = 1;
+
+    type Trial = Trial;
+    type Measured = Vec<Point>;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let steps = suite.thorough(1_000_000, 30_000);
+        let schemes = suite.schemes_or_all();
+        schemes.iter().map(|scheme| Trial { scheme: scheme.identity.clone(), steps }).collect()
+    }
+
+    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
+        let evaluations = suite.scheme(&trial.scheme).scheme.proved().plan.evaluations;
+        trial.steps as f64 * evaluations as f64 * 10e-9 * PARTS.len() as f64
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        context: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Vec<Point>, Error> {
+        let scheme = suite.scheme(&trial.scheme);
+        let sizes = step_sizes(scheme);
+        let mut points = Vec::new();
+        for (i, h) in sizes.iter().enumerate() {
+            if !continues(i as f64 / sizes.len() as f64) {
+                break;
+            }
+            points.push(point::<N>(&scheme.scheme, h, trial.steps, context));
+        }
+        Ok(points)
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Vec<Point>)]) -> Finding {
+        let mut finding = Finding::default();
+        for (trial, points) in measured {
+            let (found, verdict) = compared(points);
+            finding.row(&suite.scheme(&trial.scheme).name, found, verdict);
+        }
+        let curves = measured.iter().take(MOST_CURVES).enumerate().map(|(i, (trial, points))| {
+            let growing = points.iter().filter(|point| point.predicted > 0.0 && !point.too_slow);
+            let points = growing.map(|point| (point.predicted.log10(), point.found.log10())).collect();
+            Curve::marked(suite.scheme(&trial.scheme).name.clone(), points, i)
+        });
+        let axes = ["growth per step, from the trace", "growth per step, found"].map(Axis::log10);
+        let [x, y] = axes;
+        finding.chart(
+            Chart::new("Growth beyond the stability limit and in the gaps", x, y, curves.collect()),
+            "Each mark is a step size at which the trace is outside [−2, 2].",
+        );
+        finding
+    }
+}
+
+/// Curves that can be told apart.
+const MOST_CURVES: usize = 12;
+
+/// The step sizes for ω = 1: parts of the limit, and the middle of each gap beyond.
+fn step_sizes(scheme: &NamedScheme) -> Vec<Rational> {
+    let Some(stability) = Stability::of_scheme(scheme.scheme.proved()) else { return Vec::new() };
+    let number = |text: &str| exact(text).expect("limits are decimals");
+    let limit = number(&stability.limit);
+    let mut sizes: Vec<Rational> = PARTS.iter().map(|part| number(part) * &limit).collect();
+    let two = Rational::one() + Rational::one();
+    for gap in &stability.gaps {
+        if let Some(to) = gap.to.as_ref().filter(|_| gap.width > NARROW) {
+            sizes.push((number(&gap.from) + number(to)) / &two);
+        }
+    }
+    sizes.sort();
+    sizes
+}
+
+fn point<N: Rounded>(scheme: &TableScheme, h: &Rational, steps: u64, context: &N::Context) -> Point {
+    let matrix = LinearStep::of(scheme, h);
+    let stepper = Stepper::with_context(scheme.clone(), h, context).expect("limits are positive");
+    let one = N::from_rational(&Rational::one(), context);
+    let zero = N::from_rational(&Rational::zero(), context);
+    let potential = HarmonicOscillator { omega: one.clone() };
+    let mut motion = Motion::new(potential, UnitMasses, [one], [zero]).expect("one coordinate");
+    let h_omega = <f64 as Number>::from_rational(h, &());
+    let predicted = matrix.growth();
+    if predicted > 0.0 {
+        let count = (SEPARATED / predicted).ceil();
+        let too_slow = 2.0 * count > steps as f64;
+        let found = if too_slow { 0.0 } else { growth(&stepper, &mut motion, count as u64) };
+        Point { h_omega, predicted, found, too_slow }
+    } else {
+        let found = largest(&stepper, &mut motion, steps / 10) / matrix.largest() - 1.0;
+        Point { h_omega, predicted, found, too_slow: false }
+    }
+}
+
+/// The growth of log|(q, p)| per step, from `count` steps on to twice as many.
+fn growth<N: Rounded, M: System<Number = N, Class = shadowstep::kinetic::Quadratic>>(
+    stepper: &Stepper<TableScheme, N>,
+    system: &mut M,
+    count: u64,
+) -> f64 {
+    let mut grown = 0.0;
+    let mut at_count = 0.0;
+    for n in 1..=2 * count {
+        stepper.step(system);
+        let size = size(system);
+        // the step is linear, so that a state that is divided by its size goes on in the same direction
+        if size > 1e30 || n == count || n == 2 * count {
+            grown += size.ln();
+            scale_down(system, size);
+        }
+        if n == count {
+            at_count = grown;
+        }
+    }
+    (grown - at_count) / count as f64
+}
+
+fn size<M: System>(system: &M) -> f64 {
+    system.q()[0].to_f64().hypot(system.p()[0].to_f64())
+}
+
+fn scale_down<M: System>(system: &mut M, size: f64) {
+    let context = system.context();
+    let size = Rational::from_float(size).expect("it is finite");
+    let divisor = M::Number::from_rational(&size, &context);
+    let [mut q, mut p] = [system.q()[0].clone(), system.p()[0].clone()];
+    q.divide(&divisor);
+    p.divide(&divisor);
+    system.set_state(&[q], &[p]);
+}
+
+/// The largest |q| of a run.
+fn largest<N: Rounded, M: System<Number = N, Class = shadowstep::kinetic::Quadratic>>(
+    stepper: &Stepper<TableScheme, N>,
+    system: &mut M,
+    steps: u64,
+) -> f64 {
+    (0..steps).fold(1.0, |largest: f64, _| {
+        stepper.step(system);
+        largest.max(system.q()[0].to_f64().abs())
+    })
+}
+
+/// The numbers of a scheme in a sentence, and whether they are as predicted.
+fn compared(points: &[Point]) -> (String, Verdict) {
+    let growing: Vec<_> = points.iter().filter(|point| point.predicted > 0.0 && !point.too_slow).collect();
+    let bounded: Vec<_> = points.iter().filter(|point| point.predicted == 0.0).collect();
+    let slow = points.iter().filter(|point| point.too_slow).count();
+    let off = growing.iter().map(|point| (point.found / point.predicted - 1.0).abs()).fold(0.0, f64::max);
+    let beyond = bounded.iter().map(|point| point.found).fold(f64::NEG_INFINITY, f64::max);
+    let mut parts = vec![
+        match beyond {
+            beyond if beyond > 0.0 => {
+                format!("{} step sizes bounded, beyond the ellipse by {beyond:.0e} at most", bounded.len())
+            }
+            _ => format!("{} step sizes bounded by the ellipse", bounded.len()),
+        },
+        format!("{} grow, rates off by {off:.0e} at most", growing.len()),
+    ];
+    if slow > 0 {
+        parts.push(format!("{slow} grow too slowly to be seen"));
+    }
+    let verdict = match () {
+        () if points.is_empty() => Verdict::NotDecided,
+        () => Verdict::from(off <= GROWTH_TOLERANCE && beyond <= BOUND_TOLERANCE),
+    };
+    (parts.join("; "), verdict)
+}

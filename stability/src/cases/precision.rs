@@ -1,0 +1,138 @@
+//! The same short run with 16 to 5000 digits.
+
+use serde::{Deserialize, Serialize};
+use shadowstep::number::Rounded;
+use shadowstep::{Number, Rational, Stepper};
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+use shadowstep_scenes::library::NamedScheme;
+use shadowstep_symbolic::decimal::from_text;
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::suite::Suite;
+use crate::watched::setup;
+
+/// The case.
+pub(super) struct Precision;
+
+/// A scheme with D digits, and with 2D.
+#[derive(Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    digits: u32,
+}
+
+/// What the two runs have in common.
+#[derive(Serialize, Deserialize)]
+pub(super) enum Agreement {
+    /// −log₁₀ of the largest difference; more than 2D for none.
+    Digits(f64),
+    /// The table has fewer digits, and the run is refused with this message.
+    Refused(String),
+    /// Twice as many digits are more than the table has.
+    NotMeasured,
+}
+
+const STEPS: u32 = 20;
+/// Digits that the round-off of 20 steps may cost.
+const LOST: f64 = 3.0;
+/// Double precision, and digits up to the most that irrational values have.
+const DIGITS: [u32; 9] = [16, 30, 60, 120, 250, 500, 1000, 2000, 5000];
+/// Weights that are fractions, algebraic numbers, and decimals of 250 digits.
+const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
+
+impl Case for Precision {
+    const NAME: &'static str = "precision";
+    const TITLE: &'static str = "From 16 to 5000 digits";
+    const THEORY: &'static str = "A run with D digits agrees with the same run with 2D digits to nearly D digits. A table is refused where its \
+        weights have fewer digits.";
+    const REVISION: u32 = 1;
+
+    type Trial = Trial;
+    type Measured = Agreement;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let schemes = suite.schemes_or(&SCHEMES);
+        let digits = suite.thorough(&DIGITS[..], &DIGITS[..6]);
+        let trial =
+            |scheme: &str| digits.iter().map(|&digits| Trial { scheme: scheme.to_owned(), digits }).collect::<Vec<_>>();
+        schemes.iter().flat_map(|scheme| trial(&scheme.identity)).collect()
+    }
+
+    /// The digits are those of the trials.
+    fn arithmetic(_: &Suite) -> Arithmetic {
+        Arithmetic::Double
+    }
+
+    fn seconds(_: &Suite, trial: &Trial) -> f64 {
+        f64::from(trial.digits).powf(1.6) * 1e-6
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        _: &N::Context,
+        _: Continues<'_>,
+    ) -> Result<Agreement, Error> {
+        let scheme = suite.scheme(&trial.scheme);
+        let arithmetics = [trial.digits, 2 * trial.digits].map(Arithmetic::with_digits);
+        let [few, many] = arithmetics.map(|arithmetic| arithmetic.expect("MPFR has them"));
+        let few = if trial.digits == 16 { Arithmetic::Double } else { few };
+        match [few, many].map(|arithmetic| arithmetic.suits(scheme)) {
+            [Err(refused), _] => return Ok(Agreement::Refused(refused.to_string())),
+            [_, Err(_)] => return Ok(Agreement::NotMeasured),
+            _ => {}
+        }
+        let [short, long] = [few, many].map(|arithmetic| arithmetic.compute(Run { scheme }));
+        let exact = |text: &String| from_text(text).expect("numbers are decimals");
+        let difference = |(a, b)| exact(a) - exact(b);
+        let precision = shadowstep::number::Precision::digits(20).expect("MPFR has them");
+        let log10 =
+            |difference: Rational| shadowstep::number::Float::from_rational(&difference, &precision).log10_abs();
+        let largest = short.iter().zip(&long).map(difference).map(log10).fold(f64::NEG_INFINITY, f64::max);
+        Ok(Agreement::Digits(if largest.is_finite() { -largest } else { f64::from(3 * trial.digits) }))
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Agreement)]) -> Finding {
+        let mut finding = Finding::default();
+        for chunk in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
+            let named = suite.scheme(&chunk[0].0.scheme);
+            let agree = chunk.iter().filter_map(|(trial, agreement)| match agreement {
+                Agreement::Digits(digits) => Some((trial.digits, *digits)),
+                Agreement::Refused(_) | Agreement::NotMeasured => None,
+            });
+            let agree: Vec<_> = agree.collect();
+            let list: Vec<_> = agree.iter().map(|(digits, agree)| format!("{agree:.0} of {digits}")).collect();
+            let refused: Vec<_> =
+                chunk.iter().filter(|(_, agreement)| matches!(agreement, Agreement::Refused(_))).collect();
+            let mut found = format!("digits that agree with twice as many: {}", list.join(", "));
+            if let Some((trial, Agreement::Refused(message))) = refused.first() {
+                found += &format!("; {} digits are refused: {message}", trial.digits);
+            }
+            let holds = agree.iter().all(|(digits, agree)| *agree >= f64::from(*digits) - LOST);
+            finding.row(&named.name, found, if agree.is_empty() { Verdict::NotDecided } else { holds.into() });
+        }
+        finding
+    }
+}
+
+/// Kepler's problem with e = 0.6 for 20 steps of 1/20: q and p as texts.
+struct Run<'a> {
+    scheme: &'a NamedScheme,
+}
+
+impl Computation for Run<'_> {
+    type Output = Vec<String>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Vec<String> {
+        let digits = N::precision(context).in_digits() + 20;
+        let setup = setup("kepler", &[]).problem.setup(&[], digits).expect("the defaults are valid");
+        let h = Rational::new(1.into(), 20.into());
+        let stepper = Stepper::with_context(self.scheme.scheme.clone(), &h, context).expect("it is positive");
+        let mut motion = setup.motion::<N>(context).expect("masses are positive");
+        (0..STEPS).for_each(|_| stepper.step(&mut motion));
+        motion.q().iter().chain(motion.p()).map(N::to_text).collect()
+    }
+}

@@ -1,0 +1,201 @@
+//! Steps that turn a weakly anharmonic oscillator by a simple part of a turn.
+
+use std::f64::consts::TAU;
+
+use num_traits::FromPrimitive;
+use serde::{Deserialize, Serialize};
+use shadowstep::formula::FormulaPotential;
+use shadowstep::number::Rounded;
+use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as Said};
+use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::library::NamedScheme;
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::linear_step::LinearStep;
+use crate::suite::{Examined, Suite};
+
+/// The case.
+pub(super) struct Resonances;
+
+/// A scheme with a step that turns the oscillator by a part of a turn.
+#[derive(Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    /// A step turns by 1/n of a turn.
+    n: u32,
+    /// By how much hω is off the resonance, relatively.
+    off: f64,
+    steps: u64,
+}
+
+/// What a run has shown.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Variation {
+    /// Largest over least value of the invariant of the linear step; `None` if the scheme is unstable before it turns so far.
+    ratio: Option<f64>,
+    /// What the monitor said.
+    verdict: String,
+    fine: bool,
+    resonance: bool,
+}
+
+/// U where n is 3, from q = 1/20: the anharmonic force is a twentieth of the linear one.
+const CUBIC: &str = "q^2/2 + q^3/3";
+/// U where n is larger: it is a 400th.
+const QUARTIC: &str = "q^2/2 + q^4/4";
+const AMPLITUDE: (i64, i64) = (1, 20);
+/// Off a resonance.
+const OFF: f64 = 0.08;
+/// An orbit that has left.
+const LEFT: f64 = 100.0;
+/// Off a resonance the invariant varies by a few times the relative anharmonic force: 1/20 for the cubic U, a 400th for the quartic one.
+const SMALL_CUBIC: f64 = 1.5;
+const SMALL_QUARTIC: f64 = 1.05;
+/// At n = 4 the quartic term confines Störmer–Verlet's orbits to a factor of √2 of the invariant; other schemes have less.
+const CONFINED: f64 = 1.6;
+const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-s6", "blanes-moan-srkn6b"];
+
+impl Case for Resonances {
+    const NAME: &'static str = "resonances";
+    const TITLE: &'static str = "Step-size resonances, hω = 2 sin(π/n) for Störmer–Verlet";
+    const THEORY: &'static str = "Where a step turns the oscillator q²/2 by exactly 1/n of a turn, a term q^n of U acts in the same direction at \
+        every n-th step, and no modified energy of the usual form exists. At n = 3 and U = q²/2 + q³/3 small orbits change the quadratic invariant of the \
+        linear step by more than off the resonance, those of Störmer–Verlet without a bound, and the monitor does not call the step fine. At n = 4 and \
+        U = q²/2 + q⁴/4 they are confined; at n = 5, 7 and off the resonances the invariant varies in proportion to the anharmonic force only.";
+    const REVISION: u32 = 1;
+
+    type Trial = Trial;
+    type Measured = Variation;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let steps = suite.thorough(200_000, 20_000);
+        let schemes = suite.schemes_or(&SCHEMES);
+        let trials = |scheme: &&Examined| {
+            let at = [3, 4, 5, 7].map(|n| (n, 0.0));
+            let all = at.into_iter().chain([(3, -OFF), (3, OFF)]);
+            all.map(|(n, off)| Trial { scheme: scheme.identity.clone(), n, off, steps }).collect::<Vec<_>>()
+        };
+        schemes.iter().flat_map(trials).collect()
+    }
+
+    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
+        trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 200e-9
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        context: &N::Context,
+        _: Continues<'_>,
+    ) -> Result<Variation, Error> {
+        let scheme = suite.scheme(&trial.scheme);
+        Ok(match step_size(scheme, trial.n) {
+            Some(h) => vary::<N>(scheme, (h * (1.0 + trial.off), trial.n == 3), trial.steps, context),
+            None => Variation { ratio: None, verdict: String::new(), fine: false, resonance: false },
+        })
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Variation)]) -> Finding {
+        let mut finding = Finding::default();
+        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
+            let (found, verdict) = compared(all);
+            finding.row(&suite.scheme(&all[0].0.scheme).name, found, verdict);
+        }
+        finding
+    }
+}
+
+fn compared(all: &[(Trial, Variation)]) -> (String, Verdict) {
+    let mut parts = Vec::new();
+    let mut verdicts = Vec::new();
+    for (trial, variation) in all {
+        let at = match trial.off {
+            0.0 => format!("n = {}", trial.n),
+            off => format!("{:+.0} % off 3", 100.0 * off),
+        };
+        let Some(ratio) = variation.ratio else {
+            parts.push(format!("{at}: beyond the stability limit"));
+            continue;
+        };
+        let resonant = trial.n == 3 && trial.off == 0.0;
+        let says = if variation.resonance { ", named" } else { "" };
+        parts.push(match ratio >= LEFT {
+            true => format!("{at}: leaves{says}"),
+            false => format!("{at}: varies by {ratio:.2}{says}"),
+        });
+        verdicts.push(Verdict::from(match (resonant, trial.n) {
+            (true, _) => ratio >= SMALL_CUBIC && !variation.fine,
+            (false, 3) => ratio <= SMALL_CUBIC,
+            (false, 4) => ratio <= CONFINED,
+            (false, _) => ratio <= SMALL_QUARTIC,
+        }));
+    }
+    (parts.join("; "), Verdict::of_all(verdicts))
+}
+
+/// The least h > 0 at which a step of q²/2 turns by 1/n of a turn.
+fn step_size(scheme: &NamedScheme, n: u32) -> Option<f64> {
+    let target = (TAU / f64::from(n)).cos();
+    let cosine = |h: f64| LinearStep::of(&scheme.scheme, &Rational::from_f64(h).expect("it is finite")).cosine();
+    // no scheme turns by more than twice its angle, so that this bracket has one crossing
+    let (mut low, mut high) = (0.0, None);
+    for i in 1..=200 {
+        let h = TAU / f64::from(n) * f64::from(i) / 100.0;
+        let cosine = cosine(h);
+        if cosine <= target {
+            high = Some(h);
+            break;
+        }
+        if cosine > 1.0 {
+            return None;
+        }
+        low = h;
+    }
+    let mut high = high?;
+    for _ in 0..60 {
+        let middle = (low + high) / 2.0;
+        if cosine(middle) > target { low = middle } else { high = middle }
+    }
+    Some(high)
+}
+
+fn vary<N: Rounded + 'static>(
+    scheme: &NamedScheme,
+    (h, cubic): (f64, bool),
+    steps: u64,
+    context: &N::Context,
+) -> Variation {
+    let h = Rational::from_f64(h).expect("it is finite");
+    let step = LinearStep::of(&scheme.scheme, &h);
+    let number = |numerator: i64, denominator: i64| {
+        N::from_rational(&Rational::new(numerator.into(), denominator.into()), context)
+    };
+    let formula = if cubic { CUBIC } else { QUARTIC };
+    let potential = FormulaPotential::<N>::new(formula, &["q"], &[]).expect("it is a formula");
+    let start = (vec![number(AMPLITUDE.0, AMPLITUDE.1)], vec![number(0, 1)]);
+    let mut motion = Motion::new(potential, UnitMasses, start.0, start.1).expect("one coordinate");
+    let stepper = Stepper::with_context(scheme.scheme.clone(), &h, context).expect("it is positive");
+    let monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(8)).expect("it is finite");
+    let mut monitor = monitor.every((steps / 256).max(1));
+    let (mut least, mut largest) = (f64::INFINITY, 0.0_f64);
+    for _ in 0..steps {
+        let finite = monitor.step(&mut motion).is_ok();
+        let invariant = step.invariant(motion.q()[0].to_f64(), motion.p()[0].to_f64());
+        (least, largest) = (least.min(invariant), largest.max(invariant));
+        if !finite || largest > LEFT * least || invariant.is_nan() || least < 0.0 {
+            largest = largest.max(LEFT * least.abs());
+            break;
+        }
+    }
+    let ratio = if largest >= LEFT * least { LEFT } else { largest / least };
+    let said = monitor.report().verdict;
+    Variation {
+        ratio: Some(ratio),
+        verdict: said.to_string(),
+        fine: said.is_fine(),
+        resonance: matches!(said, Said::NearResonance { .. }),
+    }
+}

@@ -1,0 +1,40 @@
+//! Numerical stability on hard cases: what theory predicts of splitting schemes, what happens, and whether it agrees.
+//!
+//! [`examine`] makes the trials of the requested cases on all cores. Each result is saved when it is complete, so that an
+//! interrupted call can be repeated without computing it again.
+//!
+//! ```
+//! use shadowstep_scenes::arithmetic::Arithmetic;
+//! use shadowstep_scenes::library::scheme;
+//! use shadowstep_stability::{Suite, entries, examine};
+//!
+//! let suite = Suite::new(vec![scheme("yoshida4")?], Arithmetic::Double, true);
+//! let folder = tempfile::tempdir()?;
+//! let findings = examine(&suite, &entries(&["oscillator".to_owned()])?, folder.path(), &mut ())?;
+//! println!("{}", findings[0].1.rows[0].found);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A case is a file in `cases/` that implements `Case`, and its line of the list `CASES`; everything else walks that list.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | `examination` | from a request to the findings |
+//! | [`Suite`], [`files`] | what is examined; the page, the charts and the table that are written |
+//! | `cases` | the list of all cases, and one file for each |
+//! | `case`, `finding` | what a case is; what it has shown |
+//! | `linear_step`, `watched` | a step of the oscillator as a matrix; a run with a monitor |
+
+mod bounded;
+mod case;
+mod cases;
+mod examination;
+pub mod files;
+mod finding;
+mod linear_step;
+mod suite;
+mod watched;
+
+pub use examination::{CaseEntry, entries, examine, names};
+pub use finding::{Finding, Row};
+pub use suite::Suite;

@@ -1,0 +1,78 @@
+//! What is examined: schemes, a number type, how thoroughly.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use shadowstep::tables::shipped_names;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::library::{NamedScheme, scheme};
+
+/// What is examined.
+#[derive(Debug)]
+pub struct Suite {
+    /// The requested schemes; each case has its own choice if there are none.
+    schemes: Vec<Examined>,
+    /// The number type of cases that are not about one.
+    pub(crate) arithmetic: Arithmetic,
+    /// Whether fewer and shorter trials are enough.
+    pub(crate) quick: bool,
+    /// The shipped schemes, each read when it is needed.
+    shipped: BTreeMap<&'static str, OnceLock<Examined>>,
+}
+
+/// A scheme with its identity.
+#[derive(Debug)]
+pub(crate) struct Examined {
+    pub(crate) scheme: NamedScheme,
+    /// Its name and a hash of its weights.
+    pub(crate) identity: String,
+}
+
+impl Examined {
+    fn new(scheme: NamedScheme) -> Self {
+        Examined { identity: scheme.identity(), scheme }
+    }
+
+    pub(crate) fn name(&self) -> &str {
+        &self.scheme.name
+    }
+}
+
+impl Suite {
+    /// A suite of these schemes, or of each case's own choice if there are none.
+    pub fn new(schemes: Vec<NamedScheme>, arithmetic: Arithmetic, quick: bool) -> Suite {
+        let shipped = shipped_names().iter().map(|name| (*name, OnceLock::new())).collect();
+        Suite { schemes: schemes.into_iter().map(Examined::new).collect(), arithmetic, quick, shipped }
+    }
+
+    /// The schemes of a case: the requested ones, or these shipped ones.
+    pub(crate) fn schemes_or(&self, names: &[&str]) -> Vec<&Examined> {
+        match &self.schemes[..] {
+            [] => names.iter().map(|name| self.shipped(name)).collect(),
+            own => own.iter().collect(),
+        }
+    }
+
+    /// The schemes of a case: the requested ones, or all shipped ones.
+    pub(crate) fn schemes_or_all(&self) -> Vec<&Examined> {
+        self.schemes_or(&shipped_names())
+    }
+
+    /// A shipped scheme.
+    fn shipped(&self, name: &str) -> &Examined {
+        let place = self.shipped.get(name).expect("cases name shipped schemes");
+        place.get_or_init(|| Examined::new(scheme(name).expect("shipped schemes are proved")))
+    }
+
+    /// The scheme of a trial by its identity.
+    pub(crate) fn scheme(&self, identity: &str) -> &NamedScheme {
+        let read = self.shipped.values().filter_map(OnceLock::get);
+        let found = self.schemes.iter().chain(read).find(|examined| examined.identity == identity);
+        &found.expect("trials are made of the suite's schemes").scheme
+    }
+
+    /// One value for a thorough examination, another for a quick one.
+    pub(crate) fn thorough<T>(&self, thorough: T, quick: T) -> T {
+        if self.quick { quick } else { thorough }
+    }
+}

@@ -1,0 +1,99 @@
+//! A run of a scheme with a monitor: what it says, and when.
+
+use serde::{Deserialize, Serialize};
+use shadowstep::number::Rounded;
+use shadowstep::problems::{ProblemMotion, Setup, problem};
+use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
+use shadowstep::{Rational, Stepper};
+use shadowstep_scenes::library::NamedScheme;
+
+use crate::case::Continues;
+
+/// The monitor's estimator is E_8 with its error: 9 states a window.
+const MONITOR_ORDER: u32 = 8;
+/// Whether to continue is asked so often at most.
+const QUESTIONS: u64 = 64;
+
+/// What a monitor said of a run.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Watched {
+    /// The steps that were made: less than requested if a state was not finite, or the run was ended.
+    pub(crate) steps: u64,
+    /// Whether all states were finite.
+    pub(crate) finite: bool,
+    /// max − min of H as a part of the mean kinetic energy; `None` if there is none.
+    pub(crate) energy_error: Option<f64>,
+    /// The verdict in a line.
+    pub(crate) verdict: String,
+    pub(crate) fine: bool,
+    /// The first state at which the verdict was that the step size is too large or that nothing is conserved.
+    pub(crate) alarm: Option<u64>,
+    /// The verdict then.
+    pub(crate) alarmed: Option<String>,
+}
+
+/// Whether a run is to be continued after a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Next {
+    Continue,
+    End,
+}
+
+/// Whether a verdict says that the steps do not conserve the energy.
+fn is_alarm(verdict: Verdict) -> bool {
+    matches!(verdict, Verdict::TooLarge(_) | Verdict::NotConserved | Verdict::NearResonance { .. })
+}
+
+/// A problem with some of its values set.
+pub(crate) fn setup(name: &str, set: &[(&str, String)]) -> Setup {
+    let set: Vec<_> = set.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
+    problem(name).and_then(|problem| problem.setup(&set, 140)).expect("cases use valid problems")
+}
+
+/// Makes `steps` steps of size h, of which the monitor has a window every so many; `each` gets every state with its number from 1 on.
+pub(crate) fn watched<N: Rounded + 'static>(
+    (scheme, h): (&NamedScheme, &Rational),
+    every: u64,
+    mut motion: ProblemMotion<N>,
+    steps: u64,
+    continues: Continues<'_>,
+    mut each: impl FnMut(u64, &mut ProblemMotion<N>) -> Next,
+) -> Watched {
+    let context = motion.context();
+    let stepper = Stepper::with_context(scheme.scheme.clone(), h, &context).expect("cases use nonzero steps");
+    let monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(MONITOR_ORDER));
+    let mut monitor = monitor.expect("initial states are finite").every(every);
+    let (mut finite, mut alarm, mut alarmed) = (true, None, None);
+    for n in 1..=steps {
+        let ended = match monitor.step(&mut motion) {
+            Ok(sample) => sample.is_some(),
+            Err(_) => {
+                finite = false;
+                alarm = alarm.or(Some(n));
+                break;
+            }
+        };
+        // an alarm counts when a user could have seen it
+        if ended && alarm.is_none() {
+            let verdict = monitor.report().verdict;
+            if is_alarm(verdict) {
+                (alarm, alarmed) = (Some(n), Some(verdict.to_string()));
+            }
+        }
+        let asks = n % (steps / QUESTIONS).max(1) == 0;
+        if each(n, &mut motion) == Next::End || (asks && !continues(n as f64 / steps as f64)) {
+            break;
+        }
+    }
+    let report = monitor.report();
+    let energy_error = report.energy_error.to_f64() / report.kinetic.to_f64();
+    Watched {
+        steps: monitor.n(),
+        finite,
+        energy_error: energy_error.is_finite().then_some(energy_error),
+        verdict: report.verdict.to_string(),
+        fine: report.verdict.is_fine(),
+        alarm,
+        alarmed,
+    }
+}
