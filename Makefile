@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything. Both fetch what is missing.
 
-.PHONY: run test deps format lint check docs bench rivals package
+.PHONY: run test deps format lint check docs bench stability rivals package
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run: deps
@@ -38,6 +38,11 @@ bench: deps
 	  done; } > docs/benchmarks.md.new
 	mv docs/benchmarks.md.new docs/benchmarks.md
 	cat docs/benchmarks.md
+
+# Hard cases for all shipped schemes: writes docs/stability.md, within 15 minutes on two cores.
+stability: deps
+	cargo run --release --locked -p shadowstep-cli -- stability --out target/stability
+	cp target/stability/stability.md docs/stability.md
 
 # Speed against error of Shadowstep and of what one would use instead: writes docs/speed-against-error.md.
 rivals: deps

@@ -34,7 +34,7 @@ pub(crate) struct Stayed {
 const WINDOWS: u64 = 256;
 /// H is computed at so many states.
 const ENERGIES: u64 = 20_000;
-/// A run ends if a coordinate is this many times as large as at the start.
+/// A body is lost if a coordinate is this many times as large as at the start.
 const LOST: f64 = 100.0;
 
 impl LongRun {
@@ -82,7 +82,7 @@ impl LongRun {
                     energy_errors[fourth] = energy_errors[fourth].max(error).min(f64::MAX);
                     farthest = farthest.max(size(motion.q()) / begin).min(f64::MAX);
                 }
-                if farthest > LOST { Next::End } else { Next::Continue }
+                Next::Continue
             },
         );
         Ok(Stayed { watched, energy_errors, farthest })

@@ -81,7 +81,7 @@ fn section(case: CaseEntry, finding: &Finding, folder: &Path) -> Result<Section,
         findings: Vec::new(),
         found: finding.remarks.clone(),
         statements: finding.rows.iter().map(statement).collect(),
-        tables: finding.tables.clone(),
+        tables: Vec::new(),
         files,
     })
 }

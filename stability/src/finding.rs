@@ -2,18 +2,15 @@
 
 use serde::Serialize;
 use shadowstep_report::chart::Chart;
-use shadowstep_report::page::Table;
 use shadowstep_report::verdict::Verdict;
 
-/// Rows with verdicts, charts, tables.
+/// Rows with verdicts, charts, remarks.
 #[derive(Debug, Default)]
 pub struct Finding {
     /// One for each scheme or system.
     pub rows: Vec<Row>,
     /// Charts with captions.
     pub charts: Vec<(Chart, String)>,
-    /// Numbers in detail.
-    pub tables: Vec<Table>,
     /// Sentences on all rows together.
     pub remarks: Vec<String>,
 }
@@ -43,11 +40,5 @@ impl Finding {
     /// Adds a chart with its caption.
     pub(crate) fn chart(&mut self, chart: Chart, caption: impl Into<String>) {
         self.charts.push((chart, caption.into()));
-    }
-
-    /// Adds a table.
-    pub(crate) fn table(&mut self, caption: impl Into<String>, header: &[&str], rows: Vec<Vec<String>>) {
-        let header = header.iter().map(|&cell| cell.to_owned()).collect();
-        self.tables.push(Table { caption: caption.into(), header, rows });
     }
 }

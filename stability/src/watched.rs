@@ -5,12 +5,15 @@ use shadowstep::number::Rounded;
 use shadowstep::problems::{ProblemMotion, Setup, problem};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::{Rational, Stepper};
+use shadowstep_report::verdict::Verdict as Agreement;
 use shadowstep_scenes::library::NamedScheme;
 
 use crate::case::Continues;
 
 /// The monitor's estimator is E_8 with its error: 9 states a window.
 const MONITOR_ORDER: u32 = 8;
+/// The verdict is asked for after so many parts of the steps so far.
+const REPORTS: u64 = 50;
 /// Whether to continue is asked so often at most.
 const QUESTIONS: u64 = 64;
 
@@ -26,10 +29,22 @@ pub(crate) struct Watched {
     /// The verdict in a line.
     pub(crate) verdict: String,
     pub(crate) fine: bool,
+    pub(crate) undecided: bool,
     /// The first state at which the verdict was that the step size is too large or that nothing is conserved.
     pub(crate) alarm: Option<u64>,
     /// The verdict then.
     pub(crate) alarmed: Option<String>,
+}
+
+impl Watched {
+    /// Whether the monitor calls the step fine, where theory says that it is.
+    pub(crate) fn is_fine(&self) -> Agreement {
+        match (self.fine, self.undecided) {
+            (true, _) => Agreement::Agrees,
+            (false, true) => Agreement::NotDecided,
+            (false, false) => Agreement::Differs,
+        }
+    }
 }
 
 /// Whether a run is to be continued after a state.
@@ -63,7 +78,7 @@ pub(crate) fn watched<N: Rounded + 'static>(
     let stepper = Stepper::with_context(scheme.scheme.clone(), h, &context).expect("cases use nonzero steps");
     let monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(MONITOR_ORDER));
     let mut monitor = monitor.expect("initial states are finite").every(every);
-    let (mut finite, mut alarm, mut alarmed) = (true, None, None);
+    let (mut finite, mut alarm, mut alarmed, mut next_report) = (true, None, None, 0);
     for n in 1..=steps {
         let ended = match monitor.step(&mut motion) {
             Ok(sample) => sample.is_some(),
@@ -73,8 +88,8 @@ pub(crate) fn watched<N: Rounded + 'static>(
                 break;
             }
         };
-        // an alarm counts when a user could have seen it
-        if ended && alarm.is_none() {
+        if ended && alarm.is_none() && n >= next_report {
+            next_report = n + n / REPORTS;
             let verdict = monitor.report().verdict;
             if is_alarm(verdict) {
                 (alarm, alarmed) = (Some(n), Some(verdict.to_string()));
@@ -93,6 +108,7 @@ pub(crate) fn watched<N: Rounded + 'static>(
         energy_error: energy_error.is_finite().then_some(energy_error),
         verdict: report.verdict.to_string(),
         fine: report.verdict.is_fine(),
+        undecided: matches!(report.verdict, Verdict::Undecided(_)),
         alarm,
         alarmed,
     }

@@ -16,6 +16,7 @@ mod scenes;
 mod schemes;
 #[cfg(unix)]
 mod signals;
+mod stability;
 mod trace;
 mod work_precision;
 mod wrong_usage;

@@ -22,7 +22,7 @@ use crate::watched::{Next, Watched, setup, watched};
 /// The case.
 pub(super) struct Kepler;
 
-/// An orbit that begins at its pericentre.
+/// An orbit that begins at its apocentre.
 #[derive(Serialize)]
 pub(super) struct Trial {
     scheme: String,
@@ -41,15 +41,20 @@ pub(super) struct Orbit {
     changes: [f64; 2],
 }
 
-/// Windows of 9 states follow each other without a gap, so that the monitor speaks as early as it can.
-const EVERY: u64 = 9;
+/// A window at every step, so that the monitor gives its verdict as early as it can.
+const EVERY: u64 = 1;
+/// By then it has the windows for one.
+const FIRST_VERDICT: u64 = 25;
+/// Orbits are drawn again if fewer periods can be computed.
+const LEAST_PERIODS: f64 = 10.0;
 const SEED: u64 = 20_061_122;
 /// The energy is looked at farther from the centre than the semi-major axis.
 const FAR: f64 = 1.0;
-/// An orbit whose energy at its apocentres changes by less is kept.
+/// An orbit is kept if its energy at the apocentres changes by less, and by less than this part of the energy error.
 const KEPT: f64 = 0.01;
-/// Its changes do not grow by more than this factor from the first half to the second.
-const GROWS: f64 = 1.5;
+const PART: f64 = 0.25;
+/// The monitor calls an energy error too large from this part of T on.
+const AS_LARGE: f64 = 0.4;
 /// The most alarms on orbits that are kept.
 const FALSE_ALARMS: f64 = 0.02;
 const SCHEMES: [&str; 5] = ["stormer-verlet", "mclachlan-atela4", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
@@ -60,7 +65,7 @@ impl Case for Kepler {
     const THEORY: &'static str = "Steps that do not resolve the pericentre change the energy of the orbit at each passage, until the orbit is lost. The \
         modified energy changes with it: the monitor says that the step is too large, before the orbit is lost if that takes some passages, and \
         does not say it of orbits that are kept.";
-    const REVISION: u32 = 1;
+    const REVISION: u32 = 4;
 
     type Trial = Trial;
     type Measured = Orbit;
@@ -73,21 +78,20 @@ impl Case for Kepler {
             let unit = (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
             from + (to - from) * unit
         };
-        let trial = |i: usize| {
-            let scheme = schemes[i % schemes.len()];
+        let mut trials = Vec::new();
+        while trials.len() < count {
+            let scheme = schemes[trials.len() % schemes.len()];
             let gap = 10_f64.powf(uniform(-3.0, 0.0));
             // a part of the period of a circle through the pericentre, for each evaluation of the force
             let part = 10_f64.powf(uniform(-2.7, -0.5));
             let h = part * TAU * gap.powf(1.5) * scheme.scheme.scheme.summary().evaluations as f64;
-            let exact = |value: f64| {
-                // few digits, to be read
-                let rounded: f64 = format!("{value:.4e}").parse().expect("it is a number");
-                to_text(&Rational::from_f64(rounded).expect("it is finite"))
-            };
-            let steps = (300.0 * TAU / h).min(most_steps) as u64;
-            Trial { scheme: scheme.identity.clone(), eccentricity: exact(1.0 - gap), h: exact(h), steps }
-        };
-        (0..count).map(trial).collect()
+            let steps = (300.0 * TAU / h).min(most_steps);
+            if steps * h >= LEAST_PERIODS * TAU {
+                let (identity, [eccentricity, h]) = (scheme.identity.clone(), [1.0 - gap, h].map(short));
+                trials.push(Trial { scheme: identity, eccentricity, h, steps: steps as u64 });
+            }
+        }
+        trials
     }
 
     fn seconds(suite: &Suite, trial: &Trial) -> f64 {
@@ -101,7 +105,12 @@ impl Case for Kepler {
         continues: Continues<'_>,
     ) -> Result<Orbit, Error> {
         let h = shadowstep::exact(&trial.h).expect("it is exact");
-        let setup = setup("kepler", &[("eccentricity", trial.eccentricity.clone())]);
+        let apocentre = [
+            ("eccentricity", trial.eccentricity.clone()),
+            ("x", "1 + eccentricity".to_owned()),
+            ("py", "sqrt((1 - eccentricity)/(1 + eccentricity))".to_owned()),
+        ];
+        let setup = setup("kepler", &apocentre);
         let motion = setup.motion::<N>(context).expect("masses are 1");
         let mut apocentres = Apocentres::new(trial.steps);
         let watched = watched((suite.scheme(&trial.scheme), &h), EVERY, motion, trial.steps, continues, |n, motion| {
@@ -126,9 +135,15 @@ impl Case for Kepler {
             measured.len(),
             all.described()
         ));
-        finding.chart(chart(suite, measured), "Each orbit is at most 300 periods long, and starts at its pericentre.");
+        finding.chart(chart(suite, measured), "Each orbit is at most 300 periods long, and starts at its apocentre.");
         finding
     }
+}
+
+/// A number with few digits, to be read.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.4e}").parse().expect("it is a number");
+    to_text(&Rational::from_f64(rounded).expect("it is finite"))
 }
 
 /// Follows the energy far from the centre.
@@ -173,6 +188,7 @@ impl Apocentres {
 enum Outcome {
     Kept { alarm: bool },
     Changed { alarm: bool },
+    LostAtOnce,
     LostReportedBefore,
     LostReportedAfter,
     LostNotReported,
@@ -183,12 +199,15 @@ impl Orbit {
         let alarm = self.watched.alarm;
         match (self.lost, alarm) {
             (Some(lost), Some(alarm)) if alarm <= lost => Outcome::LostReportedBefore,
+            (Some(lost), Some(_)) if lost < FIRST_VERDICT => Outcome::LostAtOnce,
             (Some(_), Some(_)) => Outcome::LostReportedAfter,
             (Some(_), None) if self.watched.finite && self.watched.fine => Outcome::LostNotReported,
             (Some(_), None) => Outcome::LostReportedAfter,
             (None, _) => {
-                let [first, second] = self.changes;
-                let kept = first.max(second) <= KEPT && second <= GROWS * first.max(1e-12);
+                let error = self.watched.energy_error.unwrap_or(f64::INFINITY);
+                let kept = self.changes.into_iter().all(|change| change <= (PART * error).min(KEPT));
+                // an energy error as large as T is reported whatever is conserved
+                let alarm = alarm.filter(|_| error < AS_LARGE);
                 if kept {
                     Outcome::Kept { alarm: alarm.is_some() }
                 } else {
@@ -206,6 +225,7 @@ struct Counts {
     false_alarms: usize,
     changed: usize,
     changed_reported: usize,
+    at_once: usize,
     before: usize,
     after: usize,
     not_reported: usize,
@@ -231,6 +251,7 @@ impl Counts {
                     let part = orbit.watched.alarm.zip(orbit.lost).map(|(alarm, lost)| alarm as f64 / lost as f64);
                     counts.parts.extend(part);
                 }
+                Outcome::LostAtOnce => counts.at_once += 1,
                 Outcome::LostReportedAfter => counts.after += 1,
                 Outcome::LostNotReported => counts.not_reported += 1,
             }
@@ -240,18 +261,19 @@ impl Counts {
     }
 
     fn described(&self) -> String {
-        let Counts { kept, false_alarms, changed, changed_reported, before, after, not_reported, parts } = self;
-        let lost = before + after + not_reported;
+        let Counts { kept, false_alarms, changed, changed_reported, at_once, before, after, not_reported, parts } =
+            self;
+        let lost = at_once + before + after + not_reported;
         let early =
             parts.get(parts.len() / 2).map_or(String::new(), |part| format!(" (after {part:.2} of the time, median)"));
         format!(
-            "{lost} lost: {before} reported before{early}, {after} with or after the loss, {not_reported} called fine; {kept} kept, \
+            "{lost} lost: {at_once} before a verdict is possible, {before} reported before{early}, {after} with or after the loss, {not_reported} called fine; {kept} kept, \
              {false_alarms} of them reported; {changed} changed without a loss, {changed_reported} of them reported"
         )
     }
 
     fn verdict(&self) -> Verdict {
-        let all = self.kept + self.changed + self.before + self.after + self.not_reported;
+        let all = self.kept + self.changed + self.at_once + self.before + self.after + self.not_reported;
         match () {
             () if self.not_reported > 0 => Verdict::Differs,
             () if self.false_alarms as f64 > FALSE_ALARMS * self.kept as f64 => Verdict::Differs,
@@ -262,11 +284,15 @@ impl Counts {
     }
 }
 
+/// A label, which outcomes it is for, and their marker.
+type Kind = (&'static str, fn(Outcome) -> bool, Marker);
+
 fn chart(suite: &Suite, measured: &[(Trial, Orbit)]) -> Chart {
-    let kinds: [(&str, fn(Outcome) -> bool, Marker); 6] = [
+    let kinds: [Kind; 7] = [
         ("kept", |o| o == Outcome::Kept { alarm: false }, Marker::Circle),
         ("kept, reported", |o| o == Outcome::Kept { alarm: true }, Marker::FilledSquare),
         ("changed", |o| matches!(o, Outcome::Changed { .. }), Marker::Plus),
+        ("lost at once", |o| o == Outcome::LostAtOnce, Marker::Nabla),
         ("lost, reported before", |o| o == Outcome::LostReportedBefore, Marker::Triangle),
         ("lost, reported after", |o| o == Outcome::LostReportedAfter, Marker::Cross),
         ("lost, called fine", |o| o == Outcome::LostNotReported, Marker::FilledTriangle),
@@ -288,4 +314,47 @@ fn chart(suite: &Suite, measured: &[(Trial, Orbit)]) -> Chart {
         Axis::log10("h per evaluation, as a part of the period at the pericentre"),
         curves.collect(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn orbit(lost: Option<u64>, alarm: Option<u64>, changes: [f64; 2], energy_error: f64, fine: bool) -> Orbit {
+        let watched = Watched {
+            steps: 1000,
+            finite: true,
+            energy_error: Some(energy_error),
+            verdict: String::new(),
+            fine,
+            undecided: false,
+            alarm,
+            alarmed: None,
+        };
+        Orbit { watched, lost, changes }
+    }
+
+    #[test]
+    fn outcomes_follow_from_loss_and_alarm() {
+        let quiet = [1e-6; 2];
+        assert!(orbit(None, None, quiet, 1e-3, true).outcome() == Outcome::Kept { alarm: false });
+        assert!(orbit(None, Some(500), quiet, 1e-3, false).outcome() == Outcome::Kept { alarm: true });
+        assert!(orbit(None, Some(500), quiet, 0.5, false).outcome() == Outcome::Kept { alarm: false }, "as large as T");
+        assert!(orbit(None, Some(500), [8e-4, 9e-4], 1e-3, false).outcome() == Outcome::Changed { alarm: true });
+        assert!(orbit(Some(700), Some(500), quiet, 1.0, false).outcome() == Outcome::LostReportedBefore);
+        assert!(orbit(Some(400), Some(500), quiet, 1.0, false).outcome() == Outcome::LostReportedAfter);
+        assert!(orbit(Some(3), Some(500), quiet, 1.0, false).outcome() == Outcome::LostAtOnce);
+        assert!(orbit(Some(400), None, quiet, 1e-3, true).outcome() == Outcome::LostNotReported);
+    }
+
+    #[test]
+    fn a_loss_that_is_called_fine_differs() {
+        let kept: Vec<_> = (0..40).map(|_| orbit(None, None, [1e-6; 2], 1e-3, true)).collect();
+        assert_eq!(Counts::of(kept.iter()).verdict(), Verdict::Agrees);
+        let lost = orbit(Some(400), None, [1e-6; 2], 1e-3, true);
+        assert_eq!(Counts::of(kept.iter().chain([&lost])).verdict(), Verdict::Differs);
+        let alarms = [(); 2].map(|()| orbit(None, Some(500), [1e-6; 2], 1e-3, false));
+        assert_eq!(Counts::of(kept.iter().chain(&alarms)).verdict(), Verdict::Differs, "2 of 42");
+        assert_eq!(Counts::of(kept[..5].iter()).verdict(), Verdict::NotDecided);
+    }
 }

@@ -226,3 +226,40 @@ fn compared(points: &[Point]) -> (String, Verdict) {
     };
     (parts.join("; "), verdict)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shadowstep_scenes::library::scheme;
+
+    fn point(predicted: f64, found: f64) -> Point {
+        Point { h_omega: 2.0, predicted, found, too_slow: false }
+    }
+
+    #[test]
+    fn what_differs_from_the_trace_differs() {
+        let right = [point(0.0, 1e-9), point(0.3, 0.300_01)];
+        assert_eq!(compared(&right).1, Verdict::Agrees);
+        assert_eq!(compared(&[point(0.0, 1e-3)]).1, Verdict::Differs, "beyond the ellipse");
+        assert_eq!(compared(&[point(0.3, 0.301)]).1, Verdict::Differs, "another rate");
+        assert_eq!(compared(&[]).1, Verdict::NotDecided);
+    }
+
+    /// The matrix of Störmer–Verlet is known: its trace is 2 − h².
+    #[test]
+    fn growth_begins_at_the_limit() {
+        let verlet = scheme("stormer-verlet").unwrap();
+        let growth = |h: &str| LinearStep::of(&verlet.scheme, &exact(h).unwrap()).growth();
+        assert_eq!(growth("1.999"), 0.0);
+        // 2 arsinh √((h² − 4)/4)
+        let expected = 2.0 * ((2.1_f64 * 2.1 - 4.0) / 4.0).sqrt().asinh();
+        assert!((growth("2.1") - expected).abs() < 1e-14);
+        let point = point_of(&verlet.scheme, "2.1");
+        assert!((point.found - expected).abs() < 1e-9, "{} {expected}", point.found);
+        assert!(point_of(&verlet.scheme, "1.9").found.abs() < 1e-2);
+    }
+
+    fn point_of(scheme: &TableScheme, h: &str) -> Point {
+        super::point::<f64>(scheme, &exact(h).unwrap(), 10_000, &())
+    }
+}

@@ -2,6 +2,7 @@
 
 use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
+use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 
@@ -24,7 +25,7 @@ impl Case for OuterPlanets {
     const TITLE: &'static str = "The Sun and the outer planets for 10⁸ days";
     const THEORY: &'static str = "Over 274 000 years no planet leaves. The error of H oscillates with the planets and does not grow, until round-off is \
         as large: that wanders like √t.";
-    const REVISION: u32 = 1;
+    const REVISION: u32 = 2;
 
     type Trial = LongRun;
     type Measured = Stayed;
@@ -67,8 +68,9 @@ impl Case for OuterPlanets {
                 stayed.errors(),
                 stayed.watched.verdict
             );
-            let holds = stayed.is_bounded(BOUNDED) && stayed.farthest <= STAYS && stayed.watched.fine;
-            finding.row(&suite.scheme(&trial.scheme).name, found, holds);
+            let stays = Verdict::from(stayed.is_bounded(BOUNDED) && stayed.farthest <= STAYS);
+            let verdict = Verdict::of_all([stays, stayed.watched.is_fine()]);
+            finding.row(&suite.scheme(&trial.scheme).name, found, verdict);
         }
         finding
     }

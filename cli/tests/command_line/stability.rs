@@ -1,0 +1,44 @@
+//! `shadowstep stability`.
+
+use std::fs;
+
+use tempfile::TempDir;
+
+use crate::program::{objects, quietly, shadowstep, text};
+
+#[test]
+fn a_report_has_verdicts_and_charts_and_is_not_computed_twice() {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path().display();
+    let command = format!("stability oscillator reversal --schemes stormer-verlet,ruth3 --quick --out {out}");
+    let printed = quietly(&command);
+    assert!(printed.contains("agrees       stormer-verlet: 4 step sizes bounded"), "{printed}");
+    assert!(printed.contains("-h is the inverse") || printed.contains("−h is the inverse, bit for bit"), "{printed}");
+    assert!(printed.ends_with("6 agree, 0 differ, 0 not decided\n"), "{printed}");
+    let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert!(page.contains("<svg ") && page.contains("Time reversal") && folder.path().join("oscillator.svg").exists());
+    let table = fs::read_to_string(folder.path().join("stability.md")).unwrap();
+    assert!(table.contains("| ruth3 | kepler, 20000 steps: "), "{table}");
+    let results = fs::read(folder.path().join("results.jsonl")).unwrap();
+    assert_eq!(quietly(&command), printed);
+    assert_eq!(fs::read(folder.path().join("results.jsonl")).unwrap(), results);
+}
+
+#[test]
+fn rows_are_objects_and_digits_are_a_choice() {
+    let rows = objects(&quietly("stability oscillator --schemes yoshida4 --digits 40 --quick --json"));
+    let [row] = &rows[..] else { panic!("{rows:?}") };
+    assert_eq!((text(row, "case"), text(row, "subject"), text(row, "verdict")), ("oscillator", "yoshida4", "agrees"));
+}
+
+#[test]
+fn unknown_cases_and_files_of_others_are_refused() {
+    let refused = shadowstep().args(["stability", "oscilator"]).output().unwrap();
+    let message = String::from_utf8(refused.stderr).unwrap();
+    assert!(refused.status.code() == Some(2) && message.contains("'oscillator'"), "{message}");
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("report.html"), "mine").unwrap();
+    let refused = shadowstep().args(["stability", "oscillator", "--out"]).arg(folder.path()).output().unwrap();
+    assert_eq!(refused.status.code(), Some(2));
+    assert_eq!(fs::read_to_string(folder.path().join("report.html")).unwrap(), "mine");
+}

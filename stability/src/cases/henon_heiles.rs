@@ -1,0 +1,150 @@
+//! Hénon–Heiles: regular, chaotic, escaping.
+
+use serde::{Deserialize, Serialize};
+use shadowstep::number::Rounded;
+use shadowstep::{Rational, Scheme};
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::suite::{Examined, Suite};
+use crate::watched::{Next, Watched, setup, watched};
+
+/// The case.
+pub(super) struct HenonHeiles;
+
+/// A start.
+#[derive(Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    kind: Kind,
+    steps: u64,
+}
+
+/// Of what kind the exact orbit is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+enum Kind {
+    Regular,
+    Chaotic,
+    Escaping,
+}
+
+/// What a run has shown.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Measured {
+    watched: Watched,
+    /// The largest |H − H(0)|/|H(0)| in each half of the run.
+    energy_errors: [f64; 2],
+    /// log₁₀ of the growth of a distance at the start, at most 12.
+    growth: f64,
+    /// When |q| is first above 2, beyond which nothing returns.
+    escaped: Option<u64>,
+}
+
+/// Steps of 1/40 for each evaluation of the force.
+const STEPS_A_UNIT: i64 = 40;
+/// Beyond this distance the orbit has left the triangle of the equipotential 1/6, whose corners are at 1.
+const OUTSIDE: f64 = 2.0;
+/// Regular orbits separate like t, chaotic ones by factors: 1e4 is between the two for t = 1000 and more.
+const CHAOTIC: f64 = 5.0;
+const BOUNDED: f64 = 1.5;
+const NEAR: f64 = 1e-10;
+const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
+
+impl Kind {
+    /// The initial state: H = 0.005; H = 1/8 from the chaotic sea; H = 0.2, above 1/6.
+    fn start(self) -> [(&'static str, String); 4] {
+        let [x, y, px, py] = match self {
+            Kind::Regular => ["0", "0", "1/10", "0"],
+            Kind::Chaotic => ["0", "-1/10", "sqrt(1/4 - 1/100 - 1/1500)", "0"],
+            Kind::Escaping => ["0", "0", "sqrt(2/5 - 9/100)", "3/10"],
+        };
+        [("x", x.to_owned()), ("y", y.to_owned()), ("px", px.to_owned()), ("py", py.to_owned())]
+    }
+}
+
+impl Case for HenonHeiles {
+    const NAME: &'static str = "henon-heiles";
+    const TITLE: &'static str = "Hénon–Heiles: regular, chaotic, escaping";
+    const THEORY: &'static str = "Chaos is not an error: neighbouring orbits separate exponentially, and the error of H is as bounded as for regular \
+        orbits; the monitor calls the step fine. Above H = 1/6 orbits escape, whatever the step.";
+    const REVISION: u32 = 2;
+
+    type Trial = Trial;
+    type Measured = Measured;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let steps = suite.thorough(1_000_000, 40_000);
+        let of = |scheme: &&Examined| {
+            let evaluations = scheme.scheme.scheme.summary().evaluations as u64;
+            [Kind::Regular, Kind::Chaotic, Kind::Escaping].map(|kind| Trial {
+                scheme: scheme.identity.clone(),
+                kind,
+                steps: steps / evaluations,
+            })
+        };
+        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+    }
+
+    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
+        2.0 * trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 40e-9
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        context: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Measured, Error> {
+        let scheme = suite.scheme(&trial.scheme);
+        let h = Rational::new(scheme.scheme.summary().evaluations.into(), STEPS_A_UNIT.into());
+        let setup = setup("henon-heiles", &trial.kind.start());
+        let [mut motion, mut near] = [(), ()].map(|()| setup.motion::<N>(context).expect("masses are 1"));
+        let stepper = shadowstep::Stepper::with_context(scheme.scheme.clone(), &h, context).expect("it is positive");
+        let moved = N::from_rational(&Rational::from_float(NEAR).expect("it is finite"), context);
+        near.q_mut()[0].add(&moved);
+        let initial = motion.energy().to_f64();
+        let (mut energy_errors, mut growth, mut escaped) = ([0.0_f64; 2], 0.0_f64, None);
+        let watched = watched((scheme, &h), (trial.steps / 256).max(1), motion, trial.steps, continues, |n, motion| {
+            let [x, y] = [motion.q()[0].to_f64(), motion.q()[1].to_f64()];
+            if x.hypot(y) > OUTSIDE {
+                escaped = Some(n);
+                return Next::End;
+            }
+            let error = ((motion.energy().to_f64() - initial) / initial).abs();
+            let half = usize::from(2 * n > trial.steps);
+            energy_errors[half] = energy_errors[half].max(error);
+            stepper.step(&mut near);
+            let distance = (near.q()[0].to_f64() - x).hypot(near.q()[1].to_f64() - y);
+            growth = growth.max((distance / NEAR).max(1.0).log10().min(12.0));
+            Next::Continue
+        });
+        Ok(Measured { watched, energy_errors, growth, escaped })
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Measured)]) -> Finding {
+        let mut finding = Finding::default();
+        for (trial, one) in measured {
+            let [first, second] = one.energy_errors;
+            let bounded = second <= BOUNDED * first;
+            let (found, verdict) = match (trial.kind, one.escaped) {
+                (Kind::Escaping, Some(n)) => (format!("escapes at step {n}"), Verdict::Agrees),
+                (Kind::Escaping, None) => ("does not escape".to_owned(), Verdict::NotDecided),
+                (_, Some(n)) => (format!("escapes at step {n}"), Verdict::Differs),
+                (kind, None) => {
+                    let chaotic = one.growth > CHAOTIC;
+                    let found = format!(
+                        "a distance grows to 1e{:.1} of its size; error of H {first:.1e} and {second:.1e} in the halves; the monitor: {}",
+                        one.growth, one.watched.verdict
+                    );
+                    let as_exact = Verdict::from(bounded && chaotic == (kind == Kind::Chaotic));
+                    (found, Verdict::of_all([as_exact, one.watched.is_fine()]))
+                }
+            };
+            let kind = format!("{:?}", trial.kind).to_lowercase();
+            finding.row(&suite.scheme(&trial.scheme).name, format!("{kind}: {found}"), verdict);
+        }
+        finding
+    }
+}

@@ -1,0 +1,121 @@
+//! The pendulum at and around its separatrix.
+
+use serde::{Deserialize, Serialize};
+use shadowstep::number::Rounded;
+use shadowstep::{Rational, Scheme};
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::suite::{Examined, Suite};
+use crate::watched::{Next, Watched, setup, watched};
+
+/// The case.
+pub(super) struct Pendulum;
+
+/// A start at q = 0.
+#[derive(Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    momentum: &'static str,
+    steps: u64,
+}
+
+/// How the pendulum moved.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Moved {
+    watched: Watched,
+    /// Whether it swung back, and whether it turned over.
+    back: bool,
+    over: bool,
+    /// The largest |H − H(0)|.
+    energy_error: f64,
+}
+
+/// 2 + d and 2 − d are this far from the separatrix; H is off that by 2d.
+const MOMENTA: [&str; 7] = ["1.9", "1.99", "1.999999", "2", "2.000001", "2.01", "2.1"];
+/// Steps of 1/20 for each evaluation of the force.
+const STEPS_A_UNIT: i64 = 20;
+const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
+
+impl Case for Pendulum {
+    const NAME: &'static str = "pendulum";
+    const TITLE: &'static str = "The pendulum at its separatrix";
+    const THEORY: &'static str = "Below p(0) = 2 the pendulum swings, above it turns over. A scheme follows a modified pendulum whose separatrix is \
+        off by its energy error: what starts farther from it than that moves as the exact one, what starts nearer may do either. Steps that are too large make \
+        a chaotic layer of the separatrix, in which the pendulum does both; only there the monitor does not call the step fine.";
+    const REVISION: u32 = 2;
+
+    type Trial = Trial;
+    type Measured = Moved;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let steps = suite.thorough(300_000, 20_000);
+        let of =
+            |scheme: &&Examined| MOMENTA.map(|momentum| Trial { scheme: scheme.identity.clone(), momentum, steps });
+        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+    }
+
+    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
+        trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 60e-9
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        context: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Moved, Error> {
+        let scheme = suite.scheme(&trial.scheme);
+        let evaluations = scheme.scheme.summary().evaluations;
+        let h = Rational::new(evaluations.into(), STEPS_A_UNIT.into());
+        let setup = setup("pendulum", &[("p", trial.momentum.to_owned())]);
+        let mut motion = setup.motion::<N>(context).expect("masses are 1");
+        let initial = motion.energy();
+        let (mut back, mut over, mut energy_error) = (false, false, 0.0_f64);
+        let watched = watched((scheme, &h), (trial.steps / 256).max(1), motion, trial.steps, continues, |_, motion| {
+            back |= motion.p()[0].to_f64() < 0.0;
+            over |= motion.q()[0].to_f64().abs() > std::f64::consts::PI;
+            let mut error = motion.energy();
+            error.subtract(&initial);
+            energy_error = energy_error.max(error.to_f64().abs());
+            Next::Continue
+        });
+        Ok(Moved { watched, back, over, energy_error })
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Moved)]) -> Finding {
+        let mut finding = Finding::default();
+        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
+            let (mut parts, mut verdicts) = (Vec::new(), Vec::new());
+            for (trial, moved) in all {
+                let way = match (moved.back, moved.over) {
+                    (true, true) => "both",
+                    (true, false) => "swings",
+                    (false, true) => "turns over",
+                    (false, false) => "neither",
+                };
+                parts.push(format!("p(0) = {} {way}", trial.momentum));
+                verdicts.push(moved.verdict(trial.momentum));
+            }
+            let largest = all.iter().map(|(_, moved)| moved.energy_error).fold(0.0, f64::max);
+            let found = format!("{}; error of H {largest:.1e} at most", parts.join(", "));
+            finding.row(&suite.scheme(&all[0].0.scheme).name, found, Verdict::of_all(verdicts));
+        }
+        finding
+    }
+}
+
+impl Moved {
+    fn verdict(&self, momentum: &str) -> Verdict {
+        let p: f64 = momentum.parse().expect("it is a number");
+        // H of the start beside that of the separatrix, 1
+        let distance = p * p / 2.0 - 2.0;
+        let as_exact = if distance < 0.0 { self.back && !self.over } else { self.over && !self.back };
+        let decided = distance.abs() > self.energy_error;
+        let both = self.back && self.over;
+        let said = if both { Verdict::from(!self.watched.fine) } else { self.watched.is_fine() };
+        Verdict::of_all([said, Verdict::from(as_exact || !decided)])
+    }
+}

@@ -1,0 +1,141 @@
+//! Three bodies whose encounters no fixed step resolves.
+
+use std::io;
+
+use serde::{Deserialize, Serialize};
+use shadowstep::Scheme;
+use shadowstep::number::Rounded;
+use shadowstep::tables::Source;
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::arithmetic::DigitsLabel;
+use shadowstep_scenes::{Error, Observer, Scene, Summary};
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::suite::{Examined, Suite};
+
+/// The case.
+pub(super) struct Pythagorean;
+
+/// A run with a step of so many evaluations, each 1/`inverse`.
+#[derive(Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    inverse: u64,
+}
+
+/// What the run said at its end.
+#[derive(Serialize, Deserialize)]
+pub(super) enum Said {
+    /// What its summary says.
+    Summary { energy: f64, verdict: String, fine: bool, encounters: u64, closest: String },
+    /// How it failed.
+    Failed(String),
+}
+
+const UNTIL: u64 = 10;
+const SCHEMES: [&str; 3] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b"];
+/// An energy that has changed by this part is lost.
+const LOST: f64 = 0.1;
+
+impl Case for Pythagorean {
+    const NAME: &'static str = "pythagorean";
+    const TITLE: &'static str = "The Pythagorean problem of three bodies";
+    const THEORY: &'static str = "Bodies of masses 3, 4, 5 fall from rest into close encounters, which no fixed step of practical size resolves: the \
+        energy is lost in one of them. A run as users make it says so at its end, and names the encounter.";
+    const REVISION: u32 = 1;
+
+    type Trial = Trial;
+    type Measured = Said;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let inverses = suite.thorough(&[100, 1000, 10_000][..], &[100, 1000][..]);
+        let of = |scheme: &&Examined| {
+            let identity = scheme.identity.clone();
+            inverses.iter().map(move |&inverse| Trial { scheme: identity.clone(), inverse })
+        };
+        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+    }
+
+    fn seconds(_: &Suite, trial: &Trial) -> f64 {
+        (UNTIL * trial.inverse) as f64 * 200e-9
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        _: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Said, Error> {
+        let scheme = suite.scheme(&trial.scheme);
+        let evaluations = scheme.scheme.summary().evaluations as u64;
+        let digits = match suite.arithmetic.label() {
+            DigitsLabel::Name(name) => format!("\"{name}\""),
+            DigitsLabel::Digits(digits) => digits.to_string(),
+        };
+        let text = format!(
+            "problem.name = \"pythagorean\"\n\
+             run = {{ scheme = \"{}\", step = \"{evaluations}/{}\", steps = {}, digits = {digits} }}\n\
+             output.energy = {{ every = 1000 }}\n",
+            scheme.name,
+            trial.inverse,
+            UNTIL * trial.inverse / evaluations
+        );
+        let scene = Scene::read(Source { path: "pythagorean.toml".to_owned(), text })?;
+        let mut summarised = Summarised { continues, summary: None };
+        match scene.run_into(&mut io::sink(), &mut summarised) {
+            Ok(_) => Ok(summarised.summary.expect("a complete run has a summary")),
+            Err(Error::Run { message, .. }) => Ok(Said::Failed(message)),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Said)]) -> Finding {
+        let mut finding = Finding::default();
+        for (trial, said) in measured {
+            let evaluations = suite.scheme(&trial.scheme).scheme.summary().evaluations;
+            let (what, verdict) = match said {
+                Said::Failed(message) => (message.clone(), Verdict::Agrees),
+                Said::Summary { energy, verdict, fine, encounters, closest } => {
+                    let lost = *energy > LOST;
+                    let named = *encounters > 0;
+                    let what = format!("energy off by {energy:.1e} of it; {verdict}; close encounters {closest}");
+                    (what, Verdict::from(!lost || (!fine && named)))
+                }
+            };
+            finding.row(
+                &suite.scheme(&trial.scheme).name,
+                format!("h = {evaluations}/{}: {what}", trial.inverse),
+                verdict,
+            );
+        }
+        finding
+    }
+}
+
+/// Keeps the summary of a run.
+struct Summarised<'a> {
+    continues: Continues<'a>,
+    summary: Option<Said>,
+}
+
+impl Observer for Summarised<'_> {
+    fn summarises(&self) -> bool {
+        true
+    }
+
+    fn summary(&mut self, summary: &Summary) {
+        let relative = summary.energy().largest_relative.as_ref().and_then(|text| text.parse::<f64>().ok());
+        self.summary = Some(Said::Summary {
+            energy: relative.unwrap_or(f64::MAX).min(f64::MAX),
+            verdict: summary.verdict().to_owned(),
+            fine: summary.is_fine(),
+            encounters: summary.encounters(),
+            closest: summary.encounters_text(1),
+        });
+    }
+
+    fn stops(&mut self) -> bool {
+        !(self.continues)(0.5)
+    }
+}

@@ -1,0 +1,270 @@
+//! Round-off over 10⁵ to 10⁸ steps in double precision.
+
+use std::f64::consts::TAU;
+
+use num_traits::FromPrimitive;
+use serde::{Deserialize, Serialize};
+use shadowstep::number::Rounded;
+use shadowstep::problems::Kepler;
+use shadowstep::shadow::{Bilinear, ShadowEnergy};
+use shadowstep::tables::TableScheme;
+use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses};
+use shadowstep_report::chart::{Axis, Chart, Curve};
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::arithmetic::Arithmetic;
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::suite::{Examined, Suite};
+
+/// The case.
+pub(super) struct RoundOff;
+
+/// A Kepler orbit from one of its phases.
+#[derive(Clone, Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    /// In 32nds of the period.
+    phase: u32,
+    /// The numbers of steps at which the modified energy is looked at.
+    steps: Vec<u64>,
+}
+
+/// The change of the modified energy since the start, as a part of |H|, at each number of steps.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Changes {
+    changes: Vec<f64>,
+    /// The error of an estimate.
+    error: f64,
+}
+
+const PHASES: u32 = 32;
+const ECCENTRICITY: f64 = 0.2;
+/// Steps of 1/100 for each evaluation: the method's part of the error of H̄ is below round-off.
+const STEPS_A_UNIT: u32 = 100;
+/// Estimates of order 16, of which the best of a period counts.
+const ORDER: u32 = 16;
+/// A wander of n^a has a from 0.35 to 0.65, for the spread of 32 phases over two decades; a drift has 1.
+const WANDERS: (f64, f64) = (0.35, 0.65);
+/// A drift of the mean over the phases is seen beyond so many of its standard errors.
+const SEEN: f64 = 3.0;
+const SCHEMES: [&str; 3] = ["stormer-verlet", "blanes-moan-srkn6b", "kahan-li8"];
+
+impl Case for RoundOff {
+    const NAME: &'static str = "round-off";
+    const TITLE: &'static str = "Round-off over 10⁵ to 10⁸ steps in double precision";
+    const THEORY: &'static str = "Brouwer's law: where rounding is unbiased, the modified energy wanders like √n, by about ε in each evaluation. A bias \
+        makes it drift like n. The changes are those of 32 orbits that begin at different phases; their root mean square grows like n^a, with \
+        a = ½ for a wander and 1 for a drift.";
+    const REVISION: u32 = 1;
+
+    type Trial = Trial;
+    type Measured = Changes;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let of = |scheme: &&Examined| {
+            // the same number of evaluations, to a factor of a few
+            let fewer = u32::from(scheme.scheme.scheme.summary().evaluations > 1);
+            let longest = suite.thorough(8, 5) - fewer;
+            let steps: Vec<u64> =
+                (2 * (longest - 3)..=2 * longest).map(|half| 10_f64.powf(f64::from(half) / 2.0) as u64).collect();
+            let identity = scheme.identity.clone();
+            (0..PHASES).map(move |phase| Trial { scheme: identity.clone(), phase, steps: steps.clone() })
+        };
+        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+    }
+
+    fn arithmetic(_: &Suite) -> Arithmetic {
+        Arithmetic::Double
+    }
+
+    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
+        let evaluations = suite.scheme(&trial.scheme).scheme.summary().evaluations;
+        *trial.steps.last().expect("there are some") as f64 * evaluations as f64 * 20e-9
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        context: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Changes, Error> {
+        let scheme = &suite.scheme(&trial.scheme).scheme;
+        let h = Rational::new(scheme.summary().evaluations.into(), STEPS_A_UNIT.into());
+        let stepper = Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
+        let (q, p) = start(f64::from(trial.phase) / f64::from(PHASES));
+        let number = |x: f64| N::from_rational(&Rational::from_f64(x).expect("it is finite"), context);
+        let mut motion = Motion::new(Kepler, UnitMasses, q.map(number), p.map(number)).expect("two coordinates");
+        let (initial, mut error) = modified_energy(&stepper, &mut motion);
+        let (mut n, mut changes) = (0, Vec::new());
+        for steps in &trial.steps {
+            while n < *steps {
+                let next = (n + 1_000_000).min(*steps);
+                (n..next).for_each(|_| stepper.step(&mut motion));
+                n = next;
+                if !continues(n as f64 / trial.steps[trial.steps.len() - 1] as f64) {
+                    return Ok(Changes { changes, error });
+                }
+            }
+            // of a copy: the estimate's steps are not counted
+            let (mut value, own_error) = modified_energy(&stepper, &mut motion.clone());
+            value.subtract(&initial);
+            error = error.max(own_error);
+            changes.push(value.to_f64() / ENERGY);
+        }
+        Ok(Changes { changes, error: error / ENERGY.abs() })
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Changes)]) -> Finding {
+        let mut finding = Finding::default();
+        let mut curves = Vec::new();
+        for (i, all) in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme).enumerate() {
+            let name = &suite.scheme(&all[0].0.scheme).name;
+            let Some(found) = Wander::of(all) else { continue };
+            finding.row(name, found.described(), found.verdict());
+            let points = found.rms.iter().map(|(n, rms)| (n.log10(), rms.log10())).collect();
+            curves.push(Curve::marked(name.clone(), points, i));
+        }
+        let (x, y) =
+            (Axis::log10("steps"), Axis::log10("change of the modified energy, rms of 32 phases, as a part of H"));
+        finding.chart(
+            Chart::new("Round-off of the modified energy", x, y, curves),
+            "Kepler's problem with e = 0.2 and steps of 1/100 for each evaluation.",
+        );
+        finding
+    }
+}
+
+const ENERGY: f64 = -0.5;
+
+/// q and p at a part of the period.
+fn start(part: f64) -> ([f64; 2], [f64; 2]) {
+    let mean = TAU * part;
+    let anomaly = (0..50).fold(mean, |anomaly, _| mean + ECCENTRICITY * anomaly.sin());
+    let (sin, cos) = anomaly.sin_cos();
+    let minor = (1.0 - ECCENTRICITY * ECCENTRICITY).sqrt();
+    let distance = 1.0 - ECCENTRICITY * cos;
+    ([cos - ECCENTRICITY, minor * sin], [-sin / distance, minor * cos / distance])
+}
+
+/// The modified energy with the least estimated error of the next period, and that error.
+fn modified_energy<N: Rounded, M: System<Number = N, Class = shadowstep::kinetic::Quadratic>>(
+    stepper: &Stepper<TableScheme, N>,
+    system: &mut M,
+) -> (N, f64) {
+    let monitor = ShadowEnergy::new(stepper.clone(), system, &Bilinear::with_error(ORDER));
+    let mut monitor = monitor.expect("the orbit is finite");
+    let mut best: Option<(N, f64)> = None;
+    let period = (TAU / <f64 as shadowstep::Number>::from_rational(stepper.h(), &())).ceil() as u64;
+    for _ in 0..period {
+        let Some(sample) = monitor.step(system).expect("the orbit is finite") else { continue };
+        let error = sample.error.map_or(f64::INFINITY, |error| error.to_f64());
+        if best.as_ref().is_none_or(|(_, least)| error < *least) {
+            best = Some((sample.modified.clone(), error));
+        }
+    }
+    best.expect("a period has windows")
+}
+
+/// The growth of the changes of all phases of a scheme.
+struct Wander {
+    /// n and the root mean square.
+    rms: Vec<(f64, f64)>,
+    /// The slope of log rms against log n, and its standard error.
+    exponent: f64,
+    exponent_error: f64,
+    /// The mean change at the end, and its standard error.
+    mean: f64,
+    mean_error: f64,
+}
+
+impl Wander {
+    fn of(all: &[(Trial, Changes)]) -> Option<Wander> {
+        let steps = &all.first()?.0.steps;
+        let phases = all.len() as f64;
+        if all.iter().any(|(_, changes)| changes.changes.len() < steps.len()) || all.len() < 8 {
+            return None;
+        }
+        let at = |i: usize| all.iter().map(move |(_, changes)| changes.changes[i]);
+        let rms: Vec<_> = steps
+            .iter()
+            .enumerate()
+            .map(|(i, n)| (*n as f64, (at(i).map(|change| change * change).sum::<f64>() / phases).sqrt()))
+            .collect();
+        let last = steps.len() - 1;
+        let mean = at(last).sum::<f64>() / phases;
+        let variance = at(last).map(|change| (change - mean).powi(2)).sum::<f64>() / (phases - 1.0);
+        // of each phase the exponent between the first and the last number of steps is not defined, that of the rms is: its error is that
+        // of two root mean squares of so many values, 1/√(2 phases) each
+        let decades = (rms[last].0 / rms[0].0).ln();
+        let exponent = (rms[last].1 / rms[0].1).ln() / decades;
+        let exponent_error = (1.0 / phases).sqrt() / decades;
+        Some(Wander { rms, exponent, exponent_error, mean, mean_error: (variance / phases).sqrt() })
+    }
+
+    /// Whether the mean of all phases drifts.
+    fn drifts(&self) -> bool {
+        self.mean.abs() > SEEN * self.mean_error
+    }
+
+    fn described(&self) -> String {
+        let (n, rms) = self.rms[self.rms.len() - 1];
+        format!(
+            "{rms:.1e} of H after {n:.0e} steps (rms), growing like n^({:.2} ± {:.2}); the mean is {:.1e} ± {:.1e}: {}",
+            self.exponent,
+            self.exponent_error,
+            self.mean,
+            self.mean_error,
+            if self.drifts() { "it drifts" } else { "no drift is seen" }
+        )
+    }
+
+    fn verdict(&self) -> Verdict {
+        let (low, high) = (self.exponent - 2.0 * self.exponent_error, self.exponent + 2.0 * self.exponent_error);
+        match () {
+            () if self.drifts() && low > WANDERS.1 => Verdict::Differs,
+            () if self.drifts() || low > WANDERS.1 || high < WANDERS.0 => Verdict::NotDecided,
+            () => Verdict::Agrees,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Changes of 32 phases after n steps: `wander` √n with alternating signs and several sizes, and `drift` n.
+    fn measured(wander: f64, drift: f64) -> Vec<(Trial, Changes)> {
+        let steps = vec![100_000, 1_000_000, 10_000_000];
+        let of = |phase: u32| {
+            let sign = if phase.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let size = sign * (0.5 + f64::from(phase / 2) / 16.0);
+            let changes = steps.iter().map(|&n| wander * size * (n as f64).sqrt() + drift * n as f64).collect();
+            let trial = Trial { scheme: String::new(), phase, steps: steps.clone() };
+            (trial, Changes { changes, error: 0.0 })
+        };
+        (0..PHASES).map(of).collect()
+    }
+
+    #[test]
+    fn a_wander_agrees_and_a_drift_differs() {
+        let wander = Wander::of(&measured(1e-16, 0.0)).unwrap();
+        assert!((wander.exponent - 0.5).abs() < 1e-9 && !wander.drifts());
+        assert_eq!(wander.verdict(), Verdict::Agrees);
+        let drift = Wander::of(&measured(1e-16, 1e-17)).unwrap();
+        assert!(drift.drifts() && drift.exponent > 0.9, "{}", drift.described());
+        assert_eq!(drift.verdict(), Verdict::Differs);
+        // a drift that is as small as the wander does not decide
+        assert_eq!(Wander::of(&measured(1e-16, 3e-20)).unwrap().verdict(), Verdict::NotDecided);
+    }
+
+    #[test]
+    fn an_orbit_begins_on_its_ellipse() {
+        for phase in 0..8 {
+            let (q, p) = start(f64::from(phase) / 8.0);
+            let energy = (p[0] * p[0] + p[1] * p[1]) / 2.0 - 1.0 / q[0].hypot(q[1]);
+            assert!((energy - ENERGY).abs() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Stiff springs with steps up to their stability limit.
+
+use shadowstep::number::Rounded;
+use shadowstep::{Rational, exact};
+use shadowstep_analysis::stability::Stability;
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+use shadowstep_symbolic::decimal::to_text;
+
+use crate::bounded::{LongRun, Stayed};
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::suite::{Examined, Suite};
+
+/// The case.
+pub(super) struct StiffSprings;
+
+/// hω as parts of the stability limit: for Störmer–Verlet hω = 1.5, 1.9, 1.99, 2.01, with ω = 50.
+const PARTS: [&str; 4] = ["3/4", "19/20", "199/200", "201/200"];
+const OMEGA: i64 = 50;
+/// How much the error of H may differ between the first and the last fourth; the stiff springs exchange energy slowly.
+const BOUNDED: f64 = 4.0;
+/// The springs leave a gap of instability that is narrower.
+const NARROW: f64 = 0.05;
+const SCHEMES: [&str; 4] = ["stormer-verlet", "mclachlan-sb3a4", "blanes-moan-s6", "blanes-moan-srkn6b"];
+
+impl Case for StiffSprings {
+    const NAME: &'static str = "stiff-springs";
+    const TITLE: &'static str = "Stiff springs up to the stability limit";
+    const THEORY: &'static str = "Three stiff springs of ω = 50 in a chain with soft ones, which raise the stiff frequencies by a part of 1e-3 and more as \
+        amplitudes grow. With hω at 0.75 and 0.95 of the stability limit all stays bounded; at 0.995 a step that enlarges amplitudes may be \
+        carried beyond the limit. At 1.005 amplitudes grow, unless the unstable gap is so narrow that they leave it as the frequency shifts. What grows is \
+        not called fine.";
+    const REVISION: u32 = 2;
+
+    type Trial = LongRun;
+    type Measured = Stayed;
+
+    fn trials(suite: &Suite) -> Vec<LongRun> {
+        let steps = suite.thorough(200_000, 10_000);
+        let of = |scheme: &&Examined| {
+            let limit = Stability::of_scheme(scheme.scheme.scheme.proved()).map(|stability| stability.limit);
+            let limit = limit.and_then(|limit| exact(&limit).ok());
+            PARTS.map(|part| {
+                let part = exact(part).expect("it is exact");
+                let h = limit.clone().unwrap_or(part.clone()) * part / Rational::from_integer(OMEGA.into());
+                LongRun { scheme: scheme.identity.clone(), problem: "fput-stiff", h: to_text(&h), steps }
+            })
+        };
+        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+    }
+
+    fn seconds(suite: &Suite, trial: &LongRun) -> f64 {
+        trial.seconds(suite, 60e-9)
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &LongRun,
+        context: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Stayed, Error> {
+        trial.make::<N>(suite, context, continues)
+    }
+
+    fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {
+        let mut finding = Finding::default();
+        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
+            let named = suite.scheme(&all[0].0.scheme);
+            let stability = Stability::of_scheme(named.scheme.proved());
+            let first_gap =
+                stability.and_then(|stability| Some(stability.gaps.first()?.width)).unwrap_or(f64::INFINITY);
+            let (mut parts, mut verdicts) = (Vec::new(), Vec::new());
+            for ((_, stayed), part) in all.iter().zip(PARTS) {
+                let bounded = stayed.is_bounded(BOUNDED);
+                let said = if stayed.watched.fine { "fine" } else { "reported" };
+                parts.push(match bounded {
+                    true => format!("{part}: bounded, error of H {:.1e}, {said}", stayed.energy_errors[0]),
+                    false => format!("{part}: grows, {said}"),
+                });
+                let as_predicted = match part {
+                    "201/200" => !bounded || first_gap < NARROW,
+                    "199/200" => true,
+                    _ => bounded,
+                };
+                verdicts.push(Verdict::from(as_predicted && (bounded || !stayed.watched.fine)));
+            }
+            let found = format!("parts of the limit, before a gap of {first_gap:.1e}: {}", parts.join("; "));
+            finding.row(&named.name, found, Verdict::of_all(verdicts));
+        }
+        finding
+    }
+}
