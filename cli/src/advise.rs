@@ -18,7 +18,7 @@ use crate::output::Output;
 use crate::posed::{Posed, PosedArguments};
 use crate::quantity;
 use crate::report::Status;
-use crate::tasks::{SAVED, Terminal};
+use crate::tasks::{NOT_SAVED, SAVED, Terminal};
 use crate::work_precision::{schemes, seconds};
 
 const EXAMPLE: &str = "\
@@ -124,9 +124,6 @@ fn tolerance_log10(tolerance: &shadowstep::Rational, text: &str) -> Result<f64, 
     }
     Ok(value.log10_abs())
 }
-
-/// What can be done after an interruption without a folder.
-const NOT_SAVED: &str = "begin again; with --out DIR what is computed is saved";
 
 const WIDTH: usize = 80;
 

@@ -16,7 +16,7 @@ use crate::output::Output;
 use crate::quantity::whole;
 use crate::readable::wrapped_to;
 use crate::report::{self, Status};
-use crate::tasks::Terminal;
+use crate::tasks::{NOT_SAVED, SAVED, Terminal};
 
 const EXAMPLE: &str = "\
 Examples:
@@ -62,7 +62,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     if let Some(folder) = arguments.out.as_ref().filter(|_| !arguments.force) {
         files::refuse_foreign(folder)?;
     }
-    let mut terminal = Terminal::listen();
+    let mut terminal = Terminal::listen(arguments.out.as_ref().map_or(NOT_SAVED, |_| SAVED));
     let temporary = tempfile::tempdir()?;
     let folder = arguments.out.as_deref().unwrap_or(temporary.path());
     let findings = examine(&suite, &cases, folder, &mut terminal)?;

@@ -22,6 +22,9 @@ pub(crate) struct Terminal {
 /// What can be done after an interruption.
 pub(crate) const SAVED: &str = "the same command computes what is not saved yet";
 
+/// The same without a folder.
+pub(crate) const NOT_SAVED: &str = "begin again; with --out DIR what is computed is saved";
+
 impl Terminal {
     /// After an interruption, `hint` can be done.
     pub(crate) fn listen(hint: &str) -> Self {

@@ -33,12 +33,11 @@ fn rows_are_objects_and_digits_are_a_choice() {
 
 #[test]
 fn unknown_cases_and_files_of_others_are_refused() {
-    let refused = shadowstep().args(["stability", "oscilator"]).output().unwrap();
-    let message = String::from_utf8(refused.stderr).unwrap();
-    assert!(refused.status.code() == Some(2) && message.contains("'oscillator'"), "{message}");
+    let refused = shadowstep("stability oscilator");
+    assert!(refused.code == 2 && refused.err.contains("'oscillator'"), "{}", refused.err);
     let folder = TempDir::new().unwrap();
     fs::write(folder.path().join("report.html"), "mine").unwrap();
-    let refused = shadowstep().args(["stability", "oscillator", "--out"]).arg(folder.path()).output().unwrap();
-    assert_eq!(refused.status.code(), Some(2));
+    let refused = shadowstep(&format!("stability oscillator --out {}", folder.path().display()));
+    assert!(refused.code == 2 && refused.err.contains("report.html exists"), "{}", refused.err);
     assert_eq!(fs::read_to_string(folder.path().join("report.html")).unwrap(), "mine");
 }
