@@ -76,7 +76,7 @@ pub fn evaluate_within(
         let attempt = Attempt { digits: (digits + GUARD_DIGITS) << attempt, last };
         let found = (Evaluator { names, attempt, budget }).value(expression).map(|value| match value {
             Value::Exact(exact) => Some(exact),
-            other => settled(&other.interval(), digits, last).map(|value| Exact { value, rounded: true }),
+            other => settled(&other.interval(attempt.digits), digits, last).map(|value| Exact { value, rounded: true }),
         });
         match found {
             Ok(Some(exact)) => return Ok(exact),

@@ -131,14 +131,17 @@ impl Graph {
 
     /// The exact numbers in the simplified formula of a node: constants and coefficients.
     pub fn numbers(&self, node: Node) -> Vec<&Rational> {
-        let of = |part: Node| match self.form(part) {
-            Form::Number(value) => vec![value],
-            Form::Sum { constant, terms } => {
-                std::iter::once(constant).chain(terms.iter().map(|(_, coefficient)| coefficient)).collect()
-            }
-            _ => Vec::new(),
+        self.below(&[node]).into_iter().flat_map(|part| self.own_numbers(part)).collect()
+    }
+
+    /// The constant and the coefficients of a node itself.
+    pub(crate) fn own_numbers(&self, node: Node) -> impl Iterator<Item = &Rational> {
+        let (constant, terms) = match self.form(node) {
+            Form::Number(value) => (Some(value), &[][..]),
+            Form::Sum { constant, terms } => (Some(constant), &terms[..]),
+            _ => (None, &[][..]),
         };
-        self.below(&[node]).into_iter().flat_map(of).collect()
+        constant.into_iter().chain(terms.iter().map(|(_, coefficient)| coefficient))
     }
 
     /// The nodes that a node is directly made of.

@@ -30,6 +30,9 @@ pub(super) struct Evaluator<'a> {
 const ROOT: u64 = 20;
 const FUNCTION: u64 = 100;
 
+/// The most bits of a multiple of π that is known as such: it is far from the limits of enclosed numbers.
+const LONGEST_MULTIPLE: u64 = 30_000;
+
 impl Evaluator<'_> {
     pub(super) fn value(&self, expression: &Expression) -> Result<Value, AttemptError> {
         let range = &expression.range;
@@ -51,7 +54,7 @@ impl Evaluator<'_> {
             if !self.budget.take(1, self.enclosed_bits()) {
                 return Err(SemanticFault::TooMuchWork);
             }
-            return Ok(Value::OfPi(Rational::one(), Box::new(pi(self.attempt.digits))));
+            return Ok(Value::OfPi(Rational::one()));
         }
         let known: Vec<&str> = self.names.keys().map(String::as_str).collect();
         Err(unknown_name(name, &known))
@@ -73,18 +76,18 @@ impl Evaluator<'_> {
         }
         self.charge(FUNCTION, &[&value], range)?;
         let digits = self.attempt.digits;
-        if let (Value::OfPi(multiple, number), Function::Sin | Function::Cos | Function::Tan) = (&value, function) {
-            return self.of_multiple(function, (multiple, number), argument, range);
+        if let (Value::OfPi(multiple), Function::Sin | Function::Cos | Function::Tan) = (&value, function) {
+            return self.of_multiple(function, multiple, argument, range);
         }
-        let interval = self.attempt.in_domain(function, value.interval(), &argument.range)?;
+        let interval = self.attempt.in_domain(function, value.interval(self.attempt.digits), &argument.range)?;
         self.enclosed(image(function, &interval, digits).and_then(|image| image.outward(digits)), range)
     }
 
-    /// sin, cos or tan of a rational multiple of π, which an interval encloses.
+    /// sin, cos or tan of a rational multiple of π.
     fn of_multiple(
         &self,
         function: Function,
-        (multiple, number): (&Rational, &Interval),
+        multiple: &Rational,
         argument: &Expression,
         range: &Range<usize>,
     ) -> Result<Value, AttemptError> {
@@ -94,7 +97,7 @@ impl Evaluator<'_> {
             Function::Sin => sin,
             Function::Cos => cos,
             _ if cos.contains_zero() => {
-                let number = to_significant(&number.low, 12);
+                let number = to_significant(&pi(digits).times(multiple).low, 12);
                 return Err(fault(SemanticFault::OutsideDomain { function, argument: number }, &argument.range));
             }
             _ => sin.multiply(&cos.reciprocal()),
@@ -117,7 +120,7 @@ impl Evaluator<'_> {
             Operation::Divide => {
                 let (dividend, divisor) = (value(left)?, value(right)?);
                 self.not_zero(&divisor, SemanticFault::DivisionByZero, &right.range)?;
-                self.product(&dividend, &divisor.reciprocal(), range)
+                self.product(&dividend, &divisor.reciprocal(self.attempt.digits), range)
             }
             Operation::Power => match value(right)? {
                 Value::Exact(Exact { value: exponent, rounded: false }) => self.power(left, &exponent, range),
@@ -131,7 +134,7 @@ impl Evaluator<'_> {
         let enclosed = self.enclosed_bits();
         let bits = |value: &&Value| match value {
             Value::Exact(exact) => exact.value.numer().bits().max(exact.value.denom().bits()),
-            Value::OfPi(..) | Value::Enclosed(_) => enclosed,
+            Value::OfPi(_) | Value::Enclosed(_) => enclosed,
         };
         let bits = values.iter().map(bits).sum::<u64>() + if operations > 1 { enclosed } else { 0 };
         if self.budget.take(operations, bits) { Ok(()) } else { Err(fault(SemanticFault::TooMuchWork, range)) }
@@ -141,8 +144,11 @@ impl Evaluator<'_> {
         self.charge(1, &[a, b], range)?;
         match (a, b) {
             (Value::Exact(a), Value::Exact(b)) => exact(&a.value + &b.value, a.rounded || b.rounded, range),
-            (Value::OfPi(a, x), Value::OfPi(b, y)) => self.of_pi(a + b, &x.add(y), range),
-            _ => self.enclosed(a.interval().add(&b.interval()).outward(self.attempt.digits), range),
+            (Value::OfPi(a), Value::OfPi(b)) => Ok(self.of_pi(a + b)),
+            _ => self.enclosed(
+                a.interval(self.attempt.digits).add(&b.interval(self.attempt.digits)).outward(self.attempt.digits),
+                range,
+            ),
         }
     }
 
@@ -150,10 +156,13 @@ impl Evaluator<'_> {
         self.charge(1, &[a, b], range)?;
         match (a, b) {
             (Value::Exact(a), Value::Exact(b)) => exact(&a.value * &b.value, a.rounded || b.rounded, range),
-            (Value::OfPi(multiple, x), Value::Exact(factor)) | (Value::Exact(factor), Value::OfPi(multiple, x)) => {
-                self.of_pi(multiple * &factor.value, &x.multiply(&Interval::point(&factor.value)), range)
+            (Value::OfPi(multiple), Value::Exact(factor)) | (Value::Exact(factor), Value::OfPi(multiple)) => {
+                Ok(self.of_pi(multiple * &factor.value))
             }
-            _ => self.enclosed(a.interval().multiply(&b.interval()).outward(self.attempt.digits), range),
+            _ => self.enclosed(
+                a.interval(self.attempt.digits).multiply(&b.interval(self.attempt.digits)).outward(self.attempt.digits),
+                range,
+            ),
         }
     }
 
@@ -168,7 +177,7 @@ impl Evaluator<'_> {
         let mut root = self.root(value, order, &base.range)?;
         if exponent.is_negative() {
             self.not_zero(&root, SemanticFault::DivisionByZero, &base.range)?;
-            root = root.reciprocal();
+            root = root.reciprocal(self.attempt.digits);
         }
         let count = exponent.numer().magnitude().to_u32();
         let count = count.ok_or_else(|| fault(SemanticFault::TooLong, range))?;
@@ -177,7 +186,7 @@ impl Evaluator<'_> {
                 let power = rational_power(&value, count).ok_or_else(|| fault(SemanticFault::TooLong, range))?;
                 exact(power, rounded, range)
             }
-            other => self.enclosed(other.interval().power(count, self.attempt.digits), range),
+            other => self.enclosed(other.interval(self.attempt.digits).power(count, self.attempt.digits), range),
         }
     }
 
@@ -187,7 +196,7 @@ impl Evaluator<'_> {
             return Ok(base);
         }
         self.charge(ROOT, &[&base], range)?;
-        let mut interval = base.interval();
+        let mut interval = base.interval(self.attempt.digits);
         if order.is_even() {
             interval = self.attempt.not_negative(interval, range)?;
         }
@@ -204,7 +213,7 @@ impl Evaluator<'_> {
         match value {
             Value::Exact(exact) if exact.value.is_zero() => Err(fault(otherwise, range)),
             Value::Exact(_) => Ok(()),
-            other => self.attempt.without_zero(&other.interval(), otherwise, range),
+            other => self.attempt.without_zero(&other.interval(self.attempt.digits), otherwise, range),
         }
     }
 
@@ -218,12 +227,13 @@ impl Evaluator<'_> {
     }
 
     /// A multiple of π, as such unless it is longer than the numbers of this attempt.
-    fn of_pi(&self, multiple: Rational, interval: &Interval, range: &Range<usize>) -> Result<Value, AttemptError> {
-        let is_short = multiple.numer().bits().max(multiple.denom().bits()) <= self.enclosed_bits();
-        Ok(match self.enclosed(interval.outward(self.attempt.digits), range)? {
-            Value::Enclosed(interval) if is_short => Value::OfPi(multiple, Box::new(interval)),
-            other => other,
-        })
+    fn of_pi(&self, multiple: Rational) -> Value {
+        let bits = multiple.numer().bits().max(multiple.denom().bits());
+        match bits <= self.enclosed_bits().min(LONGEST_MULTIPLE) {
+            true if multiple.is_zero() => Value::Exact(Exact { value: multiple, rounded: true }),
+            true => Value::OfPi(multiple),
+            false => Value::Enclosed(pi(self.attempt.digits).times(&multiple)),
+        }
     }
 
     /// The bits of the ends of intervals, about.

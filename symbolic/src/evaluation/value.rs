@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::number::elementary::pi;
 use crate::number::interval::Interval;
 use crate::number::rational::Rational;
 use crate::text::error::{SemanticError, SemanticFault};
@@ -18,17 +19,18 @@ pub struct Exact {
 /// The value of a part of the expression.
 pub(super) enum Value {
     Exact(Exact),
-    /// A rational multiple of π, which the interval encloses; boxed, as a deep recursion holds many values.
-    OfPi(Rational, Box<Interval>),
+    /// A rational multiple of π.
+    OfPi(Rational),
     /// Some number in the interval.
     Enclosed(Interval),
 }
 
 impl Value {
-    pub(super) fn interval(&self) -> Interval {
+    /// An interval that it is in, of a multiple of π to some digits.
+    pub(super) fn interval(&self, digits: u32) -> Interval {
         match self {
             Value::Exact(exact) => Interval::point(&exact.value),
-            Value::OfPi(_, interval) => (**interval).clone(),
+            Value::OfPi(multiple) => pi(digits).times(multiple),
             Value::Enclosed(interval) => interval.clone(),
         }
     }
@@ -36,17 +38,16 @@ impl Value {
     pub(super) fn negate(self) -> Self {
         match self {
             Value::Exact(exact) => Value::Exact(Exact { value: -exact.value, ..exact }),
-            Value::OfPi(multiple, interval) => Value::OfPi(-multiple, Box::new(interval.negate())),
+            Value::OfPi(multiple) => Value::OfPi(-multiple),
             Value::Enclosed(interval) => Value::Enclosed(interval.negate()),
         }
     }
 
-    /// 1/x; the value must not be zero, nor an interval around it.
-    pub(super) fn reciprocal(self) -> Self {
+    /// 1/x, of a multiple of π to some digits; the value must not be zero, nor an interval around it.
+    pub(super) fn reciprocal(self, digits: u32) -> Self {
         match self {
             Value::Exact(exact) => Value::Exact(Exact { value: exact.value.recip(), ..exact }),
-            Value::OfPi(_, interval) => Value::Enclosed(interval.reciprocal()),
-            Value::Enclosed(interval) => Value::Enclosed(interval.reciprocal()),
+            other => Value::Enclosed(other.interval(digits).reciprocal()),
         }
     }
 }

@@ -67,8 +67,16 @@ pub(crate) fn sin_and_cos_of_pi(multiple: &Rational, digits: u32) -> (Interval, 
     let half = Rational::new(1.into(), 2.into());
     let quarter = (multiple * Rational::from_integer(2.into()) + &half).floor();
     let rest = multiple - &quarter * half;
-    let distance = pi(digits + 2).multiply(&Interval::point(&rest));
-    let (sin, cos) = sin_and_cos(&distance, digits + 2);
+    let (sin, cos) = match rest.is_zero() {
+        true => (Interval::point(&rest), Interval::point(&Rational::one())),
+        false => {
+            let fine = bits(digits) + zero_bits(rest.numer(), rest.denom());
+            // the multiple of π/2 is between -1/2 and 1/2
+            let distance = Ball::ratio(&(rest.numer() * 2), rest.denom(), fine).multiply(&half_pi(fine));
+            let (sine, versine) = sine_and_versine(Curve::Circle, &distance);
+            (sine.to_interval(0), Ball::one(versine.bits()).subtract(&versine).to_interval(0))
+        }
+    };
     match (quarter.to_integer() & BigInt::from(3)).to_u8().expect("a number below 4") {
         0 => (sin, cos),
         1 => (cos, sin.negate()),

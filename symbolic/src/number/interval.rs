@@ -58,6 +58,12 @@ impl Interval {
         Interval { low, high }
     }
 
+    /// The product with a number.
+    pub(crate) fn times(&self, factor: &Rational) -> Self {
+        let [one, other] = [&self.low * factor, &self.high * factor];
+        if factor.is_negative() { Interval { low: other, high: one } } else { Interval { low: one, high: other } }
+    }
+
     /// 1/x; the interval must not contain zero.
     pub(crate) fn reciprocal(&self) -> Self {
         Interval { low: self.high.recip(), high: self.low.recip() }
@@ -152,6 +158,7 @@ mod tests {
             prop_assert!(encloses(&x.add(&y), &(&a + &b)));
             prop_assert!(encloses(&x.multiply(&y), &(&a * &b)));
             prop_assert!(encloses(&x.negate(), &-&a));
+            prop_assert!(encloses(&x.times(&b), &(&a * &b)));
             prop_assert!(encloses(&x.power(n, 3).unwrap(), &a.pow(n as i32)));
             if !x.contains_zero() {
                 prop_assert!(encloses(&x.reciprocal(), &a.recip()));

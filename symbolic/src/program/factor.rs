@@ -12,7 +12,7 @@ use crate::number::rational::Rational;
 use crate::program::Program;
 use crate::program::lower;
 
-/// The largest total number of parts of the nodes of all programs that are tried: only very long formulas exceed it.
+/// The largest total size of the nodes of all programs that are tried: only very long formulas, or long numbers, exceed it.
 const MOST_WORK: usize = 20_000;
 
 impl Graph {
@@ -56,7 +56,7 @@ fn improvement(
     program: &Program,
     work: &mut usize,
 ) -> Option<(Vec<Node>, Program)> {
-    let size: usize = graph.below(outputs).into_iter().map(|node| 1 + graph.children(node).count()).sum();
+    let size: usize = graph.below(outputs).into_iter().map(|node| size(graph, node)).sum();
     for change in changes(graph, outputs) {
         *work += size;
         if *work > MOST_WORK {
@@ -73,6 +73,14 @@ fn improvement(
         }
     }
     None
+}
+
+/// The number of parts of a node, and more where its numbers are long: their common divisors take a time that grows with the square
+/// of their bits.
+fn size(graph: &Graph, node: Node) -> usize {
+    let thousands =
+        graph.own_numbers(node).map(|number| number.numer().bits().max(number.denom().bits()) as usize / 1000);
+    1 + graph.children(node).count() + thousands.map(|thousands| thousands * thousands).sum::<usize>()
 }
 
 /// An equal form of a node.
