@@ -37,7 +37,9 @@ fn exact(text: &str) -> Result<Rational, shadowstep_symbolic::Error> {
 pub(crate) fn whole(text: &str, range: RangeInclusive<u32>) -> Result<u32, String> {
     match text.parse() {
         Ok(number) if range.contains(&number) => Ok(number),
-        _ if text.parse::<i128>().is_ok() => Err(format!("{text} is not in {}..={}", range.start(), range.end())),
+        _ if text.parse::<i128>().is_ok() => {
+            Err(format!("{text} is out of range: write a whole number from {} to {}", range.start(), range.end()))
+        }
         _ => Err(format!("write a whole number from {} to {}", range.start(), range.end())),
     }
 }

@@ -97,7 +97,7 @@ pub(crate) struct SystemArguments {
     )]
     pub(crate) p: Vec<String>,
     /// The masses of the coordinates [default: all are 1]
-    #[arg(long, value_name = "VALUE,…", value_delimiter = ',', requires = "potential")]
+    #[arg(long, value_name = "VALUE,…", value_delimiter = ',', requires = "potential", allow_hyphen_values = true)]
     pub(crate) masses: Vec<String>,
 }
 

@@ -25,12 +25,29 @@ pub(crate) struct Described {
 
 impl Described {
     pub(crate) fn read(arguments: &SystemArguments, arithmetic: Arithmetic) -> Result<Self, Error> {
+        refuse_state(arguments)?;
         match (arguments.problem(), &arguments.potential) {
             (_, Some(formula)) => by_formula(arguments, formula, arithmetic),
             (Some(path), None) if is_file(path) => of_scene(arguments, path, arithmetic),
             (Some(name), None) => shipped(arguments, name, arithmetic),
             (None, None) => unreachable!("clap requires one of the two"),
         }
+    }
+}
+
+/// Refuses the flags of --potential without it: clap lets them pass where a problem is named.
+fn refuse_state(arguments: &SystemArguments) -> Result<(), Error> {
+    let SystemArguments { q, p, masses, .. } = arguments;
+    let given = [("--q", q), ("--p", p), ("--masses", masses)].into_iter().find(|(_, values)| !values.is_empty());
+    match (given, arguments.problem()) {
+        (Some((flag, _)), Some(problem)) => {
+            let hint = match is_file(problem) {
+                true => format!("change the values in {problem}"),
+                false => "set values of a shipped problem with --set: --set x=1".to_owned(),
+            };
+            Err(Error::usage(format!("{flag} requires --potential, not {problem}"), hint))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -99,7 +116,8 @@ fn scene_of(arguments: &SystemArguments, formula: &str) -> Result<String, Error>
     };
     let p = if momenta.is_empty() { arguments.p.clone() } else { values(&momenta) };
     if p.len() != positions.len() {
-        let message = format!("--q has {} values and --p has {}", positions.len(), p.len());
+        let values = |count: usize| if count == 1 { "1 value".to_owned() } else { format!("{count} values") };
+        let message = format!("--q has {} and --p has {}", values(positions.len()), values(p.len()));
         return Err(Error::usage(message, "give one momentum for each coordinate"));
     }
     let parameters = arguments.set.iter().map(|text| assignment(text)).collect::<Result<Vec<_>, _>>()?;

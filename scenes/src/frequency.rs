@@ -23,12 +23,15 @@ const DISTANCE: f64 = 1e-6;
 
 impl System {
     /// The largest frequency at the initial state, in double precision, from differences of the gradient by the power method;
-    /// `None` where nothing oscillates, T(p) is given by a formula, or numbers overflow.
+    /// `None` where nothing oscillates, T(p) is given by a formula, the initial energy is not finite, or numbers overflow.
     ///
     /// An eigenvalue that the iterations do not reach is underestimated.
     pub fn fastest_frequency(&self) -> Option<Frequency> {
         let KineticEnergy::Masses(masses) = &self.kinetic else { return None };
-        let (q, _) = self.start::<f64>(&());
+        let (q, p) = self.start::<f64>(&());
+        if !self.energy::<f64>(&())(&q, &p).is_finite() {
+            return None;
+        }
         let number = |exact: &shadowstep_symbolic::Exact| <f64 as shadowstep::Number>::from_rational(&exact.value, &());
         let roots = match masses {
             Some(masses) => masses.iter().map(|mass| number(mass).sqrt()).collect(),

@@ -122,7 +122,11 @@ fn base_scheme(
     let source = &table.source;
     let fault = |message: String, help: String| (None, vec![source.fault(&base.at, message).hint(help)]);
     let Some(found) = library(&base.value, source) else {
-        return fault(format!("there is no table `{}`", base.value), shipped_hint(&base.value));
+        let help = match base.value.contains(std::path::is_separator) {
+            true => "give the name of a file beside this table, without folders, or of a shipped table".to_owned(),
+            false => shipped_hint(&base.value),
+        };
+        return fault(format!("there is no table `{}`", base.value), help);
     };
     let mut chain = above.to_vec();
     chain.push(source.path.clone());
@@ -192,7 +196,7 @@ impl Cells<'_> {
                 exact.value
             });
             if value.abs() > Rational::from_integer(LARGEST_WEIGHT.into()) {
-                let message = format!("a weight of {} is an absurd size", to_significant(&value, 6));
+                let message = format!("a weight of {} is too large", to_significant(&value, 6));
                 let help = format!("weights are fractions of a step, at most {LARGEST_WEIGHT}");
                 self.faults.push(self.table.source.fault(&cell.at, message).hint(help));
             }

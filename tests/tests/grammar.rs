@@ -127,7 +127,7 @@ mine.toml:14:23: unknown function `foo`; known functions: sqrt, cbrt, exp, log, 
 mine.toml:14:33: 0^0 is undefined
   14 | drift = ["1e400000", "foo(2)", "0^0", 5000]
      |                                 ^^^
-mine.toml:14:39: a weight of 5000 is an absurd size
+mine.toml:14:39: a weight of 5000 is too large
   14 | drift = ["1e400000", "foo(2)", "0^0", 5000]
      |                                       ^^^^
   hint: weights are fractions of a step, at most 1000

@@ -23,7 +23,7 @@ impl PlotFiles {
     /// The files of `--plot`, none of which may exist without `--force`.
     pub(super) fn of_flag(path: &Path, pictures: &[Picture], force: bool) -> Result<Self, Error> {
         if path.extension().is_none_or(|ending| ending != "svg") {
-            let message = format!("--plot {} is not a name of an SVG file", path.display());
+            let message = format!("--plot {} is not the name of an SVG file", path.display());
             return Err(Error::usage(message, "give a name such as trace.svg"));
         }
         let files = PlotFiles { paths: paths(path, pictures), named: "--plot", head: String::new(), replaces: force };

@@ -415,7 +415,7 @@ fn a_scene_or_a_formula_may_be_the_problem() {
     }
     for (wrong, sentence) in [
         ("--potential sqrt(1+x --q x=1 --p 0", "--potential \"sqrt(1+x\": unexpected end"),
-        ("--potential x^2 --q x=1 --p 0,1", "--q has 1 values and --p has 2"),
+        ("--potential x^2 --q x=1 --p 0,1", "--q has 1 value and --p has 2 values"),
         ("--potential x^2 --q 1 --p 0", "--q `1` has no name"),
         ("--problem missing.toml", "there is no file missing.toml"),
     ] {

@@ -19,4 +19,5 @@ mod signals;
 mod stability;
 mod trace;
 mod work_precision;
+mod wrong_inputs;
 mod wrong_usage;

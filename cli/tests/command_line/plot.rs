@@ -112,7 +112,7 @@ fn wrong_plots_are_refused_before_the_run() {
         assert!(result.err.contains(message) && result.err.contains(hint), "{flags}: {}", result.err);
     }
     for (file, message) in
-        [("x.png", "x.png is not a name of an SVG file"), ("none/x.svg", "none/x.svg cannot be written")]
+        [("x.png", "x.png is not the name of an SVG file"), ("none/x.svg", "none/x.svg cannot be written")]
     {
         let result = shadowstep(&format!("{RUN} --plot {}", folder.path().join(file).display()));
         assert!(result.code == 2 && result.err.contains(message), "{}", result.err);
@@ -203,7 +203,7 @@ fn a_chart_of_a_complete_run_is_drawn_from_its_rows() {
 /// The [output] of a scene; then place, message and hint of its fault.
 const WRONG: &[(&str, &str, &str)] = &[
     ("energy = true\nplot = \"a.svg\"", "11:8: a plot requires a file", "add `file = \"out.csv\"`"),
-    ("energy = true\nfile = \"a.csv\"\nplot = \"a.png\"", "12:8: `a.png` is not a name of an SVG file", "kepler.svg"),
+    ("energy = true\nfile = \"a.csv\"\nplot = \"a.png\"", "12:8: `a.png` is not the name of an SVG file", "kepler.svg"),
     ("energy = true\nfile = \"a.csv\"\nplot = 3", "12:8: this value is of the wrong kind", "{ file = \"kepler.svg\" }"),
     (
         "trajectory = true\nfile = \"a.csv\"\nplot = \"a.svg\"",

@@ -142,7 +142,7 @@ fn usage_errors_have_a_message() {
     for (words, message) in [
         ("--free w8", "the table has no printed decimal `w8`"),
         ("--free w0", "`w0` is not a printed decimal"),
-        ("--digits 301", "301 is not in 1..=300"),
+        ("--digits 301", "301 is out of range: write a whole number from 1 to 300"),
     ] {
         let result = shadowstep(&format!("schemes polish {path} {words}"));
         assert_eq!(result.code, 2, "{}", result.err);

@@ -159,7 +159,7 @@ fn the_cost_of_a_step_is_in_the_wide_list_and_in_json() {
 #[test]
 fn unknown_words_for_the_list_are_refused() {
     for (flags, sentence) in [
-        ("--order 11", "11 is not in 1..=10"),
+        ("--order 11", "11 is out of range: write a whole number from 1 to 10"),
         ("--order four", "invalid value 'four' for '--order <ORDER>'"),
         ("--sort speed", "[possible values: effective-error, stability, evaluations, name, order]"),
         ("--for cubic", "[possible values: any, quadratic]"),

@@ -92,14 +92,14 @@ fn each_wrong_flag_has_its_message_and_hint() {
 #[test]
 fn invalid_values_of_flags_are_refused() {
     for (flags, sentence) in [
-        ("--digits 0", "0 is not in 1..=100000"),
+        ("--digits 0", "0 is out of range: write a whole number from 1 to 100000"),
         ("--digits 3.5", "write a whole number from 1 to 100000"),
         ("--digits many", "write a whole number from 1 to 100000"),
-        ("--digits 100001", "100001 is not in 1..=100000"),
+        ("--digits 100001", "100001 is out of range: write a whole number from 1 to 100000"),
         ("--digits 50 --double", "'--digits <DIGITS>' cannot be used with '--double'"),
         ("--order 0", "write a number from 1 to 1000, or auto"),
         ("--order best", "write a number from 1 to 1000, or auto"),
-        ("--max-order 1", "1 is not in 2..=1000"),
+        ("--max-order 1", "1 is out of range: write a whole number from 2 to 1000"),
         ("--stop soon", "invalid value 'soon'"),
         ("--rule best", "invalid value 'best'"),
         ("--frobnicate", "unexpected argument '--frobnicate'"),

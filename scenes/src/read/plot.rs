@@ -31,7 +31,7 @@ pub(super) fn read(
     };
     let file = file?;
     if !file.value.ends_with(".svg") || file.value.ends_with("/.svg") || file.value == ".svg" {
-        let message = format!("`{}` is not a name of an SVG file", file.value);
+        let message = format!("`{}` is not the name of an SVG file", file.value);
         return reader.toml.wrong(&file.at, message, "give a name such as kepler.svg");
     }
     let path = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new("")).join(&file.value);
