@@ -29,7 +29,7 @@ pub struct Section {
     pub title: String,
     /// The paper's figure; none for an additional one.
     pub of_paper: Option<String>,
-    /// What the paper states, in paragraphs.
+    /// What the paper states, or theory in a report without a paper, in paragraphs.
     pub stated: Vec<String>,
     /// Charts with captions.
     pub pictures: Vec<Picture>,
@@ -57,7 +57,7 @@ pub struct Picture {
 /// A statement, what was found, and whether that agrees with it.
 #[derive(Clone, Debug)]
 pub struct Statement {
-    /// What is stated.
+    /// What is stated; or, in a report without a paper, the name of what it is about.
     pub statement: String,
     /// The result.
     pub found: String,
@@ -93,7 +93,7 @@ impl Report {
                 body {
                     h1 { (self.title) }
                     (self.findings())
-                    @if self.is_of_paper() { (self.counts()) }
+                    @if self.is_of_paper() { (self.counts()) } @else if self.count(false).all() > 0 { p { (self.count(false)) "." } }
                     @if let Some(remark) = &self.remark { p { (set(remark)) } }
                     @if self.sections.len() > 1 { nav aria-label="Figures" { (self.contents()) } }
                     h2 { "How it was computed" }
@@ -161,7 +161,8 @@ impl Report {
                     li {
                         a href={ "#figure-" (n + 1) } { (set(&figure.title)) }
                         @if let Some(of_paper) = &figure.of_paper { " (" (of_paper) ")" }
-                        " " (figure.badge())
+                        " "
+                        @if self.is_of_paper() { (figure.badge()) } @else if !figure.statements.is_empty() { "– " (figure.all_counts()) }
                     }
                 }
             }
@@ -179,13 +180,17 @@ impl Section {
         }
     }
 
+    fn all_counts(&self) -> Counts {
+        Counts::of(self.statements.iter().map(|statement| statement.verdict))
+    }
+
     fn badge(&self) -> Markup {
         badge(self.word())
     }
 
     /// The n-th section, of a report that compares with figures of a paper or not.
     fn section(&self, n: usize, in_report_of_paper: bool) -> Markup {
-        let counts = Counts::of(self.statements.iter().map(|statement| statement.verdict));
+        let counts = self.all_counts();
         html! {
             section id={ "figure-" (n) } {
                 h2 { (set(&self.title)) }
@@ -200,7 +205,10 @@ impl Section {
                     }
                 }
                 @if !self.stated.is_empty() {
-                    div class="stated" { h3 { "The paper states" } (paragraphs(&self.stated)) }
+                    div class="stated" {
+                        h3 { @if in_report_of_paper { "The paper states" } @else { "Theory" } }
+                        (paragraphs(&self.stated))
+                    }
                 }
                 @if !self.pictures.is_empty() {
                     div class="pictures" { @for picture in &self.pictures { (picture.figure()) } }
@@ -208,7 +216,7 @@ impl Section {
                 @if !self.findings.is_empty() || !self.found.is_empty() { h3 { "Results" } }
                 (paragraphs(&self.findings))
                 (paragraphs(&self.found))
-                @if !self.statements.is_empty() { (statements(&self.statements)) }
+                @if !self.statements.is_empty() { (statements(&self.statements, in_report_of_paper)) }
                 @for table in &self.tables { (table.markup()) }
                 @if !self.files.is_empty() {
                     p { "Files: " @for (i, file) in self.files.iter().enumerate() {
@@ -248,10 +256,11 @@ impl Table {
     }
 }
 
-fn statements(statements: &[Statement]) -> Markup {
+/// `whole` statements have a column that says so; else it has names.
+fn statements(statements: &[Statement], whole: bool) -> Markup {
     html! {
         table class="statements" {
-            thead { tr { th scope="col" { "statement" } th scope="col" { "found" } th scope="col" { "verdict" } } }
+            thead { tr { th scope="col" { @if whole { "statement" } } th scope="col" { "found" } th scope="col" { "verdict" } } }
             tbody {
                 @for Statement { statement, found, verdict } in statements {
                     tr { td { (set(statement)) } td { (set(found)) } td { (badge(verdict.word())) } }

@@ -107,7 +107,7 @@ impl Case for Oscillator {
         let [x, y] = axes;
         finding.chart(
             Chart::new("Growth beyond the stability limit and in the gaps", x, y, curves.collect()),
-            "Each mark is a step size at which the trace is outside [−2, 2].",
+            "Each mark is a step size at which the trace is outside [−2, 2]; the first twelve schemes.",
         );
         finding
     }

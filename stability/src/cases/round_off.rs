@@ -126,8 +126,7 @@ impl Case for RoundOff {
             let points = found.rms.iter().map(|(n, rms)| (n.log10(), rms.log10())).collect();
             curves.push(Curve::marked(name.clone(), points, i));
         }
-        let (x, y) =
-            (Axis::log10("steps"), Axis::log10("change of the modified energy, rms of 32 phases, as a part of H"));
+        let (x, y) = (Axis::log10("steps"), Axis::log10("change as a part of H, rms of 32 phases"));
         finding.chart(
             Chart::new("Round-off of the modified energy", x, y, curves),
             "Kepler's problem with e = 0.2 and steps of 1/100 for each evaluation.",
