@@ -42,8 +42,8 @@ own error is estimated. Times are those of the bare steps of tables that are rea
 pub(crate) struct Arguments {
     #[command(flatten)]
     posed: PosedArguments,
-    /// Shipped schemes or files of tables, such as yoshida4,mine.toml; +mine.toml adds to the default ones, all are those of the
-    /// catalogue that are valid for the kinetic energy [default: a dozen that are]
+    /// Shipped schemes or files of tables, such as yoshida4,mine.toml; +mine.toml adds to the default ones, `all` are those of the
+    /// catalogue that are valid for the kinetic energy, `near-integrable` those with orders for A + εB [default: a dozen that are]
     #[arg(long, value_name = "NAME|FILE,…", value_delimiter = ',')]
     schemes: Vec<String>,
     /// Step sizes, exact, which the end of the runs must be multiples of, such as 1/10,1/20 [default: from the stability limit down to
@@ -100,15 +100,25 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Words for several shipped schemes.
+const ALL: &str = "all";
+const NEAR_INTEGRABLE: &str = "near-integrable";
+
+/// Whether a shipped table has orders for A + εB.
+fn is_near_integrable(name: &str) -> bool {
+    shadowstep_schemes::shipped_proved(name).is_some_and(|proved| !proved.proof.near_integrable.is_empty())
+}
+
 /// The schemes, each once, that are valid for the system and have the digits of the runs.
 pub(crate) fn schemes(words: &[String], posed: &Posed) -> Result<Vec<NamedScheme>, Error> {
     let system = &posed.described.system;
     let (added, mut named): (Vec<&str>, Vec<&str>) =
         words.iter().map(String::as_str).partition(|word| word.starts_with('+'));
-    let all = named.contains(&"all");
-    if all {
-        named.retain(|word| *word != "all");
-        named.extend(shadowstep::tables::shipped_names());
+    let all = named.contains(&ALL);
+    let is_group = |word: &&str| [ALL, NEAR_INTEGRABLE].contains(word);
+    if named.iter().any(is_group) {
+        named.retain(|word| !is_group(&word));
+        named.extend(shadowstep::tables::shipped_names().into_iter().filter(|name| all || is_near_integrable(name)));
     } else if named.is_empty() {
         named.extend(default_schemes(system.has_general_kinetic()));
     }

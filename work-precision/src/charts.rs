@@ -7,6 +7,8 @@ use crate::of::Of;
 use crate::size::Size;
 use crate::study::{Cost, Study};
 
+/// log₁₀ of the largest error that is drawn, as a part of the positions' size or of H: what is larger is lost.
+const LARGEST: f64 = 1.0;
 /// So many curves can be told apart.
 const MOST_CURVES: usize = 12;
 /// A scheme that does not meet an error counts as one that needs so many times the least.
@@ -48,7 +50,9 @@ impl Study<'_> {
             Cost::Seconds => "time of the steps in seconds",
         });
         let y = Axis::log10(of.name());
-        let curves: Vec<_> = self.schemes.iter().map(|studied| studied.curve(of, cost)).collect();
+        let mut curves: Vec<_> = self.schemes.iter().map(|studied| studied.curve(of, cost)).collect();
+        let largest = LARGEST + if of == Of::Position { self.reference.size().log10() } else { 0.0 };
+        without_lost_runs(&mut curves, largest);
         let shown = shown(&curves);
         let named = shown.iter().map(|&place| (self.schemes[place].scheme.name.clone(), curves[place].clone()));
         let curve = |(n, (name, curve)): (usize, (String, best::Curve))| {
@@ -60,6 +64,14 @@ impl Study<'_> {
             chart.notes.push(format!("The {} of {} schemes that need the least.", shown.len(), curves.len()));
         }
         chart
+    }
+}
+
+/// Leaves out errors above the largest one, unless there are no others: energies in other units, if H(0) is 0.
+fn without_lost_runs(curves: &mut [best::Curve], largest: f64) {
+    let is_kept = |point: &(f64, f64)| point.1 <= largest;
+    if largest.is_finite() && curves.iter().flatten().any(is_kept) {
+        curves.iter_mut().for_each(|curve| curve.retain(is_kept));
     }
 }
 
@@ -93,6 +105,16 @@ fn until_round_off(curve: Vec<(f64, f64)>) -> impl Iterator<Item = (f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn runs_that_are_lost_are_not_drawn() {
+        let mut curves = vec![vec![(1.0, 250.0), (2.0, -1.0), (4.0, -3.0)], vec![(1.0, 0.5)]];
+        without_lost_runs(&mut curves, 1.0);
+        assert_eq!(curves, [vec![(2.0, -1.0), (4.0, -3.0)], vec![(1.0, 0.5)]]);
+        let mut in_other_units = vec![vec![(1.0, 8.0), (2.0, 7.0)]];
+        without_lost_runs(&mut in_other_units, 1.0);
+        assert_eq!(in_other_units, [[(1.0, 8.0), (2.0, 7.0)]]);
+    }
 
     /// Twenty schemes of order 2, of which each is a little more expensive than the last; and one that is the best for small errors only.
     #[test]

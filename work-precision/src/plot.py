@@ -7,6 +7,7 @@
 import csv
 import pathlib
 import sys
+from math import inf, log
 
 import matplotlib
 
@@ -19,20 +20,48 @@ COSTS = {"evaluations": "evaluations of the gradient", "seconds": "time of the s
 ERRORS = {"position_error": "error of the position at the end", "energy_error": "largest error of $H$"}
 
 
-def curves(path):
-    """Of each scheme its rows, in their order."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+# So many curves can be told apart.
+MOST_CURVES = 12
+
+
+def read(path):
+    """Of each scheme its rows, in their order; and the largest errors that are drawn: what is larger is lost."""
+    lines = path.read_text(encoding="utf-8").splitlines()
     schemes = {}
-    for row in rows:
+    for row in csv.DictReader(line for line in lines if not line.startswith("#")):
         schemes.setdefault(row["scheme"], []).append(row)
-    return schemes
+    size = next(line.split()[-1].rstrip(".") for line in lines if line.startswith("# The largest coordinate"))
+    return schemes, {"position_error": 10 * float(size), "energy_error": 10.0}
 
 
-def plot(schemes, cost, error):
+def curve(rows, cost, error, largest):
+    points = [(float(row[cost]), float(row[error])) for row in rows if row[error] not in ("", "0")]
+    return [point for point in points if point[1] <= largest]
+
+
+def cost_of(points, error):
+    """What a scheme pays for an error."""
+    return next((cost for cost, found in points if found <= error), inf)
+
+
+def best(curves):
+    """Those that need the least for errors of 1e-1, 1e-2, ... in the mean."""
+    extra = dict.fromkeys(curves, 0.0)
+    for error in (10.0**-decade for decade in range(1, 300)):
+        costs = {name: cost_of(points, error) for name, points in curves.items()}
+        lowest = min(costs.values())
+        if lowest == inf:
+            break
+        for name, cost in costs.items():
+            extra[name] += log(min(cost / lowest, 100.0))
+    chosen = sorted(curves, key=extra.get)[:MOST_CURVES]
+    return {name: points for name, points in curves.items() if name in chosen}
+
+
+def plot(schemes, cost, error, largest):
     figure, axes = plt.subplots(figsize=(6.3, 4.2))
-    for n, (name, rows) in enumerate(schemes.items()):
-        points = [(float(row[cost]), float(row[error])) for row in rows if row[error] not in ("", "0")]
+    curves = {name: curve(rows, cost, error, largest) for name, rows in schemes.items()}
+    for n, (name, points) in enumerate(best({name: points for name, points in curves.items() if points}).items()):
         dashes = "-" if n < len(COLOURS) else "--"
         style = {"color": COLOURS[n % len(COLOURS)], "marker": MARKERS[n % len(MARKERS)], "linestyle": dashes}
         axes.plot(*zip(*points), label=name, markersize=4, linewidth=1, fillstyle="none", **style)
@@ -44,10 +73,10 @@ def plot(schemes, cost, error):
 
 def main():
     folder = pathlib.Path(__file__).resolve().parent
-    schemes = curves(folder / "work-precision.csv")
+    schemes, largest = read(folder / "work-precision.csv")
     for cost in COSTS:
         for error in ERRORS:
-            figure = plot(schemes, cost, error)
+            figure = plot(schemes, cost, error, largest[error])
             for kind in sys.argv[1:] or ["pdf"]:
                 name = folder / f"{error.split('_')[0]}-{'forces' if cost == 'evaluations' else 'time'}.{kind}"
                 figure.savefig(name, bbox_inches="tight")

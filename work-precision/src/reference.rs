@@ -96,6 +96,12 @@ impl Reference {
         self.errors.iter().copied().fold(Size::ZERO, |a, b| if b > a { b } else { a })
     }
 
+    /// The largest coordinate of its positions.
+    pub(crate) fn size(&self) -> f64 {
+        let number = |text: &String| text.parse::<f64>().map_or(0.0, f64::abs);
+        self.positions.iter().flatten().map(number).fold(0.0, f64::max)
+    }
+
     /// The estimated error of a sample.
     pub(crate) fn error_at(&self, sample: usize) -> Size {
         self.errors[sample]

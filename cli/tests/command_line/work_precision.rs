@@ -76,3 +76,16 @@ fn wrong_requests_are_refused() {
     let refused = shadowstep(&format!("work-precision kepler --until 1 --steps 1/10 --out {out}"));
     assert!(refused.code == 2 && refused.err.contains("without results of this program beside it"), "{}", refused.err);
 }
+
+#[test]
+fn schemes_for_near_integrable_systems_are_a_group() {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path().display();
+    let command = "work-precision outer-solar-system --until 2000 --steps 100,50 --schemes near-integrable,+yoshida4";
+    quietly(&format!("{command} --out {out}"));
+    let rows = objects(&fs::read_to_string(folder.path().join("work-precision.jsonl")).unwrap());
+    let mut names: Vec<_> = rows.iter().map(|row| text(row, "scheme")).collect();
+    names.dedup();
+    assert!(names.contains(&"aba864") && names.contains(&"saba3") && !names.contains(&"pefrl"), "{names:?}");
+    assert_eq!(names.last(), Some(&"yoshida4"));
+}
