@@ -117,7 +117,7 @@ pub(crate) fn schemes(words: &[String], posed: &Posed) -> Result<Vec<NamedScheme
     let all = named.contains(&ALL);
     let is_group = |word: &&str| [ALL, NEAR_INTEGRABLE].contains(word);
     if named.iter().any(is_group) {
-        named.retain(|word| !is_group(&word));
+        named.retain(|word| !is_group(word));
         named.extend(shadowstep::tables::shipped_names().into_iter().filter(|name| all || is_near_integrable(name)));
     } else if named.is_empty() {
         named.extend(default_schemes(system.has_general_kinetic()));
