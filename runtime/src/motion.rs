@@ -2,16 +2,12 @@
 
 use thiserror::Error;
 
+use crate::coordinates::Coordinates;
 use crate::kinetic::{Kinetic, MassError};
 use crate::number::Number;
 use crate::potential::Potential;
-use crate::system::{Increments, System};
-
-/// Holds the coordinates of a state: an array `[N; D]`, or a `Vec<N>` or `Box<[N]>` where the dimension is known at run
-/// time only.
-pub trait Coordinates<N>: AsRef<[N]> + AsMut<[N]> + Clone {}
-
-impl<N, V: AsRef<[N]> + AsMut<[N]> + Clone> Coordinates<N> for V {}
+use crate::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
+use crate::system::{Increments, Remainders, System};
 
 /// What is kept at the present q.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,8 +20,12 @@ enum Kept {
 /// A system H = T(p) + U(q) and its state.
 ///
 /// The gradient of the last kick is kept as long as q stays, so that the next step's first kick costs no evaluation.
+///
+/// `S` is [how increments are added](crate::summation) to q and p: plainly, [compensated](Motion::compensated) or in
+/// [fixed point](Motion::fixed_point).
 #[derive(Clone, Debug)]
-pub struct Motion<N, V, P, K> {
+pub struct Motion<N, V, P, K, S = Plain> {
+    summation: S,
     potential: P,
     kinetic: K,
     q: V,
@@ -65,6 +65,7 @@ where
         let mut kinetic_scratch = vec![zero.clone(); kinetic.scratch()];
         kinetic.prepare(&mut kinetic_scratch, &context);
         Ok(Motion {
+            summation: Plain,
             scratch,
             kinetic_scratch,
             gradient: p.clone(),
@@ -80,6 +81,103 @@ where
         })
     }
 
+    /// The same system with compensated sums: the round-off of a kick or drift is ε times the increment, in place of ε times the
+    /// coordinate, so that it is smaller by a factor like h. See [`Compensated`]; `docs/round-off.md` has what it gains and costs.
+    ///
+    /// ```
+    /// use shadowstep::{Motion, Stepper, UnitMasses, potential, tables::shipped};
+    ///
+    /// potential! { #[derive(Clone)] pub struct Spring; U(q) = q^2/2 }
+    ///
+    /// let stepper = Stepper::new(shipped("stormer-verlet").unwrap(), "1/1024")?;
+    /// let mut plain = Motion::new(Spring, UnitMasses, [0.6], [0.8])?;
+    /// let mut compensated = plain.clone().compensated();
+    /// // of an oscillator the scheme conserves this exactly, but for round-off
+    /// let modified = |q: &[f64], p: &[f64]| (p[0] * p[0] + (1.0 - 0.25 / 1048576.0) * q[0] * q[0]) / 2.0;
+    /// let before = modified(plain.q(), plain.p());
+    /// for _ in 0..1_000_000 {
+    ///     stepper.step(&mut plain);
+    ///     stepper.step(&mut compensated);
+    /// }
+    /// let [plain, compensated] = [modified(plain.q(), plain.p()), modified(compensated.q(), compensated.p())];
+    /// assert!((plain - before).abs() > 1e-15 && (compensated - before).abs() < 3e-16);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn compensated(self) -> Motion<N, V, P, K, Compensated<N, V>> {
+        let summation = Compensated::of(&self.q, &self.context());
+        self.with(summation)
+    }
+
+    /// The same system with compensated sums if `compensated` is true: for a choice at run time.
+    #[must_use]
+    pub fn compensated_if(self, compensated: bool) -> Motion<N, V, P, K, Option<Compensated<N, V>>> {
+        let summation = compensated.then(|| Compensated::of(&self.q, &self.context()));
+        self.with(summation)
+    }
+
+    fn with<S>(self, summation: S) -> Motion<N, V, P, K, S> {
+        let Motion { potential, kinetic, q, p, increments, gradient, rate, kept, .. } = self;
+        let Motion { keeps_rate, scratch, kinetic_scratch, evaluations, .. } = self;
+        Motion {
+            summation,
+            potential,
+            kinetic,
+            q,
+            p,
+            increments,
+            gradient,
+            rate,
+            kept,
+            keeps_rate,
+            scratch,
+            kinetic_scratch,
+            evaluations,
+        }
+    }
+}
+
+impl<V, P, K> Motion<f64, V, P, K>
+where
+    V: Coordinates<f64>,
+    P: Potential<f64>,
+    K: Kinetic<f64>,
+{
+    /// The same system in fixed point: [`Stepper::step_back`](crate::Stepper::step_back) undoes a step to the last bit. See [`FixedPoint`].
+    ///
+    /// The ranges are the largest |q_i| and |p_i| that a run may reach; a coordinate that leaves its range by a factor of 2 becomes NaN. The
+    /// state is rounded to 2⁻⁶² of the ranges.
+    ///
+    /// ```
+    /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, tables::shipped};
+    ///
+    /// let stepper = Stepper::new(shipped("yoshida4").unwrap(), "1/20")?;
+    /// let mut motion = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?.fixed_point([4.0; 2], [8.0; 2])?;
+    /// (0..1000).for_each(|_| stepper.step(&mut motion));
+    /// assert!((motion.q()[0] - 0.4).abs() > 0.1);
+    /// (0..1000).for_each(|_| stepper.step_back(&mut motion));
+    /// assert_eq!((motion.q(), motion.p()), ([0.4, 0.0].as_slice(), [0.0, 2.0].as_slice()));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Ranges that are not as many as coordinates, not positive or of an extreme size, or that the state exceeds.
+    pub fn fixed_point(self, q_ranges: V, p_ranges: V) -> Result<Motion<f64, V, P, K, FixedPoint<V>>, RangeError> {
+        let summation = FixedPoint::of((&self.q, &self.p), (&q_ranges, &p_ranges))?;
+        let mut motion = self.with(summation);
+        motion.settle();
+        Ok(motion)
+    }
+}
+
+impl<N, V, P, K, S> Motion<N, V, P, K, S>
+where
+    N: Number,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
+    S: Summation<N>,
+{
     /// Positions.
     pub fn q(&self) -> &[N] {
         self.q.as_ref()
@@ -100,14 +198,16 @@ where
         &self.increments
     }
 
-    /// Positions, to be changed; the kept gradient is dropped.
+    /// Positions, to be changed; the kept gradient and remainders of sums are dropped.
     pub fn q_mut(&mut self) -> &mut [N] {
         self.kept = Kept::Nothing;
+        self.summation.forget_positions();
         self.q.as_mut()
     }
 
-    /// Momenta, to be changed.
+    /// Momenta, to be changed; remainders of sums are dropped.
     pub fn p_mut(&mut self) -> &mut [N] {
+        self.summation.forget_momenta();
         self.p.as_mut()
     }
 
@@ -173,9 +273,12 @@ where
 
     #[inline]
     fn kick_with_kept_gradient(&mut self, weight: &N) {
-        for (p, gradient) in self.p.as_mut().iter_mut().zip(self.gradient.as_ref()) {
-            p.subtract_product(weight, gradient);
-        }
+        self.summation.kick(weight, self.gradient.as_ref(), self.p.as_mut());
+    }
+
+    #[inline]
+    fn settle(&mut self) {
+        self.summation.settle(self.q.as_mut(), self.p.as_mut());
     }
 }
 
@@ -266,12 +369,13 @@ pub enum MotionError {
     Masses(#[from] MassError),
 }
 
-impl<N, V, P, K> System for Motion<N, V, P, K>
+impl<N, V, P, K, S> System for Motion<N, V, P, K, S>
 where
     N: Number,
     V: Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N>,
+    S: Summation<N>,
 {
     type Number = N;
     type Class = K::Class;
@@ -291,10 +395,24 @@ where
     fn set_state(&mut self, q: &[N], p: &[N]) {
         self.q_mut().iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
         self.p_mut().iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        self.settle();
+    }
+
+    fn remainders(&self) -> Remainders<N> {
+        self.summation.remainders(self.q.as_ref(), self.p.as_ref())
+    }
+
+    fn set_remainders(&mut self, remainders: &Remainders<N>) {
+        self.summation.set_remainders(remainders);
+    }
+
+    fn is_compensated(&self) -> bool {
+        self.summation.is_compensated()
     }
 
     #[inline]
     fn kick(&mut self, weight: &N) {
+        self.settle();
         if self.kept == Kept::Nothing {
             self.evaluate(self.keeps_rate);
         }
@@ -303,6 +421,7 @@ where
 
     #[inline]
     fn kick_augmented(&mut self, weight: &N) {
+        self.settle();
         if self.kept != Kept::GradientAndRate {
             self.evaluate(true);
         }
@@ -315,17 +434,17 @@ where
 
     #[inline]
     fn drift(&mut self, weight: &N) {
-        self.kinetic.drift(weight, self.p.as_ref(), self.q.as_mut(), &mut self.kinetic_scratch);
+        self.settle();
+        let Motion { summation, kinetic, p, q, kinetic_scratch, .. } = self;
+        summation.drift(kinetic, weight, p.as_ref(), q.as_mut(), kinetic_scratch);
         self.kept = Kept::Nothing;
     }
 
     #[inline]
     fn drift_augmented(&mut self, weight: &N) {
-        let (p, q, increments) = (self.p.as_ref(), self.q.as_mut(), &mut self.increments);
-        self.kinetic.drift_augmented(weight, p, q, &mut increments.beta, &mut self.kinetic_scratch);
-        if increments.has_vectors() {
-            self.kinetic.drift(weight, p, &mut increments.q, &mut self.kinetic_scratch);
-        }
+        self.settle();
+        let Motion { summation, kinetic, p, q, increments, kinetic_scratch, .. } = self;
+        summation.drift_augmented(kinetic, weight, p.as_ref(), q.as_mut(), increments, kinetic_scratch);
         self.kept = Kept::Nothing;
     }
 

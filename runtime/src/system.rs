@@ -31,6 +31,23 @@ pub trait System {
     /// gradient.
     fn set_state(&mut self, q: &[Self::Number], p: &[Self::Number]);
 
+    /// What the state has beyond q and p, such as the remainders of [compensated sums](crate::summation): the state is q and p with
+    /// these. By default there is nothing.
+    fn remainders(&self) -> Remainders<Self::Number> {
+        Remainders::default()
+    }
+
+    /// Sets them, after [`set_state`](System::set_state), which sets them to 0. The default does nothing.
+    fn set_remainders(&mut self, remainders: &Remainders<Self::Number>) {
+        let _ = remainders;
+    }
+
+    /// Whether the round-off of a kick or drift is ε times its increment, as of compensated sums, in place of ε times q and p. By default it
+    /// is not.
+    fn is_compensated(&self) -> bool {
+        false
+    }
+
     /// The flow of B for the time `weight`: p ← p − weight·U_q(q) for B = U(q).
     fn kick(&mut self, weight: &Self::Number);
 
@@ -87,6 +104,21 @@ pub trait System {
     /// The context of the numbers.
     fn context(&self) -> <Self::Number as Number>::Context {
         self.increments().beta.context()
+    }
+}
+
+/// What a state has beyond q and p: numbers of the size of their last places, or nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remainders<N> {
+    /// Beyond q: as many, or none.
+    pub q: Vec<N>,
+    /// Beyond p, likewise.
+    pub p: Vec<N>,
+}
+
+impl<N> Default for Remainders<N> {
+    fn default() -> Self {
+        Remainders { q: Vec::new(), p: Vec::new() }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use shadowstep::kinetic::Quadratic;
-use shadowstep::{Increments, Number, Rational, Scheme, Stepper, System, ValidFor};
+use shadowstep::{Increments, Number, Rational, Remainders, Scheme, Stepper, System, ValidFor};
 
 /// A step of any system of one class.
 type Step<N, C> = Box<dyn Fn(&mut dyn System<Number = N, Class = C>)>;
@@ -37,6 +37,15 @@ impl<N: Number, C> System for Any<'_, N, C> {
     }
     fn set_state(&mut self, q: &[N], p: &[N]) {
         self.0.set_state(q, p);
+    }
+    fn remainders(&self) -> Remainders<N> {
+        self.0.remainders()
+    }
+    fn set_remainders(&mut self, remainders: &Remainders<N>) {
+        self.0.set_remainders(remainders);
+    }
+    fn is_compensated(&self) -> bool {
+        self.0.is_compensated()
     }
     fn kick(&mut self, weight: &N) {
         self.0.kick(weight);

@@ -78,7 +78,7 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     /// # Panics
     /// If there is no estimate, as after the last one.
     pub fn drift_with_progress(&mut self, mut progress: impl FnMut(i64)) -> Result<EnergyDrift<T::Number>, RunError> {
-        let mut extremes = DriftRecorder::new(self.step_size().clone());
+        let mut extremes = DriftRecorder::new(self.step_size().clone()).compensated_if(self.is_compensated());
         while let Some((n, estimate)) = self.advance()? {
             extremes.include(n, &estimate);
             progress(n);
@@ -107,20 +107,30 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
 #[derive(Clone, Debug)]
 pub struct DriftRecorder<N> {
     h: StepSize,
+    compensated: bool,
     found: Option<(EnergyDrift<N>, LowErrorStates<N>)>,
 }
 
 impl<N: Number> DriftRecorder<N> {
     /// For steps of size h.
     pub fn new(h: StepSize) -> Self {
-        DriftRecorder { h, found: None }
+        DriftRecorder { h, compensated: false, found: None }
+    }
+
+    /// Whether the steps are those of a [compensated](crate::System::is_compensated) system, whose round-off is smaller.
+    #[must_use]
+    pub fn compensated_if(mut self, compensated: bool) -> Self {
+        self.compensated = compensated;
+        self
     }
 
     /// Takes the estimate of n.
     pub fn include(&mut self, n: i64, estimate: &Estimate<'_, N>) {
-        let DriftRecorder { h, found } = self;
-        let (drift, low_error) = found
-            .get_or_insert_with(|| (EnergyDrift::begin(estimate), LowErrorStates::new(h, &estimate.value.context())));
+        let DriftRecorder { h, compensated, found } = self;
+        let (drift, low_error) = found.get_or_insert_with(|| {
+            let low_error = LowErrorStates::new(h, &estimate.value.context()).compensated_if(*compensated);
+            (EnergyDrift::begin(estimate), low_error)
+        });
         drift.include(n, estimate);
         low_error.include(n, estimate);
     }

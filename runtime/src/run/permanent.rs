@@ -91,6 +91,13 @@ impl<N: Number> LowErrorStates<N> {
         LowErrorStates { by_error: BTreeMap::new(), intervals, walk }
     }
 
+    /// Whether the steps are those of a [compensated](crate::System::is_compensated) system, whose round-off is smaller.
+    #[must_use]
+    pub fn compensated_if(mut self, compensated: bool) -> Self {
+        self.walk.set_compensated(compensated);
+        self
+    }
+
     /// Takes the estimate of the state n; one without an error is left out.
     pub fn include(&mut self, n: i64, estimate: &Estimate<'_, N>) {
         let Some(error) = estimate.error.filter(|error| error.is_finite()) else { return };

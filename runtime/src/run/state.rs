@@ -46,6 +46,11 @@ pub trait States {
     /// # Errors
     /// A state that is not finite.
     fn advance(&mut self) -> Result<Option<State<'_, Self::Number>>, RunError>;
+
+    /// Whether the round-off of a step is that of its increments: see [`System::is_compensated`]. By default it is not.
+    fn is_compensated(&self) -> bool {
+        false
+    }
 }
 
 impl<T: States + ?Sized> States for &mut T {
@@ -53,6 +58,10 @@ impl<T: States + ?Sized> States for &mut T {
 
     fn advance(&mut self) -> Result<Option<State<'_, T::Number>>, RunError> {
         (**self).advance()
+    }
+
+    fn is_compensated(&self) -> bool {
+        (**self).is_compensated()
     }
 }
 

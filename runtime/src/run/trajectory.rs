@@ -77,7 +77,7 @@ impl<'s, S: Scheme + ValidFor<M::Class>, M: System> Trajectory<'s, S, M> {
     /// Makes the states −reach, …, 0 from the present one, which is 0, and returns to it.
     pub(super) fn step_back(&mut self, reach: usize) -> Result<(), RunError> {
         let Trajectory { stepper, system, before, .. } = self;
-        let start = Stored::of(system);
+        let (start, remainders) = (Stored::of(system), system.remainders());
         let mut later = start.clone();
         for n in 1..=reach as i64 {
             stepper.step_back_augmented(system);
@@ -91,6 +91,7 @@ impl<'s, S: Scheme + ValidFor<M::Class>, M: System> Trajectory<'s, S, M> {
         later.increments.assign_zero();
         before.push(later);
         system.set_state(&start.q, &start.p);
+        system.set_remainders(&remainders);
         self.n = -(reach as i64) - 1;
         Ok(())
     }
@@ -129,6 +130,10 @@ impl<S: Scheme + ValidFor<M::Class>, M: System> States for Trajectory<'_, S, M> 
         let state = State::of(&self.system, n);
         state.check()?;
         Ok(Some(state))
+    }
+
+    fn is_compensated(&self) -> bool {
+        self.system.is_compensated()
     }
 }
 

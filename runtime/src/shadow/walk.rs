@@ -1,15 +1,23 @@
 //! What the round-off of the steps makes of the modified energy.
 
+use std::collections::VecDeque;
+
 use crate::Rational;
 use crate::number::{Number, epsilon};
+
+/// Second differences need so many states.
+const STATES: usize = 3;
 
 /// The walk that round-off is expected to make, √(Σ kick²), by Brouwer's law: errors of the states are independent, so that the
 /// energy goes like the square root of the number of steps (D. Brouwer, Astron. J. 46 (1937) 149).
 ///
-/// A step rounds q and p by c ε|q| and c ε|p| at least, which moves H by U_q δq and T_p δp; T_p is Δq/h, and U_q is −Δp/h.
+/// A step rounds q and p by c ε|q| and c ε|p| at least, which moves H by U_q δq and T_p δp; T_p is Δq/h, and U_q is −Δp/h. Of
+/// compensated sums the increments are rounded.
 #[derive(Clone, Debug)]
 pub(crate) struct Walk<N> {
-    last: Option<(Vec<N>, Vec<N>)>,
+    compensated: bool,
+    /// The newest states, the newest one last.
+    states: VecDeque<(Vec<N>, Vec<N>)>,
     /// (c ε/h)²
     factor: N,
     /// Σ ((Δq p)² + (Δp q)²)
@@ -21,18 +29,39 @@ pub(crate) struct Walk<N> {
 impl<N: Number> Walk<N> {
     pub(crate) fn new(h: &Rational, context: &N::Context) -> Self {
         let zero = || N::zero(context);
-        Walk { last: None, factor: kick_factor(&epsilon(context), h, context), sum: zero(), x: zero(), y: zero() }
+        Walk {
+            compensated: false,
+            states: VecDeque::new(),
+            factor: kick_factor(&epsilon(context), h, context),
+            sum: zero(),
+            x: zero(),
+            y: zero(),
+        }
+    }
+
+    /// Whether the sums are compensated.
+    pub(crate) fn set_compensated(&mut self, compensated: bool) {
+        self.compensated = compensated;
     }
 
     /// Takes the next state.
     pub(crate) fn include(&mut self, q: &[N], p: &[N]) {
-        let Some((last_q, last_p)) = &mut self.last else {
-            self.last = Some((q.to_vec(), p.to_vec()));
-            return;
-        };
-        add_squares(&mut self.sum, [last_q, q], [last_p, p], [&mut self.x, &mut self.y]);
-        last_q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
-        last_p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        if self.states.len() < STATES {
+            self.states.push_back((q.to_vec(), p.to_vec()));
+        } else {
+            self.states.rotate_left(1);
+            let (own_q, own_p) = &mut self.states[STATES - 1];
+            own_q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
+            own_p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        }
+        let Walk { compensated, states, sum, x, y, .. } = self;
+        match (states.iter().rev().collect::<Vec<_>>().as_slice(), *compensated) {
+            ([(q1, p1), (q0, p0), ..], false) => add_squares(sum, [q0, q1], [p0, p1], [x, y]),
+            ([(q2, p2), (q1, p1), (q0, p0)], true) => {
+                add_squares_of_increments(sum, [q0, q1, q2], [p0, p1, p2], [x, y]);
+            }
+            _ => {}
+        }
     }
 
     /// The walk over all steps.
@@ -51,6 +80,30 @@ pub(super) fn add_squares<N: Number>(sum: &mut N, [q0, q1]: [&[N]; 2], [p0, p1]:
             x.assign_difference(after, before);
             y.assign_product(x, rounded);
             sum.add_product(y, y);
+        }
+    }
+}
+
+/// Adds Σ (2 (Δq Δp)² + (δ²q p)² + (δ²p q)²), likewise: Δq and Δp are rounded by cε of them, and the force is that at q rounded by
+/// cε|q|, which changes it by h U_qq cε q, with h U_qq Δq = −δ²p; so does the drift with p.
+pub(super) fn add_squares_of_increments<N: Number>(
+    sum: &mut N,
+    [q0, q1, q2]: [&[N]; 3],
+    [p0, p1, p2]: [&[N]; 3],
+    [x, y]: [&mut N; 2],
+) {
+    for i in 0..q2.len() {
+        x.assign_difference(&q2[i], &q1[i]);
+        y.assign_difference(&p2[i], &p1[i]);
+        x.multiply(y);
+        sum.add_product(x, x);
+        sum.add_product(x, x);
+        for [x0, x1, x2, rounded] in [[&q0[i], &q1[i], &q2[i], &p2[i]], [&p0[i], &p1[i], &p2[i], &q2[i]]] {
+            x.assign_sum(x0, x2);
+            x.subtract(x1);
+            x.subtract(x1);
+            x.multiply(rounded);
+            sum.add_product(x, x);
         }
     }
 }

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::roughness::{Rough, Roughness};
 use crate::number::{Number, epsilon};
 use crate::shadow::estimator::EstimatorError;
-use crate::shadow::walk::{add_squares, kick_factor};
+use crate::shadow::walk::{add_squares, add_squares_of_increments, kick_factor};
 use crate::step_size::StepSize;
 use crate::system::{Increments, System};
 
@@ -17,10 +17,12 @@ const STATES: usize = 5;
 #[derive(Clone, Debug)]
 pub(super) struct Recent<N> {
     /// The newest last.
-    q: [Vec<N>; 2],
+    q: [Vec<N>; 3],
     p: [Vec<N>; STATES],
     /// Evaluations of the gradient up to the state before the newest, and up to the newest.
     evaluations: [u64; 2],
+    /// Whether round-off is that of the increments.
+    compensated: bool,
     /// (c ε/h)²
     factor: N,
     /// Σ kick² over all windows, and that of the newest.
@@ -85,6 +87,7 @@ impl<N: Number> Recent<N> {
             q: std::array::from_fn(|_| zeros()),
             p: std::array::from_fn(|_| zeros()),
             evaluations: [0; 2],
+            compensated: false,
             factor,
             kicks: zero(),
             square_kick: zero(),
@@ -106,10 +109,11 @@ impl<N: Number> Recent<N> {
     pub(super) fn push<M: System<Number = N>>(&mut self, system: &M, added: Option<&Increments<N>>) {
         self.q.rotate_left(1);
         self.p.rotate_left(1);
-        let ([_, q], [.., p]) = (&mut self.q, &mut self.p);
+        let ([.., q], [.., p]) = (&mut self.q, &mut self.p);
         q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
         p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
         self.evaluations = [self.evaluations[1], system.evaluations()];
+        self.compensated = system.is_compensated();
         self.roughness.push(system.q(), system.p(), added);
         if let Some(added) = added.filter(|added| added.has_vectors()) {
             self.mismatch |= self.differs_from(added);
@@ -120,7 +124,7 @@ impl<N: Number> Recent<N> {
     ///
     /// Increments that a plain step left behind are those of an earlier step, or 0.
     fn differs_from(&mut self, added: &Increments<N>) -> bool {
-        let Recent { q: [q0, q1], p: [.., p0, p1], rounding, x, y, z, .. } = self;
+        let Recent { q: [_, q0, q1], p: [.., p0, p1], rounding, x, y, z, .. } = self;
         [(q0, q1, &added.q), (p0, p1, &added.p)].into_iter().any(|(before, after, added)| {
             y.assign_zero(); // what is off, 1000 times, squared
             z.assign_zero(); // what it may be
@@ -141,7 +145,7 @@ impl<N: Number> Recent<N> {
     /// Ends a window of `states` states.
     pub(super) fn end(&mut self, states: usize) {
         self.mismatches += u64::from(std::mem::take(&mut self.mismatch));
-        self.moves |= self.q[0] != self.q[1];
+        self.moves |= self.q[1] != self.q[2];
         self.add_kick();
         self.add_action();
         if states >= STATES {
@@ -151,11 +155,16 @@ impl<N: Number> Recent<N> {
         self.roughness.end(angle, &self.square_kick);
     }
 
-    /// Adds s (cε/h)² Σ ((Δq p)² + (Δp q)²): T_p is Δq/h, U_q is −Δp/h, and s stages round q and p by cε|q| and cε|p| each.
+    /// Adds s (cε/h)² Σ ((Δq p)² + (Δp q)²): T_p is Δq/h, U_q is −Δp/h, and s stages round q and p by cε|q| and cε|p| each; where sums are
+    /// compensated, Δq and Δp.
     fn add_kick(&mut self) {
-        let Recent { q: [q0, q1], p: [.., p0, p1], x, y, z, .. } = self;
+        let Recent { q: [q0, q1, q2], p: [.., p0, p1, p2], x, y, z, .. } = self;
         z.assign_zero();
-        add_squares(z, [q0, q1], [p0, p1], [x, y]);
+        if self.compensated {
+            add_squares_of_increments(z, [q0, q1, q2], [p0, p1, p2], [x, y]);
+        } else {
+            add_squares(z, [q1, q2], [p1, p2], [x, y]);
+        }
         let stages = self.evaluations[1].saturating_sub(self.evaluations[0]).max(1);
         z.multiply_integer(i32::try_from(stages).unwrap_or(i32::MAX));
         self.square_kick.assign_product(z, &self.factor);
@@ -163,7 +172,7 @@ impl<N: Number> Recent<N> {
     }
 
     fn add_action(&mut self) {
-        let Recent { q: [q0, q1], p: [.., p0, p1], action, x, y, .. } = self;
+        let Recent { q: [_, q0, q1], p: [.., p0, p1], action, x, y, .. } = self;
         for (((q0, q1), p0), p1) in q0.iter().zip(q1).zip(p0).zip(p1) {
             x.assign_difference(q1, q0);
             y.assign_sum(p0, p1);

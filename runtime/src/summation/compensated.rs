@@ -1,0 +1,115 @@
+//! Compensated sums: each coordinate with the remainder of its last sum.
+
+use super::Summation;
+use crate::coordinates::Coordinates;
+use crate::kinetic::Kinetic;
+use crate::number::Number;
+use crate::system::{Increments, Remainders};
+
+/// q and p with the remainder of each sum, which is added to the next increment.
+///
+/// An increment δ changes a coordinate a and its remainder e by y = δ + e, rounded: a' is a + y rounded, and e' = y − (a' − a). Where y is not
+/// larger than a, no part of it is lost: a' + e' = a + y exactly. Elsewhere, as where a coordinate passes 0, ε y may be lost. So the
+/// round-off of a kick or drift is of the size ε δ, where a plain sum has ε a.
+///
+/// What is left comes from the increments: from the force at the rounded q, and its own rounding. Exact products and the remainder of p in
+/// drifts were tried, and gain a tenth at most.
+///
+/// W. Kahan, *Further remarks on reducing truncation errors*, Comm. ACM 8 (1965) 40, and for steps of integrators O. Møller,
+/// BIT 5 (1965) 37; E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed. (2006), section VIII.5.
+#[derive(Clone, Debug)]
+pub struct Compensated<N, V> {
+    q: V,
+    p: V,
+    /// What a drift adds to q.
+    increment: V,
+    /// Intermediate results.
+    y: N,
+    sum: N,
+}
+
+impl<N: Number, V: Coordinates<N>> Compensated<N, V> {
+    /// Remainders of 0, for coordinates like these.
+    pub(crate) fn of(coordinates: &V, context: &N::Context) -> Self {
+        let mut zeros = coordinates.clone();
+        zeros.as_mut().iter_mut().for_each(N::assign_zero);
+        let zero = || N::zero(context);
+        Compensated { q: zeros.clone(), p: zeros.clone(), increment: zeros, y: zero(), sum: zero() }
+    }
+
+    /// q ← q + increment
+    #[inline]
+    fn add_increment(&mut self, q: &mut [N]) {
+        let (mut y, mut sum) = (self.y.register(), self.sum.register());
+        for ((q, remainder), increment) in q.iter_mut().zip(self.q.as_mut()).zip(self.increment.as_ref()) {
+            y.assign_sum(remainder, increment);
+            add(q, remainder, &y, &mut sum);
+        }
+    }
+}
+
+/// a ← a + y, and what is rounded away is the remainder.
+#[inline]
+fn add<N: Number>(a: &mut N, remainder: &mut N, y: &N, sum: &mut N) {
+    sum.assign_sum(a, y);
+    remainder.assign_difference(a, sum);
+    remainder.add(y);
+    a.assign(sum);
+}
+
+impl<N: Number, V: Coordinates<N>> Summation<N> for Compensated<N, V> {
+    #[inline]
+    fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]) {
+        let (mut y, mut sum) = (self.y.register(), self.sum.register());
+        for ((p, remainder), gradient) in p.iter_mut().zip(self.p.as_mut()).zip(gradient) {
+            y.assign(remainder);
+            y.subtract_product(weight, gradient);
+            add(p, remainder, &y, &mut sum);
+        }
+    }
+
+    #[inline]
+    fn drift<K: Kinetic<N>>(&mut self, kinetic: &K, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
+        self.increment.as_mut().iter_mut().for_each(N::assign_zero);
+        kinetic.drift(weight, p, self.increment.as_mut(), scratch);
+        self.add_increment(q);
+    }
+
+    #[inline]
+    fn drift_augmented<K: Kinetic<N>>(
+        &mut self,
+        kinetic: &K,
+        weight: &N,
+        p: &[N],
+        q: &mut [N],
+        increments: &mut Increments<N>,
+        scratch: &mut [N],
+    ) {
+        self.increment.as_mut().iter_mut().for_each(N::assign_zero);
+        kinetic.drift_augmented(weight, p, self.increment.as_mut(), &mut increments.beta, scratch);
+        increments.q.iter_mut().zip(self.increment.as_ref()).for_each(|(own, increment)| own.add(increment));
+        self.add_increment(q);
+    }
+
+    fn forget_positions(&mut self) {
+        self.q.as_mut().iter_mut().for_each(N::assign_zero);
+    }
+
+    fn forget_momenta(&mut self) {
+        self.p.as_mut().iter_mut().for_each(N::assign_zero);
+    }
+
+    fn remainders(&self, _: &[N], _: &[N]) -> Remainders<N> {
+        Remainders { q: self.q.as_ref().to_vec(), p: self.p.as_ref().to_vec() }
+    }
+
+    fn set_remainders(&mut self, remainders: &Remainders<N>) {
+        for (own, given) in [(self.q.as_mut(), &remainders.q), (self.p.as_mut(), &remainders.p)] {
+            own.iter_mut().zip(given).for_each(|(own, given)| own.assign(given));
+        }
+    }
+
+    fn is_compensated(&self) -> bool {
+        true
+    }
+}
