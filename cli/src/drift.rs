@@ -177,8 +177,9 @@ impl Computation for Measurement<'_> {
         let Measurement { selection, propagator, run, controls, progress, interrupt, summarised } = self;
         let settings = selection.estimator.clone().with_errors(true);
         let system = &selection.problem.system;
+        let compensated = selection.arithmetic.is_compensated() && propagator.scheme().is_some();
         let begin = Instant::now();
-        let estimates = Estimates { system, propagator, run, settings: &settings, summarised };
+        let estimates = Estimates { system, propagator, run, compensated, settings: &settings, summarised };
         let (found, finished) = measure::<N>(estimates, context, |n| {
             progress.reach(n);
             interrupt.check(run, n, NOT_RESUMED)

@@ -30,6 +30,9 @@ pub(crate) struct RunArguments {
     /// Double precision (f64) instead of --digits
     #[arg(long, conflicts_with = "digits")]
     pub(crate) double: bool,
+    /// Double precision in which positions and momenta are sums with remainders: less round-off in long runs, for up to half more time
+    #[arg(long, conflicts_with_all = ["digits", "double"])]
+    pub(crate) compensated: bool,
     /// How the modified energy is estimated
     #[arg(long, value_name = "NAME", default_value = EstimatorSettings::NAMES[0], value_parser = words(EstimatorSettings::NAMES, EstimatorSettings::SUMMARIES))]
     pub(crate) estimator: String,

@@ -110,8 +110,8 @@ impl Selection {
 }
 
 fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Error> {
-    if arguments.double {
-        return Ok(Arithmetic::Double);
+    if arguments.double || arguments.compensated {
+        return Ok(if arguments.compensated { Arithmetic::Compensated } else { Arithmetic::Double });
     }
     let arithmetic = Arithmetic::with_digits(arguments.digits);
     arithmetic.map_err(|error| Error::usage(error.to_string(), "use --digits 120"))

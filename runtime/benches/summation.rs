@@ -59,7 +59,11 @@ where
     let contestants = vec![
         contestant("plain sums", start.clone(), h),
         contestant("compensated sums", start.clone().compensated(), h),
-        contestant("fixed point", start.fixed_point(q_ranges, p_ranges).expect("within the ranges"), h),
+        contestant(
+            "fixed point",
+            start.fixed_point(q_ranges.as_ref(), p_ranges.as_ref()).expect("within the ranges"),
+            h,
+        ),
     ];
     compare(title, contestants, repetitions);
 }

@@ -152,7 +152,7 @@ where
     /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, tables::shipped};
     ///
     /// let stepper = Stepper::new(shipped("yoshida4").unwrap(), "1/20")?;
-    /// let mut motion = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?.fixed_point([4.0; 2], [8.0; 2])?;
+    /// let mut motion = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?.fixed_point(&[4.0; 2], &[8.0; 2])?;
     /// (0..1000).for_each(|_| stepper.step(&mut motion));
     /// assert!((motion.q()[0] - 0.4).abs() > 0.1);
     /// (0..1000).for_each(|_| stepper.step_back(&mut motion));
@@ -162,8 +162,12 @@ where
     ///
     /// # Errors
     /// Ranges that are not as many as coordinates, not positive or of an extreme size, or that the state exceeds.
-    pub fn fixed_point(self, q_ranges: V, p_ranges: V) -> Result<Motion<f64, V, P, K, FixedPoint<V>>, RangeError> {
-        let summation = FixedPoint::of((&self.q, &self.p), (&q_ranges, &p_ranges))?;
+    pub fn fixed_point(
+        self,
+        q_ranges: &[f64],
+        p_ranges: &[f64],
+    ) -> Result<Motion<f64, V, P, K, FixedPoint<V>>, RangeError> {
+        let summation = FixedPoint::of((&self.q, &self.p), (q_ranges, p_ranges))?;
         let mut motion = self.with(summation);
         motion.settle();
         Ok(motion)

@@ -122,6 +122,8 @@ macro_rules! number_types {
 number_types! {
     /// Double precision, `f64`.
     Double: f64, "double", "double precision", 16;
+    /// Double precision with [compensated sums](shadowstep::summation::Compensated).
+    Compensated: f64, "compensated", "double precision, compensated sums", 16;
 }
 
 /// Whether a number neither overflows nor becomes 0 in a number type.
@@ -151,6 +153,11 @@ impl Computation for HasSquare<'_> {
 pub const ANY_SIZE: &str = "write digits = 16 in [run] for numbers of any size";
 
 impl Arithmetic {
+    /// Whether q and p are sums with remainders.
+    pub fn is_compensated(self) -> bool {
+        matches!(self, Arithmetic::Compensated)
+    }
+
     /// Multiprecision numbers with this many decimal digits.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use shadowstep::run::{RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::EstimatorSettings;
-use shadowstep::{MotionError, Number, Scheme, Stepper, System, ValidFor};
+use shadowstep::{MotionError, Number, Remainders, Scheme, Stepper, System, ValidFor};
 
 use crate::error::Error;
 use crate::note::Note;
@@ -12,8 +12,8 @@ use crate::observer::Observer;
 use crate::results::{Checkpoint, ModifiedEnergy, Row, Rows, SavedState};
 use crate::run::Run;
 use crate::scene::{CheckpointInterval, Scene};
-use crate::snapshots::{Snapshots, State};
-use crate::start::Work;
+use crate::snapshots::{Snapshot, Snapshots};
+use crate::start::{Steps, Work};
 use crate::summary::Summary;
 use crate::watch::{Energies, Watch};
 
@@ -45,10 +45,10 @@ pub(crate) fn follow<N: Number + 'static>(
     checkpoint: Option<&Checkpoint>,
     observer: &mut dyn Observer,
 ) -> Result<Ended, Error> {
-    let mut state = scene.system.start::<N>(context);
+    let (mut state, mut remainders) = (scene.system.start::<N>(context), Remainders::default());
     let saved = checkpoint.and_then(|checkpoint| checkpoint.state.as_ref());
     if let Some(saved) = saved {
-        state = saved.numbers(context).ok_or_else(|| unreadable(saved.n))?;
+        (state, remainders) = saved.numbers(context).ok_or_else(|| unreadable(saved.n))?;
     }
     let recorder = Recorder {
         scene,
@@ -60,8 +60,10 @@ pub(crate) fn follow<N: Number + 'static>(
         last_state: Instant::now(),
         observer,
         from: saved.map(|saved| saved.n),
+        remainders,
     };
-    let steps = (&scene.scheme.scheme, &scene.h);
+    let compensated = scene.arithmetic.is_compensated();
+    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated };
     scene.system.with(steps, state, context, recorder).map_err(|error| inconsistent(&error))?
 }
 
@@ -90,16 +92,19 @@ struct Recorder<'a, 'r, N: Number> {
     observer: &'a mut dyn Observer,
     /// The state from which the run is resumed; `None` at its beginning.
     from: Option<i64>,
+    /// Those of that state.
+    remainders: Remainders<N>,
 }
 
 impl<N: Number + 'static> Work<N> for Recorder<'_, '_, N> {
     type Output = Result<Ended, Error>;
 
-    fn with<S, M>(mut self, stepper: &Stepper<S, N>, system: M) -> Self::Output
+    fn with<S, M>(mut self, stepper: &Stepper<S, N>, mut system: M) -> Self::Output
     where
         S: Scheme + Clone + ValidFor<M::Class> + 'static,
         M: System<Number = N> + 'static,
     {
+        system.set_remainders(&self.remainders);
         match &self.scene.output.modified_energy {
             None => self.plain(stepper, system, self.from.unwrap_or(0)),
             Some((settings, _)) => self.shadowed(stepper, system, self.from, settings),
@@ -154,7 +159,7 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
             }
             let energy = self.is_due(self.scene.output.energy, n).then(|| system.energy());
             self.row(n, system.q(), system.p(), energy.as_ref(), None)?;
-            if self.ends(n, Some((n, system.q(), system.p())))? {
+            if self.ends(n, || Some(Snapshot::of(n, system)))? {
                 return Ok((Outcome::Stopped { n }, None));
             }
         }
@@ -180,18 +185,18 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
         let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
         let settings = settings.clone().with_errors(true);
         let mut watch = self.watch(stepper, &mut system)?;
+        let begin = from.map(|from| Snapshot::of(from, &system));
         let mut shadow = match from {
             None => ShadowRun::new(stepper, system, steps, &settings),
             Some(from) => ShadowRun::resume(stepper, system, from, steps, &settings),
         }
         .map_err(|error| self.failed(&error))?;
         let mut snapshots = Snapshots::new(shadow.reach());
-        if let Some(from) = from {
-            snapshots.begin(from, &q, &p);
-        }
+        begin.into_iter().for_each(|begin| snapshots.begin(begin));
         let own = from.unwrap_or(0)..i64::try_from(steps).unwrap_or(i64::MAX);
         while let Some((n, found)) = shadow
             .advance_with(|n, trajectory| {
+                snapshots.offer(n, trajectory.system());
                 if let Some(watch) = watch.as_mut().filter(|_| own.contains(&(n - 1))) {
                     watch.include(n, trajectory.system());
                 }
@@ -203,8 +208,7 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
             let modified = self.is_due(every, n).then(|| ModifiedEnergy::of(&found));
             let energy = self.is_due(self.scene.output.energy, n).then(|| shadow.system().energy_at(&q, &p));
             self.row(n, &q, &p, energy.as_ref(), modified)?;
-            snapshots.offer(n, &q, &p);
-            if self.ends(n, snapshots.for_those_after(n))? {
+            if self.ends(n, || snapshots.for_those_after(n).cloned())? {
                 return Ok((Outcome::Stopped { n }, None));
             }
         }
@@ -264,11 +268,11 @@ impl<N: Number + 'static> Recorder<'_, '_, N> {
     /// Makes a checkpoint where it is time for one, or where the run is stopped: then it ends.
     ///
     /// `state` is the one from which the run can be resumed; `None` for the state at t = 0.
-    fn ends(&mut self, n: i64, state: Option<State<'_, N>>) -> Result<bool, Error> {
+    fn ends(&mut self, n: i64, state: impl FnOnce() -> Option<Snapshot<N>>) -> Result<bool, Error> {
         let stops = self.observer.stops();
         let due = self.scene.output.checkpoint.is_some_and(|interval| self.is_time_for_a_checkpoint(n, interval));
         if n > self.written && (due || stops) {
-            match state.map(|(n, q, p)| SavedState::of(n, q, p)) {
+            match state().map(|state| SavedState::of(&state)) {
                 Some(None) => self.observer.note(&Note::NoCheckpoint { n }),
                 saved => self.rows.target.keep(n, saved.flatten())?,
             }

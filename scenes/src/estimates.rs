@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::propagator::{Propagator, exact_flow};
 use crate::run::Run;
 use crate::scene::System;
-use crate::start::Work;
+use crate::start::{Steps, Work};
 use crate::summary::{EnergySummary, Summary};
 use crate::watch::{Energies, Watch};
 
@@ -22,6 +22,8 @@ pub struct Estimates<'a> {
     pub propagator: &'a Propagator,
     /// The steps.
     pub run: Run<'a>,
+    /// Whether q and p are sums with remainders.
+    pub compensated: bool,
     /// The estimator.
     pub settings: &'a EstimatorSettings,
     /// Whether a summary is made.
@@ -58,7 +60,8 @@ impl Estimates<'_> {
         match propagator {
             Propagator::Scheme(named) => {
                 let work = Following { estimates: self, take };
-                let found = system.with((&named.scheme, run.h), system.start(context), context, work);
+                let steps = Steps { scheme: &named.scheme, h: run.h, compensated: self.compensated };
+                let found = system.with(steps, system.start(context), context, work);
                 found.map_err(|error: MotionError| Error::usage(error.to_string(), "check the initial state"))?
             }
             Propagator::ExactFlow => {

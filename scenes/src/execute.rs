@@ -114,8 +114,13 @@ mod tests {
 
     /// What moves in 20 steps at 30 digits with a checkpoint at each `interrupt`, and what else the output is.
     fn scene(folder: &Path, system: &str, output: &str) -> Scene {
+        scene_in("30", folder, system, output)
+    }
+
+    /// The same in a number type.
+    fn scene_in(digits: &str, folder: &Path, system: &str, output: &str) -> Scene {
         let text = format!(
-            "{system}\n[run]\nscheme = \"ruth3\"\nstep = \"1/20\"\nsteps = 20\ndigits = 30\n\
+            "{system}\n[run]\nscheme = \"ruth3\"\nstep = \"1/20\"\nsteps = 20\ndigits = {digits}\n\
              [output]\nfile = \"out.csv\"\ncheckpoint = \"1 h\"\n{output}\n"
         );
         let path = folder.join("scene.toml");
@@ -136,8 +141,12 @@ mod tests {
     /// Stops after `each` states, then after twice as many states of the resumed run, and so on; gives the
     /// bytes of the file and the n of the stops.
     fn with_stops(system: &str, output: &str, each: usize) -> (String, Vec<i64>) {
+        with_stops_in("30", system, output, each)
+    }
+
+    fn with_stops_in(digits: &str, system: &str, output: &str, each: usize) -> (String, Vec<i64>) {
         let folder = tempfile::tempdir().unwrap();
-        let scene = scene(folder.path(), system, output);
+        let scene = scene_in(digits, folder.path(), system, output);
         let mut stops = Vec::new();
         loop {
             let after = each * (stops.len() + 1) + 1;
@@ -194,14 +203,49 @@ mod tests {
         }
     }
 
+    /// Checkpoints keep the remainders of compensated sums.
+    #[test]
+    fn so_has_a_file_of_compensated_sums() {
+        for output in [
+            "trajectory = true",
+            "modified_energy = { order = 4 }\ntrajectory = true",
+            "modified_energy = { max_order = 6 }\ntrajectory = { every = 2 }",
+            "modified_energy = { estimator = \"bilinear\", order = 6 }\nenergy = true",
+        ] {
+            let (whole, _) = with_stops_in("\"compensated\"", KEPLER, output, 1000);
+            assert!(whole.contains("# digits: compensated\n"), "{whole}");
+            let (plain, _) = with_stops_in("\"double\"", KEPLER, output, 1000);
+            let rows =
+                |text: &str| text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect::<Vec<_>>();
+            assert_ne!(rows(&whole), rows(&plain), "{output}");
+            for each in [5, 7, 8, 12, 13, 19, 20] {
+                let (bytes, stops) = with_stops_in("\"compensated\"", KEPLER, output, each);
+                assert!(!stops.is_empty() && stops.is_sorted(), "{output}: {stops:?}");
+                assert_eq!(bytes, whole, "{output}: {stops:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_checkpoint_without_its_remainders_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = scene_in("\"compensated\"", folder.path(), KEPLER, "trajectory = true");
+        scene.run_to_file(FileOptions::default(), &mut StopAfter(13)).unwrap();
+        let path = folder.path().join("out.csv.checkpoint");
+        forge(&path, |c| drop(c["state"].as_object_mut().unwrap().remove("p_remainders").unwrap()));
+        let error = scene.run_to_file(FileOptions::default(), &mut ()).unwrap_err().to_string();
+        let message = "has 2 remainders of positions and 0 of momenta, where the scene has 2 of each";
+        assert!(error.contains(message), "{error}");
+    }
+
     #[test]
     fn a_resumed_run_repeats_only_the_steps_that_an_estimate_needs() {
         let folder = tempfile::tempdir().unwrap();
         let scene = scene(folder.path(), KEPLER, "modified_energy = { order = 2 }");
         // each fifth state is kept, and the estimates after n need one at or before n - 5: D_2, and three states for its
-        // error; the run that is resumed from 10 has its first estimate at 16, and so it keeps no state 15
+        // error
         let mut first = 0;
-        for (n, kept) in [(4, None), (6, Some(0)), (16, Some(10)), (17, Some(10)), (19, Some(10)), (20, Some(10))] {
+        for (n, kept) in [(4, None), (6, Some(0)), (16, Some(10)), (17, Some(10)), (19, Some(10)), (20, Some(15))] {
             let outcome = scene.run_to_file(FileOptions::default(), &mut StopAfter(n - first + 1)).unwrap();
             assert_eq!(outcome, Outcome::Stopped { n });
             let text = fs::read_to_string(folder.path().join("out.csv.checkpoint")).unwrap();

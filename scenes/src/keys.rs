@@ -169,7 +169,14 @@ pub const KEYS: [Key; 38] = [
         Some("none; `steps` are given instead"),
     ),
     key("run", "steps", "The number of steps, in place of `until`.", "2000", Some("none; `until` is given instead")),
-    key("run", "digits", "The decimal digits of all numbers, or \"double\" for double precision.", "120", Some("120")),
+    key(
+        "run",
+        "digits",
+        "The decimal digits of all numbers, or \"double\" for double precision, or \"compensated\" for double precision in which \
+         positions and momenta are sums with remainders: less round-off in long runs, for up to half more time.",
+        "120",
+        Some("120"),
+    ),
     key(
         "output",
         "file",

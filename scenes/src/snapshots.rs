@@ -2,21 +2,35 @@
 
 use std::collections::VecDeque;
 
-use shadowstep::Number;
+use shadowstep::{Number, Remainders, System};
 
-/// n, q and p.
-pub(crate) type State<'a, N> = (i64, &'a [N], &'a [N]);
+/// The state n with its remainders.
+#[derive(Clone, Debug)]
+pub(crate) struct Snapshot<N> {
+    pub(crate) n: i64,
+    pub(crate) q: Vec<N>,
+    pub(crate) p: Vec<N>,
+    pub(crate) remainders: Remainders<N>,
+}
+
+impl<N: Number> Snapshot<N> {
+    /// Of a system that is at the state n.
+    pub(crate) fn of(n: i64, system: &impl System<Number = N>) -> Self {
+        Snapshot { n, q: system.q().to_vec(), p: system.p().to_vec(), remainders: system.remainders() }
+    }
+}
 
 /// The newest states from which modified energies can be computed again: every `reach`-th.
 pub(crate) struct Snapshots<N> {
     reach: i64,
     /// The oldest first.
-    kept: VecDeque<(i64, Vec<N>, Vec<N>)>,
+    kept: VecDeque<Snapshot<N>>,
 }
 
 impl<N: Number> Snapshots<N> {
-    /// The last state at or before n − reach is the newest kept one or the one before it.
-    const KEPT: usize = 2;
+    /// The steps are `reach` + 1 states ahead of an estimate n, at most: of the multiples of `reach` up to there, the last one at or before
+    /// n − reach is one of the newest four.
+    const KEPT: usize = 4;
 
     /// For estimates that need `reach` states before their own.
     pub(crate) fn new(reach: i64) -> Self {
@@ -24,14 +38,14 @@ impl<N: Number> Snapshots<N> {
     }
 
     /// Keeps the state from which the run was resumed.
-    pub(crate) fn begin(&mut self, n: i64, q: &[N], p: &[N]) {
-        self.kept.push_back((n, q.to_vec(), p.to_vec()));
+    pub(crate) fn begin(&mut self, snapshot: Snapshot<N>) {
+        self.kept.push_back(snapshot);
     }
 
-    /// Keeps this state, if it is one of those to keep.
-    pub(crate) fn offer(&mut self, n: i64, q: &[N], p: &[N]) {
-        if n % self.reach.max(1) == 0 {
-            self.kept.push_back((n, q.to_vec(), p.to_vec()));
+    /// Keeps the state n, at which the system is, if it is one of those to keep.
+    pub(crate) fn offer(&mut self, n: i64, system: &impl System<Number = N>) {
+        if n >= 0 && n % self.reach.max(1) == 0 {
+            self.kept.push_back(Snapshot::of(n, system));
             if self.kept.len() > Self::KEPT {
                 self.kept.pop_front();
             }
@@ -39,8 +53,7 @@ impl<N: Number> Snapshots<N> {
     }
 
     /// The state from which the estimates after n can be computed: that of n + 1 needs more than `reach` states before.
-    pub(crate) fn for_those_after(&self, n: i64) -> Option<State<'_, N>> {
-        let (n, q, p) = self.kept.iter().rev().find(|(earlier, ..)| earlier + self.reach <= n)?;
-        Some((*n, q, p))
+    pub(crate) fn for_those_after(&self, n: i64) -> Option<&Snapshot<N>> {
+        self.kept.iter().rev().find(|earlier| earlier.n + self.reach <= n)
     }
 }

@@ -5,6 +5,17 @@ use shadowstep::{Motion, MotionError, Number, Rational, Scheme, Stepper, System,
 
 use crate::scene::{self, ClassifiedKinetic};
 
+/// The steps that are made.
+#[derive(Clone, Copy, Debug)]
+pub struct Steps<'a> {
+    /// The scheme.
+    pub scheme: &'a TableScheme,
+    /// The step size.
+    pub h: &'a Rational,
+    /// Whether q and p are sums with remainders.
+    pub compensated: bool,
+}
+
 /// What is done with a system at a state and a stepper, whatever the class of its kinetic energy.
 pub trait Work<N: Number> {
     /// Its result.
@@ -27,7 +38,7 @@ impl scene::System {
     /// If the step size is 0 or the scheme is not valid for T(p), which reading a system and its scheme excludes.
     pub fn with<N: Number + 'static, W: Work<N>>(
         &self,
-        (scheme, h): (&TableScheme, &Rational),
+        Steps { scheme, h, compensated }: Steps<'_>,
         (q, p): (Vec<N>, Vec<N>),
         context: &N::Context,
         work: W,
@@ -35,11 +46,13 @@ impl scene::System {
         let (potential, scheme) = (self.potential(context), scheme.clone());
         Ok(match self.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {
-                work.with(&stepper(scheme, h, context), Motion::new(potential, kinetic, q, p)?)
+                let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(compensated);
+                work.with(&stepper(scheme, h, context), motion)
             }
             ClassifiedKinetic::General(kinetic) => {
                 let scheme = scheme.for_every_kinetic().expect("the scheme was read for this T");
-                work.with(&stepper(scheme, h, context), Motion::new(potential, kinetic, q, p)?)
+                let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(compensated);
+                work.with(&stepper(scheme, h, context), motion)
             }
         })
     }

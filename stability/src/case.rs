@@ -101,7 +101,7 @@ fn finding<C: Case>(suite: &Suite, results: Vec<Option<Value>>) -> Finding {
 /// How many times the operations of `f64` cost more in a number type, approximately.
 fn arithmetic_cost(arithmetic: Arithmetic) -> f64 {
     match arithmetic {
-        Arithmetic::Double => 1.0,
+        Arithmetic::Double | Arithmetic::Compensated => 1.0,
         Arithmetic::Digits(digits, _) => 30.0 + f64::from(digits).powf(1.5) / 20.0,
     }
 }

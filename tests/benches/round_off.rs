@@ -56,13 +56,19 @@ fn star(phase: usize) -> Start {
     ([0.1 * cos, 0.12 * sin], [0.11 * sin, 0.1 * cos])
 }
 
-/// From the pericentre to the apocentre: where the estimates of the modified energy are best.
-fn is_apocentre(before: f64, after: f64) -> bool {
-    before > 0.0 && after <= 0.0
-}
-
-fn radial(system: &impl System<Number = f64>) -> f64 {
-    system.q().iter().zip(system.p()).map(|(q, p)| q * p).sum()
+/// Steps to the next apocentre, where the estimates of the modified energy are best: there qᵀp changes its sign from + to −.
+fn step_to_apocentre<S: Scheme + ValidFor<M::Class>, M: System<Number = f64>>(
+    stepper: &Stepper<S, f64>,
+    system: &mut M,
+) {
+    let radial = |system: &M| system.q().iter().zip(system.p()).map(|(q, p)| q * p).sum::<f64>();
+    loop {
+        let before = radial(system);
+        stepper.step(system);
+        if before > 0.0 && radial(system) <= 0.0 {
+            return;
+        }
+    }
 }
 
 /// H̄ of a state with its remainders.
@@ -101,12 +107,8 @@ where
         for _ in 0..if sample == 0 { 0 } else { steps / SAMPLES } {
             stepper.step(&mut system);
         }
-        while at_apocentres {
-            let before = radial(&system);
-            stepper.step(&mut system);
-            if is_apocentre(before, radial(&system)) {
-                break;
-            }
+        if at_apocentres {
+            step_to_apocentre(&stepper, &mut system);
         }
         let value = modified(scheme, h, potential, &system);
         let initial = initial.get_or_insert_with(|| value.clone());
@@ -133,7 +135,7 @@ where
         Sums::Plain => follow(scheme, h, potential, motion, steps, at_apocentres),
         Sums::Compensated => follow(scheme, h, potential, motion.compensated(), steps, at_apocentres),
         Sums::FixedPoint => {
-            let motion = motion.fixed_point([2.0; 2], [4.0; 2]).expect("within the ranges");
+            let motion = motion.fixed_point(&[2.0; 2], &[4.0; 2]).expect("within the ranges");
             follow(scheme, h, potential, motion, steps, at_apocentres)
         }
     }
@@ -204,7 +206,7 @@ fn row(case: &Case, phases: usize, steps: u64, sums: Sums) {
 /// Steps in fixed point and back, to the bits of the start.
 fn reversed(steps: u64) {
     let motion = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]).expect("the dimensions agree");
-    let mut motion = motion.fixed_point([2.0; 2], [4.0; 2]).expect("within the ranges");
+    let mut motion = motion.fixed_point(&[2.0; 2], &[4.0; 2]).expect("within the ranges");
     let stepper = Stepper::<_, f64>::new(Yoshida4, "1/20").expect("a step size");
     (0..steps).for_each(|_| stepper.step(&mut motion));
     let there = motion.q()[0];

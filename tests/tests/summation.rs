@@ -119,8 +119,8 @@ fn a_long_sum_is_exact_to_the_size_of_its_increments() {
     for _ in 0..5000 {
         stepper.step_augmented(&mut one);
         stepper.step_augmented(&mut other);
-        plain = plain + one.increments().q[0].exactly();
-        compensated = compensated + other.increments().q[0].exactly();
+        plain += one.increments().q[0].exactly();
+        compensated += other.increments().q[0].exactly();
     }
     let off = |sum: Rational, reached: Rational| f64::from_rational(&(start.clone() + sum - reached), &()).abs();
     let plain = off(plain, one.q()[0].exactly());
@@ -148,7 +148,7 @@ fn all_steps_of_a_kind_have_the_same_bits() {
     }
     let plain = same(&stepper, comet(), comet().compensated_if(false));
     let compensated = same(&stepper, comet().compensated(), comet().compensated_if(true));
-    let fixed = || comet().fixed_point([2.0; 2], [4.0; 2]).unwrap();
+    let fixed = || comet().fixed_point(&[2.0; 2], &[4.0; 2]).unwrap();
     let fixed = same(&stepper, fixed(), fixed());
     assert_eq!([plain.len(), compensated.len(), fixed.len()], [4, 8, 8]);
     assert!(plain != compensated[..4] && compensated != fixed);
@@ -174,7 +174,7 @@ fn a_state_is_saved_with_its_remainders() {
         assert_eq!(all_bits(&saved), all_bits(&gone_on));
     }
     check(comet().compensated());
-    check(comet().fixed_point([2.0; 2], [4.0; 2]).unwrap());
+    check(comet().fixed_point(&[2.0; 2], &[4.0; 2]).unwrap());
 }
 
 /// A run makes states before its first one, and comes back to it with its remainders.
@@ -258,7 +258,7 @@ fn round_off_moves_the_modified_energy_less() {
     let (h, steps) = ("1/100", 4000);
     let plain = wandering(h, steps, start);
     let compensated = wandering(h, steps, |phase| start(phase).compensated());
-    let fixed = wandering(h, steps, |phase| start(phase).fixed_point([1.0; 2], [1.0; 2]).unwrap());
+    let fixed = wandering(h, steps, |phase| start(phase).fixed_point(&[1.0; 2], &[1.0; 2]).unwrap());
     println!("{plain:e}, {compensated:e}, {fixed:e}");
     // by half a last place of q and p in each of the steps, and by a hundredth of that
     assert!(
@@ -303,7 +303,7 @@ fn every_scheme_is_undone_to_the_last_bit() {
         let stepper = Stepper::<_, f64>::new(scheme.twin, &h).unwrap();
         for (problem, masses) in [Problem::Kepler, Problem::Scattering].into_iter().zip(masses(2)) {
             let motion: AnyMotion<f64> = system(problem, masses, &());
-            let mut motion = motion.fixed_point(vec![64.0; 2], vec![64.0; 2]).unwrap();
+            let mut motion = motion.fixed_point(&[64.0; 2], &[64.0; 2]).unwrap();
             to_and_fro(&scheme.name, &stepper, &mut motion, 30);
         }
     }
@@ -312,7 +312,7 @@ fn every_scheme_is_undone_to_the_last_bit() {
         for problem in [general::Problem::Plane, general::Problem::LotkaVolterra] {
             let motion = problem.system::<f64>(&());
             let ranges = vec![16.0; motion.q().len()];
-            let mut motion = motion.fixed_point(ranges.clone(), ranges).unwrap();
+            let mut motion = motion.fixed_point(&ranges, &ranges).unwrap();
             to_and_fro(&scheme.name, &stepper, &mut motion, 30);
         }
     }
@@ -320,7 +320,7 @@ fn every_scheme_is_undone_to_the_last_bit() {
 
 #[test]
 fn many_steps_are_undone_to_the_last_bit() {
-    let mut motion = comet().fixed_point([2.0; 2], [4.0; 2]).unwrap();
+    let mut motion = comet().fixed_point(&[2.0; 2], &[4.0; 2]).unwrap();
     to_and_fro("Kepler", &stepper("stormer-verlet", "1/20", &()), &mut motion, 20_000);
     // in f64 the way back is another one
     let mut plain = comet();
@@ -333,7 +333,7 @@ fn many_steps_are_undone_to_the_last_bit() {
 /// A coordinate that is set anew is rounded before the next step.
 #[test]
 fn a_state_that_is_set_is_rounded() {
-    let mut motion = comet().fixed_point([2.0; 2], [4.0; 2]).unwrap();
+    let mut motion = comet().fixed_point(&[2.0; 2], &[4.0; 2]).unwrap();
     let third = 1.0 / 3.0;
     motion.set_state(&[third, 1e-10 * third], &[0.1, 0.2]);
     let unit = 2.0 / 2.0_f64.powi(62);
@@ -351,7 +351,7 @@ fn a_state_that_is_set_is_rounded() {
 #[test]
 fn a_coordinate_that_leaves_its_range_is_not_finite() {
     let stepper = stepper::<f64>("stormer-verlet", "1/20", &());
-    let mut motion = comet().fixed_point([0.5; 2], [4.0; 2]).unwrap();
+    let mut motion = comet().fixed_point(&[0.5; 2], &[4.0; 2]).unwrap();
     let mut steps = 0;
     while motion.is_finite() && steps < 100 {
         stepper.step(&mut motion);
@@ -364,20 +364,20 @@ fn a_coordinate_that_leaves_its_range_is_not_finite() {
     motion.set_state(&[0.4, 0.0], &[0.0, 2.0]);
     stepper.step(&mut motion);
     assert!(motion.is_finite());
-    let run = comet().fixed_point([0.5; 2], [4.0; 2]).unwrap();
+    let run = comet().fixed_point(&[0.5; 2], &[4.0; 2]).unwrap();
     assert!(energy_drift(&stepper, run, 100, &Bilinear::new(4)).unwrap_err().to_string().contains("NaN"));
 }
 
 #[test]
 fn ranges_that_are_not_valid_are_refused() {
-    let refused = |q: Vec<f64>, p: Vec<f64>| {
+    let refused = |q: &[f64], p: &[f64]| {
         let motion = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]).unwrap();
         motion.fixed_point(q, p).unwrap_err().to_string()
     };
-    assert_eq!(refused(vec![1.0], vec![4.0; 2]), "q has 2 coordinates, but 1 ranges");
-    assert_eq!(refused(vec![1.0; 2], vec![4.0, 0.0]), "the range of p[1] is 0e0; it must be from 1e-280 to 1e280");
-    assert_eq!(refused(vec![1.0, f64::NAN], vec![4.0; 2]), "the range of q[1] is NaN; it must be from 1e-280 to 1e280");
-    assert_eq!(refused(vec![1.0; 2], vec![1.0; 2]), "p[1] = 2e0 is beyond its range, 1e0");
-    let error = comet().fixed_point([0.1; 2], [4.0; 2]).map(|_| ()).unwrap_err();
+    assert_eq!(refused(&[1.0], &[4.0; 2]), "q has 2 coordinates, but 1 ranges");
+    assert_eq!(refused(&[1.0; 2], &[4.0, 0.0]), "the range of p[1] is 0e0; it must be from 1e-280 to 1e280");
+    assert_eq!(refused(&[1.0, f64::NAN], &[4.0; 2]), "the range of q[1] is NaN; it must be from 1e-280 to 1e280");
+    assert_eq!(refused(&[1.0; 2], &[1.0; 2]), "p[1] = 2e0 is beyond its range, 1e0");
+    let error = comet().fixed_point(&[0.1; 2], &[4.0; 2]).map(|_| ()).unwrap_err();
     assert_eq!(error, RangeError::Beyond { name: "q", index: 0, value: 0.4, range: 0.1 });
 }

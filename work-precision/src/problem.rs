@@ -4,7 +4,8 @@ use num_traits::Signed;
 use shadowstep::{Number, Rational};
 use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::library::fingerprint;
+use shadowstep_scenes::library::{NamedScheme, fingerprint};
+use shadowstep_scenes::start::Steps;
 use shadowstep_symbolic::decimal::to_text;
 
 /// Errors along a run are taken at so many times at most.
@@ -30,6 +31,11 @@ impl Problem<'_> {
     /// The step size of this number of steps.
     pub(crate) fn step_size(&self, steps: u64) -> Rational {
         self.until / Rational::from_integer(steps.into())
+    }
+
+    /// The steps of a scheme.
+    pub(crate) fn steps<'a>(&self, named: &'a NamedScheme, h: &'a Rational) -> Steps<'a> {
+        Steps { scheme: &named.scheme, h, compensated: self.arithmetic.is_compensated() }
     }
 
     /// Whether the runs go forward in time.

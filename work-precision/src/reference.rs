@@ -11,7 +11,7 @@ use shadowstep::number::{Precision, Rounded};
 use shadowstep::run::States;
 use shadowstep::{Number, StepSize};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_symbolic::decimal::from_text;
 
@@ -186,13 +186,14 @@ fn of_scheme(
         ));
     }
     let precision = Precision::digits(digits).map_err(|error| Error::usage(error.to_string(), "use fewer digits"))?;
+    let precise = Problem { arithmetic: Arithmetic::Digits(digits, precision), ..problem };
     let named = scheme(SCHEME)?;
     let begin = Instant::now();
     let mut steps = first_steps(problem, samples);
     let (mut last, mut last_difference): (Option<Vec<Vec<Float>>>, f64) = (None, f64::INFINITY);
     let mut best: Option<Reference> = None;
     while continues() {
-        let found = positions::<Float>(problem, &named, (steps, samples), &precision)?;
+        let found = positions::<Float>(precise, &named, (steps, samples), &precision)?;
         if let Some(before) = last.filter(|before| before.len() == found.len() && found.len() as u64 == samples) {
             let differences = distances(&before, &found, &precision);
             let difference = differences.iter().map(|size| size.log10()).fold(f64::NEG_INFINITY, f64::max);
@@ -233,7 +234,8 @@ fn positions<N: Number + 'static>(
 ) -> Result<Vec<Vec<N>>, Error> {
     let start = problem.system.start::<N>(context);
     let work = Positions { steps, samples };
-    let found = problem.system.with((&named.scheme, &problem.step_size(steps)), start, context, work);
+    let h = problem.step_size(steps);
+    let found = problem.system.with(problem.steps(named, &h), start, context, work);
     found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))
 }
 

@@ -213,7 +213,7 @@ impl Computation for Run<'_> {
         let h: Rational = problem.step_size(self.steps);
         let work = Measuring { steps: self.steps, reference };
         let start = problem.system.start::<N>(context);
-        let found = problem.system.with((&scheme.scheme, &h), start, context, work);
+        let found = problem.system.with(problem.steps(scheme, &h), start, context, work);
         found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))
     }
 }

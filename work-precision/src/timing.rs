@@ -79,7 +79,8 @@ impl Computation for Steps<'_> {
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         let Steps { problem, scheme, steps } = self;
         let start = problem.system.start::<N>(context);
-        let found = problem.system.with((&scheme.scheme, &problem.step_size(steps)), start, context, Bare);
+        let h = problem.step_size(steps);
+        let found = problem.system.with(problem.steps(scheme, &h), start, context, Bare);
         found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))
     }
 }

@@ -13,7 +13,8 @@ pub(super) fn measure<N: Rounded + 'static>(
     mut progress: impl FnMut(i64) -> Result<(), Error>,
 ) -> Result<(EnergyDrift<N>, Finished), Error> {
     let run = estimates.run;
-    let mut drift = DriftRecorder::new(StepSize::try_from(run.h).expect("runs have a nonzero step size"));
+    let drift = DriftRecorder::new(StepSize::try_from(run.h).expect("runs have a nonzero step size"));
+    let mut drift = drift.compensated_if(estimates.compensated);
     let finished = estimates.take::<N>(context, |n, estimate| {
         drift.include(n, &estimate);
         progress(n)

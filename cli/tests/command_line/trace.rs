@@ -180,3 +180,22 @@ fn without_a_reliable_estimate_the_estimate_is_empty() {
         assert!(objects(&result.out).iter().all(|line| line["estimate"].is_null() && line["order"] == 1));
     }
 }
+
+/// Double precision, of which the sums have remainders: other bits, after a few steps, of the same run.
+#[test]
+fn compensated_sums_are_a_number_type() {
+    const RUN: &str = "trace kepler --scheme yoshida4 --step 1/20 --until 10 --order 5 --no-summary --states";
+    let last = |flags: &str| objects(&quietly(&format!("{RUN} {flags}"))).pop().unwrap();
+    let [plain, compensated] = [last("--double"), last("--compensated")];
+    let x = |line: &serde_json::Value| line["q"][0].to_string().replace('"', "").parse::<f64>().unwrap();
+    let off = (x(&plain) - x(&compensated)).abs();
+    assert!(off > 0.0 && off < 1e-12, "{off:e}");
+    // the same as at 40 digits, but for less
+    let precise = x(&last("--digits 40"));
+    assert!((x(&compensated) - precise).abs() < 0.5 * (x(&plain) - precise).abs(), "{plain}, {compensated}, {precise}");
+    let drift = "drift kepler --scheme yoshida4 --step 1/20 --until 10 --no-control --no-summary --json --compensated";
+    assert_eq!(objects(&quietly(drift))[0]["digits"], "compensated");
+    for other in ["--double", "--digits 30"] {
+        assert_eq!(shadowstep(&format!("{drift} {other}")).code, 2, "{other}");
+    }
+}

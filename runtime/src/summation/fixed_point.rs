@@ -50,10 +50,11 @@ const LARGEST: f64 = 4_611_686_018_427_387_904.0;
 
 impl<V: Coordinates<f64>> FixedPoint<V> {
     /// For coordinates q and p within these ranges.
-    pub(crate) fn of((q, p): (&V, &V), (q_ranges, p_ranges): (&V, &V)) -> Result<Self, RangeError> {
+    pub(crate) fn of((q, p): (&V, &V), (q_ranges, p_ranges): (&[f64], &[f64])) -> Result<Self, RangeError> {
+        let increment = q.clone();
         let [q, p] = [(q, q_ranges, "q"), (p, p_ranges, "p")]
-            .map(|(values, ranges, name)| Multiples::of(values.as_ref(), ranges.as_ref(), name));
-        Ok(FixedPoint { q: q?, p: p?, increment: q_ranges.clone() })
+            .map(|(values, ranges, name)| Multiples::of(values.as_ref(), ranges, name));
+        Ok(FixedPoint { q: q?, p: p?, increment })
     }
 
     #[inline]
@@ -67,7 +68,7 @@ impl Multiples {
         if ranges.len() != values.len() {
             return Err(RangeError::Length { name, coordinates: values.len(), ranges: ranges.len() });
         }
-        let beyond = |(value, range): (&f64, &f64)| !(value.abs() <= *range);
+        let beyond = |(value, range): (&f64, &f64)| value.is_nan() || value.abs() > *range;
         if let Some(index) = ranges.iter().position(|range| !(1e-280..=1e280).contains(range)) {
             return Err(RangeError::Range { name, index, range: ranges[index] });
         }

@@ -2,11 +2,12 @@
 
 use num_traits::Zero;
 use serde::{Deserialize, Serialize};
-use shadowstep::Number;
+use shadowstep::{Number, Remainders};
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::results::metadata::{platform, sha256, table_hashes};
 use crate::scene::Scene;
+use crate::snapshots::Snapshot;
 
 /// Everything that determines the numbers of a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -15,22 +16,27 @@ pub(crate) struct Identity {
     platform: String,
     scene_sha256: String,
     tables_sha256: Vec<String>,
-    /// These two follow from the scene.
+    /// These three follow from the scene.
     #[serde(skip)]
     steps: u64,
     #[serde(skip)]
     dimension: usize,
+    /// How many remainders of positions a state has, and of momenta.
+    #[serde(skip)]
+    remainders: usize,
 }
 
 impl Identity {
     pub(crate) fn of(scene: &Scene) -> Identity {
+        let dimension = scene.system.coordinates.len();
         Identity {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             platform: platform(),
             scene_sha256: sha256(&scene.source.text),
             tables_sha256: table_hashes(scene),
             steps: scene.steps,
-            dimension: scene.system.coordinates.len(),
+            dimension,
+            remainders: if scene.arithmetic.is_compensated() { dimension } else { 0 },
         }
     }
 
@@ -79,7 +85,15 @@ pub(crate) struct SavedState {
     pub(crate) n: i64,
     q: Vec<String>,
     p: Vec<String>,
+    /// What the sums of q and p have beyond these.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    q_remainders: Vec<String>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    p_remainders: Vec<String>,
 }
+
+/// q and p.
+pub(crate) type State<N> = (Vec<N>, Vec<N>);
 
 /// A checkpoint with its own hash: the content of the file.
 #[derive(Serialize, Deserialize)]
@@ -111,18 +125,24 @@ impl Checkpoint {
     }
 
     /// Refuses what no run of the scene writes: a checkpoint may have been made by another program, with a hash that fits.
-    fn check(&self, &Identity { steps, dimension, .. }: &Identity) -> Result<(), String> {
+    fn check(&self, &Identity { steps, dimension, remainders, .. }: &Identity) -> Result<(), String> {
         let is_of_run = |n: i64| u64::try_from(n).is_ok_and(|n| n <= steps);
         if !is_of_run(self.n) {
             return Err(format!("is at n = {}, which is not a state of the run", self.n));
         }
-        let Some(SavedState { n, q, p }) = &self.state else { return Ok(()) };
+        let Some(SavedState { n, q, p, q_remainders, p_remainders }) = &self.state else { return Ok(()) };
         if !is_of_run(*n) || *n > self.n {
             return Err(format!("is at n = {} and has the state n = {n}", self.n));
         }
         if (q.len(), p.len()) != (dimension, dimension) {
             let (q, p) = (q.len(), p.len());
             return Err(format!("has {q} positions and {p} momenta, where the scene has {dimension} of each"));
+        }
+        if (q_remainders.len(), p_remainders.len()) != (remainders, remainders) {
+            let (q, p) = (q_remainders.len(), p_remainders.len());
+            return Err(format!(
+                "has {q} remainders of positions and {p} of momenta, where the scene has {remainders} of each"
+            ));
         }
         Ok(())
     }
@@ -133,17 +153,24 @@ fn seal(checkpoint: &Checkpoint) -> String {
 }
 
 impl SavedState {
-    /// The state n; `None` if a number has an exponent that cannot be read.
-    pub(crate) fn of<N: Number>(n: i64, q: &[N], p: &[N]) -> Option<SavedState> {
+    /// A state; `None` if a number has an exponent that cannot be read.
+    pub(crate) fn of<N: Number>(Snapshot { n, q, p, remainders }: &Snapshot<N>) -> Option<SavedState> {
         let text = |x: &N| Some(x.to_text()).filter(|text| number(text, &x.context()).as_ref() == Some(x));
         let texts = |numbers: &[N]| numbers.iter().map(text).collect::<Option<_>>();
-        Some(SavedState { n, q: texts(q)?, p: texts(p)? })
+        Some(SavedState {
+            n: *n,
+            q: texts(q)?,
+            p: texts(p)?,
+            q_remainders: texts(&remainders.q)?,
+            p_remainders: texts(&remainders.p)?,
+        })
     }
 
-    /// q and p.
-    pub(crate) fn numbers<N: Number>(&self, context: &N::Context) -> Option<(Vec<N>, Vec<N>)> {
+    /// q and p, and their remainders.
+    pub(crate) fn numbers<N: Number>(&self, context: &N::Context) -> Option<(State<N>, Remainders<N>)> {
         let numbers = |texts: &[String]| texts.iter().map(|text| number(text, context)).collect::<Option<_>>();
-        Some((numbers(&self.q)?, numbers(&self.p)?))
+        let remainders = Remainders { q: numbers(&self.q_remainders)?, p: numbers(&self.p_remainders)? };
+        Some(((numbers(&self.q)?, numbers(&self.p)?), remainders))
     }
 }
 
@@ -162,18 +189,23 @@ mod tests {
     use super::*;
     use shadowstep::number::{Float, Precision};
 
+    fn snapshot<N: Number>(q: &[N], p: &[N]) -> Snapshot<N> {
+        Snapshot { n: 7, q: q.to_vec(), p: p.to_vec(), remainders: Remainders::default() }
+    }
+
     #[test]
     fn numbers_are_read_with_their_sign() {
         let precision = Precision::digits(60).unwrap();
         for text in ["-0.0", "0.0", "0.1", "-1e-300", "5e-324", "1.7976931348623157e308"] {
             let x: f64 = text.parse().unwrap();
-            let saved = SavedState::of(7, &[x], &[-x]).unwrap();
-            let (q, p) = saved.numbers::<f64>(&()).unwrap();
+            let saved = SavedState::of(&snapshot(&[x], &[-x])).unwrap();
+            let ((q, p), remainders) = saved.numbers::<f64>(&()).unwrap();
+            assert_eq!(remainders, Remainders::default());
             assert_eq!((q[0].to_bits(), p[0].to_bits()), (x.to_bits(), (-x).to_bits()), "{text}");
             let mut third = number::<Float>(text, &precision).unwrap();
             third.divide_integer(3);
-            let saved = SavedState::of(7, &[third.clone()], &[]).unwrap();
-            assert_eq!(saved.numbers::<Float>(&precision).unwrap().0, [third]);
+            let saved = SavedState::of(&snapshot(&[third.clone()], &[])).unwrap();
+            assert_eq!(saved.numbers::<Float>(&precision).unwrap().0.0, [third]);
         }
     }
 
@@ -184,6 +216,6 @@ mod tests {
         let same = tiny.clone();
         tiny.multiply(&same);
         assert!(!tiny.is_zero());
-        assert_eq!(SavedState::of(1, &[tiny], &[]), None);
+        assert_eq!(SavedState::of(&snapshot(&[tiny], &[])), None);
     }
 }
