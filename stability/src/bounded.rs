@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Number, Rational, Scheme};
+use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_scenes::Error;
 use shadowstep_symbolic::decimal::to_text;
 
@@ -26,12 +27,16 @@ pub(crate) struct Stayed {
     pub(crate) watched: Watched,
     /// The largest |H − H(0)| as a part of |H(0)|, in each fourth of the run, over some states.
     pub(crate) energy_errors: [f64; 4],
+    /// The times of equal parts of the run, and the largest error in each.
+    pub(crate) envelope: Vec<(f64, f64)>,
     /// The largest coordinate of all states, beside the largest one at the start.
     pub(crate) farthest: f64,
 }
 
 /// The monitor has about so many windows.
 const WINDOWS: u64 = 256;
+/// Charts have the largest error of H in so many parts of a run.
+const PARTS: usize = 60;
 /// H is computed at so many states.
 const ENERGIES: u64 = 20_000;
 /// A body is lost if a coordinate is this many times as large as at the start.
@@ -68,6 +73,8 @@ impl LongRun {
         let begin = size(motion.q());
         let (every, steps) = ((self.steps / ENERGIES).max(1), self.steps);
         let (mut farthest, mut energy_errors) = (1.0_f64, [0.0_f64; 4]);
+        let duration = <f64 as Number>::from_rational(&h, &()) * steps as f64;
+        let mut envelope: Vec<_> = (1..=PARTS).map(|i| (duration * i as f64 / PARTS as f64, 0.0_f64)).collect();
         let watched = watched(
             (suite.scheme(&self.scheme), &h),
             (steps / WINDOWS).max(1),
@@ -80,13 +87,25 @@ impl LongRun {
                     let fourth = (4 * (n - 1) / steps) as usize;
                     // JSON has no infinity
                     energy_errors[fourth] = energy_errors[fourth].max(error).min(f64::MAX);
+                    let part = &mut envelope[((PARTS as u64 * (n - 1)) / steps) as usize].1;
+                    *part = part.max(error).min(f64::MAX);
                     farthest = farthest.max(size(motion.q()) / begin).min(f64::MAX);
                 }
                 Next::Continue
             },
         );
-        Ok(Stayed { watched, energy_errors, farthest })
+        envelope.retain(|(_, error)| *error > 0.0);
+        Ok(Stayed { watched, energy_errors, envelope, farthest })
     }
+}
+
+/// The largest error of H in the parts of several runs.
+pub(crate) fn envelopes<'a>(title: &str, unit: &str, runs: impl Iterator<Item = (String, &'a Stayed)>) -> Chart {
+    let curve = |(i, (label, stayed)): (usize, (String, &Stayed))| {
+        Curve::line(label, stayed.envelope.iter().map(|(t, error)| (*t, error.log10())).collect(), i)
+    };
+    let (x, y) = (Axis::linear(unit), Axis::log10("largest error of H, as a part of H(0)"));
+    Chart::new(title, x, y, runs.enumerate().map(curve).collect())
 }
 
 impl Stayed {

@@ -18,7 +18,7 @@ fn a_report_has_verdicts_and_charts_and_is_not_computed_twice() {
     let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
     assert!(page.contains("<svg ") && page.contains("Time reversal") && folder.path().join("oscillator.svg").exists());
     let table = fs::read_to_string(folder.path().join("stability.md")).unwrap();
-    assert!(table.contains("| ruth3 | kepler, 20000 steps: "), "{table}");
+    assert!(table.contains("| ruth3 | kepler, 10000 steps: "), "{table}");
     let results = fs::read(folder.path().join("results.jsonl")).unwrap();
     assert_eq!(quietly(&command), printed);
     assert_eq!(fs::read(folder.path().join("results.jsonl")).unwrap(), results);

@@ -3,6 +3,7 @@
 use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
 use shadowstep_analysis::stability::Stability;
+use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::{Error, System};
 
@@ -23,6 +24,8 @@ const FEMTOSECOND: f64 = 1e-6;
 const COLLISIONS: f64 = 4.0;
 /// How much the error of H may differ between the first and the last fourth.
 const BOUNDED: f64 = 3.0;
+/// log₁₀ of the largest error that is drawn.
+const LARGEST_DRAWN: f64 = 1.0;
 const SCHEMES: [&str; 3] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b"];
 
 impl Case for Argon {
@@ -31,7 +34,7 @@ impl Case for Argon {
     const THEORY: &'static str = "A step is stable while hω is below the stability limit of the scheme. The largest frequency ω of the crystal \
         at its start grows several times in collisions, which reach steeper parts of the potential: up to a fourth of the limit the error of H is bounded, \
         beyond the limit atoms leave, and between these the monitor does not call a step fine with which the error grows.";
-    const REVISION: u32 = 3;
+    const REVISION: u32 = 4;
 
     type Trial = LongRun;
     type Measured = Stayed;
@@ -62,7 +65,7 @@ impl Case for Argon {
     fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {
         let omega =
             System::of_setup(setup("argon-crystal", &[])).fastest_frequency().map_or(f64::NAN, |found| found.omega);
-        let mut finding = Finding::default();
+        let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let named = suite.scheme(&all[0].0.scheme);
             let stability = Stability::of_scheme(named.scheme.proved());
@@ -89,7 +92,15 @@ impl Case for Argon {
             }
             let found = format!("hω as a part of the limit {limit:.3}, ω = {omega:.0} per ns: {}", parts.join(", "));
             finding.row(&named.name, found, Verdict::of_all(verdicts));
+            let points = all.iter().zip(STEPS).map(|((_, stayed), fs)| (fs as f64, stayed.energy_errors[3].log10()));
+            let points: Vec<_> = points.filter(|(_, error)| *error <= LARGEST_DRAWN).collect();
+            curves.push(Curve::marked(named.name.clone(), points, curves.len()));
         }
+        let (x, y) = (
+            Axis::linear("femtoseconds an evaluation"),
+            Axis::log10("largest error of H in the last fourth of the run"),
+        );
+        finding.chart(Chart::new("The error of H of the crystal", x, y, curves), "A curve ends where atoms leave.");
         finding
     }
 }

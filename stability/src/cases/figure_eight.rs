@@ -5,7 +5,7 @@ use shadowstep::{Rational, Scheme};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 
-use crate::bounded::{LongRun, Stayed};
+use crate::bounded::{LongRun, Stayed, envelopes};
 use crate::case::{Case, Continues};
 use crate::finding::Finding;
 use crate::suite::Suite;
@@ -25,7 +25,7 @@ impl Case for FigureEight {
     const TITLE: &'static str = "Three bodies on a figure eight";
     const THEORY: &'static str = "The orbit is stable, so that the three bodies stay near it with every symplectic scheme whose steps resolve it, and \
         the error of H is bounded.";
-    const REVISION: u32 = 2;
+    const REVISION: u32 = 3;
 
     type Trial = LongRun;
     type Measured = Stayed;
@@ -67,6 +67,11 @@ impl Case for FigureEight {
             let verdict = Verdict::of_all([stays, stayed.watched.is_fine()]);
             finding.row(&suite.scheme(&trial.scheme).name, found, verdict);
         }
+        let runs = measured.iter().map(|(trial, stayed)| (suite.scheme(&trial.scheme).name.clone(), stayed));
+        finding.chart(
+            envelopes("The error of H on the figure eight", "t", runs),
+            "Each point is the largest error in a 60th of the run.",
+        );
         finding
     }
 }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::formula::FormulaPotential;
 use shadowstep::number::Rounded;
 use shadowstep::{DiagonalMasses, Motion, Rational, Scheme, Stepper};
+use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 
@@ -53,10 +54,13 @@ const STEPS_A_UNIT: i64 = 100;
 /// The energy error of another frame may differ by this factor.
 const SAME: f64 = 1.01;
 const SCHEMES: [&str; 3] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b"];
-const FRAMES: [Frame; 10] = [
+const FRAMES: [Frame; 13] = [
     Frame::Plain,
     Frame::Rotated,
+    Frame::Translated(1.0),
+    Frame::Translated(1e2),
     Frame::Translated(1e4),
+    Frame::Translated(1e6),
     Frame::Translated(1e8),
     Frame::Moving(10.0),
     Frame::Units(1e12),
@@ -72,7 +76,7 @@ impl Case for Frames {
     const THEORY: &'static str = "A splitting scheme commutes with rotations, translations, motions of the frame and changes of units, so that the error of H is the same in \
         all frames, up to round-off. That of a coordinate of size L is εL a step: from an offset of 1e8 positions keep eight digits of sixteen. Of \
         two bodies the relative motion depends on the total mass only.";
-    const REVISION: u32 = 2;
+    const REVISION: u32 = 3;
 
     type Trial = Trial;
     type Measured = Measured;
@@ -132,14 +136,13 @@ impl Case for Frames {
     }
 
     fn judge(suite: &Suite, measured: &[(Trial, Measured)]) -> Finding {
-        let mut finding = Finding::default();
+        let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let Some((_, plain)) = all.iter().find(|(trial, _)| trial.frame == Frame::Plain) else { continue };
             let (mut parts, mut verdicts) = (Vec::new(), Vec::new());
             for (trial, one) in all.iter().filter(|(trial, _)| trial.frame != Frame::Plain) {
                 let ratio = one.energy_error / plain.energy_error;
-                let off = (one.relative[0] - plain.relative[0]).hypot(one.relative[1] - plain.relative[1]);
-                parts.push(format!("{} {off:.0e}", trial.frame.described()));
+                parts.push(format!("{} {:.0e}", trial.frame.described(), one.distance(plain)));
                 // where coordinates of size L lose digits, H does as well
                 let lost = trial.frame.digits_lost() / plain.energy_error;
                 verdicts.push(Verdict::from((ratio - 1.0).abs() <= SAME - 1.0 + lost));
@@ -149,9 +152,25 @@ impl Case for Frames {
                 plain.energy_error,
                 parts.join(", ")
             );
-            finding.row(&suite.scheme(&all[0].0.scheme).name, found, Verdict::of_all(verdicts));
+            let name = &suite.scheme(&all[0].0.scheme).name;
+            finding.row(name, found, Verdict::of_all(verdicts));
+            let point = |(trial, one): &(Trial, Measured)| match trial.frame {
+                Frame::Translated(distance) => Some((distance.log10(), one.distance(plain).log10())),
+                _ => None,
+            };
+            curves.push(Curve::marked(name.clone(), all.iter().filter_map(point).collect(), curves.len()));
         }
+        let (x, y) =
+            (Axis::log10("distance of the origin"), Axis::log10("distance of the end from that at the origin"));
+        finding.chart(Chart::new("What a distant origin costs", x, y, curves), "The orbit has the size 1.");
         finding
+    }
+}
+
+impl Measured {
+    /// The distance of the ends.
+    fn distance(&self, other: &Measured) -> f64 {
+        (self.relative[0] - other.relative[0]).hypot(self.relative[1] - other.relative[1])
     }
 }
 

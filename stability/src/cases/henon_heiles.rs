@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
-use shadowstep::{Rational, Scheme};
+use shadowstep::{Number, Rational, Scheme};
+use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 
@@ -38,6 +39,8 @@ pub(super) struct Measured {
     energy_errors: [f64; 2],
     /// log₁₀ of the growth of a distance at the start, at most 12.
     growth: f64,
+    /// The same at some times.
+    growing: Vec<(f64, f64)>,
     /// When |q| is first above 2, beyond which nothing returns.
     escaped: Option<u64>,
 }
@@ -50,6 +53,10 @@ const OUTSIDE: f64 = 2.0;
 const CHAOTIC: f64 = 5.0;
 const BOUNDED: f64 = 1.5;
 const NEAR: f64 = 1e-10;
+/// The growth is kept at so many times.
+const SAMPLES: u64 = 200;
+/// Curves that can be told apart.
+const MOST_CURVES: usize = 12;
 const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
 impl Kind {
@@ -69,7 +76,7 @@ impl Case for HenonHeiles {
     const TITLE: &'static str = "Hénon–Heiles: regular, chaotic, escaping";
     const THEORY: &'static str = "Chaos is not an error: neighbouring orbits separate exponentially, and the error of H is as bounded as for regular \
         orbits; the monitor calls the step fine. Above H = 1/6 orbits escape, whatever the step.";
-    const REVISION: u32 = 2;
+    const REVISION: u32 = 3;
 
     type Trial = Trial;
     type Measured = Measured;
@@ -105,7 +112,8 @@ impl Case for HenonHeiles {
         let moved = N::from_rational(&Rational::from_float(NEAR).expect("it is finite"), context);
         near.q_mut()[0].add(&moved);
         let initial = motion.energy().to_f64();
-        let (mut energy_errors, mut growth, mut escaped) = ([0.0_f64; 2], 0.0_f64, None);
+        let length = <f64 as Number>::from_rational(&h, &());
+        let (mut energy_errors, mut growth, mut growing, mut escaped) = ([0.0_f64; 2], 0.0_f64, Vec::new(), None);
         let watched = watched((scheme, &h), (trial.steps / 256).max(1), motion, trial.steps, continues, |n, motion| {
             let [x, y] = [motion.q()[0].to_f64(), motion.q()[1].to_f64()];
             if x.hypot(y) > OUTSIDE {
@@ -118,13 +126,16 @@ impl Case for HenonHeiles {
             stepper.step(&mut near);
             let distance = (near.q()[0].to_f64() - x).hypot(near.q()[1].to_f64() - y);
             growth = growth.max((distance / NEAR).max(1.0).log10().min(12.0));
+            if n * SAMPLES % trial.steps < SAMPLES {
+                growing.push((n as f64 * length, growth));
+            }
             Next::Continue
         });
-        Ok(Measured { watched, energy_errors, growth, escaped })
+        Ok(Measured { watched, energy_errors, growth, growing, escaped })
     }
 
     fn judge(suite: &Suite, measured: &[(Trial, Measured)]) -> Finding {
-        let mut finding = Finding::default();
+        let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for (trial, one) in measured {
             let [first, second] = one.energy_errors;
             let bounded = second <= BOUNDED * first;
@@ -143,8 +154,17 @@ impl Case for HenonHeiles {
                 }
             };
             let kind = format!("{:?}", trial.kind).to_lowercase();
-            finding.row(&suite.scheme(&trial.scheme).name, format!("{kind}: {found}"), verdict);
+            let name = &suite.scheme(&trial.scheme).name;
+            finding.row(name, format!("{kind}: {found}"), verdict);
+            if trial.kind != Kind::Escaping && curves.len() < MOST_CURVES {
+                curves.push(Curve::line(format!("{name}, {kind}"), one.growing.clone(), curves.len()));
+            }
         }
+        let (x, y) = (Axis::linear("t"), Axis::log10("largest distance so far, beside that at the start"));
+        finding.chart(
+            Chart::new("Two orbits that begin 1e-10 apart", x, y, curves),
+            "Chaotic orbits are as far apart as the region is large soon.",
+        );
         finding
     }
 }

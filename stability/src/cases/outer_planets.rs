@@ -6,7 +6,7 @@ use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 
-use crate::bounded::{LongRun, Stayed};
+use crate::bounded::{LongRun, Stayed, envelopes};
 use crate::case::{Case, Continues};
 use crate::finding::Finding;
 use crate::suite::{Examined, Suite};
@@ -25,7 +25,7 @@ impl Case for OuterPlanets {
     const TITLE: &'static str = "The Sun and the outer planets for 10⁸ days";
     const THEORY: &'static str = "Over 274 000 years no planet leaves. The error of H oscillates with the planets and does not grow, until round-off is \
         as large: that wanders like √t.";
-    const REVISION: u32 = 2;
+    const REVISION: u32 = 3;
 
     type Trial = LongRun;
     type Measured = Stayed;
@@ -72,6 +72,11 @@ impl Case for OuterPlanets {
             let verdict = Verdict::of_all([stays, stayed.watched.is_fine()]);
             finding.row(&suite.scheme(&trial.scheme).name, found, verdict);
         }
+        let runs = measured.iter().map(|(trial, stayed)| (suite.scheme(&trial.scheme).name.clone(), stayed));
+        finding.chart(
+            envelopes("The error of H of the outer planets", "days", runs),
+            "Each point is the largest error in a 60th of the run.",
+        );
         finding
     }
 }

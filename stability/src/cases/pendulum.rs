@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
+use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 
@@ -86,7 +87,7 @@ impl Case for Pendulum {
     }
 
     fn judge(suite: &Suite, measured: &[(Trial, Moved)]) -> Finding {
-        let mut finding = Finding::default();
+        let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let (mut parts, mut verdicts) = (Vec::new(), Vec::new());
             for (trial, moved) in all {
@@ -101,15 +102,27 @@ impl Case for Pendulum {
             }
             let largest = all.iter().map(|(_, moved)| moved.energy_error).fold(0.0, f64::max);
             let found = format!("{}; error of H {largest:.1e} at most", parts.join(", "));
-            finding.row(&suite.scheme(&all[0].0.scheme).name, found, Verdict::of_all(verdicts));
+            let name = &suite.scheme(&all[0].0.scheme).name;
+            finding.row(name, found, Verdict::of_all(verdicts));
+            let point = |(trial, moved): &(Trial, Moved)| (momentum(trial.momentum), moved.energy_error.log10());
+            curves.push(Curve::marked(name.clone(), all.iter().map(point).collect(), curves.len()));
         }
+        let (x, y) = (Axis::linear("p(0); the separatrix is at 2"), Axis::log10("largest error of H"));
+        finding.chart(
+            Chart::new("The error of H around the separatrix", x, y, curves),
+            "Steps of 1/20 for each evaluation.",
+        );
         finding
     }
 }
 
+fn momentum(text: &str) -> f64 {
+    text.parse().expect("it is a number")
+}
+
 impl Moved {
-    fn verdict(&self, momentum: &str) -> Verdict {
-        let p: f64 = momentum.parse().expect("it is a number");
+    fn verdict(&self, start: &str) -> Verdict {
+        let p = momentum(start);
         // H of the start beside that of the separatrix, 1
         let distance = p * p / 2.0 - 2.0;
         let as_exact = if distance < 0.0 { self.back && !self.over } else { self.over && !self.back };

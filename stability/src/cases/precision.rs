@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Number, Rational, Stepper};
+use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
@@ -96,7 +97,7 @@ impl Case for Precision {
     }
 
     fn judge(suite: &Suite, measured: &[(Trial, Agreement)]) -> Finding {
-        let mut finding = Finding::default();
+        let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for chunk in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let named = suite.scheme(&chunk[0].0.scheme);
             let agree = chunk.iter().filter_map(|(trial, agreement)| match agreement {
@@ -113,7 +114,15 @@ impl Case for Precision {
             }
             let holds = agree.iter().all(|(digits, agree)| *agree >= f64::from(*digits) - LOST);
             finding.row(&named.name, found, if agree.is_empty() { Verdict::NotDecided } else { holds.into() });
+            let points =
+                agree.iter().map(|(digits, agree)| (f64::from(*digits).log10(), f64::from(*digits) - agree)).collect();
+            curves.push(Curve::marked(named.name.clone(), points, curves.len()));
         }
+        let (x, y) = (Axis::log10("digits"), Axis::linear("digits lost"));
+        finding.chart(
+            Chart::new("Digits lost in 20 steps", x, y, curves),
+            "Beside the same run with twice as many digits.",
+        );
         finding
     }
 }

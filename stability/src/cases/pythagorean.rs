@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::Scheme;
 use shadowstep::number::Rounded;
 use shadowstep::tables::Source;
+use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::arithmetic::DigitsLabel;
 use shadowstep_scenes::{Error, Observer, Scene, Summary};
@@ -109,6 +110,17 @@ impl Case for Pythagorean {
                 verdict,
             );
         }
+        let curve = |(i, all): (usize, &[(Trial, Said)])| {
+            let point = |(trial, said): &(Trial, Said)| match said {
+                Said::Summary { energy, .. } => Some(((trial.inverse as f64).log10(), energy.log10())),
+                Said::Failed(_) => None,
+            };
+            Curve::marked(suite.scheme(&all[0].0.scheme).name.clone(), all.iter().filter_map(point).collect(), i)
+        };
+        let by_scheme = measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme);
+        let (x, y) = (Axis::log10("evaluations a unit of time"), Axis::log10("largest error of H, as a part of H(0)"));
+        let chart = Chart::new("The energy after the encounters", x, y, by_scheme.enumerate().map(curve).collect());
+        finding.chart(chart, "An error of 1 is the whole energy.");
         finding
     }
 }

@@ -8,6 +8,7 @@ use shadowstep::formula::FormulaPotential;
 use shadowstep::number::Rounded;
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as Said};
 use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
+use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
@@ -99,11 +100,23 @@ impl Case for Resonances {
     }
 
     fn judge(suite: &Suite, measured: &[(Trial, Variation)]) -> Finding {
-        let mut finding = Finding::default();
+        let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let (found, verdict) = compared(all);
-            finding.row(&suite.scheme(&all[0].0.scheme).name, found, verdict);
+            let name = &suite.scheme(&all[0].0.scheme).name;
+            finding.row(name, found, verdict);
+            let point = |(trial, variation): &(Trial, Variation)| {
+                Some(((1.0 + trial.off) / f64::from(trial.n), (variation.ratio? - 1.0).log10()))
+            };
+            let mut points: Vec<_> = all.iter().filter_map(point).collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            curves.push(Curve::marked(name.clone(), points, curves.len()));
         }
+        let (x, y) = (Axis::linear("turns a step, approximately"), Axis::log10("relative variation of the invariant"));
+        finding.chart(
+            Chart::new("How far steps near resonances carry small orbits", x, y, curves),
+            "U = q²/2 + q³/3 at a third of a turn and 8 % beside it, q²/2 + q⁴/4 at 1/4, 1/5 and 1/7; an orbit that leaves is at 99.",
+        );
         finding
     }
 }

@@ -5,6 +5,7 @@ use shadowstep::number::Rounded;
 use shadowstep::problems::ProblemMotion;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Number, Rational, Scheme, StepSize, Stepper};
+use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 
@@ -22,14 +23,15 @@ pub(super) struct Trial {
     scheme: String,
     problem: &'static str,
     inverse: u32,
-    steps: u64,
+    /// Numbers of steps forth, the largest one last.
+    steps: Vec<u64>,
 }
 
 /// Distances |Δ(q, p)| in units of the last place of 1, ε.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Back {
-    /// From the start after n steps and n inverse steps.
-    to_start: f64,
+    /// From the start after n steps and n inverse steps, for each n.
+    to_start: Vec<f64>,
     /// Between n inverse steps and n steps of −h, both after n steps, for a short run.
     to_negative: f64,
 }
@@ -43,32 +45,41 @@ const FACTOR: f64 = 10.0;
 const SCHEMES: [&str; 6] =
     ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8", "ruth3", "symplectic-euler"];
 
+/// Curves that can be told apart.
+const MOST_CURVES: usize = 12;
+
+impl Trial {
+    fn longest(&self) -> u64 {
+        *self.steps.last().expect("there are some")
+    }
+}
+
 impl Case for Reversal {
     const NAME: &'static str = "reversal";
     const TITLE: &'static str = "Time reversal";
     const THEORY: &'static str = "The inverse of a step undoes it up to round-off, which drives the phase of a regular motion by less than \
         10 n^{3/2} ε in n steps forth and back. For a palindromic scheme the step of −h is the inverse, bit for bit; for others it is another map.";
-    const REVISION: u32 = 1;
+    const REVISION: u32 = 2;
 
     type Trial = Trial;
     type Measured = Back;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.thorough(1_000_000, 20_000);
+        let steps: Vec<u64> = (2..=suite.thorough(6, 4)).map(|decade| 10_u64.pow(decade)).collect();
         let schemes = suite.schemes_or(&SCHEMES);
         let trials = schemes.iter().flat_map(|scheme| {
             [("kepler", 200), ("henon-heiles", 40)].map(|(problem, inverse)| Trial {
                 scheme: scheme.identity.clone(),
                 problem,
                 inverse,
-                steps,
+                steps: steps.clone(),
             })
         });
         trials.collect()
     }
 
     fn seconds(suite: &Suite, trial: &Trial) -> f64 {
-        2.0 * trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 20e-9
+        2.2 * trial.longest() as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 20e-9
     }
 
     fn measure<N: Rounded + 'static>(
@@ -96,32 +107,44 @@ impl Case for Reversal {
         steps_back(&forth, &mut motion, SHORT);
         let to_negative = distance(&state(&motion), &by_negative);
 
-        set(&mut motion, &begin);
-        steps(&forth, &mut motion, trial.steps);
-        if continues(0.5) {
-            steps_back(&forth, &mut motion, trial.steps);
+        let mut to_start = Vec::new();
+        for count in &trial.steps {
+            set(&mut motion, &begin);
+            steps(&forth, &mut motion, *count);
+            if continues(0.5) {
+                steps_back(&forth, &mut motion, *count);
+            }
+            to_start.push(distance(&begin, &state(&motion)));
         }
-        Ok(Back { to_start: distance(&begin, &state(&motion)), to_negative })
+        Ok(Back { to_start, to_negative })
     }
 
     fn judge(suite: &Suite, measured: &[(Trial, Back)]) -> Finding {
         let mut finding = Finding::default();
         for (trial, back) in measured {
             let named = suite.scheme(&trial.scheme);
-            let steps = trial.steps as f64;
+            let (steps, to_start) = (trial.longest() as f64, *back.to_start.last().expect("there are some"));
             let symmetric = named.scheme.summary().symmetric;
             let same = back.to_negative == 0.0;
             let found = format!(
                 "{}, {} steps: {:.1e} ε from the start, {:.1e} n^{{3/2}} ε; −h is {}",
                 trial.problem,
-                trial.steps,
-                back.to_start,
-                back.to_start / steps.powf(1.5),
+                trial.longest(),
+                to_start,
+                to_start / steps.powf(1.5),
                 if same { "the inverse, bit for bit" } else { "another map" },
             );
-            let verdict = Verdict::from(back.to_start <= FACTOR * steps.powf(1.5) && same == symmetric);
+            let verdict = Verdict::from(to_start <= FACTOR * steps.powf(1.5) && same == symmetric);
             finding.row(&named.name, found, verdict);
         }
+        let curve = |(i, (trial, back)): (usize, &(Trial, Back))| {
+            let points = trial.steps.iter().zip(&back.to_start).filter(|(_, to_start)| **to_start > 0.0);
+            let points = points.map(|(n, to_start)| ((*n as f64).log10(), to_start.log10())).collect();
+            Curve::marked(format!("{}, {}", suite.scheme(&trial.scheme).name, trial.problem), points, i)
+        };
+        let (x, y) = (Axis::log10("steps forth, and as many back"), Axis::log10("distance from the start in ε"));
+        let curves = measured.iter().take(MOST_CURVES).enumerate().map(curve).collect();
+        finding.chart(Chart::new("Forth and back", x, y, curves), "Round-off in units of the last place of 1.");
         finding
     }
 }

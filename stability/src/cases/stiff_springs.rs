@@ -1,8 +1,9 @@
 //! Stiff springs with steps up to their stability limit.
 
 use shadowstep::number::Rounded;
-use shadowstep::{Rational, exact};
+use shadowstep::{Number, Rational, exact};
 use shadowstep_analysis::stability::Stability;
+use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_symbolic::decimal::to_text;
@@ -22,6 +23,8 @@ const OMEGA: i64 = 50;
 const BOUNDED: f64 = 4.0;
 /// The springs leave a gap of instability that is narrower.
 const NARROW: f64 = 0.05;
+/// log₁₀ of the largest error that is drawn.
+const LARGEST_DRAWN: f64 = 2.0;
 const SCHEMES: [&str; 4] = ["stormer-verlet", "mclachlan-sb3a4", "blanes-moan-s6", "blanes-moan-srkn6b"];
 
 impl Case for StiffSprings {
@@ -31,7 +34,7 @@ impl Case for StiffSprings {
         amplitudes grow. With hω at 0.75 and 0.95 of the stability limit all stays bounded; at 0.995 a step that enlarges amplitudes may be \
         carried beyond the limit. At 1.005 amplitudes grow, unless the unstable gap is so narrow that they leave it as the frequency shifts. What grows is \
         not called fine.";
-    const REVISION: u32 = 2;
+    const REVISION: u32 = 3;
 
     type Trial = LongRun;
     type Measured = Stayed;
@@ -64,7 +67,7 @@ impl Case for StiffSprings {
     }
 
     fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {
-        let mut finding = Finding::default();
+        let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let named = suite.scheme(&all[0].0.scheme);
             let stability = Stability::of_scheme(named.scheme.proved());
@@ -87,7 +90,20 @@ impl Case for StiffSprings {
             }
             let found = format!("parts of the limit, before a gap of {first_gap:.1e}: {}", parts.join("; "));
             finding.row(&named.name, found, Verdict::of_all(verdicts));
+            let of_limit = |part: &str| exact(part).map_or(f64::NAN, |part| <f64 as Number>::from_rational(&part, &()));
+            let points =
+                all.iter().zip(PARTS).map(|((_, stayed), part)| (of_limit(part), stayed.energy_errors[0].log10()));
+            let points: Vec<_> = points.filter(|(_, error)| *error <= LARGEST_DRAWN).collect();
+            curves.push(Curve::marked(named.name.clone(), points, curves.len()));
         }
+        let (x, y) = (
+            Axis::linear("hω as a part of the stability limit"),
+            Axis::log10("largest error of H in the first fourth of the run"),
+        );
+        finding.chart(
+            Chart::new("The error of H near the stability limit", x, y, curves),
+            "A curve ends where the springs run away.",
+        );
         finding
     }
 }
