@@ -14,7 +14,7 @@ fn a_report_has_verdicts_and_charts_and_is_not_computed_twice() {
     let printed = quietly(&command);
     assert!(printed.contains("agrees       stormer-verlet: 4 step sizes bounded"), "{printed}");
     assert!(printed.contains("-h is the inverse") || printed.contains("−h is the inverse, bit for bit"), "{printed}");
-    assert!(printed.ends_with("6 agree, 0 differ, 0 not decided\n"), "{printed}");
+    assert!(printed.ends_with("8 agree, 0 differ, 0 not decided\n"), "{printed}");
     let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
     assert!(page.contains("<svg ") && page.contains("Time reversal") && folder.path().join("oscillator.svg").exists());
     let table = fs::read_to_string(folder.path().join("stability.md")).unwrap();

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
-use shadowstep::problems::ProblemMotion;
+use shadowstep::problems::{Kepler, ProblemMotion};
 use shadowstep::tables::TableScheme;
-use shadowstep::{Number, Rational, Scheme, StepSize, Stepper};
+use shadowstep::{Motion, Number, Rational, Scheme, StepSize, Stepper, UnitMasses};
 use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
@@ -23,6 +23,8 @@ pub(super) struct Trial {
     scheme: String,
     problem: &'static str,
     inverse: u32,
+    /// In f64 with q and p in fixed point.
+    fixed_point: bool,
     /// Numbers of steps forth, the largest one last.
     steps: Vec<u64>,
 }
@@ -58,8 +60,9 @@ impl Case for Reversal {
     const NAME: &'static str = "reversal";
     const TITLE: &'static str = "Time reversal";
     const THEORY: &'static str = "The inverse of a step undoes it up to round-off, which drives the phase of a regular motion by less than \
-        10 n^{3/2} ε in n steps forth and back. For a palindromic scheme the step of −h is the inverse, bit for bit; for others it is another map.";
-    const REVISION: u32 = 2;
+        10 n^{3/2} ε in n steps forth and back. For a palindromic scheme the step of −h is the inverse, bit for bit; for others it is another map. In fixed \
+        point the inverse undoes each step to the last bit.";
+    const REVISION: u32 = 3;
 
     type Trial = Trial;
     type Measured = Back;
@@ -72,10 +75,20 @@ impl Case for Reversal {
                 scheme: scheme.identity.clone(),
                 problem,
                 inverse,
+                fixed_point: false,
                 steps: steps.clone(),
             })
         });
-        trials.collect()
+        let most = suite.thorough(10_000_000, 10_000);
+        let fixed = schemes.iter().map(|scheme| Trial {
+            scheme: scheme.identity.clone(),
+            problem: "kepler",
+            inverse: 200,
+            fixed_point: true,
+            // the same number of evaluations, to a factor of a few
+            steps: vec![if scheme.scheme.scheme.summary().evaluations > 3 { most / 10 } else { most }],
+        });
+        trials.chain(fixed).collect()
     }
 
     fn seconds(suite: &Suite, trial: &Trial) -> f64 {
@@ -89,6 +102,9 @@ impl Case for Reversal {
         continues: Continues<'_>,
     ) -> Result<Back, Error> {
         let scheme = &suite.scheme(&trial.scheme).scheme;
+        if trial.fixed_point {
+            return Ok(in_fixed_point(scheme, trial, continues));
+        }
         let h = Rational::new(scheme.summary().evaluations.into(), trial.inverse.into());
         let stepper = |h: Rational| {
             let h = StepSize::try_from(&h).expect("it is not 0");
@@ -123,6 +139,17 @@ impl Case for Reversal {
         let mut finding = Finding::default();
         for (trial, back) in measured {
             let named = suite.scheme(&trial.scheme);
+            if trial.fixed_point {
+                let same = back.to_start[0] == 0.0;
+                let end = if same {
+                    "the same bits".to_owned()
+                } else {
+                    format!("{:.1e} ε from the start", back.to_start[0])
+                };
+                let found = format!("{} in fixed point, {} steps: {end}", trial.problem, trial.longest());
+                finding.row(&named.name, found, same);
+                continue;
+            }
             let (steps, to_start) = (trial.longest() as f64, *back.to_start.last().expect("there are some"));
             let symmetric = named.scheme.summary().symmetric;
             let same = back.to_negative == 0.0;
@@ -143,10 +170,28 @@ impl Case for Reversal {
             Curve::marked(format!("{}, {}", suite.scheme(&trial.scheme).name, trial.problem), points, i)
         };
         let (x, y) = (Axis::log10("steps forth, and as many back"), Axis::log10("distance from the start in ε"));
-        let curves = measured.iter().take(MOST_CURVES).enumerate().map(curve).collect();
+        let curves =
+            measured.iter().filter(|(trial, _)| !trial.fixed_point).take(MOST_CURVES).enumerate().map(curve).collect();
         finding.chart(Chart::new("Forth and back", x, y, curves), "Round-off in units of the last place of 1.");
         finding
     }
+}
+
+/// Ranges of |q| and |p| that no orbit of Kepler's problem with e = 0.6 leaves.
+const RANGES: [[f64; 2]; 2] = [[4.0; 2], [8.0; 2]];
+
+fn in_fixed_point(scheme: &TableScheme, trial: &Trial, continues: Continues<'_>) -> Back {
+    let h = Rational::new(scheme.summary().evaluations.into(), trial.inverse.into());
+    let stepper = Stepper::new(scheme.clone(), &h).expect("it is positive");
+    let start = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]).expect("two coordinates");
+    let mut motion = start.fixed_point(&RANGES[0], &RANGES[1]).expect("the ranges hold the orbit");
+    let begin = [motion.q(), motion.p()].concat();
+    let count = trial.longest();
+    (0..count).for_each(|_| stepper.step(&mut motion));
+    if continues(0.5) {
+        (0..count).for_each(|_| stepper.step_back(&mut motion));
+    }
+    Back { to_start: vec![distance(&begin, &[motion.q(), motion.p()].concat())], to_negative: 0.0 }
 }
 
 fn steps<N: Number + 'static>(stepper: &Stepper<TableScheme, N>, motion: &mut ProblemMotion<N>, count: u64) {

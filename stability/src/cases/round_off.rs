@@ -25,10 +25,18 @@ pub(super) struct RoundOff;
 #[derive(Clone, Serialize)]
 pub(super) struct Trial {
     scheme: String,
+    sums: Sums,
     /// In 32nds of the period.
     phase: u32,
     /// The numbers of steps at which the modified energy is looked at.
     steps: Vec<u64>,
+}
+
+/// How increments are added to q and p.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+enum Sums {
+    Plain,
+    Compensated,
 }
 
 /// The change of the modified energy since the start, as a part of |H|, at each number of steps.
@@ -47,6 +55,8 @@ const STEPS_A_UNIT: u32 = 100;
 const ORDER: u32 = 16;
 /// A wander of n^a has a from 0.35 to 0.65, for the spread of 32 phases over two decades; a drift has 1.
 const WANDERS: (f64, f64) = (0.35, 0.65);
+/// Compensated sums wander less by this factor at least.
+const GAIN: f64 = 10.0;
 /// A drift of the mean over the phases is seen beyond so many of its standard errors.
 const SEEN: f64 = 3.0;
 const SCHEMES: [&str; 3] = ["stormer-verlet", "blanes-moan-srkn6b", "kahan-li8"];
@@ -55,9 +65,9 @@ impl Case for RoundOff {
     const NAME: &'static str = "round-off";
     const TITLE: &'static str = "Round-off over 10⁵ to 10⁸ steps in double precision";
     const THEORY: &'static str = "Brouwer's law: where rounding is unbiased, the modified energy wanders like √n, by about ε in each evaluation. A bias \
-        makes it drift like n. The changes are those of 32 orbits that begin at different phases; their root mean square grows like n^a, with \
+        makes it drift like n. Compensated sums round by ε of the increments instead of the coordinates, and wander at least ten times less. The changes are those of 32 orbits that begin at different phases; their root mean square grows like n^a, with \
         a = ½ for a wander and 1 for a drift.";
-    const REVISION: u32 = 1;
+    const REVISION: u32 = 2;
 
     type Trial = Trial;
     type Measured = Changes;
@@ -70,7 +80,11 @@ impl Case for RoundOff {
             let steps: Vec<u64> =
                 (2 * (longest - 3)..=2 * longest).map(|half| 10_f64.powf(f64::from(half) / 2.0) as u64).collect();
             let identity = scheme.identity.clone();
-            (0..PHASES).map(move |phase| Trial { scheme: identity.clone(), phase, steps: steps.clone() })
+            let phases = move |sums| {
+                let (identity, steps) = (identity.clone(), steps.clone());
+                (0..PHASES).map(move |phase| Trial { scheme: identity.clone(), sums, phase, steps: steps.clone() })
+            };
+            [Sums::Plain, Sums::Compensated].into_iter().flat_map(phases)
         };
         suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
     }
@@ -95,7 +109,8 @@ impl Case for RoundOff {
         let stepper = Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
         let (q, p) = start(f64::from(trial.phase) / f64::from(PHASES));
         let number = |x: f64| N::from_rational(&Rational::from_f64(x).expect("it is finite"), context);
-        let mut motion = Motion::new(Kepler, UnitMasses, q.map(number), p.map(number)).expect("two coordinates");
+        let motion = Motion::new(Kepler, UnitMasses, q.map(number), p.map(number)).expect("two coordinates");
+        let mut motion = motion.compensated_if(trial.sums == Sums::Compensated);
         let (initial, mut error) = modified_energy(&stepper, &mut motion);
         let (mut n, mut changes) = (0, Vec::new());
         for steps in &trial.steps {
@@ -119,12 +134,25 @@ impl Case for RoundOff {
     fn judge(suite: &Suite, measured: &[(Trial, Changes)]) -> Finding {
         let mut finding = Finding::default();
         let mut curves = Vec::new();
-        for (i, all) in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme).enumerate() {
+        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let name = &suite.scheme(&all[0].0.scheme).name;
-            let Some(found) = Wander::of(all) else { continue };
-            finding.row(name, found.described(), found.verdict());
-            let points = found.rms.iter().map(|(n, rms)| (n.log10(), rms.log10())).collect();
-            curves.push(Curve::marked(name.clone(), points, i));
+            let wanders: Vec<_> = all
+                .chunk_by(|(one, _), (other, _)| one.sums == other.sums)
+                .filter_map(|all| Some((all[0].0.sums, Wander::of(all)?)))
+                .collect();
+            for (sums, found) in &wanders {
+                let label = format!("{name}, {}", format!("{sums:?}").to_lowercase());
+                finding.row(&label, found.described(), found.verdict());
+                let points = found.rms.iter().map(|(n, rms)| (n.log10(), rms.log10())).collect();
+                curves.push(Curve::marked(label, points, curves.len()));
+            }
+            if let [(_, plain), (_, compensated)] = &wanders[..] {
+                let gain = plain.last() / compensated.last();
+                // two root mean squares of so many values each
+                let uncertain = 2.0 * (1.0 / f64::from(PHASES)).sqrt();
+                let found = format!("compensated sums wander {gain:.0} times less (± {:.0} %)", 100.0 * uncertain);
+                finding.row(name, found, gained(gain, uncertain));
+            }
         }
         let (x, y) = (Axis::log10("steps"), Axis::log10("change as a part of H, rms of 32 phases"));
         finding.chart(
@@ -136,6 +164,15 @@ impl Case for RoundOff {
 }
 
 const ENERGY: f64 = -0.5;
+
+/// Whether the gain of compensated sums is beyond the least one, with its uncertainty.
+fn gained(gain: f64, uncertain: f64) -> Verdict {
+    match () {
+        () if gain * (1.0 - uncertain) >= GAIN => Verdict::Agrees,
+        () if gain * (1.0 + uncertain) < GAIN => Verdict::Differs,
+        () => Verdict::NotDecided,
+    }
+}
 
 /// q and p at a part of the period.
 fn start(part: f64) -> ([f64; 2], [f64; 2]) {
@@ -202,6 +239,11 @@ impl Wander {
         Some(Wander { rms, exponent, exponent_error, mean, mean_error: (variance / phases).sqrt() })
     }
 
+    /// The root mean square at the end.
+    fn last(&self) -> f64 {
+        self.rms[self.rms.len() - 1].1
+    }
+
     /// Whether the mean of all phases drifts.
     fn drifts(&self) -> bool {
         self.mean.abs() > SEEN * self.mean_error
@@ -240,7 +282,7 @@ mod tests {
             let sign = if phase.is_multiple_of(2) { 1.0 } else { -1.0 };
             let size = sign * (0.5 + f64::from(phase / 2) / 16.0);
             let changes = steps.iter().map(|&n| wander * size * (n as f64).sqrt() + drift * n as f64).collect();
-            let trial = Trial { scheme: String::new(), phase, steps: steps.clone() };
+            let trial = Trial { scheme: String::new(), sums: Sums::Plain, phase, steps: steps.clone() };
             (trial, Changes { changes, error: 0.0 })
         };
         (0..PHASES).map(of).collect()
@@ -256,6 +298,14 @@ mod tests {
         assert_eq!(drift.verdict(), Verdict::Differs);
         // a drift that is as small as the wander does not decide
         assert_eq!(Wander::of(&measured(1e-16, 3e-20)).unwrap().verdict(), Verdict::NotDecided);
+    }
+
+    #[test]
+    fn a_gain_is_decided_beyond_its_uncertainty() {
+        assert_eq!(
+            [20.0, 11.0, 5.0].map(|gain| gained(gain, 0.3)),
+            [Verdict::Agrees, Verdict::NotDecided, Verdict::Differs]
+        );
     }
 
     #[test]
