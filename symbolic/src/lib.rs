@@ -37,6 +37,7 @@
 //! | file | what it is |
 //! | --- | --- |
 //! | `number` | **exact numbers** |
+//! | `number/divisor` | greatest common divisors of long numbers |
 //! | `number/ratio`, `number/rational`, `number/fraction` | ratios, in lowest terms or not, and their order |
 //! | `number/rounding` | a rational → the decimals next to it |
 //! | `number/power` | rational powers and roots, and the largest size of numbers |

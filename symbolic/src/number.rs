@@ -1,6 +1,7 @@
 //! Exact numbers: rationals, their rounding, and rational bounds of roots, functions and π.
 
 pub(crate) mod ball;
+pub(crate) mod divisor;
 pub(crate) mod elementary;
 pub(crate) mod fraction;
 pub(crate) mod function;

@@ -1,7 +1,7 @@
 //! Exact rationals.
 //!
-//! The arithmetic is that of `num_rational`, but comparisons and hashes are not: there they recurse along continued
-//! fractions, for long numbers beyond the end of the stack.
+//! Comparisons, hashes and the search for common divisors are not those of `num_rational`: the first two recurse along continued
+//! fractions, for long numbers beyond the end of the stack, and the last takes a pass over the numbers for every bit.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -14,6 +14,7 @@ use num_bigint::BigInt;
 use num_rational::{BigRational, ParseRatioError};
 use num_traits::{FromPrimitive, Num, One, Signed, ToPrimitive, Zero};
 
+use crate::number::divisor::common_divisor;
 use crate::number::ratio::{Ratio, compare};
 
 /// A rational number numerator/denominator in lowest terms, with a positive denominator.
@@ -36,7 +37,13 @@ impl Rational {
     /// # Panics
     /// If the denominator is 0.
     pub fn new(numerator: BigInt, denominator: BigInt) -> Self {
-        Rational(BigRational::new(numerator, denominator))
+        assert!(!denominator.is_zero(), "the denominator must not be 0");
+        let divisor = common_divisor(&numerator, &denominator);
+        let (numerator, denominator) = (divided(numerator, &divisor), divided(denominator, &divisor));
+        match denominator.is_negative() {
+            true => Rational::new_raw(-numerator, -denominator),
+            false => Rational::new_raw(numerator, denominator),
+        }
     }
 
     /// numerator/denominator without a search for common divisors, of which there must be none; the denominator must be
@@ -143,76 +150,117 @@ impl Ratio for Rational {
 
 // ---- arithmetic ----
 
+/// number/divisor, which is an integer
+fn divided(number: BigInt, divisor: &BigInt) -> BigInt {
+    if divisor.is_one() { number } else { number / divisor }
+}
+
+/// a + b, with the least divisors searched for (Knuth, The Art of Computer Programming 2, 4.5.1)
+fn sum(a: &Rational, b: &Rational) -> Rational {
+    if a.is_zero() || b.is_zero() {
+        return if a.is_zero() { b.clone() } else { a.clone() };
+    }
+    let divisor = common_divisor(a.denom(), b.denom());
+    if divisor.is_one() {
+        return Rational::new_raw(a.numer() * b.denom() + b.numer() * a.denom(), a.denom() * b.denom());
+    }
+    let [of_a, of_b] = [a, b].map(|number| number.denom() / &divisor);
+    let numerator = a.numer() * &of_b + b.numer() * &of_a;
+    let common = common_divisor(&numerator, &divisor);
+    Rational::new_raw(divided(numerator, &common), of_a * divided(b.denom().clone(), &common))
+}
+
+fn difference(a: &Rational, b: &Rational) -> Rational {
+    sum(a, &-b)
+}
+
+fn product(a: &Rational, b: &Rational) -> Rational {
+    if a.is_zero() || b.is_zero() {
+        return Rational::zero();
+    }
+    let (one, other) = (common_divisor(a.numer(), b.denom()), common_divisor(b.numer(), a.denom()));
+    let part = |number: &BigInt, divisor: &BigInt| divided(number.clone(), divisor);
+    Rational::new_raw(part(a.numer(), &one) * part(b.numer(), &other), part(a.denom(), &other) * part(b.denom(), &one))
+}
+
+fn quotient(a: &Rational, b: &Rational) -> Rational {
+    product(a, &b.recip())
+}
+
+fn remainder(a: &Rational, b: &Rational) -> Rational {
+    Rational(&a.0 % &b.0)
+}
+
 macro_rules! operators {
-    ($($operator:ident, $method:ident, $assigning:ident, $assign:ident;)*) => { $(
+    ($($operator:ident, $method:ident, $assigning:ident, $assign:ident, $computed:ident;)*) => { $(
         impl $operator for Rational {
             type Output = Rational;
             fn $method(self, other: Rational) -> Rational {
-                Rational(self.0.$method(other.0))
+                $computed(&self, &other)
             }
         }
 
         impl $operator<&Rational> for Rational {
             type Output = Rational;
             fn $method(self, other: &Rational) -> Rational {
-                Rational(self.0.$method(&other.0))
+                $computed(&self, other)
             }
         }
 
         impl $operator<Rational> for &Rational {
             type Output = Rational;
             fn $method(self, other: Rational) -> Rational {
-                Rational((&self.0).$method(other.0))
+                $computed(self, &other)
             }
         }
 
         impl $operator<&Rational> for &Rational {
             type Output = Rational;
             fn $method(self, other: &Rational) -> Rational {
-                Rational((&self.0).$method(&other.0))
+                $computed(self, other)
             }
         }
 
         impl $operator<BigInt> for Rational {
             type Output = Rational;
             fn $method(self, other: BigInt) -> Rational {
-                Rational(self.0.$method(other))
+                $computed(&self, &Rational::from_integer(other))
             }
         }
 
         impl $operator<BigInt> for &Rational {
             type Output = Rational;
             fn $method(self, other: BigInt) -> Rational {
-                Rational((&self.0).$method(other))
+                $computed(self, &Rational::from_integer(other))
             }
         }
 
         impl $assigning for Rational {
             fn $assign(&mut self, other: Rational) {
-                self.0.$assign(other.0);
+                *self = $computed(self, &other);
             }
         }
 
         impl $assigning<&Rational> for Rational {
             fn $assign(&mut self, other: &Rational) {
-                self.0.$assign(&other.0);
+                *self = $computed(self, other);
             }
         }
 
         impl $assigning<BigInt> for Rational {
             fn $assign(&mut self, other: BigInt) {
-                self.0.$assign(other);
+                *self = $computed(self, &Rational::from_integer(other));
             }
         }
     )* };
 }
 
 operators! {
-    Add, add, AddAssign, add_assign;
-    Sub, sub, SubAssign, sub_assign;
-    Mul, mul, MulAssign, mul_assign;
-    Div, div, DivAssign, div_assign;
-    Rem, rem, RemAssign, rem_assign;
+    Add, add, AddAssign, add_assign, sum;
+    Sub, sub, SubAssign, sub_assign, difference;
+    Mul, mul, MulAssign, mul_assign, product;
+    Div, div, DivAssign, div_assign, quotient;
+    Rem, rem, RemAssign, rem_assign, remainder;
 }
 
 impl Neg for Rational {
@@ -409,6 +457,26 @@ mod tests {
             let [x, y] = [(a, b), (c, d)].map(|(n, d)| Rational::new(n.into(), d.into()));
             prop_assert_eq!(x.cmp(&y), (a * d).cmp(&(c * b)));
             prop_assert_eq!(x == y, a * d == c * b);
+        }
+
+        #[test]
+        fn the_arithmetic_is_that_of_num_rational((a, b) in (any::<i64>(), any::<i64>()), (c, d) in (any::<i32>(), any::<i32>())) {
+            let of = |n: i128, d: i128| (Rational::new(n.into(), d.into()), BigRational::new(n.into(), d.into()));
+            let (b, d) = (if b == 0 { 1 } else { b }, if d == 0 { 1 } else { d });
+            // denominators alike, with common divisors, and with none
+            for below in [d.into(), i128::from(b), i128::from(b) * i128::from(d)] {
+                let ((x, one), (y, other)) = (of(a.into(), b.into()), of(c.into(), below));
+                prop_assert_eq!(BigRational::from(&x + &y), &one + &other);
+                prop_assert_eq!(BigRational::from(&x - &y), &one - &other);
+                prop_assert_eq!(BigRational::from(&x * &y), &one * &other);
+                if c != 0 {
+                    prop_assert_eq!(BigRational::from(&x / &y), &one / &other);
+                    prop_assert_eq!(BigRational::from(&x % &y), &one % &other);
+                }
+                let mut sum = x.clone();
+                sum -= BigInt::from(c);
+                prop_assert_eq!(BigRational::from(sum), one - BigInt::from(c));
+            }
         }
 
         /// Numbers of very different sizes, and of nearly the same.
