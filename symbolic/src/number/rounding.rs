@@ -25,9 +25,26 @@ pub(crate) fn ten(exponent: u64) -> BigInt {
 
 /// units / 10^places.
 pub(crate) fn at_places(units: BigInt, places: i64) -> Rational {
-    let power = ten(places.unsigned_abs());
-    if places > 0 { Rational::new(units, power) } else { Rational::from_integer(units * power) }
+    let places = match u64::try_from(places) {
+        Ok(places) if !units.is_zero() => places,
+        Ok(_) => return Rational::zero(),
+        Err(_) => return Rational::from_integer(units * ten(places.unsigned_abs())),
+    };
+    // common divisors of most units and a power of ten are found by a few divisions
+    let twos = units.trailing_zeros().unwrap_or(0).min(places);
+    let (mut rest, mut fives, five) = (&units >> twos, 0, BigInt::from(5));
+    while fives < places && rest.is_multiple_of(&five) {
+        if fives == MOST_FIVES {
+            return Rational::new(units, ten(places));
+        }
+        rest /= &five;
+        fives += 1;
+    }
+    Rational::new_raw(rest, num_traits::Pow::pow(five, places - fives) << (places - twos))
 }
+
+/// Units with more factors of 5 have a common divisor that is worth a search.
+const MOST_FIVES: u64 = 20;
 
 /// Numerator and denominator of value * 10^places, not reduced.
 pub(crate) fn scaled(value: &impl Ratio, places: i64) -> (BigInt, BigInt) {
@@ -83,4 +100,27 @@ fn reaches(value: &impl Ratio, k: i64) -> bool {
 /// The decimal places that `digits` significant digits of the value reach to.
 pub(crate) fn places(value: &impl Ratio, digits: u32) -> i64 {
     i64::from(digits.max(1)) - 1 - magnitude(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_in_lowest_terms() {
+        for units in [0_i64, 1, -1, 2, 5, -50, 1250, 3_125_000, 7 << 40, 1_220_703_125] {
+            for places in [-3, 0, 1, 2, 9, 17] {
+                let found = at_places(units.into(), places);
+                let (above, below) = if places < 0 { (ten(3), ten(0)) } else { (ten(0), ten(places as u64)) };
+                let expected = Rational::new(BigInt::from(units) * above, below);
+                assert_eq!((found.numer(), found.denom()), (expected.numer(), expected.denom()), "{units} {places}");
+            }
+        }
+        // 10^30 and 5^40
+        for units in [ten(30), num_traits::Pow::pow(BigInt::from(5), 40u64)] {
+            for places in [10, 30, 45] {
+                assert_eq!(at_places(units.clone(), places), Rational::new(units.clone(), ten(places as u64)));
+            }
+        }
+    }
 }
