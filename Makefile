@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything. Both fetch what is missing.
 
-.PHONY: run test deps format lint check docs bench stability rivals package
+.PHONY: run test deps format lint check docs bench stability rivals package fuzz valgrind
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run: deps
@@ -47,6 +47,17 @@ stability: deps
 # Speed against error of Shadowstep and of what one would use instead: writes docs/speed-against-error.md.
 rivals: deps
 	rivals/run.sh
+
+# Fuzzes the readers of tables, formulas, scenes and checkpoints, SECONDS each: `make fuzz SECONDS=600 READERS="table scene"`.
+SECONDS = 60
+fuzz: deps
+	SECONDS_EACH=$(SECONDS) fuzz/run.sh $(READERS)
+
+# A short run in MPFR with modified energies under valgrind: an invalid access, or memory that is lost, is an error.
+valgrind: deps
+	cargo build --locked -p shadowstep-cli
+	valgrind --quiet --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite target/debug/shadowstep drift kepler \
+	    --scheme yoshida4 --step 1/10 --until 1 --digits 50 --order 8 --no-summary
 
 # Packs every crate but the tests as for crates.io, and builds each from its package. cargo would build again with the
 # packages that an earlier run has unpacked, so these are removed first.

@@ -6,6 +6,7 @@ pub mod general;
 pub mod lennard_jones;
 pub mod matrix;
 pub mod pages;
+pub mod readers;
 pub mod reference;
 pub mod refusals;
 pub mod shipped;
