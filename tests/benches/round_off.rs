@@ -1,7 +1,7 @@
 //! What round-off makes of the modified energy in double precision: plain sums, compensated ones, and fixed point, over many phases.
 //!
-//! `cargo bench -p shadowstep-tests --bench round_off` prints the tables of `docs/round-off.md`; `-- STEPS PHASES` sets the length of the
-//! runs and how many there are, such as `-- 1e8 8`.
+//! `cargo bench -p shadowstep-tests --bench round_off` prints the tables of `docs/round-off.md`; `-- STEPS PHASES NAME` sets the length of the
+//! runs, how many there are, and the cases whose names contain NAME, such as `-- 1e8 8 yoshida4`.
 //!
 //! The modified energy is that of the state in `f64` with its remainders, by steps of 50 digits around it, so that no round-off of
 //! the estimate is in the results.
@@ -222,6 +222,7 @@ fn main() {
     let mut arguments = std::env::args().skip(1).filter(|argument| !argument.starts_with("--"));
     let mut number = |default: f64| arguments.next().map_or(default, |text| text.parse().expect("a number"));
     let (steps, phases) = (number(1e6) as u64, number(32.0) as usize);
+    let part = arguments.next().unwrap_or_default();
     println!("{steps:e} steps, {phases} phases\n");
     println!(
         "| problem, scheme, step | sums | rms of H̄ − H̄(0) | largest | grows like n to the | mean over the phases |"
@@ -236,7 +237,10 @@ fn main() {
         kepler("kahan-li8", KahanLi8, "1/40"),
         henon_heiles("stormer-verlet", StormerVerlet, "1/20"),
         henon_heiles("yoshida4", Yoshida4, "1/20"),
-    ] {
+    ]
+    .into_iter()
+    .filter(|case| case.name.contains(&part))
+    {
         for sums in [Sums::Plain, Sums::Compensated, Sums::FixedPoint] {
             row(&case, phases, steps, sums);
         }

@@ -5,7 +5,9 @@ use std::fmt;
 use thiserror::Error;
 
 use crate::number::Number;
+use crate::scheme::Scheme;
 use crate::shadow::EstimatorError;
+use crate::stepper::Stepper;
 
 /// A run that cannot begin or cannot continue.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -24,6 +26,19 @@ pub enum RunError {
         /// n of the state that was to come next.
         step: i64,
     },
+    /// The system is not the one with which a monitor began.
+    #[error(
+        "the system has {coordinates} coordinates, and the one at the start had {begun}; a monitor follows one system"
+    )]
+    Dimension {
+        /// Its coordinates.
+        coordinates: usize,
+        /// Those of the system at the start.
+        begun: usize,
+    },
+    /// The weights of the stepper have another precision than the numbers of the system.
+    #[error("the weights of the stepper have another precision than the system: make both with the same context")]
+    Precision,
     /// The settings of the estimator are not valid.
     #[error(transparent)]
     Estimator(#[from] EstimatorError),
@@ -77,6 +92,15 @@ impl fmt::Display for NotFinite {
             _ => write!(f, "{} is {}", self.quantity, self.value),
         }
     }
+}
+
+/// Refuses a stepper whose weights have another precision than the system.
+pub(crate) fn check_precision<S: Scheme, N: Number>(
+    stepper: &Stepper<S, N>,
+    context: &N::Context,
+) -> Result<(), RunError> {
+    let same = stepper.weights().iter().all(|weight| weight.context() == *context);
+    if same { Ok(()) } else { Err(RunError::Precision) }
 }
 
 /// Refuses a value that is not finite. States may be finite where their products overflow.

@@ -7,6 +7,7 @@
 //! | `change`, `trend` | what these say: a permanent change and its uncertainty; constant, random walk or line |
 //! | `statistics` | extremes and sums over the windows |
 //! | `recent` | round-off, turning and consistency, from the newest states of a window |
+//! | `fastest` | the coordinate that turns fastest, each by itself |
 //! | `rate` | whether the rate is qᵀU_q − 2U |
 //! | `roughness` | whether the forces are smooth |
 //! | `report`, `verdict`, `text` | the result in numbers, as a verdict, and as text |
@@ -15,6 +16,7 @@ mod arithmetic;
 mod blocks;
 mod change;
 mod estimated;
+mod fastest;
 mod rate;
 mod recent;
 mod report;
@@ -32,12 +34,13 @@ pub use verdict::{Advice, Criterion, Missing, Verdict};
 
 use self::blocks::Blocks;
 use self::estimated::Estimated;
+use self::fastest::Fastest;
 use self::rate::RateCheck;
 use self::recent::Recent;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
 use crate::number::Number;
-use crate::run::{Quantity, RunError, State, check_energy, check_value};
+use crate::run::{Quantity, RunError, State, check_energy, check_precision, check_value};
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
 use crate::stepper::Stepper;
@@ -135,6 +138,7 @@ pub struct ShadowEnergy<S: Scheme, N: Number, E> {
     statistics: Statistics<N>,
     blocks: Blocks<N>,
     recent: Recent<N>,
+    fastest: Fastest<N>,
     /// The unknown increments of the first state of a window.
     unknown: Increments<N>,
     /// H − H̄
@@ -172,13 +176,15 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
     /// Begins at the system's present state, which is number 0. There is a window at every step.
     ///
     /// # Errors
-    /// A state or an energy that is not finite; settings of the estimator that are not valid.
+    /// A state or an energy that is not finite; settings of the estimator that are not valid; a stepper whose weights have another
+    /// precision than the system.
     pub fn new<M: System<Number = N>>(
         stepper: Stepper<S, N>,
         system: &mut M,
         settings: &impl BuildEstimator<N, Estimator = E>,
     ) -> Result<Self, RunError> {
         let (dimension, context) = (system.q().len(), system.context());
+        check_precision(&stepper, &context)?;
         let estimator = settings.build(stepper.step_size(), dimension, &context)?;
         let states = estimator.states();
         let [mut energy, mut kinetic] = [N::zero(&context), N::zero(&context)];
@@ -192,12 +198,14 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
             blocks: Blocks::new(&energy),
             newest: Newest { n: 0, modified: Estimated::zero(&context), has_error: false, order: 0, energy, kinetic },
             recent: Recent::new(states, stepper.step_size(), dimension, &context)?,
+            fastest: Fastest::new(dimension, &context),
             unknown: Increments::of_beta(N::zero(&context)),
             method: N::zero(&context),
             rate: RateCheck::new(dimension, &context),
             not_finite: None,
             stepper,
         };
+        monitor.fastest.begin(0, system.p());
         monitor.take(system)?;
         Ok(monitor)
     }
@@ -250,10 +258,11 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
     ///
     /// # Errors
     /// A state of a window, or its energy or modified energy, that is not finite. What is not finite stays so: between the
-    /// windows it is found by the next one.
+    /// windows it is found by the next one. A system of another dimension than that of the start.
     #[inline]
     pub fn observe<M: System<Number = N>>(&mut self, system: &mut M) -> Result<Option<Sample<'_, N>>, RunError> {
         self.n += 1;
+        self.fastest.begin(self.n, system.p());
         if !self.schedule.takes(self.n) {
             return Ok(None);
         }
@@ -270,6 +279,10 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
 
     /// Takes a state of a window; returns whether it ends one.
     fn take<M: System<Number = N>>(&mut self, system: &mut M) -> Result<bool, RunError> {
+        let (coordinates, begun) = (system.q().len(), self.fastest.dimension());
+        if coordinates != begun {
+            return Err(RunError::Dimension { coordinates, begun });
+        }
         if self.schedule.is_middle(self.n) && !self.schedule.overlaps() {
             // while the gradient is kept from which the energy follows
             system.assign_energies(&mut self.newest.energy, &mut self.newest.kinetic);
@@ -310,6 +323,9 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
         check_value(&modified.value, Quantity::ModifiedEnergy, number(*n))?;
         check_value(&modified.error, Quantity::ModifiedEnergyError, number(*n))?;
         self.recent.end(states);
+        if let Some(momenta) = self.recent.momenta(states) {
+            self.fastest.add(momenta);
+        }
         let best = self.blocks.push(energy, modified);
         self.method.assign_difference(energy, &best.value);
         self.statistics.add(energy, kinetic, &self.method, modified);

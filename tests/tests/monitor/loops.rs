@@ -140,3 +140,24 @@ fn unknown_errors_are_named() {
         assert!(report.reason().ends_with("but this estimator gives no errors"), "{report}");
     }
 }
+
+/// Weights of another precision, or another system, are errors.
+#[test]
+fn other_systems_are_refused() {
+    let stepper = stepper("stormer-verlet", "1/20", &precision(30));
+    let settings = Bilinear::with_error(8);
+    let mut precise = comet::<Float>(&precision(60));
+    assert_eq!(ShadowEnergy::new(stepper.clone(), &mut precise, &settings).map(drop), Err(RunError::Precision));
+    assert_eq!(ShadowRun::new(&stepper, precise, 10, &settings).map(drop), Err(RunError::Precision));
+    assert!(ShadowRun::new(&stepper, comet::<Float>(&precision(30)), 10, &settings).is_ok());
+
+    let stepper = shadowstep_tests::stepper("stormer-verlet", "1/20", &());
+    let pendulum = || Motion::new(Pendulum, UnitMasses, vec![0.0], vec![1.0]).unwrap();
+    let mut monitor = ShadowEnergy::new(stepper.clone(), &mut comet(&()), &settings).unwrap().every(20);
+    let error = (0..100).find_map(|_| monitor.step(&mut pendulum()).map(drop).err()).unwrap();
+    assert_eq!(error, RunError::Dimension { coordinates: 1, begun: 2 });
+    let message = "the system has 1 coordinates, and the one at the start had 2; a monitor follows one system";
+    assert_eq!(error.to_string(), message);
+    let mut monitor = ShadowEnergy::new(stepper, &mut pendulum(), &settings).unwrap();
+    assert_eq!(monitor.step(&mut comet(&())).map(drop), Err(RunError::Dimension { coordinates: 2, begun: 1 }));
+}

@@ -10,13 +10,14 @@ mod words;
 
 use rug::Float;
 use shadowstep::number::counting::{Counting, count};
-use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum, ProblemMotion, problem};
+use shadowstep::pairs::Pairs;
+use shadowstep::problems::{Gravity, HarmonicOscillator, HenonHeiles, Kepler, Pendulum, ProblemMotion, problem};
 use shadowstep::run::{Quantity, RunError, ShadowRun};
 use shadowstep::shadow::{
     Bilinear, BuildEstimator, Central, Criterion, Missing, Report, ShadowEnergy, StoppingRule, Trend, Verdict,
 };
 use shadowstep::tables::{TableScheme, shipped};
-use shadowstep::{Motion, Number, Potential, Stepper, UnitMasses, kinetic, potential};
+use shadowstep::{DiagonalMasses, Motion, Number, Potential, Stepper, UnitMasses, kinetic, potential};
 use shadowstep_tests::{Bits, log10_distance, number, numbers, precision, same_bits, stepper};
 
 type Start<N, P> = Motion<N, Vec<N>, P, UnitMasses>;

@@ -109,3 +109,54 @@ fn any_kinetic_energy() {
     let report = monitor.report();
     assert!(report.verdict == Verdict::Fine && report.moved < 1e-4 * report.energy_error, "{report}");
 }
+
+/// Beyond the stability limit hω = 3.1635 of the scheme, in the gap.
+#[test]
+fn a_step_beyond_the_limit_is_too_large() {
+    for (h, steps) in [("3.1951", 20_000), ("3.1951", 400), ("3.2", 20_000)] {
+        let report = watch("harmonic-oscillator", &[], "blanes-moan-srkn6b", h, steps);
+        assert_eq!(report.verdict, ENERGY_ERROR, "h = {h}: {report}");
+    }
+}
+
+/// Two stars, and a planet of the mass m whose orbit around one of them, of radius 1/10, has ω = 31.6.
+fn planet(m: f64) -> Motion<f64, Vec<f64>, Pairs<Gravity<f64>, 2>, DiagonalMasses<f64>> {
+    let (masses, distance, radius) = ([1.0, 0.5, m], 10.0, 0.1);
+    let omega = (1.5 / 1000.0_f64).sqrt();
+    let [x1, x2] = [-distance / 3.0, distance * 2.0 / 3.0];
+    let v = omega * x1 + 10.0_f64.sqrt();
+    let kinetic = DiagonalMasses::from_numbers(&masses.map(|m| [m, m]).concat()).unwrap();
+    let gravity = Pairs::all(3, Gravity { g: 1.0, m: masses.to_vec() }).unwrap();
+    let p = vec![0.0, omega * x1, 0.0, 0.5 * omega * x2, 0.0, m * v];
+    Motion::new(gravity, kinetic, vec![x1, 0.0, x2, 0.0, x1 + radius, 0.0], p).unwrap()
+}
+
+/// The energy does not show how a light planet is resolved; the report does.
+#[test]
+fn a_light_planet_is_reported() {
+    let watch = |m: f64, h: &str, steps: u32| {
+        let mut motion = planet(m);
+        let verlet = stepper("stormer-verlet", h, &());
+        let mut monitor = ShadowEnergy::new(verlet, &mut motion, &Bilinear::with_error(8)).unwrap().every(100);
+        for _ in 0..steps {
+            monitor.step(&mut motion).unwrap();
+        }
+        monitor.report()
+    };
+    // hω = 0.1
+    let light = watch(1e-12, "0.00316", 20_000);
+    assert_eq!(light.verdict, Verdict::RoundOff, "{light}");
+    let (coordinate, steps) = light.fastest_coordinate.unwrap();
+    assert!(coordinate >= 4 && (steps - 62.8).abs() < 1.0, "{coordinate}, {steps}: {light}");
+    assert!(light.reason().contains("where it resolves coordinate"), "{light}");
+    // hω = 1.43, 2 and 2.5: the planet is thrown out in the first steps
+    for h in ["0.0452", "0.0632", "0.079"] {
+        let lost = watch(1e-3, h, 4000);
+        // that of the planet, or of its star, which it moves
+        let (coordinate, steps) = lost.fastest_coordinate.unwrap();
+        assert!([0, 1, 4, 5].contains(&coordinate) && steps < 6.0, "{coordinate}, {steps}: {lost}");
+        assert!(lost.verdict != FINE || lost.reason().ends_with("it may be lost"), "{lost}");
+    }
+    let resolved = watch(1e-3, "0.00316", 4000);
+    assert!(resolved.verdict == FINE && !resolved.reason().contains("it may be lost"), "{resolved}");
+}

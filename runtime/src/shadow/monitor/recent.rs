@@ -11,7 +11,7 @@ use crate::step_size::StepSize;
 use crate::system::{Increments, System};
 
 /// States that the turning needs: three second differences.
-const STATES: usize = 5;
+pub(super) const STATES: usize = 5;
 
 /// The newest states of a window, and sums over all windows.
 #[derive(Clone, Debug)]
@@ -50,13 +50,27 @@ pub(super) struct Recent<N> {
 
 /// Over the windows, and over the coordinates of each; δ²p_i are second differences, the newest i = 2.
 #[derive(Clone, Debug)]
-struct Sums<N> {
+pub(super) struct Sums<N> {
     /// Σ (δ²p_1)²
     squares: N,
     /// Σ δ²p_1 (δ²p_0 + δ²p_2)
     products: N,
     /// Σ (δ²p_0 + δ²p_2)²
     neighbours: N,
+}
+
+impl<N: Number> Sums<N> {
+    pub(super) fn zero(context: &N::Context) -> Self {
+        let zero = || N::zero(context);
+        Sums { squares: zero(), products: zero(), neighbours: zero() }
+    }
+
+    /// Adds those of one coordinate: δ²p_1, and δ²p_0 + δ²p_2.
+    pub(super) fn add(&mut self, middle: &N, outer: &N) {
+        self.squares.add_product(middle, middle);
+        self.products.add_product(middle, outer);
+        self.neighbours.add_product(outer, outer);
+    }
 }
 
 /// How the fastest motion turns.
@@ -77,7 +91,7 @@ impl<N: Number> Recent<N> {
     ) -> Result<Self, EstimatorError> {
         let zero = || N::zero(context);
         let zeros = || vec![zero(); dimension];
-        let sums = || Sums { squares: zero(), products: zero(), neighbours: zero() };
+        let sums = || Sums::zero(context);
         let mut epsilon: N = epsilon(context);
         let factor = kick_factor(&epsilon, h.exact(), context);
         epsilon.multiply_integer(1_000_000);
@@ -191,13 +205,16 @@ impl<N: Number> Recent<N> {
             assign_second_difference(y, p0, p1, p2);
             assign_second_difference(z, p2, p3, p4);
             y.add(z);
-            sums.squares.add_product(x, x);
-            sums.products.add_product(x, y);
-            sums.neighbours.add_product(y, y);
+            sums.add(x, y);
         }
         self.sums.squares.add(&sums.squares);
         self.sums.products.add(&sums.products);
         self.sums.neighbours.add(&sums.neighbours);
+    }
+
+    /// p of the newest states, if a window of `states` states has as many.
+    pub(super) fn momenta(&self, states: usize) -> Option<&[Vec<N>; STATES]> {
+        (states >= STATES).then_some(&self.p)
     }
 
     /// The number of windows in which a state differs from its increments.
@@ -239,7 +256,11 @@ impl<N: Number> Recent<N> {
     }
 }
 
-fn turning<N: Number>(Sums { squares, products, neighbours }: &Sums<N>, quotient: &mut N) -> Option<Turning> {
+/// `None` where nothing turns.
+pub(super) fn turning<N: Number>(
+    Sums { squares, products, neighbours }: &Sums<N>,
+    quotient: &mut N,
+) -> Option<Turning> {
     let mut ratio = |a: &N| {
         quotient.assign_quotient(a, squares);
         quotient.to_f64()
@@ -256,7 +277,8 @@ impl Turning {
     }
 }
 
-fn assign_second_difference<N: Number>(out: &mut N, a: &N, b: &N, c: &N) {
+/// out ← a − 2b + c
+pub(super) fn assign_second_difference<N: Number>(out: &mut N, a: &N, b: &N, c: &N) {
     out.assign_sum(a, c);
     out.subtract(b);
     out.subtract(b);

@@ -85,6 +85,9 @@ pub struct Report<N> {
     /// From second differences δ²p of the last states of each window, which an oscillation by θ a step makes so that
     /// δ²p_{n+1} + δ²p_{n−1} = 2 cos θ δ²p_n; by least squares over all coordinates and windows.
     pub steps_per_turn: Option<f64>,
+    /// The coordinate that turns fastest, counted from 0, and in how many steps it turns once: each coordinate by itself, in the first five
+    /// states and in the windows. A light body may turn faster than all that has energy.
+    pub fastest_coordinate: Option<(usize, f64)>,
     /// The relative residual of that equation: 0 for one oscillation, 1 for noise.
     pub irregular: Option<f64>,
     /// In how many windows a state differs from the increments: there was a plain step where an augmented one was needed, or q or p
@@ -141,6 +144,7 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
             kick,
             round_off,
             steps_per_turn: turning.map(Turning::steps),
+            fastest_coordinate: self.fastest.found().map(|(i, turning)| (i, turning.steps())),
             irregular: turning.map(|turning| turning.irregular),
             mismatches: self.recent.mismatches(),
             wrong_rates: self.rate.wrong,

@@ -8,6 +8,9 @@ use super::trend::Trend;
 use super::verdict::{Advice, Criterion, LEAST_WINDOWS, Missing, PERMANENT_LIMIT, Verdict};
 use crate::number::Number;
 
+/// A coordinate that turns once in fewer steps is hardly resolved.
+const FEW_STEPS: f64 = 10.0;
+
 impl<N: Number> Report<N> {
     /// An energy as a part of the energy error; its value where that is 0.
     fn in_parts(&self, energy: &N) -> String {
@@ -47,8 +50,9 @@ impl<N: Number> Report<N> {
             Verdict::Undecided(Missing::Resolution) => self.what_would_decide(),
             Verdict::Inconsistent => self.why_inconsistent(),
             Verdict::RoundOff => format!(
-                "{moved}, and round-off makes {}: a larger step size is sufficient, or more digits are needed",
-                self.in_parts(&self.round_off)
+                "{moved}, and round-off makes {}: for this energy a larger step size is sufficient{}, or more digits are needed",
+                self.in_parts(&self.round_off),
+                self.resolved_coordinate()
             ),
             Verdict::NearResonance { turns, steps } => format!(
                 "{moved}, and the fastest motion turns once in {:.3} steps, near {turns}/{steps} turns a step: \
@@ -78,12 +82,33 @@ impl<N: Number> Report<N> {
                 format!("the energy is the same in all windows of {steps} steps")
             }
             Verdict::Fine => format!(
-                "the energy error is {:.1e} of T; in {steps} steps {}{}",
+                "the energy error is {:.1e} of T; in {steps} steps {}{}{}",
                 self.relative_error(),
                 self.permanent(),
-                self.unresolved()
+                self.unresolved(),
+                self.light_coordinate()
             ),
         }
+    }
+
+    /// What a larger step has to resolve: light bodies have no part in the energy.
+    fn resolved_coordinate(&self) -> String {
+        self.fastest_coordinate.map_or(String::new(), |(i, steps)| {
+            format!(" where it resolves coordinate {}, which turns once in {steps:.1} steps", i + 1)
+        })
+    }
+
+    /// A coordinate with little energy that the steps hardly resolve, if there is one: the verdict is one on the energy.
+    fn light_coordinate(&self) -> String {
+        let others = self.steps_per_turn.unwrap_or(f64::INFINITY);
+        let light = self.fastest_coordinate.filter(|(_, steps)| *steps < FEW_STEPS && 2.0 * steps < others);
+        light.map_or(String::new(), |(i, steps)| {
+            format!(
+                ". Coordinate {} turns, or turned at the start, once in {steps:.1} steps, with too little energy to be seen in this verdict: \
+                 it may be lost",
+                i + 1
+            )
+        })
     }
 
     /// A remark where the verdict does not follow from the modified energy.

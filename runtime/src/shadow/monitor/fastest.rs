@@ -1,0 +1,84 @@
+//! The coordinate that turns fastest, each by itself, however little of the energy it has.
+
+use super::recent::{STATES, Sums, Turning, assign_second_difference, turning};
+use crate::number::{Number, epsilon};
+
+/// A second difference of fewer last places of p than this is round-off.
+const ROUNDING: i32 = 1000;
+/// A coordinate that is more irregular than this is not taken for one that turns.
+const LARGEST_IRREGULARITY: f64 = 0.5;
+
+/// How each coordinate turns: in the first states of a run, and in the newest ones of each window.
+#[derive(Clone, Debug)]
+pub(super) struct Fastest<N> {
+    /// p of the first states, as far as they have come.
+    start: [Vec<N>; STATES],
+    begun: usize,
+    coordinates: Vec<Sums<N>>,
+    /// 1000 ε
+    rounding: N,
+    x: N,
+    y: N,
+    z: N,
+}
+
+impl<N: Number> Fastest<N> {
+    pub(super) fn new(dimension: usize, context: &N::Context) -> Self {
+        let zero = || N::zero(context);
+        let mut rounding: N = epsilon(context);
+        rounding.multiply_integer(ROUNDING);
+        Fastest {
+            start: std::array::from_fn(|_| vec![zero(); dimension]),
+            begun: 0,
+            coordinates: vec![Sums::zero(context); dimension],
+            rounding,
+            x: zero(),
+            y: zero(),
+            z: zero(),
+        }
+    }
+
+    /// The number of coordinates.
+    pub(super) fn dimension(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    /// Takes p of the state n: a body that is lost in the first steps turns only there.
+    #[inline]
+    pub(super) fn begin(&mut self, n: u64, p: &[N]) {
+        let Some(own) = usize::try_from(n).ok().and_then(|n| self.start.get_mut(n)) else { return };
+        own.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        self.begun += 1;
+    }
+
+    /// Takes p of successive states.
+    pub(super) fn add(&mut self, [p0, p1, p2, p3, p4]: &[Vec<N>; STATES]) {
+        let Fastest { coordinates, rounding, x, y, z, .. } = self;
+        for (i, sums) in coordinates.iter_mut().enumerate() {
+            assign_second_difference(x, &p1[i], &p2[i], &p3[i]);
+            y.assign_product(&p2[i], rounding);
+            y.make_absolute();
+            z.assign(x);
+            z.make_absolute();
+            if *z > *y {
+                assign_second_difference(y, &p0[i], &p1[i], &p2[i]);
+                assign_second_difference(z, &p2[i], &p3[i], &p4[i]);
+                y.add(z);
+                sums.add(x, y);
+            }
+        }
+    }
+
+    /// The coordinate that turns by the largest angle, counted from 0; `None` where none turns.
+    pub(super) fn found(&self) -> Option<(usize, Turning)> {
+        let (mut all, mut quotient) = (self.clone(), self.x.clone());
+        if self.begun == STATES {
+            all.add(&self.start);
+        }
+        let turnings = all.coordinates.iter().map(|sums| turning(sums, &mut quotient)).enumerate();
+        let regular = turnings.filter_map(|(i, turning)| Some((i, turning?)));
+        regular
+            .filter(|(_, turning)| turning.irregular <= LARGEST_IRREGULARITY)
+            .reduce(|fastest, other| if other.1.angle > fastest.1.angle { other } else { fastest })
+    }
+}
