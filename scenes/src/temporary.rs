@@ -24,18 +24,39 @@ impl Temporary {
         Temporary { path: path.to_owned(), kept: false }
     }
 
+    /// Opens a file, which is removed from then on if it is new. The program does not end between the two.
+    pub(crate) fn open<F, E>(
+        path: &Path,
+        open: impl FnOnce() -> Result<F, E>,
+        is_new: impl FnOnce(&F) -> bool,
+    ) -> Result<(Option<Temporary>, F), E> {
+        let mut all = all();
+        let file = open()?;
+        let temporary = is_new(&file).then(|| {
+            all.push(path.to_owned());
+            Temporary { path: path.to_owned(), kept: false }
+        });
+        Ok((temporary, file))
+    }
+
     /// Leaves the file where it is.
     pub(crate) fn keep(mut self) {
         self.kept = true;
     }
 
-    /// Gives the file another name, under which it stays; it is removed if that fails.
-    pub(crate) fn rename(mut self, rename: impl FnOnce(&Path) -> io::Result<()>) -> io::Result<()> {
-        let all = all();
-        let renamed = rename(&self.path);
-        self.kept = renamed.is_ok();
-        drop(all);
-        renamed
+    /// Gives the file another name, under which it stays, and keeps another file as well. It is removed if that fails.
+    pub(crate) fn rename(
+        mut self,
+        rename: impl FnOnce(&Path) -> io::Result<()>,
+        other: Option<&mut Temporary>,
+    ) -> io::Result<()> {
+        let mut all = all();
+        rename(&self.path)?;
+        for kept in [Some(&mut self), other].into_iter().flatten() {
+            kept.kept = true;
+            all.retain(|path| *path != kept.path);
+        }
+        Ok(())
     }
 }
 

@@ -31,7 +31,7 @@ const ENDING: &str = "shadowstep-partial";
 /// ```
 pub struct WholeFile {
     /// Removed before the lock of the writer ends.
-    temporary: Temporary,
+    temporary: Option<Temporary>,
     writer: BufWriter<File>,
     path: PathBuf,
     /// Whether a file that is there is replaced.
@@ -62,9 +62,8 @@ impl WholeFile {
         })?;
         let partial = path.with_file_name(format!("{}.{ENDING}", name.display()));
         let options = OpenOptions::new().write(true).create(true).truncate(false).to_owned();
-        let file = open_locked(&partial, &options)
-            .map_err(|error| cannot_write(&format!("{named} {}", path.display()), error))?;
-        let temporary = Temporary::of(&partial);
+        let opened = Temporary::open(&partial, || open_locked(&partial, &options), |_| true);
+        let (temporary, file) = opened.map_err(|error| cannot_write(&format!("{named} {}", path.display()), error))?;
         file.set_len(0).map_err(|error| not_written(path, error, AGAIN))?;
         Ok(WholeFile { temporary, writer: BufWriter::new(file), path: path.to_owned(), replaces: true })
     }
@@ -84,7 +83,8 @@ impl WholeFile {
             return Err(exists(&format!("file {}", self.path.display())));
         }
         let WholeFile { temporary, path, .. } = self;
-        temporary.rename(|partial| fs::rename(partial, &path)).map_err(|error| not_written(&path, error, AGAIN).into())
+        let renamed = temporary.map_or(Ok(()), |partial| partial.rename(|partial| fs::rename(partial, &path), None));
+        renamed.map_err(|error| not_written(&path, error, AGAIN).into())
     }
 }
 

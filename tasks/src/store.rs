@@ -1,9 +1,10 @@
 //! The file of outcomes: a header, and one line per task that is done.
 //!
-//! A line is written as soon as its task is done, so that all lines but the last are complete however the program ends. The
-//! process holds a lock on the file, which the system releases when the process ends.
+//! A line is written as soon as its task is done, so that all lines but the last are complete however the program ends. It has a
+//! hash, so that a damaged one is refused. The process holds a lock on the file, which the system releases when the process ends.
 
 use std::collections::HashMap;
+use std::fmt::Display;
 use std::fs::{self, File, OpenOptions};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -11,6 +12,7 @@ use std::time::Duration;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
 use shadowstep_scenes::lock::{LockError, open_locked};
 use shadowstep_scenes::not_written;
 
@@ -95,7 +97,10 @@ impl Store {
         }
         let mut outcomes = HashMap::new();
         for (n, line) in lines.lines().enumerate() {
-            let Line { task, outcome } = serde_json::from_str(line).map_err(|error| damaged(&path, n + 2, &error))?;
+            if !is_sealed(line) {
+                return Err(damaged(&path, n + 2, "its hash is missing or another"));
+            }
+            let Line { task, outcome } = serde_json::from_str(line).map_err(|error| damaged(&path, n + 2, error))?;
             outcomes.insert(task.to_string(), outcome.to_string());
         }
         file.set_len(whole as u64)?;
@@ -111,7 +116,9 @@ impl Store {
     pub(super) fn keep(&mut self, task: &str, outcome: String, took: Duration) -> Result<(), Error> {
         let seconds = (took.as_secs_f64() * 1e3).round() / 1e3;
         // one write, so that only the system can split it
-        let line = format!("{{\"task\":{task},\"outcome\":{outcome},\"seconds\":{seconds}}}\n");
+        let task_and_outcome = format!("{{\"task\":{task},\"outcome\":{outcome}");
+        let hash = hash(&task_and_outcome);
+        let line = format!("{task_and_outcome}{BEFORE_HASH}{hash}\",\"seconds\":{seconds}}}\n");
         let written = self.file.write_all(line.as_bytes()).and_then(|()| self.file.sync_data());
         written.map_err(|error| not_written(&self.path, error, MISSING))?;
         self.outcomes.insert(task.to_owned(), outcome);
@@ -153,7 +160,20 @@ fn foreign(path: &Path, why: &str) -> Error {
     Error::usage(message, "give another folder, or remove the file")
 }
 
-fn damaged(path: &Path, line: usize, error: &serde_json::Error) -> Error {
+/// What is between an outcome and its hash.
+const BEFORE_HASH: &str = ",\"sha256\":\"";
+
+/// Whether the hash of a line is that of its task and outcome.
+fn is_sealed(line: &str) -> bool {
+    line.rsplit_once(BEFORE_HASH).is_some_and(|(task_and_outcome, rest)| rest.starts_with(&hash(task_and_outcome)))
+}
+
+/// The first half of the SHA-256, in hexadecimal digits.
+fn hash(text: &str) -> String {
+    Sha256::digest(text)[..16].iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+fn damaged(path: &Path, line: usize, error: impl Display) -> Error {
     let message = format!("{}:{line}: not an outcome of a task: {error}", path.display());
     Error::usage(message, "delete the line; its task is then computed again")
 }

@@ -107,6 +107,33 @@ fn interrupted_anywhere_it_can_be_resumed() {
     }
 }
 
+/// One bit of a byte at a time: whatever it makes of the file, no other outcome comes out of it.
+#[test]
+fn a_flipped_bit_is_refused_or_does_no_harm() {
+    let folder = TempDir::new().unwrap();
+    let (all, _) = sums(folder.path(), 1, &NUMBERS);
+    let path = folder.path().join("results.jsonl");
+    let whole = fs::read(&path).unwrap();
+    let mut refused = 0;
+    for place in 0..whole.len() {
+        let mut bytes = whole.clone();
+        bytes[place] ^= 1 << (place % 8);
+        for aside in fs::read_dir(folder.path()).unwrap() {
+            fs::remove_file(aside.unwrap().path()).unwrap();
+        }
+        fs::write(&path, &bytes).unwrap();
+        match Store::open(folder.path(), &mut ()) {
+            Err(_) => refused += 1,
+            Ok(store) => {
+                drop(store);
+                assert_eq!(sums(folder.path(), 1, &NUMBERS).0.outcomes, all.outcomes, "byte {place}");
+            }
+        }
+    }
+    // the version, the line feeds and the seconds are not protected: their changes do no harm
+    assert!(refused * 10 > whole.len() * 8, "{refused} of {}", whole.len());
+}
+
 #[test]
 fn failures_are_reported_and_the_others_are_done() {
     let folder = TempDir::new().unwrap();
@@ -197,7 +224,11 @@ fn other_files_are_not_changed() {
     for (text, expected) in [
         ("a list of mine".to_owned(), "is not a file of outcomes"),
         ("a list\nof mine\n".to_owned(), "is not a file of outcomes"),
-        (format!("{head}{{\"task\":1,\"outcome\":2}}\nnonsense\n"), "results.jsonl:3: not an outcome of a task"),
+        (format!("{head}nonsense\n"), "results.jsonl:2: not an outcome of a task"),
+        (
+            format!("{head}{{\"task\":1,\"outcome\":2}}\n"),
+            "results.jsonl:2: not an outcome of a task: its hash is missing",
+        ),
     ] {
         let folder = TempDir::new().unwrap();
         fs::write(folder.path().join("results.jsonl"), &text).unwrap();

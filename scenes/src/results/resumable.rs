@@ -71,7 +71,8 @@ impl Resumable {
         observer: &mut dyn Observer,
     ) -> Result<(Resumable, Option<Checkpoint>), Error> {
         let [partial, checkpoint] = [PARTIAL, CHECKPOINT].map(|ending| beside(path, ending));
-        let file = locked(path, &partial)?;
+        let is_empty = |file: &File| file.metadata().is_ok_and(|file| file.len() == 0);
+        let (temporary, file) = Temporary::open(&partial, || locked(path, &partial), is_empty)?;
         let length = file.metadata()?.len();
         let mut resumable = Resumable {
             identity,
@@ -79,7 +80,7 @@ impl Resumable {
             partial,
             checkpoint,
             saves,
-            temporary: None,
+            temporary,
             file: BufWriter::new(file),
             bytes: 0,
             hash: Sha256::new(),
@@ -96,7 +97,8 @@ impl Resumable {
             true => Some(resumable.resume(length)?),
         };
         if found.is_none() {
-            resumable.temporary = Some(Temporary::of(&resumable.partial));
+            let partial = &resumable.partial;
+            resumable.temporary.get_or_insert_with(|| Temporary::of(partial));
             resumable.remove_checkpoint()?;
             resumable.file.get_ref().set_len(0)?;
             resumable.file.get_mut().rewind()?;
@@ -175,18 +177,16 @@ impl Resumable {
         let new = beside(&self.path, NEW_CHECKPOINT);
         remove_new_checkpoint(&new)?;
         self.replace_checkpoint(&new, &text).map_err(|error| self.not_written(&new, error))?;
-        if let Some(temporary) = self.temporary.take() {
-            temporary.keep();
-        }
+        self.temporary = None;
         Ok(())
     }
 
-    fn replace_checkpoint(&self, new: &Path, text: &str) -> io::Result<()> {
+    fn replace_checkpoint(&mut self, new: &Path, text: &str) -> io::Result<()> {
         let mut file = File::create_new(new)?;
         let temporary = Temporary::of(new);
         file.write_all(text.as_bytes())?;
         file.sync_all()?;
-        temporary.rename(|new| fs::rename(new, &self.checkpoint))?;
+        temporary.rename(|new| fs::rename(new, &self.checkpoint), self.temporary.as_mut())?;
         sync_folder(&self.path);
         Ok(())
     }
@@ -205,7 +205,7 @@ impl Resumable {
         written.map_err(|error| self.not_written(&self.partial, error))?;
         let rename = |partial: &Path| fs::rename(partial, &self.path);
         let renamed = match self.temporary.take() {
-            Some(temporary) => temporary.rename(rename),
+            Some(temporary) => temporary.rename(rename, None),
             None => rename(&self.partial),
         };
         renamed.map_err(|error| self.not_written(&self.path, error))?;
