@@ -1,6 +1,7 @@
 //! What a run writes: a head and rows, to a writer, to a file that is complete or absent, or to one that can be resumed.
 
 mod checkpoint;
+mod functions;
 mod metadata;
 mod options;
 mod resumable;

@@ -184,6 +184,44 @@ fn a_checkpoint_of_another_table_is_refused() {
     assert!(result.err.contains("was made with a different table of the scheme"), "{}", result.err);
 }
 
+/// In double precision functions have other last bits where a C library does not use what the processor has.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_checkpoint_of_other_elementary_functions_is_refused() {
+    const TUNABLES: &str = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F";
+    let morse = |steps: &str, digits: &str| {
+        let scene = PLAIN.replace("-1/sqrt(x^2 + y^2)", "exp(-x) + x + y^2/2").replace("\"double\"", digits);
+        scene.replace("steps = 100000000", steps).replace("\"1/1000\"", "\"1/20\"")
+    };
+    let other = |folder: &Path| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_shadowstep"));
+        let scene = folder.join("scene.toml");
+        program.args(["run", "--no-summary"]).arg(scene).env("GLIBC_TUNABLES", TUNABLES).output().unwrap()
+    };
+    let rows = |folder: &Path| fs::read_to_string(folder.join("out.csv")).unwrap();
+    let (scene, elsewhere) = (morse("steps = 200000", "\"double\""), folder(&morse("steps = 200000", "\"double\"")));
+    assert!(other(elsewhere.path()).status.success());
+    let differs = rows(elsewhere.path()) != undisturbed(&scene, "out.csv");
+    let stopped_here = stopped(&scene, "out.csv");
+    let output = other(stopped_here.path());
+    let err = String::from_utf8_lossy(&output.stderr);
+    println!("the bytes differ: {differs}");
+    if differs {
+        assert_eq!(output.status.code(), Some(2), "{err}");
+        assert!(err.contains("was made with elementary functions of double precision with other last bits"), "{err}");
+        assert!(run(stopped_here.path(), "").err.starts_with("note: resumed at n = "));
+    } else {
+        // this machine has one kind of functions only
+        assert!(output.status.success(), "{err}");
+    }
+    assert!(rows(stopped_here.path()) == undisturbed(&scene, "out.csv"), "other bytes");
+    // at 30 digits they are MPFR's
+    let scene = morse("steps = 30000", "30");
+    let stopped_here = stopped(&scene, "out.csv");
+    assert!(other(stopped_here.path()).status.success());
+    assert!(rows(stopped_here.path()) == undisturbed(&scene, "out.csv"), "other bytes");
+}
+
 #[test]
 fn a_damaged_checkpoint_is_refused() {
     let folder = stopped(PLAIN, "out.csv");

@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 use shadowstep::{Number, Remainders};
 use shadowstep_symbolic::decimal::from_text;
 
+use crate::arithmetic::Arithmetic;
+use crate::results::functions::fingerprint;
 use crate::results::metadata::{platform, sha256, table_hashes};
 use crate::scene::Scene;
 use crate::snapshots::Snapshot;
@@ -16,6 +18,9 @@ pub(crate) struct Identity {
     platform: String,
     scene_sha256: String,
     tables_sha256: Vec<String>,
+    /// Those of the machine, for a run in double precision with checkpoints.
+    #[serde(default)]
+    functions_sha256: Option<String>,
     /// These three follow from the scene.
     #[serde(skip)]
     steps: u64,
@@ -34,6 +39,7 @@ impl Identity {
             platform: platform(),
             scene_sha256: sha256(&scene.source.text),
             tables_sha256: table_hashes(scene),
+            functions_sha256: functions(scene).map(str::to_owned),
             steps: scene.steps,
             dimension,
             remainders: if scene.arithmetic.is_compensated() { dimension } else { 0 },
@@ -61,8 +67,20 @@ impl Identity {
         if self.version != other.version {
             return Some(format!("shadowstep {}", other.version));
         }
-        (self.platform != other.platform).then(|| format!("a different platform, {}", other.platform))
+        if self.platform != other.platform {
+            return Some(format!("a different platform, {}", other.platform));
+        }
+        (self.functions_sha256 != other.functions_sha256).then(|| {
+            "elementary functions of double precision with other last bits, of another processor or C library"
+                .to_owned()
+        })
     }
+}
+
+/// The fingerprint of the functions that determine the bits of a run.
+fn functions(scene: &Scene) -> Option<&'static str> {
+    let is_double = !matches!(scene.arithmetic, Arithmetic::Digits(..));
+    (is_double && scene.output.checkpoint.is_some()).then(fingerprint)
 }
 
 /// A moment of a run.
