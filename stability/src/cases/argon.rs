@@ -98,7 +98,7 @@ impl Case for Argon {
         }
         let (x, y) = (
             Axis::linear("femtoseconds an evaluation"),
-            Axis::log10("largest error of H in the last fourth of the run"),
+            Axis::log10("largest error of H in the last fourth"),
         );
         finding.chart(Chart::new("The error of H of the crystal", x, y, curves), "A curve ends where atoms leave.");
         finding

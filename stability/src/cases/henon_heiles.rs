@@ -160,7 +160,7 @@ impl Case for HenonHeiles {
                 curves.push(Curve::line(format!("{name}, {kind}"), one.growing.clone(), curves.len()));
             }
         }
-        let (x, y) = (Axis::linear("t"), Axis::log10("largest distance so far, beside that at the start"));
+        let (x, y) = (Axis::linear("t"), Axis::log10("largest distance, beside that at the start"));
         finding.chart(
             Chart::new("Two orbits that begin 1e-10 apart", x, y, curves),
             "Chaotic orbits are as far apart as the region is large soon.",

@@ -311,7 +311,7 @@ fn chart(suite: &Suite, measured: &[(Trial, Orbit)]) -> Chart {
     Chart::new(
         "Which orbits are lost, and when that is reported",
         Axis::log10("1 − e"),
-        Axis::log10("h per evaluation, in periods at the pericentre"),
+        Axis::log10("h per evaluation, in pericentre periods"),
         curves.collect(),
     )
 }

@@ -98,7 +98,7 @@ impl Case for StiffSprings {
         }
         let (x, y) = (
             Axis::linear("hω as a part of the stability limit"),
-            Axis::log10("largest error of H in the first fourth of the run"),
+            Axis::log10("largest error of H in the first fourth"),
         );
         finding.chart(
             Chart::new("The error of H near the stability limit", x, y, curves),
