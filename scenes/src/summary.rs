@@ -8,7 +8,7 @@ use shadowstep::Rational;
 use shadowstep_symbolic::decimal::{from_text, to_significant, to_text};
 
 use crate::readable::wrapped_to;
-use crate::watch::Encounter;
+use crate::watch::encounters::Encounter;
 
 /// What a run, or the part of it since it was resumed, has shown.
 ///

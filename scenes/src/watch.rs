@@ -1,6 +1,6 @@
 //! Follows a run: the error of H, the modified energy by a monitor, and close encounters.
 
-mod encounters;
+pub(crate) mod encounters;
 mod energy;
 
 use shadowstep::run::RunError;

@@ -23,15 +23,16 @@
 //! | [`Suite`], [`files`] | what is examined; the page, the charts and the table that are written |
 //! | `cases` | the list of all cases, and one file for each |
 //! | `case`, `finding` | what a case is; what it has shown |
-//! | `linear_step`, `watched` | a step of the oscillator as a matrix; a run with a monitor |
+//! | `linear_step` | a step of the oscillator as a matrix |
+//! | `watched`, `long_run` | a run with a monitor; long runs of shipped problems |
 
-mod bounded;
 mod case;
 mod cases;
 mod examination;
 pub mod files;
 mod finding;
 mod linear_step;
+mod long_run;
 mod suite;
 mod watched;
 

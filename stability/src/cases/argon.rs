@@ -1,15 +1,13 @@
 //! The argon crystal at steps from 10 to 120 femtoseconds.
 
-use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
 use shadowstep_analysis::stability::Stability;
 use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
-use shadowstep_scenes::{Error, System};
+use shadowstep_scenes::System;
 
-use crate::bounded::{LongRun, Stayed};
-use crate::case::{Case, Continues};
 use crate::finding::Finding;
+use crate::long_run::{LongCase, LongRun, Stayed};
 use crate::suite::{Examined, Suite};
 use crate::watched::setup;
 
@@ -28,38 +26,24 @@ const BOUNDED: f64 = 3.0;
 const LARGEST_DRAWN: f64 = 1.0;
 const SCHEMES: [&str; 3] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b"];
 
-impl Case for Argon {
+impl LongCase for Argon {
     const NAME: &'static str = "argon";
     const TITLE: &'static str = "A crystal of seven argon atoms at steps from 10 to 120 fs";
     const THEORY: &'static str = "A step is stable while hω is below the stability limit of the scheme. The largest frequency ω of the crystal \
         at its start grows several times in collisions, which reach steeper parts of the potential: up to a fourth of the limit the error of H is bounded, \
         beyond the limit atoms leave, and between these the monitor does not call a step fine with which the error grows.";
     const REVISION: u32 = 4;
+    const EVALUATION: f64 = 200e-9;
 
-    type Trial = LongRun;
-    type Measured = Stayed;
-
-    fn trials(suite: &Suite) -> Vec<LongRun> {
+    fn runs(suite: &Suite) -> Vec<LongRun> {
         let until = suite.thorough(2.0, 0.2);
-        let run = |scheme: &&Examined| {
-            let evaluations = scheme.scheme.scheme.summary().evaluations;
+        let schemes = suite.schemes_or(&SCHEMES);
+        let of = |scheme: &&Examined| {
             let steps = STEPS.map(|fs| Rational::new(fs.into(), 1_000_000.into()));
-            steps.map(|h| LongRun::at_equal_cost((&scheme.identity, evaluations), "argon-crystal", &h, until))
+            let runs = steps.map(|h| LongRun::at_equal_cost(&[scheme], "argon-crystal", &h, until));
+            runs.into_iter().flatten().collect::<Vec<_>>()
         };
-        suite.schemes_or(&SCHEMES).iter().flat_map(run).collect()
-    }
-
-    fn seconds(suite: &Suite, trial: &LongRun) -> f64 {
-        trial.seconds(suite, 200e-9)
-    }
-
-    fn measure<N: Rounded + 'static>(
-        suite: &Suite,
-        trial: &LongRun,
-        context: &N::Context,
-        continues: Continues<'_>,
-    ) -> Result<Stayed, Error> {
-        trial.make::<N>(suite, context, continues)
+        schemes.iter().flat_map(of).collect()
     }
 
     fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {
@@ -96,10 +80,7 @@ impl Case for Argon {
             let points: Vec<_> = points.filter(|(_, error)| *error <= LARGEST_DRAWN).collect();
             curves.push(Curve::marked(named.name.clone(), points, curves.len()));
         }
-        let (x, y) = (
-            Axis::linear("femtoseconds an evaluation"),
-            Axis::log10("largest error of H in the last fourth"),
-        );
+        let (x, y) = (Axis::linear("femtoseconds an evaluation"), Axis::log10("largest error of H in the last fourth"));
         finding.chart(Chart::new("The error of H of the crystal", x, y, curves), "A curve ends where atoms leave.");
         finding
     }

@@ -1,16 +1,13 @@
 //! Stiff springs with steps up to their stability limit.
 
-use shadowstep::number::Rounded;
 use shadowstep::{Number, Rational, exact};
 use shadowstep_analysis::stability::Stability;
 use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
-use shadowstep_scenes::Error;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::bounded::{LongRun, Stayed};
-use crate::case::{Case, Continues};
 use crate::finding::Finding;
+use crate::long_run::{LongCase, LongRun, Stayed};
 use crate::suite::{Examined, Suite};
 
 /// The case.
@@ -27,7 +24,7 @@ const NARROW: f64 = 0.05;
 const LARGEST_DRAWN: f64 = 2.0;
 const SCHEMES: [&str; 4] = ["stormer-verlet", "mclachlan-sb3a4", "blanes-moan-s6", "blanes-moan-srkn6b"];
 
-impl Case for StiffSprings {
+impl LongCase for StiffSprings {
     const NAME: &'static str = "stiff-springs";
     const TITLE: &'static str = "Stiff springs up to the stability limit";
     const THEORY: &'static str = "Three stiff springs of ω = 50 in a chain with soft ones, which raise the stiff frequencies by a part of 1e-3 and more as \
@@ -35,11 +32,9 @@ impl Case for StiffSprings {
         carried beyond the limit. At 1.005 amplitudes grow, unless the unstable gap is so narrow that they leave it as the frequency shifts. What grows is \
         not called fine.";
     const REVISION: u32 = 3;
+    const EVALUATION: f64 = 60e-9;
 
-    type Trial = LongRun;
-    type Measured = Stayed;
-
-    fn trials(suite: &Suite) -> Vec<LongRun> {
+    fn runs(suite: &Suite) -> Vec<LongRun> {
         let steps = suite.thorough(200_000, 10_000);
         let of = |scheme: &&Examined| {
             let limit = Stability::of_scheme(scheme.scheme.scheme.proved()).map(|stability| stability.limit);
@@ -51,19 +46,6 @@ impl Case for StiffSprings {
             })
         };
         suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
-    }
-
-    fn seconds(suite: &Suite, trial: &LongRun) -> f64 {
-        trial.seconds(suite, 60e-9)
-    }
-
-    fn measure<N: Rounded + 'static>(
-        suite: &Suite,
-        trial: &LongRun,
-        context: &N::Context,
-        continues: Continues<'_>,
-    ) -> Result<Stayed, Error> {
-        trial.make::<N>(suite, context, continues)
     }
 
     fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {

@@ -1,7 +1,7 @@
 //! 500 argon atoms in free space: 5×5×5 cells of the face-centred cubic crystal, with the units, mass and Lennard-Jones potential
 //! of the shipped problem argon-crystal (nanometres, nanoseconds, kilograms).
 
-use crate::problems::Initial;
+use crate::initial::Initial;
 
 const CELLS: usize = 5;
 const MASS: f64 = 66.34e-27;

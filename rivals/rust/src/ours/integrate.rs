@@ -7,7 +7,8 @@ use shadowstep::{
     DiagonalMasses, Kinetic, Motion, Potential, Rational, Scheme, Stepper, UnitMasses, exact, kinetic::Quadratic,
 };
 
-use crate::problems::{Initial, exact_text};
+use crate::initial::Initial;
+use crate::problems::exact_text;
 use crate::protocol::{Answer, Request};
 use crate::schemes::{WithScheme, with_scheme};
 

@@ -4,6 +4,7 @@
 //! a step; `ours reference PROBLEM UNTIL STEPS` the final q at 40 digits.
 
 mod argon;
+mod initial;
 mod integrate;
 mod problems;
 #[path = "../protocol.rs"]
@@ -14,7 +15,7 @@ mod schemes;
 use num_traits::ToPrimitive as _;
 use shadowstep_schemes::MapKind;
 
-use problems::Initial;
+use initial::Initial;
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();

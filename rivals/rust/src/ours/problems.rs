@@ -5,16 +5,7 @@ use shadowstep::Rational;
 use shadowstep::problems::{Setup, problem};
 
 use crate::argon;
-
-/// What a problem is given by.
-pub struct Initial {
-    /// In the order of the problem's description; those that are masses are left out.
-    pub parameters: Vec<f64>,
-    /// One for each coordinate.
-    pub masses: Vec<f64>,
-    pub q: Vec<f64>,
-    pub p: Vec<f64>,
-}
+use crate::initial::Initial;
 
 impl Initial {
     /// A shipped problem with its default values, or the 500 argon atoms.

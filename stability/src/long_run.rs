@@ -4,11 +4,14 @@ use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_report::chart::{Axis, Chart, Curve};
+use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::case::Continues;
-use crate::suite::Suite;
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::suite::{Examined, Suite};
 use crate::watched::{Next, Watched, setup, watched};
 
 /// A run of a scheme on a shipped problem.
@@ -39,28 +42,28 @@ const WINDOWS: u64 = 256;
 const PARTS: usize = 60;
 /// H is computed at so many states.
 const ENERGIES: u64 = 20_000;
+/// How much the error of H may differ between the first and the last fourth, if it is the same oscillation.
+const SAME: f64 = 1.5;
 /// A body is lost if a coordinate is this many times as large as at the start.
 const LOST: f64 = 100.0;
 
 impl LongRun {
-    /// A run with steps of `h_per_evaluation` for each force evaluation of a step, to about `until`.
+    /// Runs of schemes to about `until`, with steps of so much for each force evaluation.
     pub(crate) fn at_equal_cost(
-        (identity, evaluations): (&str, usize),
+        schemes: &[&Examined],
         problem: &'static str,
         h_per_evaluation: &Rational,
         until: f64,
-    ) -> LongRun {
-        let h = h_per_evaluation * Rational::from_integer(evaluations.into());
-        let steps = (until / <f64 as Number>::from_rational(&h, &())).round() as u64;
-        LongRun { scheme: identity.to_owned(), problem, h: to_text(&h), steps }
+    ) -> Vec<LongRun> {
+        let run = |scheme: &&Examined| {
+            let h = h_per_evaluation * Rational::from_integer(scheme.scheme.scheme.summary().evaluations.into());
+            let steps = (until / <f64 as Number>::from_rational(&h, &())).round() as u64;
+            LongRun { scheme: scheme.identity.clone(), problem, h: to_text(&h), steps }
+        };
+        schemes.iter().map(run).collect()
     }
 
-    /// The approximate time with this many bodies.
-    pub(crate) fn seconds(&self, suite: &Suite, evaluation: f64) -> f64 {
-        self.steps as f64 * suite.scheme(&self.scheme).scheme.summary().evaluations as f64 * evaluation
-    }
-
-    pub(crate) fn make<N: Rounded + 'static>(
+    fn make<N: Rounded + 'static>(
         &self,
         suite: &Suite,
         context: &N::Context,
@@ -99,8 +102,92 @@ impl LongRun {
     }
 }
 
+/// A case of such runs.
+pub(crate) trait LongCase {
+    /// As those of a [`Case`].
+    const NAME: &'static str;
+    const TITLE: &'static str;
+    const THEORY: &'static str;
+    const REVISION: u32;
+    /// The approximate time of a force evaluation in double precision, in seconds.
+    const EVALUATION: f64;
+
+    /// All runs.
+    fn runs(suite: &Suite) -> Vec<LongRun>;
+
+    /// The number type of the runs.
+    fn arithmetic(suite: &Suite) -> Arithmetic {
+        suite.arithmetic
+    }
+
+    /// What the runs show.
+    fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding;
+}
+
+impl<C: LongCase> Case for C {
+    const NAME: &'static str = C::NAME;
+    const TITLE: &'static str = C::TITLE;
+    const THEORY: &'static str = C::THEORY;
+    const REVISION: u32 = C::REVISION;
+
+    type Trial = LongRun;
+    type Measured = Stayed;
+
+    fn trials(suite: &Suite) -> Vec<LongRun> {
+        C::runs(suite)
+    }
+
+    fn arithmetic(suite: &Suite) -> Arithmetic {
+        C::arithmetic(suite)
+    }
+
+    fn seconds(suite: &Suite, run: &LongRun) -> f64 {
+        run.steps as f64 * suite.scheme(&run.scheme).scheme.summary().evaluations as f64 * C::EVALUATION
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        run: &LongRun,
+        context: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Stayed, Error> {
+        run.make::<N>(suite, context, continues)
+    }
+
+    fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {
+        C::judge(suite, measured)
+    }
+}
+
+/// Orbits that stay where they are: no coordinate is larger than `stays` times the largest one at the start, the error of H is at most
+/// 1.5 times as large in the last fourth of the run as in the first, and the monitor calls the step fine.
+pub(crate) fn staying(
+    (suite, measured): (&Suite, &[(LongRun, Stayed)]),
+    stays: f64,
+    title: &str,
+    unit: &str,
+) -> Finding {
+    let mut finding = Finding::default();
+    for (run, stayed) in measured {
+        let found = format!(
+            "{} steps of {} {unit}: no coordinate beyond {:.3} of the largest initial one; {}; the monitor: {}",
+            run.steps,
+            run.h,
+            stayed.farthest,
+            stayed.errors(),
+            stayed.watched.verdict
+        );
+        let bounded = Verdict::from(stayed.is_bounded(SAME) && stayed.farthest <= stays);
+        let verdict = Verdict::of_all([bounded, stayed.watched.is_fine()]);
+        finding.row(&suite.scheme(&run.scheme).name, found, verdict);
+    }
+    let runs = measured.iter().map(|(run, stayed)| (suite.scheme(&run.scheme).name.clone(), stayed));
+    finding.chart(envelopes(title, unit, runs), "Each point is the largest error in a 60th of the run.");
+    finding
+}
+
 /// The largest error of H in the parts of several runs.
-pub(crate) fn envelopes<'a>(title: &str, unit: &str, runs: impl Iterator<Item = (String, &'a Stayed)>) -> Chart {
+fn envelopes<'a>(title: &str, unit: &str, runs: impl Iterator<Item = (String, &'a Stayed)>) -> Chart {
     let curve = |(i, (label, stayed)): (usize, (String, &Stayed))| {
         Curve::line(label, stayed.envelope.iter().map(|(t, error)| (*t, error.log10())).collect(), i)
     };
