@@ -1,4 +1,4 @@
-//! What compensated sums and fixed point add to a step: Störmer–Verlet in f64 on four systems.
+//! What compensated sums and fixed point add to a step in f64: Störmer–Verlet on four systems, Yoshida 4 on two.
 //!
 //! `cargo bench -p shadowstep --bench summation`
 
@@ -10,27 +10,40 @@ use shadowstep::kinetic::Quadratic;
 use shadowstep::pairs::Pairs;
 use shadowstep::problems::{Gravity, HenonHeiles, Kepler, LennardJones, problem};
 use shadowstep::summation::Summation;
-use shadowstep::{Coordinates, DiagonalMasses, Kinetic, Motion, Potential, Stepper, UnitMasses, splitting_scheme};
+use shadowstep::{
+    Coordinates, DiagonalMasses, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, splitting_scheme,
+};
 
 use timing::{Contestant, compare};
 
+#[derive(Clone, Copy)]
 #[splitting_scheme("stormer-verlet.toml")]
 struct StormerVerlet;
 
-fn contestant<'a, V, P, K, S>(name: &'static str, mut motion: Motion<f64, V, P, K, S>, h: &str) -> Contestant<'a>
+#[derive(Clone, Copy)]
+#[splitting_scheme("yoshida4.toml")]
+struct Yoshida4;
+
+fn contestant<'a, A, V, P, K, S>(
+    name: &'static str,
+    mut motion: Motion<f64, V, P, K, S>,
+    (scheme, h): (A, &str),
+) -> Contestant<'a>
 where
+    A: Scheme + 'a,
     V: Coordinates<f64> + 'a,
     P: Potential<f64> + 'a,
     K: Kinetic<f64, Class = Quadratic> + 'a,
     S: Summation<f64> + 'a,
 {
-    let stepper = Stepper::new(StormerVerlet, h).expect("h is not 0");
+    let stepper = Stepper::new(scheme, h).expect("h is not 0");
     (name, Box::new(move |repetitions| steps(&mut motion, &stepper, repetitions)))
 }
 
 #[inline(never)]
-fn steps<V, P, K, S>(motion: &mut Motion<f64, V, P, K, S>, stepper: &Stepper<StormerVerlet, f64>, repetitions: u32)
+fn steps<A, V, P, K, S>(motion: &mut Motion<f64, V, P, K, S>, stepper: &Stepper<A, f64>, repetitions: u32)
 where
+    A: Scheme,
     V: Coordinates<f64>,
     P: Potential<f64>,
     K: Kinetic<f64, Class = Quadratic>,
@@ -43,8 +56,9 @@ where
 }
 
 /// The same system with each kind of sums; the ranges are 16 times the largest coordinate and momentum at the start.
-fn compared<V, P, K>(title: &str, (potential, kinetic): (P, K), (q, p): (V, V), h: &str, repetitions: u32)
+fn compared<A, V, P, K>(title: &str, (potential, kinetic): (P, K), (q, p): (V, V), scheme: (A, &str), repetitions: u32)
 where
+    A: Scheme + Copy,
     V: Coordinates<f64>,
     P: Potential<f64> + Clone,
     K: Kinetic<f64, Class = Quadratic> + Clone,
@@ -57,12 +71,12 @@ where
     });
     let start = Motion::new(potential, kinetic, q, p).expect("the dimensions agree");
     let contestants = vec![
-        contestant("plain sums", start.clone(), h),
-        contestant("compensated sums", start.clone().compensated(), h),
+        contestant("plain sums", start.clone(), scheme),
+        contestant("compensated sums", start.clone().compensated(), scheme),
         contestant(
             "fixed point",
             start.fixed_point(q_ranges.as_ref(), p_ranges.as_ref()).expect("within the ranges"),
-            h,
+            scheme,
         ),
     ];
     compare(title, contestants, repetitions);
@@ -90,13 +104,18 @@ fn bodies(name: &str, dimensions: usize, parameters: &[&str]) -> Bodies {
 }
 
 fn main() {
-    compared("Kepler", (Kepler, UnitMasses), ([0.4, 0.0], [0.0, 2.0]), "1/100", 1_000_000);
-    compared("Hénon–Heiles", (HenonHeiles, UnitMasses), ([0.1, 0.2], [0.1, 0.0]), "1/100", 1_000_000);
+    let verlet = (StormerVerlet, "1/100");
+    let yoshida = (Yoshida4, "1/100");
+    compared("Kepler", (Kepler, UnitMasses), ([0.4, 0.0], [0.0, 2.0]), verlet, 1_000_000);
+    compared("Kepler, Yoshida 4", (Kepler, UnitMasses), ([0.4, 0.0], [0.0, 2.0]), yoshida, 300_000);
+    let star = ([0.1, 0.2], [0.1, 0.0]);
+    compared("Hénon–Heiles", (HenonHeiles, UnitMasses), star, verlet, 1_000_000);
+    compared("Hénon–Heiles, Yoshida 4", (HenonHeiles, UnitMasses), star, yoshida, 300_000);
     let Bodies { masses, m, state, parameters } = bodies("outer-solar-system", 3, &["g"]);
     let gravity = Pairs::<_, 3>::all(m.len(), Gravity { g: parameters[0], m }).expect("the pairs fit");
-    compared("The Sun and five planets", (gravity, masses), state, "100", 100_000);
+    compared("The Sun and five planets", (gravity, masses), state, (StormerVerlet, "100"), 100_000);
     let Bodies { masses, m, state, parameters } = bodies("argon-crystal", 2, &["epsilon", "sigma"]);
     let pair = LennardJones { epsilon: parameters[0], sigma: parameters[1] };
     let argon = Pairs::<_, 2>::all(m.len(), pair).expect("the pairs fit");
-    compared("Seven argon atoms", (argon, masses), state, "4e-5", 100_000);
+    compared("Seven argon atoms", (argon, masses), state, (StormerVerlet, "4e-5"), 100_000);
 }

@@ -13,7 +13,7 @@ use crate::system::{Increments, Remainders};
 /// round-off of a kick or drift is of the size ε δ, where a plain sum has ε a.
 ///
 /// What is left comes from the increments: from the force at the rounded q, and its own rounding. Exact products and the remainder of p in
-/// drifts were tried, and gain a tenth at most.
+/// drifts were tried, and gain no more than the spread of the measurement.
 ///
 /// W. Kahan, *Further remarks on reducing truncation errors*, Comm. ACM 8 (1965) 40, and for steps of integrators O. Møller,
 /// BIT 5 (1965) 37; E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed. (2006), section VIII.5.
