@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use shadowstep::number::Number;
+use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::wrapped_to;
-use shadowstep_scenes::{Error, Temporary};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::advise::{Advice, Choice, Question};
 use shadowstep_work_precision::of::Of;
@@ -18,7 +18,7 @@ use crate::output::Output;
 use crate::posed::{Posed, PosedArguments};
 use crate::quantity;
 use crate::report::Status;
-use crate::tasks::{NOT_SAVED, SAVED, Terminal};
+use crate::tasks::{Folder, NOT_SAVED, SAVED, Terminal};
 use crate::work_precision::{schemes, seconds};
 
 const EXAMPLE: &str = "\
@@ -81,9 +81,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let tolerance = Size::power_of_ten(tolerance_log10(&tolerance, &arguments.tolerance)?);
     let posed = Posed::read(&arguments.posed)?;
     let schemes = schemes(&arguments.schemes, &posed)?;
-    let temporary = tempfile::tempdir()?;
-    let _removed = Temporary::of(temporary.path());
-    let folder = arguments.out.clone().unwrap_or_else(|| temporary.path().to_owned());
+    let folder = Folder::of(arguments.out.as_deref())?;
     let of = match arguments.of {
         Which::Position => Of::Position,
         Which::Energy => Of::Energy,
@@ -101,7 +99,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         tolerance,
         cost,
         seconds: arguments.seconds,
-        folder,
+        folder: folder.path().to_owned(),
     };
     let advice = question.answer(&mut terminal)?;
     let mut output = Output::stdout();

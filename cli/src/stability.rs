@@ -16,7 +16,7 @@ use crate::output::Output;
 use crate::quantity::whole;
 use crate::readable::wrapped_to;
 use crate::report::{self, Status};
-use crate::tasks::{NOT_SAVED, SAVED, Terminal};
+use crate::tasks::{Folder, NOT_SAVED, SAVED, Terminal};
 
 const EXAMPLE: &str = "\
 Examples:
@@ -63,9 +63,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         files::refuse_foreign(folder)?;
     }
     let mut terminal = Terminal::listen(arguments.out.as_ref().map_or(NOT_SAVED, |_| SAVED));
-    let temporary = tempfile::tempdir()?;
-    let folder = arguments.out.as_deref().unwrap_or(temporary.path());
-    let findings = examine(&suite, &cases, folder, &mut terminal)?;
+    let folder = Folder::of(arguments.out.as_deref())?;
+    let findings = examine(&suite, &cases, folder.path(), &mut terminal)?;
     let mut output = Output::stdout();
     for (case, finding) in &findings {
         match arguments.json {

@@ -1,11 +1,14 @@
 //! Tasks of very different costs on a terminal: how far they are, notes and failures, Ctrl-C.
 
 use std::fmt::Write;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
+use shadowstep_scenes::Temporary;
 use shadowstep_tasks::{Error, Observer, Progress};
+use tempfile::TempDir;
 
 use crate::interrupt::Interrupt;
 use crate::report::{self, Status};
@@ -17,6 +20,28 @@ pub(crate) struct Terminal {
     /// The worst that has happened.
     pub(crate) status: Status,
     interrupt: Interrupt,
+}
+
+/// The folder of saved outcomes: that of `--out`, or one that is removed at the end of the program, however that comes.
+pub(crate) struct Folder {
+    path: PathBuf,
+    _removed: Option<(Temporary, TempDir)>,
+}
+
+impl Folder {
+    pub(crate) fn of(out: Option<&Path>) -> Result<Self, Error> {
+        if let Some(path) = out {
+            return Ok(Folder { path: path.to_owned(), _removed: None });
+        }
+        let folder = tempfile::tempdir().map_err(|error| {
+            Error::usage(format!("no temporary folder can be created: {error}"), "give a folder with --out DIR")
+        })?;
+        Ok(Folder { path: folder.path().to_owned(), _removed: Some((Temporary::of(folder.path()), folder)) })
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
 }
 
 /// What can be done after an interruption.

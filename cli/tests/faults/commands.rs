@@ -12,12 +12,13 @@ pub(crate) struct Disturbed {
     pub(crate) resumes: bool,
 }
 
-pub(crate) const COMMANDS: [Disturbed; 5] = [
+pub(crate) const COMMANDS: [Disturbed; 6] = [
     Disturbed { name: "run", words: RUN, scene: PLAIN, resumes: true },
     Disturbed { name: "run with modified energies", words: RUN, scene: SHADOWED, resumes: true },
     Disturbed { name: "run without checkpoints", words: RUN, scene: UNSAVED, resumes: false },
     Disturbed { name: "trace", words: TRACE, scene: "", resumes: false },
     Disturbed { name: "figures", words: "figures reliability --quick --out FOLDER", scene: "", resumes: true },
+    Disturbed { name: "stability", words: STABILITY, scene: "", resumes: true },
 ];
 
 /// Its checkpoints are made by the clock.
@@ -25,6 +26,8 @@ pub(crate) const TIMED: Disturbed =
     Disturbed { name: "run by the clock", words: RUN, scene: BY_THE_CLOCK, resumes: true };
 
 const RUN: &str = "run FOLDER/scene.toml --no-summary";
+
+const STABILITY: &str = "stability frames --schemes stormer-verlet --quick --out FOLDER";
 
 const TRACE: &str = "trace pendulum --scheme ruth3 --step 1/10 --until 30 --double --order 4 --no-summary --force \
                      --output FOLDER/out.jsonl --plot FOLDER/out.svg";
