@@ -23,7 +23,7 @@ use work::{Undisturbed, Work, message, undisturbed};
 const KILLS: usize = 50;
 
 /// How often each command is killed, and how often it fails, in a random one of the calls that change files.
-const CALLS: usize = 20;
+const CALLS: usize = 15;
 
 /// How often each command gets a signal at a random moment.
 const SIGNALS: usize = 8;
