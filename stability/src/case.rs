@@ -1,5 +1,7 @@
 //! What a case is, and its trials as tasks whose results are saved.
 
+use std::cell::Cell;
+
 use serde::de::DeserializeOwned;
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
@@ -41,7 +43,7 @@ pub(crate) trait Case {
     /// The time that a trial takes in double precision, in seconds, to a factor of a few.
     fn seconds(suite: &Suite, trial: &Self::Trial) -> f64;
 
-    /// Makes a trial. One that is asked not to continue ends at once, with any result.
+    /// Makes a trial. One that is asked not to continue ends at once, with any result, which is dropped.
     fn measure<N: Rounded + 'static>(
         suite: &Suite,
         trial: &Self::Trial,
@@ -145,7 +147,19 @@ impl Task for Trial<'_> {
 
     fn compute(group: &[&Self], watcher: &dyn Watcher<Value>) {
         for (place, trial) in group.iter().enumerate() {
-            watcher.take(place, (trial.measure)(&|part| watcher.continues(part)));
+            let stopped = Cell::new(false);
+            let continues = |part| {
+                let continues = watcher.continues(part);
+                stopped.set(stopped.get() || !continues);
+                continues
+            };
+            let measured = (trial.measure)(&continues);
+            // a part of a trial is no result
+            let measured = measured.and_then(|measured| match stopped.get() {
+                true => Err(Error::run("the trial was stopped", "the same command makes it again")),
+                false => Ok(measured),
+            });
+            watcher.take(place, measured);
         }
     }
 }
