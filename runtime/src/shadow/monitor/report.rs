@@ -1,5 +1,7 @@
 //! The report of a monitor in numbers.
 
+use std::f64::consts::TAU;
+
 use num_traits::Signed;
 
 use super::ShadowEnergy;
@@ -204,6 +206,7 @@ impl<N: Number> Report<N> {
             offset: self.part(&self.offset()),
             of_kinetic: self.relative_error(),
             turning: None,
+            fastest_angle: self.fastest_coordinate.map(|(_, steps)| TAU / steps),
             straight: false,
             range: self.part(&self.range),
             resolution: self.resolution.as_ref().map_or(0.0, |resolution| self.part(resolution)),

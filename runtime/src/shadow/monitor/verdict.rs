@@ -16,7 +16,7 @@ use super::trend::Trend;
 /// | --- | --- |
 /// | too large: not finite | a state or an energy is not finite, or the sums overflow |
 /// | undecided: windows | there are fewer than 16 windows |
-/// | inconsistent | the states of a window differ from [their increments](super::Report::mismatches); or [the rate](super::Report::wrong_rates) is not qᵀU_q − 2U; or, beyond errors and round-off, the range of H − H̄ is as far from 0 as θ²T/6 and half of the energy error, θ the angle of the fastest motion in a step; or H̄ moved by 1000 times the energy error |
+/// | inconsistent | the states of a window differ from [their increments](super::Report::mismatches); or [the rate](super::Report::wrong_rates) is not qᵀU_q − 2U; or, beyond errors and round-off, the range of H − H̄ is as far from 0 as θ²T/6 and half of the energy error, θ the angle of the fastest motion in a step; or H̄ moved by 1000 times the energy error: the last two only where the steps resolve all coordinates |
 /// | round-off | moves or errors are half of the energy error, and no more than 10 times what round-off makes |
 /// | near a resonance | H̄ moved by a quarter or more, and the fastest motion is one oscillation that turns once in 3, 4, 5, 6 or 5/2 steps, to 0.006 turns a step |
 /// | too large: energy error | the energy error is 0.4 of T or more; or T is 0 in all windows, and q changes |
@@ -189,6 +189,8 @@ pub(super) struct Evidence {
     /// pᵀΔq as a part of 2hT.
     pub(super) action: f64,
     pub(super) turning: Option<Turning>,
+    /// The angle by which the coordinate that turns fastest turns in a step, however little of the energy it has.
+    pub(super) fastest_angle: Option<f64>,
     pub(super) trend: Option<Trend>,
     /// Whether H̄ is a linear function of time.
     pub(super) straight: bool,
@@ -302,15 +304,17 @@ impl Evidence {
 
     /// Of a motion that is not resolved by the steps H̄ may be anything.
     fn is_inconsistent(&self) -> bool {
+        let resolves_all = self.fastest_angle.is_none_or(|angle| angle <= ANGLE_LIMIT);
         let angle = self.turning.map_or(0.0, |turning| turning.angle);
         let most = (OFFSET_PER_TURNING * angle * angle / self.of_kinetic)
             .max(OFFSET_LIMIT)
             .max(ERROR_FACTOR * self.resolution);
-        let is_resolved = self.turns_little() && (self.action.is_nan() || self.action >= RESOLVED_ACTION);
+        let is_resolved =
+            self.turns_little() && resolves_all && (self.action.is_nan() || self.action >= RESOLVED_ACTION);
         // moves of which no errors are known may all be errors
         let moves_too_much = self.has_errors && self.moved_beyond_round_off() > INCONSISTENT_MOVE;
         let distance = self.distance * self.error_rms;
-        let is_far = self.rough && self.beyond_round_off(distance) > LARGEST_DISTANCE;
+        let is_far = resolves_all && self.rough && self.beyond_round_off(distance) > LARGEST_DISTANCE;
         self.mismatches
             || self.wrong_rate
             || is_far
@@ -382,6 +386,7 @@ mod tests {
         of_kinetic: 0.1,
         action: 1.0,
         turning: None,
+        fastest_angle: None,
         trend: Some(Trend::RandomWalk),
         straight: false,
         rough: false,
