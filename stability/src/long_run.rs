@@ -22,6 +22,8 @@ pub(crate) struct LongRun {
     /// The step size, exact.
     pub(crate) h: String,
     pub(crate) steps: u64,
+    /// How many of the first coordinates are those of the body from which positions are measured; 0 for the origin.
+    pub(crate) about: usize,
 }
 
 /// What it has shown.
@@ -32,7 +34,7 @@ pub(crate) struct Stayed {
     pub(crate) energy_errors: [f64; 4],
     /// The times of equal parts of the run, and the largest error in each.
     pub(crate) envelope: Vec<(f64, f64)>,
-    /// The largest coordinate of all states, beside the largest one at the start.
+    /// The largest coordinate of all states, about that body, beside the largest one at the start.
     pub(crate) farthest: f64,
 }
 
@@ -58,7 +60,7 @@ impl LongRun {
         let run = |scheme: &&Examined| {
             let h = h_per_evaluation * Rational::from_integer(scheme.scheme.scheme.summary().evaluations.into());
             let steps = (until / <f64 as Number>::from_rational(&h, &())).round() as u64;
-            LongRun { scheme: scheme.identity.clone(), problem, h: to_text(&h), steps }
+            LongRun { scheme: scheme.identity.clone(), problem, h: to_text(&h), steps, about: 0 }
         };
         schemes.iter().map(run).collect()
     }
@@ -72,7 +74,10 @@ impl LongRun {
         let h = shadowstep::exact(&self.h).expect("it is exact");
         let mut motion = setup(self.problem, &[]).motion::<N>(context).expect("masses are positive");
         let initial = motion.energy().to_f64();
-        let size = |q: &[N]| q.iter().map(|q| q.to_f64().abs()).fold(0.0, f64::max);
+        let size = |q: &[N]| {
+            let origin = |i: usize| q[..self.about].get(i % self.about.max(1)).map_or(0.0, N::to_f64);
+            q.iter().enumerate().map(|(i, x)| (x.to_f64() - origin(i)).abs()).fold(0.0, f64::max)
+        };
         let begin = size(motion.q());
         let (every, steps) = ((self.steps / ENERGIES).max(1), self.steps);
         let (mut farthest, mut energy_errors) = (1.0_f64, [0.0_f64; 4]);

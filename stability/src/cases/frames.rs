@@ -51,6 +51,8 @@ pub(super) struct Measured {
 
 /// The eccentricity of the orbit is 0.6, with steps of a fortieth of a unit of time for each evaluation.
 const STEPS_A_UNIT: i64 = 100;
+/// That at the pericentre, 1/0.4².
+const LARGEST_FORCE: f64 = 6.25;
 /// The energy error of another frame may differ by this factor.
 const SAME: f64 = 1.01;
 const SCHEMES: [&str; 3] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b"];
@@ -139,12 +141,14 @@ impl Case for Frames {
         let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let Some((_, plain)) = all.iter().find(|(trial, _)| trial.frame == Frame::Plain) else { continue };
+            let evaluations = suite.scheme(&all[0].0.scheme).scheme.summary().evaluations as f64;
             let (mut parts, mut verdicts) = (Vec::new(), Vec::new());
             for (trial, one) in all.iter().filter(|(trial, _)| trial.frame != Frame::Plain) {
                 let ratio = one.energy_error / plain.energy_error;
                 parts.push(format!("{} {:.0e}", trial.frame.described(), one.distance(plain)));
                 // where coordinates of size L lose digits, H does as well
-                let lost = trial.frame.digits_lost() / plain.energy_error;
+                let roundings = trial.steps as f64 * evaluations;
+                let lost = trial.frame.round_off(roundings, roundings / STEPS_A_UNIT as f64) / plain.energy_error;
                 verdicts.push(Verdict::from((ratio - 1.0).abs() <= SAME - 1.0 + lost));
             }
             let found = format!(
@@ -191,14 +195,14 @@ impl Frame {
         }
     }
 
-    /// The part of H that round-off of the coordinates may change, times a factor of safety for a walk over the run.
-    fn digits_lost(self) -> f64 {
-        match self {
-            Frame::Translated(distance) => 1e3 * f64::EPSILON * distance,
-            // H has the energy of the moving centre of mass, and positions grow
-            Frame::Moving(velocity) => 1e4 * f64::EPSILON * velocity * velocity * 1e3,
-            _ => 1e4 * f64::EPSILON,
-        }
+    /// The part of H that so many roundings of coordinates change over this time, by Brouwer's law with the largest force.
+    fn round_off(self, roundings: f64, duration: f64) -> f64 {
+        let size = match self {
+            Frame::Translated(distance) => distance,
+            Frame::Moving(velocity) => velocity * duration,
+            _ => 1.0,
+        };
+        roundings.sqrt() * f64::EPSILON * size * LARGEST_FORCE
     }
 
     /// Positions and momenta at the pericentre, with the centre of mass at rest.

@@ -10,7 +10,7 @@ use crate::suite::Suite;
 /// The case.
 pub(super) struct OuterPlanets;
 
-/// The aphelion of Pluto is at 49.3 AU; its largest coordinate at the start is Neptune's 25.7.
+/// The aphelion of Pluto is at 49.3 AU from the Sun; the largest coordinate at the start is Neptune's 25.7.
 const STAYS: f64 = 2.0;
 const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
@@ -19,13 +19,15 @@ impl LongCase for OuterPlanets {
     const TITLE: &'static str = "The Sun and the outer planets for 10⁸ days";
     const THEORY: &'static str = "Over 274 000 years no planet leaves. The error of H oscillates with the planets and does not grow, until round-off is \
         as large: that wanders like √t.";
-    const REVISION: u32 = 3;
+    const REVISION: u32 = 4;
     const EVALUATION: f64 = 200e-9;
 
     fn runs(suite: &Suite) -> Vec<LongRun> {
         let until = suite.thorough(1e8, 1e6);
         let h = Rational::from_integer(50.into());
-        LongRun::at_equal_cost(&suite.schemes_or(&SCHEMES), "outer-solar-system", &h, until)
+        let runs = LongRun::at_equal_cost(&suite.schemes_or(&SCHEMES), "outer-solar-system", &h, until);
+        // the published data have a barycentre that moves
+        runs.into_iter().map(|run| LongRun { about: 3, ..run }).collect()
     }
 
     /// Round-off is a part of the case.

@@ -42,7 +42,7 @@ impl LongCase for StiffSprings {
             PARTS.map(|part| {
                 let part = exact(part).expect("it is exact");
                 let h = limit.clone().unwrap_or(part.clone()) * part / Rational::from_integer(OMEGA.into());
-                LongRun { scheme: scheme.identity.clone(), problem: "fput-stiff", h: to_text(&h), steps }
+                LongRun { scheme: scheme.identity.clone(), problem: "fput-stiff", h: to_text(&h), steps, about: 0 }
             })
         };
         suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
