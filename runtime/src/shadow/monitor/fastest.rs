@@ -8,6 +8,9 @@ const ROUNDING: i32 = 1000;
 /// A coordinate that is more irregular than this is not taken for one that turns.
 const LARGEST_IRREGULARITY: f64 = 0.5;
 
+/// A coordinate that turns by this angle a step or more, once in 6 steps, is hardly resolved.
+const FAST: f64 = 1.0;
+
 /// How each coordinate turns: in the first states of a run, and in the newest ones of each window.
 #[derive(Clone, Debug)]
 pub(super) struct Fastest<N> {
@@ -67,6 +70,29 @@ impl<N: Number> Fastest<N> {
                 sums.add(x, y);
             }
         }
+    }
+
+    /// A coordinate that turned fast in the first five states, and turns at most a third as fast, or not at all, in the windows since; counted from
+    /// 0, with the angle by which it turned.
+    pub(super) fn lost(&self) -> Option<(usize, f64)> {
+        if self.begun < STATES {
+            return None;
+        }
+        let still = |i: usize| turning(&self.coordinates[i], &mut self.x.clone()).map_or(0.0, |turning| turning.angle);
+        let angles = (0..self.dimension()).filter_map(|i| Some((i, self.angle_at_start(i)?)));
+        angles
+            .filter(|(i, angle)| *angle >= FAST && still(*i) <= angle / 3.0)
+            .reduce(|fastest, other| if other.1 > fastest.1 { other } else { fastest })
+    }
+
+    /// The angle by which a coordinate turned in the first five states, π where it turned by more than half a turn a step; `None` where
+    /// the second difference in the middle is small beside its neighbours or is round-off, so that it says nothing.
+    fn angle_at_start(&self, i: usize) -> Option<f64> {
+        let p: [f64; STATES] = std::array::from_fn(|n| self.start[n][i].to_f64());
+        let [before, middle, after] = [0, 1, 2].map(|n| p[n] - 2.0 * p[n + 1] + p[n + 2]);
+        let round_off = self.rounding.to_f64() * p[2].abs();
+        let says = middle.abs() > round_off && 2.0 * middle.abs() >= before.abs().max(after.abs());
+        says.then(|| ((before + after) / (2.0 * middle)).clamp(-1.0, 1.0).acos())
     }
 
     /// The coordinate that turns by the largest angle, counted from 0; `None` where none turns.

@@ -90,6 +90,9 @@ pub struct Report<N> {
     /// The coordinate that turns fastest, counted from 0, and in how many steps it turns once: each coordinate by itself, in the first five
     /// states and in the windows. A light body may turn faster than all that has energy.
     pub fastest_coordinate: Option<(usize, f64)>,
+    /// A coordinate that turned once in this many steps, 6 or fewer, in the first five states, and no longer does in the windows, while all that
+    /// the energy shows is ten times slower: the steps did not resolve it.
+    pub lost_coordinate: Option<(usize, f64)>,
     /// The relative residual of that equation: 0 for one oscillation, 1 for noise.
     pub irregular: Option<f64>,
     /// In how many windows a state differs from the increments: there was a plain step where an augmented one was needed, or q or p
@@ -103,6 +106,9 @@ pub struct Report<N> {
     /// The conclusion about the step size.
     pub verdict: Verdict,
 }
+
+/// What the energy shows is slower by this factor than a coordinate that has no part in it.
+const SLOWER: f64 = 10.0;
 
 impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
     /// The report on the run so far.
@@ -147,6 +153,7 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
             round_off,
             steps_per_turn: turning.map(Turning::steps),
             fastest_coordinate: self.fastest.found().map(|(i, turning)| (i, turning.steps())),
+            lost_coordinate: self.lost(turning),
             irregular: turning.map(|turning| turning.irregular),
             mismatches: self.recent.mismatches(),
             wrong_rates: self.rate.wrong,
@@ -155,6 +162,12 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
         };
         self.judge(&mut report, turning, trend_ratio);
         report
+    }
+
+    /// A coordinate that is lost, if the energy shows much slower motions only.
+    fn lost(&self, turning: Option<Turning>) -> Option<(usize, f64)> {
+        let shown = turning.map_or(f64::INFINITY, Turning::steps);
+        self.fastest.lost().map(|(i, angle)| (i, TAU / angle)).filter(|(_, steps)| SLOWER * steps <= shown)
     }
 
     fn judge(&self, report: &mut Report<N>, turning: Option<Turning>, trend_ratio: Option<TrendRatio>) {
@@ -207,6 +220,7 @@ impl<N: Number> Report<N> {
             of_kinetic: self.relative_error(),
             turning: None,
             fastest_angle: self.fastest_coordinate.map(|(_, steps)| TAU / steps),
+            lost: self.lost_coordinate.is_some(),
             straight: false,
             range: self.part(&self.range),
             resolution: self.resolution.as_ref().map_or(0.0, |resolution| self.part(resolution)),

@@ -203,6 +203,14 @@ impl<N: Number> Report<N> {
             Criterion::EnergyError => {
                 "the mean kinetic energy is 0 while the positions change: half a turn a step, or more".to_owned()
             }
+            Criterion::Lost => {
+                let (i, steps) = self.lost_coordinate.expect("the verdict follows from it");
+                format!(
+                    "coordinate {} turned once in {steps:.1} steps at the start, and no longer does: the steps do not resolve it, however little \
+                     of the energy it has",
+                    i + 1
+                )
+            }
             Criterion::NotFinite => match self.not_finite {
                 Some(n) => format!("a state or its energy is not finite from step {n} on: the steps diverge"),
                 None => "the energies overflow: the steps diverge".to_owned(),

@@ -26,6 +26,7 @@ use super::trend::Trend;
 /// | not smooth | forces are [not smooth](super::Report::rough) in a quarter of the windows |
 /// | not conserved | H̄ moved permanently by half or more, its errors are a quarter or less, and the fastest motion turns once in 18 steps or less; but the energy error is below 0.05 of T |
 /// | too large: moves | the same, and the energy error is 0.05 of T or more |
+/// | too large: lost | in place of fine and round-off: a coordinate turned once in 6 steps or fewer in the first five states, ten times as fast as the fastest motion that the energy shows, and turns at most a third as fast in the windows |
 /// | undecided: resolution | none of these: the [advice](super::Report::advice) is what would decide |
 ///
 /// The thresholds come from a matrix of runs, and were tested with others: `docs/monitor.md`.
@@ -86,6 +87,8 @@ pub enum Criterion {
     Moved,
     /// The energy error is as large as the kinetic energy.
     EnergyError,
+    /// A coordinate turned at the start, and no longer does: the steps did not resolve it, however little of the energy it has.
+    Lost,
     /// A state or an energy is not finite.
     NotFinite,
 }
@@ -191,6 +194,8 @@ pub(super) struct Evidence {
     pub(super) turning: Option<Turning>,
     /// The angle by which the coordinate that turns fastest turns in a step, however little of the energy it has.
     pub(super) fastest_angle: Option<f64>,
+    /// Whether a coordinate that turned fast at the start, much faster than what the energy shows, no longer does.
+    pub(super) lost: bool,
     pub(super) trend: Option<Trend>,
     /// Whether H̄ is a linear function of time.
     pub(super) straight: bool,
@@ -210,8 +215,14 @@ pub(super) struct Evidence {
 }
 
 impl Evidence {
-    /// The first verdict whose condition holds; an energy error of 0 has no parts.
+    /// The verdict on the energy, unless that is fine and a coordinate is lost that has no visible part in it.
     pub(super) fn verdict(&self) -> Verdict {
+        let verdict = self.of_energy();
+        if verdict.is_fine() && self.lost { Verdict::TooLarge(Criterion::Lost) } else { verdict }
+    }
+
+    /// The first verdict whose condition holds; an energy error of 0 has no parts.
+    fn of_energy(&self) -> Verdict {
         if !self.finite {
             Verdict::TooLarge(Criterion::NotFinite)
         } else if self.windows < LEAST_WINDOWS {
@@ -387,6 +398,7 @@ mod tests {
         action: 1.0,
         turning: None,
         fastest_angle: None,
+        lost: false,
         trend: Some(Trend::RandomWalk),
         straight: false,
         rough: false,
