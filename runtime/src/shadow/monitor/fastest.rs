@@ -88,10 +88,16 @@ impl<N: Number> Fastest<N> {
     /// The angle by which a coordinate turned in the first five states, π where it turned by more than half a turn a step; `None` where
     /// the second difference in the middle is small beside its neighbours or is round-off, so that it says nothing.
     fn angle_at_start(&self, i: usize) -> Option<f64> {
-        let p: [f64; STATES] = std::array::from_fn(|n| self.start[n][i].to_f64());
-        let [before, middle, after] = [0, 1, 2].map(|n| p[n] - 2.0 * p[n + 1] + p[n + 2]);
-        let round_off = self.rounding.to_f64() * p[2].abs();
-        let says = middle.abs() > round_off && 2.0 * middle.abs() >= before.abs().max(after.abs());
+        let p = |n: usize| &self.start[n][i];
+        let [mut before, mut middle, mut after] = [(); 3].map(|()| self.x.clone());
+        for (n, difference) in [&mut before, &mut middle, &mut after].into_iter().enumerate() {
+            assign_second_difference(difference, p(n), p(n + 1), p(n + 2));
+        }
+        let mut round_off = self.rounding.clone();
+        round_off.multiply(p(2));
+        // the differences have the digits of N; of their quotients a few are enough
+        let [before, middle, after, round_off] = [before, middle, after, round_off].map(|x| x.to_f64());
+        let says = middle.abs() > round_off.abs() && 2.0 * middle.abs() >= before.abs().max(after.abs());
         says.then(|| ((before + after) / (2.0 * middle)).clamp(-1.0, 1.0).acos())
     }
 

@@ -37,8 +37,8 @@ use super::trend::Trend;
 /// - resonances of slow motions, and of oscillations with a small part of the momentum: the angle θ is that of the second
 ///   differences of p, over all coordinates at once;
 /// - what happens between windows without a lasting effect;
-/// - whether a light body is resolved, or lost in the first steps: its energy is no part of the whole. The report names
-///   [the coordinate that turns fastest](super::Report::fastest_coordinate) where the steps hardly resolve it.
+/// - whether a light body is resolved, unless it turned fast in the first five states and no longer does: its energy is no part of the whole.
+///   The report names [the coordinate that turns fastest](super::Report::fastest_coordinate) where the steps hardly resolve it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The energy error is the method's, and a permanent change is excluded: see
