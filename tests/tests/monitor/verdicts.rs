@@ -168,7 +168,9 @@ fn a_light_planet_is_reported() {
         problem("kepler").unwrap().setup(&[], 80).unwrap().motion(&precision(60)).unwrap();
     let verlet = stepper("stormer-verlet", "1e-9", &precision(60));
     let mut monitor = ShadowEnergy::new(verlet, &mut slow, &Bilinear::with_error(8)).unwrap().every(20);
-    (0..1000).for_each(|_| drop(monitor.step(&mut slow).unwrap()));
+    for _ in 0..1000 {
+        monitor.step(&mut slow).unwrap();
+    }
     assert_eq!(monitor.report().lost_coordinate, None, "{}", monitor.report());
     let resolved = watch(1e-3, "0.00316", 4000);
     assert!(resolved.verdict == FINE && !resolved.reason().contains("it may be lost"), "{resolved}");
