@@ -30,26 +30,22 @@
 //! | --- | --- |
 //! | `draw` | the picture as a whole: title, axes, curves, labels, notes |
 //! | `layout` | what the axes show, and the sizes of all parts |
-//! | `ticks` | round numbers and decades on an axis |
 //! | `clip` | the visible part of a curve |
 //! | `thin` | lines of many points |
 //! | `stack` | several charts as one picture |
-//! | `labels` | labels beside the chart, without overlaps |
 //! | `looks` | colours, dashes and markers |
 //! | `ink` | from the plain colours of plotters to classes that a style sheet can change |
 
 mod clip;
 mod draw;
 mod ink;
-mod labels;
 mod layout;
 mod looks;
 mod stack;
 mod thin;
-mod ticks;
 
+pub use crate::ticks::{Scale, power_of_ten};
 pub use stack::stacked;
-pub use ticks::power_of_ten;
 
 /// The content of one picture.
 #[derive(Clone, Debug)]
@@ -137,15 +133,6 @@ impl Axis {
     pub fn log10(label: &str) -> Self {
         Axis { label: label.to_owned(), scale: Scale::Log10, range: None }
     }
-}
-
-/// The scale of an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
-    /// The values themselves.
-    Linear,
-    /// log₁₀ of the values, so that 1e-400 is −400 instead of 0.
-    Log10,
 }
 
 /// Points, and how they are shown.

@@ -8,13 +8,14 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::clip::Frame;
-use super::ink::{FINE, Ink, Theme, finished};
-use super::labels::separate;
-use super::layout::{GAP, LINE, Layout, MARGIN, SAMPLE, Span, TEXT, TICK, TITLE, UNDER, in_legend};
+use super::ink::{FINE, Ink, finished};
+use super::layout::{GAP, Layout, SAMPLE, Span, UNDER, in_legend};
 use super::looks::{self, Shape};
 use super::thin::thinned;
 use super::{Chart, Curve, Look, Mark, Marker, Side};
 use crate::Error;
+use crate::labels::separate;
+use crate::picture::{LINE, MARGIN, TEXT, TICK, TITLE, Theme};
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type DrawResult = Result<(), Box<dyn std::error::Error + Send + Sync>>;

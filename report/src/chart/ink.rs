@@ -3,11 +3,10 @@
 //! plotters writes plain colours, without dashes and classes. So each kind of part is drawn in a placeholder colour, which
 //! is then replaced by its attributes.
 
-use maud::{PreEscaped, html};
 use plotters::style::RGBColor;
 
 use super::looks;
-use crate::indices::first_index;
+use crate::picture::{Frame, Theme};
 
 /// The kind of a stroke, a filled shape, or a text.
 #[derive(Clone, Copy)]
@@ -85,92 +84,7 @@ impl Ink {
     }
 }
 
-/// Exponents as raised small digits: many fonts lack some of the raised characters, or have them in two styles.
-fn raised(text: &str) -> String {
-    const RAISED: [(char, char); 11] = [
-        ('⁰', '0'),
-        ('¹', '1'),
-        ('²', '2'),
-        ('³', '3'),
-        ('⁴', '4'),
-        ('⁵', '5'),
-        ('⁶', '6'),
-        ('⁷', '7'),
-        ('⁸', '8'),
-        ('⁹', '9'),
-        ('⁻', '−'),
-    ];
-    let mut plain = String::with_capacity(text.len());
-    let mut within = false;
-    for character in text.chars() {
-        let lowered = RAISED.iter().find(|(raised, _)| *raised == character).map(|(_, lowered)| *lowered);
-        if lowered.is_some() != within {
-            // the line goes back down where the exponent ends: by 0.4 em of the smaller font
-            plain += match within {
-                false => "<tspan dy=\"-0.4em\" font-size=\"0.75em\">",
-                true if character == '<' => "</tspan>",
-                true => "</tspan><tspan dy=\"0.3em\">\u{200b}</tspan>",
-            };
-            within = !within;
-        }
-        plain.push(lowered.unwrap_or(character));
-    }
-    plain
-}
-
-/// Indices as lowered small letters, in the texts of the picture.
-fn lowered(content: &str) -> String {
-    let mut all = String::with_capacity(content.len());
-    let mut rest = content;
-    while let Some((before, index, after)) = first_index(rest) {
-        all += &format!(
-            "{before}<tspan dy=\"0.3em\" font-size=\"0.75em\">{index}</tspan><tspan dy=\"-0.225em\">\u{200b}</tspan>"
-        );
-        rest = after;
-    }
-    all + rest
-}
-
-/// Indices in line: E40.
-fn without_marks(text: &str) -> String {
-    let mut all = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some((before, index, after)) = first_index(rest) {
-        all = all + before + index;
-        rest = after;
-    }
-    all + rest
-}
-
-/// Whether a picture is dark on dark screens.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Theme {
-    LightAndDark,
-    Light,
-}
-
-/// The style of all charts. It is the same in each, so that pictures on one page do not interfere.
-const STYLE: &str = "
-svg.chart text { font-family: Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif; }
-svg.chart polyline { stroke-linejoin: round; }
-";
-
-/// On dark screens, in addition.
-const DARK: &str = "\
-@media screen and (prefers-color-scheme: dark) {
-  svg.chart .paper { fill: #16191d; }
-  svg.chart .halo-fill { fill: #16191d; stroke: #16191d; }
-  svg.chart .ink-fill { fill: #e8e8e8; }
-  svg.chart .ink-stroke { stroke: #e8e8e8; }
-  svg.chart .blue-fill { fill: #3c97d6; }
-  svg.chart .blue-stroke { stroke: #3c97d6; }
-  svg.chart .grid-stroke { stroke: #3a3f45; }
-}
-";
-
-/// The picture of plotters with its size in pixels, a title, a style and a background.
-///
-/// It has no `id`s, so that one page can contain many pictures.
+/// The picture of plotters as one that stands alone.
 pub(super) fn finished(drawn: &str, (width, height): (u32, u32), title: &str, theme: Theme) -> String {
     let mut content = drawn.split_once(">\n").map_or("", |(_, content)| content).trim_end().to_owned();
     if let Some(end) = content.rfind("</svg>") {
@@ -184,16 +98,7 @@ pub(super) fn finished(drawn: &str, (width, height): (u32, u32), title: &str, th
             content = content.replace(&format!("{paint}=\"#{r:02X}{g:02X}{b:02X}\""), &ink.attributes(paint));
         }
     }
-    let content = lowered(&raised(&content));
     let fine = |length: u32| f64::from(length) * FINE;
-    let view = format!("0 0 {} {}", fine(width), fine(height));
-    let svg = html! {
-        svg xmlns="http://www.w3.org/2000/svg" class="chart" role="img" width=(width) height=(height) viewBox=(view) {
-            title { (without_marks(title)) }
-            style { (PreEscaped(STYLE)) @if theme == Theme::LightAndDark { (PreEscaped(DARK)) } }
-            rect class="paper" width="100%" height="100%" fill="#FFFFFF" {}
-            (PreEscaped(content))
-        }
-    };
-    svg.into_string()
+    let frame = Frame { size: (width, height), view: (fine(width), fine(height)), title, description: None };
+    frame.around(&content, theme)
 }

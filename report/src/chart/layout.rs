@@ -4,16 +4,12 @@ use std::ops::Range;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
-use super::labels::{lines, width};
-use super::ticks::Ticks;
 use super::{Axis, Chart, Curve, Scale, Side};
+use crate::labels::{lines, width};
+use crate::picture::{LINE, MARGIN, TEXT, TICK, TITLE};
+use crate::ticks::{SMALLEST, Ticks, has_ticks, largest};
 
-// sizes in pixels; half a page is about 640 of them
-pub(super) const TITLE: f64 = 18.0;
-pub(super) const TEXT: f64 = 16.0;
-pub(super) const LINE: f64 = 20.0;
-pub(super) const MARGIN: f64 = 10.0;
-pub(super) const TICK: f64 = 5.0;
+// sizes in pixels
 /// Between the plot and the labels of curves.
 pub(super) const GAP: f64 = 14.0;
 /// The sample of a curve beside its label.
@@ -95,22 +91,6 @@ fn extent(values: impl Iterator<Item = f64>, scale: Scale) -> (f64, f64) {
     }
     let room = 0.03 * (most - least);
     (least - room, most + room)
-}
-
-/// Beyond this, neighbouring ticks cannot be distinguished.
-fn largest(scale: Scale) -> f64 {
-    match scale {
-        Scale::Linear => 1e290,
-        Scale::Log10 => 1e9,
-    }
-}
-
-const SMALLEST: f64 = 1e-290;
-
-/// Whether ticks within the range are different numbers; not so if the values hardly change.
-fn has_ticks((least, most): (f64, f64), scale: Scale) -> bool {
-    let size = least.abs().max(most.abs());
-    size < largest(scale) && most - least > SMALLEST.max(1e-9 * size)
 }
 
 /// The places of all parts, in pixels.

@@ -4,7 +4,7 @@
 const CHARACTER: f64 = 0.56;
 
 /// The approximate width of a text at a font size.
-pub(super) fn width(text: &str, size: f64) -> f64 {
+pub(crate) fn width(text: &str, size: f64) -> f64 {
     // small raised digits and signs are narrower
     let characters = text.chars().map(|character| match character {
         '⁰'..='⁹' | '¹' | '²' | '³' | '⁻' => 0.7,
@@ -16,7 +16,7 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
 }
 
 /// The lines of a text of at most this width; a single word may be wider.
-pub(super) fn lines(text: &str, most: f64, size: f64) -> Vec<String> {
+pub(crate) fn lines(text: &str, most: f64, size: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
@@ -33,7 +33,7 @@ pub(super) fn lines(text: &str, most: f64, size: f64) -> Vec<String> {
 /// Places within `range`, as close as possible to those wanted, and at least `gap` apart.
 ///
 /// They minimise the sum of squared shifts. If the range is too short, the gap is reduced.
-pub(super) fn separate(wanted: &[f64], gap: f64, range: (f64, f64)) -> Vec<f64> {
+pub(crate) fn separate(wanted: &[f64], gap: f64, range: (f64, f64)) -> Vec<f64> {
     let (low, high) = range;
     let gap = gap.min((high - low) / wanted.len().saturating_sub(1).max(1) as f64);
     let mut order: Vec<usize> = (0..wanted.len()).collect();

@@ -1,11 +1,18 @@
 //! The ticks of an axis and their labels.
 
-use super::Scale;
+/// The scale of an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// The values themselves.
+    Linear,
+    /// log₁₀ of the values, so that 1e-400 is −400 instead of 0.
+    Log10,
+}
 
 /// Labelled and minor ticks, in the values of the axis.
-pub(super) struct Ticks {
-    pub(super) labelled: Vec<(f64, String)>,
-    pub(super) minor: Vec<f64>,
+pub(crate) struct Ticks {
+    pub(crate) labelled: Vec<(f64, String)>,
+    pub(crate) minor: Vec<f64>,
 }
 
 /// The approximate number of intervals between labels that fit on an axis.
@@ -13,26 +20,48 @@ const MOST_STEPS: f64 = 7.0;
 
 impl Ticks {
     /// For least < most; on a logarithmic axis both are log₁₀.
-    pub(super) fn new(scale: Scale, (least, most): (f64, f64)) -> Ticks {
+    pub(crate) fn new(scale: Scale, range: (f64, f64)) -> Ticks {
+        Ticks::of_at_most(MOST_STEPS, scale, range)
+    }
+
+    /// The same with about this many intervals between labels, for a short axis.
+    pub(crate) fn of_at_most(steps: f64, scale: Scale, (least, most): (f64, f64)) -> Ticks {
         match scale {
-            Scale::Linear => linear(least, most),
-            Scale::Log10 => logarithmic(least, most),
+            Scale::Linear => linear(least, most, steps),
+            Scale::Log10 => logarithmic(least, most, steps),
         }
     }
 
-    pub(super) fn label(&self, value: f64) -> String {
+    pub(crate) fn label(&self, value: f64) -> String {
         // the values are those of `values`, bit for bit
         self.labelled.iter().find(|(tick, _)| *tick == value).map(|(_, label)| label.clone()).unwrap_or_default()
     }
 
-    pub(super) fn values(&self) -> Vec<f64> {
+    pub(crate) fn values(&self) -> Vec<f64> {
         self.labelled.iter().map(|(value, _)| *value).collect()
     }
 }
 
+/// Beyond this, neighbouring ticks cannot be distinguished.
+pub(crate) fn largest(scale: Scale) -> f64 {
+    match scale {
+        Scale::Linear => 1e290,
+        Scale::Log10 => 1e9,
+    }
+}
+
+/// Shorter ranges have no ticks.
+pub(crate) const SMALLEST: f64 = 1e-290;
+
+/// Whether ticks within the range are different numbers; not so if the values hardly change.
+pub(crate) fn has_ticks((least, most): (f64, f64), scale: Scale) -> bool {
+    let size = least.abs().max(most.abs());
+    size < largest(scale) && most - least > SMALLEST.max(1e-9 * size)
+}
+
 /// Multiples of 1, 2 or 5 times a power of ten.
-fn linear(least: f64, most: f64) -> Ticks {
-    let raw = (most - least) / MOST_STEPS;
+fn linear(least: f64, most: f64, steps: f64) -> Ticks {
+    let raw = (most - least) / steps;
     let mut exponent = raw.log10().floor() as i32;
     let power = 10f64.powi(exponent);
     let mut digit = [1, 2, 5, 10].into_iter().find(|digit| f64::from(*digit) * power >= raw).unwrap_or(10);
@@ -70,12 +99,18 @@ fn decimal(n: i64, exponent: i32) -> String {
             let unit = 10u64.pow(exponent.unsigned_abs());
             format!("{sign}{}.{:0width$}", n / unit, n % unit, width = exponent.unsigned_abs() as usize)
         }
-        _ => format!("{sign}{n}×10{}", superscript(exponent.into())),
+        _ => {
+            // one digit before the point: 1.5×10⁹ after 5×10⁸
+            let digits = n.to_string();
+            let (first, rest) = (&digits[..1], digits[1..].trim_end_matches('0'));
+            let point = if rest.is_empty() { "" } else { "." };
+            format!("{sign}{first}{point}{rest}×10{}", superscript(i64::from(exponent) + digits.len() as i64 - 1))
+        }
     }
 }
 
 /// Whole decades; if there is at most one, 1, 2 and 5 times them, or round numbers.
-fn logarithmic(least: f64, most: f64) -> Ticks {
+fn logarithmic(least: f64, most: f64, steps: f64) -> Ticks {
     let span = most - least;
     let within = |value: &f64| (least..=most).contains(value);
     let multiples = |step: i64| {
@@ -83,13 +118,13 @@ fn logarithmic(least: f64, most: f64) -> Ticks {
         (first..=last).map(move |n| n * step)
     };
     if most.floor() - least.ceil() < 1.0 || span < 2.0 {
-        return few_decades(least, most);
+        return few_decades(least, most, steps);
     }
     // steps, each of which divides its successor, with their minor steps
     const STEPS: [(i64, i64); 10] =
         [(1, 1), (2, 1), (5, 1), (10, 2), (20, 5), (50, 10), (100, 20), (200, 50), (500, 100), (1000, 200)];
-    let (step, minor) = STEPS.into_iter().find(|(step, _)| span <= *step as f64 * MOST_STEPS).unwrap_or_else(|| {
-        let step = (span / MOST_STEPS).ceil() as i64;
+    let (step, minor) = STEPS.into_iter().find(|(step, _)| span <= *step as f64 * steps).unwrap_or_else(|| {
+        let step = (span / steps).ceil() as i64;
         (step, step)
     });
     let labelled = multiples(step).map(|n| (n as f64, power_of_ten(n))).collect();
@@ -102,7 +137,7 @@ fn logarithmic(least: f64, most: f64) -> Ticks {
     Ticks { labelled, minor }
 }
 
-fn few_decades(least: f64, most: f64) -> Ticks {
+fn few_decades(least: f64, most: f64, steps: f64) -> Ticks {
     let decades = least.floor() as i64..=most.floor() as i64;
     // 0.5, 1 and 20 are read more easily than 5×10⁻¹, 1 and 2×10
     let plain = least >= -3.0 && most < 5.0;
@@ -123,7 +158,7 @@ fn few_decades(least: f64, most: f64) -> Ticks {
     }
     // less than half a decade: round numbers between its ends
     let decade = least.floor();
-    let round = linear(10f64.powf(least - decade), 10f64.powf(most - decade));
+    let round = linear(10f64.powf(least - decade), 10f64.powf(most - decade), steps);
     let labelled =
         round.labelled.into_iter().map(|(digits, text)| (decade + digits.log10(), times_power(&text, decade as i64)));
     Ticks { labelled: labelled.collect(), minor: Vec::new() }
@@ -136,6 +171,29 @@ pub fn power_of_ten(n: i64) -> String {
         1 => "10".to_owned(),
         _ => format!("10{}", superscript(n)),
     }
+}
+
+/// ±10ⁿ.
+pub(crate) fn signed_power_of_ten(is_negative: bool, n: i64) -> String {
+    format!("{}{}", if is_negative { "−" } else { "" }, power_of_ten(n))
+}
+
+/// A number rounded to so many significant digits, without trailing zeros: 0.3, −1.25×10⁻⁷.
+pub(crate) fn significant(value: f64, digits: usize) -> String {
+    let scientific = format!("{:.*e}", digits.saturating_sub(1), value.abs());
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i64 = exponent.parse().unwrap_or(0);
+    let sign = if value < 0.0 { "−" } else { "" };
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if (-4..5).contains(&exponent) {
+        // rounded to the digits, its shortest text is the number
+        let rounded: f64 = scientific.parse().unwrap_or(value.abs());
+        return format!("{sign}{rounded}");
+    }
+    let mantissa = if mantissa.contains('.') { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+    format!("{sign}{}", times_power(mantissa, exponent))
 }
 
 fn times_power(digits: &str, n: i64) -> String {
@@ -194,7 +252,27 @@ mod tests {
         );
         assert_eq!(labels(Scale::Linear, -1.0, 1.0), ["−1.0", "−0.5", "0", "0.5", "1.0"]);
         assert_eq!(labels(Scale::Linear, 3.0, 2100.0), ["500", "1000", "1500", "2000"]);
+        assert_eq!(labels(Scale::Linear, 0.0, 1.6e9), ["0", "5×10⁸", "1×10⁹", "1.5×10⁹"]);
         assert_eq!(labels(Scale::Linear, 0.0, 4e-7), ["0", "1×10⁻⁷", "2×10⁻⁷", "3×10⁻⁷", "4×10⁻⁷"]);
+    }
+
+    #[test]
+    fn numbers_are_rounded_to_significant_digits() {
+        let texts = [
+            (0.1 + 0.2, "0.3"),
+            (1.0 / 30.0, "0.03333"),
+            (-0.5, "−0.5"),
+            (0.0, "0"),
+            (-0.0, "0"),
+            (12_345.6, "12350"),
+            (99_999.9, "10⁵"),
+            (1e-5, "10⁻⁵"),
+            (-1.25e-7, "−1.25×10⁻⁷"),
+            (5e-324, "4.941×10⁻³²⁴"),
+        ];
+        for (value, text) in texts {
+            assert_eq!(significant(value, 4), text);
+        }
     }
 
     /// Between 2 and 9 labels, within the range, from the smallest spans to the largest.

@@ -1,0 +1,213 @@
+//! Heat maps: cells over two quantities, coloured by a third, as SVG pictures.
+//!
+//! A [`HeatMap`] has two axes, a colour scale, and one or more panels of cells, such as one for each scheme. All panels have the same axes
+//! and one common colour scale. Axes hold numbers or words; the border between two cells lies midway between their values, on a
+//! logarithmic axis midway between the logarithms. So values may have any distances and any order.
+//!
+//! Numbers of one sign have the colours of viridis, from dark to bright, which increase in lightness evenly, also in grey print and
+//! for people with any colour vision. Where a linear or a symmetric logarithmic scale has values of both signs, colours go from blue
+//! through white at 0 to red; in grey print, the sign is not visible. Words, such as verdicts, have colours of their own, and marks
+//! within cells that are large enough.
+//!
+//! A cell without a value is hatched. Zero and negative numbers on a logarithmic scale, and infinite numbers, have colours that the scale
+//! does not contain. Each of these has an entry in the legend, with the number of its cells.
+//!
+//! ```
+//! use shadowstep_report::heat_map::{CellAxis, Colour, HeatMap, Panel};
+//!
+//! let map = HeatMap::new(
+//!     "Kepler, 100 periods",
+//!     CellAxis::logarithmic("step size h", vec![0.01, 0.02, 0.04]),
+//!     CellAxis::linear("eccentricity e", vec![0.0, 0.3]),
+//!     Colour::logarithmic("permanent change of H̄"),
+//!     vec![
+//!         Panel::new("Störmer–Verlet", vec![Some(1e-9), Some(1e-6), Some(1e-3), Some(1e-8), Some(1e-4), None]),
+//!         Panel::new("Yoshida 4", vec![Some(0.0), Some(1e-9), Some(1e-5), Some(1e-12), Some(1e-7), Some(1e-2)]),
+//!     ],
+//! );
+//! let svg = map.svg()?;
+//! assert!(svg.starts_with("<svg ") && svg.contains("no value: 1 cell"));
+//! # Ok::<(), shadowstep_report::Error>(())
+//! ```
+//!
+//! Up to 10 000 cells are rectangles. More cells are an image within the picture (PNG, lossless, without smoothing), whose size is about
+//! a byte or two for each cell; as rectangles, 2000 × 2000 cells would be tens of megabytes, and slow to show. If the cells have different
+//! sizes, the image has four pixels for each unit of the picture, so that borders are exact to an eighth of a unit.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | `check` | what cannot be drawn |
+//! | `scale` | from a value to its place on the colour bar |
+//! | `shades` | from a value to its colour; words and special values |
+//! | `strip` | the cells along an axis: order, borders, labels |
+//! | `layout` | the sizes and places of all parts |
+//! | `draw` | the picture as a whole: panels, axes, title |
+//! | `cells` | cells as rectangles, marks, hatching |
+//! | `image` | cells as an image |
+//! | `legend` | the colour bar, and the entries below it |
+//! | `svg` | places and texts |
+
+mod cells;
+mod check;
+mod draw;
+mod image;
+mod layout;
+mod legend;
+mod scale;
+mod shades;
+mod strip;
+mod svg;
+
+/// The content of one picture.
+#[derive(Clone, Debug)]
+pub struct HeatMap {
+    /// Above the picture; T_{m,m} and E_40 get subscripts, here and in all labels.
+    pub title: String,
+    /// The axis below.
+    pub x: CellAxis,
+    /// The axis at the left.
+    pub y: CellAxis,
+    /// What the colours mean, in all panels.
+    pub colour: Colour,
+    /// In rows from left to right.
+    pub panels: Vec<Panel>,
+    /// Short remarks below the picture.
+    pub notes: Vec<String>,
+    /// Whether one unit is as long on both axes, unless one of the ranges is much longer.
+    pub equal_scales: bool,
+}
+
+/// The values along an axis, one for each column or row of cells.
+#[derive(Clone, Debug)]
+pub struct CellAxis {
+    /// The quantity, with its unit.
+    pub label: String,
+    /// In the order of the cells.
+    pub values: Values,
+}
+
+/// The values of an axis.
+#[derive(Clone, Debug)]
+pub enum Values {
+    /// Different numbers in any order; they are drawn from left to right, and upwards.
+    Linear(Vec<f64>),
+    /// Different positive numbers in any order, drawn by their logarithms.
+    Logarithmic(Vec<f64>),
+    /// Names, such as those of schemes; they are drawn from left to right, and downwards, in cells of one size.
+    Words(Vec<String>),
+}
+
+/// One map of several.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// Above the panel.
+    pub title: String,
+    /// Row by row: of nx values of x and ny of y, the value at (i, j) is `cells[i + nx·j]`. `None` and NaN are cells without a value, such
+    /// as those of failed runs. With [`ColourScale::Words`], the number of the word, from 0.
+    pub cells: Vec<Option<f64>>,
+}
+
+/// What the colours of the cells mean.
+#[derive(Clone, Debug)]
+pub struct Colour {
+    /// The quantity, with its unit.
+    pub label: String,
+    /// From numbers to colours.
+    pub scale: ColourScale,
+}
+
+/// From numbers to colours.
+#[derive(Clone, Debug)]
+pub enum ColourScale {
+    /// The values themselves.
+    Linear,
+    /// log₁₀ of the values. Zero and negative values are shown in colours of their own.
+    Logarithmic,
+    /// For values of both signs over many decades: with the threshold c, v/c for |v| ≤ c, and ±(1 + log₁₀|v/c|) beyond.
+    /// The label states c.
+    SymmetricLogarithmic {
+        /// c > 0; `None` for the power of ten below which about 5 % of the nonzero |v| lie, but no less than 10⁻¹² of the largest.
+        linear_within: Option<f64>,
+    },
+    /// One of these three. Without its smallest 5 %, does the nonzero |v| extend over more than three decades? If not, linear. If so,
+    /// logarithmic, or symmetric if some value is negative.
+    Automatic,
+    /// Up to 9 words, such as verdicts; a cell holds the number of its word, from 0.
+    Words(Vec<String>),
+}
+
+impl HeatMap {
+    /// A map without notes, whose panels have any convenient size.
+    pub fn new(title: impl Into<String>, x: CellAxis, y: CellAxis, colour: Colour, panels: Vec<Panel>) -> Self {
+        HeatMap { title: title.into(), x, y, colour, panels, notes: Vec::new(), equal_scales: false }
+    }
+}
+
+impl CellAxis {
+    /// An axis with the numbers themselves.
+    pub fn linear(label: impl Into<String>, values: Vec<f64>) -> Self {
+        CellAxis { label: label.into(), values: Values::Linear(values) }
+    }
+
+    /// An axis of positive numbers, by their logarithms.
+    pub fn logarithmic(label: impl Into<String>, values: Vec<f64>) -> Self {
+        CellAxis { label: label.into(), values: Values::Logarithmic(values) }
+    }
+
+    /// An axis of names.
+    pub fn words(label: impl Into<String>, words: Vec<String>) -> Self {
+        CellAxis { label: label.into(), values: Values::Words(words) }
+    }
+}
+
+impl Values {
+    /// The number of columns or rows.
+    pub fn count(&self) -> usize {
+        match self {
+            Values::Linear(values) | Values::Logarithmic(values) => values.len(),
+            Values::Words(words) => words.len(),
+        }
+    }
+}
+
+impl Panel {
+    /// Cells row by row.
+    pub fn new(title: impl Into<String>, cells: Vec<Option<f64>>) -> Self {
+        Panel { title: title.into(), cells }
+    }
+
+    /// Cells row by row, each with the number of its word, from 0.
+    pub fn of_words(title: impl Into<String>, cells: impl IntoIterator<Item = Option<usize>>) -> Self {
+        Panel::new(title, cells.into_iter().map(|cell| cell.map(|word| word as f64)).collect())
+    }
+}
+
+impl Colour {
+    /// The values themselves.
+    pub fn linear(label: impl Into<String>) -> Self {
+        Colour { label: label.into(), scale: ColourScale::Linear }
+    }
+
+    /// The logarithms of the values.
+    pub fn logarithmic(label: impl Into<String>) -> Self {
+        Colour { label: label.into(), scale: ColourScale::Logarithmic }
+    }
+
+    /// Logarithms of values of both signs, with a threshold that the values give.
+    pub fn symmetric_logarithmic(label: impl Into<String>) -> Self {
+        Colour { label: label.into(), scale: ColourScale::SymmetricLogarithmic { linear_within: None } }
+    }
+
+    /// The scale that suits the values.
+    pub fn automatic(label: impl Into<String>) -> Self {
+        Colour { label: label.into(), scale: ColourScale::Automatic }
+    }
+
+    /// Words, such as verdicts.
+    pub fn words(label: impl Into<String>, words: Vec<String>) -> Self {
+        Colour { label: label.into(), scale: ColourScale::Words(words) }
+    }
+}
+
+#[cfg(test)]
+mod tests;
