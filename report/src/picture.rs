@@ -33,6 +33,7 @@ const DARK: &str = "\
   svg.chart .ink-stroke { stroke: #e8e8e8; }
   svg.chart .blue-fill { fill: #3c97d6; }
   svg.chart .blue-stroke { stroke: #3c97d6; }
+  svg.chart .grid-fill { fill: #3a3f45; }
   svg.chart .grid-stroke { stroke: #3a3f45; }
 }
 ";

@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use maud::{Markup, html};
 
-use super::shades::{INFINITE, LEVELS, MINUS_INFINITE, MISSING, NEGATIVE, Shades, ZERO, lightness};
+use super::shades::{ABOVE, INFINITE, LEVELS, MINUS_INFINITE, MISSING, MOST_WORDS, NEGATIVE, Shades, ZERO, lightness};
 use super::svg::{Place, length};
 
 /// Between the lines of the hatching.
-const APART: f64 = 6.0;
+const APART: f64 = 4.0;
 
 /// Smaller cells have no marks.
 const LEAST_MARKED: f64 = 9.0;
@@ -31,7 +31,7 @@ pub(super) fn rectangles(shades: &Shades<'_>, numbers: &[u8], place: Place, (x, 
     }
     html! {
         g shape-rendering="crispEdges" {
-            @for (number, path) in (0..MISSING).zip(&paths).filter(|(_, path)| !path.is_empty()) {
+            @for (number, path) in (0..=ABOVE).zip(&paths).filter(|(number, path)| *number != MISSING && !path.is_empty()) {
                 path fill=(shades.hex(number)) d=(path) {}
             }
         }
@@ -94,37 +94,53 @@ const DIAMOND: [Stroke; 4] =
     [[(0.0, -1.1), (1.1, 0.0)], [(1.1, 0.0), (0.0, 1.1)], [(0.0, 1.1), (-1.1, 0.0)], [(-1.1, 0.0), (0.0, -1.1)]];
 const TRIANGLE: [Stroke; 3] = [[(0.0, -1.0), (1.0, 0.8)], [(1.0, 0.8), (-1.0, 0.8)], [(-1.0, 0.8), (0.0, -1.0)]];
 
-/// In units of the radius, downwards. The first word has none.
+const NABLA: [Stroke; 3] = [[(0.0, 1.0), (1.0, -0.8)], [(1.0, -0.8), (-1.0, -0.8)], [(-1.0, -0.8), (0.0, 1.0)]];
+
+/// Those of words; the first has none.
+const OF_WORDS: [&[Stroke]; MOST_WORDS] = [
+    &[],
+    &[RISING],
+    &[FALLING, RISING],
+    &[LEVEL],
+    &[LEVEL, UPRIGHT],
+    &SQUARE,
+    &TRIANGLE,
+    &DIAMOND,
+    &[UPRIGHT],
+    &[FALLING],
+    &[LEVEL, UPRIGHT, FALLING, RISING],
+    &NABLA,
+];
+
+/// In units of the radius, downwards.
 fn strokes(shades: &Shades<'_>, number: u8) -> &'static [Stroke] {
     match number {
         ZERO => &SQUARE,
         NEGATIVE => &[LEVEL],
         MINUS_INFINITE => &[FALLING, RISING, LEVEL],
         INFINITE => &[FALLING, RISING],
-        1 if !shades.words().is_empty() => &[RISING],
-        2 if !shades.words().is_empty() => &[FALLING, RISING],
-        3 if !shades.words().is_empty() => &[LEVEL],
-        4 if !shades.words().is_empty() => &[LEVEL, UPRIGHT],
-        5 if !shades.words().is_empty() => &SQUARE,
-        6 if !shades.words().is_empty() => &TRIANGLE,
-        7 if !shades.words().is_empty() => &DIAMOND,
-        8 if !shades.words().is_empty() => &[UPRIGHT],
+        word if !shades.words().is_empty() => OF_WORDS.get(usize::from(word)).copied().unwrap_or_default(),
         _ => &[],
     }
 }
 
-/// Lines from the lower left to the upper right within rectangles, as one path: what is seen where no cell is drawn.
+/// Grey rectangles with lines from the lower left to the upper right: what is seen where no cell is drawn.
 pub(super) fn hatching(places: &[Place]) -> Markup {
-    let mut path = String::new();
+    let (mut ground, mut path) = (String::new(), String::new());
     for place in places {
+        let [left, top, right, bottom] = [place.left, place.top, place.right(), place.bottom()];
+        let _ =
+            write!(ground, "M{} {}H{}V{}H{}z", length(left), length(top), length(right), length(bottom), length(left));
         // x + y is constant on a line
-        let (first, last) = (place.left + place.top, place.right() + place.bottom());
-        let mut sum = (first / APART).ceil() * APART;
-        while sum < last {
-            let (x1, x2) = ((sum - place.bottom()).max(place.left), (sum - place.top).min(place.right()));
+        let mut sum = ((left + top) / APART).ceil() * APART;
+        while sum < right + bottom {
+            let (x1, x2) = ((sum - bottom).max(left), (sum - top).min(right));
             let _ = write!(path, "M{} {}L{} {}", length(x1), length(sum - x1), length(x2), length(sum - x2));
             sum += APART;
         }
     }
-    html! { path class="hatching" d=(path) fill="none" stroke="#888888" {} }
+    html! {
+        path class="grid-fill" d=(ground) fill="#DDDDDD" {}
+        path class="hatching" d=(path) fill="none" stroke="#888888" {}
+    }
 }

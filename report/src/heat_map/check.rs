@@ -2,7 +2,7 @@
 
 use super::scale::{LARGEST, Measure};
 use super::shades::MOST_WORDS;
-use super::{CellAxis, ColourScale, HeatMap, Panel, Values};
+use super::{CellAxis, Colour, ColourScale, HeatMap, Panel, Values};
 use crate::Error;
 
 fn usage(message: String, hint: &str) -> Error {
@@ -17,12 +17,7 @@ impl HeatMap {
         if self.panels.is_empty() {
             return Err(usage(format!("the heat map {:?} has no panel", self.title), "give it at least one panel"));
         }
-        if let ColourScale::SymmetricLogarithmic { linear_within: Some(threshold) } = self.colour.scale
-            && !(threshold > 0.0 && threshold.is_finite())
-        {
-            let message = format!("the threshold of a symmetric logarithmic scale must be positive, not {threshold}");
-            return Err(usage(message, "give the size below which the scale is linear, such as 1e-12"));
-        }
+        self.colour.check()?;
         self.panels.iter().try_for_each(|panel| self.check_panel(panel))
     }
 
@@ -42,12 +37,40 @@ impl HeatMap {
         }
         let is_too_large = |value: &f64| value.is_finite() && value.abs() > LARGEST;
         match values.into_iter().find(is_too_large) {
-            Some(value) if Measure::of(&self.colour.scale, &self.panels) == Measure::Linear => Err(usage(
-                format!("the panel {:?} has the value {value:e}, which is too large for a linear scale", panel.title),
-                "use a logarithmic scale",
-            )),
+            Some(value)
+                if self.colour.range.is_none() && Measure::of(&self.colour, &self.panels) == Measure::Linear =>
+            {
+                Err(usage(
+                    format!(
+                        "the panel {:?} has the value {value:e}, which is too large for a linear scale",
+                        panel.title
+                    ),
+                    "use a logarithmic scale",
+                ))
+            }
             _ => Ok(()),
         }
+    }
+}
+
+impl Colour {
+    fn check(&self) -> Result<(), Error> {
+        if let ColourScale::SymmetricLogarithmic { linear_within: Some(threshold) } = self.scale
+            && !(threshold > 0.0 && threshold.is_finite())
+        {
+            let message = format!("the threshold of a symmetric logarithmic scale must be positive, not {threshold}");
+            return Err(usage(message, "give the size below which the scale is linear, such as 1e-12"));
+        }
+        let Some((least, most)) = self.range else { return Ok(()) };
+        if !(least < most && least.abs() <= LARGEST && most.abs() <= LARGEST) {
+            let message = format!("the range of colours from {least:e} to {most:e} is empty or too large");
+            return Err(usage(message, "give the smaller value first, both of them finite"));
+        }
+        if least <= 0.0 && matches!(self.scale, ColourScale::Logarithmic) {
+            let message = format!("the range of colours from {least:e} to {most:e} has no logarithms");
+            return Err(usage(message, "give positive values, or use a linear or a symmetric logarithmic scale"));
+        }
+        Ok(())
     }
 }
 

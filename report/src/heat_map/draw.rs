@@ -9,7 +9,7 @@ use super::legend::counted;
 use super::shades::{MISSING, Shades};
 use super::strip::{Direction, Strip};
 use super::svg::{Anchor, NEAR, Place, length, text, turned};
-use super::{HeatMap, Panel, Values};
+use super::{HeatMap, Values};
 use crate::Error;
 use crate::picture::{Frame, LINE, MARGIN, TEXT, TICK, TITLE, Theme};
 use crate::ticks::significant;
@@ -56,8 +56,8 @@ impl HeatMap {
         let has_images = is_needed(cells, (x.count(), y.count()), layout.panels[0].cells);
         let common = Common { borders: (x.borders(), y.borders()), shades, x, y, layout, has_images };
         let mut content = String::new();
-        for ((panel, place), numbers) in self.panels.iter().zip(&common.layout.panels).zip(&panels) {
-            content += &common.panel(panel, place, numbers)?.into_string();
+        for (place, numbers) in common.layout.panels.iter().zip(&panels) {
+            content += &common.panel(place, numbers)?.into_string();
         }
         content += &self.texts(&common.layout).into_string();
         content += &common.layout.legend.draw(&common.shades).into_string();
@@ -116,7 +116,7 @@ impl HeatMap {
 
 impl Common<'_> {
     /// A panel with its title, ticks, and labels.
-    fn panel(&self, panel: &Panel, place: &PanelPlace, numbers: &[u8]) -> Result<Markup, Error> {
+    fn panel(&self, place: &PanelPlace, numbers: &[u8]) -> Result<Markup, Error> {
         let cells = place.cells;
         let borders = (self.borders.0.as_slice(), self.borders.1.as_slice());
         let drawn = if self.has_images {
@@ -128,7 +128,7 @@ impl Common<'_> {
             html! { (rectangles(&self.shades, numbers, cells, borders)) (marks(&self.shades, numbers, cells, borders)) }
         };
         Ok(html! {
-            g role="group" aria-label=(panel.title) {
+            g class="panel" {
                 @if numbers.contains(&MISSING) { (hatching(&[cells])) }
                 (drawn)
                 rect x=(length(cells.left)) y=(length(cells.top)) width=(length(cells.width)) height=(length(cells.height))

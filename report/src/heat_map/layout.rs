@@ -69,7 +69,7 @@ impl Layout {
         let top = MARGIN + title.len() as f64 * (LINE + 2.0) + 8.0;
         let (panels, bottom) = panels(map, columns, size, (left, top), TICK + NEAR + x.height());
         let grid = Place { left, top, width: grid_width, height: panels[panels.len() - 1].cells.bottom() - top };
-        let x_label = bottom + 6.0 + LINE / 2.0;
+        let x_label = bottom + if map.x.label.is_empty() { -LINE / 2.0 } else { 6.0 + LINE / 2.0 };
         // below the panels, and further to the left if these are narrow
         let legend_left = left.min((picture - RIGHT - LEGEND).max(MARGIN));
         let (legend_top, legend_width) = (x_label + LINE / 2.0 + 12.0, picture - RIGHT - legend_left);

@@ -145,6 +145,11 @@ fn entries(shades: &Shades<'_>, counts: &[usize; 256], without_bar: bool) -> Vec
     if let Some((value, _)) = shades.data.filter(|_| without_bar) {
         entries.push((shades.number(Some(value)), significant(value, 6)));
     }
+    for (colour, text) in shades.beyond() {
+        if counts[usize::from(colour)] > 0 {
+            entries.push((colour, format!("{text}: {}", counted(counts[usize::from(colour)]))));
+        }
+    }
     for (colour, name) in SPECIAL {
         if counts[usize::from(colour)] > 0 {
             entries.push((colour, format!("{name}: {}", counted(counts[usize::from(colour)]))));

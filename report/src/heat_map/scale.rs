@@ -1,6 +1,6 @@
 //! From a value to its place on the colour bar.
 
-use super::{ColourScale, Panel};
+use super::{Colour, ColourScale, Panel};
 use crate::ticks::{Scale, Ticks, signed_power_of_ten};
 
 /// Beyond this, differences of values may overflow.
@@ -26,25 +26,28 @@ pub(super) enum Measure {
 
 impl Measure {
     /// The measure of a scale of numbers; automatic ones look at the values.
-    pub(super) fn of(scale: &ColourScale, panels: &[Panel]) -> Measure {
-        match scale {
-            ColourScale::Linear | ColourScale::Words(_) => Measure::Linear,
-            ColourScale::Logarithmic => Measure::Log10,
-            // all values within the threshold: the scale is linear
-            ColourScale::SymmetricLogarithmic { linear_within: Some(threshold) } => match sizes(panels) {
-                Some(sizes) if sizes.largest > *threshold => Measure::SymmetricLog(*threshold),
-                _ => Measure::Linear,
-            },
-            ColourScale::SymmetricLogarithmic { linear_within: None } => {
-                Measure::SymmetricLog(sizes(panels).map_or(1.0, |sizes| threshold(&sizes)))
+    pub(super) fn of(colour: &Colour, panels: &[Panel]) -> Measure {
+        let sizes = sizes(panels, colour.range);
+        match (&colour.scale, sizes) {
+            (ColourScale::Linear | ColourScale::Words(_), _) => Measure::Linear,
+            (ColourScale::Logarithmic, _) => Measure::Log10,
+            (ColourScale::SymmetricLogarithmic { linear_within: Some(threshold) }, Some(sizes))
+                if sizes.largest > *threshold =>
+            {
+                Measure::SymmetricLog(*threshold)
             }
-            ColourScale::Automatic => match sizes(panels) {
-                Some(sizes) if sizes.largest / sizes.small > MOST_LINEAR => match sizes.negative {
-                    true => Measure::SymmetricLog(threshold(&sizes)),
-                    false => Measure::Log10,
-                },
-                _ => Measure::Linear,
-            },
+            (ColourScale::SymmetricLogarithmic { linear_within: None }, Some(sizes)) => {
+                Measure::SymmetricLog(threshold(&sizes))
+            }
+            (ColourScale::Automatic, Some(sizes)) if sizes.largest / sizes.small > MOST_LINEAR => {
+                if sizes.is_signed {
+                    Measure::SymmetricLog(threshold(&sizes))
+                } else {
+                    Measure::Log10
+                }
+            }
+            // without nonzero values, or with all of them within the threshold
+            (ColourScale::SymmetricLogarithmic { .. } | ColourScale::Automatic, _) => Measure::Linear,
         }
     }
 
@@ -68,11 +71,10 @@ impl Measure {
         (least <= most).then_some((least, most))
     }
 
-    /// The ends of the colour bar for values in this range, in units of the measure; if both signs occur, it is the same on both sides of 0.
-    pub(super) fn range(self, (least, most): (f64, f64)) -> (f64, f64) {
-        let (first, last) = (self.at(least), self.at(most));
-        let farthest = last.max(-first);
-        if self != Measure::Log10 && first < 0.0 && last > 0.0 { (-farthest, farthest) } else { (first, last) }
+    /// The values at the ends of the colour bar, for values in this range; if both signs occur, it is the same on both sides of 0.
+    pub(super) fn ends(self, (least, most): (f64, f64)) -> (f64, f64) {
+        let farthest = most.max(-least);
+        if self != Measure::Log10 && least < 0.0 && most > 0.0 { (-farthest, farthest) } else { (least, most) }
     }
 
     /// Ticks of the colour bar, in the units of the measure.
@@ -125,18 +127,21 @@ struct Sizes {
     /// Above the smallest 5 %.
     small: f64,
     largest: f64,
-    /// Whether some value is negative.
-    negative: bool,
+    /// Whether the colour bar has to show values that are not positive.
+    is_signed: bool,
 }
 
-fn sizes(panels: &[Panel]) -> Option<Sizes> {
-    let mut sizes: Vec<f64> = finite(panels).filter(|value| *value != 0.0).map(f64::abs).collect();
+/// Of the values within a range, if one is given, and its ends.
+fn sizes(panels: &[Panel], range: Option<(f64, f64)>) -> Option<Sizes> {
+    let (least, most) = range.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+    let within = || finite(panels).filter(|value| (least..=most).contains(value));
+    let mut sizes: Vec<f64> = within().filter(|value| *value != 0.0).map(f64::abs).collect();
     let rank = (LEFT_OUT * sizes.len() as f64) as usize;
     let largest = sizes.iter().copied().fold(0.0, f64::max);
     (!sizes.is_empty()).then(|| Sizes {
         small: *sizes.select_nth_unstable_by(rank, f64::total_cmp).1,
         largest,
-        negative: finite(panels).any(|value| value < 0.0),
+        is_signed: within().any(|value| value < 0.0) || range.is_some() && least <= 0.0,
     })
 }
 
@@ -156,7 +161,7 @@ mod tests {
     }
 
     fn automatic(cells: &[f64]) -> Measure {
-        Measure::of(&ColourScale::Automatic, &panel(cells))
+        Measure::of(&Colour::automatic(""), &panel(cells))
     }
 
     #[test]
@@ -169,6 +174,15 @@ mod tests {
         // evenly spread values of both signs, some of which are close to 0, are not of many decades
         let even: Vec<_> = (-1000..1000).map(|n| f64::from(n) / 1000.0 + 1e-9).collect();
         assert_eq!(automatic(&even), Measure::Linear);
+    }
+
+    /// Values beyond the range of the colour bar do not decide.
+    #[test]
+    fn the_range_decides_on_an_automatic_scale() {
+        let over = |least, most, cells: &[f64]| Measure::of(&Colour::automatic("").over(least, most), &panel(cells));
+        assert_eq!(over(1.0, 100.0, &[1.0, 50.0, 1e300]), Measure::Linear);
+        assert_eq!(over(1e-9, 1.0, &[1e-8, 0.1, -5.0]), Measure::Log10);
+        assert_eq!(over(0.0, 1.0, &[1e-8, 0.1]), Measure::SymmetricLog(1e-8));
     }
 
     #[test]
@@ -187,11 +201,11 @@ mod tests {
     }
 
     #[test]
-    fn ranges_are_symmetric_where_both_signs_occur() {
-        let range = |measure: Measure, cells: &[f64]| measure.extremes(&panel(cells)).map(|data| measure.range(data));
+    fn bars_are_symmetric_where_both_signs_occur() {
+        let range = |measure: Measure, cells: &[f64]| measure.extremes(&panel(cells)).map(|data| measure.ends(data));
         assert_eq!(range(Measure::Linear, &[-1.0, 3.0]), Some((-3.0, 3.0)));
         assert_eq!(range(Measure::Linear, &[1.0, 3.0, f64::INFINITY]), Some((1.0, 3.0)));
-        assert_eq!(range(Measure::Log10, &[0.01, 0.0, -4.0, 100.0]), Some((-2.0, 2.0)));
+        assert_eq!(range(Measure::Log10, &[0.01, 0.0, -4.0, 100.0]), Some((0.01, 100.0)));
         assert_eq!(range(Measure::Log10, &[0.0, -4.0, f64::NAN]), None);
     }
 

@@ -5,10 +5,10 @@
 use super::scale::Measure;
 use super::strip::Strip;
 use super::{ColourScale, HeatMap};
-use crate::ticks::{Scale, has_ticks};
+use crate::ticks::{Scale, has_ticks, significant};
 
 /// The colours of the bar; an odd number, so that 0 has the middle one where both signs occur.
-pub(super) const LEVELS: u8 = 251;
+pub(super) const LEVELS: u8 = 249;
 
 // the numbers of special colours, after the levels
 pub(super) const ZERO: u8 = LEVELS;
@@ -16,22 +16,28 @@ pub(super) const NEGATIVE: u8 = LEVELS + 1;
 pub(super) const MINUS_INFINITE: u8 = LEVELS + 2;
 pub(super) const INFINITE: u8 = LEVELS + 3;
 pub(super) const MISSING: u8 = LEVELS + 4;
+/// Below and above the range of the colour bar, with the colours of its ends.
+pub(super) const BELOW: u8 = LEVELS + 5;
+pub(super) const ABOVE: u8 = LEVELS + 6;
 
 /// Special colours that are not in viridis, with the names of their values.
 pub(super) const SPECIAL: [(u8, &str); 5] =
     [(ZERO, "0"), (NEGATIVE, "negative"), (MINUS_INFINITE, "−∞"), (INFINITE, "∞"), (MISSING, "no value")];
 
-/// Those of Okabe and Ito (2008), which people with any colour vision can distinguish, with a grey; here they are in an order in which
-/// neighbours differ in lightness as well.
-const OF_WORDS: [[u8; 3]; 9] = [
+/// The eight of Okabe and Ito (2008) and four others, which people with any colour vision can distinguish; neighbours in this order
+/// differ in lightness as well.
+const OF_WORDS: [[u8; 3]; 12] = [
     [0x00, 0x72, 0xB2],
     [0xF0, 0xE4, 0x42],
     [0xD5, 0x5E, 0x00],
     [0x56, 0xB4, 0xE9],
     [0x00, 0x9E, 0x73],
-    [0xBB, 0xBB, 0xBB],
+    [0x88, 0x22, 0x55],
     [0xCC, 0x79, 0xA7],
+    [0x33, 0x22, 0x88],
     [0xE6, 0x9F, 0x00],
+    [0x8C, 0x51, 0x0A],
+    [0xFF, 0xC9, 0xD8],
     [0x00, 0x00, 0x00],
 ];
 
@@ -41,20 +47,24 @@ pub(super) const MOST_WORDS: usize = OF_WORDS.len();
 pub(super) struct Shades<'a> {
     words: Option<&'a [String]>,
     pub(super) measure: Measure,
-    /// What the colour bar shows, in its measure; `None` without a finite value.
+    /// The values at the ends of the colour bar.
+    ends: Option<(f64, f64)>,
+    /// The same in the measure; `None` without a finite value.
     pub(super) range: Option<(f64, f64)>,
-    /// The smallest and the largest value that the colour bar shows.
+    /// The smallest and the largest finite value, on a logarithmic scale of the positive ones.
     pub(super) data: Option<(f64, f64)>,
 }
 
 impl<'a> Shades<'a> {
     pub(super) fn of(map: &'a HeatMap) -> Shades<'a> {
-        let measure = Measure::of(&map.colour.scale, &map.panels);
+        let measure = Measure::of(&map.colour, &map.panels);
         match &map.colour.scale {
-            ColourScale::Words(words) => Shades { words: Some(words), measure, range: None, data: None },
+            ColourScale::Words(words) => Shades { words: Some(words), measure, ends: None, range: None, data: None },
             _ => {
                 let data = measure.extremes(&map.panels);
-                Shades { words: None, measure, range: data.map(|data| measure.range(data)), data }
+                let ends = map.colour.range.or(data).map(|range| measure.ends(range));
+                let range = ends.map(|(least, most)| (measure.at(least), measure.at(most)));
+                Shades { words: None, measure, ends, range, data }
             }
         }
     }
@@ -73,6 +83,12 @@ impl<'a> Shades<'a> {
         self.range.is_some_and(|range| has_ticks(range, Scale::Linear))
     }
 
+    /// Special colours beyond the colour bar, with the names of their values.
+    pub(super) fn beyond(&self) -> [(u8, String); 2] {
+        let (least, most) = self.ends.unwrap_or_default();
+        [(BELOW, format!("< {}", significant(least, 4))), (ABOVE, format!("> {}", significant(most, 4)))]
+    }
+
     /// The number of the colour of a value.
     pub(super) fn number(&self, value: Option<f64>) -> u8 {
         let Some(value) = value.filter(|value| !value.is_nan()) else { return MISSING };
@@ -84,6 +100,8 @@ impl<'a> Shades<'a> {
         }
         let place = self.measure.at(value);
         match self.range {
+            Some((least, _)) if place < least && place.is_finite() => BELOW,
+            Some((_, most)) if place > most => ABOVE,
             Some((least, most)) if place.is_finite() => {
                 let part = if self.has_bar() { (place - least) / (most - least) } else { 0.5 };
                 (part * f64::from(LEVELS - 1)).round() as u8
@@ -109,6 +127,8 @@ impl<'a> Shades<'a> {
             NEGATIVE => [0xE8, 0x9A, 0xC7],
             MINUS_INFINITE => [0x80, 0x80, 0x80],
             INFINITE | MISSING => [0x00, 0x00, 0x00],
+            BELOW => self.rgb(0),
+            ABOVE => self.rgb(LEVELS - 1),
             word if self.words.is_some() => OF_WORDS[usize::from(word) % OF_WORDS.len()],
             level => {
                 let part = f64::from(level) / f64::from(LEVELS - 1);
@@ -156,11 +176,11 @@ mod tests {
         let map = map(Colour::linear(""), &[0.0, 1.0]);
         let shades = Shades::of(&map);
         let light: Vec<_> = (0..LEVELS).map(|level| lightness(shades.rgb(level))).collect();
-        let whole = light[250] - light[0];
+        let whole = light[usize::from(LEVELS) - 1] - light[0];
         assert!(whole > 70.0, "{whole}");
-        for n in 0..25 {
-            let part = (light[10 * n + 10] - light[10 * n]) / whole;
-            assert!((0.02..0.06).contains(&part), "{n}: {part}");
+        for n in 0..31 {
+            let part = (light[8 * n + 8] - light[8 * n]) / whole;
+            assert!((0.016..0.05).contains(&part), "{n}: {part}");
         }
     }
 
@@ -169,11 +189,11 @@ mod tests {
         for colour in [Colour::linear(""), Colour::symmetric_logarithmic("")] {
             let map = map(colour, &[-1.0, 0.0, 4.0]);
             let shades = Shades::of(&map);
-            assert_eq!([0.0, 4.0, -4.0].map(|value| shades.number(Some(value))), [125, 250, 0]);
-            let [r, g, b] = shades.rgb(125);
+            assert_eq!([0.0, 4.0, -4.0].map(|value| shades.number(Some(value))), [124, 248, 0]);
+            let [r, g, b] = shades.rgb(124);
             assert!(r.abs_diff(g) < 8 && g.abs_diff(b) < 8 && r > 230, "{r} {g} {b}");
-            let ([red, _, _], [_, _, blue]) = (shades.rgb(250), shades.rgb(0));
-            assert!(red > shades.rgb(250)[2] && blue > shades.rgb(0)[0]);
+            let ([red, _, _], [_, _, blue]) = (shades.rgb(248), shades.rgb(0));
+            assert!(red > shades.rgb(248)[2] && blue > shades.rgb(0)[0]);
         }
     }
 
@@ -184,7 +204,7 @@ mod tests {
         let map = map(Colour::logarithmic(""), &cells);
         let shades = Shades::of(&map);
         let numbers = cells.map(|value| shades.number(Some(value)));
-        assert_eq!(numbers, [0, 250, ZERO, NEGATIVE, INFINITE, MINUS_INFINITE, MISSING]);
+        assert_eq!(numbers, [0, 248, ZERO, NEGATIVE, INFINITE, MINUS_INFINITE, MISSING]);
         assert_eq!(shades.number(None), MISSING);
         let distance = |a: [u8; 3], b: [u8; 3]| (0..3).map(|n| u32::from(a[n].abs_diff(b[n])).pow(2)).sum::<u32>();
         for (number, name) in SPECIAL {
@@ -198,14 +218,14 @@ mod tests {
     #[test]
     fn words_have_different_colours() {
         let words: Vec<_> = (0..MOST_WORDS).map(|n| n.to_string()).collect();
-        let map = map(Colour::words("", words), &[0.0, 8.0]);
+        let map = map(Colour::words("", words), &[0.0, 11.0]);
         let shades = Shades::of(&map);
         for a in 0..MOST_WORDS as u8 {
             for b in 0..a {
                 assert_ne!(shades.rgb(a), shades.rgb(b));
             }
             let light = |word| lightness(shades.rgb(word));
-            assert!(a == 0 || (light(a) - light(a - 1)).abs() > 8.0, "{a}");
+            assert!(a == 0 || (light(a) - light(a - 1)).abs() > 10.0, "{a}");
         }
     }
 }

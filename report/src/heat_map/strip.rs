@@ -8,6 +8,9 @@ use crate::ticks::{Scale, Ticks, has_ticks, significant};
 /// Each cell has a label if there are at most so many.
 const MOST_LABELLED: usize = 12;
 
+/// And if the labels have at most so many characters.
+const LONGEST_NUMBER: usize = 7;
+
 /// More characters of a word are cut.
 const LONGEST_WORD: usize = 32;
 
@@ -137,12 +140,10 @@ impl Labels {
         };
         let of_cells = strip.order.iter().zip(&strip.centres).map(|(&i, &at)| (at, significant(values[i], 4)));
         let of_cells: Vec<_> = of_cells.take(MOST_LABELLED + 1).collect();
-        let mut texts: Vec<_> = of_cells.iter().map(|(_, text)| text).collect();
-        texts.dedup();
-        let are_different = texts.len() == of_cells.len();
-        if strip.count() <= MOST_LABELLED && are_different && fit(&of_cells, strip, length, direction)
-            || strip.count() == 1
-        {
+        let are_short = of_cells.iter().all(|(_, text)| text.chars().count() <= LONGEST_NUMBER);
+        let are_different = of_cells.windows(2).all(|pair| pair[0].1 != pair[1].1);
+        let is_each_labelled = strip.count() <= MOST_LABELLED && are_short && are_different;
+        if strip.count() == 1 || is_each_labelled && fit(&of_cells, strip, length, direction) {
             return Labels::new(of_cells, Vec::new(), strip, direction);
         }
         let steps = if has_ticks(strip.range(), scale) { [7.0, 5.0, 4.0, 3.0, 2.0, 1.0].as_slice() } else { &[] };

@@ -192,7 +192,7 @@ fn frames(svg: &str) -> Vec<[f64; 4]> {
         let (_, rest) = tag.split_once(&format!(" {name}=\"")).unwrap();
         rest.split('"').next().unwrap().parse().unwrap()
     };
-    let panels = svg.split("<g role=\"group\"").skip(1).map(|panel| panel.split("<rect").nth(1).unwrap());
+    let panels = svg.split("<g class=\"panel\"").skip(1).map(|panel| panel.split("<rect").nth(1).unwrap());
     panels.map(|tag| ["x", "y", "width", "height"].map(|name| number(tag, name))).collect()
 }
 
@@ -231,7 +231,7 @@ fn panels_have_one_scale() {
     let svg = HeatMap::new("", axis(3), axis(1), Colour::linear("v"), panels).svg().unwrap();
     let middle = "#20908c";
     let frames = frames(&svg);
-    let of_panels: Vec<_> = svg.split("<g role=\"group\"").skip(1).map(|panel| paths(panel, middle)).collect();
+    let of_panels: Vec<_> = svg.split("<g class=\"panel\"").skip(1).map(|panel| paths(panel, middle)).collect();
     assert!(of_panels[0][0].starts_with(&format!("M{} ", draw_length(frames[0][0] + frames[0][2] / 3.0))));
     assert!(of_panels[1][0].starts_with(&format!("M{} ", frames[1][0])));
     // below both there is one bar
@@ -273,6 +273,23 @@ fn zero_and_infinity_have_entries_of_their_own() {
     let symmetric = map(Colour::symmetric_logarithmic("ΔH"));
     assert!(!symmetric.contains(">0: ") && !symmetric.contains("negative") && symmetric.contains(">∞: 1 cell<"));
     assert!(symmetric.contains("ΔH (logarithmic, linear within ±10<tspan"), "the threshold is stated");
+}
+
+/// A failed run's 10³⁰⁰ leaves the others their colours, and is counted.
+#[test]
+fn values_beyond_the_range_are_counted() {
+    let axis = |count: usize| CellAxis::linear("", even(0.0, 1.0, count));
+    let map = |values: [f64; 4], colour: Colour| {
+        HeatMap::new("", axis(4), axis(1), colour, vec![Panel::new("", values.map(Some).to_vec())]).svg().unwrap()
+    };
+    let svg = map([1e-20, 1e-9, 1e-3, 1e300], Colour::logarithmic("").over(1e-9, 1e-3));
+    assert!(svg.contains("&lt; 10<tspan") && svg.contains("&gt; 0.001: 1 cell"), "{svg}");
+    // the ends have the colours of the bar, and beyond them the same ones
+    assert_eq!((paths(&svg, "#440154").len(), paths(&svg, "#fde725").len()), (3, 3));
+    // both sides of 0 are shown
+    let svg = map([-3.0, -1.0, 1.0, 3.0], Colour::linear("").over(-1.0, 2.0));
+    assert!(svg.contains("&lt; −2: 1 cell") && svg.contains("&gt; 2: 1 cell"), "{svg}");
+    assert!(!map([1.0, 2.0, 3.0, 4.0], Colour::linear("").over(0.0, 9.0)).contains("&lt; "));
 }
 
 /// The colour bar has ticks at powers of ten, where these values have their colours.
@@ -373,7 +390,7 @@ fn wrong_inputs_are_refused() {
     let linear = |values: &[f64]| CellAxis::linear("e", values.to_vec());
     let panel = |cells: &[f64]| vec![Panel::new("Ruth 3", cells.iter().copied().map(Some).collect())];
     let of = |x: CellAxis, colour: Colour, panels: Vec<Panel>| HeatMap::new("map", x, linear(&[1.0]), colour, panels);
-    let many = (0..10).map(|n| n.to_string()).collect();
+    let many = (0..13).map(|n| n.to_string()).collect();
     let threshold = ColourScale::SymmetricLogarithmic { linear_within: Some(0.0) };
     let wrong = [
         (of(linear(&[]), Colour::linear(""), panel(&[])), "the axis \"e\" has no values"),
@@ -391,10 +408,15 @@ fn wrong_inputs_are_refused() {
             "a cell 1, which is not the number of a word",
         ),
         (of(linear(&[1.0]), Colour::words("", words(&["a"])), panel(&[0.5])), "a cell 0.5, which"),
-        (of(linear(&[1.0]), Colour::words("", many), panel(&[0.0])), "10 words cannot be distinguished"),
+        (of(linear(&[1.0]), Colour::words("", many), panel(&[0.0])), "13 words cannot be distinguished"),
         (
-            of(linear(&[1.0]), Colour { label: String::new(), scale: threshold }, panel(&[0.0])),
+            of(linear(&[1.0]), Colour { scale: threshold, ..Colour::linear("") }, panel(&[0.0])),
             "must be positive, not 0",
+        ),
+        (of(linear(&[1.0]), Colour::linear("").over(2.0, 2.0), panel(&[0.0])), "from 2e0 to 2e0 is empty"),
+        (
+            of(linear(&[1.0]), Colour::logarithmic("").over(0.0, 2.0), panel(&[0.0])),
+            "from 0e0 to 2e0 has no logarithms",
         ),
     ];
     for (map, message) in wrong {
