@@ -77,7 +77,9 @@ fn linear(least: f64, most: f64, steps: f64) -> Ticks {
         let (first, last) = (end(least - nudge).ceil() as i64, end(most + nudge).floor() as i64);
         (first..=last).map(move |n| (n, unit(n)))
     };
-    let labelled = values(1).map(|(n, value)| (value, decimal(n * i64::from(digit), exponent))).collect();
+    let units = |n: i64| n * i64::from(digit);
+    let largest = values(1).map(|(n, _)| units(n).unsigned_abs()).max().unwrap_or(0);
+    let labelled = values(1).map(|(n, value)| (value, decimal(units(n), exponent, largest))).collect();
     let parts = if digit == 2 { 4 } else { 5 };
     let minor = values(parts).filter(|(n, _)| n % parts != 0).map(|(_, value)| value).collect();
     Ticks { labelled, minor }
@@ -88,8 +90,8 @@ fn scaled(n: f64, exponent: i32) -> f64 {
     if exponent < 0 { n / 10f64.powi(-exponent) } else { n * 10f64.powi(exponent) }
 }
 
-/// n · 10^exponent as text, without an exponent where that is short.
-fn decimal(n: i64, exponent: i32) -> String {
+/// n · 10^exponent as text, without an exponent where that is short; else with the exponent of the largest n of an axis.
+fn decimal(n: i64, exponent: i32, largest: u64) -> String {
     let sign = if n < 0 { "−" } else { "" };
     let n = n.unsigned_abs();
     match exponent {
@@ -100,11 +102,15 @@ fn decimal(n: i64, exponent: i32) -> String {
             format!("{sign}{}.{:0width$}", n / unit, n % unit, width = exponent.unsigned_abs() as usize)
         }
         _ => {
-            // one digit before the point: 1.5×10⁹ after 5×10⁸
-            let digits = n.to_string();
-            let (first, rest) = (&digits[..1], digits[1..].trim_end_matches('0'));
-            let point = if rest.is_empty() { "" } else { "." };
-            format!("{sign}{first}{point}{rest}×10{}", superscript(i64::from(exponent) + digits.len() as i64 - 1))
+            // one digit before the point of the largest: 0.5×10⁹ below 1.5×10⁹
+            let places = largest.max(n).ilog10();
+            let unit = 10u64.pow(places);
+            let fraction =
+                if places > 0 { format!(".{:0width$}", n % unit, width = places as usize) } else { String::new() };
+            match i64::from(exponent) + i64::from(places) {
+                0 => format!("{sign}{}{fraction}", n / unit),
+                power => format!("{sign}{}{fraction}×10{}", n / unit, superscript(power)),
+            }
         }
     }
 }
@@ -143,7 +149,7 @@ fn few_decades(least: f64, most: f64, steps: f64) -> Ticks {
     let plain = least >= -3.0 && most < 5.0;
     let label = |n: i64, digit: u8| match n as i32 {
         exponent if plain && exponent >= 0 => format!("{digit}{}", "0".repeat(exponent as usize)),
-        exponent if plain => decimal(i64::from(digit), exponent),
+        exponent if plain => decimal(i64::from(digit), exponent, digit.into()),
         _ => times_power(&digit.to_string(), n),
     };
     let labelled: Vec<_> = decades
@@ -252,7 +258,9 @@ mod tests {
         );
         assert_eq!(labels(Scale::Linear, -1.0, 1.0), ["−1.0", "−0.5", "0", "0.5", "1.0"]);
         assert_eq!(labels(Scale::Linear, 3.0, 2100.0), ["500", "1000", "1500", "2000"]);
-        assert_eq!(labels(Scale::Linear, 0.0, 1.6e9), ["0", "5×10⁸", "1×10⁹", "1.5×10⁹"]);
+        assert_eq!(labels(Scale::Linear, 0.0, 1.6e9), ["0", "0.5×10⁹", "1.0×10⁹", "1.5×10⁹"]);
+        let close = labels(Scale::Linear, 1.0, 1.000_02);
+        assert_eq!(close, ["1.000000", "1.000005", "1.000010", "1.000015", "1.000020"]);
         assert_eq!(labels(Scale::Linear, 0.0, 4e-7), ["0", "1×10⁻⁷", "2×10⁻⁷", "3×10⁻⁷", "4×10⁻⁷"]);
     }
 
