@@ -68,6 +68,7 @@
 //! | --- | --- |
 //! | `scene` | the content of a scene: plain data |
 //! | [`keys`] | every key with its meaning; `explain` lists them, `template` writes scenes with them |
+//! | [`family`] | scenes that differ in the values of some names |
 //! | `read` | a scene's text → a scene, or all its faults |
 //! | `execute`, `engine`, `snapshots` | the run of a scene |
 //! | `observer`, `note` | how a caller watches a run and stops it |
@@ -90,6 +91,7 @@ pub mod estimates;
 pub mod estimator;
 mod execute;
 mod explain;
+pub mod family;
 mod frequency;
 pub mod keys;
 pub mod library;

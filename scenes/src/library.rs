@@ -1,7 +1,8 @@
 //! Schemes by their names: shipped ones, and tables in files.
 
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use sha2::{Digest, Sha256};
 use shadowstep::problems::Problem;
@@ -104,6 +105,30 @@ pub fn scheme_from(word: &str, folder: &Path, first: Option<First>) -> Result<Na
     let source = source_from(word, folder)?;
     let scheme = tables::read(&source, &beside_or_shipped, first)?;
     Ok(NamedScheme { name: word.to_owned(), scheme })
+}
+
+/// Schemes that have been read: each is read and proved once.
+#[derive(Debug, Default)]
+pub struct Schemes(Mutex<Vec<(Wanted, NamedScheme)>>);
+
+/// A word, the folder for its file, and the map that steps begin with.
+type Wanted = (String, PathBuf, Option<First>);
+
+impl Schemes {
+    /// As [`scheme_from`].
+    ///
+    /// # Errors
+    /// As [`scheme`].
+    pub fn scheme_from(&self, word: &str, folder: &Path, first: Option<First>) -> Result<NamedScheme, LibraryError> {
+        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let is = |wanted: &Wanted| wanted.0 == word && wanted.1 == folder && wanted.2 == first;
+        if let Some((_, scheme)) = known().iter().find(|(wanted, _)| is(wanted)) {
+            return Ok(scheme.clone());
+        }
+        let scheme = scheme_from(word, folder, first)?;
+        known().push(((word.to_owned(), folder.to_owned(), first), scheme.clone()));
+        Ok(scheme)
+    }
 }
 
 /// Whether a scheme is valid for every T(p).

@@ -20,12 +20,14 @@ use std::path::Path;
 
 use shadowstep::tables::{Faults, Source};
 use shadowstep_schemes::document::{document, read_text};
-use shadowstep_symbolic::nearest;
+use shadowstep_symbolic::{Exact, nearest};
 use toml::de::DeTable;
 
 use crate::arithmetic::Arithmetic;
 use crate::error::Error;
+use crate::family::Family;
 use crate::keys::{self, SECTIONS};
+use crate::library::Schemes;
 use crate::note::Note;
 use crate::read::reader::Reader;
 use crate::scene::{Outputs, Scene, System};
@@ -58,18 +60,33 @@ impl Scene {
     /// # Errors
     /// All faults of the text, each with its place.
     pub fn read(source: Source) -> Result<Scene, Faults> {
-        let (document, faults) = document(&source);
-        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
-        let mut reader = Reader::new(&source);
-        let parts = parts(&mut reader, &document);
-        let Reader { toml, arithmetic, notes, .. } = reader;
-        match (Faults::of(toml.faults), parts) {
-            (None, Some((system, run::Steps { scheme, h, until, steps }, output))) => {
-                Ok(Scene { source, arithmetic, system, scheme, h, until, steps, output, notes })
-            }
-            (Some(faults), _) => Err(faults),
-            (None, None) => unreachable!("what cannot be read is a fault"),
+        Family::new(source, &[]).scene(&[])
+    }
+}
+
+/// What the text of a scene may contain besides a scene.
+pub(crate) struct Names<'a> {
+    /// Names that its numbers can contain, with their values.
+    pub(crate) numbers: Vec<(String, Exact)>,
+    /// Sections that are not of the scene; with them, [output] can be left out.
+    pub(crate) others: &'static [&'static str],
+    /// The schemes that have been read.
+    pub(crate) schemes: &'a Schemes,
+}
+
+/// The scene of a document.
+pub(crate) fn read(source: Source, document: &DeTable<'_>, names: Names<'_>) -> Result<Scene, Faults> {
+    let mut reader = Reader::new(&source);
+    reader.known.extend(names.numbers.iter().cloned());
+    reader.names = names.numbers;
+    let parts = parts(&mut reader, document, names.others, names.schemes);
+    let Reader { toml, arithmetic, notes, .. } = reader;
+    match (Faults::of(toml.faults), parts) {
+        (None, Some((system, run::Steps { scheme, h, until, steps }, output))) => {
+            Ok(Scene { source, arithmetic, system, scheme, h, until, steps, output, notes })
         }
+        (Some(faults), _) => Err(faults),
+        (None, None) => unreachable!("what cannot be read is a fault"),
     }
 }
 
@@ -102,7 +119,7 @@ impl System {
         let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
         let mut reader = Reader::new(source);
         reader.arithmetic = arithmetic;
-        refuse_unknown_sections(&mut reader, &document, &["problem"]);
+        refuse_unknown_sections(&mut reader, &document, &["problem"], &[]);
         let (problem, initial) = (reader.section(&document, "problem"), reader.section(&document, "initial"));
         let system = problem::system(&mut reader, &problem, &initial);
         match (Faults::of(reader.toml.faults), system) {
@@ -113,8 +130,14 @@ impl System {
     }
 }
 
-fn parts(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<(System, run::Steps, Outputs)> {
-    refuse_unknown_sections(reader, root, &["problem", "run", "output"]);
+fn parts(
+    reader: &mut Reader<'_>,
+    root: &DeTable<'_>,
+    others: &[&str],
+    schemes: &Schemes,
+) -> Option<(System, run::Steps, Outputs)> {
+    let required: &[&str] = if others.is_empty() { &["problem", "run", "output"] } else { &["problem", "run"] };
+    refuse_unknown_sections(reader, root, required, others);
     let (problem, initial) = (reader.section(root, "problem"), reader.section(root, "initial"));
     let (run, output) = (reader.section(root, "run"), reader.section(root, "output"));
     // the digits come first: values are computed to them
@@ -122,15 +145,16 @@ fn parts(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<(System, run::St
     reader.arithmetic = arithmetic.unwrap_or(Arithmetic::Double);
     let system = problem::system(reader, &problem, &initial);
     let general = system.as_ref().is_some_and(System::has_general_kinetic);
-    let steps = run::Steps::read(reader, &run, general);
+    let steps = run::Steps::read(reader, &run, general, schemes);
     let output = output::read(reader, &output, system.as_ref());
     arithmetic?;
     Some((system?, steps?, output?))
 }
 
-fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>, required: &[&str]) {
+fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>, required: &[&str], others: &[&str]) {
     let names: Vec<&str> = SECTIONS.iter().map(|section| section.name).filter(|name| !name.contains('.')).collect();
-    for key in root.keys().filter(|key| !names.contains(&key.get_ref().as_ref())) {
+    let is_known = |name: &str| names.contains(&name) || others.contains(&name);
+    for key in root.keys().filter(|key| !is_known(key.get_ref())) {
         let word: &str = key.get_ref();
         let help = match (keys::section_with(word), nearest(word, names.iter().copied())) {
             (Some(section), _) => format!("`{word}` is a key of {section}"),

@@ -46,6 +46,7 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -
 fn names(reader: &mut Reader<'_>, given: &Given, list: &Placed<Vec<Text>>) -> (Vec<String>, Vec<String>) {
     let mut taken: Vec<(String, String)> =
         COLUMNS.iter().map(|name| ((*name).to_owned(), "of a column of the output".to_owned())).collect();
+    taken.extend(reader.names.iter().map(|(name, _)| (name.clone(), "of an axis".to_owned())));
     taken.extend(given.parameters.iter().map(|(name, _)| (name.value.clone(), "of a parameter".to_owned())));
     for name in &list.value {
         check_name(reader, name);

@@ -73,7 +73,8 @@ impl Given {
 
     /// Names and values, which become known to the reader.
     pub(super) fn own_parameters(&self, reader: &mut Reader<'_>) -> Vec<(String, Exact)> {
-        let mut parameters = Vec::new();
+        let is_own = |name: &String| self.parameters.iter().any(|(own, _)| own.value == *name);
+        let mut parameters: Vec<_> = reader.names.iter().filter(|(name, _)| !is_own(name)).cloned().collect();
         for (name, text) in &self.parameters {
             check_name(reader, name);
             // a parameter with a fault has the value 1, so that values that contain it add no more faults

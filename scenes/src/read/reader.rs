@@ -22,6 +22,8 @@ pub(super) struct Reader<'a> {
     pub(super) arithmetic: Arithmetic,
     /// The parameters, which values can contain.
     pub(super) known: BTreeMap<String, Exact>,
+    /// Those of them that the text does not define: the names of a family.
+    pub(super) names: Vec<(String, Exact)>,
     /// How much computing the values may take together.
     budget: Budget,
     /// What the user should know.
@@ -35,6 +37,7 @@ impl<'a> Reader<'a> {
             toml,
             arithmetic: Arithmetic::Double,
             known: BTreeMap::new(),
+            names: Vec::new(),
             budget: Budget::default(),
             notes: Vec::new(),
         }

@@ -9,7 +9,7 @@ use toml::de::DeValue;
 
 use super::reader::Reader;
 use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS, OTHER_SCHEME};
-use crate::library::{self, LibraryError, NamedScheme};
+use crate::library::{self, LibraryError, NamedScheme, Schemes};
 use crate::steps::{self, MOST_STEPS, WrongValue};
 use shadowstep_schemes::document::{Section, Text};
 
@@ -38,10 +38,17 @@ pub(super) struct Steps {
 
 impl Steps {
     /// For a general T(p), or for a quadratic one.
-    pub(super) fn read(reader: &mut Reader<'_>, run: &Section<'_, '_>, general: bool) -> Option<Steps> {
+    pub(super) fn read(
+        reader: &mut Reader<'_>,
+        run: &Section<'_, '_>,
+        general: bool,
+        schemes: &Schemes,
+    ) -> Option<Steps> {
         let first = run.get("first").map(|value| reader.word(value, &[("kick", First::Kick), ("drift", First::Drift)]));
         let scheme = match run.get("scheme") {
-            Some(value) => reader.toml.text(value).and_then(|text| scheme(reader, &text, first.flatten(), general)),
+            Some(value) => {
+                reader.toml.text(value).and_then(|text| scheme(reader, &text, first.flatten(), general, schemes))
+            }
             None => {
                 reader.toml.missing(run, &["scheme"]);
                 None
@@ -56,9 +63,15 @@ impl Steps {
     }
 }
 
-fn scheme(reader: &mut Reader<'_>, word: &Text, first: Option<First>, general: bool) -> Option<NamedScheme> {
+fn scheme(
+    reader: &mut Reader<'_>,
+    word: &Text,
+    first: Option<First>,
+    general: bool,
+    schemes: &Schemes,
+) -> Option<NamedScheme> {
     let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
-    let named = match library::scheme_from(&word.value, folder, first) {
+    let named = match schemes.scheme_from(&word.value, folder, first) {
         Ok(named) => named,
         Err(LibraryError::NotFound { message, hint }) => return reader.toml.wrong(&word.at, message, hint),
         Err(LibraryError::Faults(faults)) => {

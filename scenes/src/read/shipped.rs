@@ -75,7 +75,7 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
         reader.known.extend(value.map(|value| (parameter.name.to_owned(), value)));
     }
     let set: Vec<_> =
-        names.iter().filter_map(|name| Some(((*name).to_owned(), value_of(name)?.value.clone()))).collect();
+        names.iter().filter_map(|name| Some(((*name).to_owned(), text(reader, name, value_of(name)?)))).collect();
     let place = |name: &str| value_of(name).map_or(given.problem.clone(), |text| text.at.clone());
     match problem.setup(&set, reader.arithmetic.value_digits()) {
         Ok(setup) => Some(setup),
@@ -87,6 +87,14 @@ fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
             reader.toml.wrong(&place(&name), format!("{name} = {text}: {why}"), help)
         }
         Err(error) => reader.toml.wrong(&given.problem, error.to_string(), "see `shadowstep problems`"),
+    }
+}
+
+/// The text of a parameter's value: its formula, or its value where that may contain names that the problem does not know.
+fn text(reader: &Reader<'_>, name: &str, formula: &Text) -> String {
+    match reader.known.get(name).filter(|_| !reader.names.is_empty()) {
+        Some(value) => reader.arithmetic.text(value),
+        None => formula.value.clone(),
     }
 }
 

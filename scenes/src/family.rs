@@ -1,0 +1,249 @@
+//! Scenes that differ in the values of some names only.
+
+use std::collections::BTreeSet;
+
+use shadowstep::Rational;
+use shadowstep::tables::{Faults, Source};
+use shadowstep_schemes::document::document;
+use shadowstep_symbolic::Exact;
+use shadowstep_symbolic::decimal::to_text;
+use toml::Spanned;
+use toml::de::DeValue;
+
+use crate::library::Schemes;
+use crate::read::{Names, read};
+use crate::scene::Scene;
+
+/// A scene's text in which names stand for values: one scene for each choice of the values.
+///
+/// A number can be used like a parameter in all numbers and formulas of the scene. `"$name"` in place of a whole value stands for
+/// any value: a word such as the name of a scheme, a whole number, or a number.
+///
+/// ```
+/// use shadowstep::tables::Source;
+/// use shadowstep_scenes::family::{Family, Meaning};
+///
+/// let text = r#"
+/// [problem]
+/// name = "kepler"
+/// parameters.eccentricity = "1 - b"
+/// [run]
+/// scheme = "$method"
+/// step = "1/20"
+/// steps = 40
+/// [output]
+/// energy = true
+/// "#;
+/// let family = Family::new(Source { path: "scene.toml".to_owned(), text: text.to_owned() }, &[]);
+/// let names = [
+///     ("b".to_owned(), Meaning::Number(shadowstep::exact("1/3")?)),
+///     ("method".to_owned(), Meaning::Word("yoshida4".to_owned())),
+/// ];
+/// let scene = family.scene(&names)?;
+/// assert_eq!(scene.scheme.name, "yoshida4");
+/// assert_eq!(scene.system.parameters[1].1.value, shadowstep::exact("2/3")?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Family {
+    source: Source,
+    /// Sections of the text that are not of the scene.
+    others: &'static [&'static str],
+    schemes: Schemes,
+}
+
+/// What a name stands for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Meaning {
+    /// A number.
+    Number(Rational),
+    /// A word; one of digits is a whole number.
+    Word(String),
+}
+
+impl Family {
+    /// The family of a text; `others` are its sections that are not of the scene.
+    pub fn new(source: Source, others: &'static [&'static str]) -> Family {
+        Family { source, others, schemes: Schemes::default() }
+    }
+
+    /// The text.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// The schemes of the scenes, each of which is read and proved once.
+    pub fn schemes(&self) -> &Schemes {
+        &self.schemes
+    }
+
+    /// The scene with these values of the names.
+    ///
+    /// # Errors
+    /// All faults of the text with these values.
+    pub fn scene(&self, names: &[(String, Meaning)]) -> Result<Scene, Faults> {
+        let (document, faults) = document(&self.source);
+        let Some(mut document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
+        let words: Vec<_> = names.iter().map(|(name, meaning)| (name.as_str(), meaning.text())).collect();
+        document.iter_mut().for_each(|(_, value)| substitute(value.get_mut(), &words));
+        let numbers = names.iter().filter_map(|(name, meaning)| Some((name.clone(), meaning.number()?))).collect();
+        let names = Names { numbers, others: self.others, schemes: &self.schemes };
+        read(self.source.clone(), &document, names)
+    }
+
+    /// All names in the texts of the scene, whatever they stand for.
+    ///
+    /// # Errors
+    /// Faults of the syntax.
+    pub fn names(&self) -> Result<BTreeSet<String>, Faults> {
+        let (document, faults) = document(&self.source);
+        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
+        let mut found = BTreeSet::new();
+        let sections = document.iter().filter(|(name, _)| !self.others.contains(&name.get_ref().as_ref()));
+        sections.for_each(|(_, section)| collect_names(section.get_ref(), &mut found));
+        Ok(found)
+    }
+}
+
+impl Meaning {
+    /// The value as a text.
+    pub fn text(&self) -> String {
+        match self {
+            Meaning::Number(number) => to_text(number),
+            Meaning::Word(word) => word.clone(),
+        }
+    }
+
+    fn number(&self) -> Option<Exact> {
+        match self {
+            Meaning::Number(number) => Some(Exact { value: number.clone(), rounded: false }),
+            Meaning::Word(_) => None,
+        }
+    }
+}
+
+/// Puts the value of a name in place of each `"$name"`.
+fn substitute<'i>(value: &mut DeValue<'i>, words: &'i [(&str, String)]) {
+    match value {
+        DeValue::String(text) => {
+            let found = text.strip_prefix('$').and_then(|name| words.iter().find(|(word, _)| *word == name));
+            if let Some((_, word)) = found {
+                *value = whole(word).unwrap_or_else(|| DeValue::String(word.into()));
+            }
+        }
+        DeValue::Array(members) => members.iter_mut().for_each(|member| substitute(member.get_mut(), words)),
+        DeValue::Table(table) => table.iter_mut().for_each(|(_, value)| substitute(value.get_mut(), words)),
+        _ => {}
+    }
+}
+
+/// A whole number in TOML.
+fn whole(text: &str) -> Option<DeValue<'_>> {
+    let is_whole = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    is_whole.then(|| DeValue::parse(text).ok()).flatten().map(Spanned::into_inner)
+}
+
+fn collect_names(value: &DeValue<'_>, found: &mut BTreeSet<String>) {
+    match value {
+        DeValue::String(text) => found.extend(words(text)),
+        DeValue::Array(members) => members.iter().for_each(|member| collect_names(member.get_ref(), found)),
+        DeValue::Table(table) => table.values().for_each(|value| collect_names(value.get_ref(), found)),
+        _ => {}
+    }
+}
+
+/// The longest parts of a text that can be names.
+fn words(text: &str) -> impl Iterator<Item = String> {
+    let is_letter = |c: char| c.is_alphanumeric() || c == '_';
+    text.split(move |c| !is_letter(c)).filter(|word| word.starts_with(|c: char| c.is_alphabetic())).map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn family(text: &str) -> Family {
+        Family::new(Source { path: "test.toml".to_owned(), text: text.to_owned() }, &["axes"])
+    }
+
+    fn number(name: &str, text: &str) -> (String, Meaning) {
+        (name.to_owned(), Meaning::Number(shadowstep::exact(text).unwrap()))
+    }
+
+    fn word(name: &str, word: &str) -> (String, Meaning) {
+        (name.to_owned(), Meaning::Word(word.to_owned()))
+    }
+
+    const RUN: &str =
+        "run = { scheme = \"yoshida4\", step = \"h\", steps = \"$n\", digits = \"$digits\" }\noutput.energy = true\n";
+
+    #[test]
+    fn names_are_known_to_every_kind_of_problem() {
+        for problem in [
+            "problem.name = \"kepler\"\nproblem.parameters.eccentricity = \"e\"\ninitial.q = [\"1 - e\", 0]",
+            "problem = { potential = \"q^2/(2*e)\", coordinates = [\"q\"], kinetic = \"pq^2*e\" }\ninitial = { q = [\"e\"], p = [0] }",
+            "problem = { pair = \"-m_i*m_j*e/sqrt(r2)\", dimensions = 2, bodies = { m = [1, \"e\"] } }\n\
+             initial = { q = [0, 0, \"e\", 1], v = [0, 0, 0, \"e\"] }",
+        ] {
+            let family = family(&format!("{problem}\n{RUN}\n[axes]\ne = [1, 2]\n"));
+            for (e, digits) in [("1/3", "double"), ("2/3", "30")] {
+                let names = [number("e", e), number("h", "1/40"), word("n", "12"), word("digits", digits)];
+                let scene = family.scene(&names).unwrap_or_else(|faults| panic!("{faults}"));
+                assert_eq!((scene.steps, scene.h.to_string()), (12, "1/40".to_owned()));
+                assert_eq!(scene.arithmetic.digits(), digits.parse().unwrap_or(16));
+                let value = |name| scene.system.parameters.iter().find(|(n, _)| n == name).unwrap().1.value.to_string();
+                assert_eq!(value("e"), e);
+                scene.run_into(&mut Vec::new(), &mut ()).unwrap();
+            }
+        }
+    }
+
+    #[test]
+    fn a_value_gives_the_same_run_as_its_text() {
+        let text = |e: &str, h: &str| {
+            format!(
+                "problem.name = \"kepler\"\nproblem.parameters.eccentricity = \"{e}\"\n\
+                 run = {{ scheme = \"ruth3\", step = \"{h}\", steps = 30, digits = \"double\" }}\noutput.trajectory = true\n"
+            )
+        };
+        let rows = |scene: &Scene| {
+            let mut rows = Vec::new();
+            scene.run_into(&mut rows, &mut ()).unwrap();
+            let text = String::from_utf8(rows).unwrap();
+            text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect::<Vec<_>>()
+        };
+        let named = family(&text("1 - b^2", "b/10")).scene(&[number("b", "4/5")]).unwrap();
+        let plain = family(&text("9/25", "2/25")).scene(&[]).unwrap();
+        assert_eq!(rows(&named), rows(&plain));
+    }
+
+    #[test]
+    fn a_fault_has_its_place_in_the_text() {
+        let family = family(&format!("problem.name = \"kepler\"\n{RUN}"));
+        let names = [number("h", "1/40"), word("n", "12"), word("digits", "many")];
+        let faults = family.scene(&names).unwrap_err();
+        assert_eq!((faults.0[0].line, faults.0[0].message.as_str()), (2, "`many` is not known here"));
+        // without its value, a name is an ordinary text
+        let faults = family.scene(&[number("h", "1/40"), word("n", "12")]).unwrap_err();
+        assert_eq!(faults.0[0].message, "`$digits` is not known here");
+    }
+
+    #[test]
+    fn a_name_may_not_be_that_of_a_coordinate() {
+        let family = family(&format!(
+            "problem = {{ potential = \"q^2/2\", coordinates = [\"q\"] }}\ninitial = {{ q = [1], p = [0] }}\n{RUN}"
+        ));
+        let names = [number("q", "2"), number("h", "1/40"), word("n", "12"), word("digits", "double")];
+        let faults = family.scene(&names).unwrap_err();
+        assert!(faults.to_string().contains("the coordinate `q` has the name of an axis"), "{faults}");
+    }
+
+    #[test]
+    fn all_names_of_the_scene_are_found() {
+        let family =
+            family(&format!("problem.name = \"kepler\"\ninitial.q = [\"2*cos(f)\", 0]\n{RUN}\n[axes]\nz = \"y\""));
+        let names = family.names().unwrap();
+        assert!(["f", "h", "n", "digits", "yoshida4"].iter().all(|name| names.contains(*name)), "{names:?}");
+        assert!(!names.contains("y"));
+    }
+}
