@@ -9,7 +9,8 @@
 //! | [`run`], [`scene`] | runs that a file describes; such files |
 //! | [`schemes`], [`problems`] | what can be run |
 //! | [`work_precision`], [`advise`] | speed against error; a scheme and a step size for a tolerance |
-//! | [`stability`] | hard cases
+//! | [`sweep`], [`collect`] | many runs of a scene; their results |
+//! | [`stability`] | hard cases |
 //! | [`figures`] | the figures of the paper, and additional ones |
 //! | [`run_arguments`], [`quantity`] | the flags of runs; exact numbers |
 //! | [`selection`], [`system`], [`posed`] | flags → schemes and steps; flags → the system; with end and number type |
@@ -18,6 +19,7 @@
 //! | [`report`], [`colour`], [`interrupt`] | messages on stderr and the exit status; colours; Ctrl-C |
 
 mod advise;
+mod collect;
 mod drift;
 mod figures;
 mod problems;
@@ -25,6 +27,7 @@ mod run;
 mod scene;
 mod schemes;
 mod stability;
+mod sweep;
 mod trace;
 mod work_precision;
 
@@ -73,6 +76,8 @@ commands! {
     Schemes: schemes,
     WorkPrecision: work_precision,
     Advise: advise,
+    Sweep: sweep,
+    Collect: collect,
     Stability: stability,
     Figures: figures,
     Problems: problems,

@@ -81,7 +81,7 @@
 //! | [`plot`] | what charts of a run show |
 //! | [`estimates`], [`start`] | the modified energies along such a run; a system at a state with its stepper |
 //! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
-//! | `watch`, `summary` | what a run shows: the error of H, the modified energy, close encounters, the verdict |
+//! | [`watch`], `summary` | what a run shows: the error of H, the modified energy, close encounters, the verdict |
 //! | [`readable`], `error` | numbers and texts for people; what can go wrong |
 
 pub mod arithmetic;
@@ -112,7 +112,7 @@ pub mod steps;
 mod summary;
 mod template;
 mod temporary;
-mod watch;
+pub mod watch;
 mod whole_file;
 
 pub use engine::Outcome;
@@ -122,7 +122,7 @@ pub use frequency::Frequency;
 pub use note::Note;
 pub use observer::Observer;
 pub use read::source;
-pub use results::FileOptions;
+pub use results::{FileOptions, elementary_functions};
 pub use scene::{
     CheckpointInterval, EnergyAt, Format, KineticEnergy, Outputs, PairEnergy, PotentialEnergy, Scene, System,
 };

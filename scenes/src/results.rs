@@ -9,6 +9,7 @@ mod rows;
 mod target;
 
 pub(crate) use checkpoint::{Checkpoint, SavedState};
+pub use functions::elementary_functions;
 pub(crate) use metadata::Metadata;
 pub use options::FileOptions;
 pub(crate) use rows::{Columns, ModifiedEnergy, Row, Rows};

@@ -84,6 +84,16 @@ impl Summary {
         &self.verdict
     }
 
+    /// The reason of the verdict.
+    pub fn reason(&self) -> &str {
+        &self.reason
+    }
+
+    /// What the monitor found of the modified energy; `None` without an estimate.
+    pub fn modified_energy(&self) -> Option<&ModifiedEnergySummary> {
+        self.modified_energy.as_ref()
+    }
+
     /// The verdict with its reason.
     pub fn verdict_with_reason(&self) -> String {
         format!("{}: {}", self.verdict, self.reason)

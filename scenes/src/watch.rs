@@ -27,7 +27,7 @@ const KINETIC_LIMIT: f64 = 0.4;
 
 /// Which energies are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Energies {
+pub enum Energies {
     /// Those of all states.
     All,
     /// Those of the monitor's windows, and those that the run offers.
@@ -35,7 +35,7 @@ pub(crate) enum Energies {
 }
 
 /// Follows the states of a run in the order of time.
-pub(crate) struct Watch<S: Scheme, N: Number> {
+pub struct Watch<S: Scheme, N: Number> {
     energies: Energies,
     energy: EnergyError<N>,
     /// What a summary needs besides H; `None` where there is none.
@@ -55,7 +55,7 @@ impl<S: Scheme + Clone, N: Number> Watch<S, N> {
     ///
     /// # Errors
     /// A state or an energy that is not finite.
-    pub(crate) fn begin<M: System<Number = N>>(
+    pub fn begin<M: System<Number = N>>(
         stepper: &Stepper<S, N>,
         system: &mut M,
         run: Run<'_>,
@@ -74,12 +74,12 @@ impl<S: Scheme + Clone, N: Number> Watch<S, N> {
     }
 
     /// Whether the next step must compute increments.
-    pub(crate) fn needs_increments(&self) -> bool {
+    pub fn needs_increments(&self) -> bool {
         self.observed.as_ref().is_some_and(|observed| observed.monitor.needs_increments())
     }
 
     /// Takes the state n, which a step has made: the one after the last one that it took.
-    pub(crate) fn include<M: System<Number = N>>(&mut self, n: i64, system: &mut M) {
+    pub fn include<M: System<Number = N>>(&mut self, n: i64, system: &mut M) {
         self.n = n;
         if self.energies == Energies::All {
             let mut energy = N::zero(&system.context());
@@ -99,12 +99,12 @@ impl<S: Scheme + Clone, N: Number> Watch<S, N> {
     }
 
     /// Takes H of a state that the run has computed.
-    pub(crate) fn include_energy(&mut self, n: i64, energy: &N) {
+    pub fn include_energy(&mut self, n: i64, energy: &N) {
         self.energy.include(n, energy);
     }
 
     /// The error of H.
-    pub(crate) fn energy(&self) -> EnergySummary {
+    pub fn energy(&self) -> EnergySummary {
         let energy = &self.energy;
         let relative = |difference: &N| energy.relative(difference).map(|part| part.to_text());
         EnergySummary {
@@ -119,7 +119,7 @@ impl<S: Scheme + Clone, N: Number> Watch<S, N> {
     }
 
     /// What has been found, if a summary is made.
-    pub(crate) fn summary(self, run: Run<'_>) -> Option<Summary> {
+    pub fn summary(self, run: Run<'_>) -> Option<Summary> {
         let energy = self.energy();
         let of_kinetic = self.energy.of_kinetic();
         let Watch { observed, from, n, .. } = self;

@@ -6,7 +6,7 @@ use shadowstep::{Number, Remainders};
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::arithmetic::Arithmetic;
-use crate::results::functions::fingerprint;
+use crate::results::functions::elementary_functions;
 use crate::results::metadata::{platform, sha256, table_hashes};
 use crate::scene::Scene;
 use crate::snapshots::Snapshot;
@@ -80,7 +80,7 @@ impl Identity {
 /// The fingerprint of the functions that determine the bits of a run.
 fn functions(scene: &Scene) -> Option<&'static str> {
     let is_double = !matches!(scene.arithmetic, Arithmetic::Digits(..));
-    (is_double && scene.output.checkpoint.is_some()).then(fingerprint)
+    (is_double && scene.output.checkpoint.is_some()).then(elementary_functions)
 }
 
 /// A moment of a run.

@@ -1,0 +1,162 @@
+//! All axes: the number of runs, and the values of each run from its number.
+
+use shadowstep_scenes::family::Meaning;
+use shadowstep_schemes::document::{Reader, Text};
+use toml::de::{DeTable, DeValue};
+
+use crate::axis::Axis;
+
+/// The most runs of a sweep.
+pub const MOST_RUNS: u64 = 1_000_000_000_000_000;
+
+/// Axes, some of which advance together. Runs are numbered from 0; the last axis varies fastest.
+#[derive(Clone, Debug)]
+pub struct Axes {
+    axes: Vec<Axis>,
+    /// Groups of axes that advance together, by their places; the last group varies fastest.
+    groups: Vec<Vec<usize>>,
+    runs: u64,
+}
+
+impl Axes {
+    /// Reads \[axes\] and `zip`.
+    pub(crate) fn read(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<Axes> {
+        let Some((key, value)) = root.get_key_value("axes") else {
+            let hint = "add [axes] with a name and its values, such as h = [\"1/10\", \"1/20\"]";
+            return reader.wrong(&(0..0), "the section [axes] is missing", hint);
+        };
+        let DeValue::Table(table) = value.get_ref() else { return reader.wrong_kind(value, "a table: [axes]") };
+        if table.is_empty() {
+            return reader.wrong(
+                &key.span(),
+                "[axes] is empty",
+                "add a name and its values, such as h = [\"1/10\", \"1/20\"]",
+            );
+        }
+        // in the order of the text
+        let mut entries: Vec<_> = table.iter().map(|(key, value)| (Text::of_key(key), value)).collect();
+        entries.sort_by_key(|(name, _)| name.at.start);
+        let read: Vec<_> = entries.iter().map(|(name, value)| axis(reader, name, value)).collect();
+        let names: Vec<&str> = entries.iter().map(|(name, _)| name.value.as_str()).collect();
+        let zipped = zips(reader, root, &names);
+        let axes: Vec<Axis> = read.into_iter().collect::<Option<_>>()?;
+        let groups = groups(reader, &axes, zipped?)?;
+        let count = |group: &Vec<usize>| axes[group[0]].count();
+        let runs = groups.iter().map(count).try_fold(1_u64, u64::checked_mul).filter(|runs| *runs <= MOST_RUNS);
+        match runs {
+            Some(runs) => Some(Axes { axes, groups, runs }),
+            None => reader.wrong(&key.span(), "these axes give more than 1e15 runs", "use fewer values"),
+        }
+    }
+
+    /// The axes in the order of the text.
+    pub fn all(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// The axis of a name.
+    pub fn find(&self, name: &str) -> Option<&Axis> {
+        self.axes.iter().find(|axis| axis.name == name)
+    }
+
+    /// How many runs there are.
+    pub fn runs(&self) -> u64 {
+        self.runs
+    }
+
+    /// For each axis, which of its values the run has.
+    pub fn numbers(&self, run: u64) -> Vec<u64> {
+        let mut numbers = vec![0; self.axes.len()];
+        let mut rest = run;
+        for group in self.groups.iter().rev() {
+            let count = self.axes[group[0]].count();
+            group.iter().for_each(|&axis| numbers[axis] = rest % count);
+            rest /= count;
+        }
+        numbers
+    }
+
+    /// The names with their values in a run.
+    pub fn values(&self, run: u64) -> Vec<(String, Meaning)> {
+        let numbers = self.numbers(run);
+        self.axes.iter().zip(numbers).map(|(axis, number)| (axis.name.clone(), axis.value(number))).collect()
+    }
+
+    /// The values of a run for messages: `h = 1/10, e = 0`.
+    pub fn described(&self, run: u64) -> String {
+        let values = self.values(run);
+        values.iter().map(|(name, value)| format!("{name} = {}", value.text())).collect::<Vec<_>>().join(", ")
+    }
+}
+
+fn axis(reader: &mut Reader<'_>, name: &Text, value: &shadowstep_schemes::document::Value<'_>) -> Option<Axis> {
+    let word = &name.value;
+    let is_name = word.starts_with(|c: char| c.is_ascii_alphabetic())
+        && word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    if !is_name || word == "pi" {
+        let hint = "a name consists of letters, digits and _, and begins with a letter";
+        reader.fault(&name.at, format!("`{word}` is not a name of an axis"), hint);
+    } else if RESERVED.contains(&word.as_str()) {
+        let hint = format!("give it another name; reserved are {}", RESERVED.join(", "));
+        reader.fault(&name.at, format!("an axis cannot be named `{word}`"), hint);
+    }
+    Axis::read(reader, name, value)
+}
+
+/// Names of columns, and of the time and the energy in expressions.
+const RESERVED: [&str; 5] = ["run", "failure", "t", "n", "E"];
+
+/// The lists of names in `zip`, as places of axes.
+fn zips(
+    reader: &mut Reader<'_>,
+    root: &DeTable<'_>,
+    names: &[&str],
+) -> Option<Vec<(Vec<usize>, std::ops::Range<usize>)>> {
+    let Some(value) = root.get("zip") else { return Some(Vec::new()) };
+    let what = "a list of lists of names: [[\"h\", \"steps\"]]";
+    let lists = reader.list(value, what, |reader, value| reader.list(value, what, Reader::text))?;
+    let mut zips = Vec::new();
+    let mut taken: Vec<usize> = Vec::new();
+    for list in lists.value {
+        let mut zip = Vec::new();
+        for name in &list.value {
+            let Some(place) = names.iter().position(|known| *known == name.value) else {
+                let hint = format!("the axes are {}", names.join(", "));
+                return reader.wrong(&name.at, format!("there is no axis `{}`", name.value), hint);
+            };
+            if taken.contains(&place) {
+                return reader.wrong(&name.at, format!("`{}` is in zip twice", name.value), "keep one of the two");
+            }
+            taken.push(place);
+            zip.push(place);
+        }
+        zips.push((zip, list.at));
+    }
+    Some(zips)
+}
+
+/// The axes that advance together, in the order of their first ones.
+fn groups(
+    reader: &mut Reader<'_>,
+    axes: &[Axis],
+    zips: Vec<(Vec<usize>, std::ops::Range<usize>)>,
+) -> Option<Vec<Vec<usize>>> {
+    for (zip, at) in &zips {
+        let (first, unequal) = (&axes[zip[0]], zip.iter().map(|&place| &axes[place]));
+        if let Some(other) = unequal.into_iter().find(|axis| axis.count() != first.count()) {
+            let message = format!(
+                "axes of a zip need equally many values: {} has {}, {} has {}",
+                first.name,
+                first.count(),
+                other.name,
+                other.count()
+            );
+            return reader.wrong(at, message, "give them equally many values, or remove one from zip");
+        }
+    }
+    let alone =
+        (0..axes.len()).filter(|place| !zips.iter().any(|(zip, _)| zip.contains(place))).map(|place| vec![place]);
+    let mut groups: Vec<Vec<usize>> = zips.iter().map(|(zip, _)| zip.clone()).chain(alone).collect();
+    groups.sort_by_key(|group| group.iter().min().copied());
+    Some(groups)
+}

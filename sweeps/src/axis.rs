@@ -1,0 +1,127 @@
+//! An axis: a name and the values that it takes, each made from its number alone.
+
+mod draws;
+mod range;
+
+use std::collections::BTreeMap;
+
+use shadowstep::Rational;
+use shadowstep_scenes::family::Meaning;
+use shadowstep_schemes::document::{Reader, Text, Value};
+use shadowstep_symbolic::decimal::round_significant;
+use shadowstep_symbolic::{Budget, parse};
+use toml::de::DeValue;
+
+use draws::Draws;
+use range::Range;
+
+/// Irrational values are rounded to this many digits, and are exact from there on.
+const DIGITS: u32 = 30;
+
+/// How numbers are written.
+const NUMBERS: &str = "1, 0.05, or in quotes \"1/10\" or \"sqrt(2)/20\"";
+
+/// A name and its values, which are numbered from 0.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// The name.
+    pub name: String,
+    values: Values,
+}
+
+#[derive(Clone, Debug)]
+enum Values {
+    List(Vec<Meaning>),
+    Range(Range),
+    Draws(Draws),
+}
+
+impl Axis {
+    /// Reads the value of a key of \[axes\].
+    pub(crate) fn read(reader: &mut Reader<'_>, name: &Text, value: &Value<'_>) -> Option<Axis> {
+        let values = match value.get_ref() {
+            DeValue::Array(_) => Values::List(list(reader, value)?),
+            DeValue::Table(table) => Values::Draws(Draws::read(reader, &name.value, table, value)?),
+            DeValue::String(_) => {
+                let text = reader.text(value)?;
+                Values::Range(Range::read(reader, &name.value, &text)?)
+            }
+            _ => {
+                let needed = "a list, a range \"1/10 … 1/100 in 19 steps\", or a table { draws = 100, uniform = [0, 1], seed = 1 }";
+                return reader.wrong_kind(value, needed);
+            }
+        };
+        Some(Axis { name: name.value.clone(), values })
+    }
+
+    /// How many values it has.
+    pub fn count(&self) -> u64 {
+        match &self.values {
+            Values::List(values) => values.len() as u64,
+            Values::Range(range) => range.count(),
+            Values::Draws(draws) => draws.count(),
+        }
+    }
+
+    /// The value of this number, which is less than [`count`](Axis::count).
+    ///
+    /// # Panics
+    /// If it is not.
+    pub fn value(&self, number: u64) -> Meaning {
+        assert!(number < self.count(), "axis {} has {} values", self.name, self.count());
+        match &self.values {
+            Values::List(values) => values[usize::try_from(number).expect("a list fits into memory")].clone(),
+            Values::Range(range) => Meaning::Number(range.value(number)),
+            Values::Draws(draws) => Meaning::Number(draws.value(number)),
+        }
+    }
+
+    /// Whether its values are numbers.
+    pub fn is_numeric(&self) -> bool {
+        match &self.values {
+            Values::List(values) => values.iter().all(|value| matches!(value, Meaning::Number(_))),
+            Values::Range(_) | Values::Draws(_) => true,
+        }
+    }
+
+    /// Whether its values are random: they have no order.
+    pub fn is_random(&self) -> bool {
+        matches!(self.values, Values::Draws(_))
+    }
+
+    /// Whether equal distances mean equal ratios.
+    pub fn is_logarithmic(&self) -> bool {
+        matches!(&self.values, Values::Range(range) if range.is_logarithmic())
+    }
+}
+
+/// Numbers if all members are numbers, otherwise words.
+fn list(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Vec<Meaning>> {
+    let what = "a list of numbers or of words: [\"1/10\", \"1/20\"]";
+    let texts = reader.list(value, what, |reader, value| reader.number(value, NUMBERS))?.value;
+    let numbers: Vec<_> = texts.iter().filter_map(|text| evaluated(&text.value).ok()).collect();
+    if numbers.len() == texts.len() {
+        return Some(numbers.into_iter().map(Meaning::Number).collect());
+    }
+    Some(texts.into_iter().map(|text| Meaning::Word(text.value)).collect())
+}
+
+/// The value of a number or of a formula without names.
+fn evaluated(text: &str) -> Result<Rational, shadowstep_symbolic::Error> {
+    if let Ok(value) = shadowstep_symbolic::decimal::from_text(text) {
+        return Ok(value);
+    }
+    let expression = parse(text)?;
+    let exact = shadowstep_symbolic::evaluate_within(&expression, &BTreeMap::new(), DIGITS + 5, &Budget::default())?;
+    Ok(if exact.rounded { round_significant(&exact.value, DIGITS) } else { exact.value })
+}
+
+/// The value of a part of a text.
+fn number(reader: &mut Reader<'_>, text: &Text) -> Option<Rational> {
+    match evaluated(&text.value) {
+        Ok(value) => Some(value),
+        Err(error) => {
+            reader.wrong(&text.place(&error.range()), error.to_string(), format!("write a number: {NUMBERS}"))
+        }
+    }
+}

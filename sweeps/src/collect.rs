@@ -1,0 +1,284 @@
+//! Collecting the chunks of a sweep: checking that every run is there once, and writing all of them as one table.
+
+mod csv_table;
+mod missing;
+mod parquet_table;
+
+use std::path::{Path, PathBuf};
+
+use shadowstep_scenes::family::Meaning;
+use shadowstep_scenes::{Error, WholeFile};
+use shadowstep_tasks::{Observer, Progress};
+use std::io::Write;
+
+use crate::axes::Axes;
+use crate::chunk::{self, Header, Unusable};
+use crate::keep::Column;
+use crate::manifest::Manifest;
+use crate::picture::{Cells, Picture, fraction};
+use crate::plan;
+use crate::record::Record;
+use csv_table::CsvTable;
+pub use missing::{Missing, ranges};
+use parquet_table::ParquetTable;
+
+/// How the table is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableFormat {
+    /// `results.csv`
+    Csv,
+    /// `results.parquet`
+    Parquet,
+}
+
+/// What has been collected.
+#[derive(Clone, Debug)]
+pub enum Collected {
+    /// All runs are there.
+    Complete {
+        /// The table, and the picture if one could be drawn.
+        files: Vec<PathBuf>,
+        /// How many runs there are.
+        runs: u64,
+        /// How many of them failed.
+        failed: u64,
+        /// What the user should know.
+        notes: Vec<String>,
+    },
+    /// Chunks are missing or cannot be used; nothing is written.
+    Incomplete(Missing),
+}
+
+/// Checks all chunks in the folder of a sweep and writes its table and its picture there.
+///
+/// Memory does not grow with the number of runs.
+///
+/// # Errors
+/// A folder without a sweep, a file that cannot be written, an observer that stops it.
+pub fn collect(folder: &Path, format: TableFormat, observer: &mut dyn Observer) -> Result<Collected, Error> {
+    let manifest = Manifest::read(folder)?;
+    let (axes, picture) = plan::axes_and_picture(manifest.source(), &manifest.columns)?;
+    let missing = Missing::find(&manifest, folder);
+    if !missing.is_empty() {
+        return Ok(Collected::Incomplete(missing));
+    }
+    let mut tables = Tables::new(&manifest, &axes, picture, folder, format)?;
+    let mut functions: Vec<(Option<String>, u64)> = Vec::new();
+    let mut damaged = Missing::default();
+    for chunk in manifest.all_chunks() {
+        let found = chunk::read(folder, chunk, manifest.runs, |record| tables.take(&record))?;
+        match found {
+            Ok(header) => functions.push((header.functions, chunk.number)),
+            Err(Unusable::Missing) => damaged.add(chunk, "it is missing"),
+            Err(Unusable::Damaged(why)) => damaged.add(chunk, &why),
+        }
+        if observer.stops() {
+            return Err(Error::run("interrupted: nothing is written", "the same command collects the results"));
+        }
+        let fraction = chunk.number as f64 / manifest.chunks as f64;
+        observer.progress(Progress { done: chunk.number as usize, tasks: manifest.chunks as usize, fraction });
+    }
+    if !damaged.is_empty() {
+        return Ok(Collected::Incomplete(damaged));
+    }
+    tables.finish(&functions)
+}
+
+/// The head of a table: what is in it.
+pub(crate) struct Head {
+    /// `shadowstep 0.1.0`, …
+    pub(crate) lines: Vec<(String, String)>,
+    pub(crate) columns: Vec<TableColumn>,
+}
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct TableColumn {
+    pub(crate) name: String,
+    /// Whether its values are doubles, and not texts.
+    pub(crate) is_double: bool,
+}
+
+/// A value of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Cell {
+    Text(String),
+    Double(f64),
+    Empty,
+}
+
+/// A table in any format.
+pub(crate) trait Table {
+    fn row(&mut self, cells: &[Cell]) -> Result<(), Error>;
+    fn finish(self: Box<Self>) -> Result<PathBuf, Error>;
+}
+
+/// All that is written.
+struct Tables<'a> {
+    axes: &'a Axes,
+    columns: &'a [Column],
+    long_numbers: bool,
+    folder: &'a Path,
+    results: Box<dyn Table>,
+    /// The rows of all runs, if they are kept.
+    rows: Option<WholeFile>,
+    picture: Option<(Picture, Cells)>,
+    title: String,
+    runs: u64,
+    failed: u64,
+}
+
+impl<'a> Tables<'a> {
+    fn new(
+        manifest: &'a Manifest,
+        axes: &'a Axes,
+        picture: Option<Picture>,
+        folder: &'a Path,
+        format: TableFormat,
+    ) -> Result<Self, Error> {
+        let head = head(manifest, axes);
+        let results: Box<dyn Table> = match format {
+            TableFormat::Csv => Box::new(CsvTable::new(folder, &head)?),
+            TableFormat::Parquet => Box::new(ParquetTable::new(folder, &head)?),
+        };
+        let picture = picture.and_then(|picture| Some((picture.clone(), Cells::new(&picture, axes)?)));
+        let title = Path::new(&manifest.path).file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Tables {
+            axes,
+            columns: &manifest.columns,
+            long_numbers: manifest.long_numbers,
+            folder,
+            results,
+            rows: None,
+            picture,
+            title,
+            runs: 0,
+            failed: 0,
+        })
+    }
+
+    fn take(&mut self, record: &Record) -> Result<(), Error> {
+        self.runs += 1;
+        self.failed += u64::from(record.failure.is_some());
+        let numbers = self.axes.numbers(record.run);
+        let mut cells = vec![Cell::Text(record.run.to_string())];
+        for (axis, &number) in self.axes.all().iter().zip(&numbers) {
+            let value = axis.value(number);
+            cells.push(Cell::Text(value.text()));
+            if axis.is_numeric() {
+                cells.push(double(&value));
+            }
+        }
+        for (place, column) in self.columns.iter().enumerate() {
+            let text = record.values.get(place).and_then(Option::as_ref);
+            cells.push(text.map_or(Cell::Empty, |text| Cell::Text(text.clone())));
+            if has_double(column, self.long_numbers) {
+                let value = text.and_then(|text| text.parse().ok().or_else(|| fraction(text).ok()));
+                cells.push(value.map_or(Cell::Empty, Cell::Double));
+            }
+        }
+        cells.push(record.failure.as_ref().map_or(Cell::Empty, |failure| Cell::Text(failure.clone())));
+        self.results.row(&cells)?;
+        if let Some((picture, cells)) = &mut self.picture {
+            cells.include(picture, &numbers, record);
+        }
+        self.take_rows(record)
+    }
+
+    /// Writes the rows of a run, with its number in the first column.
+    fn take_rows(&mut self, record: &Record) -> Result<(), Error> {
+        let Some(rows) = &record.rows else { return Ok(()) };
+        let mut lines = rows.lines();
+        let Some(names) = lines.next() else { return Ok(()) };
+        if self.rows.is_none() {
+            let mut file = WholeFile::create(&self.folder.join("rows.csv"), "file")?;
+            writeln!(file, "run,{names}")?;
+            self.rows = Some(file);
+        }
+        let file = self.rows.as_mut().expect("it was created");
+        Ok(lines.try_for_each(|line| writeln!(file, "{},{line}", record.run))?)
+    }
+
+    fn finish(self, functions: &[(Option<String>, u64)]) -> Result<Collected, Error> {
+        let mut files = vec![self.results.finish()?];
+        if let Some(rows) = self.rows {
+            files.push(rows.path().to_owned());
+            rows.finish()?;
+        }
+        let mut notes: Vec<String> = functions_differ(functions).into_iter().collect();
+        if let Some((picture, cells)) = self.picture {
+            match picture.svg(&cells, self.axes, self.columns, &self.title)? {
+                Some(svg) => {
+                    let path = self.folder.join("picture.svg");
+                    let mut file = WholeFile::create(&path, "file")?;
+                    file.write_all(svg.as_bytes())?;
+                    file.finish()?;
+                    files.push(path);
+                }
+                None => notes.push("no run has a value that could be drawn".to_owned()),
+            }
+        }
+        Ok(Collected::Complete { files, runs: self.runs, failed: self.failed, notes })
+    }
+}
+
+fn double(value: &Meaning) -> Cell {
+    match value {
+        Meaning::Number(number) => Cell::Double(shadowstep::Number::from_rational(number, &())),
+        Meaning::Word(_) => Cell::Empty,
+    }
+}
+
+/// Whether a column has doubles beside its texts: where these are exact, or have more digits.
+fn has_double(column: &Column, long_numbers: bool) -> bool {
+    column.is_number && (long_numbers || column.is_exact)
+}
+
+fn head(manifest: &Manifest, axes: &Axes) -> Head {
+    let text = |name: &str| TableColumn { name: name.to_owned(), is_double: false };
+    let double = |name: &str| TableColumn { name: format!("{name}_double"), is_double: true };
+    let mut columns = vec![text("run")];
+    for axis in axes.all() {
+        columns.push(text(&axis.name));
+        columns.extend(axis.is_numeric().then(|| double(&axis.name)));
+    }
+    for column in &manifest.columns {
+        columns.push(text(&column.name));
+        columns.extend(has_double(column, manifest.long_numbers).then(|| double(&column.name)));
+    }
+    columns.push(text("failure"));
+    let lines = [
+        ("shadowstep", manifest.shadowstep.clone()),
+        ("sweep", manifest.digests.sweep.clone()),
+        ("tables", manifest.digests.tables.clone()),
+        ("runs", manifest.runs.to_string()),
+    ];
+    Head { lines: lines.map(|(name, value)| (name.to_owned(), value)).to_vec(), columns }
+}
+
+/// A remark if chunks were computed with different elementary functions.
+fn functions_differ(functions: &[(Option<String>, u64)]) -> Option<String> {
+    let first = &functions.first()?.0;
+    let others: Vec<u64> = functions.iter().filter(|(own, _)| own != first).map(|(_, chunk)| *chunk).collect();
+    (!others.is_empty()).then(|| {
+        format!(
+            "chunks {} were computed with other elementary functions (of another C library or processor) than chunk 1: the last digits \
+             of their results may differ",
+            ranges(&others)
+        )
+    })
+}
+
+/// The header that every chunk must have.
+pub(crate) fn fits(header: &Header, manifest: &Manifest) -> Result<(), String> {
+    if header.shadowstep != manifest.shadowstep {
+        return Err(format!("it was made by version {}", header.shadowstep));
+    }
+    if header.digests.sweep != manifest.digests.sweep {
+        return Err("it is of another sweep".to_owned());
+    }
+    if header.digests.tables != manifest.digests.tables {
+        return Err("it was made with other tables of schemes".to_owned());
+    }
+    Ok(())
+}

@@ -1,0 +1,46 @@
+//! `results.csv`: a head of lines that begin with `#`, the names of the columns, and a row for each run.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use csv::Writer;
+use shadowstep_scenes::{Error, WholeFile};
+
+use super::{Cell, Head, Table};
+
+pub(super) struct CsvTable {
+    writer: Writer<WholeFile>,
+    path: PathBuf,
+}
+
+impl CsvTable {
+    pub(super) fn new(folder: &Path, head: &Head) -> Result<Self, Error> {
+        let path = folder.join("results.csv");
+        let mut file = WholeFile::create(&path, "file")?;
+        for (name, value) in &head.lines {
+            writeln!(file, "# {name}: {value}")?;
+        }
+        let mut writer = Writer::from_writer(file);
+        writer.write_record(head.columns.iter().map(|column| &column.name))?;
+        Ok(CsvTable { writer, path })
+    }
+}
+
+impl Table for CsvTable {
+    fn row(&mut self, cells: &[Cell]) -> Result<(), Error> {
+        for cell in cells {
+            match cell {
+                Cell::Text(text) => self.writer.write_field(text)?,
+                Cell::Double(double) => self.writer.write_field(double.to_string())?,
+                Cell::Empty => self.writer.write_field("")?,
+            }
+        }
+        Ok(self.writer.write_record(None::<&[u8]>)?)
+    }
+
+    fn finish(self: Box<Self>) -> Result<PathBuf, Error> {
+        let file = self.writer.into_inner().map_err(|error| error.into_error())?;
+        file.finish()?;
+        Ok(self.path)
+    }
+}

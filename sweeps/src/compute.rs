@@ -1,0 +1,260 @@
+//! Computing chunks with several threads.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use shadowstep_scenes::Error;
+use shadowstep_tasks::{Observer, Progress};
+
+use crate::chunk::{self, Chunk, Header, Unusable};
+use crate::manifest::{Manifest, VERSION};
+use crate::partial::Partial;
+use crate::plan::Plan;
+use crate::record::Record;
+
+/// How often the observer is asked.
+const TICK: Duration = Duration::from_millis(50);
+
+/// What has been computed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Computed {
+    /// How many runs were made.
+    pub runs: u64,
+    /// How many of them failed.
+    pub failed: u64,
+    /// One of those: its number and why it failed.
+    pub first_failure: Option<(u64, String)>,
+}
+
+/// Computes chunks that are not there yet, with all threads of the current rayon pool. A run that fails stops nothing.
+///
+/// The bytes of the files do not depend on the number of threads, nor on earlier calls that were interrupted at any moment.
+///
+/// # Errors
+/// A file that cannot be written; an observer that stops the computation.
+pub fn compute(
+    plan: &Plan,
+    manifest: &Manifest,
+    folder: &Path,
+    chunks: impl IntoIterator<Item = Chunk, IntoIter: Send>,
+    observer: &mut dyn Observer,
+) -> Result<Computed, Error> {
+    let stops = AtomicBool::new(false);
+    let due = Due { plan, manifest, folder, stops: &stops };
+    let state = Mutex::new(State {
+        chunks: chunks.into_iter(),
+        open: Vec::new(),
+        computed: Computed::default(),
+        saved: 0,
+        error: None,
+    });
+    let threads = rayon::current_num_threads();
+    thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(|| due.work(&state))).collect();
+        attend(&workers, &state, &stops, manifest, observer);
+        workers.into_iter().for_each(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+    });
+    let state = state.into_inner().unwrap_or_else(PoisonError::into_inner);
+    match state.error {
+        Some(error) => Err(error),
+        None if stops.load(Ordering::Relaxed) => {
+            let message = format!("interrupted: {} runs of this call are saved", state.computed.runs);
+            Err(Error::run(message, "the same command computes the others"))
+        }
+        None => Ok(state.computed),
+    }
+}
+
+/// Waits for the threads; shows the progress, and stops them when the observer asks for it.
+fn attend<I>(
+    workers: &[thread::ScopedJoinHandle<'_, ()>],
+    state: &Mutex<State<I>>,
+    stops: &AtomicBool,
+    manifest: &Manifest,
+    observer: &mut dyn Observer,
+) {
+    let mut shown = u64::MAX;
+    while !workers.iter().all(thread::ScopedJoinHandle::is_finished) {
+        thread::park_timeout(TICK);
+        if observer.stops() {
+            stops.store(true, Ordering::Relaxed);
+        }
+        let done = {
+            let state = locked(state);
+            state.computed.runs + state.saved
+        };
+        if done != std::mem::replace(&mut shown, done) && !stops.load(Ordering::Relaxed) {
+            let all = usize::try_from(manifest.runs).unwrap_or(usize::MAX);
+            let fraction = done as f64 / manifest.runs as f64;
+            observer.progress(Progress { done: done as usize, tasks: all, fraction });
+        }
+    }
+}
+
+/// What is to be computed.
+struct Due<'a> {
+    plan: &'a Plan,
+    manifest: &'a Manifest,
+    folder: &'a Path,
+    stops: &'a AtomicBool,
+}
+
+/// What is being computed. At most one chunk is open for each thread, whatever the number of runs.
+struct State<I> {
+    chunks: I,
+    open: Vec<Open>,
+    computed: Computed,
+    /// How many runs were saved by earlier calls.
+    saved: u64,
+    error: Option<Error>,
+}
+
+/// A chunk of which some runs are not saved.
+struct Open {
+    chunk: Chunk,
+    header: Header,
+    partial: Partial,
+    /// The next run that may have to be made.
+    next: u64,
+    end: u64,
+    /// How many are being made.
+    running: usize,
+}
+
+impl Due<'_> {
+    /// Makes runs until there are no more.
+    fn work<I: Iterator<Item = Chunk>>(&self, state: &Mutex<State<I>>) {
+        while !self.stops.load(Ordering::Relaxed) {
+            let next = self.next(&mut locked(state));
+            let done = match next {
+                Ok(Some(Work::Run(chunk, run))) => self.run(state, chunk, run),
+                Ok(Some(Work::Finish(open))) => self.finish(open),
+                Ok(None) => return,
+                Err(error) => Err(error),
+            };
+            if let Err(error) = done {
+                self.stops.store(true, Ordering::Relaxed);
+                locked(state).error.get_or_insert(error);
+            }
+        }
+    }
+
+    /// The next run, of an open chunk or of one that is opened for it.
+    fn next<I: Iterator<Item = Chunk>>(&self, state: &mut State<I>) -> Result<Option<Work>, Error> {
+        loop {
+            for open in &mut state.open {
+                if let Some(run) = open.take() {
+                    return Ok(Some(Work::Run(open.chunk, run)));
+                }
+            }
+            // a chunk all of whose runs were saved before
+            if let Some(place) = state.open.iter().position(Open::is_complete) {
+                return Ok(Some(Work::Finish(state.open.swap_remove(place))));
+            }
+            let Some(chunk) = state.chunks.next() else { return Ok(None) };
+            if is_there(self.manifest, self.folder, chunk)? {
+                let runs = chunk.runs(self.manifest.runs);
+                state.saved += runs.end - runs.start;
+                continue;
+            }
+            let header = header(self.plan, self.manifest, chunk);
+            let runs = chunk.runs(self.manifest.runs);
+            let partial = Partial::open(self.folder, chunk, &header, runs.clone())?;
+            state.saved += partial.records.len() as u64;
+            state.open.push(Open { chunk, header, partial, next: runs.start, end: runs.end, running: 0 });
+        }
+    }
+
+    /// Makes a run and keeps its record.
+    fn run<I>(&self, state: &Mutex<State<I>>, chunk: Chunk, run: u64) -> Result<(), Error> {
+        let record = self.plan.run(run, self.stops);
+        let mut state = locked(state);
+        let Some(record) = record else { return Ok(()) };
+        let place =
+            state.open.iter().position(|open| open.chunk == chunk).expect("a chunk stays open while it has runs");
+        state.open[place].running -= 1;
+        state.open[place].partial.keep(&record)?;
+        state.computed.include(&record);
+        if state.open[place].is_complete() {
+            let open = state.open.swap_remove(place);
+            drop(state);
+            return self.finish(open);
+        }
+        Ok(())
+    }
+
+    fn finish(&self, open: Open) -> Result<(), Error> {
+        chunk::write(self.folder, open.chunk, &open.header, &open.partial.into_records())
+    }
+}
+
+/// What a thread does next.
+enum Work {
+    Run(Chunk, u64),
+    Finish(Open),
+}
+
+impl Open {
+    /// Takes a run that is not saved.
+    fn take(&mut self) -> Option<u64> {
+        while self.next < self.end {
+            let run = self.next;
+            self.next += 1;
+            if !self.partial.records.contains_key(&run) {
+                self.running += 1;
+                return Some(run);
+            }
+        }
+        None
+    }
+
+    fn is_complete(&self) -> bool {
+        self.next == self.end && self.running == 0
+    }
+}
+
+impl Computed {
+    fn include(&mut self, record: &Record) {
+        self.runs += 1;
+        if let Some(failure) = &record.failure {
+            self.failed += 1;
+            let first = self.first_failure.get_or_insert_with(|| (record.run, failure.clone()));
+            if record.run < first.0 {
+                *first = (record.run, failure.clone());
+            }
+        }
+    }
+}
+
+/// The header of a chunk that this process makes.
+fn header(plan: &Plan, manifest: &Manifest, chunk: Chunk) -> Header {
+    let runs = chunk.runs(manifest.runs);
+    Header {
+        shadowstep: VERSION.to_owned(),
+        digests: manifest.digests.clone(),
+        functions: plan.functions().map(str::to_owned),
+        chunk: chunk.number,
+        of: chunk.of,
+        first: runs.start,
+        runs: runs.end - runs.start,
+    }
+}
+
+/// Whether the file of a chunk is there and whole.
+///
+/// # Errors
+/// A file that is there and cannot be used.
+pub fn is_there(manifest: &Manifest, folder: &Path, chunk: Chunk) -> Result<bool, Error> {
+    match chunk::read(folder, chunk, manifest.runs, |_| Ok(()))? {
+        Ok(header) => Ok(header.shadowstep == manifest.shadowstep && header.digests == manifest.digests),
+        Err(Unusable::Missing | Unusable::Damaged(_)) => Ok(false),
+    }
+}
+
+/// A thread that panicked leaves no partial changes.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

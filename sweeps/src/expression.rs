@@ -1,0 +1,171 @@
+//! Expressions in q, p, the time and the energy of a state, and conditions on them.
+
+use std::cmp::Ordering;
+
+use shadowstep::formula::{FormulaError, FormulaPotential};
+use shadowstep::{Number, Potential, Rational};
+use shadowstep_scenes::System;
+use shadowstep_schemes::document::{Reader, Text};
+use shadowstep_symbolic::{Expression as Syntax, Kind, parse};
+
+/// The time and the energy.
+const TIME: &str = "t";
+const ENERGY: &str = "E";
+
+/// A formula in the coordinates, momenta and parameters of a system, the names of the axes, t and E.
+#[derive(Clone, Debug)]
+pub(crate) struct Expression {
+    formula: String,
+    /// What is written.
+    text: Text,
+    has_time: bool,
+    has_energy: bool,
+}
+
+/// One expression is less or greater than another.
+#[derive(Clone, Debug)]
+pub(crate) struct Condition {
+    /// The left side less the right side.
+    difference: Expression,
+    met: Comparison,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Comparison {
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+}
+
+impl Expression {
+    pub(crate) fn new(text: Text) -> Expression {
+        Expression::with(text.value.clone(), text)
+    }
+
+    fn with(formula: String, text: Text) -> Expression {
+        let syntax = parse(&formula).ok();
+        let has = |name| syntax.as_ref().is_some_and(|syntax| mentions(syntax, name));
+        Expression { has_time: has(TIME), has_energy: has(ENERGY), formula, text }
+    }
+
+    /// Checks it for a system; a fault has its place.
+    pub(crate) fn check(&self, reader: &mut Reader<'_>, system: &System) {
+        if let Err(error) = Evaluator::<f64>::new(self, system, &()) {
+            let known =
+                system.coordinates.iter().chain(&system.momenta).take(6).cloned().collect::<Vec<_>>().join(", ");
+            let hint = format!("it is a formula in {known}, t, E, the parameters and the axes");
+            let is_whole = self.formula == self.text.value;
+            let place = if is_whole { self.text.place(&error.range()) } else { self.text.at.clone() };
+            reader.fault(&place, error.to_string(), hint);
+        }
+    }
+}
+
+impl Condition {
+    pub(crate) fn read(reader: &mut Reader<'_>, text: &Text) -> Option<Condition> {
+        let comparisons = [
+            ("<=", Comparison::LessOrEqual),
+            (">=", Comparison::GreaterOrEqual),
+            ("<", Comparison::Less),
+            (">", Comparison::Greater),
+        ];
+        let found = comparisons.iter().find_map(|(sign, met)| Some((text.value.split_once(sign)?, *met)));
+        let Some(((left, right), met)) = found.filter(|((_, right), _)| !right.contains(['<', '>'])) else {
+            return reader.wrong(&text.at, "this text is not a condition", "write one comparison: \"x^2 + y^2 > 100\"");
+        };
+        // one subtraction and no rounding of the sides alone
+        let difference = format!("({left}) - ({right})");
+        Some(Condition { difference: Expression::with(difference, text.clone()), met })
+    }
+
+    pub(crate) fn difference(&self) -> &Expression {
+        &self.difference
+    }
+}
+
+fn mentions(syntax: &Syntax, name: &str) -> bool {
+    match &syntax.kind {
+        Kind::Number(_) => false,
+        Kind::Name(own) => own == name,
+        Kind::Negate(inner) => mentions(inner, name),
+        Kind::Binary(_, left, right) => mentions(left, name) || mentions(right, name),
+        Kind::Call { arguments, .. } => arguments.iter().any(|part| mentions(part, name)),
+    }
+}
+
+/// An expression in the numbers of a run.
+pub(crate) struct Evaluator<N> {
+    formula: FormulaPotential<N>,
+    scratch: Vec<N>,
+    /// q, p, t and E.
+    point: Vec<N>,
+    value: N,
+    has_time: bool,
+    has_energy: bool,
+}
+
+impl<N: Number> Evaluator<N> {
+    pub(crate) fn new(expression: &Expression, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
+        let names = system.coordinates.iter().chain(&system.momenta).map(String::as_str).chain([TIME, ENERGY]);
+        let names: Vec<&str> = names.collect();
+        let is_other = |name: &str| !names.contains(&name);
+        let parameters = system.parameters.iter().filter(|(name, _)| is_other(name));
+        let parameters: Vec<(&str, N)> =
+            parameters.map(|(name, exact)| (name.as_str(), N::from_rational(&exact.value, context))).collect();
+        let formula = FormulaPotential::new(&expression.formula, &names, &parameters)?;
+        let zero = N::zero(context);
+        let mut scratch = vec![zero.clone(); formula.scratch()];
+        formula.prepare(&mut scratch, context);
+        let (has_time, has_energy) = (expression.has_time, expression.has_energy);
+        Ok(Evaluator { formula, scratch, point: vec![zero.clone(); names.len()], value: zero, has_time, has_energy })
+    }
+
+    /// The value at a state.
+    pub(crate) fn value<M: shadowstep::System<Number = N>>(
+        &mut self,
+        system: &mut M,
+        time: impl Fn() -> Rational,
+    ) -> &N {
+        let dimension = system.q().len();
+        let (state, rest) = self.point.split_at_mut(2 * dimension);
+        state.iter_mut().zip(system.q().iter().chain(system.p())).for_each(|(own, value)| own.assign(value));
+        if self.has_time {
+            rest[0] = N::from_rational(&time(), &self.value.context());
+        }
+        if self.has_energy {
+            rest[1].assign(&system.energy());
+        }
+        self.formula.energy(&self.point, &mut self.value, &mut self.scratch);
+        &self.value
+    }
+}
+
+/// A condition in the numbers of a run.
+pub(crate) struct Test<N> {
+    difference: Evaluator<N>,
+    met: Comparison,
+    zero: N,
+}
+
+impl<N: Number> Test<N> {
+    pub(crate) fn new(condition: &Condition, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
+        let difference = Evaluator::new(&condition.difference, system, context)?;
+        Ok(Test { difference, met: condition.met, zero: N::zero(context) })
+    }
+
+    /// Whether a state meets the condition; one whose expression has no value does not.
+    pub(crate) fn is_met<M: shadowstep::System<Number = N>>(
+        &mut self,
+        system: &mut M,
+        time: impl Fn() -> Rational,
+    ) -> bool {
+        let ordering = self.difference.value(system, time).partial_cmp(&self.zero);
+        match self.met {
+            Comparison::Less => ordering == Some(Ordering::Less),
+            Comparison::LessOrEqual => matches!(ordering, Some(Ordering::Less | Ordering::Equal)),
+            Comparison::Greater => ordering == Some(Ordering::Greater),
+            Comparison::GreaterOrEqual => matches!(ordering, Some(Ordering::Greater | Ordering::Equal)),
+        }
+    }
+}

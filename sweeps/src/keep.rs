@@ -1,0 +1,234 @@
+//! \[keep\]: what is kept of each run.
+
+use shadowstep_schemes::document::{Key, Keys, Reader, Section, Text};
+use shadowstep_symbolic::nearest;
+use toml::de::{DeTable, DeValue};
+
+use crate::expression::{Condition, Expression};
+
+/// A value that every run has, whatever its system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kept {
+    Verdict,
+    Reason,
+    EnergyError,
+    RelativeEnergyError,
+    LastEnergyError,
+    MethodError,
+    CloseEncounters,
+    Drift,
+    PermanentChange,
+    PermanentResolution,
+    PermanentFinding,
+    Steps,
+    ForceEvaluations,
+}
+
+/// What a value needs to be computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Need {
+    /// H at each state.
+    Energies,
+    /// The monitor.
+    Summary,
+    /// Estimates of the modified energy at each state.
+    Estimates,
+    Nothing,
+}
+
+/// A value with its name, its meaning, what it needs, and whether it is a number.
+pub(crate) struct Description {
+    pub(crate) kept: Kept,
+    pub(crate) name: &'static str,
+    pub(crate) meaning: &'static str,
+    pub(crate) need: Need,
+    pub(crate) is_number: bool,
+}
+
+const fn number(kept: Kept, name: &'static str, need: Need, meaning: &'static str) -> Description {
+    Description { kept, name, meaning, need, is_number: true }
+}
+
+const fn word(kept: Kept, name: &'static str, need: Need, meaning: &'static str) -> Description {
+    Description { kept, name, meaning, need, is_number: false }
+}
+
+/// All of them.
+pub(crate) const VALUES: [Description; 13] = [
+    word(Kept::Verdict, "verdict", Need::Summary, "the monitor's verdict on the step size"),
+    word(Kept::Reason, "reason", Need::Summary, "the reason of the verdict"),
+    number(Kept::EnergyError, "energy_error", Need::Energies, "the largest |H(t) − H(0)| of all states"),
+    number(Kept::RelativeEnergyError, "relative_energy_error", Need::Energies, "the same as a part of |H(0)|"),
+    number(Kept::LastEnergyError, "last_energy_error", Need::Energies, "H − H(0) at the last state"),
+    number(Kept::MethodError, "method_error", Need::Summary, "the method's part of the error of H: H − H̄, rms"),
+    number(Kept::CloseEncounters, "close_encounters", Need::Summary, "the number of close encounters"),
+    number(Kept::Drift, "drift", Need::Estimates, "max − min of the modified energy"),
+    number(Kept::PermanentChange, "permanent_change", Need::Estimates, "the permanent change of the modified energy"),
+    number(
+        Kept::PermanentResolution,
+        "permanent_resolution",
+        Need::Estimates,
+        "what a permanent change must exceed to be resolved",
+    ),
+    word(Kept::PermanentFinding, "permanent_finding", Need::Estimates, "resolved, below-resolution or one-sided"),
+    number(Kept::Steps, "steps", Need::Nothing, "the number of steps"),
+    number(
+        Kept::ForceEvaluations,
+        "force_evaluations",
+        Need::Nothing,
+        "evaluations of the gradient, those for estimates and their states included",
+    ),
+];
+
+impl Kept {
+    pub(crate) fn description(self) -> &'static Description {
+        VALUES.iter().find(|value| value.kept == self).expect("each value has its description")
+    }
+}
+
+/// What is kept of each run.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Keep {
+    /// Values in the order of the text.
+    pub(crate) values: Vec<Kept>,
+    /// Whether q and p of the last state are kept.
+    pub(crate) state: bool,
+    /// Expressions at the last state.
+    pub(crate) at_end: Vec<(Text, Expression)>,
+    /// Conditions, of which the time of the first state that meets them is kept.
+    pub(crate) first_time: Vec<(Text, Condition)>,
+    /// Those of them that end the run, by their places.
+    pub(crate) stop: Vec<usize>,
+    /// Whether the rows of the scene's \[output\] are kept.
+    pub(crate) rows: bool,
+}
+
+/// A column of the results.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// Whether its values are numbers.
+    pub is_number: bool,
+    /// Whether these are exact, such as 7/24.
+    pub is_exact: bool,
+}
+
+impl Keep {
+    pub(crate) fn read(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<Keep> {
+        let keys = Keys::new(
+            "[keep]",
+            [
+                Key::new("values", "[\"verdict\", \"energy_error\"]"),
+                Key::new("state", "true"),
+                Key::new("at_end", "{ L = \"x*py - y*px\" }"),
+                Key::new("first_time", "{ escape = \"x^2 + y^2 > 100\" }"),
+                Key::new("stop", "[\"escape\"]"),
+                Key::new("rows", "true"),
+            ],
+        );
+        let section = reader.section(root, "keep", keys);
+        if !section.is_there() {
+            let hint = "add [keep] with values = [\"verdict\", \"energy_error\"], for example";
+            return reader.wrong(&(0..0), "the section [keep] is missing", hint);
+        }
+        let before = reader.faults.len();
+        let mut keep = Keep { values: values(reader, &section), ..Keep::default() };
+        let truth = |reader: &mut Reader<'_>, key| {
+            section.get(key).and_then(|value| reader.truth(value)).is_some_and(|t| t.value)
+        };
+        keep.state = truth(reader, "state");
+        keep.rows = truth(reader, "rows");
+        for (name, text) in formulas(reader, &section, "at_end") {
+            keep.at_end.push((name, Expression::new(text)));
+        }
+        for (name, text) in formulas(reader, &section, "first_time") {
+            keep.first_time.extend(Condition::read(reader, &text).map(|condition| (name, condition)));
+        }
+        keep.stop = stop(reader, &section, &keep.first_time);
+        refuse_repeated(reader, &keep);
+        if keep.columns(&[]).is_empty() && !keep.state && !keep.rows && reader.faults.len() == before {
+            reader.fault(&section.at, "nothing is kept", "write values = [\"verdict\", \"energy_error\"], for example");
+        }
+        (reader.faults.len() == before).then_some(keep)
+    }
+
+    /// The columns, for a state with these coordinates and momenta.
+    pub(crate) fn columns(&self, state: &[String]) -> Vec<Column> {
+        let column = |name: &str, is_number, is_exact| Column { name: name.to_owned(), is_number, is_exact };
+        let values = self.values.iter().map(|kept| {
+            let Description { name, is_number, .. } = kept.description();
+            column(name, *is_number, false)
+        });
+        let times = self.first_time.iter().map(|(name, _)| column(&name.value, true, true));
+        let ends = self.at_end.iter().map(|(name, _)| column(&name.value, true, false));
+        let states = state.iter().filter(|_| self.state).map(|name| column(name, true, false));
+        values.chain(times).chain(ends).chain(states).collect()
+    }
+
+    pub(crate) fn needs(&self, need: Need) -> bool {
+        self.values.iter().any(|kept| kept.description().need == need)
+    }
+}
+
+fn values(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Vec<Kept> {
+    let Some(value) = section.get("values") else { return Vec::new() };
+    let mut kept = Vec::new();
+    for text in reader.readable_members(value, "a list of values: [\"verdict\", \"energy_error\"]", Reader::text) {
+        match VALUES.iter().find(|value| value.name == text.value) {
+            Some(Description { kept: known, .. }) if kept.contains(known) => {
+                reader.fault(&text.at, format!("`{}` is there twice", text.value), "keep one of the two");
+            }
+            Some(Description { kept: known, .. }) => kept.push(*known),
+            None => {
+                let names = VALUES.iter().map(|value| value.name);
+                let hint = match nearest(&text.value, names.clone()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("the values are {}", names.collect::<Vec<_>>().join(", ")),
+                };
+                reader.fault(&text.at, format!("there is no value `{}`", text.value), hint);
+            }
+        }
+    }
+    kept
+}
+
+/// Names with formulas, in the order of the text.
+fn formulas(reader: &mut Reader<'_>, section: &Section<'_, '_>, key: &str) -> Vec<(Text, Text)> {
+    let Some(value) = section.get(key) else { return Vec::new() };
+    let DeValue::Table(table) = value.get_ref() else {
+        reader.wrong_kind::<()>(value, "a table of names with formulas");
+        return Vec::new();
+    };
+    let read = |(name, value)| Some((Text::of_key(name), reader.text(value)?));
+    let mut found: Vec<_> = table.iter().filter_map(read).collect();
+    found.sort_by_key(|(name, _)| name.at.start);
+    found
+}
+
+fn stop(reader: &mut Reader<'_>, section: &Section<'_, '_>, first_time: &[(Text, Condition)]) -> Vec<usize> {
+    let Some(value) = section.get("stop") else { return Vec::new() };
+    let names = reader.readable_members(value, "a list of names of first_time: [\"escape\"]", Reader::text);
+    let mut found = Vec::new();
+    for name in names {
+        match first_time.iter().position(|(known, _)| known.value == name.value) {
+            Some(place) => found.push(place),
+            None => {
+                let hint = "first_time = { escape = \"x^2 + y^2 > 100\" } and stop = [\"escape\"]";
+                reader.fault(&name.at, format!("first_time has no `{}`", name.value), format!("write {hint}"));
+            }
+        }
+    }
+    found
+}
+
+fn refuse_repeated(reader: &mut Reader<'_>, keep: &Keep) {
+    let mut seen: Vec<&str> = keep.values.iter().map(|kept| kept.description().name).collect();
+    seen.extend(["run", "failure"]);
+    for name in keep.first_time.iter().map(|(name, _)| name).chain(keep.at_end.iter().map(|(name, _)| name)) {
+        if seen.contains(&name.value.as_str()) {
+            reader.fault(&name.at, format!("a column is named `{}` already", name.value), "give it another name");
+        }
+        seen.push(&name.value);
+    }
+}

@@ -1,0 +1,184 @@
+//! `plan.json` in the folder of a sweep: what its chunks are of. With it, results are collected without the sweep's files.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use shadowstep::tables::Source;
+use shadowstep_scenes::{Error, not_written};
+use tempfile::NamedTempFile;
+
+use crate::chunk::{AGAIN, Chunk, MOST_RUNS_OF_CHUNK};
+use crate::keep::Column;
+use crate::plan::{Digests, Plan};
+
+/// The name of the file.
+const NAME: &str = "plan.json";
+
+/// The version of the program, on which the last digits of results may depend.
+pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Where nothing else is said, a sweep on one machine has this many chunks.
+const CHUNKS: u64 = 16;
+
+/// And no more runs than this in each.
+const RUNS_OF_CHUNK: u64 = 1 << 16;
+
+/// What is in the folder of a sweep.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// The version of the program.
+    pub shadowstep: String,
+    /// What determines the results.
+    #[serde(flatten)]
+    pub digests: Digests,
+    /// How many runs there are.
+    pub runs: u64,
+    /// How many chunks.
+    pub chunks: u64,
+    /// What the values of a record are.
+    pub columns: Vec<Column>,
+    /// Whether numbers have more digits than double precision.
+    pub long_numbers: bool,
+    /// The path of the sweep's file.
+    pub path: String,
+    /// Its text, of which the axes and the picture are needed to collect the results.
+    pub text: String,
+}
+
+impl Manifest {
+    /// That of the folder: the one that is there, which must be of this plan, or a new one with this many chunks.
+    ///
+    /// # Errors
+    /// A folder of another sweep, or of another number of chunks; a folder that cannot be written.
+    pub fn begin(folder: &Path, plan: &Plan, chunks: Option<u64>) -> Result<Manifest, Error> {
+        let runs = plan.axes().runs();
+        let wanted = chunks.unwrap_or_else(|| runs.min(CHUNKS.max(runs.div_ceil(RUNS_OF_CHUNK))));
+        check_chunks(wanted, runs)?;
+        let own = Manifest {
+            shadowstep: VERSION.to_owned(),
+            digests: plan.digests().clone(),
+            runs,
+            chunks: wanted,
+            columns: plan.columns().to_vec(),
+            long_numbers: plan.has_long_numbers(),
+            path: plan.source().path.clone(),
+            text: plan.source().text.clone(),
+        };
+        let folder_of_chunks = folder.join("chunks");
+        fs::create_dir_all(&folder_of_chunks).map_err(|error| cannot(&folder_of_chunks, &error))?;
+        own.write(folder, false)?;
+        let there = Manifest::read(folder)?;
+        there.check(&own, chunks.is_some(), folder)?;
+        // another picture or comment changes no result
+        if there.text != own.text {
+            let own = Manifest { chunks: there.chunks, ..own };
+            own.write(folder, true)?;
+            return Ok(own);
+        }
+        Ok(there)
+    }
+
+    /// That of a folder.
+    ///
+    /// # Errors
+    /// A folder without one, a file that is not one.
+    pub fn read(folder: &Path) -> Result<Manifest, Error> {
+        let path = folder.join(NAME);
+        let hint = "give the folder of `shadowstep sweep FILE --out DIR`";
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                return Err(Error::usage(format!("{} has no {NAME}", folder.display()), hint));
+            }
+            Err(error) => return Err(Error::usage(format!("{} cannot be read: {error}", path.display()), hint)),
+        };
+        let manifest = serde_json::from_str::<Manifest>(&text)
+            .ok()
+            .filter(|manifest| manifest.chunks > 0 && manifest.chunks <= manifest.runs);
+        manifest.ok_or_else(|| Error::usage(format!("{} is not the plan of a sweep", path.display()), hint))
+    }
+
+    /// Whether a folder has one.
+    pub fn is_in(folder: &Path) -> bool {
+        folder.join(NAME).exists()
+    }
+
+    /// All chunks.
+    pub fn all_chunks(&self) -> impl Iterator<Item = Chunk> + use<> {
+        let of = self.chunks;
+        (1..=of).map(move |number| Chunk { number, of })
+    }
+
+    /// The text of the sweep.
+    pub(crate) fn source(&self) -> Source {
+        Source { path: self.path.clone(), text: self.text.clone() }
+    }
+
+    fn check(&self, own: &Manifest, chunks_given: bool, folder: &Path) -> Result<(), Error> {
+        let shown = folder.display();
+        let other = "give another folder, or remove this one";
+        let differs = if self.shadowstep != own.shadowstep {
+            Some(format!("{shown} is of version {} of shadowstep, not of {VERSION}", self.shadowstep))
+        } else if self.digests.sweep != own.digests.sweep {
+            Some(format!("{shown} is of another sweep, or of this one before it was changed"))
+        } else if self.digests.tables != own.digests.tables {
+            Some(format!("{shown} was made with other tables of schemes"))
+        } else {
+            None
+        };
+        if let Some(message) = differs {
+            return Err(Error::usage(message, other));
+        }
+        if chunks_given && self.chunks != own.chunks {
+            let message = format!("{shown} has {} chunks, not {}", self.chunks, own.chunks);
+            return Err(Error::usage(message, format!("give I/{}, or another folder", self.chunks)));
+        }
+        Ok(())
+    }
+
+    /// Writes the file; one that is there stays, unless it is replaced.
+    fn write(&self, folder: &Path, replaces: bool) -> Result<(), Error> {
+        let path = folder.join(NAME);
+        if path.exists() && !replaces {
+            return Ok(());
+        }
+        let written = || -> io::Result<()> {
+            let mut file = NamedTempFile::new_in(folder)?;
+            serde_json::to_writer_pretty(&mut file, self)?;
+            file.write_all(b"\n")?;
+            crate::chunk::make_readable(file.as_file())?;
+            file.as_file().sync_all()?;
+            match replaces {
+                true => drop(file.persist(&path)?),
+                // of several processes that begin at the same time, the first one writes it
+                false => match file.persist_noclobber(&path) {
+                    Err(error) if error.error.kind() != io::ErrorKind::AlreadyExists => return Err(error.error),
+                    _ => {}
+                },
+            }
+            crate::chunk::sync_folder(folder)
+        };
+        written().map_err(|error| not_written(&path, error, AGAIN).into())
+    }
+}
+
+/// A number of chunks that a sweep can have.
+fn check_chunks(chunks: u64, runs: u64) -> Result<(), Error> {
+    if chunks > runs {
+        let message = format!("{runs} runs cannot be divided into {chunks} chunks");
+        return Err(Error::usage(message, format!("use at most {runs} chunks")));
+    }
+    let least = runs.div_ceil(MOST_RUNS_OF_CHUNK);
+    if chunks < least {
+        let message =
+            format!("{chunks} chunks of {runs} runs are too long: a chunk has at most {MOST_RUNS_OF_CHUNK} runs");
+        return Err(Error::usage(message, format!("use at least {least} chunks")));
+    }
+    Ok(())
+}
+
+fn cannot(path: &PathBuf, error: &io::Error) -> Error {
+    Error::usage(format!("{} cannot be created: {error}", path.display()), "give a folder that can be written")
+}

@@ -1,0 +1,277 @@
+//! A plan: the scene, the axes and what is kept, read from a file.
+
+mod digest;
+
+pub(crate) use digest::hash;
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use shadowstep::tables::{Faults, Source};
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::family::Family;
+use shadowstep_scenes::{Error, Scene, elementary_functions, source};
+use shadowstep_schemes::document::{Fault, Reader, document};
+use toml::de::{DeTable, DeValue};
+
+use crate::axes::Axes;
+use crate::keep::{Column, Keep, Need};
+use crate::picture::Picture;
+use crate::record::{Record, measure, rows};
+
+/// The sections and keys of a sweep that are not of its scene.
+const OTHERS: &[&str] = &["scene", "axes", "zip", "keep", "picture"];
+
+/// The sections of a scene.
+const OF_SCENE: [&str; 4] = ["problem", "initial", "run", "output"];
+
+/// Many runs of a scene: its text, the axes, and what is kept of each run.
+///
+/// ```
+/// use std::sync::atomic::AtomicBool;
+///
+/// use shadowstep::tables::Source;
+/// use shadowstep_sweeps::Plan;
+///
+/// let text = r#"
+/// [problem]
+/// name = "kepler"
+/// parameters.eccentricity = "e"
+/// [run]
+/// scheme = "stormer-verlet"
+/// step = "h"
+/// until = 10
+/// digits = "double"
+/// [axes]
+/// e = "0 … 9/10 in 9 steps"
+/// h = "1/10 … 1/100 in 9 steps of 1/h"
+/// [keep]
+/// values = ["energy_error"]
+/// "#;
+/// let plan = Plan::of(Source { path: "sweep.toml".to_owned(), text: text.to_owned() })?;
+/// assert_eq!(plan.axes().runs(), 100);
+/// assert_eq!(plan.axes().described(18), "e = 1/10, h = 1/90");
+/// let record = plan.run(18, &AtomicBool::new(false)).unwrap();
+/// let error: f64 = record.values[0].as_ref().unwrap().parse()?;
+/// assert!((1e-7..1e-4).contains(&error), "{error}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Plan {
+    source: Source,
+    family: Family,
+    axes: Axes,
+    keep: Keep,
+    columns: Vec<Column>,
+    picture: Option<Picture>,
+    long_numbers: bool,
+    /// Hashes of what determines the results.
+    digests: Digests,
+}
+
+/// Hashes of what determines the results of a sweep besides the version of the program.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Digests {
+    /// Of the scene, the axes and what is kept; comments and the picture are left out.
+    pub sweep: String,
+    /// Of the weights of all schemes.
+    pub tables: String,
+}
+
+impl Plan {
+    /// Reads a plan from its file.
+    ///
+    /// # Errors
+    /// A file that cannot be read; all faults of its text, or of that of the scene.
+    pub fn open(path: impl AsRef<Path>) -> Result<Plan, Error> {
+        Plan::of(source(path.as_ref())?)
+    }
+
+    /// Reads a plan from its text; paths in it are relative to the folder of its own path.
+    ///
+    /// # Errors
+    /// As [`open`](Plan::open).
+    pub fn of(source: Source) -> Result<Plan, Error> {
+        let (document, faults) = document(&source);
+        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults).into()) };
+        let mut reader = Reader::new(&source, Vec::new());
+        let separate = separate_scene(&mut reader, &document)?;
+        let axes = Axes::read(&mut reader, &document);
+        let keep = Keep::read(&mut reader, &document);
+        let picture = Picture::read(&mut reader, &document);
+        refuse(reader.faults)?;
+        let (Some(axes), Some(keep), Some(picture)) = (axes, keep, picture) else {
+            unreachable!("what cannot be read is a fault")
+        };
+        let others: &[&str] = if separate.is_some() { &["picture"] } else { OTHERS };
+        let family = Family::new(separate.unwrap_or_else(|| source.clone()), others);
+        let first = first_scene(&family, &axes)?;
+        let mut reader = Reader::new(&source, Vec::new());
+        check(&mut reader, &document, &family, &axes, &keep, &first)?;
+        let state: Vec<String> = first.system.coordinates.iter().chain(&first.system.momenta).cloned().collect();
+        let columns = keep.columns(&state);
+        let picture = picture.resolve(&mut reader, &axes, &columns);
+        refuse(reader.faults)?;
+        let digests = digest::of(&document, &family, &axes)?;
+        let long_numbers = matches!(first.arithmetic, Arithmetic::Digits(..)) || axes.find("digits").is_some();
+        Ok(Plan { family, axes, keep, columns, picture, long_numbers, digests, source: source.clone() })
+    }
+
+    /// Whether numbers have more digits than double precision.
+    pub(crate) fn has_long_numbers(&self) -> bool {
+        self.long_numbers
+    }
+
+    /// The hash of the elementary functions that double precision has on this machine.
+    pub(crate) fn functions(&self) -> Option<&'static str> {
+        (!self.long_numbers).then(elementary_functions)
+    }
+
+    /// The text of the plan with its path.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// The axes, and with them the number of runs.
+    pub fn axes(&self) -> &Axes {
+        &self.axes
+    }
+
+    /// What the values of a record are.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// The picture; `None` where nothing can be drawn.
+    pub fn picture(&self) -> Option<&Picture> {
+        self.picture.as_ref()
+    }
+
+    /// What determines the results.
+    pub fn digests(&self) -> &Digests {
+        &self.digests
+    }
+
+    /// The scene of a run.
+    ///
+    /// # Errors
+    /// Faults of the scene's text with the values of the run.
+    pub fn scene(&self, run: u64) -> Result<Scene, Faults> {
+        self.family.scene(&self.axes.values(run))
+    }
+
+    /// Makes a run; `None` if it was stopped. A run that fails is a record, too.
+    pub fn run(&self, run: u64, stops: &AtomicBool) -> Option<Record> {
+        let found = self.measured(run, stops);
+        match found {
+            Ok(Some((values, rows))) => Some(Record { run, values, failure: None, rows }),
+            Ok(None) => None,
+            Err(failure) => Some(Record { run, values: Vec::new(), failure: Some(failure), rows: None }),
+        }
+    }
+
+    /// The values and rows of a run, or why it failed.
+    fn measured(&self, run: u64, stops: &AtomicBool) -> Result<Option<Measured>, String> {
+        let scene = self.scene(run).map_err(|faults| faults.0[0].message.clone())?;
+        let Some(values) = measure(&scene, &self.keep, stops).map_err(sentence)? else { return Ok(None) };
+        if !self.keep.rows {
+            return Ok(Some((values, None)));
+        }
+        Ok(rows(&scene, stops).map_err(sentence)?.map(|rows| (values, Some(rows))))
+    }
+}
+
+/// The axes and the picture of a sweep's text, with which its results are collected.
+pub(crate) fn axes_and_picture(source: Source, columns: &[Column]) -> Result<(Axes, Option<Picture>), Error> {
+    let (document, faults) = document(&source);
+    let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults).into()) };
+    let mut reader = Reader::new(&source, Vec::new());
+    let axes = Axes::read(&mut reader, &document);
+    let picture = Picture::read(&mut reader, &document);
+    refuse(std::mem::take(&mut reader.faults))?;
+    let (Some(axes), Some(picture)) = (axes, picture) else { unreachable!("what cannot be read is a fault") };
+    let picture = picture.resolve(&mut reader, &axes, columns);
+    refuse(reader.faults)?;
+    Ok((axes, picture))
+}
+
+/// Values of the columns, and rows.
+type Measured = (Vec<Option<String>>, Option<String>);
+
+/// The message of an error without its hint.
+fn sentence(error: Error) -> String {
+    match error {
+        Error::Usage { message, .. } | Error::Run { message, .. } => message,
+        other => other.to_string(),
+    }
+}
+
+fn refuse(faults: Vec<Fault>) -> Result<(), Error> {
+    Faults::of(faults).map_or(Ok(()), |faults| Err(faults.into()))
+}
+
+/// The text of the scene if `scene` names its file.
+fn separate_scene(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Result<Option<Source>, Error> {
+    let Some(value) = root.get("scene") else {
+        for (key, _) in root.iter().filter(|(key, _)| is_unknown(key.get_ref())) {
+            let hint = format!("the sections of a sweep are those of a scene, and {}", OTHERS[1..].join(", "));
+            reader.fault(&key.span(), format!("unknown section `{}`", key.get_ref()), hint);
+        }
+        return Ok(None);
+    };
+    for (key, _) in root.iter().filter(|(key, _)| !OTHERS.contains(&key.get_ref().as_ref())) {
+        let message = format!("`{}` and a scene's file are both given", key.get_ref());
+        reader.fault(&key.span(), message, "write the section in the scene, or remove `scene`");
+    }
+    let Some(path) = reader.text(value) else { return Ok(None) };
+    let folder = Path::new(&reader.source.path).parent().unwrap_or(Path::new(""));
+    match source(&folder.join(&path.value)) {
+        Ok(source) => Ok(Some(source)),
+        Err(Error::Usage { message, hint }) => Ok(reader.wrong(&path.at, message, hint)),
+        Err(other) => Err(other),
+    }
+}
+
+fn is_unknown(section: &str) -> bool {
+    !OTHERS.contains(&section) && !OF_SCENE.contains(&section)
+}
+
+/// A scene of the sweep. Where the first run has faults, as a step size at the end of a range may have, others are tried.
+fn first_scene(family: &Family, axes: &Axes) -> Result<Scene, Faults> {
+    let last = axes.runs() - 1;
+    let scene = |run| family.scene(&axes.values(run));
+    scene(0).or_else(|faults| scene(last / 2).or_else(|_| scene(last)).map_err(|_| faults))
+}
+
+/// Refuses axes that the scene does not use, and expressions that its system does not have.
+fn check(
+    reader: &mut Reader<'_>,
+    root: &DeTable<'_>,
+    family: &Family,
+    axes: &Axes,
+    keep: &Keep,
+    scene: &Scene,
+) -> Result<(), Error> {
+    let names = family.names()?;
+    for axis in axes.all().iter().filter(|axis| !names.contains(&axis.name)) {
+        let place = root.get("axes").and_then(|axes| match axes.get_ref() {
+            DeValue::Table(table) => table.get_key_value(axis.name.as_str()).map(|(key, _)| key.span()),
+            _ => None,
+        });
+        let use_it = if axis.is_numeric() { axis.name.clone() } else { format!("${}", axis.name) };
+        let hint = format!("write \"{use_it}\" where the scene is to have its value");
+        reader.fault(&place.unwrap_or(0..0), format!("the scene does not use the axis `{}`", axis.name), hint);
+    }
+    let differences = keep.first_time.iter().map(|(_, condition)| condition.difference());
+    keep.at_end.iter().map(|(_, end)| end).chain(differences).for_each(|text| text.check(reader, &scene.system));
+    let at = root.get("keep").map_or(0..0, |keep| keep.span());
+    if keep.needs(Need::Estimates) && scene.output.modified_energy.is_none() {
+        let hint = "add modified_energy = { estimator = \"bilinear\", order = 16 } to [output] of the scene";
+        reader.fault(&at, "drift and permanent_change require an estimator", hint);
+    }
+    let output = &scene.output;
+    if keep.rows && output.energy.is_none() && output.modified_energy.is_none() && output.trajectory.is_none() {
+        reader.fault(&at, "rows require [output] in the scene", "add output.trajectory = { every = 10 }, for example");
+    }
+    refuse(std::mem::take(&mut reader.faults))
+}

@@ -1,0 +1,94 @@
+//! Hashes of what determines the results: of the values in the text, not of its letters.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+use shadowstep::tables::Faults;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::family::Family;
+use shadowstep_schemes::document::document;
+use toml::de::{DeTable, DeValue};
+
+use super::Digests;
+use crate::axes::Axes;
+
+/// Of a sweep's document, of its scene and of the tables of its schemes.
+pub(super) fn of(sweep: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<Digests, Error> {
+    let (scene, faults) = document(family.source());
+    let Some(scene) = scene else { return Err(Faults(faults).into()) };
+    let mut text = String::new();
+    // the name of the scene's file and the picture change no result
+    for document in [sweep, &scene] {
+        let mut parts: Vec<_> = document.iter().collect();
+        parts.retain(|(key, _)| !["picture", "scene"].contains(&key.get_ref().as_ref()));
+        parts.sort_by_key(|(key, _)| key.get_ref().clone());
+        for (key, value) in parts {
+            // runs are numbered in the order of the axes
+            let in_order = key.get_ref() == "axes";
+            let _ = write!(text, "{:?}=", key.get_ref());
+            write_value(&mut text, value.get_ref(), in_order);
+        }
+        text.push(';');
+    }
+    Ok(Digests { sweep: hash(&text), tables: hash(&tables(&scene, family, axes)?) })
+}
+
+/// The hash of a text in hexadecimal digits.
+pub(crate) fn hash(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().fold(String::new(), |mut digits, byte| {
+        let _ = write!(digits, "{byte:02x}");
+        digits
+    })
+}
+
+fn write_value(text: &mut String, value: &DeValue<'_>, in_order: bool) {
+    let _ = match value {
+        DeValue::String(string) => write!(text, "{string:?}"),
+        DeValue::Integer(number) => write!(text, "{}", number.as_str()),
+        DeValue::Float(number) => write!(text, "{}", number.as_str()),
+        DeValue::Boolean(truth) => write!(text, "{truth}"),
+        DeValue::Datetime(date) => write!(text, "{date}"),
+        DeValue::Array(members) => {
+            text.push('[');
+            for member in members.iter() {
+                write_value(text, member.get_ref(), false);
+                text.push(',');
+            }
+            write!(text, "]")
+        }
+        DeValue::Table(table) => {
+            let mut entries: Vec<_> = table.iter().collect();
+            match in_order {
+                true => entries.sort_by_key(|(key, _)| key.span().start),
+                false => entries.sort_by_key(|(key, _)| key.get_ref().clone()),
+            }
+            text.push('{');
+            for (key, value) in entries {
+                let _ = write!(text, "{:?}=", key.get_ref());
+                write_value(text, value.get_ref(), false);
+                text.push(',');
+            }
+            write!(text, "}}")
+        }
+    };
+}
+
+/// The identities of all schemes that the runs may have.
+fn tables(scene: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<String, Error> {
+    let Some(DeValue::Table(run)) = scene.get("run").map(|run| run.get_ref()) else { return Ok(String::new()) };
+    let Some(DeValue::String(word)) = run.get("scheme").map(|scheme| scheme.get_ref()) else {
+        return Ok(String::new());
+    };
+    let axis = word.strip_prefix('$').and_then(|name| axes.find(name));
+    let words: Vec<String> = match axis {
+        Some(axis) => (0..axis.count()).map(|number| axis.value(number).text()).collect(),
+        None => vec![word.to_string()],
+    };
+    let folder = Path::new(&family.source().path).parent().unwrap_or(Path::new("")).to_owned();
+    let mut identities = Vec::new();
+    for word in words {
+        identities.push(family.schemes().scheme_from(&word, &folder, None)?.identity());
+    }
+    Ok(identities.join("\n"))
+}

@@ -1,0 +1,312 @@
+//! One run: what is kept of it, or why it failed.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use serde::{Deserialize, Serialize};
+use shadowstep::number::Rounded;
+use shadowstep::run::{DriftRecorder, EnergyDrift, Finding, RunError, ShadowRun, States, Trajectory};
+use shadowstep::shadow::EstimatorSettings;
+use shadowstep::{Number, Scheme, Stepper, ValidFor};
+use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::run::Run;
+use shadowstep_scenes::start::{Steps, Work};
+use shadowstep_scenes::watch::{Energies, Watch};
+use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, Summary};
+use shadowstep_symbolic::decimal::to_text;
+
+use crate::expression::{Evaluator, Test};
+use crate::keep::{Keep, Kept, Need};
+
+/// What a run has given.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Record {
+    /// Its number.
+    pub run: u64,
+    /// The value of each column; `None` where there is none, as the time of a condition that no state meets. Empty if it failed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub values: Vec<Option<String>>,
+    /// Why it failed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub failure: Option<String>,
+    /// The rows of the scene's \[output\], if they are kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rows: Option<String>,
+}
+
+/// What is kept of a scene's run; `None` if it was stopped.
+pub(crate) fn measure(scene: &Scene, keep: &Keep, stops: &AtomicBool) -> Result<Option<Vec<Option<String>>>, Error> {
+    scene.arithmetic.compute(Measuring { scene, keep, stops })
+}
+
+/// The rows of a scene's \[output\] without their head; `None` if it was stopped.
+pub(crate) fn rows(scene: &Scene, stops: &AtomicBool) -> Result<Option<String>, Error> {
+    struct Stops<'a>(&'a AtomicBool);
+    impl Observer for Stops<'_> {
+        fn stops(&mut self) -> bool {
+            self.0.load(Ordering::Relaxed)
+        }
+    }
+    let mut bytes = Vec::new();
+    scene.run_into(&mut bytes, &mut Stops(stops))?;
+    if stops.load(Ordering::Relaxed) {
+        return Ok(None);
+    }
+    let text = String::from_utf8(bytes).expect("rows are UTF-8");
+    Ok(Some(text.lines().filter(|line| !line.starts_with('#')).flat_map(|line| [line, "\n"]).collect()))
+}
+
+/// A run in any number type.
+struct Measuring<'a> {
+    scene: &'a Scene,
+    keep: &'a Keep,
+    stops: &'a AtomicBool,
+}
+
+impl Computation for Measuring<'_> {
+    type Output = Result<Option<Vec<Option<String>>>, Error>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+        let scene = self.scene;
+        let compensated = scene.arithmetic.is_compensated();
+        let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated };
+        let work = InNumbers::<N> { scene, keep: self.keep, stops: self.stops, context };
+        let found = scene.system.with(steps, scene.system.start(context), context, work);
+        found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))?
+    }
+}
+
+struct InNumbers<'a, N: Number> {
+    scene: &'a Scene,
+    keep: &'a Keep,
+    stops: &'a AtomicBool,
+    context: &'a N::Context,
+}
+
+impl<N: Rounded + 'static> Work<N> for InNumbers<'_, N> {
+    type Output = Result<Option<Vec<Option<String>>>, Error>;
+
+    fn with<S, M>(self, stepper: &Stepper<S, N>, mut system: M) -> Self::Output
+    where
+        S: Scheme + Clone + ValidFor<M::Class> + 'static,
+        M: shadowstep::System<Number = N> + 'static,
+    {
+        let InNumbers { scene, keep, stops, context } = self;
+        let (run, described) = (scene.as_run(), &scene.system);
+        let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
+        let mut following = Following::begin(scene, keep, stepper, &mut system, context).map_err(failed)?;
+        let settings = scene.output.modified_energy.as_ref().filter(|_| keep.needs(Need::Estimates));
+        let ended = match settings {
+            None => plain(&mut following, stepper, system, run, stops),
+            Some((settings, _)) => estimated(&mut following, stepper, system, run, settings, stops),
+        };
+        let Some(ended) = ended.map_err(failed)? else { return Ok(None) };
+        following.values(run, &ended).map(Some)
+    }
+}
+
+/// What is known at the end of the steps.
+struct Ended<N> {
+    drift: Option<EnergyDrift<N>>,
+    evaluations: u64,
+}
+
+/// Follows the states of a run without estimates; `None` if it was stopped.
+fn plain<S, M>(
+    following: &mut Following<'_, S, M::Number>,
+    stepper: &Stepper<S, M::Number>,
+    system: M,
+    run: Run<'_>,
+    stops: &AtomicBool,
+) -> Result<Option<Ended<M::Number>>, RunError>
+where
+    S: Scheme + Clone + ValidFor<M::Class>,
+    M: shadowstep::System<Number: Rounded + 'static>,
+{
+    let mut trajectory = Trajectory::plain(stepper, system, 0, run.steps)?;
+    loop {
+        trajectory.set_augmented(following.needs_increments());
+        let Some(n) = trajectory.advance()?.map(|state| state.n) else { break };
+        following.include(n, trajectory.system());
+        if following.last == n {
+            break;
+        }
+        if stops.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+    }
+    Ok(Some(Ended { drift: None, evaluations: trajectory.system().evaluations() }))
+}
+
+/// The same with an estimate at each state.
+fn estimated<S, M>(
+    following: &mut Following<'_, S, M::Number>,
+    stepper: &Stepper<S, M::Number>,
+    system: M,
+    run: Run<'_>,
+    settings: &EstimatorSettings,
+    stops: &AtomicBool,
+) -> Result<Option<Ended<M::Number>>, RunError>
+where
+    S: Scheme + Clone + ValidFor<M::Class>,
+    M: shadowstep::System<Number: Rounded + 'static>,
+{
+    let settings = settings.clone().with_errors(true);
+    let mut shadow = ShadowRun::new(stepper, system, run.steps, &settings)?;
+    let mut drift = DriftRecorder::new(shadow.step_size().clone()).compensated_if(shadow.is_compensated());
+    loop {
+        let next = shadow.advance_with(|n, trajectory| {
+            if 0 <= n && n <= following.last {
+                following.include(n, trajectory.system());
+            }
+        });
+        let (n, estimate) = match next {
+            Ok(Some(found)) => found,
+            Ok(None) => break,
+            // beyond the state at which a condition ends the run, states are made for estimates only
+            Err(_) if following.is_over() => break,
+            Err(error) => return Err(error),
+        };
+        drift.include(n, &estimate);
+        if n >= following.last {
+            break;
+        }
+        if stops.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+    }
+    Ok(Some(Ended { drift: drift.drift(), evaluations: shadow.system().evaluations() }))
+}
+
+/// What is kept, as far as the states have come.
+struct Following<'a, S: Scheme, N: Number> {
+    scene: &'a Scene,
+    keep: &'a Keep,
+    watch: Option<Watch<S, N>>,
+    /// The conditions, each with the n of the first state that meets it.
+    tests: Vec<(Test<N>, Option<i64>)>,
+    at_end: Vec<Evaluator<N>>,
+    /// The n of the last state: that of the run, or the one at which a condition ends it.
+    last: i64,
+    end: Option<End>,
+}
+
+/// The last state.
+struct End {
+    expressions: Vec<Option<String>>,
+    state: Vec<Option<String>>,
+    /// Whether H has a value there.
+    has_energy: bool,
+}
+
+impl<'a, S: Scheme + Clone, N: Rounded> Following<'a, S, N> {
+    fn begin<M: shadowstep::System<Number = N>>(
+        scene: &'a Scene,
+        keep: &'a Keep,
+        stepper: &Stepper<S, N>,
+        system: &mut M,
+        context: &N::Context,
+    ) -> Result<Self, RunError> {
+        let (energies, summarised) = (keep.needs(Need::Energies), keep.needs(Need::Summary));
+        let watch = match energies || summarised {
+            false => None,
+            true => {
+                let initial = system.energy();
+                let energies = if energies { Energies::All } else { Energies::Windows };
+                Some(Watch::begin(stepper, system, scene.as_run(), (0, initial), energies, summarised)?)
+            }
+        };
+        const CHECKED: &str = "the formulas were checked with the sweep";
+        let tests = keep
+            .first_time
+            .iter()
+            .map(|(_, condition)| (Test::new(condition, &scene.system, context).expect(CHECKED), None));
+        let at_end = keep.at_end.iter().map(|(_, text)| Evaluator::new(text, &scene.system, context).expect(CHECKED));
+        let last = i64::try_from(scene.steps).unwrap_or(i64::MAX);
+        Ok(Following { scene, keep, watch, tests: tests.collect(), at_end: at_end.collect(), last, end: None })
+    }
+
+    fn needs_increments(&self) -> bool {
+        self.watch.as_ref().is_some_and(Watch::needs_increments)
+    }
+
+    /// Whether a condition has ended the run.
+    fn is_over(&self) -> bool {
+        self.end.is_some()
+    }
+
+    /// Takes the state n.
+    fn include<M: shadowstep::System<Number = N>>(&mut self, n: i64, system: &mut M) {
+        if let Some(watch) = self.watch.as_mut().filter(|_| n > 0) {
+            watch.include(n, system);
+        }
+        let run = self.scene.as_run();
+        for (test, met) in &mut self.tests {
+            if met.is_none() && test.is_met(system, || run.time(n)) {
+                *met = Some(n);
+            }
+        }
+        if self.keep.stop.iter().any(|&place| self.tests[place].1.is_some()) {
+            self.last = n;
+        }
+        if n == self.last {
+            let text = |number: &N| number.is_finite().then(|| number.to_text());
+            let expressions = self.at_end.iter_mut().map(|end| text(end.value(system, || run.time(n)))).collect();
+            let state =
+                if self.keep.state { system.q().iter().chain(system.p()).map(text).collect() } else { Vec::new() };
+            self.end = Some(End { expressions, state, has_energy: system.energy().is_finite() });
+        }
+    }
+
+    /// The values of all columns.
+    fn values(self, run: Run<'_>, ended: &Ended<N>) -> Result<Vec<Option<String>>, Error> {
+        let Following { keep, watch, tests, last, end, .. } = self;
+        let end = end.expect("the last state was included");
+        if !end.has_energy {
+            return Err(run.not_finite(&format!("the energy at the end, n = {last},")));
+        }
+        let energy = watch.as_ref().map(Watch::energy);
+        let summary = watch.and_then(|watch| watch.summary(run));
+        let found = Found { energy: energy.as_ref(), summary: summary.as_ref(), ended, last };
+        let values = keep.values.iter().map(|kept| found.value(*kept));
+        let times = tests.iter().map(|(_, met)| met.map(|n| to_text(&run.time(n))));
+        Ok(values.chain(times).chain(end.expressions).chain(end.state).collect())
+    }
+}
+
+/// What the values are made of.
+struct Found<'a, N> {
+    energy: Option<&'a EnergySummary>,
+    summary: Option<&'a Summary>,
+    ended: &'a Ended<N>,
+    last: i64,
+}
+
+impl<N: Number> Found<'_, N> {
+    fn value(&self, kept: Kept) -> Option<String> {
+        let Found { energy, summary, ended, last } = self;
+        let permanent = ended.drift.as_ref().and_then(|drift| drift.permanent.as_ref());
+        match kept {
+            Kept::Verdict => summary.map(|summary| summary.verdict().to_owned()),
+            Kept::Reason => summary.map(|summary| summary.reason().to_owned()),
+            Kept::EnergyError => energy.map(|energy| energy.largest.clone()),
+            Kept::RelativeEnergyError => energy.and_then(|energy| energy.largest_relative.clone()),
+            Kept::LastEnergyError => energy.map(|energy| energy.last.clone()),
+            Kept::MethodError => Some(summary.as_ref()?.modified_energy()?.method.clone()),
+            Kept::CloseEncounters => summary.map(|summary| summary.encounters().to_string()),
+            Kept::Drift => ended.drift.as_ref().map(|drift| drift.drift.to_text()),
+            Kept::PermanentChange => permanent.map(|permanent| permanent.change.to_text()),
+            Kept::PermanentResolution => permanent.map(|permanent| permanent.resolution.to_text()),
+            Kept::PermanentFinding => permanent.map(|permanent| finding(permanent.finding).to_owned()),
+            Kept::Steps => Some(last.to_string()),
+            Kept::ForceEvaluations => Some(ended.evaluations.to_string()),
+        }
+    }
+}
+
+fn finding(finding: Finding) -> &'static str {
+    match finding {
+        Finding::Resolved => "resolved",
+        Finding::BelowResolution => "below-resolution",
+        Finding::OneSided => "one-sided",
+    }
+}
