@@ -1,13 +1,15 @@
 //! `shadowstep sweep`: many runs of a scene, on this machine or a chunk at a time.
 
 use std::env;
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 use shadowstep_scenes::Error;
-use shadowstep_sweeps::{Chunk, Computed, Manifest, Plan, chunk_of_task, compute, is_there};
+use shadowstep_sweeps::{Chunk, Computed, Manifest, Plan, chunk_of_task, compute, explain, is_there};
 
 use crate::collect::{Format, collected};
+use crate::output::Output;
 use crate::report::{self, Status};
 use crate::tasks::{SAVED, Terminal};
 
@@ -26,17 +28,20 @@ In a task of a Slurm array, the chunk is that of the task.";
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
     /// The sweep's file, such as sweep.toml
-    #[arg(value_name = "FILE")]
-    sweep: PathBuf,
+    #[arg(value_name = "FILE", required_unless_present = "explain")]
+    sweep: Option<PathBuf>,
     /// The folder for the chunks, and for the table and the picture of all runs
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    #[arg(long, value_name = "DIR", required_unless_present = "explain")]
+    out: Option<PathBuf>,
     /// Computes chunk I of N only, such as 3/16; if it is there already, nothing is done
     #[arg(long, value_name = "I/N", value_parser = chunk)]
     chunk: Option<Chunk>,
     /// The format of the table
     #[arg(long, value_enum, default_value_t = Format::Csv, conflicts_with = "chunk")]
     format: Format,
+    /// Explains every key of a sweep
+    #[arg(long, exclusive = true)]
+    explain: bool,
 }
 
 /// `3/16`
@@ -51,7 +56,12 @@ fn chunk(text: &str) -> Result<Chunk, String> {
 
 /// Computes the runs that are asked for.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let Arguments { sweep, out, chunk, format } = arguments;
+    let Arguments { sweep: Some(sweep), out: Some(out), chunk, format, .. } = arguments else {
+        let mut output = Output::stdout();
+        write!(output, "{}", explain())?;
+        output.finish()?;
+        return Ok(Status::Success);
+    };
     let begun = Manifest::is_in(out).then(|| Manifest::read(out)).transpose()?;
     let chunk = match chunk {
         Some(chunk) => Some(*chunk),

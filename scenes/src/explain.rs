@@ -1,6 +1,6 @@
 //! What every key of a scene means.
 
-use crate::keys::{self, SECTIONS};
+use crate::keys::{KEYS, Key, SECTIONS, Section};
 use crate::readable::wrapped;
 
 const INTRODUCTION: &str = "\
@@ -15,10 +15,15 @@ A number is written in digits, 0.05 or 1e-3, and is used exactly; or it is an ex
 /// assert!(shadowstep_scenes::explain().contains("step = \"1/20\""));
 /// ```
 pub fn explain() -> String {
-    let mut text = wrapped(INTRODUCTION, "");
-    for section in &SECTIONS {
-        text += &format!("\n[{}]\n{}", section.name, wrapped(section.meaning, ""));
-        for key in keys::of(section.name) {
+    explanation(INTRODUCTION, &SECTIONS, &KEYS)
+}
+
+/// The keys of several sections, likewise, after an introduction.
+pub fn explanation(introduction: &str, sections: &[Section], keys: &[Key]) -> String {
+    let mut text = wrapped(introduction, "");
+    for section in sections {
+        text += &format!("\n{}\n{}", section.heading, wrapped(section.meaning, ""));
+        for key in keys.iter().filter(|key| key.section == section.name) {
             text += &format!("\n  {} = {}\n{}", key.name, key.example, wrapped(key.meaning, "      "));
             let default = key.default.map_or("Required.".to_owned(), |default| format!("Default: {default}."));
             text += &wrapped(&default, "      ");

@@ -299,11 +299,13 @@ pub const KEYS: [Key; 38] = [
     ),
 ];
 
-const fn section(name: &'static str, heading: &'static str, meaning: &'static str) -> Section {
+/// A section.
+pub const fn section(name: &'static str, heading: &'static str, meaning: &'static str) -> Section {
     Section { name, heading, meaning }
 }
 
-const fn key(
+/// A key.
+pub const fn key(
     section: &'static str,
     name: &'static str,
     meaning: &'static str,

@@ -117,7 +117,7 @@ mod whole_file;
 
 pub use engine::Outcome;
 pub use error::{Error, NotWritten, not_written};
-pub use explain::explain;
+pub use explain::{explain, explanation};
 pub use frequency::Frequency;
 pub use note::Note;
 pub use observer::Observer;

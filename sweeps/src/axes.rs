@@ -40,7 +40,7 @@ impl Axes {
         let names: Vec<&str> = entries.iter().map(|(name, _)| name.value.as_str()).collect();
         let zipped = zips(reader, root, &names);
         let axes: Vec<Axis> = read.into_iter().collect::<Option<_>>()?;
-        let groups = groups(reader, &axes, zipped?)?;
+        let groups = groups(reader, &axes, &zipped?)?;
         let count = |group: &Vec<usize>| axes[group[0]].count();
         let runs = groups.iter().map(count).try_fold(1_u64, u64::checked_mul).filter(|runs| *runs <= MOST_RUNS);
         match runs {
@@ -139,9 +139,9 @@ fn zips(
 fn groups(
     reader: &mut Reader<'_>,
     axes: &[Axis],
-    zips: Vec<(Vec<usize>, std::ops::Range<usize>)>,
+    zips: &[(Vec<usize>, std::ops::Range<usize>)],
 ) -> Option<Vec<Vec<usize>>> {
-    for (zip, at) in &zips {
+    for (zip, at) in zips {
         let (first, unequal) = (&axes[zip[0]], zip.iter().map(|&place| &axes[place]));
         if let Some(other) = unequal.into_iter().find(|axis| axis.count() != first.count()) {
             let message = format!(

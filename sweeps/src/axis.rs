@@ -1,25 +1,16 @@
 //! An axis: a name and the values that it takes, each made from its number alone.
 
 mod draws;
+mod number;
 mod range;
 
-use std::collections::BTreeMap;
-
-use shadowstep::Rational;
 use shadowstep_scenes::family::Meaning;
 use shadowstep_schemes::document::{Reader, Text, Value};
-use shadowstep_symbolic::decimal::round_significant;
-use shadowstep_symbolic::{Budget, parse};
 use toml::de::DeValue;
 
 use draws::Draws;
+use number::{NUMBERS, evaluated};
 use range::Range;
-
-/// Irrational values are rounded to this many digits, and are exact from there on.
-const DIGITS: u32 = 30;
-
-/// How numbers are written.
-const NUMBERS: &str = "1, 0.05, or in quotes \"1/10\" or \"sqrt(2)/20\"";
 
 /// A name and its values, which are numbered from 0.
 #[derive(Clone, Debug)]
@@ -104,24 +95,4 @@ fn list(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Vec<Meaning>> {
         return Some(numbers.into_iter().map(Meaning::Number).collect());
     }
     Some(texts.into_iter().map(|text| Meaning::Word(text.value)).collect())
-}
-
-/// The value of a number or of a formula without names.
-fn evaluated(text: &str) -> Result<Rational, shadowstep_symbolic::Error> {
-    if let Ok(value) = shadowstep_symbolic::decimal::from_text(text) {
-        return Ok(value);
-    }
-    let expression = parse(text)?;
-    let exact = shadowstep_symbolic::evaluate_within(&expression, &BTreeMap::new(), DIGITS + 5, &Budget::default())?;
-    Ok(if exact.rounded { round_significant(&exact.value, DIGITS) } else { exact.value })
-}
-
-/// The value of a part of a text.
-fn number(reader: &mut Reader<'_>, text: &Text) -> Option<Rational> {
-    match evaluated(&text.value) {
-        Ok(value) => Some(value),
-        Err(error) => {
-            reader.wrong(&text.place(&error.range()), error.to_string(), format!("write a number: {NUMBERS}"))
-        }
-    }
 }

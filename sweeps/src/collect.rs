@@ -3,6 +3,7 @@
 mod csv_table;
 mod missing;
 mod parquet_table;
+mod table;
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +13,7 @@ use shadowstep_tasks::{Observer, Progress};
 use std::io::Write;
 
 use crate::axes::Axes;
-use crate::chunk::{self, Header, Unusable};
+use crate::chunk::{self, Unusable};
 use crate::keep::Column;
 use crate::manifest::Manifest;
 use crate::picture::{Cells, Picture, fraction};
@@ -21,6 +22,7 @@ use crate::record::Record;
 use csv_table::CsvTable;
 pub use missing::{Missing, ranges};
 use parquet_table::ParquetTable;
+use table::{Cell, Head, Table, TableColumn};
 
 /// How the table is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +59,7 @@ pub enum Collected {
 /// A folder without a sweep, a file that cannot be written, an observer that stops it.
 pub fn collect(folder: &Path, format: TableFormat, observer: &mut dyn Observer) -> Result<Collected, Error> {
     let manifest = Manifest::read(folder)?;
-    let (axes, picture) = plan::axes_and_picture(manifest.source(), &manifest.columns)?;
+    let (axes, picture) = plan::axes_and_picture(&manifest.source(), &manifest.columns)?;
     let missing = Missing::find(&manifest, folder);
     if !missing.is_empty() {
         return Ok(Collected::Incomplete(missing));
@@ -82,35 +84,6 @@ pub fn collect(folder: &Path, format: TableFormat, observer: &mut dyn Observer) 
         return Ok(Collected::Incomplete(damaged));
     }
     tables.finish(&functions)
-}
-
-/// The head of a table: what is in it.
-pub(crate) struct Head {
-    /// `shadowstep 0.1.0`, …
-    pub(crate) lines: Vec<(String, String)>,
-    pub(crate) columns: Vec<TableColumn>,
-}
-
-/// A column of a table.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct TableColumn {
-    pub(crate) name: String,
-    /// Whether its values are doubles, and not texts.
-    pub(crate) is_double: bool,
-}
-
-/// A value of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Cell {
-    Text(String),
-    Double(f64),
-    Empty,
-}
-
-/// A table in any format.
-pub(crate) trait Table {
-    fn row(&mut self, cells: &[Cell]) -> Result<(), Error>;
-    fn finish(self: Box<Self>) -> Result<PathBuf, Error>;
 }
 
 /// All that is written.
@@ -267,18 +240,4 @@ fn functions_differ(functions: &[(Option<String>, u64)]) -> Option<String> {
             ranges(&others)
         )
     })
-}
-
-/// The header that every chunk must have.
-pub(crate) fn fits(header: &Header, manifest: &Manifest) -> Result<(), String> {
-    if header.shadowstep != manifest.shadowstep {
-        return Err(format!("it was made by version {}", header.shadowstep));
-    }
-    if header.digests.sweep != manifest.digests.sweep {
-        return Err("it is of another sweep".to_owned());
-    }
-    if header.digests.tables != manifest.digests.tables {
-        return Err("it was made with other tables of schemes".to_owned());
-    }
-    Ok(())
 }

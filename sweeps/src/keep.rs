@@ -1,10 +1,11 @@
 //! \[keep\]: what is kept of each run.
 
-use shadowstep_schemes::document::{Key, Keys, Reader, Section, Text};
+use shadowstep_schemes::document::{Reader, Section, Text};
 use shadowstep_symbolic::nearest;
 use toml::de::{DeTable, DeValue};
 
 use crate::expression::{Condition, Expression};
+use crate::keys;
 
 /// A value that every run has, whatever its system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,18 +117,7 @@ pub struct Column {
 
 impl Keep {
     pub(crate) fn read(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Option<Keep> {
-        let keys = Keys::new(
-            "[keep]",
-            [
-                Key::new("values", "[\"verdict\", \"energy_error\"]"),
-                Key::new("state", "true"),
-                Key::new("at_end", "{ L = \"x*py - y*px\" }"),
-                Key::new("first_time", "{ escape = \"x^2 + y^2 > 100\" }"),
-                Key::new("stop", "[\"escape\"]"),
-                Key::new("rows", "true"),
-            ],
-        );
-        let section = reader.section(root, "keep", keys);
+        let section = reader.section(root, "keep", keys::of("keep"));
         if !section.is_there() {
             let hint = "add [keep] with values = [\"verdict\", \"energy_error\"], for example";
             return reader.wrong(&(0..0), "the section [keep] is missing", hint);

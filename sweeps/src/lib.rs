@@ -34,6 +34,7 @@
 //! | --- | --- |
 //! | `plan` | a sweep's text → its scene, axes, and what is kept; hashes of what determines the results |
 //! | `axes`, `axis` | names and their values; the values of a run from its number |
+//! | `keys` | every key with its meaning |
 //! | `keep`, `expression` | what is kept of a run |
 //! | `record` | one run |
 //! | `chunk`, `partial` | the file of a chunk, and of one that is not complete |
@@ -50,6 +51,7 @@ mod collect;
 mod compute;
 mod expression;
 mod keep;
+mod keys;
 mod manifest;
 mod partial;
 mod picture;
@@ -63,6 +65,7 @@ pub use chunk::{Chunk, MOST_RUNS_OF_CHUNK};
 pub use collect::{Collected, Missing, TableFormat, collect, ranges};
 pub use compute::{Computed, compute, is_there};
 pub use keep::Column;
+pub use keys::explain;
 pub use manifest::Manifest;
 pub use picture::Picture;
 pub use plan::{Digests, Plan};

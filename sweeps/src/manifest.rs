@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use shadowstep::tables::Source;
@@ -179,6 +179,6 @@ fn check_chunks(chunks: u64, runs: u64) -> Result<(), Error> {
     Ok(())
 }
 
-fn cannot(path: &PathBuf, error: &io::Error) -> Error {
+fn cannot(path: &Path, error: &io::Error) -> Error {
     Error::usage(format!("{} cannot be created: {error}", path.display()), "give a folder that can be written")
 }

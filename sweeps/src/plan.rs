@@ -1,8 +1,9 @@
 //! A plan: the scene, the axes and what is kept, read from a file.
 
-mod digest;
+mod digests;
 
-pub(crate) use digest::hash;
+pub use digests::Digests;
+pub(crate) use digests::hash;
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -16,7 +17,7 @@ use toml::de::{DeTable, DeValue};
 
 use crate::axes::Axes;
 use crate::keep::{Column, Keep, Need};
-use crate::picture::Picture;
+use crate::picture::{Picture, Written};
 use crate::record::{Record, measure, rows};
 
 /// The sections and keys of a sweep that are not of its scene.
@@ -48,7 +49,7 @@ const OF_SCENE: [&str; 4] = ["problem", "initial", "run", "output"];
 /// [keep]
 /// values = ["energy_error"]
 /// "#;
-/// let plan = Plan::of(Source { path: "sweep.toml".to_owned(), text: text.to_owned() })?;
+/// let plan = Plan::of(&Source { path: "sweep.toml".to_owned(), text: text.to_owned() })?;
 /// assert_eq!(plan.axes().runs(), 100);
 /// assert_eq!(plan.axes().described(18), "e = 1/10, h = 1/90");
 /// let record = plan.run(18, &AtomicBool::new(false)).unwrap();
@@ -69,36 +70,27 @@ pub struct Plan {
     digests: Digests,
 }
 
-/// Hashes of what determines the results of a sweep besides the version of the program.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub struct Digests {
-    /// Of the scene, the axes and what is kept; comments and the picture are left out.
-    pub sweep: String,
-    /// Of the weights of all schemes.
-    pub tables: String,
-}
-
 impl Plan {
     /// Reads a plan from its file.
     ///
     /// # Errors
     /// A file that cannot be read; all faults of its text, or of that of the scene.
     pub fn open(path: impl AsRef<Path>) -> Result<Plan, Error> {
-        Plan::of(source(path.as_ref())?)
+        Plan::of(&source(path.as_ref())?)
     }
 
     /// Reads a plan from its text; paths in it are relative to the folder of its own path.
     ///
     /// # Errors
     /// As [`open`](Plan::open).
-    pub fn of(source: Source) -> Result<Plan, Error> {
-        let (document, faults) = document(&source);
+    pub fn of(source: &Source) -> Result<Plan, Error> {
+        let (document, faults) = document(source);
         let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults).into()) };
-        let mut reader = Reader::new(&source, Vec::new());
+        let mut reader = Reader::new(source, Vec::new());
         let separate = separate_scene(&mut reader, &document)?;
         let axes = Axes::read(&mut reader, &document);
         let keep = Keep::read(&mut reader, &document);
-        let picture = Picture::read(&mut reader, &document);
+        let picture = Written::read(&mut reader, &document);
         refuse(reader.faults)?;
         let (Some(axes), Some(keep), Some(picture)) = (axes, keep, picture) else {
             unreachable!("what cannot be read is a fault")
@@ -106,13 +98,13 @@ impl Plan {
         let others: &[&str] = if separate.is_some() { &["picture"] } else { OTHERS };
         let family = Family::new(separate.unwrap_or_else(|| source.clone()), others);
         let first = first_scene(&family, &axes)?;
-        let mut reader = Reader::new(&source, Vec::new());
+        let mut reader = Reader::new(source, Vec::new());
         check(&mut reader, &document, &family, &axes, &keep, &first)?;
         let state: Vec<String> = first.system.coordinates.iter().chain(&first.system.momenta).cloned().collect();
         let columns = keep.columns(&state);
         let picture = picture.resolve(&mut reader, &axes, &columns);
         refuse(reader.faults)?;
-        let digests = digest::of(&document, &family, &axes)?;
+        let digests = digests::of(&document, &family, &axes)?;
         let long_numbers = matches!(first.arithmetic, Arithmetic::Digits(..)) || axes.find("digits").is_some();
         Ok(Plan { family, axes, keep, columns, picture, long_numbers, digests, source: source.clone() })
     }
@@ -182,12 +174,12 @@ impl Plan {
 }
 
 /// The axes and the picture of a sweep's text, with which its results are collected.
-pub(crate) fn axes_and_picture(source: Source, columns: &[Column]) -> Result<(Axes, Option<Picture>), Error> {
-    let (document, faults) = document(&source);
+pub(crate) fn axes_and_picture(source: &Source, columns: &[Column]) -> Result<(Axes, Option<Picture>), Error> {
+    let (document, faults) = document(source);
     let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults).into()) };
-    let mut reader = Reader::new(&source, Vec::new());
+    let mut reader = Reader::new(source, Vec::new());
     let axes = Axes::read(&mut reader, &document);
-    let picture = Picture::read(&mut reader, &document);
+    let picture = Written::read(&mut reader, &document);
     refuse(std::mem::take(&mut reader.faults))?;
     let (Some(axes), Some(picture)) = (axes, picture) else { unreachable!("what cannot be read is a fault") };
     let picture = picture.resolve(&mut reader, &axes, columns);

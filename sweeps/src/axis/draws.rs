@@ -12,7 +12,7 @@ use shadowstep_symbolic::decimal::{round_significant, to_text};
 use shadowstep_symbolic::{evaluate, parse};
 use toml::de::DeTable;
 
-use super::{NUMBERS, number};
+use super::number::{NUMBERS, number};
 
 /// Draws are rounded to this many digits, and are exact from there on.
 const DIGITS: u32 = 17;

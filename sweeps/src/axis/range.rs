@@ -8,7 +8,7 @@ use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::decimal::{round_significant, to_text};
 use shadowstep_symbolic::{evaluate, parse};
 
-use super::evaluated;
+use super::number::evaluated;
 
 /// Values of a logarithmic range are rounded to this many digits, and are exact from there on.
 const LOGARITHMIC_DIGITS: u32 = 12;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use csv::Writer;
 use shadowstep_scenes::{Error, WholeFile};
 
-use super::{Cell, Head, Table};
+use super::table::{Cell, Head, Table};
 
 pub(super) struct CsvTable {
     writer: Writer<WholeFile>,

@@ -5,7 +5,6 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use crate::chunk::{Chunk, Header};
-use crate::collect::fits;
 use crate::manifest::Manifest;
 
 /// Chunks that are missing, and those that cannot be used.
@@ -57,6 +56,20 @@ fn header(chunk: Chunk, folder: &Path) -> Option<Option<Header>> {
     let mut line = String::new();
     let read = BufReader::new(file).read_line(&mut line);
     Some(read.ok().and_then(|_| serde_json::from_str(&line).ok()))
+}
+
+/// The header that every chunk must have.
+fn fits(header: &Header, manifest: &Manifest) -> Result<(), String> {
+    if header.shadowstep != manifest.shadowstep {
+        return Err(format!("it was made by version {}", header.shadowstep));
+    }
+    if header.digests.sweep != manifest.digests.sweep {
+        return Err("it is of another sweep".to_owned());
+    }
+    if header.digests.tables != manifest.digests.tables {
+        return Err("it was made with other tables of schemes".to_owned());
+    }
+    Ok(())
 }
 
 /// Numbers in order as `3,7-9`.

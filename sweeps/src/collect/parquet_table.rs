@@ -12,7 +12,7 @@ use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::Type;
 use shadowstep_scenes::{Error, WholeFile};
 
-use super::{Cell, Head, Table, TableColumn};
+use super::table::{Cell, Head, Table, TableColumn};
 
 /// Rows that are kept in memory until they are written.
 const GROUP: usize = 1 << 16;

@@ -1,7 +1,7 @@
 //! The values at the places of a picture, of which several runs may share one.
 
 use crate::axes::Axes;
-use crate::picture::{OfSeveral, Picture};
+use crate::picture::drawn::{OfSeveral, Picture};
 use crate::record::Record;
 
 /// The most places: their values are kept in memory.

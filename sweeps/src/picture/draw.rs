@@ -2,7 +2,8 @@
 
 use shadowstep_scenes::Error;
 
-use super::{Cells, Picture};
+use super::cells::Cells;
+use super::drawn::Picture;
 use crate::axes::Axes;
 use crate::keep::Column;
 

@@ -10,8 +10,16 @@ use shadowstep_scenes::family::Family;
 use shadowstep_schemes::document::document;
 use toml::de::{DeTable, DeValue};
 
-use super::Digests;
 use crate::axes::Axes;
+
+/// Hashes of what determines the results of a sweep besides the version of the program.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Digests {
+    /// Of the scene, the axes and what is kept; comments and the picture are left out.
+    pub sweep: String,
+    /// Of the weights of all schemes.
+    pub tables: String,
+}
 
 /// Of a sweep's document, of its scene and of the tables of its schemes.
 pub(super) fn of(sweep: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<Digests, Error> {

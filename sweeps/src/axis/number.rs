@@ -1,0 +1,34 @@
+//! Numbers of axes: exact values of texts.
+
+use std::collections::BTreeMap;
+
+use shadowstep::Rational;
+use shadowstep_schemes::document::{Reader, Text};
+use shadowstep_symbolic::decimal::{from_text, round_significant};
+use shadowstep_symbolic::{Budget, Error, evaluate_within, parse};
+
+/// Irrational values are rounded to this many digits, and are exact from there on.
+const DIGITS: u32 = 30;
+
+/// How numbers are written.
+pub(super) const NUMBERS: &str = "1, 0.05, or in quotes \"1/10\" or \"sqrt(2)/20\"";
+
+/// The value of a number or of a formula without names.
+pub(super) fn evaluated(text: &str) -> Result<Rational, Error> {
+    if let Ok(value) = from_text(text) {
+        return Ok(value);
+    }
+    let expression = parse(text)?;
+    let exact = evaluate_within(&expression, &BTreeMap::new(), DIGITS + 5, &Budget::default())?;
+    Ok(if exact.rounded { round_significant(&exact.value, DIGITS) } else { exact.value })
+}
+
+/// The value of a part of a text.
+pub(super) fn number(reader: &mut Reader<'_>, text: &Text) -> Option<Rational> {
+    match evaluated(&text.value) {
+        Ok(value) => Some(value),
+        Err(error) => {
+            reader.wrong(&text.place(&error.range()), error.to_string(), format!("write a number: {NUMBERS}"))
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! A table in any format.
+
+use std::path::PathBuf;
+
+use shadowstep_scenes::Error;
+
+/// The head of a table: what is in it.
+pub(crate) struct Head {
+    /// `shadowstep 0.1.0`, …
+    pub(crate) lines: Vec<(String, String)>,
+    pub(crate) columns: Vec<TableColumn>,
+}
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct TableColumn {
+    pub(crate) name: String,
+    /// Whether its values are doubles, and not texts.
+    pub(crate) is_double: bool,
+}
+
+/// A value of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Cell {
+    Text(String),
+    Double(f64),
+    Empty,
+}
+
+/// A table in any format.
+pub(crate) trait Table {
+    /// Writes a row, with a cell for each column.
+    fn row(&mut self, cells: &[Cell]) -> Result<(), Error>;
+    /// Gives the file its name, which is returned.
+    fn finish(self: Box<Self>) -> Result<PathBuf, Error>;
+}
