@@ -88,7 +88,7 @@ impl Family {
         document.iter_mut().for_each(|(_, value)| substitute(value.get_mut(), &words));
         let numbers = names.iter().filter_map(|(name, meaning)| Some((name.clone(), meaning.number()?))).collect();
         let names = Names { numbers, others: self.others, schemes: &self.schemes };
-        read(self.source.clone(), &document, names)
+        read(&self.source, &document, names)
     }
 
     /// All names in the texts of the scene, whatever they stand for.

@@ -25,7 +25,6 @@ use toml::de::DeTable;
 
 use crate::arithmetic::Arithmetic;
 use crate::error::Error;
-use crate::family::Family;
 use crate::keys::{self, SECTIONS};
 use crate::library::Schemes;
 use crate::note::Note;
@@ -60,7 +59,11 @@ impl Scene {
     /// # Errors
     /// All faults of the text, each with its place.
     pub fn read(source: Source) -> Result<Scene, Faults> {
-        Family::new(source, &[]).scene(&[])
+        let (document, faults) = document(&source);
+        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
+        let names = Names { numbers: Vec::new(), others: &[], schemes: &Schemes::default() };
+        let scene = read(&source, &document, names)?;
+        Ok(Scene { source, ..scene })
     }
 }
 
@@ -75,15 +78,15 @@ pub(crate) struct Names<'a> {
 }
 
 /// The scene of a document.
-pub(crate) fn read(source: Source, document: &DeTable<'_>, names: Names<'_>) -> Result<Scene, Faults> {
-    let mut reader = Reader::new(&source);
+pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) -> Result<Scene, Faults> {
+    let mut reader = Reader::new(source);
     reader.known.extend(names.numbers.iter().cloned());
     reader.names = names.numbers;
     let parts = parts(&mut reader, document, names.others, names.schemes);
     let Reader { toml, arithmetic, notes, .. } = reader;
     match (Faults::of(toml.faults), parts) {
         (None, Some((system, run::Steps { scheme, h, until, steps }, output))) => {
-            Ok(Scene { source, arithmetic, system, scheme, h, until, steps, output, notes })
+            Ok(Scene { source: source.clone(), arithmetic, system, scheme, h, until, steps, output, notes })
         }
         (Some(faults), _) => Err(faults),
         (None, None) => unreachable!("what cannot be read is a fault"),

@@ -4,7 +4,7 @@ use shadowstep_scenes::explanation;
 use shadowstep_scenes::keys::{Key, Section, key, section};
 use shadowstep_schemes::document;
 
-use crate::keep::{Description, VALUES};
+use crate::values::{Description, VALUES};
 
 const INTRODUCTION: &str = "\
 A sweep is a TOML file: the sections of a scene, or `scene` with the path of one, and [axes], [keep] and [picture]. `shadowstep scene \

@@ -35,7 +35,7 @@
 //! | `plan` | a sweep's text → its scene, axes, and what is kept; hashes of what determines the results |
 //! | `axes`, `axis` | names and their values; the values of a run from its number |
 //! | `keys` | every key with its meaning |
-//! | `keep`, `expression` | what is kept of a run |
+//! | `keep`, `values`, `expression` | what is kept of a run |
 //! | `record` | one run |
 //! | `chunk`, `partial` | the file of a chunk, and of one that is not complete |
 //! | `manifest` | what the chunks in a folder are of |
@@ -58,6 +58,7 @@ mod picture;
 mod plan;
 mod record;
 mod task;
+mod values;
 
 pub use axes::{Axes, MOST_RUNS};
 pub use axis::Axis;

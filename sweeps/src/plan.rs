@@ -16,9 +16,10 @@ use shadowstep_schemes::document::{Fault, Reader, document};
 use toml::de::{DeTable, DeValue};
 
 use crate::axes::Axes;
-use crate::keep::{Column, Keep, Need};
+use crate::keep::{Column, Keep};
 use crate::picture::{Picture, Written};
 use crate::record::{Record, measure, rows};
+use crate::values::Need;
 
 /// The sections and keys of a sweep that are not of its scene.
 const OTHERS: &[&str] = &["scene", "axes", "zip", "keep", "picture"];

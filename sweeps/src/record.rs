@@ -15,7 +15,8 @@ use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, Summary};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::expression::{Evaluator, Test};
-use crate::keep::{Keep, Kept, Need};
+use crate::keep::Keep;
+use crate::values::{Kept, Need};
 
 /// What a run has given.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
