@@ -82,6 +82,7 @@ def kill(pid, number=signal.SIGKILL):
 
 def end_all(seconds=5):
     """Ends every descendant of this process: with SIGTERM, and after some seconds with SIGKILL."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     for number in signal.SIGTERM, signal.SIGKILL:
         end = time.monotonic() + seconds
         while (left := descendants()) and time.monotonic() < end:

@@ -194,9 +194,9 @@ class Cluster:
                 kill(pid)
 
     def logs(self):
-        """The last lines of every log, for a failure."""
+        """The last lines that each service has printed."""
         text = ""
-        for log in sorted((self.folder / "log").glob("*")):
-            lines = log.read_text(errors="replace").splitlines()[-8:]
+        for log in sorted((self.folder / "log").glob("*.out")):
+            lines = log.read_text(errors="replace").splitlines()[-12:]
             text += f"--- {log.name}\n" + "".join(f"{line}\n" for line in lines)
         return text

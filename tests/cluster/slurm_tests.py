@@ -1,0 +1,197 @@
+"""A sweep as a job array of Slurm, whose tasks and nodes fail: results must have the bytes of the run on one machine."""
+
+import os
+import re
+import signal
+import time
+
+from network import Network
+from processes import Failed, kill, wait_for
+from slurm import Cluster
+from sweep import CHUNKS, list_of, say
+
+SUBMIT = f"shadowstep sweep map.toml --out map --submit --chunks {CHUNKS} --time 10 --memory 500M --cpus 1"
+MISSING = "shadowstep sweep map.toml --out map --submit"
+STATUS = "shadowstep sweep map.toml --out map --status"
+LONGEST = 150
+
+
+class Faults:
+    """Faults of the tasks of a cluster; each takes another task."""
+
+    def __init__(self, cluster):
+        self.cluster, self.taken = cluster, set()
+
+    def running(self, node=None):
+        """A running task: its process and its number."""
+        def found():
+            programs = self.cluster.programs(node)
+            return next(((pid, number) for pid, number in programs if number not in self.taken), None)
+        pid, number = wait_for("a task runs", found, 60)
+        self.taken.add(number)
+        return pid, int(number)
+
+    def job(self, number):
+        """The name of a task for scontrol and scancel."""
+        running = self.cluster.tasks("running")
+        return next((f"{array}_{task}" for _, array, task, *_ in running if task == str(number)), None)
+
+    def kill_program(self):
+        pid, number = self.running()
+        kill(pid)
+        say(f"task {number}: its program was killed with -9")
+        return number
+
+    def command(self, *command):
+        """A command on a running task."""
+        _, number = self.running()
+        job = self.job(number)
+        if job is None:
+            raise Failed(f"squeue does not have the running task {number}")
+        self.cluster.demand(*command, job)
+        say(f"task {number}: {' '.join(command)} {job}")
+        return number
+
+
+def slurm(page, reference, make):
+    """Programs, tasks, a slurmd and a node fail; what is missing is submitted again."""
+    with Cluster(make.folder("cluster")) as cluster, reporting(cluster):
+        say(f"up: munged, slurmctld and the nodes {', '.join(cluster.nodes)} with {cluster.cpus} CPUs each")
+        sweep = make.sweep("slurm", cluster.environment)
+        shown = sweep.run(page.command(SUBMIT + " --dry-run"))
+        if cluster.ask("squeue", "--noheader", "--states=all"):
+            raise Failed("--dry-run has submitted a job")
+        if (sweep.results / "array.sbatch").read_text() not in shown:
+            raise Failed("--dry-run does not show array.sbatch")
+        say(sweep.run(page.command(SUBMIT)).splitlines()[-1])
+        lost = failures(cluster)
+        wait_for("all tasks and the collecting job end", lambda: has_ended(cluster), LONGEST)
+        check_missing(page, sweep, cluster, lost)
+        say(sweep.run(page.command(MISSING)).splitlines()[-1])
+        wait_for("all tasks and the collecting job end", lambda: has_ended(cluster), LONGEST)
+        sweep.compare(reference)
+        say_lines(sweep.run(page.command(STATUS)))
+        check_again(page, sweep, cluster)
+        refusals(sweep)
+        say(f"states of tasks that have ended: {ends(cluster)}")
+
+
+def failures(cluster):
+    """Makes tasks and nodes fail; returns the tasks that are not started again."""
+    faults = Faults(cluster)
+    wait_for("tasks run on both nodes", lambda: all(cluster.programs(node) for node in cluster.nodes), 60)
+    on_second = len(cluster.programs("n2"))
+    cluster.crash("n2")
+    say(f"n2: slurmd and {on_second} tasks were killed with -9")
+    lost = {faults.kill_program()}
+    requeued = faults.command("scontrol", "requeue")
+    lost.add(faults.command("scancel"))
+    before = {pid for pid, _ in cluster.programs("n1")}
+    cluster.kill_slurmd("n1")
+    time.sleep(0.5)
+    after = {pid for pid, _ in cluster.programs("n1")}
+    cluster.start_slurmd("n1")
+    say(f"n1: slurmd was killed with -9 and started again; {len(before & after)} of its {len(before)} tasks went on without it")
+    wait_for("n2 is down", lambda: cluster.states()["n2"].startswith("down"), 90)
+    cluster.start_slurmd("n2")
+    cluster.wait_until_idle()
+    say("n2: slurmctld has found it down and started its tasks again; it is up again")
+    restarts = re.findall(rf"ArrayTaskId={requeued} .*?Restarts=(\d+)", cluster.ask("scontrol", "--oneliner", "show", "job"))
+    if restarts != ["1"]:
+        raise Failed(f"task {requeued} was requeued, and has been started again {restarts} times")
+    return lost
+
+
+def check_missing(page, sweep, cluster, lost):
+    """The collecting job must have failed and listed what is missing, and --status must name it."""
+    missing = sweep.missing()
+    if not missing or not missing <= lost:
+        raise Failed(f"the chunks {list_of(missing)} are missing, and the tasks {list_of(lost)} were ended")
+    log = "".join(path.read_text() for path in (sweep.results / "slurm-logs").glob("collect-*.log"))
+    if list_of(missing) not in log.splitlines():
+        raise Failed(f"the log of the collecting job does not list {list_of(missing)}:\n{log}")
+    status = sweep.run(page.command(STATUS), status=1)
+    say_lines(status)
+    if f"missing: {list_of(missing)}\n" not in status:
+        raise Failed(f"--status does not list {list_of(missing)}")
+    listed = sweep.run(page.command("shadowstep collect map"), status=1).strip()
+    if listed != list_of(missing):
+        raise Failed(f"`shadowstep collect map` lists {listed}, not {list_of(missing)}")
+
+
+def check_again(page, sweep, cluster):
+    """An array that is submitted once more computes nothing."""
+    files = sorted((sweep.results / "chunks").iterdir())
+    before = [(path, path.stat().st_mtime_ns, path.stat().st_ino) for path in files]
+    sweep.run(page.command("sbatch map/array.sbatch"))
+    sweep.run(page.command("sbatch --array=3,7-9 map/array.sbatch"))
+    wait_for("all tasks end", lambda: has_ended(cluster), LONGEST)
+    if before != [(path, path.stat().st_mtime_ns, path.stat().st_ino) for path in sorted((sweep.results / "chunks").iterdir())]:
+        raise Failed("tasks of complete chunks have changed files")
+    say("the array was submitted once more, and tasks 3,7-9 of it: no file has changed")
+
+
+def refusals(sweep):
+    """A flag that contradicts the script is refused; nothing is submitted where no chunk is missing."""
+    sweep.run(f"{MISSING} --partition other", status=2)
+    sweep.run(f"{MISSING} --chunks 5", status=2)
+    jobs = (sweep.results / "slurm-jobs.jsonl").read_bytes()
+    sweep.run(MISSING)
+    if jobs != (sweep.results / "slurm-jobs.jsonl").read_bytes():
+        raise Failed("a complete sweep was submitted")
+
+
+def two_networks(page, reference, make):
+    """Each node has a network of its own. One is cut off, and its tasks are computed twice: by it and by the other."""
+    folder = make.folder("networks")
+    with Network(("n1", "n2"), folder) as network, Cluster(folder, network=network) as cluster, reporting(cluster):
+        say(f"up: slurmctld at {network.outside}, n1 at {network.address('n1')}, n2 at {network.address('n2')}")
+        sweep = make.sweep("slurm-networks", cluster.environment)
+        sweep.run(page.command(SUBMIT))
+        stale = wait_for("tasks run on n2", lambda: cluster.programs("n2"), 60)
+        for pid, _ in stale:
+            kill(pid, signal.SIGSTOP)
+        network.cut("n2")
+        say(f"n2: its network was cut while it computed {list_of(int(number) for _, number in stale)}")
+        wait_for("n2 is down", lambda: cluster.states()["n2"].startswith("down"), 90)
+        both = {int(number) for _, number in stale}
+        wait_for("n1 has computed these chunks, too", lambda: both <= sweep.chunks(), LONGEST)
+        for pid, _ in stale:
+            kill(pid, signal.SIGCONT)
+        wait_for("n2 has ended its tasks", lambda: not any(os.path.exists(f"/proc/{pid}/cwd") for pid, _ in stale), 60)
+        say(f"chunks {list_of(both)}: slurmctld has started them again on n1; n2 has computed them after that, too")
+        network.mend("n2")
+        cluster.wait_until_idle()
+        wait_for("all tasks and the collecting job end", lambda: has_ended(cluster), LONGEST)
+        sweep.compare(reference)
+        say(f"states of tasks that have ended: {ends(cluster)}")
+
+
+def has_ended(cluster):
+    """Whether no job is pending or running."""
+    return not cluster.demand("squeue", "--noheader")
+
+
+def ends(cluster):
+    """How jobs have ended, by their states."""
+    states = re.findall(r"JobState=(\w+)", (cluster.folder / "log/jobs.log").read_text())
+    return ", ".join(f"{states.count(state)} {state}" for state in sorted(set(states)))
+
+
+def say_lines(text):
+    for line in text.splitlines():
+        say(f"  {line}")
+
+
+class reporting:
+    """Shows the cluster's logs if what is done with it fails."""
+
+    def __init__(self, cluster):
+        self.cluster = cluster
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, *_):
+        if kind is not None and issubclass(kind, Exception):
+            print(self.cluster.logs())
