@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything. Both fetch what is missing.
 
-.PHONY: run test deps format lint check docs bench stability rivals package fuzz valgrind
+.PHONY: run test test-cluster deps format lint check docs bench stability rivals package fuzz valgrind
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run: deps
@@ -23,6 +23,13 @@ check:
 
 docs:
 	RUSTDOCFLAGS="-D warnings --html-in-header $(CURDIR)/runtime/katex.html" cargo doc --workspace --no-deps --locked
+
+# Sweeps on Slurm (of Debian's packages, with a private configuration), with GNU parallel and with Dask, whose tasks and nodes are killed:
+# the results are those of one machine. What is not installed is skipped.
+test-cluster: deps
+	cargo build --locked -p shadowstep-cli
+	@command -v python3 >/dev/null || { echo "Skipped: python3 is not installed."; exit 0; }; \
+	    PYTHONDONTWRITEBYTECODE=1 exec python3 tests/cluster/test.py
 
 # What steps, potentials and the monitor cost: writes docs/benchmarks.md, on a machine without other load.
 bench: deps

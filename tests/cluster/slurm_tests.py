@@ -31,11 +31,6 @@ class Faults:
         self.taken.add(number)
         return pid, int(number)
 
-    def job(self, number):
-        """The name of a task for scontrol and scancel."""
-        running = self.cluster.tasks("running")
-        return next((f"{array}_{task}" for _, array, task, *_ in running if task == str(number)), None)
-
     def kill_program(self):
         pid, number = self.running()
         kill(pid)
@@ -43,14 +38,15 @@ class Faults:
         return number
 
     def command(self, *command):
-        """A command on a running task."""
-        _, number = self.running()
-        job = self.job(number)
-        if job is None:
-            raise Failed(f"squeue does not have the running task {number}")
-        self.cluster.demand(*command, job)
-        say(f"task {number}: {' '.join(command)} {job}")
-        return number
+        """A command on a running task; one that ends at this moment is passed over."""
+        for _ in range(5):
+            _, number = self.running()
+            for _, array, task, *_ in self.cluster.tasks("running"):
+                if task == str(number):
+                    self.cluster.demand(*command, f"{array}_{task}")
+                    say(f"task {number}: {' '.join(command)} {array}_{task}")
+                    return number
+        raise Failed(f"{' '.join(command)}: no task runs long enough")
 
 
 def slurm(page, reference, make):
@@ -66,13 +62,17 @@ def slurm(page, reference, make):
         say(sweep.run(page.command(SUBMIT)).splitlines()[-1])
         lost = failures(cluster)
         wait_for("all tasks and the collecting job end", lambda: has_ended(cluster), LONGEST)
-        check_missing(page, sweep, cluster, lost)
+        check_missing(page, sweep, lost)
+        refusals(sweep, cluster)
         say(sweep.run(page.command(MISSING)).splitlines()[-1])
         wait_for("all tasks and the collecting job end", lambda: has_ended(cluster), LONGEST)
         sweep.compare(reference)
         say_lines(sweep.run(page.command(STATUS)))
+        jobs = (sweep.results / "slurm-jobs.jsonl").read_bytes()
+        sweep.run(MISSING)
+        if jobs != (sweep.results / "slurm-jobs.jsonl").read_bytes():
+            raise Failed("a complete sweep was submitted")
         check_again(page, sweep, cluster)
-        refusals(sweep)
         say(f"states of tasks that have ended: {ends(cluster)}")
 
 
@@ -102,7 +102,7 @@ def failures(cluster):
     return lost
 
 
-def check_missing(page, sweep, cluster, lost):
+def check_missing(page, sweep, lost):
     """The collecting job must have failed and listed what is missing, and --status must name it."""
     missing = sweep.missing()
     if not missing or not missing <= lost:
@@ -131,14 +131,13 @@ def check_again(page, sweep, cluster):
     say("the array was submitted once more, and tasks 3,7-9 of it: no file has changed")
 
 
-def refusals(sweep):
-    """A flag that contradicts the script is refused; nothing is submitted where no chunk is missing."""
+def refusals(sweep, cluster):
+    """What contradicts the scripts is refused, and nothing is submitted."""
+    jobs = cluster.ask("squeue", "--noheader", "--states=all")
     sweep.run(f"{MISSING} --partition other", status=2)
     sweep.run(f"{MISSING} --chunks 5", status=2)
-    jobs = (sweep.results / "slurm-jobs.jsonl").read_bytes()
-    sweep.run(MISSING)
-    if jobs != (sweep.results / "slurm-jobs.jsonl").read_bytes():
-        raise Failed("a complete sweep was submitted")
+    if jobs != cluster.ask("squeue", "--noheader", "--states=all"):
+        raise Failed("what is refused has submitted a job")
 
 
 def two_networks(page, reference, make):
