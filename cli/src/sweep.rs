@@ -1,4 +1,6 @@
-//! `shadowstep sweep`: many runs of a scene, on this machine or a chunk at a time.
+//! `shadowstep sweep`: many runs of a scene, on this machine, a chunk at a time, or as jobs of Slurm.
+
+mod slurm;
 
 use std::env;
 use std::io::Write;
@@ -12,11 +14,13 @@ use crate::collect::{Format, collected};
 use crate::output::Output;
 use crate::report::{self, Status};
 use crate::tasks::{SAVED, Terminal};
+use slurm::SlurmArguments;
 
 const EXAMPLE: &str = "\
 Examples:
   shadowstep sweep sweep.toml --out DIR                computes all runs on all cores and collects them
   shadowstep sweep sweep.toml --out DIR --chunk 3/16   computes the third of 16 chunks
+  shadowstep sweep sweep.toml --out DIR --submit       submits the chunks to Slurm as a job array
   shadowstep collect DIR                               collects chunks that were computed anywhere
 
 After Ctrl-C (exit code 3), or a crash at any moment, the same command computes only what is missing. Results do not depend on the number
@@ -42,6 +46,8 @@ pub(crate) struct Arguments {
     /// Explains every key of a sweep
     #[arg(long, exclusive = true)]
     explain: bool,
+    #[command(flatten)]
+    slurm: SlurmArguments,
 }
 
 /// `3/16`
@@ -56,12 +62,15 @@ fn chunk(text: &str) -> Result<Chunk, String> {
 
 /// Computes the runs that are asked for.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let Arguments { sweep: Some(sweep), out: Some(out), chunk, format, .. } = arguments else {
+    let Arguments { sweep: Some(sweep), out: Some(out), chunk, format, slurm, .. } = arguments else {
         let mut output = Output::stdout();
         write!(output, "{}", explain())?;
         output.finish()?;
         return Ok(Status::Success);
     };
+    if slurm.is_given() {
+        return slurm.execute(sweep, out);
+    }
     let begun = Manifest::is_in(out).then(|| Manifest::read(out)).transpose()?;
     let chunk = match chunk {
         Some(chunk) => Some(*chunk),

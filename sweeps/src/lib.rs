@@ -42,6 +42,7 @@
 //! | `compute` | chunks on all cores |
 //! | `collect` | chunks → a table and a picture, or what is missing |
 //! | `picture` | maps and curves |
+//! | [`slurm`] | sweeps as job arrays of Slurm |
 //! | `task` | which chunk a task of a Slurm array computes |
 
 mod axes;
@@ -57,6 +58,7 @@ mod partial;
 mod picture;
 mod plan;
 mod record;
+pub mod slurm;
 mod task;
 mod values;
 

@@ -23,14 +23,16 @@ mod tasks;
 
 pub use script::{Resources, Scripts, SweepCommand};
 pub use status::Status;
-pub use submission::{Submitted, submit};
-pub use tasks::TaskList;
+pub use submission::{Submitted, parallel, submit};
+pub use tasks::{NotATaskList, TaskList};
+
+use std::path::Path;
 
 /// The folder of a sweep, its chunks and those that are missing.
 #[derive(Clone, Copy, Debug)]
 pub struct Chunks<'a> {
     /// The folder.
-    pub folder: &'a std::path::Path,
+    pub folder: &'a Path,
     /// How many chunks the sweep has.
     pub count: u64,
     /// The chunks without a file.

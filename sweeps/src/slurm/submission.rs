@@ -24,10 +24,8 @@ pub enum Submitted {
         /// The number of the job that collects after it.
         collect: u64,
     },
-    /// Nothing, as all missing chunks have tasks that are pending or running.
+    /// Nothing: every missing chunk has a task that is pending or running, one of these.
     Active(TaskList),
-    /// Nothing, as no chunk is missing.
-    Complete,
 }
 
 /// Submits the chunks that are missing and have no task that is pending or running, and a job that collects after them.
@@ -37,9 +35,6 @@ pub enum Submitted {
 /// # Errors
 /// Slurm is not there, or refuses; the numbers of the jobs cannot be read or written.
 pub fn submit(chunks: Chunks<'_>, command: &SweepCommand, scripts: &Scripts) -> Result<Submitted, Error> {
-    if chunks.missing.is_empty() {
-        return Ok(Submitted::Complete);
-    }
     let earlier = jobs::read(chunks.folder)?;
     let states = if earlier.is_empty() { BTreeMap::new() } else { queue::states(&earlier)? };
     let active = active(&earlier, &states);
@@ -67,7 +62,7 @@ pub fn submit(chunks: Chunks<'_>, command: &SweepCommand, scripts: &Scripts) -> 
 }
 
 /// The tasks that are pending or running.
-pub(super) fn active(jobs: &[Job], states: &BTreeMap<Key, State>) -> TaskList {
+fn active(jobs: &[Job], states: &BTreeMap<Key, State>) -> TaskList {
     let of_array = |job: &Job| job.tasks().is_some();
     let arrays: Vec<u64> = jobs.iter().filter(|job| of_array(job)).map(|job| job.job).collect();
     let active = states.iter().filter(|((job, _), state)| arrays.contains(job) && is_active(state));
@@ -115,8 +110,8 @@ fn failure_of_array(message: String) -> Error {
     Failure::Refused(message).error("sbatch", hint)
 }
 
-/// The line that computes all chunks with GNU parallel, one core each.
-pub(super) fn parallel(command: &SweepCommand) -> String {
+/// The line that computes all chunks with GNU parallel, each with one core.
+pub fn parallel(command: &SweepCommand) -> String {
     let SweepCommand { program, sweep, folder, chunks } = command;
     let word = |path: &Path| quoted(path);
     let (log, program, sweep, folder) = (word(&folder.join("jobs.log")), word(program), word(sweep), word(folder));

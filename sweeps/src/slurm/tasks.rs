@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::str::FromStr;
 
+use crate::collect::ranges;
+
 /// Numbers of tasks, each once, in order; displayed as `3,7-9`.
 ///
 /// ```
@@ -56,20 +58,7 @@ impl FromIterator<u64> for TaskList {
 
 impl fmt::Display for TaskList {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut numbers = self.numbers().peekable();
-        let mut comma = "";
-        while let Some(first) = numbers.next() {
-            let mut last = first;
-            while let Some(next) = numbers.next_if(|next| *next == last + 1) {
-                last = next;
-            }
-            match last - first {
-                0 => write!(f, "{comma}{first}")?,
-                _ => write!(f, "{comma}{first}-{last}")?,
-            }
-            comma = ",";
-        }
-        Ok(())
+        f.write_str(&ranges(&self.numbers().collect::<Vec<_>>()))
     }
 }
 

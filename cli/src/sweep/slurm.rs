@@ -1,0 +1,130 @@
+//! `--submit` and `--status`: the chunks of a sweep as jobs of Slurm.
+
+use std::env;
+use std::io::Write;
+use std::path::{Path, absolute};
+
+use clap::Args;
+use shadowstep_scenes::Error;
+use shadowstep_sweeps::slurm::{self, Chunks, Resources, Scripts, Submitted, SweepCommand, TaskList};
+use shadowstep_sweeps::{Manifest, Missing, Plan};
+
+use crate::output::Output;
+use crate::quantity::whole;
+use crate::report::{self, Status};
+
+/// Flags for a cluster with Slurm.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Slurm")]
+pub(super) struct SlurmArguments {
+    /// Submits the chunks that are missing as a job array, and a job that collects them; the job scripts DIR/array.sbatch and
+    /// DIR/collect.sbatch are written unless they are there, and shown
+    #[arg(long, conflicts_with_all = ["chunk", "format"])]
+    submit: bool,
+    /// Writes and shows the job scripts, and submits nothing
+    #[arg(long, requires = "submit")]
+    dry_run: bool,
+    /// Shows what has become of the tasks, and what to do next; exit code 1 if chunks are missing that no task is going to compute
+    #[arg(long, conflicts_with_all = ["submit", "chunk", "format"])]
+    status: bool,
+    /// The number of chunks, which is that of the tasks; it cannot be changed later [default: 16, more if there are more than 2^20
+    /// runs]
+    #[arg(long, value_name = "N", requires = "submit", value_parser = |text: &str| whole(text, 1..=99_999))]
+    chunks: Option<u32>,
+    /// Option --partition of sbatch
+    #[arg(long, value_name = "NAME", requires = "submit")]
+    partition: Option<String>,
+    /// Option --time of sbatch: the longest time of a task, such as 30 (minutes), 2:00:00 or 1-12 (days-hours)
+    #[arg(long, value_name = "TIME", requires = "submit")]
+    time: Option<String>,
+    /// Option --mem of sbatch: the memory of a task, such as 2G
+    #[arg(long, value_name = "SIZE", requires = "submit")]
+    memory: Option<String>,
+    /// Option --cpus-per-task of sbatch: the threads of a task [default: 1]
+    #[arg(long, value_name = "N", requires = "submit", value_parser = |text: &str| whole(text, 1..=65_536))]
+    cpus: Option<u32>,
+}
+
+impl SlurmArguments {
+    /// Whether the command is about jobs.
+    pub(super) fn is_given(&self) -> bool {
+        self.submit || self.status
+    }
+
+    /// Submits the sweep, or shows what has become of it.
+    pub(super) fn execute(&self, sweep: &Path, folder: &Path) -> Result<Status, Error> {
+        if self.status {
+            return status(sweep, folder);
+        }
+        let manifest = Manifest::begin(folder, &Plan::open(sweep)?, self.chunks.map(u64::from))?;
+        let missing = missing(&manifest, folder);
+        if missing.is_empty() && !self.dry_run {
+            report::note(format_args!(
+                "all chunks are complete: collect them with `shadowstep collect {}`",
+                folder.display()
+            ));
+            return Ok(Status::Success);
+        }
+        let command = command(sweep, folder, manifest.chunks)?;
+        let scripts = Scripts::prepare(&command, &self.resources())?;
+        let chunks = Chunks { folder, count: manifest.chunks, missing: &missing };
+        let submitted = if self.dry_run { None } else { Some(slurm::submit(chunks, &command, &scripts)?) };
+        let mut output = Output::stdout();
+        for script in [&scripts.array, &scripts.collect] {
+            writeln!(output, "# {}\n{}", script.path.display(), script.text)?;
+        }
+        match submitted {
+            None => {}
+            Some(Submitted::Array { array, tasks, collect }) => {
+                let count = tasks.len();
+                writeln!(
+                    output,
+                    "submitted: job {array}, an array of {count} tasks, {tasks}; job {collect} collects after it"
+                )?;
+            }
+            Some(Submitted::Active(active)) => {
+                writeln!(
+                    output,
+                    "nothing is submitted: the missing chunks have tasks that are pending or running, {active}"
+                )?;
+            }
+        }
+        output.finish()?;
+        Ok(Status::Success)
+    }
+
+    fn resources(&self) -> Resources {
+        let SlurmArguments { partition, time, memory, cpus, .. } = self;
+        Resources { partition: partition.clone(), time: time.clone(), memory: memory.clone(), cpus: *cpus }
+    }
+}
+
+fn status(sweep: &Path, folder: &Path) -> Result<Status, Error> {
+    let manifest = Manifest::read(folder)?;
+    let missing = missing(&manifest, folder);
+    let status = slurm::Status::of(Chunks { folder, count: manifest.chunks, missing: &missing }, sweep)?;
+    let mut output = Output::stdout();
+    writeln!(output, "{status}")?;
+    output.finish()?;
+    Ok(if status.is_stuck() { Status::NegativeAnswer } else { Status::Success })
+}
+
+fn missing(manifest: &Manifest, folder: &Path) -> TaskList {
+    Missing::find(manifest, folder).chunks.into_iter().collect()
+}
+
+/// The command of the scripts, which run in another folder: all paths are absolute.
+fn command(sweep: &Path, folder: &Path, chunks: u64) -> Result<SweepCommand, Error> {
+    let unknown = |what: &str, error: std::io::Error| {
+        Error::usage(
+            format!("the path of {what} cannot be found: {error}"),
+            "give paths from the root, such as /home/me/sweep.toml",
+        )
+    };
+    Ok(SweepCommand {
+        program: env::current_exe().map_err(|error| unknown("this program", error))?,
+        sweep: absolute(sweep).map_err(|error| unknown("the sweep", error))?,
+        folder: absolute(folder).map_err(|error| unknown("the folder", error))?,
+        chunks,
+    })
+}
