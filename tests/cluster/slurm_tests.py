@@ -121,12 +121,11 @@ def check_missing(page, sweep, lost):
 
 def check_again(page, sweep, cluster):
     """An array that is submitted once more computes nothing."""
-    files = sorted((sweep.results / "chunks").iterdir())
-    before = [(path, path.stat().st_mtime_ns, path.stat().st_ino) for path in files]
+    before = files(sweep, sweep.chunks())
     sweep.run(page.command("sbatch map/array.sbatch"))
     sweep.run(page.command("sbatch --array=3,7-9 map/array.sbatch"))
     wait_for("all tasks end", lambda: has_ended(cluster), LONGEST)
-    if before != [(path, path.stat().st_mtime_ns, path.stat().st_ino) for path in sorted((sweep.results / "chunks").iterdir())]:
+    if before != files(sweep, sweep.chunks()):
         raise Failed("tasks of complete chunks have changed files")
     say("the array was submitted once more, and tasks 3,7-9 of it: no file has changed")
 
@@ -155,15 +154,24 @@ def two_networks(page, reference, make):
         wait_for("n2 is down", lambda: cluster.states()["n2"].startswith("down"), 90)
         both = {int(number) for _, number in stale}
         wait_for("n1 has computed these chunks, too", lambda: both <= sweep.chunks(), LONGEST)
+        written = files(sweep, both)
         for pid, _ in stale:
             kill(pid, signal.SIGCONT)
         wait_for("n2 has ended its tasks", lambda: not any(os.path.exists(f"/proc/{pid}/cwd") for pid, _ in stale), 60)
-        say(f"chunks {list_of(both)}: slurmctld has started them again on n1; n2 has computed them after that, too")
+        if len(written & files(sweep, both)):
+            raise Failed(f"n2 has not written the chunks {list_of(both)} again")
+        say(f"chunks {list_of(both)}: slurmctld has started this again on n1, and n2 has written the same chunks after that")
         network.mend("n2")
         cluster.wait_until_idle()
         wait_for("all tasks and the collecting job end", lambda: has_ended(cluster), LONGEST)
         sweep.compare(reference)
         say(f"states of tasks that have ended: {ends(cluster)}")
+
+
+def files(sweep, chunks):
+    """The files of some chunks, each by the number of its inode and its time."""
+    stats = [(sweep.results / f"chunks/{number:05}-of-{CHUNKS:05}").stat() for number in chunks]
+    return {(stat.st_ino, stat.st_mtime_ns) for stat in stats}
 
 
 def has_ended(cluster):

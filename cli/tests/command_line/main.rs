@@ -16,6 +16,8 @@ mod scenes;
 mod schemes;
 #[cfg(unix)]
 mod signals;
+#[cfg(unix)]
+mod slurm;
 mod stability;
 mod trace;
 mod work_precision;
