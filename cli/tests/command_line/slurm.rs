@@ -70,11 +70,23 @@ fn chunks_are_submitted_and_then_those_that_are_missing() {
     let site = Site::new(&[("sbatch", SBATCH), ("squeue", "cat $SITE/queue")]);
     let submitted = site.sweep("--submit --chunks 5 --time 30 --partition short");
     assert_eq!((submitted.code, submitted.err.as_str()), (0, ""));
-    assert!(submitted.out.ends_with("submitted: job 1, an array of 5 tasks, 1-5; job 2 collects after it\n"), "{}", submitted.out);
-    assert!(submitted.out.contains("\n#SBATCH --time=30\n") && submitted.out.contains("\n#SBATCH --array=1-5\n"), "{}", submitted.out);
+    assert!(
+        submitted.out.ends_with("submitted: job 1, an array of 5 tasks, 1-5; job 2 collects after it\n"),
+        "{}",
+        submitted.out
+    );
+    assert!(
+        submitted.out.contains("\n#SBATCH --time=30\n") && submitted.out.contains("\n#SBATCH --array=1-5\n"),
+        "{}",
+        submitted.out
+    );
     let out = fs::canonicalize(site.path("out")).unwrap();
     let script = |name: &str| Path::new(&out).join(name).display().to_string();
-    let first = format!("--parsable {}\n--parsable --dependency=afterany:1 {}\n", script("array.sbatch"), script("collect.sbatch"));
+    let first = format!(
+        "--parsable {}\n--parsable --dependency=afterany:1 {}\n",
+        script("array.sbatch"),
+        script("collect.sbatch")
+    );
     assert_eq!(site.read("calls"), first);
 
     for chunk in [2, 3] {
@@ -87,9 +99,16 @@ fn chunks_are_submitted_and_then_those_that_are_missing() {
     .unwrap();
     let submitted = site.sweep("--submit");
     assert_eq!((submitted.code, submitted.err.as_str()), (0, ""));
-    assert!(submitted.out.ends_with("submitted: job 3, an array of 2 tasks, 4-5; job 4 collects after it\n"), "{}", submitted.out);
-    let second =
-        format!("--parsable --array=4-5 {}\n--parsable --dependency=afterany:1:3 {}\n", script("array.sbatch"), script("collect.sbatch"));
+    assert!(
+        submitted.out.ends_with("submitted: job 3, an array of 2 tasks, 4-5; job 4 collects after it\n"),
+        "{}",
+        submitted.out
+    );
+    let second = format!(
+        "--parsable --array=4-5 {}\n--parsable --dependency=afterany:1:3 {}\n",
+        script("array.sbatch"),
+        script("collect.sbatch")
+    );
     assert_eq!(site.read("calls"), first + &second);
 }
 
@@ -157,7 +176,10 @@ fn what_slurm_refuses_leaves_no_script() {
 
 #[test]
 fn a_cluster_that_cannot_be_reached_gets_nothing_twice() {
-    let site = Site::new(&[("sbatch", SBATCH), ("squeue", "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2; exit 1")]);
+    let site = Site::new(&[
+        ("sbatch", SBATCH),
+        ("squeue", "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2; exit 1"),
+    ]);
     assert_eq!(site.sweep("--submit --chunks 5").code, 0);
     let calls = site.read("calls");
     for flag in ["--submit", "--status"] {
@@ -172,8 +194,14 @@ fn a_complete_sweep_is_not_submitted() {
     let site = Site::new(&[("sbatch", SBATCH)]);
     assert_eq!(site.sweep("").code, 0);
     let done = site.sweep("--submit");
-    assert_eq!((done.code, done.err.as_str()), (0, "note: all chunks are complete: collect them with `shadowstep collect out`\n"));
+    assert_eq!(
+        (done.code, done.err.as_str()),
+        (0, "note: all chunks are complete: collect them with `shadowstep collect out`\n")
+    );
     assert!(!site.has("calls"));
     let status = site.sweep("--status");
-    assert!(status.code == 0 && status.out.ends_with("next:    nothing: all chunks are complete and the results are written\n"));
+    assert!(
+        status.code == 0
+            && status.out.ends_with("next:    nothing: all chunks are complete and the results are written\n")
+    );
 }
