@@ -16,7 +16,7 @@ use crate::axes::Axes;
 use crate::chunk::{self, Unusable};
 use crate::keep::Column;
 use crate::manifest::Manifest;
-use crate::picture::{Cells, Picture, fraction};
+use crate::picture::{Cells, Picture, double, number_of};
 use crate::plan;
 use crate::record::Record;
 use csv_table::CsvTable;
@@ -114,7 +114,7 @@ impl<'a> Tables<'a> {
             TableFormat::Csv => Box::new(CsvTable::new(folder, &head)?),
             TableFormat::Parquet => Box::new(ParquetTable::new(folder, &head)?),
         };
-        let picture = picture.and_then(|picture| Some((picture.clone(), Cells::new(&picture, axes)?)));
+        let picture = picture.and_then(|picture| Cells::new(&picture, axes).map(|cells| (picture, cells)));
         let title = Path::new(&manifest.path).file_name().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Tables {
             axes,
@@ -139,14 +139,14 @@ impl<'a> Tables<'a> {
             let value = axis.value(number);
             cells.push(Cell::Text(value.text()));
             if axis.is_numeric() {
-                cells.push(double(&value));
+                cells.push(as_double(&value));
             }
         }
         for (place, column) in self.columns.iter().enumerate() {
             let text = record.values.get(place).and_then(Option::as_ref);
             cells.push(text.map_or(Cell::Empty, |text| Cell::Text(text.clone())));
             if has_double(column, self.long_numbers) {
-                let value = text.and_then(|text| text.parse().ok().or_else(|| fraction(text).ok()));
+                let value = text.and_then(|text| number_of(text));
                 cells.push(value.map_or(Cell::Empty, Cell::Double));
             }
         }
@@ -188,16 +188,18 @@ impl<'a> Tables<'a> {
                     file.finish()?;
                     files.push(path);
                 }
-                None => notes.push("no run has a value that could be drawn".to_owned()),
+                None => notes.push(
+                    "there is no picture: no run has such a value, or there are too many words or curves".to_owned(),
+                ),
             }
         }
         Ok(Collected::Complete { files, runs: self.runs, failed: self.failed, notes })
     }
 }
 
-fn double(value: &Meaning) -> Cell {
+fn as_double(value: &Meaning) -> Cell {
     match value {
-        Meaning::Number(number) => Cell::Double(shadowstep::Number::from_rational(number, &())),
+        Meaning::Number(number) => Cell::Double(double(number)),
         Meaning::Word(_) => Cell::Empty,
     }
 }

@@ -5,6 +5,6 @@ mod draw;
 mod drawn;
 mod written;
 
-pub(crate) use cells::{Cells, fraction};
+pub(crate) use cells::{Cells, double, number_of};
 pub use drawn::Picture;
 pub(crate) use written::Written;

@@ -1,5 +1,8 @@
 //! The values at the places of a picture, of which several runs may share one.
 
+use shadowstep::{Number, Rational};
+use shadowstep_symbolic::decimal::from_text;
+
 use crate::axes::Axes;
 use crate::picture::drawn::{OfSeveral, Picture};
 use crate::record::Record;
@@ -44,20 +47,45 @@ impl Cells {
         let place = (panel * self.counts[1] + y) * self.counts[0] + x;
         let Some(Some(text)) = record.values.get(picture.value) else { return };
         let cell = &mut self.values[place];
-        *cell = match (text.parse::<f64>().or_else(|_| fraction(text)), &*cell) {
-            (Ok(new), Value::Number(old, count)) => Value::Number(picture.of_several.of(*old, *count, new), count + 1),
-            (Ok(new), _) => Value::Number(new, 1),
+        *cell = match (number_of(text), &*cell) {
+            (Some(new), Value::Number(old, count)) => {
+                Value::Number(picture.of_several.of(*old, *count, new), count + 1)
+            }
+            (Some(new), _) => Value::Number(new, 1),
             // of several words the first one is shown
-            (Err(()), Value::Word(_)) => return,
-            (Err(()), _) => Value::Word(text.clone()),
+            (None, Value::Word(_)) => return,
+            (None, _) => Value::Word(text.clone()),
         };
+    }
+
+    /// The numbers at all places.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
+        self.values.iter().filter_map(|value| if let Value::Number(number, _) = value { Some(*number) } else { None })
+    }
+
+    /// The different words, the most frequent first; of equally frequent ones that which comes first.
+    pub(super) fn words(&self) -> Vec<String> {
+        let mut words: Vec<(usize, String)> = Vec::new();
+        for value in &self.values {
+            let Value::Word(word) = value else { continue };
+            match words.iter_mut().find(|(_, known)| known == word) {
+                Some((count, _)) => *count += 1,
+                None => words.push((1, word.clone())),
+            }
+        }
+        words.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
+        words.into_iter().map(|(_, word)| word).collect()
     }
 }
 
-/// The double next to a fraction such as `7/24`.
-pub(crate) fn fraction(text: &str) -> Result<f64, ()> {
-    let exact = shadowstep_symbolic::decimal::from_text(text).map_err(drop)?;
-    Ok(shadowstep::Number::from_rational(&exact, &()))
+/// The double nearest to a text such as `7/24` or `1.5e-30`; `None` for a word.
+pub(crate) fn number_of(text: &str) -> Option<f64> {
+    text.parse().ok().or_else(|| Some(double(&from_text(text).ok()?)))
+}
+
+/// The double nearest to a number.
+pub(crate) fn double(number: &Rational) -> f64 {
+    Number::from_rational(number, &())
 }
 
 impl OfSeveral {
