@@ -2,14 +2,15 @@
 //! [`crate::kinetic!`], with the same bits.
 
 mod kinetic;
-
+mod newest;
 mod pair;
 
 pub use pair::FormulaPair;
 
 use std::ops::Range;
+use std::sync::Arc;
 
-use shadowstep_symbolic::{Graph, Node, SemanticError, SyntaxError, parse};
+use shadowstep_symbolic::{Graph, SemanticError, SyntaxError, parse};
 use thiserror::Error;
 
 pub use kinetic::FormulaKinetic;
@@ -17,6 +18,7 @@ pub use kinetic::FormulaKinetic;
 use crate::interpreter::Interpreter;
 use crate::number::Number;
 use crate::potential::Potential;
+use newest::{Derived, Role, Text, derived};
 
 /// A potential from a formula read at run time: a list of operations, executed without allocation.
 ///
@@ -67,23 +69,34 @@ impl<N: Number> FormulaPotential<N> {
     /// # Errors
     /// A text that is not a valid formula, unknown or repeated names, functions that are not smooth.
     pub fn new(formula: &str, coordinates: &[&str], parameters: &[(&str, N)]) -> Result<Self, FormulaError> {
-        let (mut graph, energy) = build(formula, coordinates, parameters)?;
-        let programs = graph.potential(energy, coordinates.len());
+        let derived = derive(Role::Potential, formula, coordinates, parameters)?;
         let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
-        let interpreter = Interpreter::new(programs, parameters, 0);
+        let interpreter = Interpreter::new(&derived.programs, parameters, 0);
         Ok(FormulaPotential { dimension: coordinates.len(), interpreter })
     }
 }
 
-/// The graph of a formula and its node there.
-fn build<N>(formula: &str, coordinates: &[&str], parameters: &[(&str, N)]) -> Result<(Graph, Node), FormulaError> {
-    let expression = parse(formula)?;
-    let coordinates: Vec<String> = coordinates.iter().map(|name| (*name).to_owned()).collect();
-    let parameters: Vec<String> = parameters.iter().map(|(name, _)| (*name).to_owned()).collect();
-    refuse_repeated(coordinates.iter().chain(&parameters))?;
-    let mut graph = Graph::new();
-    let node = graph.build(&expression, &coordinates, &parameters).map_err(FormulaError::Meaning)?;
-    Ok((graph, node))
+/// The programs of a formula in these variables and parameters.
+fn derive<N>(
+    role: Role,
+    formula: &str,
+    variables: &[&str],
+    parameters: &[(&str, N)],
+) -> Result<Arc<Derived>, FormulaError> {
+    let text = Text {
+        formula: formula.to_owned(),
+        variables: variables.iter().map(|name| (*name).to_owned()).collect(),
+        parameters: parameters.iter().map(|(name, _)| (*name).to_owned()).collect(),
+        role,
+    };
+    derived(text, |Text { formula, variables, parameters, .. }| {
+        let expression = parse(formula)?;
+        refuse_repeated(variables.iter().chain(parameters))?;
+        let mut graph = Graph::new();
+        let node = graph.build(&expression, variables, parameters).map_err(FormulaError::Meaning)?;
+        let quadratic = role == Role::Kinetic && graph.is_quadratic(node, variables.len());
+        Ok(Derived { programs: graph.potential(node, variables.len()), quadratic })
+    })
 }
 
 /// Refuses names that are there twice, or mean something else.

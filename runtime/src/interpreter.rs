@@ -48,12 +48,12 @@ struct Layout {
 
 impl<N: Number> Interpreter<N> {
     /// For the programs of a function of so many properties of bodies, with the values of its parameters.
-    pub(crate) fn new(programs: PotentialPrograms, parameters: Vec<N>, properties: usize) -> Self {
-        let layout = Layout::of(&programs, parameters.len(), properties);
+    pub(crate) fn new(programs: &PotentialPrograms, parameters: Vec<N>, properties: usize) -> Self {
+        let layout = Layout::of(programs, parameters.len(), properties);
         let PotentialPrograms { energy, gradient, gradient_and_rate } = programs;
         let place = |program: &Program, list: &[Instruction], kept_from| layout.placed(program, list, kept_from);
-        let mut prepare = place(&energy, &energy.prepare, layout.energy_kept);
-        prepare.extend(place(&gradient_and_rate, &gradient_and_rate.prepare, layout.gradient_kept));
+        let mut prepare = place(energy, &energy.prepare, layout.energy_kept);
+        prepare.extend(place(gradient_and_rate, &gradient_and_rate.prepare, layout.gradient_kept));
         let run = |program: &Program, kept_from| place(program, &program.instructions, kept_from);
         Interpreter {
             parameters,

@@ -2,7 +2,8 @@
 
 use std::marker::PhantomData;
 
-use super::{FormulaError, build};
+use super::newest::Role;
+use super::{FormulaError, derive};
 use crate::interpreter::Interpreter;
 use crate::kinetic::{General, Kinetic, Quadratic};
 use crate::number::Number;
@@ -34,12 +35,10 @@ impl<N: Number> FormulaKinetic<N> {
     /// # Errors
     /// A text that is not a valid formula, unknown or repeated names, functions that are not smooth.
     pub fn new(formula: &str, momenta: &[&str], parameters: &[(&str, N)]) -> Result<Self, FormulaError> {
-        let (mut graph, energy) = build(formula, momenta, parameters)?;
-        let quadratic = graph.is_quadratic(energy, momenta.len());
-        let programs = graph.potential(energy, momenta.len());
+        let derived = derive(Role::Kinetic, formula, momenta, parameters)?;
         let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
-        let interpreter = Interpreter::new(programs, parameters, 0);
-        Ok(FormulaKinetic { dimension: momenta.len(), quadratic, interpreter, class: PhantomData })
+        let interpreter = Interpreter::new(&derived.programs, parameters, 0);
+        Ok(FormulaKinetic { dimension: momenta.len(), quadratic: derived.quadratic, interpreter, class: PhantomData })
     }
 
     /// The same, as one that every scheme moves.

@@ -2,6 +2,7 @@
 
 use shadowstep_symbolic::{Graph, Separation, parse};
 
+use super::newest::{Derived, Role, Text, derived};
 use super::{FormulaError, refuse_repeated};
 use std::slice::from_ref;
 
@@ -42,21 +43,27 @@ impl<N: Number> FormulaPair<N> {
         properties: &[(&str, Vec<N>)],
         parameters: &[(&str, N)],
     ) -> Result<Self, FormulaError> {
-        let expression = parse(formula)?;
         let of = |body: &'static str| properties.iter().map(move |(name, _)| format!("{name}_{body}"));
-        let names: Vec<String> = of("i").chain(of("j")).collect();
-        let parameter_names: Vec<String> = parameters.iter().map(|(name, _)| (*name).to_owned()).collect();
-        refuse_repeated([separation.name().to_owned()].iter().chain(&names).chain(&parameter_names))?;
-        let mut graph = Graph::new();
-        let energy = graph
-            .build_pair(&expression, separation.name(), &names, &parameter_names)
-            .map_err(FormulaError::Meaning)?;
-        let programs = graph.pair(energy, separation);
+        let text = Text {
+            formula: formula.to_owned(),
+            variables: of("i").chain(of("j")).collect(),
+            parameters: parameters.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            role: Role::Pair(separation),
+        };
+        let names = text.variables.len();
+        let derived = derived::<FormulaError>(text, |Text { formula, variables, parameters, .. }| {
+            let expression = parse(formula)?;
+            refuse_repeated([separation.name().to_owned()].iter().chain(variables).chain(parameters))?;
+            let mut graph = Graph::new();
+            let energy = graph.build_pair(&expression, separation.name(), variables, parameters);
+            let programs = graph.pair(energy.map_err(FormulaError::Meaning)?, separation);
+            Ok(Derived { programs, quadratic: false })
+        })?;
         let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
         Ok(FormulaPair {
             separation,
             properties: properties.iter().map(|(_, values)| values.clone()).collect(),
-            interpreter: Interpreter::new(programs, parameters, names.len()),
+            interpreter: Interpreter::new(&derived.programs, parameters, names),
         })
     }
 

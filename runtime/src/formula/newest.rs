@@ -1,0 +1,59 @@
+//! The programs of the newest formulas: runs of one formula with other parameters derive them once.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use shadowstep_symbolic::{PotentialPrograms, Separation};
+
+/// How many are kept.
+const KEPT: usize = 32;
+
+/// Longer formulas are derived each time.
+const LONGEST: usize = 4096;
+
+/// What the programs depend on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Text {
+    pub(super) formula: String,
+    /// Of coordinates, momenta or properties.
+    pub(super) variables: Vec<String>,
+    pub(super) parameters: Vec<String>,
+    pub(super) role: Role,
+}
+
+/// What the formula is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    Potential,
+    Kinetic,
+    Pair(Separation),
+}
+
+/// The programs of a formula.
+#[derive(Debug)]
+pub(super) struct Derived {
+    pub(super) programs: PotentialPrograms,
+    /// Whether it is a kinetic energy that is a quadratic form.
+    pub(super) quadratic: bool,
+}
+
+static NEWEST: Mutex<VecDeque<(Text, Arc<Derived>)>> = Mutex::new(VecDeque::new());
+
+/// The programs of a formula, which `derive` makes unless they are there.
+///
+/// # Errors
+/// Those of `derive`.
+pub(super) fn derived<E>(text: Text, derive: impl FnOnce(&Text) -> Result<Derived, E>) -> Result<Arc<Derived>, E> {
+    let newest = || NEWEST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, derived)) = newest().iter().find(|(known, _)| *known == text) {
+        return Ok(Arc::clone(derived));
+    }
+    let derived = Arc::new(derive(&text)?);
+    let length = text.formula.len() + text.variables.iter().chain(&text.parameters).map(String::len).sum::<usize>();
+    if length <= LONGEST {
+        let mut newest = newest();
+        newest.truncate(KEPT - 1);
+        newest.push_front((text, Arc::clone(&derived)));
+    }
+    Ok(derived)
+}
