@@ -58,9 +58,9 @@ impl<N: Number> Interpreter<N> {
         Interpreter {
             parameters,
             prepare,
-            energy: run(&energy, layout.energy_kept),
-            gradient: run(&gradient, layout.gradient_kept),
-            gradient_and_rate: run(&gradient_and_rate, layout.gradient_kept),
+            energy: run(energy, layout.energy_kept),
+            gradient: run(gradient, layout.gradient_kept),
+            gradient_and_rate: run(gradient_and_rate, layout.gradient_kept),
             layout,
         }
     }

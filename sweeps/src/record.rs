@@ -295,7 +295,11 @@ impl<N: Number> Found<'_, N> {
             Kept::MethodError => Some(summary.as_ref()?.modified_energy()?.method.clone()),
             Kept::CloseEncounters => summary.map(|summary| summary.encounters().to_string()),
             Kept::Drift => ended.drift.as_ref().map(|drift| drift.drift.to_text()),
-            Kept::PermanentChange => permanent.map(|permanent| permanent.change.to_text()),
+            // of a change on one side of an encounter only, nothing is known
+            Kept::PermanentChange => {
+                let known = permanent.filter(|permanent| permanent.finding != Finding::OneSided);
+                known.map(|permanent| permanent.change.to_text())
+            }
             Kept::PermanentResolution => permanent.map(|permanent| permanent.resolution.to_text()),
             Kept::PermanentFinding => permanent.map(|permanent| finding(permanent.finding).to_owned()),
             Kept::Steps => Some(last.to_string()),

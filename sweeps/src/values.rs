@@ -57,7 +57,12 @@ pub(crate) const VALUES: [Description; 13] = [
     number(Kept::MethodError, "method_error", Need::Summary, "the method's part of the error of H: H − H̄, rms"),
     number(Kept::CloseEncounters, "close_encounters", Need::Summary, "the number of close encounters"),
     number(Kept::Drift, "drift", Need::Estimates, "max − min of the modified energy"),
-    number(Kept::PermanentChange, "permanent_change", Need::Estimates, "the permanent change of the modified energy"),
+    number(
+        Kept::PermanentChange,
+        "permanent_change",
+        Need::Estimates,
+        "the permanent change of the modified energy; none where it is one-sided",
+    ),
     number(
         Kept::PermanentResolution,
         "permanent_resolution",
