@@ -86,7 +86,8 @@ commands! {
 const EXIT_CODES: &str = "\
 Exit codes:
   0  success
-  1  negative answer: a checked table has faults, a table cannot be polished, no scheme meets a tolerance; with --strict, a verdict worse than fine
+  1  negative answer: a checked table has faults, a table cannot be polished, no scheme meets a tolerance, chunks of a sweep are missing; with
+     --strict, a verdict worse than fine
   2  usage error: an unknown flag, name or file, a number out of range, a fault in a scene
   3  a run failed: a state or an energy was not finite, the output could not be written, or it was interrupted";
 

@@ -108,6 +108,16 @@ pub(crate) fn write(folder: &Path, chunk: Chunk, header: &Header, records: &[Str
     Ok(())
 }
 
+/// Removes what processes that were killed have left, when all chunks are there: one that is still at work comes to the same files.
+pub(crate) fn remove_left(folder: &Path) {
+    let is_left = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        [".partial-", ".new-"].iter().any(|part| name.contains(part))
+    };
+    let chunks = left(&folder.join("chunks"), "").into_iter().filter(is_left);
+    chunks.chain(left(folder, "plan.json.new-")).for_each(|path| drop(std::fs::remove_file(path)));
+}
+
 /// The files of a folder whose names begin like this.
 pub(crate) fn left(folder: &Path, begin: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
@@ -196,7 +206,7 @@ pub(crate) fn read(
     }
     let hash = hexadecimal(lines.hash.clone());
     match lines.next().and_then(|line| serde_json::from_str::<Trailer>(line).ok()) {
-        Some(trailer) if trailer.sha256 == hash => Ok(Ok(header)),
+        Some(trailer) if trailer.sha256 == hash && lines.is_at_end() => Ok(Ok(header)),
         _ => damaged("its hash differs"),
     }
 }
@@ -214,5 +224,9 @@ impl<R: BufRead> Lines<R> {
         self.reader.read_line(&mut self.line).ok().filter(|length| *length > 0)?;
         self.hash.update(self.line.as_bytes());
         self.line.strip_suffix('\n')
+    }
+
+    fn is_at_end(&mut self) -> bool {
+        self.reader.fill_buf().is_ok_and(<[u8]>::is_empty)
     }
 }

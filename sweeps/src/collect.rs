@@ -83,7 +83,9 @@ pub fn collect(folder: &Path, format: TableFormat, observer: &mut dyn Observer) 
     if !damaged.is_empty() {
         return Ok(Collected::Incomplete(damaged));
     }
-    tables.finish(&functions)
+    let collected = tables.finish(&functions)?;
+    chunk::remove_left(folder);
+    Ok(collected)
 }
 
 /// All that is written.

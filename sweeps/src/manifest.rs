@@ -7,7 +7,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use shadowstep::tables::Source;
 use shadowstep_scenes::{Error, not_written};
-use tempfile::NamedTempFile;
+use tempfile::Builder;
 
 use crate::chunk::{AGAIN, Chunk, MOST_RUNS_OF_CHUNK};
 use crate::keep::Column;
@@ -145,17 +145,21 @@ impl Manifest {
             return Ok(());
         }
         let written = || -> io::Result<()> {
-            let mut file = NamedTempFile::new_in(folder)?;
+            let mut file = Builder::new().prefix(&format!("{NAME}.new-")).tempfile_in(folder)?;
             serde_json::to_writer_pretty(&mut file, self)?;
             file.write_all(b"\n")?;
             crate::chunk::make_readable(file.as_file())?;
             file.as_file().sync_all()?;
             match replaces {
-                true => drop(file.persist(&path)?),
+                true => match file.persist(&path) {
+                    // removed by a process that has collected the results
+                    Err(error) if error.error.kind() == io::ErrorKind::NotFound && path.exists() => {}
+                    persisted => drop(persisted?),
+                },
                 // of several processes that begin at the same time, the first one writes it
                 false => match file.persist_noclobber(&path) {
-                    Err(error) if error.error.kind() != io::ErrorKind::AlreadyExists => return Err(error.error),
-                    _ => {}
+                    Err(_) if path.exists() => {}
+                    persisted => drop(persisted?),
                 },
             }
             crate::chunk::sync_folder(folder)

@@ -19,6 +19,7 @@ mod signals;
 #[cfg(unix)]
 mod slurm;
 mod stability;
+mod sweeps;
 mod trace;
 mod work_precision;
 mod wrong_inputs;

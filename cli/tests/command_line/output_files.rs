@@ -159,7 +159,7 @@ fn named_pipes_are_refused() {
 
 /// Runs the program where files may have this number of blocks of 512 bytes.
 #[cfg(unix)]
-fn with_small_files(blocks: u32, words: &str) -> Output {
+pub(crate) fn with_small_files(blocks: u32, words: &str) -> Output {
     let program = env!("CARGO_BIN_EXE_shadowstep");
     let command = format!("trap '' XFSZ; ulimit -f {blocks}; exec {program} {words}");
     Command::new("sh").args(["-c", &command]).output().unwrap()

@@ -1,0 +1,169 @@
+//! One chunk at a time, in any order, by any number of processes.
+
+use std::fs;
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+
+use super::{SWEEP, assert_same, files, finished, folder, program, run, succeeds, undisturbed};
+
+fn chunk(number: u32) -> String {
+    format!("sweep sweep.toml --out out --chunk {number}/16")
+}
+
+/// As a task of a Slurm array whose tasks have these numbers.
+fn task(folder: &Path, number: u32, count: u32, ends: (u32, u32)) -> crate::program::Finished {
+    let mut program = program(folder, "sweep sweep.toml --out out");
+    for (name, value) in [("ID", number), ("COUNT", count), ("MIN", ends.0), ("MAX", ends.1)] {
+        program.env(format!("SLURM_ARRAY_TASK_{name}"), value.to_string());
+    }
+    finished(&program.output().unwrap())
+}
+
+#[test]
+fn chunks_in_any_order_are_collected_as_a_sweep_on_one_machine() {
+    let wanted = undisturbed(SWEEP);
+    let folder = folder(SWEEP);
+    for number in (1..=16).map(|k| k * 11 % 17) {
+        let result = succeeds(folder.path(), &chunk(number));
+        assert_eq!((result.out.as_str(), result.err.as_str()), ("", ""));
+    }
+    succeeds(folder.path(), "collect out");
+    assert_same(&folder.path().join("out"), &wanted, "chunks");
+}
+
+#[test]
+fn a_chunk_that_is_there_is_not_touched() {
+    let folder = folder(SWEEP);
+    succeeds(folder.path(), &chunk(2));
+    let path = folder.path().join("out/chunks/00002-of-00016");
+    let before = fs::metadata(&path).unwrap().modified().unwrap();
+    let result = succeeds(folder.path(), &chunk(2));
+    assert!(result.err.contains("note: chunk 2/16 is there already: nothing is done"), "{}", result.err);
+    assert_eq!(fs::metadata(&path).unwrap().modified().unwrap(), before);
+}
+
+/// The bytes with another header, and the hash that fits.
+fn resealed(bytes: &[u8], old: &str, new: &str) -> Vec<u8> {
+    let text = String::from_utf8(bytes.to_vec()).unwrap();
+    let content = &text[..text.trim_end().rfind('\n').unwrap() + 1];
+    assert!(content.contains(old), "{old}");
+    let content = content.replacen(old, new, 1);
+    let hash: String = Sha256::digest(content.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect();
+    format!("{content}{{\"sha256\":\"{hash}\"}}\n").into_bytes()
+}
+
+#[test]
+fn a_damaged_chunk_is_computed_again() {
+    let folder = folder(SWEEP);
+    succeeds(folder.path(), &chunk(2));
+    let path = folder.path().join("out/chunks/00002-of-00016");
+    let whole = fs::read(&path).unwrap();
+    assert_eq!(resealed(&whole, "x", "x"), whole, "the hash is that of the test");
+    let flipped = |place: usize| {
+        let mut bytes = whole.clone();
+        bytes[place] ^= 1;
+        bytes
+    };
+    let last = whole.len() - 1;
+    let cut = |length: usize| whole[..length].to_vec();
+    let mut damaged: Vec<Vec<u8>> = [0, 20, 200, last / 2, last - 90, last - 10, last].map(flipped).into();
+    damaged.extend([0, 1, 100, last / 2, last - 80, last].map(cut));
+    damaged.push([whole.as_slice(), whole.as_slice()].concat());
+    damaged.push(resealed(
+        &whole,
+        &format!("\"shadowstep\":\"{}\"", env!("CARGO_PKG_VERSION")),
+        "\"shadowstep\":\"0.0.1\"",
+    ));
+    damaged.push(resealed(&whole, "\"sweep\":\"", "\"sweep\":\"0"));
+    damaged.push(resealed(&whole, "\"tables\":\"", "\"tables\":\"0"));
+    damaged.push(resealed(&whole, "{\"run\":4,", "{\"run\":5,"));
+    damaged.push(vec![b'['; 100_000]);
+    for (case, bytes) in damaged.iter().enumerate() {
+        fs::write(&path, bytes).unwrap();
+        let result = succeeds(folder.path(), &chunk(2));
+        assert_eq!(result.err, "", "case {case}");
+        assert!(fs::read(&path).unwrap() == whole, "case {case}");
+    }
+    // chunk 3 under the name of chunk 2
+    succeeds(folder.path(), &chunk(3));
+    fs::copy(folder.path().join("out/chunks/00003-of-00016"), &path).unwrap();
+    succeeds(folder.path(), &chunk(2));
+    assert!(fs::read(&path).unwrap() == whole);
+}
+
+#[test]
+fn processes_may_compute_the_same_chunk_at_the_same_time() {
+    let wanted = undisturbed(SWEEP);
+    let folder = folder(SWEEP);
+    for _ in 0..3 {
+        let children: Vec<_> = (0..4).map(|_| program(folder.path(), &chunk(1)).spawn().unwrap()).collect();
+        for child in children {
+            let result = finished(&child.wait_with_output().unwrap());
+            assert_eq!(result.code, 0, "{}", result.err);
+        }
+        let out = files(&folder.path().join("out"));
+        assert!(out["chunks/00001-of-00016"] == wanted["chunks/00001-of-00016"]);
+        fs::remove_dir_all(folder.path().join("out")).unwrap();
+    }
+    // and the whole sweep
+    let children: Vec<_> =
+        (0..3).map(|_| program(folder.path(), "sweep sweep.toml --out out").spawn().unwrap()).collect();
+    for child in children {
+        let result = finished(&child.wait_with_output().unwrap());
+        let is_writing = result.code == 2 && result.err.contains("another process is writing");
+        assert!(result.code == 0 || is_writing, "{}", result.err);
+    }
+    succeeds(folder.path(), "sweep sweep.toml --out out");
+    assert_same(&folder.path().join("out"), &wanted, "three processes");
+}
+
+#[test]
+fn tasks_of_an_array_compute_their_chunks() {
+    let wanted = undisturbed(SWEEP);
+    let folder = folder(SWEEP);
+    for number in [16, 3, 1] {
+        let result = task(folder.path(), number, 16, (1, 16));
+        assert_eq!((result.code, result.err.as_str()), (0, ""));
+    }
+    let missing = run(folder.path(), "collect out");
+    assert_eq!((missing.code, missing.out.as_str()), (1, "2,4-15\n"), "{}", missing.err);
+    // an array of those that are missing
+    for number in [2].into_iter().chain(4..=15) {
+        let result = task(folder.path(), number, 13, (2, 15));
+        assert_eq!((result.code, result.err.as_str()), (0, ""));
+    }
+    succeeds(folder.path(), "collect out");
+    assert_same(&folder.path().join("out"), &wanted, "tasks");
+    // a flag is stronger than the array
+    assert_eq!(run(folder.path(), &chunk(2)).code, 0);
+}
+
+#[test]
+fn arrays_that_have_no_chunk_are_refused() {
+    let new = folder(SWEEP);
+    for (number, count, ends, part) in [
+        (3, 2, (3, 7), "the tasks of this array are not numbered 1, 2, …"),
+        (0, 4, (0, 3), "the tasks of this array are not numbered 1, 2, …"),
+        (61, 61, (1, 61), "60 runs cannot be divided into 61 chunks"),
+    ] {
+        let result = task(new.path(), number, count, ends);
+        assert!(result.code == 2 && result.err.contains(part), "{}", result.err);
+        assert!(!new.path().join("out").exists());
+    }
+    succeeds(new.path(), &chunk(1));
+    let result = task(new.path(), 17, 1, (17, 17));
+    assert!(result.code == 2 && result.err.contains("is 17, and the chunks are 1 to 16"), "{}", result.err);
+}
+
+#[test]
+fn another_number_of_chunks_is_another_folder() {
+    let folder = folder(SWEEP);
+    succeeds(folder.path(), &chunk(1));
+    let result = run(folder.path(), "sweep sweep.toml --out out --chunk 1/8");
+    assert_eq!(result.code, 2);
+    assert!(result.err.contains("out has 16 chunks, not 8\n  hint: give I/16, or another folder"), "{}", result.err);
+    // a sweep on one machine goes on with those that are there
+    assert_eq!(run(folder.path(), "sweep sweep.toml --out out").code, 0);
+    assert_eq!(fs::read_dir(folder.path().join("out/chunks")).unwrap().count(), 16);
+}

@@ -1,0 +1,238 @@
+//! What is collected, what is refused, and runs that fail.
+
+use std::fs;
+
+use super::{SWEEP, TABLE, assert_same, files, folder, rows, run, succeeds, undisturbed};
+
+const CHUNK_2: &str = "out/chunks/00002-of-00016";
+
+/// The answer of `collect` where chunk 2 cannot be used.
+fn refused(folder: &std::path::Path, why: &str) {
+    let result = run(folder, "collect out");
+    assert_eq!((result.code, result.out.as_str()), (1, "2\n"), "{}", result.err);
+    assert!(result.err.contains(&format!("chunk 2 cannot be used: {why}")), "{why}: {}", result.err);
+    assert!(!folder.join("out/results.csv").exists());
+}
+
+#[test]
+fn missing_chunks_are_a_list() {
+    let folder = folder(SWEEP);
+    for number in [1, 2, 5, 16] {
+        succeeds(folder.path(), &format!("sweep sweep.toml --out out --chunk {number}/16"));
+    }
+    let result = run(folder.path(), "collect out");
+    assert_eq!((result.code, result.out.as_str()), (1, "3-4,6-15\n"));
+    assert!(result.err.contains("12 chunks are missing or cannot be used: 3-4,6-15\n  hint: "), "{}", result.err);
+    assert!(!folder.path().join("out/results.csv").exists());
+}
+
+#[test]
+fn chunks_of_something_else_are_refused_with_the_reason() {
+    let scheme = |sweep: &str| sweep.replace("[\"stormer-verlet\", \"ruth3\"]", "[\"mine.toml\", \"ruth3\"]");
+    let first = folder(&scheme(SWEEP));
+    succeeds(first.path(), "sweep sweep.toml --out out");
+    fs::remove_file(first.path().join("out/results.csv")).unwrap();
+    let whole = fs::read(first.path().join(CHUNK_2)).unwrap();
+
+    let other = folder(&scheme(SWEEP).replace("until = 3", "until = 4"));
+    succeeds(other.path(), "sweep sweep.toml --out out --chunk 2/16");
+    fs::copy(other.path().join(CHUNK_2), first.path().join(CHUNK_2)).unwrap();
+    refused(first.path(), "it is of another sweep");
+
+    let other = folder(&scheme(SWEEP));
+    fs::write(other.path().join("mine.toml"), TABLE.replace("[\"1\"]", "[\"1/2\", \"1/2\"]")).unwrap();
+    succeeds(other.path(), "sweep sweep.toml --out out --chunk 2/16");
+    fs::copy(other.path().join(CHUNK_2), first.path().join(CHUNK_2)).unwrap();
+    refused(first.path(), "it was made with other tables of schemes");
+
+    let version = env!("CARGO_PKG_VERSION");
+    let text = String::from_utf8(whole.clone()).unwrap();
+    fs::write(first.path().join(CHUNK_2), text.replacen(version, "0.0.1", 1)).unwrap();
+    refused(first.path(), "it was made by version 0.0.1");
+
+    fs::copy(first.path().join("out/chunks/00003-of-00016"), first.path().join(CHUNK_2)).unwrap();
+    refused(first.path(), "it has other runs than its name");
+
+    fs::write(first.path().join(CHUNK_2), &whole[..whole.len() / 2]).unwrap();
+    refused(first.path(), "run ");
+
+    let mut flipped = whole.clone();
+    let place = whole.len() / 2 + text[whole.len() / 2..].find("\":\"").unwrap_or(0);
+    let digit = (place..).find(|&place| flipped[place].is_ascii_digit()).unwrap();
+    flipped[digit] ^= 1;
+    fs::write(first.path().join(CHUNK_2), flipped).unwrap();
+    let result = run(first.path(), "collect out");
+    assert_eq!((result.code, result.out.as_str()), (1, "2\n"), "{}", result.err);
+
+    fs::write(first.path().join(CHUNK_2), whole).unwrap();
+    assert_eq!(succeeds(first.path(), "collect out").out, "out/results.csv\nout/rows.csv\n");
+}
+
+#[test]
+fn comments_and_pictures_change_no_sweep_and_axes_do() {
+    let text = SWEEP.replace("stormer-verlet", "mine.toml");
+    let folder = folder(&text);
+    succeeds(folder.path(), "sweep sweep.toml --out out");
+    let before = files(&folder.path().join("out"));
+    let sweep = |text: &str| fs::write(folder.path().join("sweep.toml"), text).unwrap();
+    // spaces, comments, the order of sections and keys, what is drawn
+    let (scene, axes) = text.split_once("[axes]").unwrap();
+    for same in [
+        format!("# a comment\n{text}"),
+        format!("[axes]{axes}{scene}").replace("until = 3\n", "").replace("step =", "until = 3\nstep  ="),
+        format!("{text}\n[picture]\nvalue = \"steps\"\n"),
+    ] {
+        sweep(&same);
+        succeeds(folder.path(), "sweep sweep.toml --out out --chunk 3/16");
+        succeeds(folder.path(), "sweep sweep.toml --out out");
+        let out = files(&folder.path().join("out"));
+        for (name, bytes) in before.iter().filter(|(name, _)| name.starts_with("chunks") || name.ends_with("csv")) {
+            assert!(out[name] == *bytes, "{name}");
+        }
+    }
+    for (old, new) in [
+        ("9 steps of", "8 steps of"),
+        ("4/5 in 2", "3/5 in 2"),
+        ("until = 3", "until = 2"),
+        ("\"energy_error\", \"steps\"", "\"steps\", \"energy_error\""),
+        ("< 1/2", "< 1/3"),
+        ("\"mine.toml\", \"ruth3\"", "\"ruth3\", \"mine.toml\""),
+    ] {
+        assert!(text.contains(old), "{old}");
+        sweep(&text.replace(old, new));
+        for flags in ["", " --chunk 3/16"] {
+            let result = run(folder.path(), &format!("sweep sweep.toml --out out{flags}"));
+            assert_eq!(result.code, 2, "{new}");
+            assert!(
+                result.err.contains("out is of another sweep, or of this one before it was changed"),
+                "{}",
+                result.err
+            );
+        }
+    }
+    sweep(&text);
+    fs::write(folder.path().join("mine.toml"), TABLE.replace("L. Verlet", "C. Störmer")).unwrap();
+    succeeds(folder.path(), "sweep sweep.toml --out out");
+    fs::write(folder.path().join("mine.toml"), TABLE.replace("[\"1\"]", "[\"1/2\", \"1/2\"]")).unwrap();
+    let result = run(folder.path(), "sweep sweep.toml --out out");
+    assert_eq!(result.code, 2);
+    assert!(result.err.contains("out was made with other tables of schemes"), "{}", result.err);
+}
+
+/// The scene is in a file; a change there is a change of the sweep.
+#[test]
+fn a_scene_may_have_its_own_file() {
+    let (scene, axes) = SWEEP.split_once("[axes]").unwrap();
+    let folder = folder(&format!("scene = \"scenes/kepler.toml\"\n[axes]{axes}"));
+    fs::create_dir(folder.path().join("scenes")).unwrap();
+    let write = |text: &str| fs::write(folder.path().join("scenes/kepler.toml"), text).unwrap();
+    write(scene);
+    succeeds(folder.path(), "sweep sweep.toml --out out");
+    let csv = |path: &std::path::Path| fs::read(path.join("out/rows.csv")).unwrap();
+    let together = super::folder(SWEEP);
+    succeeds(together.path(), "sweep sweep.toml --out out");
+    assert!(csv(folder.path()) == csv(together.path()));
+    // collected without the scene
+    fs::remove_file(folder.path().join("scenes/kepler.toml")).unwrap();
+    fs::remove_file(folder.path().join("out/results.csv")).unwrap();
+    succeeds(folder.path(), "collect out");
+    write(&scene.replace("until = 3", "until = 2"));
+    let result = run(folder.path(), "sweep sweep.toml --out out");
+    assert!(result.code == 2 && result.err.contains("is of another sweep"), "{}", result.err);
+}
+
+/// q = 1/0 is refused, and in the potential −q⁴ a state overflows.
+const FAILING: &str = r#"
+[problem]
+potential = "-a*q^4"
+coordinates = ["q"]
+[initial]
+q = ["1/c"]
+p = [0]
+[run]
+scheme = "stormer-verlet"
+step = "1/10"
+steps = 60
+digits = "double"
+[axes]
+a = [-1, 1, 0]
+c = [1, 2, 0]
+[keep]
+values = ["verdict", "energy_error", "steps"]
+first_time = { far = "q > 100" }
+state = true
+"#;
+
+#[test]
+fn runs_that_fail_are_recorded_and_stop_nothing() {
+    let folder = folder(FAILING);
+    let result = succeeds(folder.path(), "sweep sweep.toml --out out");
+    assert!(result.err.contains("note: 5 of 9 runs failed; run 2 (a = -1, c = 0): "), "{}", result.err);
+    assert!(result.err.contains("note: 9 runs, 5 of them failed"), "{}", result.err);
+    for row in rows(folder.path()) {
+        let (a, c, failure) = (row["a"].as_str(), row["c"].as_str(), row["failure"].as_str());
+        let values = ["verdict", "energy_error", "steps", "far", "q", "pq"].map(|name| row[name].as_str());
+        match (a, c) {
+            (_, "0") => assert_eq!(failure, "division by zero"),
+            ("1", _) => assert!(failure.contains("step 1/10: the run stopped at n = "), "{failure}"),
+            _ => assert_eq!(failure, ""),
+        }
+        match failure {
+            "" => assert!(
+                ["verdict", "energy_error", "steps", "q", "pq"].iter().all(|name| !row[*name].is_empty()),
+                "{row:?}"
+            ),
+            _ => assert_eq!(values, [""; 6], "{row:?}"),
+        }
+    }
+    // they are not made again
+    let again = succeeds(folder.path(), "sweep sweep.toml --out out");
+    assert_eq!(again.err.lines().filter(|line| line.contains("runs failed;")).count(), 0, "{}", again.err);
+}
+
+#[test]
+fn a_mistake_in_the_scene_is_no_failure_of_every_run() {
+    for (part, mistake) in [("digits =", "digit ="), ("steps = 60", "steps = \"$n\""), ("\"-a*q^4\"", "\"-a*q^4 + z\"")]
+    {
+        assert!(FAILING.contains(part));
+        let folder = folder(&FAILING.replace(part, mistake));
+        let result = run(folder.path(), "sweep sweep.toml --out out");
+        assert_eq!(result.code, 2, "{}", result.err);
+        assert!(result.err.contains("sweep.toml:"), "{}", result.err);
+        assert!(!folder.path().join("out").exists());
+    }
+}
+
+#[test]
+fn collecting_twice_gives_the_same_files() {
+    let wanted = undisturbed(SWEEP);
+    let folder = folder(SWEEP);
+    succeeds(folder.path(), "sweep sweep.toml --out out");
+    let out = succeeds(folder.path(), "collect out").out;
+    assert!(out.starts_with("out/results.csv\nout/rows.csv\n"), "{out}");
+    assert_same(&folder.path().join("out"), &wanted, "collected twice");
+    succeeds(folder.path(), "collect out --format parquet");
+    assert!(fs::read(folder.path().join("out/results.parquet")).unwrap().starts_with(b"PAR1"));
+}
+
+#[test]
+fn exact_values_are_texts_with_doubles_beside_them() {
+    let folder = folder(SWEEP);
+    succeeds(folder.path(), "sweep sweep.toml --out out");
+    let rows = rows(folder.path());
+    assert_eq!(rows.len(), 60);
+    for (run, row) in rows.iter().enumerate() {
+        assert_eq!(row["run"], run.to_string());
+        for name in ["e", "h", "near"] {
+            let (text, double) = (&row[name], &row[&format!("{name}_double")]);
+            let nearest = match text.split_once('/') {
+                None => text.clone(),
+                Some((p, q)) => (p.parse::<f64>().unwrap() / q.parse::<f64>().unwrap()).to_string(),
+            };
+            // a quotient of small whole numbers is the double nearest to the fraction
+            assert_eq!(nearest.parse::<f64>().ok(), double.parse::<f64>().ok(), "{row:?}");
+        }
+        let h: f64 = row["h_double"].parse().unwrap();
+        assert_eq!(row["steps"], (3.0 / h).ceil().to_string(), "{row:?}");
+    }
+}
