@@ -229,11 +229,15 @@ fn is_unknown(section: &str) -> bool {
     !OTHERS.contains(&section) && !OF_SCENE.contains(&section)
 }
 
-/// A scene of the sweep. Where the first run has faults, as a step size at the end of a range may have, others are tried.
+/// How many scenes are tried.
+const TRIED: u64 = 64;
+
+/// A scene of the sweep. Where the first run has faults, as one at the corner of a map may have, others are tried, spread over all.
 fn first_scene(family: &Family, axes: &Axes) -> Result<Scene, Faults> {
-    let last = axes.runs() - 1;
     let scene = |run| family.scene(&axes.values(run));
-    scene(0).or_else(|faults| scene(last / 2).or_else(|_| scene(last)).map_err(|_| faults))
+    // the multiples of the golden ratio are spread evenly
+    let spread = |k: u64| ((k as f64 * 0.618_033_988_749_895).fract() * axes.runs() as f64) as u64;
+    scene(0).or_else(|faults| (1..TRIED).find_map(|k| scene(spread(k).min(axes.runs() - 1)).ok()).ok_or(faults))
 }
 
 /// Refuses axes that the scene does not use, and expressions that its system does not have.

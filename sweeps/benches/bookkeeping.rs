@@ -1,0 +1,99 @@
+//! What a sweep costs besides its steps: reading scenes, keeping records, writing and collecting chunks.
+//!
+//! `cargo bench -p shadowstep-sweeps`; with RUNS=100000 for 10⁵ runs. Both contestants make the same steps on all cores, in turns.
+
+use std::env;
+use std::fs;
+use std::hint::black_box;
+use std::time::Instant;
+
+use shadowstep::run::{States, Trajectory};
+use shadowstep::tables::Source;
+use shadowstep::{Number, Scheme, Stepper, System, ValidFor};
+use shadowstep_scenes::Scene;
+use shadowstep_scenes::start::{Steps, Work};
+use shadowstep_sweeps::{Collected, Manifest, Plan, TableFormat, collect, compute};
+
+/// A run of about 1 ms.
+const STEPS: u64 = 20_000;
+
+/// How often both take turns.
+const ROUNDS: usize = 5;
+
+fn main() {
+    let runs: u64 = env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(10_000);
+    let plan = Plan::of(&Source { path: "sweep.toml".to_owned(), text: text(runs) }).expect("the sweep is valid");
+    let folder = tempfile::tempdir().expect("there is a temporary folder");
+    let (mut swept, mut bare, mut collected) = (Vec::new(), Vec::new(), Vec::new());
+    for round in 0..ROUNDS {
+        let out = folder.path().join(round.to_string());
+        let begin = Instant::now();
+        let manifest = Manifest::begin(&out, &plan, None).expect("the folder can be written");
+        compute(&plan, &manifest, &out, manifest.all_chunks(), &mut ()).expect("the runs are made");
+        swept.push(begin.elapsed().as_secs_f64());
+        let begin = Instant::now();
+        let all = collect(&out, TableFormat::Csv, &mut ()).expect("the folder can be written");
+        assert!(matches!(all, Collected::Complete { failed: 0, .. }));
+        collected.push(begin.elapsed().as_secs_f64());
+        let begin = Instant::now();
+        steps_alone(&plan, runs);
+        bare.push(begin.elapsed().as_secs_f64());
+        if round == 0 {
+            let size: u64 =
+                fs::read_dir(out.join("chunks")).unwrap().map(|file| file.unwrap().metadata().unwrap().len()).sum();
+            println!("{runs} runs of {STEPS} steps; {:.0} bytes a run in the chunks", size as f64 / runs as f64);
+        }
+        fs::remove_dir_all(&out).expect("the folder can be removed");
+    }
+    let ratios: Vec<f64> = swept.iter().zip(&bare).map(|(swept, bare)| 1.0 - bare / swept).collect();
+    let threads = rayon::current_num_threads() as f64;
+    let of_run = |seconds: f64, threads: f64| 1e6 * seconds * threads / runs as f64;
+    println!("the sweep             {:8.2} µs a run on each of {threads} threads", of_run(median(&swept), threads));
+    println!("its steps alone       {:8.2} µs a run", of_run(median(&bare), threads));
+    println!("lost to bookkeeping   {:8.2} % of the sweep", 100.0 * median(&ratios));
+    println!("collecting            {:8.2} µs a run on one thread", of_run(median(&collected), 1.0));
+}
+
+fn text(runs: u64) -> String {
+    let eccentricities = runs.div_ceil(1000);
+    format!(
+        "problem = {{ name = \"kepler\", parameters.eccentricity = \"e\" }}\n\
+         run = {{ scheme = \"stormer-verlet\", step = \"h\", steps = {STEPS}, digits = \"double\" }}\n\
+         [axes]\ne = \"0 … 8/10 in {} values\"\nh = \"1/20 … 1/100 in 1000 values of 1/h\"\n\
+         [keep]\nstate = true\nat_end = {{ r = \"sqrt(x^2 + y^2)\", L = \"x*py - y*px\" }}\n",
+        eccentricities.max(2)
+    )
+}
+
+/// The steps of so many runs on all cores, without anything else.
+fn steps_alone(plan: &Plan, runs: u64) {
+    let scene = plan.scene(0).expect("the scene is valid");
+    let share = runs.div_ceil(rayon::current_num_threads() as u64);
+    rayon::broadcast(|_| (0..share).for_each(|_| follow(&scene)));
+}
+
+fn follow(scene: &Scene) {
+    struct Alone;
+    impl<N: Number> Work<N> for Alone {
+        type Output = ();
+
+        fn with<S, M>(self, stepper: &Stepper<S, N>, system: M)
+        where
+            S: Scheme + Clone + ValidFor<M::Class> + 'static,
+            M: System<Number = N> + 'static,
+        {
+            let mut trajectory = Trajectory::plain(stepper, system, 0, STEPS).expect("the state is finite");
+            while let Ok(Some(state)) = trajectory.advance() {
+                black_box(state.n);
+            }
+        }
+    }
+    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated: false };
+    scene.system.with(steps, scene.system.start::<f64>(&()), &(), Alone).expect("the dimensions agree");
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted[sorted.len() / 2]
+}
