@@ -1,6 +1,6 @@
 //! The coordinate that turns fastest, each by itself, however little of the energy it has.
 
-use super::recent::{STATES, Sums, Turning, assign_second_difference, turning};
+use super::recent::{STATES, Sums, Turning, assign_differences, assign_second_difference, turning};
 use crate::number::{Number, epsilon};
 
 /// A second difference of fewer last places of p than this is round-off.
@@ -20,6 +20,7 @@ pub(super) struct Fastest<N> {
     coordinates: Vec<Sums<N>>,
     /// 1000 ε
     rounding: N,
+    round_off: N,
     x: N,
     y: N,
     z: N,
@@ -35,6 +36,7 @@ impl<N: Number> Fastest<N> {
             begun: 0,
             coordinates: vec![Sums::zero(context); dimension],
             rounding,
+            round_off: zero(),
             x: zero(),
             y: zero(),
             z: zero(),
@@ -56,17 +58,14 @@ impl<N: Number> Fastest<N> {
 
     /// Takes p of successive states.
     pub(super) fn add(&mut self, [p0, p1, p2, p3, p4]: &[Vec<N>; STATES]) {
-        let Fastest { coordinates, rounding, x, y, z, .. } = self;
+        let Fastest { coordinates, rounding, round_off, x, y, z, .. } = self;
         for (i, sums) in coordinates.iter_mut().enumerate() {
-            assign_second_difference(x, &p1[i], &p2[i], &p3[i]);
-            y.assign_product(&p2[i], rounding);
-            y.make_absolute();
+            assign_differences([x, y], z, [&p0[i], &p1[i], &p2[i], &p3[i], &p4[i]]);
+            round_off.assign_product(&p2[i], rounding);
+            round_off.make_absolute();
             z.assign(x);
             z.make_absolute();
-            if *z > *y {
-                assign_second_difference(y, &p0[i], &p1[i], &p2[i]);
-                assign_second_difference(z, &p2[i], &p3[i], &p4[i]);
-                y.add(z);
+            if *z > *round_off {
                 sums.add(x, y);
             }
         }

@@ -84,8 +84,9 @@ pub struct Report<N> {
     pub round_off: N,
     /// In how many steps the fastest motion turns once; `None` where nothing turns, or windows have fewer than 5 states.
     ///
-    /// From second differences δ²p of the last states of each window, which an oscillation by θ a step makes so that
-    /// δ²p_{n+1} + δ²p_{n−1} = 2 cos θ δ²p_n; by least squares over all coordinates and windows.
+    /// From second and fourth differences of p at the last states of each window, which an oscillation by θ a step makes so that
+    /// δ⁴p = −4 sin²(θ/2) δ²p; by least squares over all coordinates and windows. Steps so short that a fourth difference is a few last
+    /// places of p leave the angle uncertain.
     pub steps_per_turn: Option<f64>,
     /// The coordinate that turns fastest, counted from 0, and in how many steps it turns once: each coordinate by itself, in the first five
     /// states and in the windows. A light body may turn faster than all that has energy.
@@ -219,6 +220,7 @@ impl<N: Number> Report<N> {
             offset: self.part(&self.offset()),
             of_kinetic: self.relative_error(),
             turning: None,
+            turns: self.steps_per_turn.map_or(0.0, |turn| self.steps as f64 / turn),
             fastest_angle: self.fastest_coordinate.map(|(_, steps)| TAU / steps),
             lost: self.lost_coordinate.is_some(),
             straight: false,

@@ -26,7 +26,7 @@ const LARGEST_RATIO: f64 = 16.0;
 const LOGARITHM: [f64; 2] = [-1.5, 1.0];
 /// Windows that a statement needs.
 const LEAST_WINDOWS: u64 = 16;
-/// After so many windows one of four is enough.
+/// After so many windows one of four is enough: where they overlap, as many states in four times as many.
 const ALL_WINDOWS: u64 = 256;
 
 /// Forces that are not smooth: while the motion turns little in a step, the last terms of modified energies from every second state of
@@ -47,6 +47,10 @@ pub struct Rough {
 pub(super) struct Roughness<N> {
     /// `None` for windows that are too short.
     spacings: Option<Spacings<N>>,
+    /// Those of a window.
+    states: usize,
+    /// States that are still to be skipped: whole windows, or as many states where windows overlap.
+    skipped: usize,
     ended: u64,
     windows: u64,
     /// Σ of mean squares of last terms at h and at 2h.
@@ -65,13 +69,14 @@ impl<N: Number> Roughness<N> {
         let k = ((states - 1) / 2).min(LARGEST_K);
         let spacings = (k >= LEAST_K).then(|| Spacings::new(k, h, dimension, context)).transpose()?;
         let zero = || N::zero(context);
-        Ok(Roughness { spacings, ended: 0, windows: 0, squares: [zero(), zero()], kicks: zero() })
+        Ok(Roughness { spacings, states, skipped: 0, ended: 0, windows: 0, squares: [zero(), zero()], kicks: zero() })
     }
 
     /// Takes a state of a window; what the step to it added is not known of the first one.
     pub(super) fn push(&mut self, q: &[N], p: &[N], added: Option<&Increments<N>>) {
-        let is_used = self.ended < ALL_WINDOWS || self.ended.is_multiple_of(4);
-        if let Some(spacings) = self.spacings.as_mut().filter(|_| is_used) {
+        if self.skipped > 0 {
+            self.skipped -= 1;
+        } else if let Some(spacings) = &mut self.spacings {
             spacings.push(q, p, added);
         }
     }
@@ -81,6 +86,9 @@ impl<N: Number> Roughness<N> {
         self.ended += 1;
         let Some(spacings) = self.spacings.as_mut().filter(|spacings| spacings.is_complete()) else { return };
         spacings.count = 0;
+        if self.ended > ALL_WINDOWS {
+            self.skipped = 3 * self.states;
+        }
         if angle.is_none_or(|angle| angle > ANGLE_LIMIT) {
             return;
         }
@@ -214,6 +222,10 @@ mod tests {
 
     /// An oscillator of frequency 1 with the energy c q^m in addition for q > 0.
     fn watch(m: i32, c: f64, scheme: &str, h: f64, k: u32) -> Option<Rough> {
+        watch_every(30, m, c, scheme, h, k)
+    }
+
+    fn watch_every(every: u64, m: i32, c: f64, scheme: &str, h: f64, k: u32) -> Option<Rough> {
         let potential = from_fn(1, move |q, gradient| {
             let x = q[0].max(0.0);
             gradient[0] = q[0] + if x > 0.0 { c * f64::from(m) * x.powi(m - 1) } else { 0.0 };
@@ -221,7 +233,7 @@ mod tests {
         });
         let mut motion = Motion::new(potential, UnitMasses, [1.0], [0.0]).unwrap();
         let stepper = Stepper::new(shipped(scheme).unwrap(), h).unwrap();
-        let mut monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(k)).unwrap().every(30);
+        let mut monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(k)).unwrap().every(every);
         for _ in 0..10_000 {
             monitor.step(&mut motion).unwrap();
         }
@@ -245,6 +257,17 @@ mod tests {
     fn smooth_forces_are_not_rough() {
         for (h, k) in [(0.1, 8), (0.2, 6), (0.3, 8)] {
             assert_eq!(watch(1, 0.0, "stormer-verlet", h, k), None);
+        }
+    }
+
+    /// Where windows overlap one of them begins at each state or two, and the checks still need states that follow each other.
+    #[test]
+    fn windows_that_overlap_are_checked_as_others() {
+        for every in [1, 2, 5, 16] {
+            assert_eq!(watch_every(every, 1, 0.0, "stormer-verlet", 0.1, 8), None, "a window in {every} steps");
+            let found = watch_every(every, 2, 0.1, "stormer-verlet", 0.1, 8);
+            let holds = found.is_some_and(|Rough { least, most }| (least..=most).contains(&2));
+            assert!(holds, "a window in {every} steps: {found:?}");
         }
     }
 }

@@ -16,7 +16,7 @@ use super::trend::Trend;
 /// | --- | --- |
 /// | too large: not finite | a state or an energy is not finite, or the sums overflow |
 /// | undecided: windows | there are fewer than 16 windows |
-/// | inconsistent | the states of a window differ from [their increments](super::Report::mismatches); or [the rate](super::Report::wrong_rates) is not qᵀU_q − 2U; or, beyond errors and round-off, the range of H − H̄ is as far from 0 as θ²T/6 and half of the energy error, θ the angle of the fastest motion in a step; or H̄ moved by 1000 times the energy error: the last two only where the steps resolve all coordinates |
+/// | inconsistent | the states of a window differ from [their increments](super::Report::mismatches); or [the rate](super::Report::wrong_rates) is not qᵀU_q − 2U; or, beyond errors and round-off, H̄ moved by 1000 times the energy error; or, from one turn of the fastest motion on, the range of H − H̄ is as far from 0 as θ²T/6 and half of the energy error, θ the angle of that motion in a step; or, where forces are not smooth, H − H̄ is θ²T/6 and 3 times the energy error, rms: the last three only where the steps resolve all coordinates |
 /// | round-off | moves or errors are half of the energy error, and no more than 10 times what round-off makes |
 /// | near a resonance | H̄ moved by a quarter or more, and the fastest motion is one oscillation that turns once in 3, 4, 5, 6 or 5/2 steps, to 0.006 turns a step |
 /// | too large: energy error | the energy error is 0.4 of T or more; or T is 0 in all windows, and q changes |
@@ -125,6 +125,9 @@ const LINEAR_MOVE: f64 = 1e-3;
 /// The range of H − H̄ may be off 0 by this part of θ²T (up to 1/12 was measured), or of the energy error.
 const OFFSET_PER_TURNING: f64 = 1.0 / 6.0;
 const OFFSET_LIMIT: f64 = 0.5;
+/// H − H̄ is compared with the energy error from so many turns of the fastest motion on: on a short arc H hardly varies. In correct
+/// loops H − H̄ was too large for that up to 0.64 turns, with symplectic Euler.
+const LEAST_TURNS: f64 = 1.0;
 /// Steps with their increments move H̄ by less than this part of the energy error.
 const INCONSISTENT_MOVE: f64 = 1000.0;
 /// A motion is resolved by the steps if pᵀΔq is this part of 2hT or more; for an oscillation that turns by φ a step it is sin φ/φ.
@@ -192,6 +195,8 @@ pub(super) struct Evidence {
     /// pᵀΔq as a part of 2hT.
     pub(super) action: f64,
     pub(super) turning: Option<Turning>,
+    /// How often that has turned in the run.
+    pub(super) turns: f64,
     /// The angle by which the coordinate that turns fastest turns in a step, however little of the energy it has.
     pub(super) fastest_angle: Option<f64>,
     /// Whether a coordinate that turned fast at the start, much faster than what the energy shows, no longer does.
@@ -313,23 +318,38 @@ impl Evidence {
         self.moved_beyond_round_off() == 0.0 && estimated.max(self.round_off) >= ROUND_OFF_PART
     }
 
-    /// Of a motion that is not resolved by the steps H̄ may be anything.
     fn is_inconsistent(&self) -> bool {
-        let resolves_all = self.fastest_angle.is_none_or(|angle| angle <= ANGLE_LIMIT);
-        let angle = self.turning.map_or(0.0, |turning| turning.angle);
-        let most = (OFFSET_PER_TURNING * angle * angle / self.of_kinetic)
-            .max(OFFSET_LIMIT)
-            .max(ERROR_FACTOR * self.resolution);
-        let is_resolved =
-            self.turns_little() && resolves_all && (self.action.is_nan() || self.action >= RESOLVED_ACTION);
-        // moves of which no errors are known may all be errors
-        let moves_too_much = self.has_errors && self.moved_beyond_round_off() > INCONSISTENT_MOVE;
-        let distance = self.distance * self.error_rms;
-        let is_far = resolves_all && self.rough && self.beyond_round_off(distance) > LARGEST_DISTANCE;
-        self.mismatches
-            || self.wrong_rate
-            || is_far
-            || (is_resolved && (moves_too_much || self.beyond_round_off(self.offset) > most))
+        self.mismatches || self.wrong_rate || self.moves_as_no_scheme_does() || self.is_far_from_the_energy()
+    }
+
+    /// Moves of which no errors are known may all be errors.
+    fn moves_as_no_scheme_does(&self) -> bool {
+        self.is_resolved() && self.has_errors && self.moved_beyond_round_off() > INCONSISTENT_MOVE
+    }
+
+    /// Whether H − H̄ is too large beside the energy error.
+    fn is_far_from_the_energy(&self) -> bool {
+        let of_turning = self.offset_of_turning();
+        let most = of_turning.max(OFFSET_LIMIT).max(ERROR_FACTOR * self.resolution);
+        let is_off = self.is_resolved() && self.beyond_round_off(self.offset) > most;
+        let distance = self.beyond_round_off(self.distance * self.error_rms);
+        let is_rough_and_far = self.resolves_all() && self.rough && distance > of_turning.max(LARGEST_DISTANCE);
+        self.turns >= LEAST_TURNS && (is_off || is_rough_and_far)
+    }
+
+    /// θ²T/6 as a part of the energy error, where round-off may have made θ² too small.
+    fn offset_of_turning(&self) -> f64 {
+        let square = self.turning.map_or(0.0, |turning| turning.angle * turning.angle + turning.round_off);
+        OFFSET_PER_TURNING * square / self.of_kinetic
+    }
+
+    /// Of a motion that is not resolved by the steps H̄ may be anything.
+    fn is_resolved(&self) -> bool {
+        self.turns_little() && self.resolves_all() && (self.action.is_nan() || self.action >= RESOLVED_ACTION)
+    }
+
+    fn resolves_all(&self) -> bool {
+        self.fastest_angle.is_none_or(|angle| angle <= ANGLE_LIMIT)
     }
 
     /// Whether the step size can be the cause of a change.
@@ -397,6 +417,7 @@ mod tests {
         of_kinetic: 0.1,
         action: 1.0,
         turning: None,
+        turns: 100.0,
         fastest_angle: None,
         lost: false,
         trend: Some(Trend::RandomWalk),
@@ -414,7 +435,7 @@ mod tests {
     const UNRESOLVED: Verdict = Verdict::Undecided(Missing::Resolution);
 
     fn turning(steps: f64, irregular: f64) -> Option<Turning> {
-        Some(Turning { angle: std::f64::consts::TAU / steps, irregular })
+        Some(Turning { angle: std::f64::consts::TAU / steps, irregular, round_off: 0.0 })
     }
 
     #[test]
@@ -492,6 +513,16 @@ mod tests {
         // of a circle in 20 steps θ²T/12 is some 0.8 of this energy error
         let off = |offset| Evidence { offset, of_kinetic: 1e-2, turning: turning(20.0, 0.0), ..FINE };
         assert_eq!([off(1.6).verdict(), off(1.7).verdict()], [FINE.verdict(), Verdict::Inconsistent]);
+        assert_eq!(Evidence { turns: 0.9, ..off(1.7) }.verdict(), FINE.verdict(), "H has not come back yet");
+        // round-off of p may have made θ² smaller by as much as it is
+        let unsure = off(1.7).turning.map(|turning| Turning { round_off: turning.angle.powi(2), ..turning });
+        let unsure = |offset| Evidence { turning: unsure, ..off(offset) };
+        assert_eq!([unsure(3.2).verdict(), unsure(3.4).verdict()], [FINE.verdict(), Verdict::Inconsistent]);
+        // H − H̄ of forces that are not smooth; θ²T/6 is 16 of an energy error of 1e-3
+        let rough = |distance, of_kinetic| Evidence { rough: true, distance, error_rms: 1.0, of_kinetic, ..off(0.0) };
+        assert_eq!([rough(2.9, 1e-2).verdict(), rough(3.1, 1e-2).verdict()], [FINE.verdict(), Verdict::Inconsistent]);
+        assert_eq!([rough(16.0, 1e-3).verdict(), rough(17.0, 1e-3).verdict()], [FINE.verdict(), Verdict::Inconsistent]);
+        assert_eq!(Evidence { turns: 0.9, ..rough(17.0, 1e-3) }.verdict(), FINE.verdict());
         assert_eq!(Evidence { resolution: 0.6, ..off(1.7) }.verdict(), UNRESOLVED);
         assert_eq!(
             Evidence { action: 0.3, ..off(1.7) }.verdict(),
