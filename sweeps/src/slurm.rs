@@ -23,7 +23,7 @@ mod tasks;
 
 pub use script::{Resources, Scripts, SweepCommand};
 pub use status::Status;
-pub use submission::{Submitted, parallel, submit};
+pub use submission::{Submitted, submit};
 pub use tasks::{NotATaskList, TaskList};
 
 use std::path::Path;

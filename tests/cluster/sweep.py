@@ -42,6 +42,10 @@ class Sweep:
         """The chunks that are complete."""
         return {int(path.name[:5]) for path in (self.results / "chunks").glob(f"?????-of-{CHUNKS:05}")}
 
+    def chunk(self, number):
+        """The file of a chunk."""
+        return self.results / f"chunks/{number:05}-of-{CHUNKS:05}"
+
     def missing(self):
         return set(range(1, CHUNKS + 1)) - self.chunks()
 
@@ -57,9 +61,9 @@ class Sweep:
         if self.table() != reference.table():
             raise Failed(f"{self.results}/results.csv differs from {reference.results}/results.csv")
         for number in range(1, CHUNKS + 1):
-            name = f"chunks/{number:05}-of-{CHUNKS:05}"
-            if (self.results / name).read_bytes() != (reference.results / name).read_bytes():
-                raise Failed(f"{self.results}/{name} differs from {reference.results}/{name}")
+            own, other = self.chunk(number), reference.chunk(number)
+            if own.read_bytes() != other.read_bytes():
+                raise Failed(f"{own} differs from {other}")
         say(f"results.csv and all {CHUNKS} chunks have the same bytes as those of one machine")
 
 

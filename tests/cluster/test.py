@@ -2,7 +2,8 @@
 """Sweeps on Slurm, with GNU parallel and with Dask, each with failures in the middle, beside the run on one machine.
 
 `make test-cluster` calls this. What is not installed is skipped, with the reason. All that is started is ended, and all that is written
-is removed, but for Dask, which is kept in `target`. SHADOWSTEP=PROGRAM tests another program than target/debug/shadowstep.
+is removed, but for Dask, which is kept in `target`. `test.py slurm dask` makes only these tests; SHADOWSTEP=PROGRAM tests another program than
+target/debug/shadowstep.
 """
 
 import os
@@ -73,15 +74,17 @@ def no_slurm(_):
     return f"{', '.join(missing)} not installed" if missing else None
 
 
-TESTS = (
-    ("Slurm", no_slurm, slurm_tests.slurm),
-    ("Slurm, two nodes in two networks", lambda page: no_slurm(page) or no_networks(), slurm_tests.two_networks),
-    ("GNU parallel", other_engines.no_parallel, other_engines.parallel),
-    ("Dask", other_engines.no_dask, other_engines.dask),
-)
+TESTS = {
+    "slurm": ("Slurm", no_slurm, slurm_tests.slurm),
+    "networks": ("Slurm, two nodes in two networks", lambda page: no_slurm(page) or no_networks(), slurm_tests.two_networks),
+    "parallel": ("GNU parallel", other_engines.no_parallel, other_engines.parallel),
+    "dask": ("Dask", other_engines.no_dask, other_engines.dask),
+}
 
 
-def main():
+def main(chosen):
+    if unknown := set(chosen) - set(TESTS):
+        raise Failed(f"no tests {', '.join(unknown)}: there are {', '.join(TESTS)}")
     page = Page()
     skipped = []
     with tempfile.TemporaryDirectory(prefix="shadowstep-cluster-") as folder:
@@ -89,7 +92,7 @@ def main():
         make = Make(folder, page.file("toml"))
         print(f"== One machine, {PROGRAM}")
         reference = one_machine(page, make)
-        for name, reason, test in TESTS:
+        for name, reason, test in [TESTS[key] for key in chosen or TESTS]:
             begin = time.monotonic()
             if why := reason(page):
                 skipped.append(name)
@@ -100,6 +103,8 @@ def main():
             say(f"{time.monotonic() - begin:.0f} s")
     if skipped:
         print(f"\nPassed; skipped: {', '.join(skipped)}. On Debian: apt-get install {PACKAGES}")
+    elif chosen:
+        print("\nPassed.")
     elif unused := page.unused():
         raise Failed(f"{PAGE} has commands that are not tested: {unused}")
     else:
@@ -111,7 +116,7 @@ if __name__ == "__main__":
     for number in signal.SIGTERM, signal.SIGHUP:
         signal.signal(number, lambda *_: sys.exit("ended by a signal"))
     try:
-        main()
+        main(sys.argv[1:])
     except Failed as failure:
         sys.exit(f"FAILED: {failure}")
     except KeyboardInterrupt:

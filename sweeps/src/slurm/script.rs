@@ -5,7 +5,10 @@ use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-use shadowstep_scenes::{Error, WholeFile};
+use shadowstep_scenes::{Error, not_written};
+use tempfile::NamedTempFile;
+
+use crate::chunk::make_readable;
 
 /// What a task gets: options of sbatch. What is omitted has the site's default.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -96,9 +99,7 @@ impl Script {
                 Ok(script)
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                let mut file = WholeFile::create_new(&path, "the job script")?;
-                file.write_all(text.as_bytes())?;
-                file.finish()?;
+                write(&path, text).map_err(|error| not_written(&path, error, "submit the sweep again"))?;
                 Ok(Script { path, text: text.to_owned(), is_new: true })
             }
             Err(error) => {
@@ -175,6 +176,16 @@ impl Script {
         }
         found
     }
+}
+
+/// Writes a file that is whole when it has its name; without locks, which a cluster's file system may not have.
+fn write(path: &Path, text: &str) -> io::Result<()> {
+    let mut file = NamedTempFile::new_in(path.parent().unwrap_or(Path::new(".")))?;
+    file.write_all(text.as_bytes())?;
+    make_readable(file.as_file())?;
+    file.as_file().sync_all()?;
+    file.persist_noclobber(path)?;
+    Ok(())
 }
 
 /// Short forms of options.

@@ -111,7 +111,7 @@ fn failure_of_array(message: String) -> Error {
 }
 
 /// The line that computes all chunks with GNU parallel, each with one core.
-pub fn parallel(command: &SweepCommand) -> String {
+fn parallel(command: &SweepCommand) -> String {
     let SweepCommand { program, sweep, folder, chunks } = command;
     let word = |path: &Path| quoted(path);
     let (log, program, sweep, folder) = (word(&folder.join("jobs.log")), word(program), word(sweep), word(folder));
