@@ -123,7 +123,7 @@ fn the_status_has_tasks_chunks_and_the_next_command() {
     let status = site.sweep("--status");
     assert_eq!(
         status.out,
-        "tasks:   1 pending (Priority), 1 running, 1 done, 1 failed, 1 that Slurm does not know any more\n\
+        "tasks:   1 pending (Priority), 1 running, 1 done, 1 failed, 1 no longer listed by Slurm\n\
          failed:  4 (OUT_OF_MEMORY)\n\
          chunks:  2 of 5 are complete, missing: 1,4-5\n\
          next:    submit the missing chunks: shadowstep sweep sweep.toml --out out --submit\n"

@@ -16,7 +16,7 @@ use super::tasks::TaskList;
 /// Displayed as lines: tasks by their states, failures, chunks, and what to do next.
 #[derive(Debug)]
 pub struct Status {
-    /// The state of each task that was submitted, as of the last array with it; `None` if Slurm does not know it any more.
+    /// The state of each task that was submitted, as of the last array with it; `None` if Slurm no longer lists it.
     tasks: BTreeMap<u64, Option<State>>,
     /// The job that collects, and its state.
     collect: Option<(u64, Option<State>)>,
@@ -83,7 +83,7 @@ impl Status {
         let _ = write!(text, ", {running} running, {done} done, {failed} failed");
         match self.with(Option::is_none).len() {
             0 => text,
-            forgotten => text + &format!(", {forgotten} that Slurm does not know any more"),
+            forgotten => text + &format!(", {forgotten} no longer listed by Slurm"),
         }
     }
 
@@ -207,7 +207,7 @@ mod tests {
         assert!(status.is_stuck());
         assert_eq!(
             status.to_string(),
-            "tasks:   0 pending, 0 running, 1 done, 3 failed, 1 that Slurm does not know any more\n\
+            "tasks:   0 pending, 0 running, 1 done, 3 failed, 1 no longer listed by Slurm\n\
              failed:  7-8 (CANCELLED), 3 (TIMEOUT)\n\
              chunks:  12 of 16 are complete, missing: 3,7-9\n\
              next:    submit the missing chunks: shadowstep sweep map.toml --out map --submit"
