@@ -13,8 +13,8 @@ use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::files::{Title, refuse_foreign, write};
 use shadowstep_work_precision::schemes::default_schemes;
+use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::study::Request;
-use shadowstep_work_precision::sweep::StepRange;
 
 use crate::colour::on_stdout;
 use crate::output::Output;

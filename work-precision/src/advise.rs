@@ -17,9 +17,9 @@ use crate::convenient::convenient_step;
 use crate::of::Of;
 use crate::problem::{Problem, most_samples};
 use crate::run::Measurement;
+use crate::series::{End, StepRange, Target, stable_step};
 use crate::size::Size;
 use crate::study::{Cost, Request, Studied, Study, only, proved_order};
-use crate::sweep::{End, StepRange, Target, stable_step};
 use crate::timing::time_of_steps;
 
 /// What is wanted.
@@ -145,13 +145,13 @@ impl<'a> Question<'a> {
             self.reduce(best, error);
             missed += 1;
         }
-        let runs = study.schemes.iter().flat_map(|studied| studied.sweep.runs.iter().map(move |run| (studied, run)));
+        let runs = study.schemes.iter().flat_map(|studied| studied.series.runs.iter().map(move |run| (studied, run)));
         let errors = runs.filter_map(|(studied, run)| Some((self.of.error(run)?, self.named(studied).name.as_str())));
         Ok(Advice::OutOfReach {
             least: errors.min_by(|a, b| a.0.log10().total_cmp(&b.0.log10())),
             part,
             reference: study.reference.error(),
-            in_time: study.schemes.iter().all(|studied| studied.sweep.end != End::Time),
+            in_time: study.schemes.iter().all(|studied| studied.series.end != End::Time),
             missed,
         })
     }
@@ -190,13 +190,13 @@ impl<'a> Question<'a> {
             let error = self.of.error(run)?;
             Some((run.steps as f64, error.log10() + f64::from(halvings) * self.of.growth(run).log10()))
         };
-        let curve: Vec<(f64, f64)> = studied.sweep.runs.iter().filter_map(whole).collect();
+        let curve: Vec<(f64, f64)> = studied.series.runs.iter().filter_map(whole).collect();
         let error = self.tolerance.times_power_of_ten(MARGIN);
         let steps = cost_of(&curve, error).or_else(|| self.extrapolated(studied, &curve, error))?;
         let largest = study.problem.duration() / steps;
         let size = |run: &Measurement| study.problem.duration() / run.steps as f64;
-        let fine = studied.sweep.runs.iter().rev().take_while(|run| run.fine).last();
-        let lost = studied.sweep.runs.iter().rev().find(|run| !run.fine && !run.undecided);
+        let fine = studied.series.runs.iter().rev().take_while(|run| run.fine).last();
+        let lost = studied.series.runs.iter().rev().find(|run| !run.fine && !run.undecided);
         let choice = Choice {
             scheme: self.named(studied),
             step: Rational::from_integer(0.into()),
@@ -212,7 +212,7 @@ impl<'a> Question<'a> {
 
     /// The number of steps for an error that no run had the time for, by Richardson's rule with the proved order.
     fn extrapolated(&self, studied: &Studied<'_>, curve: &[(f64, f64)], error: Size) -> Option<f64> {
-        let (steps, last) = curve.last().filter(|_| studied.sweep.end == End::Time)?;
+        let (steps, last) = curve.last().filter(|_| studied.series.end == End::Time)?;
         let more = 10_f64.powf((last - error.log10()) / self.order(studied.scheme));
         (1.0..=MOST_EXTRAPOLATED).contains(&more).then_some(steps * more)
     }
@@ -248,9 +248,9 @@ impl<'a> Question<'a> {
         };
         let mut store = Store::open(&self.folder, observer)?;
         let Some(Outcome::Reference(reference)) = only(&[wanted], &mut store, observer)? else { return Ok(None) };
-        let wanted = Calculation::sweep(problem, choice.scheme, &reference, &StepRange::Given(vec![choice.steps]));
-        let Some(Outcome::Sweep(sweep)) = only(&[wanted], &mut store, observer)? else { return Ok(None) };
-        let error = sweep.runs.first().and_then(|run| self.of.error(run));
+        let wanted = Calculation::series(problem, choice.scheme, &reference, &StepRange::Given(vec![choice.steps]));
+        let Some(Outcome::Series(series)) = only(&[wanted], &mut store, observer)? else { return Ok(None) };
+        let error = series.runs.first().and_then(|run| self.of.error(run));
         let half = if is_known || self.of != Of::Position { 0.0 } else { (-self.order(choice.scheme)).exp2() };
         Ok(error.map(|error| error.times_power_of_ten(-(1.0 - half).log10())))
     }

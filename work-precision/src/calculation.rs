@@ -9,7 +9,7 @@ use shadowstep_tasks::{Task, Watcher};
 
 use crate::problem::Problem;
 use crate::reference::Reference;
-use crate::sweep::{StepRange, Sweep, Sweeping};
+use crate::series::{Series, SeriesOf, StepRange};
 use crate::timing::{StepTime, time_of_steps};
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
@@ -38,7 +38,7 @@ enum Quantity {
     /// The same from a run of this scheme with so many steps, of which the errors of others are estimated by Richardson's rule.
     Halved { scheme: String, samples: u64, steps: u64 },
     /// The runs of a scheme, which is identified by its weights.
-    Sweep { scheme: String, samples: u64, range: StepRange },
+    Series { scheme: String, samples: u64, range: StepRange },
     /// The time of a step of each scheme, with so many steps to the end.
     Times { schemes: Vec<(String, u64)> },
 }
@@ -47,7 +47,7 @@ enum Quantity {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) enum Outcome {
     Reference(Reference),
-    Sweep(Sweep),
+    Series(Series),
     Times(Vec<StepTime>),
 }
 
@@ -61,14 +61,14 @@ impl<'a> Calculation<'a> {
         Calculation::new(problem, Quantity::Halved { scheme: scheme.identity(), samples, steps }, vec![scheme], None)
     }
 
-    pub(crate) fn sweep(
+    pub(crate) fn series(
         problem: Problem<'a>,
         scheme: &'a NamedScheme,
         reference: &'a Reference,
         range: &StepRange,
     ) -> Self {
         let quantity =
-            Quantity::Sweep { scheme: scheme.identity(), samples: reference.samples(), range: range.clone() };
+            Quantity::Series { scheme: scheme.identity(), samples: reference.samples(), range: range.clone() };
         Calculation::new(problem, quantity, vec![scheme], Some(reference))
     }
 
@@ -96,11 +96,11 @@ impl<'a> Calculation<'a> {
             Quantity::Halved { samples, steps, .. } => {
                 Reference::of_run(self.problem, self.schemes[0], (*samples, *steps)).map(Outcome::Reference)
             }
-            Quantity::Sweep { range, .. } => {
-                let reference = self.reference.expect("a sweep has one");
-                let sweeping = Sweeping { problem: self.problem, scheme: self.schemes[0], reference, range };
+            Quantity::Series { range, .. } => {
+                let reference = self.reference.expect("a series has one");
+                let series_of = SeriesOf { problem: self.problem, scheme: self.schemes[0], reference, range };
                 let stopped = || Error::run("the calculation was stopped", "the same command resumes it");
-                sweeping.make(continues)?.map(Outcome::Sweep).ok_or_else(stopped)
+                series_of.make(continues)?.map(Outcome::Series).ok_or_else(stopped)
             }
             Quantity::Times { schemes } => {
                 let steps = self.schemes.iter().copied().zip(schemes.iter().map(|(_, steps)| *steps));
@@ -116,9 +116,9 @@ impl Task for Calculation<'_> {
     fn cost(group: &[&Self]) -> f64 {
         let seconds = |calculation: &&Self| match &calculation.quantity {
             Quantity::Reference { seconds, .. }
-            | Quantity::Sweep { range: StepRange::Automatic { seconds, .. }, .. } => *seconds,
+            | Quantity::Series { range: StepRange::Automatic { seconds, .. }, .. } => *seconds,
             Quantity::Halved { steps, .. } => *steps as f64 * 1e-6,
-            Quantity::Sweep { range: StepRange::Given(steps), .. } => steps.iter().sum::<u64>() as f64 * 1e-6,
+            Quantity::Series { range: StepRange::Given(steps), .. } => steps.iter().sum::<u64>() as f64 * 1e-6,
             Quantity::Times { schemes } => schemes.len() as f64 * 0.1,
         };
         group.iter().map(seconds).sum()

@@ -6,7 +6,7 @@
 //! | [`problem`] | a system, an interval of time, a number type |
 //! | [`reference`](mod@reference) | the positions with which those of the schemes are compared, and their own error |
 //! | `positions` | positions at the times at which errors are taken |
-//! | [`sweep`] | the runs of a scheme, from its stability limit down to round-off |
+//! | [`series`] | the runs of a scheme, from its stability limit down to round-off |
 //! | [`run`] | one run: errors of position and energy, the modified energy |
 //! | [`timing`] | the time of a step |
 //! | [`of`], [`order`], `best` | which error; the measured order; the scheme that needs the least for an error |
@@ -32,8 +32,8 @@ mod records;
 pub mod reference;
 pub mod run;
 pub mod schemes;
+pub mod series;
 pub mod size;
 pub mod study;
-pub mod sweep;
 pub mod tables;
 pub mod timing;

@@ -60,7 +60,9 @@ impl Study<'_> {
     }
 
     fn records(&self) -> impl Iterator<Item = Record<'_>> {
-        self.schemes.iter().flat_map(move |studied| studied.sweep.runs.iter().map(move |run| self.record(studied, run)))
+        self.schemes
+            .iter()
+            .flat_map(move |studied| studied.series.runs.iter().map(move |run| self.record(studied, run)))
     }
 
     fn record<'a>(&self, studied: &'a Studied<'_>, run: &'a Measurement) -> Record<'a> {

@@ -16,8 +16,8 @@ use crate::order::MeasuredOrder;
 use crate::problem::{MOST_SAMPLES, Problem, most_samples};
 use crate::reference::Reference;
 use crate::run::Measurement;
+use crate::series::{Series, StepRange, coarsest};
 use crate::size::Size;
-use crate::sweep::{StepRange, Sweep, coarsest};
 use crate::timing::StepTime;
 
 /// The coarsest run has so many steps between samples, so that rounding to samples changes the number of steps little.
@@ -57,7 +57,7 @@ pub struct Studied<'a> {
     /// The scheme.
     pub scheme: &'a NamedScheme,
     /// Its runs.
-    pub sweep: Sweep,
+    pub series: Series,
     /// The time of a step.
     pub time: StepTime,
 }
@@ -84,25 +84,25 @@ impl<'a> Request<'a> {
         let Some(Outcome::Reference(reference)) = only(&[wanted], &mut store, observer)? else {
             return Err(Error::run("there is no reference", "use a shorter time"));
         };
-        let sweep = |scheme| Calculation::sweep(problem, scheme, &reference, &self.range);
-        let found = run(&self.schemes.iter().map(sweep).collect::<Vec<_>>(), &mut store, observer)?;
+        let series = |scheme| Calculation::series(problem, scheme, &reference, &self.range);
+        let found = run(&self.schemes.iter().map(series).collect::<Vec<_>>(), &mut store, observer)?;
         found.failures.iter().for_each(|(_, error)| observer.failed(error));
-        let sweeps: Vec<(&NamedScheme, Sweep)> = self
+        let all: Vec<(&NamedScheme, Series)> = self
             .schemes
             .iter()
             .zip(found.outcomes)
             .filter_map(|(scheme, outcome)| match outcome {
-                Some(Outcome::Sweep(sweep)) => Some((scheme, sweep)),
+                Some(Outcome::Series(series)) => Some((scheme, series)),
                 _ => None,
             })
             .collect();
-        let timed = sweeps.iter().map(|(scheme, sweep)| (*scheme, sweep.runs.last().map_or(1, |run| run.steps)));
+        let timed = all.iter().map(|(scheme, series)| (*scheme, series.runs.last().map_or(1, |run| run.steps)));
         let wanted = Calculation::times(problem, &timed.collect::<Vec<_>>());
         let Some(Outcome::Times(times)) = only(&[wanted], &mut store, observer)? else {
             return Err(Error::run("the steps were not timed", "run the command again"));
         };
-        let schemes = sweeps.into_iter().zip(times);
-        let schemes = schemes.map(|((scheme, sweep), time)| Studied { scheme, sweep, time }).collect();
+        let schemes = all.into_iter().zip(times);
+        let schemes = schemes.map(|((scheme, series), time)| Studied { scheme, series, time }).collect();
         Ok(Study { problem, reference, schemes })
     }
 
@@ -159,7 +159,7 @@ impl Study<'_> {
 
     /// The decades of an error that some scheme reaches, from the largest one.
     pub fn decades(&self, of: Of) -> impl Iterator<Item = Size> {
-        let errors = self.schemes.iter().flat_map(|studied| &studied.sweep.runs).filter_map(|run| of.error(run));
+        let errors = self.schemes.iter().flat_map(|studied| &studied.series.runs).filter_map(|run| of.error(run));
         let logs = errors.map(Size::log10).filter(|log10| log10.is_finite());
         let (least, most) =
             logs.fold((f64::INFINITY, -1.0_f64), |(least, most), log10| (least.min(log10), most.max(log10)));
@@ -189,7 +189,7 @@ impl Studied<'_> {
     /// The measured order with the steps at which it holds, of the position or of H.
     pub fn order(&self, problem: Problem<'_>, of: Of) -> Option<MeasuredOrder> {
         let step = |run: &Measurement| problem.duration() / run.steps as f64;
-        let points = self.sweep.runs.iter().filter_map(|run| Some((step(run), of.error(run)?.log10())));
+        let points = self.series.runs.iter().filter_map(|run| Some((step(run), of.error(run)?.log10())));
         MeasuredOrder::of(&points.filter(|(_, error)| error.is_finite()).collect::<Vec<_>>())
     }
 
@@ -199,6 +199,6 @@ impl Studied<'_> {
             Cost::Evaluations => run.evaluations as f64,
             Cost::Seconds => self.seconds(run),
         };
-        self.sweep.runs.iter().filter_map(|run| Some((cost(run), of.error(run)?.log10()))).collect()
+        self.series.runs.iter().filter_map(|run| Some((cost(run), of.error(run)?.log10()))).collect()
     }
 }

@@ -31,14 +31,14 @@ const MOST_RUNS: i32 = 80;
 
 /// The runs of a scheme, the one with the fewest steps first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Sweep {
+pub struct Series {
     /// What its runs have shown.
     pub runs: Vec<Measurement>,
     /// Why there are no more.
     pub end: End,
 }
 
-/// Why a sweep ends.
+/// Why a series ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum End {
     /// All steps that were asked for are made.
@@ -73,16 +73,16 @@ pub enum StepRange {
 }
 
 /// The runs of a scheme on a problem.
-pub(crate) struct Sweeping<'a> {
+pub(crate) struct SeriesOf<'a> {
     pub(crate) problem: Problem<'a>,
     pub(crate) scheme: &'a NamedScheme,
     pub(crate) reference: &'a Reference,
     pub(crate) range: &'a StepRange,
 }
 
-impl Sweeping<'_> {
-    /// Makes the runs until `continues` with the part that is done returns false: then there is no sweep.
-    pub(crate) fn make(&self, continues: &dyn Fn(f64) -> bool) -> Result<Option<Sweep>, Error> {
+impl SeriesOf<'_> {
+    /// Makes the runs until `continues` with the part that is done returns false: then there is no series.
+    pub(crate) fn make(&self, continues: &dyn Fn(f64) -> bool) -> Result<Option<Series>, Error> {
         match self.range {
             StepRange::Automatic { seconds, target } => self.automatic(*seconds, *target, continues),
             StepRange::Given(steps) => {
@@ -93,7 +93,7 @@ impl Sweeping<'_> {
                     }
                     runs.push(self.measure(steps)?);
                 }
-                Ok(Some(Sweep { runs, end: End::Complete }))
+                Ok(Some(Series { runs, end: End::Complete }))
             }
         }
     }
@@ -103,7 +103,7 @@ impl Sweeping<'_> {
         seconds: f64,
         target: Option<Target>,
         continues: &dyn Fn(f64) -> bool,
-    ) -> Result<Option<Sweep>, Error> {
+    ) -> Result<Option<Series>, Error> {
         let begin = Instant::now();
         let mut runs: Vec<Measurement> = Vec::new();
         let mut end = End::Time;
@@ -129,7 +129,7 @@ impl Sweeping<'_> {
                 break;
             }
         }
-        Ok(Some(Sweep { runs, end }))
+        Ok(Some(Series { runs, end }))
     }
 
     /// The number of steps of the run with this index: the scheme's evaluations are about samples · 2^(index/2), and the samples are at states.
@@ -147,7 +147,7 @@ impl Sweeping<'_> {
     }
 
     fn measure(&self, steps: u64) -> Result<Measurement, Error> {
-        self.problem.arithmetic.compute(Run { sweeping: self, steps })
+        self.problem.arithmetic.compute(Run { series_of: self, steps })
     }
 }
 
@@ -201,7 +201,7 @@ fn is_round_off(runs: &[Measurement]) -> bool {
 
 /// One run in any number type.
 struct Run<'a> {
-    sweeping: &'a Sweeping<'a>,
+    series_of: &'a SeriesOf<'a>,
     steps: u64,
 }
 
@@ -209,7 +209,7 @@ impl Computation for Run<'_> {
     type Output = Result<Measurement, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
-        let Sweeping { problem, scheme, reference, .. } = self.sweeping;
+        let SeriesOf { problem, scheme, reference, .. } = self.series_of;
         let h: Rational = problem.step_size(self.steps);
         let work = Measuring { steps: self.steps, reference };
         let start = problem.system.start::<N>(context);
