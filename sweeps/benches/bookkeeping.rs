@@ -5,6 +5,7 @@
 use std::env;
 use std::fs;
 use std::hint::black_box;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use shadowstep::run::{States, Trajectory};
@@ -17,12 +18,16 @@ use shadowstep_sweeps::{Collected, Manifest, Plan, TableFormat, collect, compute
 /// A run of about 1 ms.
 const STEPS: u64 = 20_000;
 
+/// Of so many scenes the steps are made alone, again and again.
+const SCENES: u64 = 500;
+
 /// How often both take turns.
 const ROUNDS: usize = 5;
 
 fn main() {
     let runs: u64 = env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(10_000);
     let plan = Plan::of(&Source { path: "sweep.toml".to_owned(), text: text(runs) }).expect("the sweep is valid");
+    let scenes = scenes(&plan);
     let folder = tempfile::tempdir().expect("there is a temporary folder");
     let (mut swept, mut bare, mut collected) = (Vec::new(), Vec::new(), Vec::new());
     for round in 0..ROUNDS {
@@ -36,7 +41,7 @@ fn main() {
         assert!(matches!(all, Collected::Complete { failed: 0, .. }));
         collected.push(begin.elapsed().as_secs_f64());
         let begin = Instant::now();
-        steps_alone(&plan, runs);
+        steps_alone(&scenes, runs);
         bare.push(begin.elapsed().as_secs_f64());
         if round == 0 {
             let size: u64 =
@@ -65,11 +70,24 @@ fn text(runs: u64) -> String {
     )
 }
 
+/// Scenes that are read before the clock starts, evenly spread over all runs.
+fn scenes(plan: &Plan) -> Vec<Scene> {
+    let runs = plan.axes().runs();
+    (0..SCENES).map(|k| plan.scene(k * runs / SCENES).expect("the scene is valid")).collect()
+}
+
 /// The steps of so many runs on all cores, without anything else.
-fn steps_alone(plan: &Plan, runs: u64) {
-    let scene = plan.scene(0).expect("the scene is valid");
-    let share = runs.div_ceil(rayon::current_num_threads() as u64);
-    rayon::broadcast(|_| (0..share).for_each(|_| follow(&scene)));
+fn steps_alone(scenes: &[Scene], runs: u64) {
+    let next = AtomicU64::new(0);
+    rayon::broadcast(|_| {
+        loop {
+            let run = next.fetch_add(1, Ordering::Relaxed);
+            if run >= runs {
+                break;
+            }
+            follow(&scenes[(run % SCENES) as usize]);
+        }
+    });
 }
 
 fn follow(scene: &Scene) {

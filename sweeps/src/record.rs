@@ -124,13 +124,16 @@ where
     M: shadowstep::System<Number: Rounded + 'static>,
 {
     let mut trajectory = Trajectory::plain(stepper, system, 0, run.steps)?;
-    loop {
+    if !following.follows_all() {
+        if !reaches_the_end(&mut trajectory, stops)? {
+            return Ok(None);
+        }
+        following.include(following.last, trajectory.system());
+    }
+    while !following.is_over() {
         trajectory.set_augmented(following.needs_increments());
         let Some(n) = trajectory.advance()?.map(|state| state.n) else { break };
         following.include(n, trajectory.system());
-        if following.last == n {
-            break;
-        }
         if stops.load(Ordering::Relaxed) {
             return Ok(None);
         }
@@ -138,7 +141,22 @@ where
     Ok(Some(Ended { drift: None, evaluations: trajectory.system().evaluations() }))
 }
 
-/// The same with an estimate at each state.
+/// Goes to the last state, of which alone something is kept; false if it was stopped.
+fn reaches_the_end<S, M>(trajectory: &mut Trajectory<'_, S, M>, stops: &AtomicBool) -> Result<bool, RunError>
+where
+    S: Scheme + ValidFor<M::Class>,
+    M: shadowstep::System,
+{
+    trajectory.set_augmented(false);
+    while !stops.load(Ordering::Relaxed) {
+        if trajectory.advance()?.is_none() {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// Follows the states of a run with an estimate at each of them; `None` if it was stopped.
 fn estimated<S, M>(
     following: &mut Following<'_, S, M::Number>,
     stepper: &Stepper<S, M::Number>,
@@ -180,7 +198,7 @@ where
 
 /// What is kept, as far as the states have come.
 struct Following<'a, S: Scheme, N: Number> {
-    scene: &'a Scene,
+    run: Run<'a>,
     keep: &'a Keep,
     watch: Option<Watch<S, N>>,
     /// The conditions, each with the n of the first state that meets it.
@@ -223,7 +241,20 @@ impl<'a, S: Scheme + Clone, N: Rounded> Following<'a, S, N> {
             .map(|(_, condition)| (Test::new(condition, &scene.system, context).expect(CHECKED), None));
         let at_end = keep.at_end.iter().map(|(_, text)| Evaluator::new(text, &scene.system, context).expect(CHECKED));
         let last = i64::try_from(scene.steps).unwrap_or(i64::MAX);
-        Ok(Following { scene, keep, watch, tests: tests.collect(), at_end: at_end.collect(), last, end: None })
+        Ok(Following {
+            run: scene.as_run(),
+            keep,
+            watch,
+            tests: tests.collect(),
+            at_end: at_end.collect(),
+            last,
+            end: None,
+        })
+    }
+
+    /// Whether more than the last state is of interest.
+    fn follows_all(&self) -> bool {
+        self.watch.is_some() || !self.tests.is_empty()
     }
 
     fn needs_increments(&self) -> bool {
@@ -240,7 +271,7 @@ impl<'a, S: Scheme + Clone, N: Rounded> Following<'a, S, N> {
         if let Some(watch) = self.watch.as_mut().filter(|_| n > 0) {
             watch.include(n, system);
         }
-        let run = self.scene.as_run();
+        let run = self.run;
         for (test, met) in &mut self.tests {
             if met.is_none() && test.is_met(system, || run.time(n)) {
                 *met = Some(n);

@@ -17,9 +17,9 @@ use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::run::PositionError;
 use shadowstep_work_precision::schemes::default_schemes;
+use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::{Cost, Request, Study};
-use shadowstep_work_precision::sweep::StepRange;
 
 /// Names, the sections of a scene, and times.
 const PROBLEMS: [(&str, &str, i64); 12] = [
@@ -60,7 +60,7 @@ fn main() {
         let names = default_schemes(system.has_general_kinetic());
         let schemes = names.map(|name| scheme(name).unwrap());
         let folder = tempfile::tempdir().unwrap();
-        let sweep = sweep(problem, &schemes, &folder.path().join("sweep"));
+        let study = study(problem, &schemes, &folder.path().join("study"));
         for exponent in TOLERANCES {
             let tolerance = Size::power_of_ten(f64::from(exponent));
             let folder = folder.path().join(format!("{exponent}"));
@@ -73,7 +73,7 @@ fn main() {
                 seconds: 4.0,
                 folder,
             };
-            let best = sweep.cheapest(Of::Position, Cost::Evaluations, tolerance).into_iter().next();
+            let best = study.cheapest(Of::Position, Cost::Evaluations, tolerance).into_iter().next();
             all += 1;
             match (question.answer(&mut ()).unwrap(), best) {
                 (Advice::Found { choices, .. }, best) => {
@@ -98,7 +98,7 @@ fn main() {
 }
 
 /// All schemes over all of the time, down to round-off.
-fn sweep<'a>(problem: Problem<'a>, schemes: &'a [NamedScheme], folder: &Path) -> Study<'a> {
+fn study<'a>(problem: Problem<'a>, schemes: &'a [NamedScheme], folder: &Path) -> Study<'a> {
     let range = StepRange::Automatic { seconds: 4.0, target: None };
     let reference_time = Duration::from_secs(60);
     Request { problem, schemes, range, reference_time, folder: folder.to_owned() }.study(&mut ()).unwrap()
@@ -111,7 +111,7 @@ fn measured(problem: Problem<'_>, choice: &Choice<'_>, folder: &Path) -> Positio
     let (schemes, range) = ([choice.scheme.clone()], StepRange::Given(vec![choice.steps]));
     let reference_time = Duration::from_secs(60);
     let request = Request { problem, schemes: &schemes, range, reference_time, folder: folder.to_owned() };
-    request.study(&mut ()).unwrap().schemes[0].sweep.runs[0].position
+    request.study(&mut ()).unwrap().schemes[0].series.runs[0].position
 }
 
 fn row(name: &str, exponent: i32, choice: &Choice<'_>, error: PositionError, best: Option<(&NamedScheme, f64)>) {

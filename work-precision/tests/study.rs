@@ -11,9 +11,9 @@ use shadowstep_scenes::{PotentialEnergy, System};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::reference::Origin;
+use shadowstep_work_precision::series::{End, StepRange};
 use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::{Cost, Request, Study};
-use shadowstep_work_precision::sweep::{End, StepRange};
 
 fn system(name: &str) -> System {
     System::of_setup(problem(name).unwrap().setup(&[], 60).unwrap())
@@ -42,13 +42,13 @@ fn schemes_show_their_orders_beside_the_exact_flow() {
     let study = study(problem, &schemes, range, folder.path());
     assert_eq!(study.reference.origin, Origin::ExactFlow);
     for (studied, order) in study.schemes.iter().zip([2.0, 4.0, 6.0]) {
-        assert_eq!((studied.sweep.runs.len(), studied.sweep.end), (5, End::Complete));
+        assert_eq!((studied.series.runs.len(), studied.series.end), (5, End::Complete));
         for of in [Of::Position, Of::Energy] {
             // the slope still has a part of the next term: 0.1 of the order at these steps
             let found = studied.order(problem, of).unwrap();
             assert!((found.order - order).abs() < 0.1, "{}, {of:?}: {found:?}", studied.scheme.name);
         }
-        assert_eq!(studied.sweep.runs[0].evaluations, 100 * studied.evaluations_per_step());
+        assert_eq!(studied.series.runs[0].evaluations, 100 * studied.evaluations_per_step());
     }
 }
 
@@ -71,7 +71,7 @@ fn the_error_of_a_reference_is_estimated() {
     assert!(matches!(estimated.reference.origin, Origin::Scheme { .. }));
     let error = estimated.reference.error();
     assert!(error < Size::power_of_ten(-15.0) && error > Size::power_of_ten(-30.0), "{error}");
-    for (a, b) in exact.schemes[0].sweep.runs.iter().zip(&estimated.schemes[0].sweep.runs) {
+    for (a, b) in exact.schemes[0].series.runs.iter().zip(&estimated.schemes[0].series.runs) {
         let [a, b] = [a, b].map(|run| run.position.known().unwrap().log10());
         // the same error to three digits, as round-off differs with the form of the potential
         assert!((a - b).abs() < 4e-4 || a < -13.0, "{a} {b}");
@@ -79,19 +79,19 @@ fn the_error_of_a_reference_is_estimated() {
 }
 
 #[test]
-fn sweeps_go_from_instability_to_round_off() {
+fn series_go_from_instability_to_round_off() {
     let (system, until, folder) = (system("harmonic-oscillator"), until(10), tempfile::tempdir().unwrap());
     let schemes = schemes(&["stormer-verlet", "bce-rkn8-17"]);
     let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
     let study = study(problem, &schemes, StepRange::Automatic { seconds: 5.0, target: None }, folder.path());
     let [verlet, rkn] = &study.schemes[..] else { panic!() };
     for studied in [verlet, rkn] {
-        let runs = &studied.sweep.runs;
+        let runs = &studied.series.runs;
         assert!(runs[0].failed.is_some() || runs[0].energy > Size::power_of_ten(-1.0), "{:?}", runs[0]);
         // equal numbers of evaluations, as nearly as steps and samples allow
         assert!(runs.windows(2).all(|runs| runs[0].steps < runs[1].steps));
     }
-    assert_eq!(rkn.sweep.end, End::RoundOff);
+    assert_eq!(rkn.series.end, End::RoundOff);
     let best = study.cheapest(Of::Position, Cost::Evaluations, Size::power_of_ten(-10.0));
     assert_eq!(best[0].0.scheme.name, "bce-rkn8-17");
 }
@@ -123,7 +123,7 @@ fn runs_that_fail_are_kept_as_failed() {
     let schemes = schemes(&["stormer-verlet"]);
     let problem = Problem { system: &quartic, until: &until, arithmetic: Arithmetic::Double };
     let study = study(problem, &schemes, StepRange::Given(vec![20, 4000]), folder.path());
-    let runs = &study.schemes[0].sweep.runs;
+    let runs = &study.schemes[0].series.runs;
     assert!(runs[0].failed.is_some() && runs[1].failed.is_none(), "{runs:?}");
     assert!(study.csv(&[]).unwrap().lines().nth(1).unwrap().contains(",a state is not finite,"));
 }

@@ -113,6 +113,8 @@ impl<S: Scheme, M: System> Trajectory<'_, S, M> {
 impl<S: Scheme + ValidFor<M::Class>, M: System> States for Trajectory<'_, S, M> {
     type Number = M::Number;
 
+    // the loop over all states of a run
+    #[inline]
     fn advance(&mut self) -> Result<Option<State<'_, M::Number>>, RunError> {
         if self.n >= self.last {
             return Ok(None);

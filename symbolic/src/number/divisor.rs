@@ -20,6 +20,13 @@ const LEADING: u64 = 62;
 /// The greatest common divisor, positive unless both are 0.
 pub(crate) fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
     let [a, b] = [a, b].map(BigInt::magnitude);
+    // most numbers are as short: no allocation
+    if let (Some(a), Some(b)) = (a.to_u64(), b.to_u64()) {
+        return a.gcd(&b).into();
+    }
+    if let (Some(a), Some(b)) = (a.to_u128(), b.to_u128()) {
+        return a.gcd(&b).into();
+    }
     let (long, short) = if a >= b { (a, b) } else { (b, a) };
     match () {
         () if short.is_zero() => long.clone().into(),
