@@ -125,7 +125,7 @@ where
 {
     let mut trajectory = Trajectory::plain(stepper, system, 0, run.steps)?;
     if !following.follows_all() {
-        if !reaches_the_end(&mut trajectory, stops)? {
+        if !trajectory.reach_the_end(|| !stops.load(Ordering::Relaxed))? {
             return Ok(None);
         }
         following.include(following.last, trajectory.system());
@@ -139,21 +139,6 @@ where
         }
     }
     Ok(Some(Ended { drift: None, evaluations: trajectory.system().evaluations() }))
-}
-
-/// Goes to the last state, of which alone something is kept; false if it was stopped.
-fn reaches_the_end<S, M>(trajectory: &mut Trajectory<'_, S, M>, stops: &AtomicBool) -> Result<bool, RunError>
-where
-    S: Scheme + ValidFor<M::Class>,
-    M: shadowstep::System,
-{
-    trajectory.set_augmented(false);
-    while !stops.load(Ordering::Relaxed) {
-        if trajectory.advance()?.is_none() {
-            return Ok(true);
-        }
-    }
-    Ok(false)
 }
 
 /// Follows the states of a run with an estimate at each of them; `None` if it was stopped.

@@ -27,7 +27,7 @@ const SHAPES: [f64; 3] = [0.75, 0.9, 1.0];
 /// Height : width of panels with equal scales.
 const EQUAL: (f64, f64) = (0.2, 1.6);
 /// Between panels, and between their rows.
-const GAP: f64 = 26.0;
+const GAP: f64 = 40.0;
 const BETWEEN_ROWS: f64 = 10.0;
 /// For half of the last label of an axis.
 const RIGHT: f64 = MARGIN + 16.0;
