@@ -1,6 +1,7 @@
 //! Scenes that differ in the values of some names only.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use shadowstep::Rational;
 use shadowstep::tables::{Faults, Source};
@@ -103,6 +104,20 @@ impl Family {
         sections.for_each(|(_, section)| collect_names(section.get_ref(), &mut found));
         Ok(found)
     }
+
+    /// The names in `"$name"`, in the order of the text, with their places.
+    ///
+    /// # Errors
+    /// Faults of the syntax.
+    pub fn whole_names(&self) -> Result<Vec<(String, Range<usize>)>, Faults> {
+        let (document, faults) = document(&self.source);
+        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
+        let mut found = Vec::new();
+        let sections = document.iter().filter(|(name, _)| !self.others.contains(&name.get_ref().as_ref()));
+        sections.for_each(|(_, section)| collect_whole_names(section, &mut found));
+        found.sort_by_key(|(_, at)| at.start);
+        Ok(found)
+    }
 }
 
 impl Meaning {
@@ -148,6 +163,18 @@ fn collect_names(value: &DeValue<'_>, found: &mut BTreeSet<String>) {
         DeValue::String(text) => found.extend(words(text)),
         DeValue::Array(members) => members.iter().for_each(|member| collect_names(member.get_ref(), found)),
         DeValue::Table(table) => table.values().for_each(|value| collect_names(value.get_ref(), found)),
+        _ => {}
+    }
+}
+
+fn collect_whole_names(value: &Spanned<DeValue<'_>>, found: &mut Vec<(String, Range<usize>)>) {
+    match value.get_ref() {
+        DeValue::String(text) => {
+            let name = text.strip_prefix('$').filter(|name| words(name).next().is_some_and(|word| word == *name));
+            found.extend(name.map(|name| (name.to_owned(), value.span())));
+        }
+        DeValue::Array(members) => members.iter().for_each(|member| collect_whole_names(member, found)),
+        DeValue::Table(table) => table.values().for_each(|value| collect_whole_names(value, found)),
         _ => {}
     }
 }

@@ -33,6 +33,9 @@ impl Axes {
                 "add a name and its values, such as h = [\"1/10\", \"1/20\"]",
             );
         }
+        if !reader.has_at_most(value, MOST_AXES, "axes") {
+            return None;
+        }
         // in the order of the text
         let mut entries: Vec<_> = table.iter().map(|(key, value)| (Text::of_key(key), value)).collect();
         entries.sort_by_key(|(name, _)| name.at.start);
@@ -104,7 +107,10 @@ fn axis(reader: &mut Reader<'_>, name: &Text, value: &shadowstep_schemes::docume
 }
 
 /// Names of columns, and of the time and the energy in expressions.
-const RESERVED: [&str; 5] = ["run", "failure", "t", "n", "E"];
+const RESERVED: [&str; 4] = ["run", "failure", "t", "E"];
+
+/// The most axes.
+const MOST_AXES: usize = 100;
 
 /// The lists of names in `zip`, as places of axes.
 fn zips(
@@ -159,4 +165,81 @@ fn groups(
     let mut groups: Vec<Vec<usize>> = zips.iter().map(|(zip, _)| zip.clone()).chain(alone).collect();
     groups.sort_by_key(|group| group.iter().min().copied());
     Some(groups)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shadowstep_schemes::document::{Source, document};
+    use std::collections::BTreeSet;
+
+    fn read(text: &str) -> Result<Axes, String> {
+        let source = Source { path: "test.toml".to_owned(), text: text.to_owned() };
+        let (document, _) = document(&source);
+        let mut reader = Reader::new(&source, Vec::new());
+        Axes::read(&mut reader, &document.unwrap()).ok_or_else(|| reader.faults[0].message.clone())
+    }
+
+    fn described(text: &str) -> Vec<String> {
+        let axes = read(text).unwrap();
+        (0..axes.runs()).map(|run| axes.described(run)).collect()
+    }
+
+    #[test]
+    fn the_last_axis_varies_fastest() {
+        let found = described("[axes]\nb = [1, 2]\na = [\"x\", \"y\", \"z\"]");
+        assert_eq!(
+            found,
+            ["b = 1, a = x", "b = 1, a = y", "b = 1, a = z", "b = 2, a = x", "b = 2, a = y", "b = 2, a = z"]
+        );
+    }
+
+    #[test]
+    fn axes_of_a_zip_advance_together() {
+        let text = "zip = [[\"c\", \"a\"]]\n[axes]\na = [1, 2]\nb = [0, 1]\nc = [\"x\", \"y\"]";
+        let wanted = ["a = 1, b = 0, c = x", "a = 1, b = 1, c = x", "a = 2, b = 0, c = y", "a = 2, b = 1, c = y"];
+        assert_eq!(described(text), wanted);
+    }
+
+    #[test]
+    fn every_combination_is_there_once() {
+        let text = "zip = [[\"b\", \"e\"], [\"d\", \"f\"]]\n[axes]\na = [1, 2, 3]\nb = \"1 … 2 in 5 values\"\nc = [7]\n\
+                    d = { draws = 2, uniform = [0, 1], seed = 1 }\ne = \"1 … 100 in 4 steps of log\"\nf = [\"x\", \"y\"]";
+        let axes = read(text).unwrap();
+        assert_eq!(axes.runs(), 3 * 5 * 2);
+        let numbers: BTreeSet<Vec<u64>> = (0..axes.runs()).map(|run| axes.numbers(run)).collect();
+        assert_eq!(numbers.len() as u64, axes.runs());
+        for numbers in &numbers {
+            assert!(numbers.iter().zip(axes.all()).all(|(number, axis)| *number < axis.count()));
+            assert_eq!((numbers[1], numbers[3]), (numbers[4], numbers[5]));
+        }
+        // runs are in the order of the numbers
+        assert!((1..axes.runs()).all(|run| axes.numbers(run - 1) < axes.numbers(run)));
+    }
+
+    #[test]
+    fn values_of_very_many_runs_are_made_one_at_a_time() {
+        let axes =
+            read("[axes]\na = \"0 … 1 in 99999 steps\"\nb = \"0 … 1 in 99999 steps\"\nc = \"0 … 1 in 99999 steps\"")
+                .unwrap();
+        assert_eq!((axes.runs(), MOST_RUNS), (1_000_000_000_000_000, 1_000_000_000_000_000));
+        assert_eq!(axes.described(0), "a = 0, b = 0, c = 0");
+        assert_eq!(axes.described(MOST_RUNS - 1), "a = 1, b = 1, c = 1");
+        assert_eq!(axes.described(33_333), "a = 0, b = 0, c = 1/3");
+        let fault = read("[axes]\na = \"0 … 1 in 99999 steps\"\nb = \"0 … 1 in 10000000001 values\"").unwrap_err();
+        assert_eq!(fault, "these axes give more than 1e15 runs");
+        // also where the product overflows
+        let huge = "\"0 … 1 in 1000000000000 values\"";
+        let fault = read(&format!("[axes]\na = {huge}\nb = {huge}")).unwrap_err();
+        assert_eq!(fault, "these axes give more than 1e15 runs");
+    }
+
+    #[test]
+    fn a_list_has_numbers_or_words() {
+        let axes = read("[axes]\na = [1, \"1/3\", 0.25, \"sqrt(4)\"]\nb = [\"double\", 30]").unwrap();
+        let text = |name: &str, number| axes.find(name).unwrap().value(number).text();
+        assert!(axes.all()[0].is_numeric() && !axes.all()[1].is_numeric());
+        assert_eq!([0, 1, 2, 3].map(|number| text("a", number)), ["1", "1/3", "1/4", "2"]);
+        assert_eq!([0, 1].map(|number| text("b", number)), ["double", "30"]);
+    }
 }

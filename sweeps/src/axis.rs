@@ -6,6 +6,7 @@ mod range;
 
 use shadowstep_scenes::family::Meaning;
 use shadowstep_schemes::document::{Reader, Text, Value};
+use shadowstep_symbolic::Error;
 use toml::de::DeValue;
 
 use draws::Draws;
@@ -22,7 +23,11 @@ pub struct Axis {
 
 #[derive(Clone, Debug)]
 enum Values {
-    List(Vec<Meaning>),
+    /// Numbers only, or words.
+    List {
+        values: Vec<Meaning>,
+        is_numeric: bool,
+    },
     Range(Range),
     Draws(Draws),
 }
@@ -31,7 +36,7 @@ impl Axis {
     /// Reads the value of a key of \[axes\].
     pub(crate) fn read(reader: &mut Reader<'_>, name: &Text, value: &Value<'_>) -> Option<Axis> {
         let values = match value.get_ref() {
-            DeValue::Array(_) => Values::List(list(reader, value)?),
+            DeValue::Array(_) => list(reader, value)?,
             DeValue::Table(table) => Values::Draws(Draws::read(reader, &name.value, table, value)?),
             DeValue::String(_) => {
                 let text = reader.text(value)?;
@@ -48,7 +53,7 @@ impl Axis {
     /// How many values it has.
     pub fn count(&self) -> u64 {
         match &self.values {
-            Values::List(values) => values.len() as u64,
+            Values::List { values, .. } => values.len() as u64,
             Values::Range(range) => range.count(),
             Values::Draws(draws) => draws.count(),
         }
@@ -61,7 +66,7 @@ impl Axis {
     pub fn value(&self, number: u64) -> Meaning {
         assert!(number < self.count(), "axis {} has {} values", self.name, self.count());
         match &self.values {
-            Values::List(values) => values[usize::try_from(number).expect("a list fits into memory")].clone(),
+            Values::List { values, .. } => values[usize::try_from(number).expect("a list fits into memory")].clone(),
             Values::Range(range) => Meaning::Number(range.value(number)),
             Values::Draws(draws) => Meaning::Number(draws.value(number)),
         }
@@ -70,9 +75,19 @@ impl Axis {
     /// Whether its values are numbers.
     pub fn is_numeric(&self) -> bool {
         match &self.values {
-            Values::List(values) => values.iter().all(|value| matches!(value, Meaning::Number(_))),
+            Values::List { is_numeric, .. } => *is_numeric,
             Values::Range(_) | Values::Draws(_) => true,
         }
+    }
+
+    /// The first value that is not a number, and why it is none.
+    pub(crate) fn first_word(&self) -> Option<(u64, Error)> {
+        let Values::List { values, is_numeric: false } = &self.values else { return None };
+        let word = |value: &Meaning| match value {
+            Meaning::Word(word) => evaluated(word).err(),
+            Meaning::Number(_) => None,
+        };
+        values.iter().zip(0..).find_map(|(value, number)| Some((number, word(value)?)))
     }
 
     /// Whether its values are random: they have no order.
@@ -87,12 +102,11 @@ impl Axis {
 }
 
 /// Numbers if all members are numbers, otherwise words.
-fn list(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Vec<Meaning>> {
+fn list(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Values> {
     let what = "a list of numbers or of words: [\"1/10\", \"1/20\"]";
     let texts = reader.list(value, what, |reader, value| reader.number(value, NUMBERS))?.value;
-    let numbers: Vec<_> = texts.iter().filter_map(|text| evaluated(&text.value).ok()).collect();
-    if numbers.len() == texts.len() {
-        return Some(numbers.into_iter().map(Meaning::Number).collect());
-    }
-    Some(texts.into_iter().map(|text| Meaning::Word(text.value)).collect())
+    let numbers: Option<Vec<_>> = texts.iter().map(|text| evaluated(&text.value).ok().map(Meaning::Number)).collect();
+    let is_numeric = numbers.is_some();
+    let words = || texts.into_iter().map(|text| Meaning::Word(text.value)).collect();
+    Some(Values::List { values: numbers.unwrap_or_else(words), is_numeric })
 }

@@ -55,9 +55,15 @@ impl Expression {
             let known =
                 system.coordinates.iter().chain(&system.momenta).take(6).cloned().collect::<Vec<_>>().join(", ");
             let hint = format!("it is a formula in {known}, t, E, the parameters and the axes");
+            let (message, hint) = match error.to_string().split_once(" is not smooth") {
+                Some((name, _)) => {
+                    (format!("{name} is not known here"), "use smooth functions: \"x^2 > 100\" for |x| > 10".to_owned())
+                }
+                None => (error.to_string(), hint),
+            };
             let is_whole = self.formula == self.text.value;
             let place = if is_whole { self.text.place(&error.range()) } else { self.text.at.clone() };
-            reader.fault(&place, error.to_string(), hint);
+            reader.fault(&place, message, hint);
         }
     }
 }
@@ -74,6 +80,14 @@ impl Condition {
         let Some(((left, right), met)) = found.filter(|((_, right), _)| !right.contains(['<', '>'])) else {
             return reader.wrong(&text.at, "this text is not a condition", "write one comparison: \"x^2 + y^2 > 100\"");
         };
+        for side in [left, right] {
+            if let Err(error) = parse(side) {
+                let begin = side.as_ptr() as usize - text.value.as_ptr() as usize;
+                let range = &error.range;
+                let at = text.place(&(begin + range.start..begin + range.end));
+                return reader.wrong(&at, error.to_string(), "write one comparison: \"x^2 + y^2 > 100\"");
+            }
+        }
         // one subtraction and no rounding of the sides alone
         let difference = format!("({left}) - ({right})");
         Some(Condition { difference: Expression::with(difference, text.clone()), met })

@@ -53,10 +53,12 @@ impl Keep {
         for (name, text) in formulas(reader, &section, "at_end") {
             keep.at_end.push((name, Expression::new(text)));
         }
+        let mut conditions = Vec::new();
         for (name, text) in formulas(reader, &section, "first_time") {
+            conditions.push(name.value.clone());
             keep.first_time.extend(Condition::read(reader, &text).map(|condition| (name, condition)));
         }
-        keep.stop = stop(reader, &section, &keep.first_time);
+        keep.stop = stop(reader, &section, &conditions);
         refuse_repeated(reader, &keep);
         if keep.columns(&[]).is_empty() && !keep.state && !keep.rows && reader.faults.len() == before {
             reader.fault(&section.at, "nothing is kept", "write values = [\"verdict\", \"energy_error\"], for example");
@@ -104,6 +106,9 @@ fn values(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Vec<Kept> {
     kept
 }
 
+/// The most formulas of a key.
+const MOST_FORMULAS: usize = 1000;
+
 /// Names with formulas, in the order of the text.
 fn formulas(reader: &mut Reader<'_>, section: &Section<'_, '_>, key: &str) -> Vec<(Text, Text)> {
     let Some(value) = section.get(key) else { return Vec::new() };
@@ -111,18 +116,22 @@ fn formulas(reader: &mut Reader<'_>, section: &Section<'_, '_>, key: &str) -> Ve
         reader.wrong_kind::<()>(value, "a table of names with formulas");
         return Vec::new();
     };
+    if !reader.has_at_most(value, MOST_FORMULAS, "formulas") {
+        return Vec::new();
+    }
     let read = |(name, value)| Some((Text::of_key(name), reader.text(value)?));
     let mut found: Vec<_> = table.iter().filter_map(read).collect();
     found.sort_by_key(|(name, _)| name.at.start);
     found
 }
 
-fn stop(reader: &mut Reader<'_>, section: &Section<'_, '_>, first_time: &[(Text, Condition)]) -> Vec<usize> {
+/// Places of conditions of these names.
+fn stop(reader: &mut Reader<'_>, section: &Section<'_, '_>, conditions: &[String]) -> Vec<usize> {
     let Some(value) = section.get("stop") else { return Vec::new() };
     let names = reader.readable_members(value, "a list of names of first_time: [\"escape\"]", Reader::text);
     let mut found = Vec::new();
     for name in names {
-        match first_time.iter().position(|(known, _)| known.value == name.value) {
+        match conditions.iter().position(|known| *known == name.value) {
             Some(place) => found.push(place),
             None => {
                 let hint = "first_time = { escape = \"x^2 + y^2 > 100\" } and stop = [\"escape\"]";

@@ -19,7 +19,7 @@ const SECTIONS: [Section; 4] = [
     section(
         "axes",
         "[axes]",
-        "Names with their values, in one of these forms. Names are free, but for run, failure, t, n, E and pi.",
+        "Names with their values, in one of these forms. Names are free, but for run, failure, t, E and pi.",
     ),
     section("keep", "[keep]", "What is kept of each run. Nothing else is computed."),
     section(

@@ -1,5 +1,6 @@
 //! A plan: the scene, the axes and what is kept, read from a file.
 
+mod check;
 mod digests;
 
 pub use digests::Digests;
@@ -7,6 +8,7 @@ pub(crate) use digests::hash;
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
 
 use shadowstep::tables::{Faults, Source};
 use shadowstep_scenes::arithmetic::Arithmetic;
@@ -19,7 +21,6 @@ use crate::axes::Axes;
 use crate::keep::{Column, Keep};
 use crate::picture::{Picture, Written};
 use crate::record::{Record, measure, rows};
-use crate::values::Need;
 
 /// The sections and keys of a sweep that are not of its scene.
 const OTHERS: &[&str] = &["scene", "axes", "zip", "keep", "picture"];
@@ -77,7 +78,13 @@ impl Plan {
     /// # Errors
     /// A file that cannot be read; all faults of its text, or of that of the scene.
     pub fn open(path: impl AsRef<Path>) -> Result<Plan, Error> {
-        Plan::of(&source(path.as_ref())?)
+        let read = source(path.as_ref()).map_err(|error| match error {
+            Error::Usage { message, .. } => {
+                Error::usage(message, "give the path of a sweep, see `shadowstep sweep --explain`")
+            }
+            other => other,
+        });
+        Plan::of(&read?)
     }
 
     /// Reads a plan from its text; paths in it are relative to the folder of its own path.
@@ -97,12 +104,16 @@ impl Plan {
             unreachable!("what cannot be read is a fault")
         };
         let others: &[&str] = if separate.is_some() { &["picture"] } else { OTHERS };
-        let family = Family::new(separate.unwrap_or_else(|| source.clone()), others);
-        let first = first_scene(&family, &axes)?;
+        let family = Family::new(separate.unwrap_or_else(|| without_lists(source, &document)), others);
         let mut reader = Reader::new(source, Vec::new());
-        check(&mut reader, &document, &family, &axes, &keep, &first)?;
+        check::axes(&mut reader, &document, &family, &axes)?;
+        refuse(std::mem::take(&mut reader.faults))?;
+        let (run, first) = first_scene(&family, &axes)?;
+        check::scene(&mut reader, &document, &axes, &keep, run, &first);
         let state: Vec<String> = first.system.coordinates.iter().chain(&first.system.momenta).cloned().collect();
         let columns = keep.columns(&state);
+        check::columns(&mut reader, &document, &axes, &keep, &columns);
+        refuse(std::mem::take(&mut reader.faults))?;
         let picture = picture.resolve(&mut reader, &axes, &columns);
         refuse(reader.faults)?;
         let digests = digests::of(&document, &family, &axes)?;
@@ -203,6 +214,19 @@ fn refuse(faults: Vec<Fault>) -> Result<(), Error> {
     Faults::of(faults).map_or(Ok(()), |faults| Err(faults.into()))
 }
 
+/// The text with blanks in place of the lists of the axes, which may be long, and are not read again for each run.
+fn without_lists(source: &Source, document: &DeTable<'_>) -> Source {
+    let mut bytes = source.text.clone().into_bytes();
+    if let Some(DeValue::Table(axes)) = document.get("axes").map(|axes| axes.get_ref()) {
+        for list in axes.values().filter(|value| matches!(value.get_ref(), DeValue::Array(_))) {
+            let inside = list.span().start + 1..list.span().end - 1;
+            bytes[inside].iter_mut().filter(|byte| **byte != b'\n').for_each(|byte| *byte = b' ');
+        }
+    }
+    let text = String::from_utf8(bytes).expect("whole characters were replaced");
+    Source { path: source.path.clone(), text }
+}
+
 /// The text of the scene if `scene` names its file.
 fn separate_scene(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Result<Option<Source>, Error> {
     let Some(value) = root.get("scene") else {
@@ -232,43 +256,20 @@ fn is_unknown(section: &str) -> bool {
 /// How many scenes are tried.
 const TRIED: u64 = 64;
 
-/// A scene of the sweep. Where the first run has faults, as one at the corner of a map may have, others are tried, spread over all.
-fn first_scene(family: &Family, axes: &Axes) -> Result<Scene, Faults> {
-    let scene = |run| family.scene(&axes.values(run));
-    // the multiples of the golden ratio are spread evenly
-    let spread = |k: u64| ((k as f64 * 0.618_033_988_749_895).fract() * axes.runs() as f64) as u64;
-    scene(0).or_else(|faults| (1..TRIED).find_map(|k| scene(spread(k).min(axes.runs() - 1)).ok()).ok_or(faults))
-}
+/// For how long others are tried: a scene with a fault may have formulas that take long.
+const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Refuses axes that the scene does not use, and expressions that its system does not have.
-fn check(
-    reader: &mut Reader<'_>,
-    root: &DeTable<'_>,
-    family: &Family,
-    axes: &Axes,
-    keep: &Keep,
-    scene: &Scene,
-) -> Result<(), Error> {
-    let names = family.names()?;
-    for axis in axes.all().iter().filter(|axis| !names.contains(&axis.name)) {
-        let place = root.get("axes").and_then(|axes| match axes.get_ref() {
-            DeValue::Table(table) => table.get_key_value(axis.name.as_str()).map(|(key, _)| key.span()),
-            _ => None,
-        });
-        let use_it = if axis.is_numeric() { axis.name.clone() } else { format!("${}", axis.name) };
-        let hint = format!("write \"{use_it}\" where the scene is to have its value");
-        reader.fault(&place.unwrap_or(0..0), format!("the scene does not use the axis `{}`", axis.name), hint);
-    }
-    let differences = keep.first_time.iter().map(|(_, condition)| condition.difference());
-    keep.at_end.iter().map(|(_, end)| end).chain(differences).for_each(|text| text.check(reader, &scene.system));
-    let at = root.get("keep").map_or(0..0, |keep| keep.span());
-    if keep.needs(Need::Estimates) && scene.output.modified_energy.is_none() {
-        let hint = "add modified_energy = { estimator = \"bilinear\", order = 16 } to [output] of the scene";
-        reader.fault(&at, "drift and permanent_change require an estimator", hint);
-    }
-    let output = &scene.output;
-    if keep.rows && output.energy.is_none() && output.modified_energy.is_none() && output.trajectory.is_none() {
-        reader.fault(&at, "rows require [output] in the scene", "add output.trajectory = { every = 10 }, for example");
-    }
-    refuse(std::mem::take(&mut reader.faults))
+/// A scene of the sweep with the number of its run. Where the first run has faults, as one at the corner of a map may have, others are
+/// tried, spread over all.
+fn first_scene(family: &Family, axes: &Axes) -> Result<(u64, Scene), Faults> {
+    let scene = |run| family.scene(&axes.values(run)).map(|scene| (run, scene));
+    // all of few; of many, the multiples of the golden ratio are spread evenly
+    let spread = |k: u64| match axes.runs() {
+        runs if runs <= TRIED => k,
+        runs => ((k as f64 * 0.618_033_988_749_895).fract() * runs as f64) as u64,
+    };
+    let begun = Instant::now();
+    let mut others = (1..TRIED.min(axes.runs())).take_while(|_| begun.elapsed() < PATIENCE);
+    let mut other = || others.find_map(|k| scene(spread(k).min(axes.runs() - 1)).ok());
+    scene(0).or_else(|faults| other().ok_or(faults)).map_err(|faults| check::with_axes(faults, axes))
 }

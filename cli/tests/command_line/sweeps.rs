@@ -5,6 +5,8 @@ mod chunks;
 mod collected;
 #[cfg(unix)]
 mod disturbed;
+mod values;
+mod wrong;
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,14 +1,11 @@
 //! Ranges: `1/10 … 1/100 in 19 steps of 1/h`.
 
-use std::collections::BTreeMap;
-
 use num_traits::{Signed, Zero};
 use shadowstep::Rational;
 use shadowstep_schemes::document::{Reader, Text};
-use shadowstep_symbolic::decimal::{round_significant, to_text};
-use shadowstep_symbolic::{evaluate, parse};
+use shadowstep_symbolic::decimal::round_significant;
 
-use super::number::evaluated;
+use super::number::{evaluated, formula};
 
 /// Values of a logarithmic range are rounded to this many digits, and are exact from there on.
 const LOGARITHMIC_DIGITS: u32 = 12;
@@ -42,13 +39,18 @@ impl Range {
             return reader.wrong(&text.at, "this text is not a range", EXAMPLES);
         };
         let mut end = |part: &str| match evaluated(part) {
+            _ if part.is_empty() => reader.wrong(&text.at, "an end of the range is missing", EXAMPLES),
             Ok(value) => Some(value),
-            Err(error) => reader.wrong(&text.at, format!("`{part}`: {error}"), EXAMPLES),
+            Err(error) => {
+                let begin = part.as_ptr() as usize - text.value.as_ptr() as usize;
+                let range = error.range();
+                reader.wrong(&text.place(&(begin + range.start..begin + range.end)), error.to_string(), EXAMPLES)
+            }
         };
         let (from, to) = (end(parts.from)?, end(parts.to)?);
         let steps = match parts.count.parse::<u64>() {
             Ok(count) if parts.of_values && (2..=MOST).contains(&count) => count - 1,
-            Ok(count) if !parts.of_values && (1..MOST).contains(&count) => count,
+            Ok(count) if !parts.of_values && (1..=MOST).contains(&count) => count,
             _ => {
                 let (least, unit) = if parts.of_values { (2, "values") } else { (1, "steps") };
                 let message = format!("`{}` is not a number of {unit}", parts.count);
@@ -67,7 +69,12 @@ impl Range {
         if from == to {
             return reader.wrong(&text.at, "both ends of the range are equal", EXAMPLES);
         }
-        Some(Range { from, to, steps, rule })
+        let range = Range { from, to, steps, rule };
+        if rule == Rule::Logarithm && [1, steps / 2, steps - 1].into_iter().any(|k| range.power(k).is_none()) {
+            let message = "these ends are too large or too small for logarithms";
+            return reader.wrong(&text.at, message, format!("write `of {name}`, or other ends"));
+        }
+        Some(range)
     }
 
     pub(super) fn count(&self) -> u64 {
@@ -88,17 +95,18 @@ impl Range {
             _ if k == *steps => to.clone(),
             Rule::Value => between(from, to),
             Rule::Reciprocal => between(&from.recip(), &to.recip()).recip(),
-            Rule::Logarithm => {
-                // a^(1 − part) b^part
-                let text = format!("log({}) + log({}) * ({part})", to_text(&from.abs()), to_text(&(to / from)));
-                let value = parse(&format!("exp({text})"))
-                    .ok()
-                    .and_then(|expression| evaluate(&expression, &BTreeMap::new(), LOGARITHMIC_DIGITS + 10).ok());
-                let size = value.expect("the ends are positive").value;
-                let rounded = round_significant(&size, LOGARITHMIC_DIGITS);
-                if from.is_negative() { Rational::zero() - rounded } else { rounded }
-            }
+            Rule::Logarithm => self.power(k).expect("the ends were checked"),
         }
+    }
+
+    /// a^(1 − k/steps) b^(k/steps) for the ends a and b.
+    fn power(&self, k: u64) -> Option<Rational> {
+        let part = Rational::new(k.into(), self.steps.into());
+        let (size, ratio) = (self.from.abs(), &self.to / &self.from);
+        let names = [("a", &size), ("r", &ratio), ("k", &part)];
+        let size = formula("exp(log(a) + log(r)*k)", &names, LOGARITHMIC_DIGITS + 10)?;
+        let rounded = round_significant(&size, LOGARITHMIC_DIGITS);
+        Some(if self.from.is_negative() { Rational::zero() - rounded } else { rounded })
     }
 }
 
@@ -140,5 +148,104 @@ impl<'a> Parts<'a> {
             _ => return None,
         };
         Some(Parts { from: from.trim(), to: to.trim(), count, of_values, rule })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shadowstep_schemes::document::{Source, document};
+
+    fn read(text: &str) -> Result<Range, String> {
+        let source = Source { path: "test.toml".to_owned(), text: format!("h = \"{text}\"") };
+        let (document, _) = document(&source);
+        let mut reader = Reader::new(&source, Vec::new());
+        let text = reader.text(document.unwrap().get("h").unwrap()).unwrap();
+        Range::read(&mut reader, "h", &text).ok_or_else(|| reader.faults[0].message.clone())
+    }
+
+    fn values(text: &str) -> Vec<Rational> {
+        let range = read(text).unwrap_or_else(|fault| panic!("{text}: {fault}"));
+        (0..range.count()).map(|k| range.value(k)).collect()
+    }
+
+    fn exact(texts: &[&str]) -> Vec<Rational> {
+        texts.iter().map(|text| shadowstep::exact(text).unwrap()).collect()
+    }
+
+    #[test]
+    fn values_are_exact() {
+        assert_eq!(values("0 … 9/10 in 3 steps"), exact(&["0", "3/10", "6/10", "9/10"]));
+        assert_eq!(values("0 ... 9/10 in 4 values"), values("0 … 9/10 in 3 steps of h"));
+        assert_eq!(values("1 … -1/3 in 2 steps"), exact(&["1", "1/3", "-1/3"]));
+        assert_eq!(values("0.1…0.3 in 1 step"), exact(&["1/10", "3/10"]));
+        assert_eq!(values("-1 … 1 in 2 values"), exact(&["-1", "1"]));
+        assert_eq!(values("1/10 … 1/40 in 3 steps of 1/h"), exact(&["1/10", "1/20", "1/30", "1/40"]));
+        assert_eq!(values("-1/2 … -1/8 in 2 steps of 1 / h"), exact(&["-1/2", "-1/5", "-1/8"]));
+    }
+
+    #[test]
+    fn both_ends_are_values_and_distances_are_equal() {
+        for (text, rule) in [
+            ("1/7 … 22/7 in 19 steps", Rule::Value),
+            ("22/7 … 1/7 in 20 values of 1/h", Rule::Reciprocal),
+            ("sqrt(2) … pi in 19 steps", Rule::Value),
+        ] {
+            let values = values(text);
+            let range = read(text).unwrap();
+            assert_eq!((values.len(), &values[0], &values[19]), (20, &range.from, &range.to));
+            let scaled = |value: &Rational| if rule == Rule::Value { value.clone() } else { value.recip() };
+            let distance = &scaled(&values[1]) - &scaled(&values[0]);
+            assert!(values.windows(2).all(|pair| &scaled(&pair[1]) - &scaled(&pair[0]) == distance), "{text}");
+        }
+    }
+
+    #[test]
+    fn decades_of_logarithms_are_exact() {
+        let decades = values("1e-30 … 1 in 30 steps of log");
+        let text = |k: i32| format!("1e{}", k - 30);
+        assert_eq!(decades, (0..=30).map(|k| shadowstep::exact(&text(k)).unwrap()).collect::<Vec<_>>());
+        assert_eq!(values("1000 … 1 in 3 steps of log(h)"), exact(&["1000", "100", "10", "1"]));
+        assert_eq!(values("-1 … -100 in 2 steps of log"), exact(&["-1", "-10", "-100"]));
+        assert_eq!(values("2 … 2048 in 10 steps of log")[7], exact(&["256"])[0]);
+    }
+
+    /// Rounded to 12 digits: within half a unit of the last one, 5e-12 of the value.
+    #[test]
+    fn logarithms_are_equally_spaced() {
+        let values = values("1/3 … 700 in 200 steps of log");
+        for (k, value) in values.iter().enumerate() {
+            let found: f64 = shadowstep::Number::from_rational(value, &());
+            let wanted = (1.0 / 3.0) * f64::powf(2100.0, k as f64 / 200.0);
+            assert!((found / wanted - 1.0).abs() < 5e-12 + 1e-14, "{k}: {found}");
+        }
+    }
+
+    /// A value is made from its number alone.
+    #[test]
+    fn a_range_may_have_very_many_values() {
+        let range = read("0 … 1 in 1000000000000 steps").unwrap();
+        assert_eq!(range.value(250_000_000_000), exact(&["1/4"])[0]);
+        let range = read("1e-12 … 1 in 1000000000000 values of log").unwrap();
+        assert_eq!((range.count(), range.value(999_999_999_999)), (1_000_000_000_000, exact(&["1"])[0].clone()));
+    }
+
+    #[test]
+    fn wrong_ranges_are_refused() {
+        for (text, part) in [
+            ("1 … 2", "not a range"),
+            ("1 … 1 in 3 steps", "equal"),
+            ("1 … 2 in 0 steps", "not a number of steps"),
+            ("1 … 2 in 1 values", "not a number of values"),
+            ("0 … 2 in 3 steps of log", "same sign"),
+            ("-1 … 2 in 3 steps of 1/h", "same sign"),
+            ("1 … 2 in 3 steps of 1/e", "not known here"),
+            ("1 … in 3 steps", "an end of the range is missing"),
+            ("1 … 2x in 3 steps", "an operator is missing"),
+            ("2^-90000 … 2^90000 in 3 steps of log", "too large or too small"),
+        ] {
+            let fault = read(text).map(drop).expect_err(text);
+            assert!(fault.contains(part), "{text}: {fault}");
+        }
     }
 }

@@ -60,6 +60,16 @@ impl Written {
                 columns.iter().position(|column| column.is_number).or(if columns.is_empty() { None } else { Some(0) })
             }
         };
+        let given: Vec<&Text> = [&self.x, &self.y, &self.curves, &self.panels].into_iter().flatten().collect();
+        for (place, text) in given.iter().enumerate() {
+            if given[..place].iter().any(|other| other.value == text.value) {
+                reader.fault(
+                    &text.at,
+                    format!("the axis `{}` is in the picture twice", text.value),
+                    "give another axis",
+                );
+            }
+        }
         if reader.faults.len() > before {
             return None;
         }

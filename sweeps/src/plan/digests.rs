@@ -11,6 +11,7 @@ use shadowstep_schemes::document::document;
 use toml::de::{DeTable, DeValue};
 
 use crate::axes::Axes;
+use crate::axis::Axis;
 
 /// Hashes of what determines the results of a sweep besides the version of the program.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -84,14 +85,10 @@ fn write_value(text: &mut String, value: &DeValue<'_>, in_order: bool) {
 
 /// The identities of all schemes that the runs may have.
 fn tables(scene: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<String, Error> {
-    let Some(DeValue::Table(run)) = scene.get("run").map(|run| run.get_ref()) else { return Ok(String::new()) };
-    let Some(DeValue::String(word)) = run.get("scheme").map(|scheme| scheme.get_ref()) else {
-        return Ok(String::new());
-    };
-    let axis = word.strip_prefix('$').and_then(|name| axes.find(name));
-    let words: Vec<String> = match axis {
-        Some(axis) => (0..axis.count()).map(|number| axis.value(number).text()).collect(),
-        None => vec![word.to_string()],
+    let words: Vec<String> = match (scheme_axis(scene, axes), scheme(scene)) {
+        (Some(axis), _) => (0..axis.count()).map(|number| axis.value(number).text()).collect(),
+        (None, Some(word)) => vec![word.to_owned()],
+        (None, None) => Vec::new(),
     };
     let folder = Path::new(&family.source().path).parent().unwrap_or(Path::new("")).to_owned();
     let mut identities = Vec::new();
@@ -99,4 +96,15 @@ fn tables(scene: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<String, E
         identities.push(family.schemes().scheme_from(&word, &folder, None)?.identity());
     }
     Ok(identities.join("\n"))
+}
+
+/// The axis whose values are the schemes of the runs.
+pub(super) fn scheme_axis<'a>(scene: &DeTable<'_>, axes: &'a Axes) -> Option<&'a Axis> {
+    axes.find(scheme(scene)?.strip_prefix('$')?)
+}
+
+fn scheme<'a>(scene: &'a DeTable<'_>) -> Option<&'a str> {
+    let DeValue::Table(run) = scene.get("run")?.get_ref() else { return None };
+    let DeValue::String(word) = run.get("scheme")?.get_ref() else { return None };
+    Some(word)
 }

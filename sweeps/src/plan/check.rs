@@ -1,0 +1,155 @@
+//! What the axes and what is kept must fit: the scene.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+use std::path::Path;
+
+use shadowstep::tables::Faults;
+use shadowstep_scenes::family::{Family, Meaning};
+use shadowstep_scenes::{Error, Scene};
+use shadowstep_schemes::document::{Fault, Reader};
+use shadowstep_symbolic::nearest;
+use toml::de::{DeTable, DeValue};
+
+use super::digests::scheme_axis;
+use crate::axes::Axes;
+use crate::axis::Axis;
+use crate::keep::{Column, Keep};
+use crate::values::Need;
+
+/// Refuses axes that the scene does not use, words where it needs numbers, and schemes that do not exist.
+///
+/// # Errors
+/// A scene or a table of a scheme that cannot be read.
+pub(super) fn axes(reader: &mut Reader<'_>, root: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<(), Error> {
+    let (names, whole) = (family.names()?, family.whole_names()?);
+    for (name, at) in &whole {
+        if axes.find(name).is_none() {
+            let known: Vec<&str> = axes.all().iter().map(|axis| axis.name.as_str()).collect();
+            let hint = match nearest(name, known.iter().copied()) {
+                Some(near) => format!("did you mean `${near}`?"),
+                None => format!("the axes are {}", known.join(", ")),
+            };
+            reader.faults.push(family.source().fault(at, format!("there is no axis `{name}`")).hint(hint));
+        }
+    }
+    for axis in axes.all().iter().filter(|axis| !whole.iter().any(|(name, _)| *name == axis.name)) {
+        match (names.contains(&axis.name), axis.first_word()) {
+            (true, None) => {}
+            (true, Some((number, error))) => {
+                let word = axis.value(number).text();
+                let message =
+                    if word.len() < 60 { format!("`{word}` is not a number: {error}") } else { error.to_string() };
+                let hint = format!("the scene has \"{0}\" for a number; words need \"${0}\" there", axis.name);
+                reader.fault(&member(root, axis, number), message, hint);
+            }
+            (false, word) => {
+                let use_it = if word.is_none() { axis.name.clone() } else { format!("${}", axis.name) };
+                let hint = format!("write \"{use_it}\" where the scene is to have its value");
+                let message = format!("the scene does not use the axis `{}`", axis.name);
+                reader.fault(&place(root, axis), message, hint);
+            }
+        }
+    }
+    schemes(reader, root, family, axes)
+}
+
+/// Reads and proves all schemes of an axis, each with its place.
+fn schemes(reader: &mut Reader<'_>, root: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<(), Error> {
+    let (scene, _) = shadowstep_schemes::document::document(family.source());
+    let axis = scene.as_ref().and_then(|scene| scheme_axis(scene, axes));
+    let Some(axis) = axis.filter(|axis| !axis.is_numeric()) else { return Ok(()) };
+    let folder = Path::new(&family.source().path).parent().unwrap_or(Path::new("")).to_owned();
+    for number in 0..axis.count() {
+        match family.schemes().scheme_from(&axis.value(number).text(), &folder, None).map_err(Error::from) {
+            Err(Error::Usage { message, hint }) => reader.fault(&member(root, axis, number), message, hint),
+            other => drop(other?),
+        }
+    }
+    Ok(())
+}
+
+/// Refuses names with two meanings, and what cannot be kept of this scene.
+pub(super) fn scene(reader: &mut Reader<'_>, root: &DeTable<'_>, axes: &Axes, keep: &Keep, run: u64, scene: &Scene) {
+    let system = &scene.system;
+    for (axis, (_, value)) in axes.all().iter().zip(axes.values(run)) {
+        if system.coordinates.iter().chain(&system.momenta).any(|name| *name == axis.name) {
+            let message = format!("the axis `{}` has the name of a coordinate or momentum", axis.name);
+            reader.fault(&place(root, axis), message, "give it another name");
+        }
+        let parameter = system.parameters.iter().find(|(name, _)| *name == axis.name);
+        if parameter.is_some_and(|(_, exact)| Meaning::Number(exact.value.clone()) != value) {
+            let message = format!("the problem has a parameter `{}` with another value", axis.name);
+            let hint = format!("write parameters.{0} = \"{0}\", or give the axis another name", axis.name);
+            reader.fault(&place(root, axis), message, hint);
+        }
+    }
+    let differences = keep.first_time.iter().map(|(_, condition)| condition.difference());
+    keep.at_end.iter().map(|(_, end)| end).chain(differences).for_each(|text| text.check(reader, system));
+    let at = root.get("keep").map_or(0..0, |keep| keep.span());
+    let output = &scene.output;
+    if keep.needs(Need::Estimates) && output.modified_energy.is_none() {
+        let hint = "add modified_energy = { estimator = \"bilinear\", order = 16 } to [output] of the scene";
+        reader.fault(&at, "drift and permanent_change require an estimator", hint);
+    }
+    if keep.rows && output.energy.is_none() && output.modified_energy.is_none() && output.trajectory.is_none() {
+        reader.fault(&at, "rows require [output] in the scene", "add output.trajectory = { every = 10 }, for example");
+    }
+}
+
+/// Refuses two columns of the same name. Those of numbers may have doubles beside them.
+pub(super) fn columns(reader: &mut Reader<'_>, root: &DeTable<'_>, axes: &Axes, keep: &Keep, columns: &[Column]) {
+    let mut named: Vec<(&str, bool, Range<usize>)> =
+        axes.all().iter().map(|axis| (axis.name.as_str(), axis.is_numeric(), place(root, axis))).collect();
+    let formulas = || keep.first_time.iter().map(|(text, _)| text).chain(keep.at_end.iter().map(|(text, _)| text));
+    let section = root.get("keep").map_or(0..0, |keep| keep.span());
+    for Column { name, is_number, .. } in columns {
+        let formula = formulas().find(|text| text.value == *name).map(|text| text.at.clone());
+        named.push((name, *is_number, formula.unwrap_or(section.clone())));
+    }
+    let mut seen = BTreeSet::new();
+    for (name, is_number, at) in named {
+        let own = [Some(name.to_owned()), is_number.then(|| format!("{name}_double"))];
+        if let Some(twice) = own.into_iter().flatten().find(|column| !seen.insert(column.clone())) {
+            let hint = "give the axis or formula another name";
+            reader.fault(&at, format!("two columns would be named `{twice}`"), hint);
+        }
+    }
+}
+
+/// Faults of a scene, where values of axes are of the wrong kind.
+pub(super) fn with_axes(faults: Faults, axes: &Axes) -> Faults {
+    Faults(faults.0.into_iter().map(|fault| with_axis(fault, axes)).collect())
+}
+
+fn with_axis(mut fault: Fault, axes: &Axes) -> Fault {
+    let marked: String = fault.source_line.chars().skip(fault.marked.start).take(fault.marked.len()).collect();
+    let word = marked.trim_matches('"');
+    let Some(axis) = axes.find(word.trim_start_matches('$')) else { return fault };
+    if let Some((found, _)) = &mut fault.values {
+        match word.starts_with('$') {
+            true => *found = format!("{}, a value of the axis `{}`", axis.value(0).text(), axis.name),
+            false => fault.hint = Some(format!("write \"${}\" for the value of the axis", axis.name)),
+        }
+    }
+    fault
+}
+
+/// The place of the name of an axis.
+fn place(root: &DeTable<'_>, axis: &Axis) -> Range<usize> {
+    let place = match root.get("axes").map(|axes| axes.get_ref()) {
+        Some(DeValue::Table(table)) => table.get_key_value(axis.name.as_str()).map(|(key, _)| key.span()),
+        _ => None,
+    };
+    place.unwrap_or(0..0)
+}
+
+/// The place of a value of an axis with a list, within its quotes.
+fn member(root: &DeTable<'_>, axis: &Axis, number: u64) -> Range<usize> {
+    let found = || {
+        let DeValue::Table(axes) = root.get("axes")?.get_ref() else { return None };
+        let DeValue::Array(list) = axes.get(axis.name.as_str())?.get_ref() else { return None };
+        Some(list.get(usize::try_from(number).ok()?)?.span())
+    };
+    found().unwrap_or_else(|| place(root, axis))
+}
