@@ -12,13 +12,14 @@ pub(crate) struct Disturbed {
     pub(crate) resumes: bool,
 }
 
-pub(crate) const COMMANDS: [Disturbed; 6] = [
+pub(crate) const COMMANDS: [Disturbed; 7] = [
     Disturbed { name: "run", words: RUN, scene: PLAIN, resumes: true },
     Disturbed { name: "run with modified energies", words: RUN, scene: SHADOWED, resumes: true },
     Disturbed { name: "run without checkpoints", words: RUN, scene: UNSAVED, resumes: false },
     Disturbed { name: "trace", words: TRACE, scene: "", resumes: false },
     Disturbed { name: "figures", words: "figures reliability --quick --out FOLDER", scene: "", resumes: true },
     Disturbed { name: "stability", words: STABILITY, scene: "", resumes: true },
+    Disturbed { name: "sweep", words: "sweep FOLDER/scene.toml --out FOLDER", scene: SWEEP, resumes: true },
 ];
 
 /// Its checkpoints are made by the clock.
@@ -74,6 +75,25 @@ digits = "double"
 [output]
 trajectory = true
 file = "out.jsonl"
+"#;
+
+const SWEEP: &str = r#"
+[problem]
+name = "kepler"
+parameters.eccentricity = "e"
+[run]
+scheme = "stormer-verlet"
+step = "h"
+until = 10
+digits = "double"
+[output]
+energy = { every = 100 }
+[axes]
+e = "0 … 1 in 5 steps"
+h = "1/20 … 1/100 in 6 steps of 1/h"
+[keep]
+values = ["energy_error"]
+rows = true
 "#;
 
 const BY_THE_CLOCK: &str = r#"

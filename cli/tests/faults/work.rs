@@ -48,11 +48,18 @@ impl Work {
         self.folder.path().display().to_string()
     }
 
-    /// All files. Of saved outcomes the order and the times differ from run to run.
+    /// All files, also in folders. Of saved outcomes the order and the times differ from run to run.
     pub(crate) fn files(&self) -> Files {
-        let entries = fs::read_dir(self.folder.path()).unwrap().map(|entry| entry.unwrap().path());
+        self.files_in(self.folder.path())
+    }
+
+    fn files_in(&self, folder: &Path) -> Files {
+        let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let (folders, files): (Vec<_>, Vec<_>) = entries.partition(|path| path.is_dir());
         let name = |path: &Path| path.file_name().unwrap().to_str().unwrap().to_owned();
-        entries.map(|path| (name(&path), self.content(&path))).collect()
+        let mut found: Files = files.iter().map(|path| (name(path), self.content(path))).collect();
+        folders.iter().for_each(|folder| found.extend(self.files_in(folder)));
+        found
     }
 
     fn content(&self, path: &Path) -> String {
@@ -69,6 +76,8 @@ impl Work {
     pub(crate) fn check(&self, whole: &Files, when: &str) {
         for (name, content) in self.files() {
             let is_unfinished = name == "results.jsonl"
+                // a chunk of a sweep or its plan, with a random ending
+                || [".partial-", ".new-"].iter().any(|part| name.contains(part))
                 || [".partial", ".checkpoint", ".checkpoint.new", ".shadowstep-partial"]
                     .iter()
                     .any(|end| name.ends_with(end));
@@ -82,7 +91,10 @@ impl Work {
         self.check(whole, when);
         let names: Vec<String> = self.files().into_keys().collect();
         let has = |end: &str| names.iter().any(|name| name.ends_with(end));
-        let is_clean = !has(".new") && !has(".shadowstep-partial") && has(".partial") == has(".checkpoint");
+        let is_clean = !has(".new")
+            && !names.iter().any(|name| name.contains(".new-"))
+            && !has(".shadowstep-partial")
+            && has(".partial") == has(".checkpoint");
         assert!(is_clean, "{} {when}: {names:?}", self.command.name);
     }
 
