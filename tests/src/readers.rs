@@ -12,6 +12,7 @@ use sha2::{Digest, Sha256};
 use shadowstep::formula::FormulaPotential;
 use shadowstep::tables::Source;
 use shadowstep_scenes::{FileOptions, Observer, Outcome, Scene};
+use shadowstep_sweeps::Plan;
 use shadowstep_symbolic::{Budget, Exact, evaluate_within, exact, parse};
 use tempfile::TempDir;
 
@@ -19,8 +20,8 @@ use tempfile::TempDir;
 pub type Reader = (&'static str, fn(&[u8]));
 
 /// All readers.
-pub const READERS: [Reader; 4] =
-    [("table", table), ("expression", expression), ("scene", scene), ("checkpoint", checkpoint)];
+pub const READERS: [Reader; 5] =
+    [("table", table), ("expression", expression), ("scene", scene), ("sweep", sweep), ("checkpoint", checkpoint)];
 
 fn source(bytes: &[u8]) -> Option<Source> {
     let text = String::from_utf8(bytes.to_vec()).ok()?;
@@ -59,6 +60,22 @@ pub fn scene(bytes: &[u8]) {
     match Scene::read(source) {
         Ok(scene) => black_box(scene.metadata().to_string()),
         Err(faults) => black_box(faults.to_string()),
+    };
+}
+
+/// Reads a sweep, and words its faults, or some of its runs.
+pub fn sweep(bytes: &[u8]) {
+    let Some(source) = source(bytes) else { return };
+    match Plan::of(&source) {
+        Ok(plan) => {
+            let last = plan.axes().runs() - 1;
+            for run in [0, last / 3, last] {
+                black_box(plan.axes().described(run));
+                black_box(plan.scene(run).err().map(|faults| faults.to_string()));
+            }
+            black_box((plan.picture(), plan.digests()));
+        }
+        Err(error) => drop(black_box(error.to_string())),
     };
 }
 
