@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-use shadowstep::run::{States, Trajectory};
+use shadowstep::run::Trajectory;
 use shadowstep::tables::Source;
 use shadowstep::{Number, Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::Scene;
@@ -16,7 +16,7 @@ use shadowstep_scenes::start::{Steps, Work};
 use shadowstep_sweeps::{Collected, Manifest, Plan, TableFormat, collect, compute};
 
 /// A run of about 1 ms.
-const STEPS: u64 = 20_000;
+const STEPS: u64 = 32_000;
 
 /// Of so many scenes the steps are made alone, again and again.
 const SCENES: u64 = 500;
@@ -101,9 +101,8 @@ fn follow(scene: &Scene) {
             M: System<Number = N> + 'static,
         {
             let mut trajectory = Trajectory::plain(stepper, system, 0, STEPS).expect("the state is finite");
-            while let Ok(Some(state)) = trajectory.advance() {
-                black_box(state.n);
-            }
+            trajectory.reach_the_end(|| true).expect("the states are finite");
+            black_box(trajectory.system().q());
         }
     }
     let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated: false };
