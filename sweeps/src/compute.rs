@@ -39,22 +39,23 @@ pub fn compute(
     plan: &Plan,
     manifest: &Manifest,
     folder: &Path,
-    chunks: impl IntoIterator<Item = Chunk, IntoIter: Send>,
+    chunks: impl IntoIterator<Item = Chunk, IntoIter: Send + Clone>,
     observer: &mut dyn Observer,
 ) -> Result<Computed, Error> {
+    let chunks = chunks.into_iter();
+    let runs = |chunk: Chunk| chunk.runs(manifest.runs);
+    let all = chunks.clone().map(runs).map(|runs| runs.end - runs.start).sum();
     let stops = AtomicBool::new(false);
     let due = Due { plan, manifest, folder, stops: &stops };
-    let state = Mutex::new(State {
-        chunks: chunks.into_iter(),
-        open: Vec::new(),
-        computed: Computed::default(),
-        saved: 0,
-        error: None,
-    });
-    let threads = rayon::current_num_threads();
+    let state = Mutex::new(State { chunks, open: Vec::new(), computed: Computed::default(), saved: 0, error: None });
+    let (threads, attendant) = (rayon::current_num_threads(), thread::current());
+    let work = || {
+        due.work(&state);
+        attendant.unpark();
+    };
     thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(|| due.work(&state))).collect();
-        attend(&workers, &state, &stops, manifest, observer);
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        attend(&workers, &state, &stops, all, observer);
         workers.into_iter().for_each(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
     });
     let state = state.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -73,7 +74,7 @@ fn attend<I>(
     workers: &[thread::ScopedJoinHandle<'_, ()>],
     state: &Mutex<State<I>>,
     stops: &AtomicBool,
-    manifest: &Manifest,
+    all: u64,
     observer: &mut dyn Observer,
 ) {
     let mut shown = u64::MAX;
@@ -82,14 +83,15 @@ fn attend<I>(
         if observer.stops() {
             stops.store(true, Ordering::Relaxed);
         }
-        let done = {
+        let (made, saved) = {
             let state = locked(state);
-            state.computed.runs + state.saved
+            (state.computed.runs, state.saved)
         };
-        if done != std::mem::replace(&mut shown, done) && !stops.load(Ordering::Relaxed) {
-            let all = usize::try_from(manifest.runs).unwrap_or(usize::MAX);
-            let fraction = done as f64 / manifest.runs as f64;
-            observer.progress(Progress { done: done as usize, tasks: all, fraction });
+        if made + saved != std::mem::replace(&mut shown, made + saved) && !stops.load(Ordering::Relaxed) {
+            // what was saved before took no time
+            let fraction = made as f64 / (all - saved).max(1) as f64;
+            let count = |runs: u64| usize::try_from(runs).unwrap_or(usize::MAX);
+            observer.progress(Progress { done: count(made + saved), tasks: count(all), fraction });
         }
     }
 }

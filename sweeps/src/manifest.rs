@@ -106,7 +106,7 @@ impl Manifest {
     }
 
     /// All chunks.
-    pub fn all_chunks(&self) -> impl Iterator<Item = Chunk> + use<> {
+    pub fn all_chunks(&self) -> impl Iterator<Item = Chunk> + Clone + use<> {
         let of = self.chunks;
         (1..=of).map(move |number| Chunk { number, of })
     }
