@@ -97,7 +97,7 @@ class Cluster:
         wait_for("slurmctld answers", lambda: "is UP" in self.ask("scontrol", "ping"), 20)
         for node in self.nodes:
             self.start_slurmd(node)
-        self.wait_until_idle()
+        self.wait_until_up()
         return self
 
     def __exit__(self, *_):
@@ -147,9 +147,13 @@ class Cluster:
         self.services[node] = start(
             [*inside, "slurmd", "-D", "-N", node], self.folder / f"log/slurmd-{node}.out", env=self.environment)
 
-    def wait_until_idle(self):
-        """Waits until every node can take tasks."""
-        wait_for("all nodes are up", lambda: all(state in ("idle", "mixed", "allocated") for state in self.states().values()), 40)
+    def wait_until_up(self):
+        """Waits until every node can take tasks; one that is completing still ends some."""
+        up = {"idle", "mixed", "allocated", "completing"}
+        try:
+            wait_for("all nodes are up", lambda: set(self.states().values()) <= up, 90)
+        except Failed as failure:
+            raise Failed(f"{failure}: {self.states()}") from None
 
     def states(self):
         """The states of the nodes; a star, which marks one that does not answer, is kept."""

@@ -97,7 +97,7 @@ def failures(cluster):
     say(f"n1: slurmd was killed with -9 and started again; {len(before & after)} of its {len(before)} tasks went on without it")
     wait_for("n2 is down", lambda: cluster.states()["n2"].startswith("down"), 90)
     cluster.start_slurmd("n2")
-    cluster.wait_until_idle()
+    cluster.wait_until_up()
     say("n2: slurmctld has found it down and started its tasks again; it is up again")
     restarts = re.findall(rf"ArrayTaskId={requeued} .*?Restarts=(\d+)", cluster.ask("scontrol", "--oneliner", "show", "job"))
     if restarts != ["1"]:
@@ -164,7 +164,7 @@ def two_networks(page, reference, make):
         say(f"up: slurmctld at {network.outside}, n1 at {network.address('n1')}, n2 at {network.address('n2')}")
         sweep = make.sweep("slurm-networks", cluster.environment)
         sweep.run(page.command(SUBMIT))
-        stale = wait_for("tasks run on n2", lambda: cluster.programs("n2"), 60)
+        stale = wait_for("n2 is computing chunks", lambda: computing(cluster, sweep, "n2"), 60)
         for pid, _ in stale:
             kill(pid, signal.SIGSTOP)
         network.cut("n2")
@@ -180,10 +180,16 @@ def two_networks(page, reference, make):
             raise Failed(f"n2 has not written the chunks {list_of(both)} again")
         say(f"chunks {list_of(both)}: slurmctld has started this again on n1, and n2 has written the same chunks after that")
         network.mend("n2")
-        cluster.wait_until_idle()
+        cluster.wait_until_up()
         wait_for("all tasks and the collecting job end", lambda: has_ended(cluster), LONGEST)
         sweep.compare(reference)
         say(f"states of tasks that have ended: {ends(cluster)}")
+
+
+def computing(cluster, sweep, node):
+    """The tasks of a node that have begun their chunks, which are not complete; one that has not begun would find a complete chunk later."""
+    begun = [(pid, number) for pid, number in cluster.programs(node) if sweep.has_begun(int(number))]
+    return [(pid, number) for pid, number in begun if int(number) in sweep.missing()]
 
 
 def files(sweep, chunks):

@@ -46,6 +46,10 @@ class Sweep:
         """The file of a chunk."""
         return self.results / f"chunks/{number:05}-of-{CHUNKS:05}"
 
+    def has_begun(self, number):
+        """Whether a program is computing a chunk, or was killed while it did."""
+        return any((self.results / "chunks").glob(f"{number:05}-of-{CHUNKS:05}.partial-*"))
+
     def missing(self):
         return set(range(1, CHUNKS + 1)) - self.chunks()
 
