@@ -1,6 +1,7 @@
 //! What a sweep costs besides its steps: reading scenes, keeping records, writing and collecting chunks.
 //!
-//! `cargo bench -p shadowstep-sweeps`; with RUNS=100000 for 10⁵ runs. Both contestants make the same steps on all cores, in turns.
+//! `cargo bench -p shadowstep-sweeps`; with RUNS=100000 for 10⁵ runs, with ROUNDS=1 for one round in place of five. Both contestants make
+//! equally many steps on all cores, in turns.
 
 use std::env;
 use std::fs;
@@ -21,16 +22,14 @@ const STEPS: u64 = 32_000;
 /// Of so many scenes the steps are made alone, again and again.
 const SCENES: u64 = 500;
 
-/// How often both take turns.
-const ROUNDS: usize = 5;
-
 fn main() {
-    let runs: u64 = env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(10_000);
+    let given = |name, default| env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default);
+    let (runs, rounds): (u64, u64) = (given("RUNS", 10_000), given("ROUNDS", 5));
     let plan = Plan::of(&Source { path: "sweep.toml".to_owned(), text: text(runs) }).expect("the sweep is valid");
     let scenes = scenes(&plan);
     let folder = tempfile::tempdir().expect("there is a temporary folder");
     let (mut swept, mut bare, mut collected) = (Vec::new(), Vec::new(), Vec::new());
-    for round in 0..ROUNDS {
+    for round in 0..rounds {
         let out = folder.path().join(round.to_string());
         let begin = Instant::now();
         let manifest = Manifest::begin(&out, &plan, None).expect("the folder can be written");
