@@ -122,7 +122,7 @@ pub use frequency::Frequency;
 pub use note::Note;
 pub use observer::Observer;
 pub use read::source;
-pub use results::{FileOptions, elementary_functions};
+pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::{
     CheckpointInterval, EnergyAt, Format, KineticEnergy, Outputs, PairEnergy, PotentialEnergy, Scene, System,
 };

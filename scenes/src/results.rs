@@ -11,6 +11,7 @@ mod target;
 pub(crate) use checkpoint::{Checkpoint, SavedState};
 pub use functions::elementary_functions;
 pub(crate) use metadata::Metadata;
+pub use metadata::hexadecimal;
 pub use options::FileOptions;
 pub(crate) use rows::{Columns, ModifiedEnergy, Row, Rows};
 pub(crate) use target::Target;

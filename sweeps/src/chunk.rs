@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use shadowstep_scenes::{Error, not_written};
+use shadowstep_scenes::{Error, hexadecimal, not_written};
 use tempfile::Builder;
 
 use crate::plan::Digests;
@@ -90,7 +90,7 @@ pub(crate) fn write(folder: &Path, chunk: Chunk, header: &Header, records: &[Str
             writer.write_all(record.as_bytes())?;
             writer.write_all(b"\n")?;
         }
-        let trailer = Trailer { sha256: hexadecimal(writer.hash.clone()) };
+        let trailer = Trailer { sha256: hexadecimal(&writer.hash.clone().finalize()) };
         writeln!(writer, "{}", serde_json::to_string(&trailer)?)?;
         writer.flush()?;
         drop(writer);
@@ -167,14 +167,6 @@ impl<W: Write> Write for Hashing<W> {
     }
 }
 
-fn hexadecimal(hash: Sha256) -> String {
-    use std::fmt::Write;
-    hash.finalize().iter().fold(String::new(), |mut digits, byte| {
-        let _ = write!(digits, "{byte:02x}");
-        digits
-    })
-}
-
 /// Gives each record of a chunk's file to `take`, in the order of the runs; returns the header. Only when this returns is it known
 /// that the file is whole.
 pub(crate) fn read(
@@ -204,7 +196,7 @@ pub(crate) fn read(
             _ => return damaged(&format!("run {run} is missing or cannot be read")),
         }
     }
-    let hash = hexadecimal(lines.hash.clone());
+    let hash = hexadecimal(&lines.hash.clone().finalize());
     match lines.next().and_then(|line| serde_json::from_str::<Trailer>(line).ok()) {
         Some(trailer) if trailer.sha256 == hash && lines.is_at_end() => Ok(Ok(header)),
         _ => damaged("its hash differs"),

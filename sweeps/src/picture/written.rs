@@ -1,4 +1,4 @@
-//! \[picture\] as it is written, and what it means for the axes and columns of a sweep.
+//! The section \[picture\] of a sweep's text, and what it means for its axes and columns.
 
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::nearest;
@@ -10,7 +10,7 @@ use crate::axis::Axis;
 use crate::keep::Column;
 use crate::keys;
 
-/// \[picture\] as it is written.
+/// The keys of \[picture\] that the text has.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Written {
     x: Option<Text>,

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 use shadowstep::tables::Faults;
-use shadowstep_scenes::Error;
 use shadowstep_scenes::family::Family;
+use shadowstep_scenes::{Error, hexadecimal};
 use shadowstep_schemes::document::document;
 use toml::de::{DeTable, DeValue};
 
@@ -45,10 +45,7 @@ pub(super) fn of(sweep: &DeTable<'_>, family: &Family, axes: &Axes) -> Result<Di
 
 /// The hash of a text in hexadecimal digits.
 pub(crate) fn hash(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().fold(String::new(), |mut digits, byte| {
-        let _ = write!(digits, "{byte:02x}");
-        digits
-    })
+    hexadecimal(&Sha256::digest(text.as_bytes()))
 }
 
 fn write_value(text: &mut String, value: &DeValue<'_>, in_order: bool) {
