@@ -84,7 +84,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         report_failures(&plan, &computed);
         return collected(out, *format, &mut terminal);
     };
-    if is_there(&manifest, out, chunk)? {
+    if is_there(&manifest, out, chunk) {
         report::note(format_args!("chunk {}/{} is there already: nothing is done", chunk.number, chunk.of));
         return Ok(Status::Success);
     }

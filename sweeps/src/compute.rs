@@ -9,7 +9,7 @@ use std::time::Duration;
 use shadowstep_scenes::Error;
 use shadowstep_tasks::{Observer, Progress};
 
-use crate::chunk::{self, Chunk, Header, Unusable};
+use crate::chunk::{self, Chunk, Header};
 use crate::manifest::{Manifest, VERSION};
 use crate::partial::Partial;
 use crate::plan::Plan;
@@ -157,7 +157,7 @@ impl Due<'_> {
                 return Ok(Some(Work::Finish(state.open.swap_remove(place))));
             }
             let Some(chunk) = state.chunks.next() else { return Ok(None) };
-            if is_there(self.manifest, self.folder, chunk)? {
+            if is_there(self.manifest, self.folder, chunk) {
                 let runs = chunk.runs(self.manifest.runs);
                 state.saved += runs.end - runs.start;
                 continue;
@@ -245,15 +245,10 @@ fn header(plan: &Plan, manifest: &Manifest, chunk: Chunk) -> Header {
     }
 }
 
-/// Whether the file of a chunk is there and whole.
-///
-/// # Errors
-/// A file that is there and cannot be used.
-pub fn is_there(manifest: &Manifest, folder: &Path, chunk: Chunk) -> Result<bool, Error> {
-    match chunk::read(folder, chunk, manifest.runs, |_| Ok(()))? {
-        Ok(header) => Ok(header.shadowstep == manifest.shadowstep && header.digests == manifest.digests),
-        Err(Unusable::Missing | Unusable::Damaged(_)) => Ok(false),
-    }
+/// Whether the file of a chunk is there, whole, and of this manifest. One that is damaged is computed again.
+pub fn is_there(manifest: &Manifest, folder: &Path, chunk: Chunk) -> bool {
+    let found = chunk::read(folder, chunk, manifest.runs, |_| Ok(()));
+    found.is_ok_and(|read| read.is_ok_and(|header| manifest.check_header(&header).is_ok()))
 }
 
 /// A thread that panicked leaves no partial changes.

@@ -9,7 +9,7 @@ use shadowstep::tables::Source;
 use shadowstep_scenes::{Error, not_written};
 use tempfile::Builder;
 
-use crate::chunk::{AGAIN, Chunk, MOST_RUNS_OF_CHUNK};
+use crate::chunk::{AGAIN, Chunk, Header, MOST_RUNS_OF_CHUNK};
 use crate::keep::Column;
 use crate::plan::{Digests, Plan};
 
@@ -114,6 +114,20 @@ impl Manifest {
     /// The text of the sweep.
     pub(crate) fn source(&self) -> Source {
         Source { path: self.path.clone(), text: self.text.clone() }
+    }
+
+    /// Whether a chunk with this header belongs to the sweep; if not, why.
+    pub(crate) fn check_header(&self, header: &Header) -> Result<(), String> {
+        if header.shadowstep != self.shadowstep {
+            return Err(format!("it was made by version {}", header.shadowstep));
+        }
+        if header.digests.sweep != self.digests.sweep {
+            return Err("it is of another sweep".to_owned());
+        }
+        if header.digests.tables != self.digests.tables {
+            return Err("it was made with other tables of schemes".to_owned());
+        }
+        Ok(())
     }
 
     fn check(&self, own: &Manifest, chunks_given: bool, folder: &Path) -> Result<(), Error> {

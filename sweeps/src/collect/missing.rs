@@ -25,7 +25,7 @@ impl Missing {
                 None => missing.chunks.push(chunk.number),
                 Some(header) => {
                     let header = header.ok_or_else(|| "its first line is not a header".to_owned());
-                    if let Err(why) = header.and_then(|header| fits(&header, manifest)) {
+                    if let Err(why) = header.and_then(|header| manifest.check_header(&header)) {
                         missing.add(chunk, &why);
                     }
                 }
@@ -56,20 +56,6 @@ fn header(chunk: Chunk, folder: &Path) -> Option<Option<Header>> {
     let mut line = String::new();
     let read = BufReader::new(file).read_line(&mut line);
     Some(read.ok().and_then(|_| serde_json::from_str(&line).ok()))
-}
-
-/// The header that every chunk must have.
-fn fits(header: &Header, manifest: &Manifest) -> Result<(), String> {
-    if header.shadowstep != manifest.shadowstep {
-        return Err(format!("it was made by version {}", header.shadowstep));
-    }
-    if header.digests.sweep != manifest.digests.sweep {
-        return Err("it is of another sweep".to_owned());
-    }
-    if header.digests.tables != manifest.digests.tables {
-        return Err("it was made with other tables of schemes".to_owned());
-    }
-    Ok(())
 }
 
 /// Numbers in order as `3,7-9`.
