@@ -43,6 +43,8 @@ impl Interrupt {
     /// From now on the first signal asks the run to end. If it does not soon, or at a second signal, the program ends with the
     /// error that this was interrupted, and with this hint; it leaves no incomplete files.
     ///
+    /// It is called before the first file is created: without it a signal ends the program wherever it is.
+    ///
     /// SIGHUP, from a closed terminal, is left to `nohup`.
     pub(crate) fn listen(what: impl Into<String>, hint: impl Into<String>) -> Self {
         let (state, signalled) = (Arc::<State>::default(), Arc::<AtomicBool>::default());

@@ -48,11 +48,11 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let scene = Scene::open(&arguments.scene)?;
     scene.notes.iter().for_each(report::note);
+    let interrupt = Interrupt::listen(&scene.source.path, again(&scene));
     let plot = scene.output.plot.as_ref();
     let files = plot.map(|plot| PlotFiles::of_scene(&scene, plot, arguments.force)).transpose()?;
     let begin = Instant::now();
     let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), scene.steps);
-    let interrupt = Interrupt::listen(&scene.source.path, again(&scene));
     let mut terminal = Terminal { progress, interrupt, summarises: !arguments.no_summary, summary: None };
     let options = FileOptions { restart: arguments.restart, force: arguments.force };
     let outcome = match scene.output.file {

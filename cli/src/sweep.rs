@@ -77,8 +77,8 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         None => chunk_of_task(|name| env::var(name).ok(), begun.map(|manifest| manifest.chunks))?,
     };
     let plan = Plan::open(sweep)?;
-    let manifest = Manifest::begin(out, &plan, chunk.map(|chunk| chunk.of))?;
     let mut terminal = Terminal::listen(SAVED);
+    let manifest = Manifest::begin(out, &plan, chunk.map(|chunk| chunk.of))?;
     let Some(chunk) = chunk else {
         let computed = compute(&plan, &manifest, out, manifest.all_chunks(), &mut terminal)?;
         report_failures(&plan, &computed);

@@ -62,6 +62,7 @@ impl Arguments {
 
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let selection = Selection::read(&arguments.run)?;
+    let interrupt = Interrupt::listen("trace", NOT_RESUMED);
     let mut plots = arguments.plot.read(
         &selection.problem.system,
         &selection.title(),
@@ -72,7 +73,6 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     if !selection.estimator.gives_errors() {
         report::note("no error estimate at --order 1: the estimates are empty");
     }
-    let interrupt = Interrupt::listen("trace", NOT_RESUMED);
     let mut output = Output::of(&arguments.run.output)?;
     let bar = arguments.run.output.output.is_some() || !arguments.writes_rows();
     let several = selection.count() > 1;

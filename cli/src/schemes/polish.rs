@@ -8,6 +8,7 @@ use shadowstep_analysis::polish::{self, NotPolished, Polished, PolishedWeight, R
 use shadowstep_schemes::{Kinetic, Rational};
 use shadowstep_symbolic::decimal::to_significant;
 
+use crate::interrupt::Interrupt;
 use crate::output::{Output, OutputArguments};
 use crate::quantity::whole;
 use crate::readable::table;
@@ -46,6 +47,7 @@ pub(crate) struct Arguments {
 /// The polished table to stdout or a file, the report to stderr.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let source = library::source(&arguments.file)?;
+    let _interrupt = Interrupt::listen("schemes polish", "run the command again");
     let mut output = Output::of(&arguments.output)?;
     let wanted = Request { digits: arguments.digits, free: &arguments.free, split_kicks: arguments.split_kicks };
     let polished = match polish::polish(&source, &library::beside_or_shipped, &wanted) {

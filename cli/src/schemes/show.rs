@@ -17,6 +17,7 @@ use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
 use shadowstep_schemes::{ExactScheme, First, Kinetic, Proved, to_significant, to_text};
 
+use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::readable::{shortened, table, wrapped};
 use crate::report::{self, Status};
@@ -135,6 +136,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 fn draw(path: &Path, force: bool, scheme: &TableScheme, analysis: &Analysis) -> Result<(), Error> {
     let proved = scheme.proved();
     let picture = plot::picture(&proved.scheme.table.name.value, proved, analysis)?;
+    let _interrupt = Interrupt::listen("schemes show", "run the command again");
     let mut file = if force { WholeFile::create(path, "--plot")? } else { WholeFile::create_new(path, "--plot")? };
     writeln!(file, "{picture}")?;
     file.finish()

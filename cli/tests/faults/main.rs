@@ -28,6 +28,9 @@ const CALLS: usize = 15;
 /// How often each command gets a signal at a random moment.
 const SIGNALS: usize = 8;
 
+/// In how many of its first calls that change files each command gets a signal.
+const FIRST_CALLS: u64 = 4;
+
 /// Error numbers of Linux.
 const ERRORS: [(u32, &str); 3] =
     [(28, "No space left on device"), (30, "Read-only file system"), (13, "Permission denied")];
@@ -154,6 +157,27 @@ fn interrupted(command: Disturbed, random: &mut Random) {
 #[test]
 fn an_interrupted_command_leaves_nothing_incomplete() {
     each(interrupted, "signals");
+}
+
+fn interrupted_in_calls(command: Disturbed, random: &mut Random) {
+    let Undisturbed { files, calls, .. } = undisturbed(command);
+    // the first calls make the files of which the program must know when the signal comes
+    let chosen = (1..=FIRST_CALLS).map(|call| call.to_string());
+    let chosen: Vec<_> = chosen.chain((0..SIGNALS).map(|_| call(command, calls, random))).collect();
+    for (signal, call) in [2, 15].into_iter().cycle().zip(chosen) {
+        let work = Work::new(command);
+        let when = format!("signal {signal} in call {call}");
+        let output = work.with_fault(&[("FAULT_SIGNAL", signal.to_string()), ("FAULT_KILL", call)]).output().unwrap();
+        let err = message(&output);
+        assert!(matches!(output.status.code(), Some(0 | 3)), "{} {when}: {err}", command.name);
+        work.check_without_litter(&files, &when);
+        work.completes(&files, &when);
+    }
+}
+
+#[test]
+fn an_interrupted_call_leaves_nothing_incomplete() {
+    each(interrupted_in_calls, "signals in calls");
 }
 
 fn several_at_once(command: Disturbed, random: &mut Random) {

@@ -1,6 +1,7 @@
 /* Preloaded into the program: makes calls that change files fail, or kills the program at one of them, or makes clocks jump.
  *
  * FAULT_KILL=n     the program is killed at the n-th such call; of a write, half is written before
+ * FAULT_SIGNAL=s   it gets the signal s just after that call instead
  * FAULT_ERRNO=e    from call number FAULT_FROM on, calls that need room or a folder fail with this error
  * FAULT_CLOCK=s    clocks jump, as chosen by the seed s: that of the day forth and back, the monotonic one forth
  * FAULT_COUNT=FILE the number of such calls is written there at the end
@@ -33,12 +34,24 @@ static void die(void) {
     for (;;) pause();
 }
 
+/* The number of the call that this one is. */
+static _Thread_local long call;
+
 /* Whether this call is the one to die in; sets *fails where it must fail. */
 static int is_last(int *fails) {
-    long n = ++calls, from = setting("FAULT_FROM");
-    *fails = setting("FAULT_ERRNO") > 0 && n >= (from < 0 ? 1 : from);
+    long from = setting("FAULT_FROM");
+    call = ++calls;
+    *fails = setting("FAULT_ERRNO") > 0 && call >= (from < 0 ? 1 : from);
     if (*fails) errno = (int)setting("FAULT_ERRNO");
-    return n == setting("FAULT_KILL");
+    return call == setting("FAULT_KILL") && setting("FAULT_SIGNAL") < 0;
+}
+
+/* The result of a call, after which there may be a signal. */
+static long after(long result) {
+    int error = errno;
+    if (call == setting("FAULT_KILL") && setting("FAULT_SIGNAL") > 0) kill(getpid(), (int)setting("FAULT_SIGNAL"));
+    errno = error;
+    return result;
 }
 
 __attribute__((destructor)) static void count(void) {
@@ -58,7 +71,7 @@ ssize_t write(int fd, const void *bytes, size_t length) {
         real(fd, bytes, length / 2);
         die();
     }
-    return fails ? -1 : real(fd, bytes, length);
+    return fails ? -1 : after(real(fd, bytes, length));
 }
 
 int open64(const char *path, int flags, ...) {
@@ -69,32 +82,33 @@ int open64(const char *path, int flags, ...) {
     va_end(rest);
     int fails = 0;
     if ((flags & O_CREAT) && is_last(&fails)) die();
-    return fails ? -1 : real(path, flags, mode);
+    if (fails) return -1;
+    return flags & O_CREAT ? (int)after(real(path, flags, mode)) : real(path, flags, mode);
 }
 
 int rename(const char *from, const char *to) {
     int fails;
     if (is_last(&fails)) die();
-    return fails ? -1 : REAL(int, "rename", const char *, const char *)(from, to);
+    return fails ? -1 : (int)after(REAL(int, "rename", const char *, const char *)(from, to));
 }
 
 int mkdir(const char *path, mode_t mode) {
     int fails;
     if (is_last(&fails)) die();
-    return fails ? -1 : REAL(int, "mkdir", const char *, mode_t)(path, mode);
+    return fails ? -1 : (int)after(REAL(int, "mkdir", const char *, mode_t)(path, mode));
 }
 
 /* These need no room. */
 int unlink(const char *path) {
     int fails;
     if (is_last(&fails)) die();
-    return REAL(int, "unlink", const char *)(path);
+    return (int)after(REAL(int, "unlink", const char *)(path));
 }
 
 int ftruncate64(int fd, off_t length) {
     int fails;
     if (is_last(&fails)) die();
-    return REAL(int, "ftruncate64", int, off_t)(fd, length);
+    return (int)after(REAL(int, "ftruncate64", int, off_t)(fd, length));
 }
 
 /* splitmix64 */
