@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use shadowstep::number::Number;
+use shadowstep::number::{Number, Ordered};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::wrapped_to;
 use shadowstep_symbolic::decimal::to_text;

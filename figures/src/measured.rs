@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use rug::Float;
 use serde::{Deserialize, Serialize};
 use shadowstep::exact_flow::ExactFlow;
-use shadowstep::number::Number;
+use shadowstep::number::{Number, Ordered};
 use shadowstep::run::{Finding, RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::{BuildEstimator, Estimate, Estimator, EstimatorSettings};
 use shadowstep::{Rational, StepSize};
@@ -225,7 +225,7 @@ fn time_of_value(h: &Rational, n: i64, settings: &EstimatorSettings) -> f64 {
 
 impl Energies {
     fn include(&mut self, time: f64, estimate: &Estimate<'_, Float>) {
-        let size = |number: Option<&Float>| number.map(Number::log10_abs).filter(|size| size.is_finite());
+        let size = |number: Option<&Float>| number.map(Ordered::log10_abs).filter(|size| size.is_finite());
         self.times.push(time);
         self.distances.push(estimate.q.iter().map(|q| q.to_f64().powi(2)).sum::<f64>().sqrt());
         self.values.push(estimate.value.to_text());

@@ -1,7 +1,7 @@
 //! Numbers as texts: with all their digits, and for people.
 
 use rug::Float;
-use shadowstep::Number;
+use shadowstep::Ordered;
 
 /// log₁₀|x| of a number in a text; −∞ for 0.
 pub(crate) fn log10(text: &str) -> f64 {

@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 
 use rug::Float;
-use shadowstep::Number;
+use shadowstep::Ordered;
 use shadowstep::shadow::EstimatorSettings;
 
 use crate::calculation::{Calculation, Outcome, Quantity};

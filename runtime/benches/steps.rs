@@ -8,7 +8,7 @@ use std::hint::black_box;
 
 use rug::Float;
 use shadowstep::formula::FormulaPotential;
-use shadowstep::number::{Number as _, Precision};
+use shadowstep::number::{Number, Precision};
 use shadowstep::problems::Kepler;
 use shadowstep::shadow::{BuildEstimator, Central, Estimator, StoppingRule};
 use shadowstep::{Motion, Potential, Scheme, Stepper, UnitMasses, exact, splitting_scheme, tables};
@@ -35,7 +35,7 @@ fn big<P: Potential<Float>>(potential: P, q: [&str; 2], p: [&str; 2]) -> Big<P> 
     Motion::new(potential, UnitMasses, q.map(number), p.map(number)).expect("the dimensions agree")
 }
 
-fn steps<'a, S: Scheme + 'a, N: shadowstep::Number + 'a, P: Potential<N> + 'a, const D: usize>(
+fn steps<'a, S: Scheme + 'a, N: shadowstep::Ordered + 'a, P: Potential<N> + 'a, const D: usize>(
     name: &'static str,
     scheme: S,
     mut motion: Motion<N, [N; D], P, UnitMasses>,

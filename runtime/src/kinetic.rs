@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 use thiserror::Error;
 
 use crate::Rational;
-use crate::number::{Number, epsilon};
+use crate::number::{Number, Ordered, epsilon};
 use num_traits::Signed;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 
@@ -156,7 +156,9 @@ impl<N: Number> DiagonalMasses<N> {
         };
         Ok(DiagonalMasses { inverse: masses.iter().enumerate().map(inverse).collect::<Result<_, _>>()? })
     }
+}
 
+impl<N: Ordered> DiagonalMasses<N> {
     /// Masses of the coordinates as numbers, such as `f64`; each 1/m_i is rounded once.
     ///
     /// ```
@@ -183,10 +185,11 @@ impl<N: Number> DiagonalMasses<N> {
     }
 }
 
-/// A positive number that has neither overflowed nor underflowed.
+/// The rounding of a positive number, if it has neither overflowed nor underflowed.
 fn in_range<N: Number>(number: N) -> Option<N> {
-    let zero = N::zero(&number.context());
-    (number.is_finite() && number > zero).then_some(number)
+    let mut quotient = N::zero(&number.context());
+    quotient.divide(&number); // 0/x is finite unless x is 0
+    (number.is_finite() && quotient.is_finite()).then_some(number)
 }
 
 impl<N: Number> Kinetic<N> for DiagonalMasses<N> {
@@ -241,7 +244,7 @@ pub struct FullMasses<N> {
     inverse: Vec<Vec<N>>,
 }
 
-impl<N: Number> FullMasses<N> {
+impl<N: Ordered> FullMasses<N> {
     /// The rows of M⁻¹, each entry rounded once.
     ///
     /// # Errors
@@ -271,7 +274,7 @@ impl<N: Number> FullMasses<N> {
 }
 
 /// Refuses a symmetric matrix with a pivot that is not positive, beyond round-off.
-fn check_positive_definite<N: Number>(rows: &[Vec<N>], context: &N::Context) -> Result<(), MassError> {
+fn check_positive_definite<N: Ordered>(rows: &[Vec<N>], context: &N::Context) -> Result<(), MassError> {
     let mut rest = rows.to_vec();
     let [mut bound, mut factor] = [N::zero(context), N::zero(context)];
     let mut round_off = epsilon::<N>(context);

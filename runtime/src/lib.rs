@@ -26,7 +26,7 @@
 #![cfg_attr(feature = "mpfr", doc = "```")]
 #![cfg_attr(not(feature = "mpfr"), doc = "```ignore")]
 //! use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, run::energy_drift, shadow::Central, tables};
-//! use shadowstep::number::{Float, Number, Precision};
+//! use shadowstep::number::{Float, Number, Ordered, Precision};
 //!
 //! let digits = Precision::digits(120)?;
 //! let number = |text| Float::from_rational(&shadowstep::exact(text).unwrap(), &digits);
@@ -99,7 +99,7 @@ pub use kinetic::{DiagonalMasses, FullMasses, Kinetic, UnitMasses};
 #[doc(inline)]
 pub use motion::{Motion, MotionError};
 #[doc(inline)]
-pub use number::Number;
+pub use number::{Number, Ordered};
 #[doc(inline)]
 pub use potential::Potential;
 #[doc(inline)]

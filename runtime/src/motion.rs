@@ -272,7 +272,7 @@ where
 
     /// Whether every q, p and β is a finite number.
     pub fn is_finite(&self) -> bool {
-        self.increments.beta.is_finite() && self.q().iter().chain(self.p()).all(Number::is_finite)
+        self.increments.beta.is_finite() && self.q().iter().chain(self.p()).all(N::is_finite)
     }
 
     #[inline]
@@ -303,11 +303,7 @@ fn assign_energies<N: Number, P: Potential<N>, K: Kinetic<N>>(
 
 /// energy ← NaN where it is finite though squares of positions overflow: an infinite r² makes 0 of 1/r.
 fn refuse_overflow<N: Number>(q: &[N], energy: &mut N) {
-    if energy.is_finite() && !q.iter().all(N::has_finite_square) {
-        energy.assign_zero();
-        let zero = energy.clone();
-        energy.divide(&zero);
-    }
+    q.iter().for_each(|position| energy.make_nan_where_square_overflows(position));
 }
 
 /// Checks that dimensions and precisions agree; returns the context of the numbers.

@@ -54,9 +54,12 @@ use std::ops::DerefMut;
 ///
 /// let mut potential = f64::zero(&());
 /// harmonic(&3.0, &4.0, &mut potential);
-/// assert_eq!(potential.to_text(), "12.5");
+/// assert_eq!(potential, 12.5);
 /// ```
-pub trait Number: Clone + PartialOrd + fmt::Debug + fmt::Display {
+///
+/// There is no order, and no text: a number may be several at once, as in lanes. What compares, searches or prints needs an
+/// [`Ordered`] number; potentials, kinetic energies and steps do not.
+pub trait Number: Clone + fmt::Debug {
     /// What a new number needs: `()` for `f64`, the precision for MPFR.
     type Context: Clone + PartialEq + fmt::Debug;
 
@@ -184,11 +187,34 @@ pub trait Number: Clone + PartialOrd + fmt::Debug + fmt::Display {
     /// x ← |x|
     fn make_absolute(&mut self);
 
+    /// x ← a where x < a, as in the search for the largest: x stays where one of them is NaN.
+    fn make_at_least(&mut self, a: &Self);
+
+    /// x ← a where x > a, as in the search for the smallest: x stays where one of them is NaN.
+    fn make_at_most(&mut self, a: &Self);
+
+    /// x ← NaN where x is finite, but not r² of two points in space with such a coordinate a: |a| > 3.8e153 in `f64`.
+    fn make_nan_where_square_overflows(&mut self, a: &Self);
+
+    /// Whether x is neither infinite nor NaN; of several numbers in lanes, whether all are so.
+    fn is_finite(&self) -> bool;
+}
+
+/// A number that can be compared, converted and printed: one value, as opposed to several in lanes.
+///
+/// ```
+/// use shadowstep::number::{Number, Ordered};
+///
+/// fn third<N: Ordered>(context: &N::Context) -> String {
+///     let mut x = N::from_rational(&shadowstep::exact("1").unwrap(), context);
+///     x.divide_integer(3);
+///     x.to_text()
+/// }
+/// assert_eq!(third::<f64>(&()), "0.3333333333333333");
+/// ```
+pub trait Ordered: Number + PartialOrd + fmt::Display {
     /// Whether x < 0: false for −0 and for NaN.
     fn is_below_zero(&self) -> bool;
-
-    /// Whether x is neither infinite nor NaN.
-    fn is_finite(&self) -> bool;
 
     /// Whether r² of two points in space with such coordinates is finite: |x| ≤ 3.8e153 in `f64`.
     fn has_finite_square(&self) -> bool {
@@ -215,8 +241,8 @@ mod tests {
     use super::Number;
 
     /// Every operation that rounds once, starting from x = c.
-    pub(super) fn operations<N: Number>(a: &N, b: &N, c: &N) -> [N; 16] {
-        let changes: [fn(&mut N, &N, &N); 16] = [
+    pub(super) fn operations<N: Number>(a: &N, b: &N, c: &N) -> [N; 19] {
+        let changes: [fn(&mut N, &N, &N); 19] = [
             |x, _, _| x.assign_zero(),
             |x, a, _| x.assign(a),
             |x, a, b| x.assign_sum(a, b),
@@ -233,6 +259,9 @@ mod tests {
             |x, _, _| x.divide_integer(-3),
             |x, _, _| x.negate(),
             |x, _, _| x.make_absolute(),
+            |x, a, _| x.make_at_least(a),
+            |x, a, _| x.make_at_most(a),
+            |x, a, _| x.make_nan_where_square_overflows(a),
         ];
         changes.map(|change| {
             let mut x = c.clone();

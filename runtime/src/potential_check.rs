@@ -7,7 +7,7 @@ use std::fmt;
 use self::derivative::{Derivative, directional_derivative};
 use crate::Rational;
 use crate::motion::MotionError;
-use crate::number::{Number, epsilon};
+use crate::number::{Ordered, epsilon};
 use crate::potential::Potential;
 
 /// Compares the gradient and the rate of a potential with its energy at states of your choice.
@@ -42,7 +42,7 @@ use crate::potential::Potential;
 /// A state whose dimension is not that of the potential, or no state.
 pub fn check_potential<N, P, Q>(potential: &mut P, states: &[Q]) -> Result<PotentialCheck<N>, MotionError>
 where
-    N: Number,
+    N: Ordered,
     P: Potential<N> + ?Sized,
     Q: AsRef<[N]>,
 {
@@ -117,7 +117,7 @@ const LARGEST_UNCERTAINTY: i32 = 1000;
 /// Sums of n terms are known to this many times √n roundings.
 const ROUNDINGS: i32 = 100;
 
-impl<N: Number> Comparison<N> {
+impl<N: Ordered> Comparison<N> {
     /// `size` is the sum of the absolute values of all terms.
     fn new(state: usize, coordinate: Option<usize>, (found, expected): (N, N), uncertainty: N, size: &N) -> Self {
         let mut off = found.clone();
@@ -154,7 +154,7 @@ struct Checked<'a, N, P: ?Sized> {
     epsilon: N,
 }
 
-impl<'a, N: Number, P: Potential<N> + ?Sized> Checked<'a, N, P> {
+impl<'a, N: Ordered, P: Potential<N> + ?Sized> Checked<'a, N, P> {
     fn new(potential: &'a mut P, q: &'a [N], state: usize) -> Self {
         let context = q[0].context();
         let mut scratch = vec![N::zero(&context); potential.scratch()];
@@ -319,14 +319,14 @@ impl<'a, N: Number, P: Potential<N> + ?Sized> Checked<'a, N, P> {
 }
 
 /// sum ← sum + |a b|
-fn add_absolute_product<N: Number>(sum: &mut N, a: &N, b: &N) {
+fn add_absolute_product<N: Ordered>(sum: &mut N, a: &N, b: &N) {
     let mut product = a.clone();
     product.multiply(b);
     product.make_absolute();
     sum.add(&product);
 }
 
-impl<N: Number> fmt::Display for PotentialCheck<N> {
+impl<N: Ordered> fmt::Display for PotentialCheck<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PotentialCheck { gradient, gradient_with_rate, rate } = self;
         writeln!(f, "the gradient {}", gradient.sentence("the derivative of the energy"))?;
@@ -335,7 +335,7 @@ impl<N: Number> fmt::Display for PotentialCheck<N> {
     }
 }
 
-impl<N: Number> Comparison<N> {
+impl<N: Ordered> Comparison<N> {
     fn sentence(&self, of: &str) -> String {
         let Comparison { agreement, state, coordinate, found, expected, uncertainty } = self;
         let [found_short, expected_short] = [found, expected].map(|x| format!("{:.6e}", x.to_f64()));

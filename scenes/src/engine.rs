@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use shadowstep::run::{RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::EstimatorSettings;
-use shadowstep::{MotionError, Number, Remainders, Scheme, Stepper, System, ValidFor};
+use shadowstep::{MotionError, Ordered, Remainders, Scheme, Stepper, System, ValidFor};
 
 use crate::error::Error;
 use crate::note::Note;
@@ -38,7 +38,7 @@ pub enum Outcome {
 pub(crate) type Ended = (Outcome, Option<Summary>);
 
 /// Runs the scene, from a checkpoint if there is one, until it is complete or the observer stops it.
-pub(crate) fn follow<N: Number + 'static>(
+pub(crate) fn follow<N: Ordered + 'static>(
     scene: &Scene,
     context: &N::Context,
     rows: &mut Rows<'_>,
@@ -80,7 +80,7 @@ fn unreadable(n: i64) -> Error {
 const LONG: Duration = Duration::from_millis(500);
 
 /// Follows the states of a run in the order of time.
-struct Recorder<'a, 'r, N: Number> {
+struct Recorder<'a, 'r, N: Ordered> {
     scene: &'a Scene,
     run: Run<'a>,
     context: &'a N::Context,
@@ -96,7 +96,7 @@ struct Recorder<'a, 'r, N: Number> {
     remainders: Remainders<N>,
 }
 
-impl<N: Number + 'static> Work<N> for Recorder<'_, '_, N> {
+impl<N: Ordered + 'static> Work<N> for Recorder<'_, '_, N> {
     type Output = Result<Ended, Error>;
 
     fn with<S, M>(mut self, stepper: &Stepper<S, N>, mut system: M) -> Self::Output
@@ -112,7 +112,7 @@ impl<N: Number + 'static> Work<N> for Recorder<'_, '_, N> {
     }
 }
 
-impl<N: Number + 'static> Recorder<'_, '_, N> {
+impl<N: Ordered + 'static> Recorder<'_, '_, N> {
     /// Follows the run for a summary, if the observer wants one.
     fn watch<S, M>(&self, stepper: &Stepper<S, N>, system: &mut M) -> Result<Option<Watch<S, N>>, Error>
     where

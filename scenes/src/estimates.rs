@@ -1,6 +1,6 @@
 //! The modified energies along a run, one by one, and what the run shows.
 
-use shadowstep::number::{Number, Rounded};
+use shadowstep::number::{Ordered, Rounded};
 use shadowstep::run::{RunError, ShadowRun};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 use shadowstep::{MotionError, Scheme, Stepper, ValidFor};
@@ -84,7 +84,7 @@ struct Following<'a, F> {
 
 impl<N, F> Work<N> for Following<'_, F>
 where
-    N: Number + 'static,
+    N: Ordered + 'static,
     F: FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
 {
     type Output = Result<Finished, Error>;

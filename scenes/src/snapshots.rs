@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use shadowstep::{Number, Remainders, System};
+use shadowstep::{Ordered, Remainders, System};
 
 /// The state n with its remainders.
 #[derive(Clone, Debug)]
@@ -13,7 +13,7 @@ pub(crate) struct Snapshot<N> {
     pub(crate) remainders: Remainders<N>,
 }
 
-impl<N: Number> Snapshot<N> {
+impl<N: Ordered> Snapshot<N> {
     /// Of a system that is at the state n.
     pub(crate) fn of(n: i64, system: &impl System<Number = N>) -> Self {
         Snapshot { n, q: system.q().to_vec(), p: system.p().to_vec(), remainders: system.remainders() }
@@ -27,7 +27,7 @@ pub(crate) struct Snapshots<N> {
     kept: VecDeque<Snapshot<N>>,
 }
 
-impl<N: Number> Snapshots<N> {
+impl<N: Ordered> Snapshots<N> {
     /// The steps are `reach` + 1 states ahead of an estimate n, at most: of the multiples of `reach` up to there, the last one at or before
     /// n − reach is one of the newest four.
     const KEPT: usize = 4;

@@ -5,7 +5,7 @@ mod energy;
 
 use shadowstep::run::RunError;
 use shadowstep::shadow::{Bilinear, BuildEstimator, Criterion, Missing, Report, ShadowEnergy, Verdict};
-use shadowstep::{Number, Scheme, Stepper, System};
+use shadowstep::{Ordered, Scheme, Stepper, System};
 
 pub use self::encounters::Encounter;
 use self::encounters::Encounters;
@@ -35,7 +35,7 @@ pub enum Energies {
 }
 
 /// Follows the states of a run in the order of time.
-pub struct Watch<S: Scheme, N: Number> {
+pub struct Watch<S: Scheme, N: Ordered> {
     energies: Energies,
     energy: EnergyError<N>,
     /// What a summary needs besides H; `None` where there is none.
@@ -45,12 +45,12 @@ pub struct Watch<S: Scheme, N: Number> {
     n: i64,
 }
 
-struct Observed<S: Scheme, N: Number> {
+struct Observed<S: Scheme, N: Ordered> {
     monitor: ShadowEnergy<S, N, <Bilinear as BuildEstimator<N>>::Estimator>,
     encounters: Encounters<N>,
 }
 
-impl<S: Scheme + Clone, N: Number> Watch<S, N> {
+impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
     /// Begins at the system's present state, which is number `from` of the run; `initial` is H at t = 0.
     ///
     /// # Errors
@@ -154,7 +154,7 @@ impl<S: Scheme + Clone, N: Number> Watch<S, N> {
 }
 
 /// The verdict of the monitor with its reason. Of a run that is too short for it, one on the error of H.
-fn conclusion<N: Number>(report: &Report<N>, of_kinetic: f64) -> (Verdict, String) {
+fn conclusion<N: Ordered>(report: &Report<N>, of_kinetic: f64) -> (Verdict, String) {
     let short = report.verdict == Verdict::Undecided(Missing::Windows);
     if short && of_kinetic.is_finite() && of_kinetic >= KINETIC_LIMIT {
         let reason = format!("the energy error is {of_kinetic:.1e} of the mean kinetic energy");

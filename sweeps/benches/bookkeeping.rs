@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use shadowstep::run::Trajectory;
 use shadowstep::tables::Source;
-use shadowstep::{Number, Scheme, Stepper, System, ValidFor};
+use shadowstep::{Ordered, Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::Scene;
 use shadowstep_scenes::start::{Steps, Work};
 use shadowstep_sweeps::{Collected, Manifest, Plan, TableFormat, collect, compute};
@@ -91,7 +91,7 @@ fn steps_alone(scenes: &[Scene], runs: u64) {
 
 fn follow(scene: &Scene) {
     struct Alone;
-    impl<N: Number> Work<N> for Alone {
+    impl<N: Ordered> Work<N> for Alone {
         type Output = ();
 
         fn with<S, M>(self, stepper: &Stepper<S, N>, system: M)

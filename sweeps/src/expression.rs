@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use shadowstep::formula::{FormulaError, FormulaPotential};
-use shadowstep::{Number, Potential, Rational};
+use shadowstep::{Ordered, Potential, Rational};
 use shadowstep_scenes::System;
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::{Expression as Syntax, Kind, parse};
@@ -119,7 +119,7 @@ pub(crate) struct Evaluator<N> {
     has_energy: bool,
 }
 
-impl<N: Number> Evaluator<N> {
+impl<N: Ordered> Evaluator<N> {
     pub(crate) fn new(expression: &Expression, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
         let names = system.coordinates.iter().chain(&system.momenta).map(String::as_str).chain([TIME, ENERGY]);
         let names: Vec<&str> = names.collect();
@@ -162,7 +162,7 @@ pub(crate) struct Test<N> {
     zero: N,
 }
 
-impl<N: Number> Test<N> {
+impl<N: Ordered> Test<N> {
     pub(crate) fn new(condition: &Condition, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
         let difference = Evaluator::new(&condition.difference, system, context)?;
         Ok(Test { difference, met: condition.met, zero: N::zero(context) })

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::run::{DriftRecorder, EnergyDrift, Finding, RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::EstimatorSettings;
-use shadowstep::{Number, Scheme, Stepper, ValidFor};
+use shadowstep::{Ordered, Scheme, Stepper, ValidFor};
 use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::start::{Steps, Work};
@@ -76,7 +76,7 @@ impl Computation for Measuring<'_> {
     }
 }
 
-struct InNumbers<'a, N: Number> {
+struct InNumbers<'a, N: Ordered> {
     scene: &'a Scene,
     keep: &'a Keep,
     stops: &'a AtomicBool,
@@ -182,7 +182,7 @@ where
 }
 
 /// What is kept, as far as the states have come.
-struct Following<'a, S: Scheme, N: Number> {
+struct Following<'a, S: Scheme, N: Ordered> {
     run: Run<'a>,
     keep: &'a Keep,
     watch: Option<Watch<S, N>>,
@@ -298,7 +298,7 @@ struct Found<'a, N> {
     last: i64,
 }
 
-impl<N: Number> Found<'_, N> {
+impl<N: Ordered> Found<'_, N> {
     fn value(&self, kept: Kept) -> Option<String> {
         let Found { energy, summary, ended, last } = self;
         let permanent = ended.drift.as_ref().and_then(|drift| drift.permanent.as_ref());

@@ -2,7 +2,7 @@
 
 use shadowstep::kinetic::Quadratic;
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum, Scattering};
-use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Number, Potential, UnitMasses};
+use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Number, Ordered, Potential, UnitMasses};
 
 use crate::{numbers, rational};
 
@@ -72,7 +72,7 @@ pub enum Masses<N> {
     Full(FullMasses<N>),
 }
 
-impl<N: Number> Masses<N> {
+impl<N: Ordered> Masses<N> {
     /// One of each kind, all different from each other, for so many coordinates.
     pub fn all(dimension: usize, context: &N::Context) -> [Masses<N>; 3] {
         let diagonal: Vec<_> = [rational("4/3"), rational("0.7")][..dimension].to_vec();
@@ -84,7 +84,9 @@ impl<N: Number> Masses<N> {
             Masses::Full(FullMasses::from_inverse(&full, context).expect("symmetric and positive")),
         ]
     }
+}
 
+impl<N: Number> Masses<N> {
     fn kinetic(&self) -> &dyn Kinetic<N, Class = Quadratic> {
         match self {
             Masses::Unit => &UnitMasses,
@@ -123,7 +125,7 @@ pub fn system<N: Number + 'static>(problem: Problem, masses: Masses<N>, context:
 }
 
 /// All problems with all masses.
-pub fn systems<N: Number + 'static>(context: &N::Context) -> Vec<AnyMotion<N>> {
+pub fn systems<N: Ordered + 'static>(context: &N::Context) -> Vec<AnyMotion<N>> {
     let of = |problem: Problem| {
         let dimension = problem.start()[0].len();
         Masses::all(dimension, context).map(|masses| system(problem, masses, context))

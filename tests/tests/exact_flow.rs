@@ -9,7 +9,7 @@ use shadowstep::problems::{PROBLEMS, Problem, Setup, problem};
 use shadowstep::run::{ShadowRun, States};
 use shadowstep::shadow::weights::central;
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, StoppingRule};
-use shadowstep::{Kinetic, Number};
+use shadowstep::{Kinetic, Number, Ordered};
 use shadowstep_tests::reference::Separable;
 use shadowstep_tests::{
     log10_distance, log10_largest_distance, number, numbers, potential_values, precision, rational, step_size,

@@ -7,7 +7,7 @@
 use std::array;
 
 use rug::Float;
-use shadowstep::number::Number;
+use shadowstep::number::{Number, Ordered};
 use shadowstep_schemes::{MapKind, Proved, shipped_names, shipped_proved};
 use shadowstep_tests::precision;
 use shadowstep_tests::reference::{Separable, State};
@@ -127,7 +127,7 @@ fn near_terms(scheme: &Proved, k: u32) -> [f64; 3] {
                 *sum += error * factor;
             }
         }
-        let largest = sum.iter().map(Number::log10_abs).fold(f64::NEG_INFINITY, f64::max);
+        let largest = sum.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max);
         largest / std::f64::consts::LOG10_2
     })
 }

@@ -1,6 +1,6 @@
 //! Positions at the times at which errors are taken: the ends of equal parts of a run.
 
-use shadowstep::{Number, Scheme, Stepper, System, ValidFor};
+use shadowstep::{Ordered, Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::start::Work;
 
 /// Makes all steps; calls with the number of each sample and the system there, as long as that returns true.
@@ -27,7 +27,7 @@ pub(crate) struct Positions {
     pub(crate) samples: u64,
 }
 
-impl<N: Number> Work<N> for Positions {
+impl<N: Ordered> Work<N> for Positions {
     type Output = Vec<Vec<N>>;
 
     fn with<S, M>(self, stepper: &Stepper<S, N>, mut system: M) -> Self::Output
@@ -48,7 +48,7 @@ impl<N: Number> Work<N> for Positions {
 }
 
 /// |a − b|², in the number type of both.
-pub(crate) fn square_distance<N: Number>(a: &[N], b: &[N], context: &N::Context) -> N {
+pub(crate) fn square_distance<N: Ordered>(a: &[N], b: &[N], context: &N::Context) -> N {
     let [mut sum, mut difference] = [N::zero(context), N::zero(context)];
     for (a, b) in a.iter().zip(b) {
         difference.assign_difference(a, b);

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
 use shadowstep::number::{Precision, Rounded};
 use shadowstep::run::States;
-use shadowstep::{Number, StepSize};
+use shadowstep::{Ordered, StepSize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
 use shadowstep_scenes::library::{NamedScheme, scheme};
@@ -113,7 +113,7 @@ impl Reference {
     }
 
     /// The positions as sums of two numbers each: rounded ones and what rounding took away.
-    pub(crate) fn in_two_parts<N: Number>(&self, context: &N::Context) -> Vec<[Vec<N>; 2]> {
+    pub(crate) fn in_two_parts<N: Ordered>(&self, context: &N::Context) -> Vec<[Vec<N>; 2]> {
         let parts = |position: &Vec<String>| {
             let (mut first, mut second) = (Vec::new(), Vec::new());
             for text in position {
@@ -146,7 +146,7 @@ impl Computation for Texts<'_> {
         if (found.len() as u64) < samples {
             return Err(Error::run("the states of a run with half the step are not finite", "use a shorter time"));
         }
-        Ok(found.iter().map(|position| position.iter().map(Number::to_text).collect()).collect())
+        Ok(found.iter().map(|position| position.iter().map(Ordered::to_text).collect()).collect())
     }
 }
 
@@ -162,7 +162,7 @@ fn of_exact_flow(problem: Problem<'_>, samples: u64) -> Result<Reference, Error>
     let mut positions = Vec::new();
     while let Some(state) = flow.advance().map_err(|error| failed(error.to_string()))? {
         if state.n > 0 {
-            positions.push(state.q.iter().map(Number::to_text).collect());
+            positions.push(state.q.iter().map(Ordered::to_text).collect());
         }
     }
     let errors = vec![Size::ZERO; positions.len()];
@@ -201,7 +201,7 @@ fn of_scheme(
             let gain = if shows_order { GAIN.log10() } else { 0.0 };
             let errors = differences.iter().map(|size| size.times_power_of_ten(-gain)).collect();
             let target = largest(&found) - f64::from(problem.arithmetic.digits() + 2);
-            let texts = |position: &Vec<Float>| position.iter().map(Number::to_text).collect();
+            let texts = |position: &Vec<Float>| position.iter().map(Ordered::to_text).collect();
             let origin = Origin::Scheme { name: SCHEME.to_owned(), steps, digits };
             best = Some(Reference { positions: found.iter().map(texts).collect(), errors, origin });
             if difference - gain <= target {
@@ -226,7 +226,7 @@ fn first_steps(problem: Problem<'_>, samples: u64) -> u64 {
     samples * per_sample.max(1)
 }
 
-fn positions<N: Number + 'static>(
+fn positions<N: Ordered + 'static>(
     problem: Problem<'_>,
     named: &NamedScheme,
     (steps, samples): (u64, u64),
@@ -247,5 +247,5 @@ fn distances(a: &[Vec<Float>], b: &[Vec<Float>], precision: &Precision) -> Vec<S
 
 /// log₁₀ of the largest coordinate.
 fn largest(positions: &[Vec<Float>]) -> f64 {
-    positions.iter().flatten().map(Number::log10_abs).fold(f64::NEG_INFINITY, f64::max)
+    positions.iter().flatten().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max)
 }

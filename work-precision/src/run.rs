@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
-use shadowstep::{Number, Scheme, Stepper, System, ValidFor};
+use shadowstep::{Ordered, Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::start::Work;
 
 use crate::reference::Reference;
@@ -82,7 +82,7 @@ pub(crate) struct Measuring<'a> {
     pub(crate) reference: &'a Reference,
 }
 
-impl<N: Number> Work<N> for Measuring<'_> {
+impl<N: Ordered> Work<N> for Measuring<'_> {
     type Output = Measurement;
 
     fn with<S, M>(self, stepper: &Stepper<S, N>, mut system: M) -> Measurement
@@ -140,7 +140,7 @@ impl<N: Number> Work<N> for Measuring<'_> {
 }
 
 /// |q − a − b| where a + b is the reference.
-fn distance<N: Number>(q: &[N], [a, b]: &[Vec<N>; 2]) -> Size {
+fn distance<N: Ordered>(q: &[N], [a, b]: &[Vec<N>; 2]) -> Size {
     let context = q[0].context();
     let [mut sum, mut difference] = [N::zero(&context), N::zero(&context)];
     for ((q, a), b) in q.iter().zip(a).zip(b) {
@@ -159,7 +159,7 @@ struct EnergyError<N> {
     last: N,
 }
 
-impl<N: Number> EnergyError<N> {
+impl<N: Ordered> EnergyError<N> {
     fn new(initial: N) -> Self {
         let zero = N::zero(&initial.context());
         EnergyError { initial, largest: zero.clone(), last: zero }

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
-use shadowstep::{Number, Scheme, Stepper, System, ValidFor};
+use shadowstep::{Ordered, Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::library::NamedScheme;
@@ -88,7 +88,7 @@ impl Computation for Steps<'_> {
 /// Steps and nothing else, from the initial state each time: so all repeats make the same steps.
 struct Bare;
 
-impl<N: Number + 'static> Work<N> for Bare {
+impl<N: Ordered + 'static> Work<N> for Bare {
     type Output = Repeat;
 
     fn with<S, M>(self, stepper: &Stepper<S, N>, mut system: M) -> Repeat

@@ -1,7 +1,7 @@
 //! The results of `drift` in JSON.
 
 use serde::{Serialize, Serializer};
-use shadowstep::number::Number;
+use shadowstep::number::Ordered;
 use shadowstep::run::{EnergyDrift, Finding};
 use shadowstep_scenes::arithmetic::DigitsLabel;
 use shadowstep_scenes::{EnergySummary, Summary};
@@ -88,7 +88,7 @@ pub(super) struct Control {
 }
 
 impl Permanent {
-    pub(super) fn of<N: Number>(found: &EnergyDrift<N>) -> Option<Self> {
+    pub(super) fn of<N: Ordered>(found: &EnergyDrift<N>) -> Option<Self> {
         let permanent = found.permanent.as_ref()?;
         Some(Permanent {
             change: permanent.change.to_text(),

@@ -103,7 +103,7 @@ fn numbers_round_trip_and_the_drift_is_maximum_minus_minimum() {
     assert_eq!(number("drift"), Float::with_val(precision, number("maximum") - number("minimum")));
     assert!(number("drift") > 0);
     for field in ["drift", "minimum", "maximum", "first", "last"] {
-        assert_eq!(shadowstep::Number::to_text(&number(field)), text(record, field));
+        assert_eq!(shadowstep::Ordered::to_text(&number(field)), text(record, field));
     }
     // the last state's modified energy is between the extremes
     assert!(number("minimum") <= number("last") && number("last") <= number("maximum"));

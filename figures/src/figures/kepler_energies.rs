@@ -1,7 +1,7 @@
 //! Kepler's problem: the modified energy in time, for several step sizes and schemes.
 
 use rug::Float;
-use shadowstep::Number;
+use shadowstep::Ordered;
 
 use super::kepler::{FAR, NEAR, apocentre, off, run};
 use crate::drawing::Drawing;
@@ -162,7 +162,7 @@ fn staircases(results: &Results, drawing: &mut Drawing) {
 
 /// t ≤ 40; the values between two encounters are those at the apocentre there.
 fn staircase(drawing: &mut Drawing, (label, colour): (&str, usize), values: &[(f64, Float)], jumps: &[Float]) {
-    let decade = jumps.iter().map(Number::log10_abs).fold(f64::NEG_INFINITY, f64::max).floor();
+    let decade = jumps.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max).floor();
     let relative = |value: &Float| {
         let change = value.clone() - &values[0].1;
         if change.is_zero() { 0.0 } else { change.clone().signum().to_f64() * 10_f64.powf(change.log10_abs() - decade) }

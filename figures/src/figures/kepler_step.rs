@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use shadowstep::Number;
+use shadowstep::Ordered;
 
 use super::kepler::{FEW_STEPS, STEPS, apocentre, drifts, rate, run, singularity};
 use crate::drawing::{Drawing, drift_axis};

@@ -1,8 +1,8 @@
 //! The estimated errors of estimators, against their true errors on the exact flow.
 
-use shadowstep::Number;
 use shadowstep::problems::Problem;
 use shadowstep::shadow::{EstimatorSettings, StoppingRule};
+use shadowstep::{Number, Ordered};
 
 use crate::drawing::Drawing;
 use crate::estimator::{best, bilinear, central};

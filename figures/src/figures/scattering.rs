@@ -1,7 +1,7 @@
 //! Scattering at a hill that vanishes far away: there H is the modified energy, and its change is observed without an estimator.
 
 use rug::Float;
-use shadowstep::Number;
+use shadowstep::Ordered;
 use shadowstep::problems::Problem;
 
 use crate::drawing::Drawing;

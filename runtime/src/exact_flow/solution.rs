@@ -6,7 +6,7 @@ use rug::Float;
 use thiserror::Error;
 
 use crate::Rational;
-use crate::number::{Number, Precision};
+use crate::number::{Ordered, Precision};
 use crate::problems::values::Values;
 use crate::shadow::EstimatorError;
 

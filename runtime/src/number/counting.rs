@@ -1,6 +1,6 @@
 //! What a computation costs: a number that counts its operations.
 
-use super::Number;
+use super::{Number, Ordered};
 use crate::Rational;
 use std::cell::Cell;
 use std::fmt;
@@ -112,6 +112,9 @@ impl<N: Number> Number for Counting<N> {
         subtract_product(a, b) multiplications additions;
         negate();
         make_absolute();
+        make_at_least(a);
+        make_at_most(a);
+        make_nan_where_square_overflows(a);
     }
 
     fn zero(context: &N::Context) -> Self {
@@ -146,12 +149,14 @@ impl<N: Number> Number for Counting<N> {
         self.0.divide_integer(n);
     }
 
-    fn is_below_zero(&self) -> bool {
-        self.0.is_below_zero()
-    }
-
     fn is_finite(&self) -> bool {
         self.0.is_finite()
+    }
+}
+
+impl<N: Ordered> Ordered for Counting<N> {
+    fn is_below_zero(&self) -> bool {
+        self.0.is_below_zero()
     }
 
     fn has_finite_square(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
-use super::Number;
+use super::{Number, Ordered};
 use crate::Rational;
 use num_traits::ToPrimitive;
 
@@ -175,12 +175,28 @@ impl Number for f64 {
         *self = self.abs();
     }
 
-    fn is_below_zero(&self) -> bool {
-        *self < 0.0
+    fn make_at_least(&mut self, a: &f64) {
+        *self = if *self < *a { *a } else { *self };
+    }
+
+    fn make_at_most(&mut self, a: &f64) {
+        *self = if *self > *a { *a } else { *self };
+    }
+
+    fn make_nan_where_square_overflows(&mut self, a: &f64) {
+        if self.is_finite() && !a.has_finite_square() {
+            *self = f64::NAN;
+        }
     }
 
     fn is_finite(&self) -> bool {
         f64::is_finite(*self)
+    }
+}
+
+impl Ordered for f64 {
+    fn is_below_zero(&self) -> bool {
+        *self < 0.0
     }
 
     fn has_finite_square(&self) -> bool {
@@ -203,7 +219,7 @@ impl Number for f64 {
 #[cfg(test)]
 mod tests {
     use super::super::tests::{functions, operations, products};
-    use super::Number;
+    use super::{Number, Ordered};
     use crate::Rational;
     use num_bigint::BigInt;
     use proptest::prelude::*;
@@ -227,7 +243,7 @@ mod tests {
         #[rustfmt::skip]
         let expected = [
             0.0, a, a + b, a - b, a * b, a / b, a * a, a.sqrt(),
-            c + a, c - a, c * a, c / a, c * -3.0, c / -3.0, -c, c.abs(),
+            c + a, c - a, c * a, c / a, c * -3.0, c / -3.0, -c, c.abs(), a.max(c), a.min(c), c,
         ];
         assert_eq!(operations(&a, &b, &c), expected);
         assert_eq!(products(&a, &b, &c), [c + a * b, c - a * b]);
@@ -338,6 +354,17 @@ mod tests {
         }
         for (x, finite) in [(-3.8e153, true), (3.9e153, false), (1e300, false), (f64::NAN, false), (-0.0, true)] {
             assert_eq!(x.has_finite_square(), finite);
+        }
+        for (x, a, [least, most, checked]) in [
+            (1.0, 2.0, [2.0, 1.0, 1.0]),
+            (2.0, -3.0, [2.0, -3.0, 2.0]),
+            (2.0, f64::NAN, [2.0, 2.0, f64::NAN]),
+            (f64::NAN, 2.0, [f64::NAN; 3]),
+            (0.0, 3.9e153, [3.9e153, 0.0, f64::NAN]),
+            (f64::INFINITY, -3.9e153, [f64::INFINITY, -3.9e153, f64::INFINITY]),
+        ] {
+            let found: [f64; 3] = std::array::from_fn(|i| operations(&a, &a, &x)[16 + i]);
+            assert_eq!(found.map(f64::to_bits), [least, most, checked].map(f64::to_bits), "{x}, {a}");
         }
         assert_eq!((-0.001).log10_abs(), -3.0);
         assert_eq!(0.0.log10_abs(), f64::NEG_INFINITY);

@@ -1,6 +1,6 @@
 //! MPFR's numbers, [`rug::Float`], as a [`Number`], and their precision.
 
-use super::Number;
+use super::{Number, Ordered};
 use crate::Rational;
 use num_bigint::BigInt;
 use num_traits::Signed;
@@ -219,12 +219,32 @@ impl Number for Float {
         self.abs_mut();
     }
 
-    fn is_below_zero(&self) -> bool {
-        *self < 0
+    fn make_at_least(&mut self, a: &Float) {
+        if *self < *a {
+            Assign::assign(self, a);
+        }
+    }
+
+    fn make_at_most(&mut self, a: &Float) {
+        if *self > *a {
+            Assign::assign(self, a);
+        }
+    }
+
+    fn make_nan_where_square_overflows(&mut self, a: &Float) {
+        if Float::is_finite(self) && !a.has_finite_square() {
+            Assign::assign(self, Special::Nan);
+        }
     }
 
     fn is_finite(&self) -> bool {
         Float::is_finite(self)
+    }
+}
+
+impl Ordered for Float {
+    fn is_below_zero(&self) -> bool {
+        *self < 0
     }
 
     fn has_finite_square(&self) -> bool {
@@ -285,7 +305,7 @@ fn decimal(value: &Float, digits: u32) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::tests::{functions, operations, products};
-    use super::{Number, Precision, PrecisionError};
+    use super::{Number, Ordered, Precision, PrecisionError};
     use crate::Rational;
     use num_bigint::BigInt;
     use proptest::prelude::*;

@@ -2,10 +2,10 @@
 
 use rug::{Assign, Float};
 
-use super::{Number, Precision};
+use super::{Ordered, Precision};
 
 /// A number that takes an MPFR number of any precision with one rounding.
-pub trait Rounded: Number {
+pub trait Rounded: Ordered {
     /// The precision of the numbers of a context.
     fn precision(context: &Self::Context) -> Precision;
 

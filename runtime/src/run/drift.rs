@@ -1,6 +1,6 @@
 //! The drift of the modified energy over a run: the paper's max − min, and the permanent change.
 
-use crate::number::Number;
+use crate::number::Ordered;
 use crate::run::error::RunError;
 use crate::run::permanent::{LowErrorStates, PermanentChange};
 use crate::run::shadow_run::ShadowRun;
@@ -50,7 +50,7 @@ pub fn energy_drift<S, M>(
 ) -> Result<EnergyDrift<M::Number>, RunError>
 where
     S: Scheme + ValidFor<M::Class>,
-    M: System,
+    M: System<Number: Ordered>,
 {
     let mut run = ShadowRun::new(stepper, system, steps, settings)?;
     let mut found = run.drift()?;
@@ -111,7 +111,7 @@ pub struct DriftRecorder<N> {
     found: Option<(EnergyDrift<N>, LowErrorStates<N>)>,
 }
 
-impl<N: Number> DriftRecorder<N> {
+impl<N: Ordered> DriftRecorder<N> {
     /// For steps of size h.
     pub fn new(h: StepSize) -> Self {
         DriftRecorder { h, compensated: false, found: None }
@@ -144,7 +144,7 @@ impl<N: Number> DriftRecorder<N> {
     }
 }
 
-impl<N: Number> EnergyDrift<N> {
+impl<N: Ordered> EnergyDrift<N> {
     fn begin(estimate: &Estimate<'_, N>) -> Self {
         let value = || estimate.value.clone();
         EnergyDrift {

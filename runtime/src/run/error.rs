@@ -4,7 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-use crate::number::Number;
+use crate::number::Ordered;
 use crate::scheme::Scheme;
 use crate::shadow::EstimatorError;
 use crate::stepper::Stepper;
@@ -95,7 +95,7 @@ impl fmt::Display for NotFinite {
 }
 
 /// Refuses a stepper whose weights have another precision than the system.
-pub(crate) fn check_precision<S: Scheme, N: Number>(
+pub(crate) fn check_precision<S: Scheme, N: Ordered>(
     stepper: &Stepper<S, N>,
     context: &N::Context,
 ) -> Result<(), RunError> {
@@ -104,7 +104,7 @@ pub(crate) fn check_precision<S: Scheme, N: Number>(
 }
 
 /// Refuses a value that is not finite. States may be finite where their products overflow.
-pub(crate) fn check_value<N: Number>(value: &N, quantity: Quantity, step: i64) -> Result<(), RunError> {
+pub(crate) fn check_value<N: Ordered>(value: &N, quantity: Quantity, step: i64) -> Result<(), RunError> {
     if value.is_finite() {
         return Ok(());
     }
@@ -112,7 +112,7 @@ pub(crate) fn check_value<N: Number>(value: &N, quantity: Quantity, step: i64) -
 }
 
 /// Refuses an energy that is not finite; names the position from which that comes, where its square overflows.
-pub(crate) fn check_energy<N: Number>(energy: &N, q: &[N], step: i64) -> Result<(), RunError> {
+pub(crate) fn check_energy<N: Ordered>(energy: &N, q: &[N], step: i64) -> Result<(), RunError> {
     let overflows = |position: &N| position.is_finite() && !position.has_finite_square();
     // NaN is not ordered
     match q.iter().position(overflows).filter(|_| energy.partial_cmp(energy).is_none()) {

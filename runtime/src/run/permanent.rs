@@ -24,7 +24,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::number::Number;
+use crate::number::Ordered;
 use crate::run::intervals::Intervals;
 use crate::shadow::{Estimate, Walk};
 use crate::step_size::StepSize;
@@ -84,7 +84,7 @@ struct Extremes<N> {
     states: u64,
 }
 
-impl<N: Number> LowErrorStates<N> {
+impl<N: Ordered> LowErrorStates<N> {
     /// For steps of size h.
     pub fn new(h: &StepSize, context: &N::Context) -> Self {
         let (intervals, walk) = (Intervals::new(context), Walk::new(h.exact(), context));
@@ -147,13 +147,13 @@ impl<N: Number> LowErrorStates<N> {
     }
 }
 
-fn difference<N: Number>(a: &N, b: &N) -> N {
+fn difference<N: Ordered>(a: &N, b: &N) -> N {
     let mut difference = a.clone();
     difference.subtract(b);
     difference
 }
 
-impl<N: Number> Extremes<N> {
+impl<N: Ordered> Extremes<N> {
     fn of(n: i64, value: &N, error: &N) -> Self {
         let value = || value.clone();
         Extremes {

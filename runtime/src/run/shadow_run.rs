@@ -1,5 +1,6 @@
 //! States with their modified energies.
 
+use crate::number::Ordered;
 use crate::run::error::{Quantity, RunError, check_value};
 use crate::run::state::{State, States};
 use crate::run::trajectory::Trajectory;
@@ -27,7 +28,7 @@ pub struct ShadowRun<T, E> {
 impl<'s, S, M, E> ShadowRun<Trajectory<'s, S, M>, E>
 where
     S: Scheme + ValidFor<M::Class>,
-    M: System,
+    M: System<Number: Ordered>,
     E: Estimator<M::Number>,
 {
     /// Begins at the system's present state; makes the states before it that the estimator needs.

@@ -1,6 +1,6 @@
 //! States in the order of time, wherever they come from.
 
-use crate::number::Number;
+use crate::number::Ordered;
 use crate::run::error::{Quantity, RunError, check_value};
 use crate::system::{Increments, System};
 
@@ -17,7 +17,7 @@ pub struct State<'a, N> {
     pub increments: &'a Increments<N>,
 }
 
-impl<'a, N: Number> State<'a, N> {
+impl<'a, N: Ordered> State<'a, N> {
     /// The present state of a system.
     pub(crate) fn of<S: System<Number = N>>(system: &'a S, n: i64) -> Self {
         State { n, q: system.q(), p: system.p(), increments: system.increments() }
@@ -39,7 +39,7 @@ impl<'a, N: Number> State<'a, N> {
 /// A source of states for an estimator: a [`Trajectory`](crate::run::Trajectory), or the exact flow.
 pub trait States {
     /// The type of their numbers.
-    type Number: Number;
+    type Number: Ordered;
 
     /// Goes to the next state in the order of time; `None` at the end.
     ///

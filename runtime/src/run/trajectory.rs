@@ -1,5 +1,6 @@
 //! The states of a trajectory in the order of time, with those that an estimator needs on both sides.
 
+use crate::number::Ordered;
 use crate::run::error::{RunError, check_energy, check_precision};
 use crate::run::state::{State, States, last};
 use crate::scheme::{Scheme, ValidFor};
@@ -35,7 +36,7 @@ impl<N: crate::Number> Stored<N> {
     }
 }
 
-impl<'s, S: Scheme + ValidFor<M::Class>, M: System> Trajectory<'s, S, M> {
+impl<'s, S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<'s, S, M> {
     /// Begins at the system's present state.
     ///
     /// # Errors
@@ -98,7 +99,7 @@ impl<'s, S: Scheme + ValidFor<M::Class>, M: System> Trajectory<'s, S, M> {
     }
 }
 
-impl<S: Scheme, M: System> Trajectory<'_, S, M> {
+impl<S: Scheme, M: System<Number: Ordered>> Trajectory<'_, S, M> {
     /// The system, for energies and counts.
     pub fn system(&mut self) -> &mut M {
         &mut self.system
@@ -110,7 +111,7 @@ impl<S: Scheme, M: System> Trajectory<'_, S, M> {
     }
 }
 
-impl<S: Scheme + ValidFor<M::Class>, M: System> Trajectory<'_, S, M> {
+impl<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<'_, S, M> {
     /// Goes to the last state, of which alone something is needed: the same steps and checks as by [`advance`](States::advance), in less
     /// time. `continues` is asked after each step; returns false if that did.
     ///
@@ -136,7 +137,7 @@ impl<S: Scheme + ValidFor<M::Class>, M: System> Trajectory<'_, S, M> {
     }
 }
 
-impl<S: Scheme + ValidFor<M::Class>, M: System> States for Trajectory<'_, S, M> {
+impl<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> States for Trajectory<'_, S, M> {
     type Number = M::Number;
 
     fn advance(&mut self) -> Result<Option<State<'_, M::Number>>, RunError> {

@@ -6,7 +6,7 @@ use num_traits::Signed;
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::Rational;
-use crate::number::Number;
+use crate::number::{Number, Ordered};
 use crate::shadow::best_bilinear::BestOrder;
 use crate::shadow::estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
 use crate::shadow::family::Family;
@@ -163,7 +163,7 @@ impl Family for Bilinear {
     }
 }
 
-impl<N: Number> BuildEstimator<N> for Bilinear {
+impl<N: Ordered> BuildEstimator<N> for Bilinear {
     type Estimator = BilinearEstimator<N>;
 
     /// # Errors
@@ -197,7 +197,7 @@ enum Kind<N> {
     Best(BestOrder<N>),
 }
 
-impl<N: Number> Estimator<N> for BilinearEstimator<N> {
+impl<N: Ordered> Estimator<N> for BilinearEstimator<N> {
     fn states(&self) -> usize {
         match &self.0 {
             Kind::Fixed(fixed) => fixed.states(),

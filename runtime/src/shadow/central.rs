@@ -3,7 +3,7 @@
 use num_traits::Zero;
 
 use crate::Rational;
-use crate::number::Number;
+use crate::number::{Number, Ordered};
 use crate::shadow::differences::AllOrders;
 use crate::shadow::differences::{SelectionRule, StoppingRule};
 use crate::shadow::error_estimate::{ErrorEstimate, Point};
@@ -143,7 +143,7 @@ impl Family for Central {
     }
 }
 
-impl<N: Number> BuildEstimator<N> for Central {
+impl<N: Ordered> BuildEstimator<N> for Central {
     type Estimator = CentralEstimator<N>;
 
     /// # Errors
@@ -174,7 +174,7 @@ enum Kind<N> {
     Best(AllOrders<N>),
 }
 
-impl<N: Number> Estimator<N> for CentralEstimator<N> {
+impl<N: Ordered> Estimator<N> for CentralEstimator<N> {
     fn states(&self) -> usize {
         match &self.0 {
             Kind::Fixed(fixed) => fixed.states(),

@@ -5,7 +5,7 @@
 //! subtractions a step; with that of the state before it completes one term of each of M states.
 
 use crate::Rational;
-use crate::number::Number;
+use crate::number::Ordered;
 use crate::shadow::error_estimate::{ErrorEstimate, Point};
 use crate::shadow::estimator::{Estimate, Estimator};
 use crate::shadow::weights::stirling;
@@ -80,7 +80,7 @@ struct Place<N> {
     terms: Vec<N>,
 }
 
-impl<N: Number> AllOrders<N> {
+impl<N: Ordered> AllOrders<N> {
     /// With the error from this many values on either side, or without.
     pub(super) fn new(
         (largest, stop, rule): (u32, StoppingRule, SelectionRule),
@@ -207,7 +207,7 @@ impl SelectionRule {
 }
 
 /// β's is always its increment; those of q and p are where these are known.
-fn set_first_differences<N: Number>(differences: &mut [N], Increments { q, p, beta }: &Increments<N>) {
+fn set_first_differences<N: Ordered>(differences: &mut [N], Increments { q, p, beta }: &Increments<N>) {
     let (last, others) = differences.split_last_mut().expect("β is there");
     others.iter_mut().zip(q.iter().chain(p)).for_each(|(own, increment)| own.assign(increment));
     last.assign(beta);
@@ -217,7 +217,7 @@ fn largest<N: PartialOrd>(numbers: &[N]) -> &N {
     numbers.iter().reduce(|a, b| if a < b { b } else { a }).expect("the window is not empty")
 }
 
-impl<N: Number> Place<N> {
+impl<N: Ordered> Place<N> {
     fn set_term(&mut self, k: usize, mean: &[N]) {
         let (dq, rest) = mean.split_at(self.q.len());
         let (dp, dbeta) = rest.split_at(self.q.len());
@@ -231,7 +231,7 @@ impl<N: Number> Place<N> {
     }
 }
 
-impl<N: Number> Estimator<N> for AllOrders<N> {
+impl<N: Ordered> Estimator<N> for AllOrders<N> {
     fn states(&self) -> usize {
         2 * (self.largest + self.error_estimate.around()) + 1
     }

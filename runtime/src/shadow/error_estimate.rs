@@ -18,6 +18,7 @@ pub(super) struct ErrorEstimate<N> {
     /// The last place of 1.
     epsilon: N,
     last_place: N,
+    least: N,
     error: N,
 }
 
@@ -38,6 +39,7 @@ impl<N: Number> ErrorEstimate<N> {
             points: VecDeque::with_capacity(2 * around + 1),
             epsilon: epsilon(context),
             last_place: N::zero(context),
+            least: N::zero(context),
             error: N::zero(context),
         }
     }
@@ -59,16 +61,17 @@ impl<N: Number> ErrorEstimate<N> {
         if !self.is_complete() {
             return false;
         }
-        let values = || self.points.iter().map(|point| &point.value);
-        let least = values().reduce(|a, b| if b < a { b } else { a }).expect("there is a newest one");
-        let most = values().reduce(|a, b| if b > a { b } else { a }).expect("there is a newest one");
-        self.error.assign_difference(most, least);
+        self.least.assign(&self.points[0].value);
+        self.error.assign(&self.points[0].value);
+        for point in self.points.iter().skip(1) {
+            self.least.make_at_most(&point.value);
+            self.error.make_at_least(&point.value);
+        }
+        self.error.subtract(&self.least);
         self.last_place.assign_product(&self.points[self.around].value, &self.epsilon);
         self.last_place.make_absolute();
         for other in self.points.iter().map(|point| &point.last_term).chain([&self.last_place]) {
-            if *other > self.error {
-                self.error.assign(other);
-            }
+            self.error.make_at_least(other);
         }
         true
     }

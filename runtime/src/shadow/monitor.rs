@@ -39,7 +39,7 @@ use self::rate::RateCheck;
 use self::recent::Recent;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
-use crate::number::Number;
+use crate::number::Ordered;
 use crate::run::{Quantity, RunError, State, check_energy, check_precision, check_value};
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
@@ -127,7 +127,7 @@ use crate::system::{Increments, System};
 /// For a hundred bodies, with a window in 100 steps, a monitor costs a few per cent of the loop; `docs/monitor.md` has the
 /// measurements, and `cargo bench -p shadowstep --bench monitor` repeats them.
 #[derive(Clone, Debug)]
-pub struct ShadowEnergy<S: Scheme, N: Number, E> {
+pub struct ShadowEnergy<S: Scheme, N: Ordered, E> {
     stepper: Stepper<S, N>,
     estimator: E,
     schedule: Schedule,
@@ -172,7 +172,7 @@ pub struct Sample<'a, N> {
     pub energy: &'a N,
 }
 
-impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
+impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
     /// Begins at the system's present state, which is number 0. There is a window at every step.
     ///
     /// # Errors

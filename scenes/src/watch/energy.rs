@@ -1,6 +1,6 @@
 //! The error of H over a run.
 
-use shadowstep::Number;
+use shadowstep::Ordered;
 
 /// H(t) − H(0), the largest and the last one.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub(super) struct EnergyError<N> {
     states_of_kinetic: u64,
 }
 
-impl<N: Number> EnergyError<N> {
+impl<N: Ordered> EnergyError<N> {
     pub(super) fn new(initial: N) -> Self {
         let zero = N::zero(&initial.context());
         EnergyError {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::problems::HarmonicOscillator;
 use shadowstep::tables::TableScheme;
-use shadowstep::{Motion, Number, Rational, Stepper, System, UnitMasses, exact};
+use shadowstep::{Motion, Number, Ordered, Rational, Stepper, System, UnitMasses, exact};
 use shadowstep_analysis::stability::Stability;
 use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
@@ -175,7 +175,7 @@ fn growth<N: Rounded, M: System<Number = N, Class = shadowstep::kinetic::Quadrat
     (grown - at_count) / count as f64
 }
 
-fn size<M: System>(system: &M) -> f64 {
+fn size<M: System<Number: Ordered>>(system: &M) -> f64 {
     system.q()[0].to_f64().hypot(system.p()[0].to_f64())
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
-use shadowstep::{Number, Rational, Stepper};
+use shadowstep::{Number, Ordered, Rational, Stepper};
 use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;

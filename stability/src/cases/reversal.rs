@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::problems::{Kepler, ProblemMotion};
 use shadowstep::tables::TableScheme;
-use shadowstep::{Motion, Number, Rational, Scheme, StepSize, Stepper, UnitMasses};
+use shadowstep::{Motion, Ordered, Rational, Scheme, StepSize, Stepper, UnitMasses};
 use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
@@ -194,15 +194,15 @@ fn in_fixed_point(scheme: &TableScheme, trial: &Trial, continues: Continues<'_>)
     Back { to_start: vec![distance(&begin, &[motion.q(), motion.p()].concat())], to_negative: 0.0 }
 }
 
-fn steps<N: Number + 'static>(stepper: &Stepper<TableScheme, N>, motion: &mut ProblemMotion<N>, count: u64) {
+fn steps<N: Ordered + 'static>(stepper: &Stepper<TableScheme, N>, motion: &mut ProblemMotion<N>, count: u64) {
     (0..count).for_each(|_| stepper.step(motion));
 }
 
-fn steps_back<N: Number + 'static>(stepper: &Stepper<TableScheme, N>, motion: &mut ProblemMotion<N>, count: u64) {
+fn steps_back<N: Ordered + 'static>(stepper: &Stepper<TableScheme, N>, motion: &mut ProblemMotion<N>, count: u64) {
     (0..count).for_each(|_| stepper.step_back(motion));
 }
 
-fn set<N: Number + 'static>(motion: &mut ProblemMotion<N>, state: &[N]) {
+fn set<N: Ordered + 'static>(motion: &mut ProblemMotion<N>, state: &[N]) {
     let (q, p) = state.split_at(state.len() / 2);
     motion.q_mut().clone_from_slice(q);
     motion.p_mut().clone_from_slice(p);

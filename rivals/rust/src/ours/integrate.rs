@@ -1,6 +1,6 @@
 //! The integrations that are measured: generated steps of a generated potential.
 
-use shadowstep::number::{Float, Number, Precision};
+use shadowstep::number::{Float, Number, Ordered, Precision};
 use shadowstep::pairs::{Ends, Pairs};
 use shadowstep::problems::{CubicSpring, Gravity, HenonHeiles, Kepler, LennardJones};
 use shadowstep::{
@@ -64,7 +64,7 @@ struct Run<'a, N, V, P, K> {
 
 fn run<N, V, P, K>(request: &Request, motion: Motion<N, V, P, K>) -> Answer
 where
-    N: Number,
+    N: Ordered,
     V: AsRef<[N]> + AsMut<[N]> + Clone,
     P: Potential<N>,
     K: Kinetic<N, Class = Quadratic>,
@@ -74,7 +74,7 @@ where
 
 impl<N, V, P, K> WithScheme for Run<'_, N, V, P, K>
 where
-    N: Number,
+    N: Ordered,
     V: AsRef<[N]> + AsMut<[N]> + Clone,
     P: Potential<N>,
     K: Kinetic<N, Class = Quadratic>,
@@ -88,7 +88,7 @@ where
         let mut answer = Answer::default();
         for _ in 0..request.samples {
             answer.time(|| (0..request.steps() / request.samples).for_each(|_| stepper.step(&mut motion)));
-            answer.state(motion.q().iter().chain(motion.p()).map(Number::to_f64));
+            answer.state(motion.q().iter().chain(motion.p()).map(Ordered::to_f64));
         }
         answer
     }

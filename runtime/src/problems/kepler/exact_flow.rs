@@ -18,7 +18,7 @@ use rug::Float;
 
 use crate::Rational;
 use crate::exact_flow::solution::{ExactFlowError, Point, Request, Solution, log2};
-use crate::number::{Number, Precision};
+use crate::number::{Number, Ordered, Precision};
 use crate::problems::values::Values;
 
 const UNBOUND: ExactFlowError = ExactFlowError::InitialState(

@@ -1,7 +1,7 @@
 //! The coordinate that turns fastest, each by itself, however little of the energy it has.
 
 use super::recent::{STATES, Sums, Turning, assign_differences, assign_second_difference, turning};
-use crate::number::{Number, epsilon};
+use crate::number::{Ordered, epsilon};
 
 /// A second difference of fewer last places of p than this is round-off.
 const ROUNDING: i32 = 1000;
@@ -26,7 +26,7 @@ pub(super) struct Fastest<N> {
     z: N,
 }
 
-impl<N: Number> Fastest<N> {
+impl<N: Ordered> Fastest<N> {
     pub(super) fn new(dimension: usize, context: &N::Context) -> Self {
         let zero = || N::zero(context);
         let mut rounding: N = epsilon(context);

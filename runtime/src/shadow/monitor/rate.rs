@@ -1,6 +1,6 @@
 //! Whether the rate is qᵀU_q − 2U: H from the gradient and the rate against H itself, in some windows.
 
-use crate::number::{Number, epsilon};
+use crate::number::{Ordered, epsilon};
 use crate::system::System;
 
 /// They are compared in so many windows, and then in one of so many.
@@ -22,7 +22,7 @@ pub(super) struct RateCheck<N> {
     pub(super) wrong: u64,
 }
 
-impl<N: Number> RateCheck<N> {
+impl<N: Ordered> RateCheck<N> {
     pub(super) fn new(dimension: usize, context: &N::Context) -> Self {
         let zero = || N::zero(context);
         let zeros = || vec![zero(); dimension];

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::roughness::{Rough, Roughness};
-use crate::number::{Number, epsilon};
+use crate::number::{Ordered, epsilon};
 use crate::shadow::estimator::EstimatorError;
 use crate::shadow::walk::{add_squares, add_squares_of_increments, kick_factor};
 use crate::step_size::StepSize;
@@ -65,7 +65,7 @@ pub(super) struct Sums<N> {
     fourths: N,
 }
 
-impl<N: Number> Sums<N> {
+impl<N: Ordered> Sums<N> {
     pub(super) fn zero(context: &N::Context) -> Self {
         let zero = || N::zero(context);
         Sums { squares: zero(), products: zero(), fourths: zero() }
@@ -90,7 +90,7 @@ pub(super) struct Turning {
     pub(super) round_off: f64,
 }
 
-impl<N: Number> Recent<N> {
+impl<N: Ordered> Recent<N> {
     pub(super) fn new(
         states: usize,
         h: &StepSize,
@@ -271,7 +271,7 @@ impl<N: Number> Recent<N> {
 }
 
 /// `None` where nothing turns; without the effect of round-off.
-pub(super) fn turning<N: Number>(Sums { squares, products, fourths }: &Sums<N>, quotient: &mut N) -> Option<Turning> {
+pub(super) fn turning<N: Ordered>(Sums { squares, products, fourths }: &Sums<N>, quotient: &mut N) -> Option<Turning> {
     let mut ratio = |a: &N| {
         quotient.assign_quotient(a, squares);
         quotient.to_f64()
@@ -291,7 +291,7 @@ impl Turning {
 }
 
 /// The second and the fourth difference of p in the middle of five states.
-pub(super) fn assign_differences<N: Number>(
+pub(super) fn assign_differences<N: Ordered>(
     [second, fourth]: [&mut N; 2],
     x: &mut N,
     [p0, p1, p2, p3, p4]: [&N; STATES],
@@ -305,7 +305,7 @@ pub(super) fn assign_differences<N: Number>(
 }
 
 /// out ← a − 2b + c
-pub(super) fn assign_second_difference<N: Number>(out: &mut N, a: &N, b: &N, c: &N) {
+pub(super) fn assign_second_difference<N: Ordered>(out: &mut N, a: &N, b: &N, c: &N) {
     out.assign_sum(a, c);
     out.subtract(b);
     out.subtract(b);

@@ -14,7 +14,7 @@ use super::statistics::Range;
 use super::trend::{Trend, TrendRatio, trend_ratio};
 use super::verdict::{Advice, Evidence, Missing, Verdict};
 use crate::Rational;
-use crate::number::Number;
+use crate::number::Ordered;
 use crate::scheme::Scheme;
 use crate::shadow::Estimator;
 
@@ -111,7 +111,7 @@ pub struct Report<N> {
 /// What the energy shows is slower by this factor than a coordinate that has no part in it.
 const SLOWER: f64 = 10.0;
 
-impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
+impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
     /// The report on the run so far.
     pub fn report(&self) -> Report<N> {
         let (statistics, context) = (&self.statistics, self.method.context());
@@ -199,7 +199,7 @@ impl<S: Scheme, N: Number, E: Estimator<N>> ShadowEnergy<S, N, E> {
     }
 }
 
-fn largest_error<'a, N: Number + 'a>(estimates: impl Iterator<Item = &'a Estimated<N>>, context: &N::Context) -> N {
+fn largest_error<'a, N: Ordered + 'a>(estimates: impl Iterator<Item = &'a Estimated<N>>, context: &N::Context) -> N {
     let mut largest = N::zero(context);
     for Estimated { error, .. } in estimates {
         if *error > largest {
@@ -209,7 +209,7 @@ fn largest_error<'a, N: Number + 'a>(estimates: impl Iterator<Item = &'a Estimat
     largest
 }
 
-impl<N: Number> Report<N> {
+impl<N: Ordered> Report<N> {
     pub(super) fn evidence(&self) -> Evidence {
         let numbers = [&self.energy_error, &self.kinetic, &self.method_rms, &self.kick];
         Evidence {

@@ -5,7 +5,7 @@
 //! second one of them, as if the step were 2h.
 
 use super::arithmetic::{integer, quotient, root};
-use crate::number::Number;
+use crate::number::Ordered;
 use crate::shadow::bilinear::{Bilinear, BilinearEstimator};
 use crate::shadow::estimator::{BuildEstimator, Estimator, EstimatorError};
 use crate::step_size::StepSize;
@@ -59,7 +59,7 @@ pub(super) struct Roughness<N> {
     kicks: N,
 }
 
-impl<N: Number> Roughness<N> {
+impl<N: Ordered> Roughness<N> {
     pub(super) fn new(
         states: usize,
         h: &StepSize,
@@ -129,7 +129,7 @@ struct Spacings<N> {
     unknown: Increments<N>,
 }
 
-impl<N: Number> Spacings<N> {
+impl<N: Ordered> Spacings<N> {
     fn new(k: usize, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self, EstimatorError> {
         Ok(Spacings {
             fine: LastTerms::new(k, h, dimension, context)?,
@@ -182,7 +182,7 @@ struct LastTerms<N> {
     squares: N,
 }
 
-impl<N: Number> LastTerms<N> {
+impl<N: Ordered> LastTerms<N> {
     fn new(k: usize, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self, EstimatorError> {
         let build = |k: usize| Bilinear::new(u32::try_from(k).expect("at most 8")).build(h, dimension, context);
         let zero = || N::zero(context);
