@@ -56,11 +56,11 @@ impl Analysis {
     /// Analyses a scheme: takes milliseconds, for hundreds of digits and order 10 some hundred.
     pub fn of(proved: &Proved) -> Analysis {
         let (maps, proof) = (proved.scheme.maps(), &proved.proof);
-        let evaluations = proved.plan.evaluations;
+        let [general, quadratic] = LeadingError::of(proved);
         Analysis {
-            evaluations,
-            general: LeadingError::of(&maps, proof, Kinetic::Any),
-            quadratic: LeadingError::of(&maps, proof, Kinetic::Quadratic),
+            evaluations: proved.plan.evaluations,
+            general,
+            quadratic,
             stability: Stability::of_scheme(proved),
             phase: PhaseError::of(&maps, proved.scheme.held, proof.quadratic.order),
             kicks: Sizes::of(&maps, MapKind::Kick),

@@ -12,10 +12,13 @@
 //! vanish, and with them the ideal that they generate. It is spanned by the right-nested brackets in which some inner
 //! bracket vanishes. They come first in the dictionary and their coordinates are dropped.
 
+use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use num_bigint::BigInt;
-use num_traits::Zero;
+use num_integer::Integer;
+use num_traits::{One, Zero};
 use shadowstep_symbolic::Rational;
 
 use crate::prime::{PRIME, add_multiple, power};
@@ -75,12 +78,49 @@ pub(crate) fn coordinates(lyndon: &[(Word, BigInt)], kinetic: Kinetic) -> Vec<(B
         if kinetic == Kinetic::Quadratic && k >= length - k + 2 {
             continue;
         }
-        let brackets = basis(&words, k, length - k, kinetic);
-        let solved = solve(matrix(&brackets, &words), values.into_iter().map(Rational::from_integer).collect());
+        let basis = Basis::known(&words, k, kinetic);
         let stays = |(bracket, _): &(Bracket, _)| kinetic == Kinetic::Any || !bracket.vanishes_for_quadratic();
-        all.extend(brackets.into_iter().zip(solved).filter(stays));
+        all.extend(basis.brackets.iter().cloned().zip(basis.coordinates(&values)).filter(stays));
     }
     all
+}
+
+/// A basis of brackets, and its matrix inverted.
+struct Basis {
+    brackets: Vec<Bracket>,
+    /// Integers: for each bracket, what each word's coefficient contributes, times the denominator.
+    numerators: Vec<Vec<BigInt>>,
+    denominator: BigInt,
+}
+
+impl Basis {
+    /// That of the brackets with k kicks, whose Lyndon words these are; computed once for each k, number of letters and kinetic energy.
+    fn known(words: &[Word], k: usize, kinetic: Kinetic) -> Arc<Basis> {
+        type Known = BTreeMap<(usize, usize, bool), Arc<Basis>>;
+        static KNOWN: Mutex<Known> = Mutex::new(BTreeMap::new());
+        let key = (words[0].len(), k, kinetic == Kinetic::Quadratic);
+        // not computed under the lock: threads that need others do not wait
+        let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = known().get(&key).cloned();
+        found.unwrap_or_else(|| known().entry(key).or_insert(Arc::new(Basis::of(words, k, kinetic))).clone())
+    }
+
+    fn of(words: &[Word], k: usize, kinetic: Kinetic) -> Basis {
+        let brackets = basis(words, k, words[0].len() - k, kinetic);
+        let inverse = inverse(matrix(&brackets, words));
+        let denominator = inverse.iter().flatten().fold(BigInt::one(), |lcm, value| lcm.lcm(value.denom()));
+        let integer = |value: &Rational| value.numer() * (&denominator / value.denom());
+        let numerators = inverse.iter().map(|row| row.iter().map(integer).collect()).collect();
+        Basis { brackets, numerators, denominator }
+    }
+
+    /// The coordinates of the polynomial with these coefficients at the words.
+    fn coordinates(&self, values: &[BigInt]) -> impl Iterator<Item = Rational> {
+        self.numerators.iter().map(move |row| {
+            let products = row.iter().zip(values).filter(|(factor, _)| !factor.is_zero());
+            Rational::new(products.map(|(factor, value)| factor * value).sum(), self.denominator.clone())
+        })
+    }
 }
 
 /// The basis of the brackets with k kicks and d drifts; for quadratic T with that of the ideal before it.
@@ -149,33 +189,27 @@ fn matrix(brackets: &[Bracket], words: &[Word]) -> Vec<Vec<Rational>> {
     words.iter().map(|word| brackets.iter().map(|bracket| integer(bracket.coefficient(word))).collect()).collect()
 }
 
-/// Solves a regular system, exactly.
-fn solve(mut matrix: Vec<Vec<Rational>>, mut right: Vec<Rational>) -> Vec<Rational> {
-    let size = right.len();
+/// The inverse of a regular matrix, exactly.
+fn inverse(mut matrix: Vec<Vec<Rational>>) -> Vec<Vec<Rational>> {
+    let size = matrix.len();
+    for (i, row) in matrix.iter_mut().enumerate() {
+        row.extend((0..size).map(|j| if i == j { Rational::one() } else { Rational::zero() }));
+    }
     for column in 0..size {
         let pivot = (column..size).find(|&row| !matrix[row][column].is_zero()).expect("a basis has a regular matrix");
         matrix.swap(column, pivot);
-        right.swap(column, pivot);
-        for row in column + 1..size {
-            if matrix[row][column].is_zero() {
-                continue;
+        let factor = matrix[column][column].recip();
+        matrix[column].iter_mut().filter(|value| !value.is_zero()).for_each(|value| *value *= &factor);
+        let pivot = matrix[column].clone();
+        for (_, row) in matrix.iter_mut().enumerate().filter(|(row, _)| *row != column) {
+            let factor = row[column].clone();
+            if !factor.is_zero() {
+                let places = row.iter_mut().zip(&pivot).filter(|(_, pivot)| !pivot.is_zero());
+                places.for_each(|(value, pivot)| *value -= &factor * pivot);
             }
-            let factor = &matrix[row][column] / &matrix[column][column];
-            let (above, below) = matrix.split_at_mut(row);
-            for (value, pivot) in below[0][column..].iter_mut().zip(&above[column][column..]) {
-                if !pivot.is_zero() {
-                    *value -= &factor * pivot;
-                }
-            }
-            let change = &factor * &right[column];
-            right[row] -= change;
         }
     }
-    for row in (0..size).rev() {
-        let known: Rational = (row + 1..size).map(|column| &matrix[row][column] * &right[column]).sum();
-        right[row] = (&right[row] - known) / &matrix[row][row];
-    }
-    right
+    matrix.into_iter().map(|mut row| row.split_off(size)).collect()
 }
 
 #[cfg(test)]

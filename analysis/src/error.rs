@@ -8,15 +8,14 @@
 use std::collections::HashMap;
 
 use num_bigint::BigInt;
-use num_traits::ToPrimitive;
-use shadowstep_symbolic::Rational;
+use shadowstep_symbolic::{Fraction, Rational};
 
 use crate::bracket::{Bracket, coordinates};
+use shadowstep_schemes::Proved;
 use shadowstep_schemes::arithmetic::FixedPoint;
 use shadowstep_schemes::claims::Kinetic;
 use shadowstep_schemes::map::{Map, MapKind};
 use shadowstep_schemes::order::{Word, lyndon_words, prefix_coefficients};
-use shadowstep_schemes::proof::Proof;
 
 /// Digits behind the point of the words' coefficients. They are at least 1e-8 or so before those of the exact flow
 /// are subtracted, and the difference is needed to the 16 digits of f64.
@@ -35,15 +34,22 @@ pub struct LeadingError {
 }
 
 impl LeadingError {
-    /// The leading error of the step that these maps make, for kinetic energies for which `proof` knows the order.
-    pub(crate) fn of(maps: &[Map], proof: &Proof, kinetic: Kinetic) -> LeadingError {
-        let power = proof.for_kinetic(kinetic).order + 1;
+    /// The leading errors of a scheme for every T(p) and for quadratic T.
+    pub fn of(proved: &Proved) -> [LeadingError; 2] {
+        let (maps, proof) = (proved.scheme.maps(), &proved.proof);
         let arithmetic = FixedPoint::new(DIGITS);
-        let lyndon = logarithm(maps, power as usize, proof.general.order as usize, &arithmetic);
-        let unit = Rational::from_integer(arithmetic.unit());
-        let value = |units: Rational| resolved((units / &unit).to_f64().unwrap_or(f64::NAN));
-        let terms = coordinates(&lyndon, kinetic).into_iter().map(|(bracket, units)| (bracket, value(units)));
-        LeadingError { power, terms: terms.collect() }
+        let unit = arithmetic.unit();
+        // not reduced, which would take as long as all the rest
+        let value = |units: Rational| resolved(Fraction::new(units.numer().clone(), units.denom() * &unit).to_f64());
+        let mut lyndon = (0, Vec::new());
+        [Kinetic::Any, Kinetic::Quadratic].map(|kinetic| {
+            let power = proof.for_kinetic(kinetic).order + 1;
+            if lyndon.0 != power {
+                lyndon = (power, logarithm(&maps, power as usize, proof.general.order as usize, &arithmetic));
+            }
+            let terms = coordinates(&lyndon.1, kinetic).into_iter().map(|(bracket, units)| (bracket, value(units)));
+            LeadingError { power, terms: terms.collect() }
+        })
     }
 
     /// The Euclidean norm of the coefficients.
@@ -94,7 +100,7 @@ struct Excess {
 impl Excess {
     fn of(maps: &[Map], words: &[Word], least: usize, arithmetic: &FixedPoint) -> Excess {
         let coefficients = prefix_coefficients(maps, words, arithmetic).into_iter();
-        let coefficients = coefficients.map(|(word, value)| (word, value.units)).collect();
+        let coefficients = coefficients.map(|(word, value)| (word, value.units())).collect();
         Excess { coefficients, unit: arithmetic.unit(), least }
     }
 

@@ -207,17 +207,18 @@ fn without_squares(maps: &[Map], level: i32, powers: &Powers, range: u64, bits: 
     // divided for 0 ≤ x ≤ 1, where no coefficient is large, so that errors do not grow
     let more = maps.len() as u64 / 2 * u64::from(range.ilog2() + 1) + 64 * attempt;
     let arithmetic = FixedPoint::with_bits((bits + more) as u32);
-    let fixed = |values: Vec<BigInt>| values.into_iter().map(|units| Fixed::within(units, 2.0)).collect::<Vec<_>>();
-    let trace = fixed(scaled(&powers.part, 1, bits + more));
+    let (all, more) = (u64::from(arithmetic.bits()), u64::from(arithmetic.bits()) - bits);
+    let fixed = |values: Vec<BigInt>| values.iter().map(|units| Fixed::within(units, 2.0)).collect::<Vec<_>>();
+    let trace = fixed(scaled(&powers.part, 1, all));
     let (square, constant) = powers.square(&arithmetic, &trace, level).expect("it has double roots");
-    let quotient = quotient(&arithmetic, &fixed(less_level(maps, level, 1, bits + more)), &square, constant);
+    let quotient = quotient(&arithmetic, &fixed(less_level(maps, level, 1, all)), &square, constant);
     let mut coefficients = Vec::new();
     for (power, value) in quotient.iter().enumerate() {
         let grown = value.error().log2() + power as f64 * (range as f64).log2();
         if grown >= more as f64 - 1.0 {
             return None;
         }
-        coefficients.push((&value.units * BigInt::from(range).pow(power as u32)) >> more);
+        coefficients.push((value.units() * BigInt::from(range).pow(power as u32)) >> more);
     }
     Some(Scaled::new(coefficients, bits))
 }

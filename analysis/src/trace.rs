@@ -137,7 +137,8 @@ pub(crate) fn scaled(maps: &[Map], range: u64, bits: u64) -> Vec<BigInt> {
         let lost = error.log2().ceil().max(0.0) as u64;
         if lost <= more {
             let sign = |k: usize| if k % 2 == 1 { -1 } else { 1 };
-            return values.iter().enumerate().map(|(k, value)| (&value.units * sign(k)) >> more).collect();
+            let beyond = u64::from(arithmetic.bits()) - bits;
+            return values.iter().enumerate().map(|(k, value)| (value.units() * sign(k)) >> beyond).collect();
         }
         more = lost + 16;
     }

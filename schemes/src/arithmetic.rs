@@ -1,10 +1,14 @@
 //! Three arithmetics for the same order conditions: exact, in fixed point with an error bound, and the
 //! sensitivity of a condition to the last digit of the weights.
 
+mod units;
+
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{FromPrimitive, One, Signed, ToPrimitive, Zero};
 use shadowstep_symbolic::{Fraction, Ratio, Rational};
+
+use units::Units;
 
 /// Sums of products, as order conditions need them.
 pub trait Arithmetic {
@@ -53,21 +57,26 @@ impl Arithmetic for ExactArithmetic {
 
 /// Numbers m·2^−bits with a bound of their error in units of 2^−bits.
 pub struct FixedPoint {
-    bits: u32,
+    /// Limbs of 64 bits after the point.
+    limbs: usize,
 }
 
 /// The true value lies within `error` units of `units`.
 #[derive(Clone, Debug)]
 pub struct Fixed {
-    /// The approximate value, in units.
-    pub units: BigInt,
+    units: Units,
     error: f64,
 }
 
 impl Fixed {
     /// A value that is known to within `error` units.
-    pub fn within(units: BigInt, error: f64) -> Fixed {
-        Fixed { units, error }
+    pub fn within(units: &BigInt, error: f64) -> Fixed {
+        Fixed { units: units.into(), error }
+    }
+
+    /// The approximate value, in units.
+    pub fn units(&self) -> BigInt {
+        (&self.units).into()
     }
 
     /// The bound of the error, in units.
@@ -85,27 +94,27 @@ impl FixedPoint {
         FixedPoint::with_bits((f64::from(digits) * std::f64::consts::LOG2_10) as u32 + GUARD_BITS)
     }
 
-    /// Numbers with this number of bits after the point.
+    /// Numbers with at least this number of bits after the point.
     pub fn with_bits(bits: u32) -> FixedPoint {
-        FixedPoint { bits }
+        FixedPoint { limbs: bits.div_ceil(64) as usize }
     }
 
-    /// The bits after the point.
-    pub(crate) fn bits(&self) -> u32 {
-        self.bits
+    /// The bits after the point, a multiple of 64.
+    pub fn bits(&self) -> u32 {
+        64 * self.limbs as u32
     }
 
     /// The number 1 in units.
     pub fn unit(&self) -> BigInt {
-        BigInt::one() << self.bits
+        BigInt::one() << self.bits()
     }
 
     /// The middle and the bound of the error as fractions with the denominator of the unit.
     pub fn read(&self, value: &Fixed) -> (Fraction, Fraction) {
         let unit = self.unit();
         // a bound that overflowed bounds nothing
-        let error = BigInt::from_f64(value.error.ceil()).unwrap_or_else(|| BigInt::one() << (2 * self.bits));
-        (Fraction::new(value.units.clone(), unit.clone()), Fraction::new(error, unit))
+        let error = BigInt::from_f64(value.error.ceil()).unwrap_or_else(|| BigInt::one() << (2 * self.bits()));
+        (Fraction::new(value.units(), unit.clone()), Fraction::new(error, unit))
     }
 
     /// The numerator of a multiple of 1/`denominator`, if the bound of the error leaves only one.
@@ -121,10 +130,16 @@ impl FixedPoint {
 
     /// A bound of |value|.
     fn size(&self, value: &Fixed) -> f64 {
+        let bits = i64::from(self.bits());
         // |units| < 2^b
-        let power = |exponent: i64| 2_f64.powi(exponent.clamp(-1000, 1023) as i32);
-        power(value.units.bits() as i64 - i64::from(self.bits)) + value.error * power(-i64::from(self.bits))
+        power_of_two(value.units.bits() as i64 - bits) + value.error * power_of_two(-bits)
     }
+}
+
+/// A power of two, or an upper bound of one that is too small for a normal number.
+fn power_of_two(exponent: i64) -> f64 {
+    const BIAS: i64 = 1023;
+    f64::from_bits(((exponent.clamp(-1000, BIAS) + BIAS) as u64) << (f64::MANTISSA_DIGITS - 1))
 }
 
 /// A sum of a few positive numbers of f64 with its own rounding added: a bound of the true sum.
@@ -135,21 +150,21 @@ fn bound(sum: f64) -> f64 {
 impl Arithmetic for FixedPoint {
     type Value = Fixed;
     fn zero(&self) -> Fixed {
-        Fixed { units: BigInt::zero(), error: 0.0 }
+        Fixed { units: Units::default(), error: 0.0 }
     }
     fn one(&self) -> Fixed {
-        Fixed { units: self.unit(), error: 0.0 }
+        Fixed { units: Units::power(self.limbs), error: 0.0 }
     }
     fn weight(&self, weight: &Rational) -> Fixed {
-        Fixed { units: (weight.numer() << self.bits) / weight.denom(), error: 1.0 }
+        Fixed::within(&((weight.numer() << self.bits()) / weight.denom()), 1.0)
     }
     fn add_product(&self, target: &mut Fixed, a: &Fixed, b: &Fixed) {
-        target.units += (&a.units * &b.units) >> self.bits;
-        // |ab − a'b'| ≤ |a|·δb + |b'|·δa, and the shift drops less than one unit
+        target.units.add_product(&a.units, &b.units, self.limbs);
+        // |ab − a'b'| ≤ |a|·δb + |b'|·δa, and the product drops less than a unit, but for what `bound` adds
         target.error = bound(target.error + self.size(a) * b.error + self.size(b) * a.error + 1.0);
     }
     fn divide(&self, a: &Fixed, n: u32) -> Fixed {
-        Fixed { units: &a.units / n, error: bound(a.error / f64::from(n) + 1.0) }
+        Fixed { units: a.units.divided(n), error: bound(a.error / f64::from(n) + 1.0) }
     }
 }
 

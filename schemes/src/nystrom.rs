@@ -95,9 +95,9 @@ fn product_of_children<A: Arithmetic>(
     maps: &[(MapKind, A::Value)],
     arithmetic: &A,
 ) -> Vec<A::Value> {
-    let mut product = vec![arithmetic.one(); maps.len()];
-    for child in &tree.children {
-        let factor = child.map_or(bare, |kick| &before[kick]);
+    let mut factors = tree.children.iter().map(|child| child.map_or(bare, |kick| &before[kick]));
+    let mut product = factors.next().map_or_else(|| vec![arithmetic.one(); maps.len()], <[A::Value]>::to_vec);
+    for factor in factors {
         for r in (0..maps.len()).filter(|&r| maps[r].0 == MapKind::Kick) {
             product[r] = arithmetic.product(&product[r], &factor[r]);
         }

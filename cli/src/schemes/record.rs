@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 use shadowstep::tables::TableScheme;
-use shadowstep_analysis::Analysis;
-use shadowstep_schemes::Kinetic;
+use shadowstep_analysis::error::LeadingError;
+use shadowstep_analysis::stability::Stability;
 
 use crate::schemes::facts::{aliases, digits, kinetic, near_integrable};
 
@@ -38,7 +38,9 @@ pub(super) struct Record {
 impl Record {
     pub(super) fn of(name: &str, scheme: &TableScheme, shipped: bool) -> Record {
         let proved = scheme.proved();
-        let (analysis, cost) = (Analysis::of(proved), scheme.plan().cost());
+        let (cost, evaluations) = (scheme.plan().cost(), proved.plan.evaluations);
+        // not the whole analysis, which takes longer
+        let [general, quadratic] = LeadingError::of(proved);
         let mut record = Record {
             name: name.to_owned(),
             shipped,
@@ -47,12 +49,12 @@ impl Record {
             order_quadratic: proved.proof.quadratic.order,
             near_integrable: near_integrable(&proved.proof),
             stages: proved.scheme.kick.len(),
-            evaluations: analysis.evaluations,
+            evaluations,
             products_per_dimension: cost.products_per_dimension,
             products_for_beta: cost.products_for_beta,
-            effective_error: analysis.effective_error(Kinetic::Any),
-            effective_error_quadratic: analysis.effective_error(Kinetic::Quadratic),
-            stability_limit: analysis.stability.map(|stability| stability.limit),
+            effective_error: general.effective(evaluations),
+            effective_error_quadratic: quadratic.effective(evaluations),
+            stability_limit: Stability::of_scheme(proved).map(|stability| stability.limit),
             stability_limit_per_force: None,
             symmetric: proved.proof.symmetric,
             kinetic: kinetic(proved.scheme.table.kinetic),
