@@ -65,8 +65,12 @@ pub(crate) fn blocks(
     let mut near: VecDeque<(f64, f64)> = VecDeque::new();
     let (mut blocks, mut part, mut first, mut end, mut sum) = (Vec::new(), Sums::default(), None, 1000.0, 0.0);
     while let Some(state) = trajectory.advance().map_err(failed)? {
-        let given = given(differences, state.increments, &mut sum);
-        let Some(estimate) = estimator.push(state.q, state.p, &given) else { continue };
+        let beta = beta(differences, *state.increments.beta, &mut sum);
+        let given = match differences {
+            Differences::Increments => state.increments,
+            Differences::OfBeta | Differences::Sums => Increments::of_beta(&beta),
+        };
+        let Some(estimate) = estimator.push(state.q, state.p, given) else { continue };
         near.push_back((estimate.q[0].hypot(estimate.q[1]), *estimate.value));
         if near.len() > 2 * REACH + 1 {
             near.pop_front();
@@ -83,15 +87,14 @@ pub(crate) fn blocks(
     Ok(blocks)
 }
 
-/// The increments that the estimator gets; a running sum loses digits as it grows.
-fn given(differences: Differences, increments: &Increments<f64>, sum: &mut f64) -> Increments<f64> {
+/// The increment of β that the estimator gets; a running sum loses digits as it grows.
+fn beta(differences: Differences, beta: f64, sum: &mut f64) -> f64 {
     match differences {
-        Differences::Increments => increments.clone(),
-        Differences::OfBeta => Increments::of_beta(increments.beta),
+        Differences::Increments | Differences::OfBeta => beta,
         Differences::Sums => {
             let before = *sum;
-            *sum += increments.beta;
-            Increments::of_beta(*sum - before)
+            *sum += beta;
+            *sum - before
         }
     }
 }

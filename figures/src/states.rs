@@ -1,7 +1,7 @@
 //! Where the states of a run come from: a scheme, or a recorded trajectory; watched while they are used.
 
 use rug::Float;
-use shadowstep::Increments;
+use shadowstep::OwnedIncrements;
 use shadowstep::run::{RunError, State, States};
 
 /// The states of a trajectory, kept for several estimators.
@@ -17,7 +17,7 @@ struct Kept {
     n: i64,
     q: Vec<Float>,
     p: Vec<Float>,
-    increments: Increments<Float>,
+    increments: OwnedIncrements<Float>,
 }
 
 impl Recorded {
@@ -25,7 +25,7 @@ impl Recorded {
     pub(crate) fn of(mut states: impl States<Number = Float>, reach: usize) -> Result<Self, RunError> {
         let mut all = Vec::new();
         while let Some(State { n, q, p, increments }) = states.advance()? {
-            all.push(Kept { n, q: q.to_vec(), p: p.to_vec(), increments: increments.clone() });
+            all.push(Kept { n, q: q.to_vec(), p: p.to_vec(), increments: increments.to_owned() });
         }
         Ok(Recorded { reach, states: all })
     }
@@ -48,7 +48,7 @@ impl States for Replay<'_> {
 
     fn advance(&mut self) -> Result<Option<State<'_, Float>>, RunError> {
         let state = self.states.next();
-        Ok(state.map(|Kept { n, q, p, increments }| State { n: *n, q, p, increments }))
+        Ok(state.map(|Kept { n, q, p, increments }| State { n: *n, q, p, increments: increments.view() }))
     }
 }
 

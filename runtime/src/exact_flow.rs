@@ -27,7 +27,7 @@ use crate::problems::{PROBLEMS, Problem, Setup};
 use crate::run::{RunError, ShadowRun, State, States, last};
 use crate::shadow::{BuildEstimator, Estimator};
 use crate::step_size::StepSize;
-use crate::system::Increments;
+use crate::system::OwnedIncrements;
 use solution::{Point, Request, Solution, Solver};
 
 pub use solution::ExactFlowError;
@@ -43,7 +43,7 @@ pub struct ExactFlow<N> {
     last: i64,
     q: Vec<N>,
     p: Vec<N>,
-    increments: Increments<N>,
+    increments: OwnedIncrements<N>,
     /// The state n; none before the first.
     present: Option<Point>,
 }
@@ -68,7 +68,7 @@ impl<N: Rounded> ExactFlow<N> {
         let solution = (solver.solve)(&Request { values: &setup.values, h: h.exact(), longest, bits })?;
         let dimension = setup.values.positions().len();
         let zeros = || vec![N::zero(context); dimension];
-        let (q, p, increments) = (zeros(), zeros(), Increments::zero(dimension, context));
+        let (q, p, increments) = (zeros(), zeros(), OwnedIncrements::zero(dimension, context));
         Ok(ExactFlow { solution, n: -(reach as i64) - 1, last, q, p, increments, present: None })
     }
 }
@@ -77,7 +77,7 @@ fn assign_rounded<N: Rounded>(numbers: &mut [N], values: &[Float]) {
     numbers.iter_mut().zip(values).for_each(|(own, value)| own.assign_rounded(value));
 }
 
-impl<N: Rounded> Increments<N> {
+impl<N: Rounded> OwnedIncrements<N> {
     /// The increments from one point to the next, each rounded once.
     fn assign_differences(&mut self, next: &Point, last: &Point) {
         let vectors = self.q.iter_mut().zip(&next.q).zip(&last.q).chain(self.p.iter_mut().zip(&next.p).zip(&last.p));
@@ -104,7 +104,7 @@ impl<N: Rounded> States for ExactFlow<N> {
         assign_rounded(&mut self.p, &present.p);
         self.increments.assign_differences(&present, &before);
         self.present = Some(present);
-        let state = State { n: self.n, q: &self.q, p: &self.p, increments: &self.increments };
+        let state = State { n: self.n, q: &self.q, p: &self.p, increments: self.increments.view() };
         state.check()?;
         Ok(Some(state))
     }

@@ -115,4 +115,4 @@ pub use step_size::{StepSize, StepSizeError};
 #[doc(inline)]
 pub use stepper::Stepper;
 #[doc(inline)]
-pub use system::{Increments, Remainders, System};
+pub use system::{Increments, OwnedIncrements, Remainders, System};

@@ -7,7 +7,7 @@ use crate::kinetic::{Kinetic, MassError};
 use crate::number::Number;
 use crate::potential::Potential;
 use crate::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
-use crate::system::{Increments, Remainders, System};
+use crate::system::{Increments, OwnedIncrements, Remainders, System};
 
 /// What is kept at the present q.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +30,8 @@ pub struct Motion<N, V, P, K, S = Plain> {
     kinetic: K,
     q: V,
     p: V,
-    increments: Increments<N>,
+    /// Of q and p only where the numbers keep these.
+    increments: OwnedIncrements<N, V>,
     gradient: V,
     /// qᵀU_q − 2U
     rate: N,
@@ -58,8 +59,9 @@ where
     /// precision.
     pub fn new(potential: P, kinetic: K, q: V, p: V) -> Result<Self, MotionError> {
         let context = check(&potential, &kinetic, q.as_ref(), p.as_ref())?;
-        let dimension = q.as_ref().len();
         let zero = N::zero(&context);
+        let mut increments = OwnedIncrements { q: q.clone(), p: p.clone(), beta: zero.clone() };
+        increments.assign_zero();
         let mut scratch = vec![zero.clone(); potential.scratch()];
         potential.prepare(&mut scratch, &context);
         let mut kinetic_scratch = vec![zero.clone(); kinetic.scratch()];
@@ -70,7 +72,7 @@ where
             kinetic_scratch,
             gradient: p.clone(),
             rate: zero,
-            increments: Increments::zero(dimension, &context),
+            increments,
             kept: Kept::Nothing,
             keeps_rate: false,
             evaluations: 0,
@@ -198,8 +200,9 @@ where
     }
 
     /// What the last augmented step added to q, p and β.
-    pub fn increments(&self) -> &Increments<N> {
-        &self.increments
+    #[inline]
+    pub fn increments(&self) -> Increments<'_, N> {
+        if N::KEEPS_INCREMENTS { self.increments.view() } else { Increments::of_beta(&self.increments.beta) }
     }
 
     /// Positions, to be changed; the kept gradient and remainders of sums are dropped.
@@ -388,8 +391,9 @@ where
         self.p.as_ref()
     }
 
-    fn increments(&self) -> &Increments<N> {
-        &self.increments
+    #[inline]
+    fn increments(&self) -> Increments<'_, N> {
+        Motion::increments(self)
     }
 
     fn set_state(&mut self, q: &[N], p: &[N]) {
@@ -427,8 +431,10 @@ where
         }
         self.kick_with_kept_gradient(weight);
         self.increments.beta.add_product(weight, &self.rate);
-        for (increment, gradient) in self.increments.p.iter_mut().zip(self.gradient.as_ref()) {
-            increment.subtract_product(weight, gradient);
+        if N::KEEPS_INCREMENTS {
+            for (increment, gradient) in self.increments.p.as_mut().iter_mut().zip(self.gradient.as_ref()) {
+                increment.subtract_product(weight, gradient);
+            }
         }
     }
 
@@ -444,13 +450,24 @@ where
     fn drift_augmented(&mut self, weight: &N) {
         self.settle();
         let Motion { summation, kinetic, p, q, increments, kinetic_scratch, .. } = self;
-        summation.drift_augmented(kinetic, weight, p.as_ref(), q.as_mut(), increments, kinetic_scratch);
+        summation.drift_augmented(
+            kinetic,
+            weight,
+            p.as_ref(),
+            q.as_mut(),
+            (increments.q.as_mut(), &mut increments.beta),
+            kinetic_scratch,
+        );
         self.kept = Kept::Nothing;
     }
 
     #[inline]
     fn clear_increments(&mut self) {
-        self.increments.assign_zero();
+        if N::KEEPS_INCREMENTS {
+            self.increments.assign_zero();
+        } else {
+            self.increments.beta.assign_zero();
+        }
     }
 
     /// Where the gradient and the rate are kept, U = ½(qᵀU_q − rate) costs no evaluation.

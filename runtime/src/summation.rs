@@ -17,7 +17,7 @@ pub use fixed_point::{FixedPoint, RangeError};
 
 use crate::kinetic::Kinetic;
 use crate::number::Number;
-use crate::system::{Increments, Remainders};
+use crate::system::Remainders;
 
 /// How increments are added to q and p.
 ///
@@ -29,14 +29,15 @@ pub trait Summation<N: Number> {
     /// q ← q + weight·T_p(p)
     fn drift<K: Kinetic<N>>(&mut self, kinetic: &K, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]);
 
-    /// The drift, with the same bits of q, and what it adds to q and β.
+    /// The drift, with the same bits of q; what it adds to q, where the numbers [keep increments](Number::KEEPS_INCREMENTS), and to β
+    /// is added to the increments.
     fn drift_augmented<K: Kinetic<N>>(
         &mut self,
         kinetic: &K,
         weight: &N,
         p: &[N],
         q: &mut [N],
-        increments: &mut Increments<N>,
+        increments: (&mut [N], &mut N),
         scratch: &mut [N],
     );
 
@@ -92,12 +93,12 @@ impl<N: Number> Summation<N> for Plain {
         weight: &N,
         p: &[N],
         q: &mut [N],
-        increments: &mut Increments<N>,
+        (added, beta): (&mut [N], &mut N),
         scratch: &mut [N],
     ) {
-        kinetic.drift_augmented(weight, p, q, &mut increments.beta, scratch);
-        if increments.has_vectors() {
-            kinetic.drift(weight, p, &mut increments.q, scratch);
+        kinetic.drift_augmented(weight, p, q, beta, scratch);
+        if N::KEEPS_INCREMENTS {
+            kinetic.drift(weight, p, added, scratch);
         }
     }
 }
@@ -126,12 +127,12 @@ impl<N: Number, S: Summation<N>> Summation<N> for Option<S> {
         weight: &N,
         p: &[N],
         q: &mut [N],
-        increments: &mut Increments<N>,
+        (added, beta): (&mut [N], &mut N),
         scratch: &mut [N],
     ) {
         match self {
-            Some(own) => own.drift_augmented(kinetic, weight, p, q, increments, scratch),
-            None => Plain.drift_augmented(kinetic, weight, p, q, increments, scratch),
+            Some(own) => own.drift_augmented(kinetic, weight, p, q, (added, beta), scratch),
+            None => Plain.drift_augmented(kinetic, weight, p, q, (added, beta), scratch),
         }
     }
 

@@ -1,5 +1,6 @@
 //! What a splitting scheme advances: a system with its state, its kicks and its drifts.
 
+use crate::coordinates::Coordinates;
 use crate::number::Number;
 
 /// A Hamiltonian system H = A + B with its state q, p and β, where the flows of A (*drifts*) and of B (*kicks*) are known.
@@ -25,7 +26,7 @@ pub trait System {
     fn p(&self) -> &[Self::Number];
 
     /// What the last augmented step added to q, p and β.
-    fn increments(&self) -> &Increments<Self::Number>;
+    fn increments(&self) -> Increments<'_, Self::Number>;
 
     /// Sets q and p. Where the state is changed in another way, the system has to drop all that it keeps of it, such as a
     /// gradient.
@@ -122,31 +123,33 @@ impl<N> Default for Remainders<N> {
     }
 }
 
-/// What a step added to q, p and β.
+/// What a step added to q, p and β, borrowed from the system that made it or from a [copy](OwnedIncrements).
 ///
 /// For a number type that does not [keep increments](Number::KEEPS_INCREMENTS), q and p are empty.
-#[derive(Clone, Debug)]
-pub struct Increments<N> {
+#[derive(Debug)]
+pub struct Increments<'a, N> {
     /// To q: the sum of what its flows added, without the round-off of q itself. For an exact flow it must be computed without
     /// cancellation, not as a difference of states.
-    pub q: Vec<N>,
+    pub q: &'a [N],
     /// To p, likewise.
-    pub p: Vec<N>,
+    pub p: &'a [N],
     /// To β.
-    pub beta: N,
+    pub beta: &'a N,
 }
 
-impl<N: Number> Increments<N> {
-    /// Zeros for states of `dimension` coordinates, as many as the number type keeps.
-    pub fn zero(dimension: usize, context: &N::Context) -> Self {
-        let kept = if N::KEEPS_INCREMENTS { dimension } else { 0 };
-        let zeros = || vec![N::zero(context); kept];
-        Increments { q: zeros(), p: zeros(), beta: N::zero(context) }
-    }
+// derived, it would ask for numbers that are `Copy`
+impl<N> Copy for Increments<'_, N> {}
 
+impl<N> Clone for Increments<'_, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<'a, N: Number> Increments<'a, N> {
     /// The increment of β alone, for states whose increments of q and p are unknown.
-    pub fn of_beta(beta: N) -> Self {
-        Increments { q: Vec::new(), p: Vec::new(), beta }
+    pub fn of_beta(beta: &'a N) -> Self {
+        Increments { q: &[], p: &[], beta }
     }
 
     /// Whether those of q and p are known.
@@ -154,7 +157,65 @@ impl<N: Number> Increments<N> {
         !self.q.is_empty()
     }
 
+    /// A copy.
+    pub fn to_owned(&self) -> OwnedIncrements<N> {
+        OwnedIncrements { q: self.q.to_vec(), p: self.p.to_vec(), beta: self.beta.clone() }
+    }
+}
+
+/// What a step added to q, p and β, with a place for each: in arrays or vectors, like the coordinates of the state.
+#[derive(Clone, Debug)]
+pub struct OwnedIncrements<N, V = Vec<N>> {
+    /// To q.
+    pub q: V,
+    /// To p.
+    pub p: V,
+    /// To β.
+    pub beta: N,
+}
+
+impl<N: Number> OwnedIncrements<N> {
+    /// Zeros for states of `dimension` coordinates, as many as the number type keeps.
+    pub fn zero(dimension: usize, context: &N::Context) -> Self {
+        let kept = if N::KEEPS_INCREMENTS { dimension } else { 0 };
+        let zeros = || vec![N::zero(context); kept];
+        OwnedIncrements { q: zeros(), p: zeros(), beta: N::zero(context) }
+    }
+
+    /// The increment of β alone, for states whose increments of q and p are unknown.
+    pub fn of_beta(beta: N) -> Self {
+        OwnedIncrements { q: Vec::new(), p: Vec::new(), beta }
+    }
+
+    pub(crate) fn assign(&mut self, other: Increments<'_, N>) {
+        for (own, other) in [(&mut self.q, other.q), (&mut self.p, other.p)] {
+            own.truncate(other.len());
+            let known = own.len();
+            own.iter_mut().zip(other).for_each(|(own, other)| own.assign(other));
+            own.extend_from_slice(&other[known..]);
+        }
+        self.beta.assign(other.beta);
+    }
+
+    /// Adds other increments; those of q and p that are known in one of the two only are dropped.
+    pub(crate) fn add(&mut self, other: Increments<'_, N>) {
+        for (own, other) in [(&mut self.q, other.q), (&mut self.p, other.p)] {
+            own.truncate(other.len());
+            own.iter_mut().zip(other).for_each(|(own, other)| own.add(other));
+        }
+        self.beta.add(other.beta);
+    }
+}
+
+impl<N: Number, V: Coordinates<N>> OwnedIncrements<N, V> {
+    /// The increments, borrowed.
+    #[inline]
+    pub fn view(&self) -> Increments<'_, N> {
+        Increments { q: self.q.as_ref(), p: self.p.as_ref(), beta: &self.beta }
+    }
+
     /// All increments ← 0.
+    #[inline]
     pub fn assign_zero(&mut self) {
         self.each(N::assign_zero);
     }
@@ -163,24 +224,10 @@ impl<N: Number> Increments<N> {
         self.each(N::negate);
     }
 
-    pub(crate) fn assign(&mut self, other: &Self) {
-        self.q.clone_from(&other.q);
-        self.p.clone_from(&other.p);
-        self.beta.assign(&other.beta);
-    }
-
-    /// Adds other increments; those of q and p that are known in one of the two only are dropped.
-    pub(crate) fn add(&mut self, other: &Self) {
-        let vectors = [(&mut self.q, &other.q), (&mut self.p, &other.p)];
-        for (own, other) in vectors {
-            own.truncate(other.len());
-            own.iter_mut().zip(other).for_each(|(own, other)| own.add(other));
-        }
-        self.beta.add(&other.beta);
-    }
-
+    #[inline]
     fn each(&mut self, change: impl Fn(&mut N)) {
-        self.q.iter_mut().chain(&mut self.p).for_each(&change);
+        self.q.as_mut().iter_mut().for_each(&change);
+        self.p.as_mut().iter_mut().for_each(&change);
         change(&mut self.beta);
     }
 }

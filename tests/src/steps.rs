@@ -32,7 +32,7 @@ impl<N: Number, C> System for Any<'_, N, C> {
     fn p(&self) -> &[N] {
         self.0.p()
     }
-    fn increments(&self) -> &Increments<N> {
+    fn increments(&self) -> Increments<'_, N> {
         self.0.increments()
     }
     fn set_state(&mut self, q: &[N], p: &[N]) {

@@ -78,7 +78,7 @@ fn estimates_of_states(h: &str, steps: u64, settings: &impl BuildEstimator<f64>,
     let mut all = Vec::new();
     while let Some(state) = trajectory.advance().unwrap() {
         let of_beta = Increments::of_beta(state.increments.beta);
-        let increments = if vectors { state.increments } else { &of_beta };
+        let increments = if vectors { state.increments } else { of_beta };
         let estimate = estimator.push(state.q, state.p, increments);
         all.extend(estimate.map(|e| (e.q[0].hypot(e.q[1]), *e.value)));
     }

@@ -414,7 +414,7 @@ fn all_rules_hold_for_terms_of_any_size() {
             let settings = Central::Best { largest: LARGEST as u32, stop, rule, with_error: false };
             let mut estimator = BuildEstimator::<Float>::build(&settings, &h, 1, &context).unwrap();
             for (q, p, beta) in &states {
-                if let Some(e) = estimator.push(q, p, &Increments::of_beta(beta.clone())) {
+                if let Some(e) = estimator.push(q, p, Increments::of_beta(beta)) {
                     let found = (window, e.value.clone(), e.last_term.cloned(), e.order);
                     // β grows to 4^20 = 1e12, which costs as many digits
                     assert_chosen("made", &diagonal, (last, rule), &found, -90.0);

@@ -8,7 +8,7 @@ use rug::Float;
 use shadowstep::kinetic::General;
 use shadowstep::run::{ShadowRun, energy_drift};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Criterion, ShadowEnergy, Verdict};
-use shadowstep::{Increments, Number, Ordered, Stepper, System, splitting_scheme};
+use shadowstep::{Increments, Number, Ordered, OwnedIncrements, Stepper, System, splitting_scheme};
 use shadowstep_tests::shipped::all_for_every_kinetic;
 use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, precision, rational, same_bits};
 
@@ -25,7 +25,7 @@ struct StormerVerlet;
 struct Rotor<N> {
     /// q and p in one array.
     state: [N; 2],
-    increments: Increments<N>,
+    increments: OwnedIncrements<N>,
     evaluations: u64,
     /// The degree of A, 4: along its flow β grows by (degree − 2) A.
     degree: i32,
@@ -40,7 +40,7 @@ impl<N: Number> Rotor<N> {
         let zero = || N::zero(context);
         Rotor {
             state: start.map(|text| N::from_rational(&rational(text), context)),
-            increments: Increments::zero(1, context),
+            increments: OwnedIncrements::zero(1, context),
             evaluations: 0,
             degree: 4,
             turn: [zero(), zero()],
@@ -105,8 +105,8 @@ impl<N: Number> System for Rotor<N> {
         &self.state[1..]
     }
 
-    fn increments(&self) -> &Increments<N> {
-        &self.increments
+    fn increments(&self) -> Increments<'_, N> {
+        self.increments.view()
     }
 
     fn set_state(&mut self, q: &[N], p: &[N]) {
@@ -202,7 +202,7 @@ fn the_drift_is_the_flow_of_a() {
     let exact = reference(start, 2.5, 2000, false);
     // the reference is off by some (2.5/2000)⁴ = 2e-12 and less
     assert!((rotor.state[0] - exact[0]).hypot(rotor.state[1] - exact[1]) < 1e-12, "{:?}, {exact:?}", rotor.state);
-    let Increments { q, p, beta } = rotor.increments().clone();
+    let OwnedIncrements { q, p, beta } = rotor.increments().to_owned();
     assert!((beta - 2.0 * a * 2.5).abs() < 1e-15 && (rotor.energies()[1] - a).abs() < 1e-15);
     assert_eq!([start[0] + q[0], start[1] + p[0]], rotor.state);
 }
@@ -218,7 +218,7 @@ fn steps_are_steps<N: Bits>(context: &N::Context) {
             steps.step_augmented(&mut augmented);
             assert!(same_bits(&plain.state, &augmented.state), "{}", scheme.name);
         }
-        let there = augmented.increments().clone();
+        let there = augmented.increments().to_owned();
         let reached = augmented.state.clone();
         steps.step_back_augmented(&mut augmented);
         let tolerance = start.state[0].log10_epsilon() + 2.5;

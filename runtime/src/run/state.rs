@@ -14,7 +14,7 @@ pub struct State<'a, N> {
     /// Momenta.
     pub p: &'a [N],
     /// What the step to it added to q, p and β.
-    pub increments: &'a Increments<N>,
+    pub increments: Increments<'a, N>,
 }
 
 impl<'a, N: Ordered> State<'a, N> {
@@ -32,7 +32,7 @@ impl<'a, N: Ordered> State<'a, N> {
         for (index, momentum) in p.iter().enumerate() {
             check_value(momentum, Quantity::Momentum(index), n)?;
         }
-        check_value(&increments.beta, Quantity::Beta, n)
+        check_value(increments.beta, Quantity::Beta, n)
     }
 }
 

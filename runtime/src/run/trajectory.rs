@@ -5,7 +5,7 @@ use crate::run::error::{RunError, check_energy, check_precision};
 use crate::run::state::{State, States, last};
 use crate::scheme::{Scheme, ValidFor};
 use crate::stepper::Stepper;
-use crate::system::{Increments, System};
+use crate::system::{OwnedIncrements, System};
 
 /// The states of a trajectory in the order of time: for an estimator n = −reach, …, steps + reach with the increments of each
 /// step, or [plain](Trajectory::plain) ones without them.
@@ -27,12 +27,12 @@ pub struct Trajectory<'s, S: Scheme, M: System> {
 struct Stored<N> {
     q: Vec<N>,
     p: Vec<N>,
-    increments: Increments<N>,
+    increments: OwnedIncrements<N>,
 }
 
 impl<N: crate::Number> Stored<N> {
     fn of<M: System<Number = N>>(system: &M) -> Self {
-        Stored { q: system.q().to_vec(), p: system.p().to_vec(), increments: system.increments().clone() }
+        Stored { q: system.q().to_vec(), p: system.p().to_vec(), increments: system.increments().to_owned() }
     }
 }
 
@@ -148,7 +148,7 @@ impl<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> States for Traj
         let n = self.n;
         self.present = self.before.pop();
         if let Some(Stored { q, p, increments }) = &self.present {
-            return Ok(Some(State { n, q, p, increments }));
+            return Ok(Some(State { n, q, p, increments: increments.view() }));
         }
         if self.augmented {
             self.stepper.step_augmented(&mut self.system);

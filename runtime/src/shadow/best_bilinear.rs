@@ -69,7 +69,7 @@ impl<N: Ordered> Estimator<N> for BestOrder<N> {
         2 * self.reach + 1
     }
 
-    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
+    fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         self.products.push(q, p, increments);
         let mut all = true;
         for form in &mut self.forms {

@@ -206,7 +206,7 @@ impl<N: Ordered> Estimator<N> for BilinearEstimator<N> {
     }
 
     #[inline]
-    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
+    fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         match &mut self.0 {
             Kind::Fixed(fixed) => fixed.push(q, p, increments),
             Kind::Best(best) => best.push(q, p, increments),
@@ -234,7 +234,7 @@ impl<N: Number> Estimator<N> for FixedOrder<N> {
         self.form.k() + 1 + 2 * self.form.error_estimate.around()
     }
 
-    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
+    fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         self.products.push(q, p, increments);
         if self.products.pushed() <= self.form.k() {
             return None;

@@ -182,7 +182,7 @@ impl<N: Ordered> Estimator<N> for CentralEstimator<N> {
         }
     }
 
-    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
+    fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         match &mut self.0 {
             Kind::Fixed(fixed) => fixed.push(q, p, increments),
             Kind::Best(best) => best.push(q, p, increments),
@@ -254,7 +254,7 @@ impl<N: Number> Estimator<N> for FixedOrder<N> {
         2 * (self.m + self.error_estimate.around()) + 1
     }
 
-    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
+    fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         self.window.push(q, p, increments);
         let newest = &mut self.sums[self.window.place(0)];
         newest.value.assign_zero();

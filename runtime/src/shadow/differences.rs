@@ -115,7 +115,7 @@ impl<N: Ordered> AllOrders<N> {
 
     /// ∇^0, ∇^1, … of the newest state, as far as there are states before it. The increments are first differences, of q and p too where
     /// they are known.
-    fn update_table(&mut self, q: &[N], p: &[N], increments: &Increments<N>) {
+    fn update_table(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) {
         std::mem::swap(&mut self.table, &mut self.previous);
         for (entry, value) in self.table[0].iter_mut().zip(q.iter().chain(p)) {
             entry.assign(value);
@@ -207,7 +207,7 @@ impl SelectionRule {
 }
 
 /// β's is always its increment; those of q and p are where these are known.
-fn set_first_differences<N: Ordered>(differences: &mut [N], Increments { q, p, beta }: &Increments<N>) {
+fn set_first_differences<N: Ordered>(differences: &mut [N], Increments { q, p, beta }: Increments<'_, N>) {
     let (last, others) = differences.split_last_mut().expect("β is there");
     others.iter_mut().zip(q.iter().chain(p)).for_each(|(own, increment)| own.assign(increment));
     last.assign(beta);
@@ -236,7 +236,7 @@ impl<N: Ordered> Estimator<N> for AllOrders<N> {
         2 * (self.largest + self.error_estimate.around()) + 1
     }
 
-    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
+    fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         self.update_table(q, p, increments);
         let newest = self.place(q, p);
         self.add_terms(newest);

@@ -71,7 +71,7 @@ pub trait Estimator<N: Number> {
     ///
     /// All states come with increments of q and p, or none of them does; the latter are subtracted from one another. A state that
     /// comes without them after one with them starts a new sequence: estimates that need states from before it are not valid.
-    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>>;
+    fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>>;
 }
 
 impl<N: Number, E: Estimator<N> + ?Sized> Estimator<N> for Box<E> {
@@ -79,7 +79,7 @@ impl<N: Number, E: Estimator<N> + ?Sized> Estimator<N> for Box<E> {
         (**self).states()
     }
 
-    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) -> Option<Estimate<'_, N>> {
+    fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         (**self).push(q, p, increments)
     }
 }

@@ -35,7 +35,7 @@ impl<N: Number> Products<N> {
         }
     }
 
-    pub(super) fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) {
+    pub(super) fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) {
         self.window.push(q, p, increments);
         let newest = self.window.place(0);
         let count = self.window.pairs(&mut self.of_newest);

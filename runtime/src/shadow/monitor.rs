@@ -139,8 +139,8 @@ pub struct ShadowEnergy<S: Scheme, N: Ordered, E> {
     blocks: Blocks<N>,
     recent: Recent<N>,
     fastest: Fastest<N>,
-    /// The unknown increments of the first state of a window.
-    unknown: Increments<N>,
+    /// In place of the unknown increment of β of the first state of a window.
+    unknown: N,
     /// H − H̄
     method: N,
     rate: RateCheck<N>,
@@ -199,7 +199,7 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
             newest: Newest { n: 0, modified: Estimated::zero(&context), has_error: false, order: 0, energy, kinetic },
             recent: Recent::new(states, stepper.step_size(), dimension, &context)?,
             fastest: Fastest::new(dimension, &context),
-            unknown: Increments::of_beta(N::zero(&context)),
+            unknown: N::zero(&context),
             method: N::zero(&context),
             rate: RateCheck::new(dimension, &context),
             not_finite: None,
@@ -289,7 +289,7 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
             self.rate.compare(system, &self.newest.energy, self.statistics.windows);
         }
         let begins = self.schedule.begins(self.n);
-        let increments = if begins { &self.unknown } else { system.increments() };
+        let increments = if begins { Increments::of_beta(&self.unknown) } else { system.increments() };
         let (q, p) = (system.q(), system.p());
         State { n: number(self.n), q, p, increments }.check()?;
         self.recent.push(system, (!begins && self.n > 0).then_some(increments));

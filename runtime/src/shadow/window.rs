@@ -1,7 +1,7 @@
 //! The newest states of a trajectory, and the products of the newest one with those before it.
 
 use crate::number::Number;
-use crate::system::Increments;
+use crate::system::{Increments, OwnedIncrements};
 
 /// The newest states, as many as an estimator needs.
 #[derive(Clone, Debug)]
@@ -10,7 +10,7 @@ pub(super) struct Window<N> {
     ring: Vec<Stored<N>>,
     pushed: usize,
     /// The increments added up.
-    sum: Increments<N>,
+    sum: OwnedIncrements<N>,
     /// The pairs that are being summed, in separate places: those of `f64` stay in registers of the processor.
     places: [N; AT_ONCE],
 }
@@ -23,14 +23,14 @@ struct Stored<N> {
     q: Vec<N>,
     p: Vec<N>,
     /// What the step that led here added.
-    increments: Increments<N>,
+    increments: OwnedIncrements<N>,
 }
 
 impl<N: Number> Window<N> {
     pub(super) fn new(states: usize, dimension: usize, context: &N::Context) -> Self {
         let zero = N::zero(context);
         let numbers = || vec![zero.clone(); dimension];
-        let sum = Increments::zero(dimension, context);
+        let sum = OwnedIncrements::zero(dimension, context);
         let stored = Stored { q: numbers(), p: numbers(), increments: sum.clone() };
         Window { ring: vec![stored; states], pushed: 0, sum, places: std::array::from_fn(|_| zero.clone()) }
     }
@@ -40,7 +40,7 @@ impl<N: Number> Window<N> {
         self.pushed
     }
 
-    pub(super) fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) {
+    pub(super) fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) {
         self.pushed += 1;
         let place = self.place(0);
         let stored = &mut self.ring[place];
@@ -82,7 +82,7 @@ impl<N: Number> Window<N> {
 
     /// Whether a state has no increments, while the state before it or the newest one has.
     fn begins_anew(&self, back: usize) -> bool {
-        let known = |back| self.ring[self.place(back)].increments.has_vectors();
+        let known = |back| self.ring[self.place(back)].increments.view().has_vectors();
         !known(back) && (known(back + 1) || known(0))
     }
 
@@ -104,7 +104,7 @@ impl<N: Number> Window<N> {
         let dimension = newest.q.len();
         let q_of = older.map(|stored| &stored.q[..dimension]);
         let p_of = older.map(|stored| &stored.p[..dimension]);
-        if newest.increments.has_vectors() {
+        if newest.increments.view().has_vectors() {
             let dq_of = increments.map(|increments| &increments.q[..dimension]);
             let dp_of = increments.map(|increments| &increments.p[..dimension]);
             for (c, (q, p)) in sum.q.iter_mut().zip(&mut sum.p).enumerate() {

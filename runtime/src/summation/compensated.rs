@@ -4,7 +4,7 @@ use super::Summation;
 use crate::coordinates::Coordinates;
 use crate::kinetic::Kinetic;
 use crate::number::Number;
-use crate::system::{Increments, Remainders};
+use crate::system::Remainders;
 
 /// q and p with the remainder of each sum, which is added to the next increment.
 ///
@@ -82,12 +82,14 @@ impl<N: Number, V: Coordinates<N>> Summation<N> for Compensated<N, V> {
         weight: &N,
         p: &[N],
         q: &mut [N],
-        increments: &mut Increments<N>,
+        (added, beta): (&mut [N], &mut N),
         scratch: &mut [N],
     ) {
         self.increment.as_mut().iter_mut().for_each(N::assign_zero);
-        kinetic.drift_augmented(weight, p, self.increment.as_mut(), &mut increments.beta, scratch);
-        increments.q.iter_mut().zip(self.increment.as_ref()).for_each(|(own, increment)| own.add(increment));
+        kinetic.drift_augmented(weight, p, self.increment.as_mut(), beta, scratch);
+        if N::KEEPS_INCREMENTS {
+            added.iter_mut().zip(self.increment.as_ref()).for_each(|(own, increment)| own.add(increment));
+        }
         self.add_increment(q);
     }
 

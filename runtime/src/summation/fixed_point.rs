@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::Summation;
 use crate::coordinates::Coordinates;
 use crate::kinetic::Kinetic;
-use crate::system::{Increments, Remainders};
+use crate::system::Remainders;
 
 /// q and p as whole multiples of powers of two, in 64 bits.
 ///
@@ -162,12 +162,12 @@ impl<V: Coordinates<f64>> Summation<f64> for FixedPoint<V> {
         weight: &f64,
         p: &[f64],
         q: &mut [f64],
-        increments: &mut Increments<f64>,
+        (added, beta): (&mut [f64], &mut f64),
         scratch: &mut [f64],
     ) {
         self.increment.as_mut().fill(0.0);
-        kinetic.drift_augmented(weight, p, self.increment.as_mut(), &mut increments.beta, scratch);
-        increments.q.iter_mut().zip(self.increment.as_ref()).for_each(|(own, increment)| *own += increment);
+        kinetic.drift_augmented(weight, p, self.increment.as_mut(), beta, scratch);
+        added.iter_mut().zip(self.increment.as_ref()).for_each(|(own, increment)| *own += increment);
         self.add_increment(q);
     }
 

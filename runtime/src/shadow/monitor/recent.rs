@@ -129,7 +129,7 @@ impl<N: Ordered> Recent<N> {
     }
 
     /// Takes the next state of a window, and what the step to it added, where that is known.
-    pub(super) fn push<M: System<Number = N>>(&mut self, system: &M, added: Option<&Increments<N>>) {
+    pub(super) fn push<M: System<Number = N>>(&mut self, system: &M, added: Option<Increments<'_, N>>) {
         self.q.rotate_left(1);
         self.p.rotate_left(1);
         let ([.., q], [.., p]) = (&mut self.q, &mut self.p);
@@ -146,9 +146,9 @@ impl<N: Ordered> Recent<N> {
     /// Whether the newest state differs from the one before plus its increments, by more than 1/1000 of these and 1000 ε of q and p.
     ///
     /// Increments that a plain step left behind are those of an earlier step, or 0.
-    fn differs_from(&mut self, added: &Increments<N>) -> bool {
+    fn differs_from(&mut self, added: Increments<'_, N>) -> bool {
         let Recent { q: [_, q0, q1], p: [.., p0, p1], rounding, x, y, z, .. } = self;
-        [(q0, q1, &added.q), (p0, p1, &added.p)].into_iter().any(|(before, after, added)| {
+        [(q0, q1, added.q), (p0, p1, added.p)].into_iter().any(|(before, after, added)| {
             y.assign_zero(); // what is off, 1000 times, squared
             z.assign_zero(); // what it may be
             for ((before, after), added) in before.iter().zip(after).zip(added) {

@@ -9,7 +9,7 @@ use crate::number::Ordered;
 use crate::shadow::bilinear::{Bilinear, BilinearEstimator};
 use crate::shadow::estimator::{BuildEstimator, Estimator, EstimatorError};
 use crate::step_size::StepSize;
-use crate::system::Increments;
+use crate::system::{Increments, OwnedIncrements};
 
 /// The largest k; windows of 17 states and more have it.
 const LARGEST_K: usize = 8;
@@ -73,7 +73,7 @@ impl<N: Ordered> Roughness<N> {
     }
 
     /// Takes a state of a window; what the step to it added is not known of the first one.
-    pub(super) fn push(&mut self, q: &[N], p: &[N], added: Option<&Increments<N>>) {
+    pub(super) fn push(&mut self, q: &[N], p: &[N], added: Option<Increments<'_, N>>) {
         if self.skipped > 0 {
             self.skipped -= 1;
         } else if let Some(spacings) = &mut self.spacings {
@@ -125,8 +125,9 @@ struct Spacings<N> {
     /// States of this window so far.
     count: usize,
     /// What two steps added.
-    sum: Increments<N>,
-    unknown: Increments<N>,
+    sum: OwnedIncrements<N>,
+    /// In place of an unknown increment of β.
+    unknown: N,
 }
 
 impl<N: Ordered> Spacings<N> {
@@ -136,8 +137,8 @@ impl<N: Ordered> Spacings<N> {
             coarse: LastTerms::new(k, &h.doubled(), dimension, context)?,
             k,
             count: 0,
-            sum: Increments::zero(dimension, context),
-            unknown: Increments::of_beta(N::zero(context)),
+            sum: OwnedIncrements::zero(dimension, context),
+            unknown: N::zero(context),
         })
     }
 
@@ -146,7 +147,7 @@ impl<N: Ordered> Spacings<N> {
     }
 
     /// Takes one of the first 2k + 1 states of a window; others have no effect.
-    fn push(&mut self, q: &[N], p: &[N], added: Option<&Increments<N>>) {
+    fn push(&mut self, q: &[N], p: &[N], added: Option<Increments<'_, N>>) {
         let added = added.filter(|_| self.count > 0);
         if added.is_none() {
             self.count = 0;
@@ -156,13 +157,14 @@ impl<N: Ordered> Spacings<N> {
         if self.is_complete() {
             return;
         }
-        self.fine.push(q, p, added.unwrap_or(&self.unknown));
+        let unknown = Increments::of_beta(&self.unknown);
+        self.fine.push(q, p, added.unwrap_or(unknown));
         match added {
-            None => self.coarse.push(q, p, &self.unknown),
+            None => self.coarse.push(q, p, unknown),
             Some(added) if self.count % 2 == 1 => self.sum.assign(added),
             Some(added) => {
                 self.sum.add(added);
-                self.coarse.push(q, p, &self.sum);
+                self.coarse.push(q, p, self.sum.view());
             }
         }
         self.count += 1;
@@ -195,7 +197,7 @@ impl<N: Ordered> LastTerms<N> {
         self.squares.assign_zero();
     }
 
-    fn push(&mut self, q: &[N], p: &[N], increments: &Increments<N>) {
+    fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) {
         self.count += 1;
         let (higher, lower) = (self.higher.push(q, p, increments), self.lower.push(q, p, increments));
         let Some(lower) = lower else { return };
