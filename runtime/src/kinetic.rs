@@ -113,7 +113,7 @@ pub struct UnitMasses;
 impl<N: Number> Kinetic<N> for UnitMasses {
     type Class = Quadratic;
 
-    #[inline]
+    #[inline(always)]
     fn drift(&self, weight: &N, p: &[N], q: &mut [N], _: &mut [N]) {
         for (q, p) in q.iter_mut().zip(p) {
             q.add_product(weight, p);
@@ -203,7 +203,7 @@ impl<N: Number> Kinetic<N> for DiagonalMasses<N> {
         1
     }
 
-    #[inline]
+    #[inline(always)]
     fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
         let velocity = &mut scratch[0];
         for ((q, p), inverse) in q.iter_mut().zip(p).zip(&self.inverse) {

@@ -75,6 +75,7 @@ mod coordinates;
 #[cfg(feature = "mpfr")]
 pub mod exact_flow;
 pub mod formula;
+pub mod instructions;
 mod interpreter;
 pub mod kinetic;
 pub mod motion;

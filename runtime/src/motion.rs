@@ -6,6 +6,7 @@ use crate::coordinates::Coordinates;
 use crate::kinetic::{Kinetic, MassError};
 use crate::number::Number;
 use crate::potential::Potential;
+use crate::scheme::{MapKind, Maps};
 use crate::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
 use crate::system::{Increments, OwnedIncrements, Remainders, System};
 
@@ -261,6 +262,30 @@ where
 
     #[inline]
     fn evaluate(&mut self, with_rate: bool) {
+        self.evaluate_here(with_rate);
+    }
+
+    /// [`System::kick`], compiled for the instructions of the caller.
+    #[inline(always)]
+    fn kick_here(&mut self, weight: &N) {
+        self.settle();
+        if self.kept == Kept::Nothing {
+            self.evaluate_here(self.keeps_rate);
+        }
+        self.kick_with_kept_gradient(weight);
+    }
+
+    /// [`System::drift`], likewise.
+    #[inline(always)]
+    fn drift_here(&mut self, weight: &N) {
+        self.settle();
+        let Motion { summation, kinetic, p, q, kinetic_scratch, .. } = self;
+        summation.drift(kinetic, weight, p.as_ref(), q.as_mut(), kinetic_scratch);
+        self.kept = Kept::Nothing;
+    }
+
+    #[inline(always)]
+    fn evaluate_here(&mut self, with_rate: bool) {
         let (q, gradient) = (self.q.as_ref(), self.gradient.as_mut());
         self.potential.update(q);
         self.kept = if with_rate {
@@ -278,12 +303,12 @@ where
         self.increments.beta.is_finite() && self.q().iter().chain(self.p()).all(N::is_finite)
     }
 
-    #[inline]
+    #[inline(always)]
     fn kick_with_kept_gradient(&mut self, weight: &N) {
         self.summation.kick(weight, self.gradient.as_ref(), self.p.as_mut());
     }
 
-    #[inline]
+    #[inline(always)]
     fn settle(&mut self) {
         self.summation.settle(self.q.as_mut(), self.p.as_mut());
     }
@@ -440,10 +465,31 @@ where
 
     #[inline]
     fn drift(&mut self, weight: &N) {
-        self.settle();
-        let Motion { summation, kinetic, p, q, kinetic_scratch, .. } = self;
-        summation.drift(kinetic, weight, p.as_ref(), q.as_mut(), kinetic_scratch);
-        self.kept = Kept::Nothing;
+        self.drift_here(weight);
+    }
+
+    fn advance(motions: &mut [Self], maps: Maps<'_, N>, count: u64) {
+        N::in_widest_instructions(
+            #[inline(always)]
+            || {
+                for _ in 0..count {
+                    for (kind, weight) in maps.iter() {
+                        match kind {
+                            MapKind::Kick => {
+                                for motion in &mut *motions {
+                                    motion.kick_here(weight);
+                                }
+                            }
+                            MapKind::Drift => {
+                                for motion in &mut *motions {
+                                    motion.drift_here(weight);
+                                }
+                            }
+                        }
+                    }
+                }
+            },
+        );
     }
 
     #[inline]

@@ -3,6 +3,7 @@
 pub mod counting;
 mod double;
 mod epsilon;
+mod lanes;
 #[cfg(feature = "mpfr")]
 mod multiprecision;
 #[cfg(feature = "mpfr")]
@@ -18,6 +19,7 @@ pub use rounded::Rounded;
 pub use rug::Float;
 
 pub(crate) use epsilon::epsilon;
+pub use lanes::Lanes;
 
 use crate::Rational;
 use std::fmt;
@@ -76,6 +78,13 @@ pub trait Number: Clone + fmt::Debug {
 
     /// This number, or a copy of it, as a place for an intermediate result: its value is lost.
     fn register(&mut self) -> Self::Register<'_>;
+
+    /// Does some work, of numbers in lanes in the widest vector instructions that the processor has: of the whole loop, as all
+    /// that is not inlined into it is not compiled for them. See [`instructions`](crate::instructions).
+    #[inline(always)]
+    fn in_widest_instructions<R>(work: impl FnOnce() -> R) -> R {
+        work()
+    }
 
     /// A new 0.
     fn zero(context: &Self::Context) -> Self;

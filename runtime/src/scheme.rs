@@ -1,5 +1,7 @@
 //! What every scheme can do: compiled from its table by [`crate::splitting_scheme`], or read from it at run time.
 
+pub use shadowstep_schemes::MapKind;
+
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::Rational;
@@ -21,6 +23,10 @@ pub trait Scheme {
 
     /// The distinct weights a_s, then b_s, each made a number by `scaled`.
     fn weights<N: Number>(&self, scaled: impl FnMut(&Rational) -> N) -> Self::Array<N>;
+
+    /// How many of the weights are of kicks, and the maps of a step in their order: each with the place of its weight among those of
+    /// its kind.
+    fn maps(&self) -> (usize, &[(MapKind, usize)]);
 
     /// One step: t → t + h.
     fn step<S: System>(&self, weights: &StepWeights<Self::Array<S::Number>>, system: &mut S)
@@ -113,6 +119,35 @@ impl<A> StepWeights<A> {
     #[inline]
     pub fn back(&self) -> &A {
         &self.back
+    }
+}
+
+/// The kicks and drifts of a step in their order, with their weights.
+#[derive(Clone, Copy, Debug)]
+pub struct Maps<'a, N> {
+    kicks: &'a [N],
+    drifts: &'a [N],
+    maps: &'a [(MapKind, usize)],
+}
+
+impl<'a, N> Maps<'a, N> {
+    pub(crate) fn of<S: Scheme>(scheme: &'a S, weights: &'a [N]) -> Self {
+        let (kicks, maps) = scheme.maps();
+        let (kicks, drifts) = weights.split_at(kicks);
+        Maps { kicks, drifts, maps }
+    }
+
+    /// One after the other.
+    #[inline(always)]
+    pub fn iter(&self) -> impl Iterator<Item = (MapKind, &'a N)> {
+        let Maps { kicks, drifts, maps } = *self;
+        maps.iter().map(
+            #[inline(always)]
+            move |&(kind, index)| match kind {
+                MapKind::Kick => (kind, &kicks[index]),
+                MapKind::Drift => (kind, &drifts[index]),
+            },
+        )
     }
 }
 

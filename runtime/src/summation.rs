@@ -74,14 +74,14 @@ pub trait Summation<N: Number> {
 pub struct Plain;
 
 impl<N: Number> Summation<N> for Plain {
-    #[inline]
+    #[inline(always)]
     fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]) {
         for (p, gradient) in p.iter_mut().zip(gradient) {
             p.subtract_product(weight, gradient);
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn drift<K: Kinetic<N>>(&mut self, kinetic: &K, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
         kinetic.drift(weight, p, q, scratch);
     }
@@ -104,7 +104,7 @@ impl<N: Number> Summation<N> for Plain {
 }
 
 impl<N: Number, S: Summation<N>> Summation<N> for Option<S> {
-    #[inline]
+    #[inline(always)]
     fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]) {
         match self {
             Some(own) => own.kick(weight, gradient, p),
@@ -112,7 +112,7 @@ impl<N: Number, S: Summation<N>> Summation<N> for Option<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn drift<K: Kinetic<N>>(&mut self, kinetic: &K, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
         match self {
             Some(own) => own.drift(kinetic, weight, p, q, scratch),
@@ -144,7 +144,7 @@ impl<N: Number, S: Summation<N>> Summation<N> for Option<S> {
         self.iter_mut().for_each(S::forget_momenta);
     }
 
-    #[inline]
+    #[inline(always)]
     fn settle(&mut self, q: &mut [N], p: &mut [N]) {
         if let Some(own) = self {
             own.settle(q, p);

@@ -2,6 +2,7 @@
 
 use crate::coordinates::Coordinates;
 use crate::number::Number;
+use crate::scheme::{MapKind, Maps};
 
 /// A Hamiltonian system H = A + B with its state q, p and β, where the flows of A (*drifts*) and of B (*kicks*) are known.
 ///
@@ -60,6 +61,22 @@ pub trait System {
 
     /// The drift with the same bits of q and p, and its part of the [increments](System::increments).
     fn drift_augmented(&mut self, weight: &Self::Number);
+
+    /// `count` steps of several systems, with the bits that their kicks and drifts have one by one: what
+    /// [`Stepper::steps`](crate::Stepper::steps) does. [`Motion`](crate::Motion) does it in the widest instructions.
+    fn advance(systems: &mut [Self], maps: Maps<'_, Self::Number>, count: u64)
+    where
+        Self: Sized,
+    {
+        for _ in 0..count {
+            for (kind, weight) in maps.iter() {
+                match kind {
+                    MapKind::Kick => systems.iter_mut().for_each(|system| system.kick(weight)),
+                    MapKind::Drift => systems.iter_mut().for_each(|system| system.drift(weight)),
+                }
+            }
+        }
+    }
 
     /// Sets the increments to 0: an augmented step begins with it, so that β keeps its digits in long runs.
     fn clear_increments(&mut self);

@@ -173,6 +173,10 @@ impl<Class> Scheme for TableScheme<Class> {
         self.plan().kicks.iter().chain(&self.plan().drifts).map(scaled).collect()
     }
 
+    fn maps(&self) -> (usize, &[(MapKind, usize)]) {
+        (self.plan().kicks.len(), &self.plan().maps)
+    }
+
     fn step<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
     where
         Self: ValidFor<M::Class>,

@@ -25,6 +25,9 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
     let step_augmented = self::step("step_augmented", "forward", &names, &forth, true);
     let step_back = self::step("step_back", "back", &names, &back, false);
     let step_back_augmented = self::step("step_back_augmented", "back", &names, &back, true);
+    let kicks = Literal::usize_unsuffixed(plan.kicks.len());
+    let kinds = plan.maps.iter().map(|(kind, _)| format_ident!("{kind:?}"));
+    let places = plan.maps.iter().map(|(_, place)| Literal::usize_unsuffixed(*place));
     let valid_for_general = proved.holds_for_every_kinetic().then(|| {
         quote! { impl ::shadowstep::ValidFor<::shadowstep::kinetic::General> for #ident {} }
     });
@@ -47,6 +50,10 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
                 scaled: impl ::core::ops::FnMut(&::shadowstep::Rational) -> N,
             ) -> [N; #count] {
                 ::shadowstep::scheme::exact_weights([#(#weights),*]).each_ref().map(scaled)
+            }
+
+            fn maps(&self) -> (usize, &[(::shadowstep::scheme::MapKind, usize)]) {
+                (#kicks, &[#((::shadowstep::scheme::MapKind::#kinds, #places)),*])
             }
 
             #step
@@ -94,6 +101,9 @@ pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &
                 &self,
                 _: impl ::core::ops::FnMut(&::shadowstep::Rational) -> N,
             ) -> [N; 0] {
+                ::core::unreachable!()
+            }
+            fn maps(&self) -> (usize, &[(::shadowstep::scheme::MapKind, usize)]) {
                 ::core::unreachable!()
             }
             #(#steps)*

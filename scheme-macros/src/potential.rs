@@ -49,7 +49,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
             fn energy(&self, #q: &[N], #energy: &mut N, #scratch: &mut [N]) {
                 #energy_body
             }
-            #[inline]
+            #[inline(always)]
             fn gradient(&self, #q: &[N], #gradient: &mut [N], #scratch: &mut [N]) {
                 #components
                 #gradient_body

@@ -38,7 +38,7 @@ impl<N: Number, V: Coordinates<N>> Compensated<N, V> {
     }
 
     /// q ← q + increment
-    #[inline]
+    #[inline(always)]
     fn add_increment(&mut self, q: &mut [N]) {
         let (mut y, mut sum) = (self.y.register(), self.sum.register());
         for ((q, remainder), increment) in q.iter_mut().zip(self.q.as_mut()).zip(self.increment.as_ref()) {
@@ -49,7 +49,7 @@ impl<N: Number, V: Coordinates<N>> Compensated<N, V> {
 }
 
 /// a ← a + y, and what is rounded away is the remainder.
-#[inline]
+#[inline(always)]
 fn add<N: Number>(a: &mut N, remainder: &mut N, y: &N, sum: &mut N) {
     sum.assign_sum(a, y);
     remainder.assign_difference(a, sum);
@@ -58,7 +58,7 @@ fn add<N: Number>(a: &mut N, remainder: &mut N, y: &N, sum: &mut N) {
 }
 
 impl<N: Number, V: Coordinates<N>> Summation<N> for Compensated<N, V> {
-    #[inline]
+    #[inline(always)]
     fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]) {
         let (mut y, mut sum) = (self.y.register(), self.sum.register());
         for ((p, remainder), gradient) in p.iter_mut().zip(self.p.as_mut()).zip(gradient) {
@@ -68,7 +68,7 @@ impl<N: Number, V: Coordinates<N>> Summation<N> for Compensated<N, V> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn drift<K: Kinetic<N>>(&mut self, kinetic: &K, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
         self.increment.as_mut().iter_mut().for_each(N::assign_zero);
         kinetic.drift(weight, p, self.increment.as_mut(), scratch);

@@ -1,0 +1,124 @@
+//! Vector instructions, chosen at run time: one program for all processors of an architecture.
+//!
+//! The compiler makes vector operations of loops over [lanes](crate::number::Lanes), for the processors that the program is built for: on
+//! x86-64 those with SSE2. Here a whole loop is compiled three times, and the widest version that the processor can execute is called.
+//! Results have the same bits in all of them: operations are rounded as they are written, as Rust never contracts a b + c.
+//!
+//! ```
+//! use shadowstep::instructions::{self, Instructions};
+//! use shadowstep::number::{Lanes, Number};
+//!
+//! fn sum_of_squares(x: &[Lanes<8>]) -> Lanes<8> {
+//!     instructions::widest(#[inline(always)] || {
+//!         let mut sum = Lanes::all(0.0);
+//!         x.iter().for_each(|x| sum.add_product(x, x));
+//!         sum
+//!     })
+//! }
+//! let x = [Lanes::all(0.1); 100];
+//! for instructions in Instructions::available() {
+//!     assert_eq!(instructions.only(|| sum_of_squares(&x)), sum_of_squares(&x));
+//! }
+//! ```
+//!
+//! What is not inlined into the loop is compiled for the processors that the program is built for, and is slower there. So functions on the way
+//! are `#[inline(always)]`: those of this crate and of [`potential!`](crate::potential!) are; a potential of your own should be.
+
+use std::cell::Cell;
+
+/// The vector instructions of a processor that loops are compiled for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Instructions {
+    /// Those that the whole program is built for.
+    Plain,
+    /// AVX2 and what processors with it have, of x86-64: 4 `f64` at once.
+    Avx2,
+    /// AVX-512 (F, CD, BW, DQ, VL) of x86-64: 8 `f64` at once.
+    Avx512,
+}
+
+thread_local! {
+    /// What [`Instructions::only`] allows in this thread.
+    static ALLOWED: Cell<Instructions> = const { Cell::new(Instructions::Avx512) };
+}
+
+impl Instructions {
+    /// Those that this processor has, the widest last.
+    pub fn available() -> impl Iterator<Item = Instructions> {
+        [Instructions::Plain, Instructions::Avx2, Instructions::Avx512].into_iter().filter(|i| i.are_available())
+    }
+
+    /// Does some work in which [`widest`] means these at most, in this thread: to compare.
+    pub fn only<R>(self, work: impl FnOnce() -> R) -> R {
+        struct Reset(Instructions);
+        impl Drop for Reset {
+            fn drop(&mut self) {
+                ALLOWED.set(self.0);
+            }
+        }
+        let _reset = Reset(ALLOWED.replace(self));
+        work()
+    }
+
+    #[inline]
+    fn are_available(self) -> bool {
+        match self {
+            Instructions::Plain => true,
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => {
+                Instructions::Avx2.are_available()
+                    && is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512cd")
+                    && is_x86_feature_detected!("avx512bw")
+                    && is_x86_feature_detected!("avx512dq")
+                    && is_x86_feature_detected!("avx512vl")
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => false,
+        }
+    }
+}
+
+/// Does some work, such as a loop, in the widest instructions that this processor has.
+///
+/// The work is to be an `#[inline(always)]` closure. The choice costs a few nanoseconds.
+#[inline(always)]
+pub fn widest<R>(work: impl FnOnce() -> R) -> R {
+    #[cfg(target_arch = "x86_64")]
+    {
+        let allowed = ALLOWED.get();
+        if allowed >= Instructions::Avx512 && Instructions::Avx512.are_available() {
+            return x86::avx512(work);
+        }
+        if allowed >= Instructions::Avx2 && Instructions::Avx2.are_available() {
+            return x86::avx2(work);
+        }
+    }
+    work()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[expect(unsafe_code, reason = "a function for more instructions is called after the processor was found to have them")]
+mod x86 {
+    #[inline(always)]
+    pub(super) fn avx512<R>(work: impl FnOnce() -> R) -> R {
+        #[target_feature(enable = "avx512f,avx512cd,avx512bw,avx512dq,avx512vl,avx2,fma")]
+        fn compiled<R>(work: impl FnOnce() -> R) -> R {
+            work()
+        }
+        // SAFETY: `widest` has found these features
+        unsafe { compiled(work) }
+    }
+
+    #[inline(always)]
+    pub(super) fn avx2<R>(work: impl FnOnce() -> R) -> R {
+        #[target_feature(enable = "avx2,fma")]
+        fn compiled<R>(work: impl FnOnce() -> R) -> R {
+            work()
+        }
+        // SAFETY: `widest` has found these features
+        unsafe { compiled(work) }
+    }
+}
