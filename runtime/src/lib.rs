@@ -58,7 +58,8 @@
 //!
 //! | file | what it is |
 //! | --- | --- |
-//! | [`number`] | numbers that compute in place: `f64`, MPFR, and one that counts |
+//! | [`number`] | numbers that compute in place: `f64`, several of them in lanes, MPFR, and one that counts |
+//! | [`instructions`] | the vector instructions that loops over lanes use |
 //! | [`potential`](mod@potential), [`formula`], [`kinetic`](mod@kinetic), [`problems`] | H = T(p) + U(q) |
 //! | [`system`], [`motion`] | a state q, p, β with its kicks and drifts |
 //! | [`summation`] | how increments are added to q and p: plainly, compensated, in fixed point |

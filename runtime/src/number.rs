@@ -1,4 +1,4 @@
-//! Numbers of every kind behind one trait: `f64`, MPFR numbers of any precision, and wrappers.
+//! Numbers of every kind behind one trait: `f64`, several of them in lanes, MPFR numbers of any precision, and wrappers.
 
 pub mod counting;
 mod double;
