@@ -24,7 +24,9 @@
 #![forbid(unsafe_code)]
 
 mod convert;
+mod decimal;
 pub mod fixed;
+mod natural;
 mod newton;
 mod order;
 mod product;
@@ -32,6 +34,8 @@ mod quotient;
 mod root;
 mod round;
 mod sum;
+
+pub use decimal::ParseError;
 
 /// A floating-point number with a significand of L 64-bit limbs.
 #[derive(Clone, Copy)]

@@ -81,14 +81,14 @@ fn below<const L: usize>(remainder: &[u64; L], d: &[u64; L]) -> u64 {
 }
 
 /// The two highest limbs of a divisor and their reciprocal ⌊(2^192 − 1)/d⌋ − 2^64 (Möller and Granlund, algorithms 5 and 6).
-struct TwoLimbs {
+pub(crate) struct TwoLimbs {
     limbs: u128,
     reciprocal: u64,
 }
 
 impl TwoLimbs {
     #[inline(always)]
-    fn new(d1: u64, d0: u64) -> TwoLimbs {
+    pub(crate) fn new(d1: u64, d0: u64) -> TwoLimbs {
         let mut reciprocal = Divisor::new(d1).reciprocal();
         let (mut p, carries) = d1.wrapping_mul(reciprocal).overflowing_add(d0);
         if carries {
@@ -113,7 +113,7 @@ impl TwoLimbs {
 
     /// ⌊u / d⌋ of three limbs, where the higher two are at most d; 2^64 − 1 where that is larger.
     #[inline(always)]
-    fn quotient(&self, u2: u64, u1: u64, u0: u64) -> u64 {
+    pub(crate) fn quotient(&self, u2: u64, u1: u64, u0: u64) -> u64 {
         let high = u128::from(u2) << 64 | u128::from(u1);
         if high >= self.limbs {
             return u64::MAX;
