@@ -83,7 +83,7 @@ impl Scaled {
 fn low_bits(x: &[u64], bits: u64) -> Vec<u64> {
     let limbs = bits.div_ceil(64) as usize;
     let mut low: Vec<u64> = (0..limbs).map(|i| x.get(i).copied().unwrap_or(0)).collect();
-    if bits % 64 != 0 {
+    if !bits.is_multiple_of(64) {
         low[limbs - 1] &= (1 << (bits % 64)) - 1;
     }
     low
@@ -118,12 +118,12 @@ impl<const L: usize> Limbs<L> {
     /// assert_eq!(third.to_digits(5), Some(("66667".to_owned(), 2)));
     /// ```
     pub fn to_digits(&self, count: u32) -> Option<(String, i64)> {
-        let (integer, point) = self.to_integer_of_digits(count.max(1))?;
+        let (integer, point) = self.integer_of_digits(count.max(1))?;
         Some((natural::digits(integer), point))
     }
 
     /// 10^(count − point) |x|, rounded to an integer of so many digits, and the point.
-    fn to_integer_of_digits(&self, count: u32) -> Option<(Vec<u64>, i64)> {
+    fn integer_of_digits(&self, count: u32) -> Option<(Vec<u64>, i64)> {
         let (significand, exponent) = (self.to_f64_exponent().0.abs(), self.exponent()?);
         let size = significand.log10() + f64::from(exponent) * LOG10_2;
         let mut point = size.floor() as i64 + 1; // off by one at powers of ten
@@ -172,7 +172,7 @@ impl<const L: usize> Limbs<L> {
         }
         // a text that is at most this long survives: if there is one for this number, it comes back, with zeros behind it
         for count in Self::DIGITS.. {
-            let (integer, point) = self.to_integer_of_digits(count).expect("finite and not 0");
+            let (integer, point) = self.integer_of_digits(count).expect("finite and not 0");
             let mut next = integer.clone();
             add_one(&mut next); // below a power of two the numbers are closer, and what is nearest may not read back
             for candidate in [integer, next] {

@@ -26,6 +26,7 @@
 mod convert;
 mod decimal;
 pub mod fixed;
+mod functions;
 mod natural;
 mod newton;
 mod order;

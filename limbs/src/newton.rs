@@ -14,6 +14,7 @@ pub(crate) fn reciprocal_root<const L: usize>(m: &[u64; L], halves: bool) -> ([u
         6 | 7 => split(&reciprocal_root_8(&placed(m, halves))),
         8 | 9 => split(&reciprocal_root_10(&placed(m, halves))),
         10..=12 => split(&reciprocal_root_13(&placed(m, halves))),
+        13..=16 => split(&reciprocal_root_17(&placed(m, halves))),
         _ => split(&reciprocal_root_18(&placed(m, halves))),
     }
 }
@@ -28,7 +29,24 @@ pub(crate) fn root<const L: usize>(m: &[u64; L], halves: bool) -> ([u64; L], u64
         6 | 7 => split(&root_8(&placed(m, halves))),
         8 | 9 => split(&root_10(&placed(m, halves))),
         10..=12 => split(&root_13(&placed(m, halves))),
+        13..=16 => split(&root_17(&placed(m, halves))),
         _ => split(&root_18(&placed(m, halves))),
+    }
+}
+
+/// √M of a fraction M in [1/4, 1), to some units of its last limb.
+#[inline(always)]
+pub(crate) fn root_of_fraction<const N: usize>(m: &[u64; N]) -> [u64; N] {
+    match N {
+        3 => top(&root_3(&top(m))),
+        4 => top(&root_4(&top(m))),
+        5 => top(&root_5(&top(m))),
+        6 => top(&root_6(&top(m))),
+        8 => top(&root_8(&top(m))),
+        10 => top(&root_10(&top(m))),
+        13 => top(&root_13(&top(m))),
+        17 => top(&root_17(&top(m))),
+        _ => top(&root_18(&top(m))),
     }
 }
 
@@ -52,6 +70,7 @@ compiled! {
     8: reciprocal_root_8 root_8 5,
     10: reciprocal_root_10 root_10 5,
     13: reciprocal_root_13 root_13 10,
+    17: reciprocal_root_17 root_17 10,
     18: reciprocal_root_18 root_18 10,
 }
 
@@ -137,7 +156,7 @@ fn refine<const H: usize, const N: usize>(z: &[u64; H], m: &[u64; N]) -> [u64; N
 #[inline(always)]
 fn refine_root<const H: usize, const N: usize>(z: &[u64; H], m: &[u64; N]) -> [u64; N] {
     let mut s = product_above(&top(m), z, H, H);
-    s = fixed::shift_up(&s, 1);
+    s = if fixed::is_negative(&s) { [u64::MAX; H] } else { fixed::shift_up(&s, 1) };
     let changed = (N + 1).saturating_sub(H);
     let mut u = square(&s);
     fixed::subtract(&mut u, m);

@@ -75,7 +75,11 @@ fn text_is_the_shortest() {
         // one digit less, rounded down or up, is another number
         let (shorter, point) = x.to_digits(count as u32 - 1).unwrap();
         for change in [-1, 0, 1] {
-            let candidate = format!("{}e{}", shorter.parse::<i128>().unwrap() + change, point - count as i64 + 1);
+            let candidate = format!(
+                "{}e{}",
+                rug::Integer::from_str_radix(&shorter, 10).unwrap() + change,
+                point - count as i64 + 1
+            );
             assert!(candidate.parse::<Limbs<2>>().unwrap() != x, "{candidate} is shorter than {text}");
         }
     }
