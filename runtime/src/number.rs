@@ -1,9 +1,11 @@
-//! Numbers of every kind behind one trait: `f64`, several of them in lanes, MPFR numbers of any precision, and wrappers.
+//! Numbers of every kind behind one trait: `f64`, several of them in lanes, numbers of some limbs, MPFR numbers of any precision, and
+//! wrappers.
 
 pub mod counting;
 mod double;
 mod epsilon;
 mod lanes;
+mod limbs;
 #[cfg(feature = "mpfr")]
 mod multiprecision;
 #[cfg(feature = "mpfr")]
@@ -13,6 +15,9 @@ mod rounded;
 pub use multiprecision::{Precision, PrecisionError};
 #[cfg(feature = "mpfr")]
 pub use rounded::Rounded;
+
+/// Numbers of a fixed number of 64-bit limbs: [`shadowstep_limbs`].
+pub use shadowstep_limbs::Limbs;
 
 /// MPFR's numbers, of the version that implements [`Number`].
 #[cfg(feature = "mpfr")]
@@ -62,7 +67,7 @@ use std::ops::DerefMut;
 /// There is no order, and no text: a number may be several at once, as in lanes. What compares, searches or prints needs an
 /// [`Ordered`] number; potentials, kinetic energies and steps do not.
 pub trait Number: Clone + fmt::Debug {
-    /// What a new number needs: `()` for `f64`, the precision for MPFR.
+    /// What a new number needs: `()` for `f64` and [`Limbs`], the precision for MPFR.
     type Context: Clone + PartialEq + fmt::Debug;
 
     /// Whether a system keeps the increments of q and p, from which estimators then take the differences of states.
@@ -178,7 +183,7 @@ pub trait Number: Clone + fmt::Debug {
     /// x ← x / a
     fn divide(&mut self, a: &Self);
 
-    /// x ← x + a b, in `f64` with two roundings, as not every machine can fuse them
+    /// x ← x + a b, in `f64` and [`Limbs`] with two roundings
     fn add_product(&mut self, a: &Self, b: &Self);
 
     /// x ← x − a b, rounded like [`add_product`](Number::add_product)

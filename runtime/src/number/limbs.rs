@@ -1,0 +1,330 @@
+//! Numbers of a fixed number of limbs, [`Limbs`], as a [`Number`].
+
+use super::{Number, Ordered};
+use crate::Rational;
+use num_traits::{Signed, Zero};
+use shadowstep_limbs::Limbs;
+use std::f64::consts::LOG10_2;
+
+/// Sums, products, quotients, square roots and their reciprocals are correctly rounded, a b + c with two roundings, and elementary
+/// functions err by little more than half an ulp.
+impl<const L: usize> Number for Limbs<L> {
+    type Context = ();
+    type Register<'a> = &'a mut Limbs<L>;
+
+    #[inline]
+    fn register(&mut self) -> &mut Limbs<L> {
+        self
+    }
+
+    fn zero((): &()) -> Limbs<L> {
+        Limbs::ZERO
+    }
+
+    fn from_rational(value: &Rational, (): &()) -> Limbs<L> {
+        let (n, d) = (value.numer().magnitude(), value.denom().magnitude());
+        // a quotient with more bits than the number has
+        let shift = (u64::from(Limbs::<L>::BITS) + 2 + d.bits()).saturating_sub(n.bits());
+        let dividend = n << shift;
+        let quotient = &dividend / d;
+        let is_exact = (dividend - &quotient * d).is_zero();
+        Limbs::from_magnitude(value.is_negative(), &quotient.to_u64_digits(), -(shift as i64), !is_exact)
+    }
+
+    fn context(&self) {}
+
+    #[inline]
+    fn assign_zero(&mut self) {
+        *self = Limbs::ZERO;
+    }
+
+    #[inline]
+    fn assign(&mut self, a: &Limbs<L>) {
+        *self = *a;
+    }
+
+    #[inline]
+    fn assign_sum(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
+        *self = a + b;
+    }
+
+    #[inline]
+    fn assign_difference(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
+        *self = a - b;
+    }
+
+    #[inline]
+    fn assign_product(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
+        *self = a * b;
+    }
+
+    #[inline]
+    fn assign_quotient(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
+        *self = a / b;
+    }
+
+    #[inline]
+    fn assign_square(&mut self, a: &Limbs<L>) {
+        *self = a.square();
+    }
+
+    fn assign_sqrt(&mut self, a: &Limbs<L>) {
+        *self = a.sqrt();
+    }
+
+    fn assign_reciprocal_sqrt(&mut self, a: &Limbs<L>) {
+        *self = a.reciprocal_sqrt();
+    }
+
+    fn assign_root(&mut self, a: &Limbs<L>, n: u32) {
+        *self = a.root(n);
+    }
+
+    fn assign_exp(&mut self, a: &Limbs<L>) {
+        *self = a.exp();
+    }
+
+    fn assign_sin(&mut self, a: &Limbs<L>) {
+        *self = a.sin();
+    }
+
+    fn assign_cos(&mut self, a: &Limbs<L>) {
+        *self = a.cos();
+    }
+
+    fn assign_log(&mut self, a: &Limbs<L>) {
+        *self = a.log();
+    }
+
+    fn assign_tan(&mut self, a: &Limbs<L>) {
+        *self = a.tan();
+    }
+
+    fn assign_sinh(&mut self, a: &Limbs<L>) {
+        *self = a.sinh();
+    }
+
+    fn assign_cosh(&mut self, a: &Limbs<L>) {
+        *self = a.cosh();
+    }
+
+    fn assign_tanh(&mut self, a: &Limbs<L>) {
+        *self = a.tanh();
+    }
+
+    fn assign_atan(&mut self, a: &Limbs<L>) {
+        *self = a.atan();
+    }
+
+    fn assign_asin(&mut self, a: &Limbs<L>) {
+        *self = a.asin();
+    }
+
+    fn assign_acos(&mut self, a: &Limbs<L>) {
+        *self = a.acos();
+    }
+
+    fn assign_sin_cos(sin: &mut Limbs<L>, cos: &mut Limbs<L>, a: &Limbs<L>) {
+        (*sin, *cos) = a.sin_cos();
+    }
+
+    #[inline]
+    fn add(&mut self, a: &Limbs<L>) {
+        *self += a;
+    }
+
+    #[inline]
+    fn subtract(&mut self, a: &Limbs<L>) {
+        *self -= a;
+    }
+
+    #[inline]
+    fn multiply(&mut self, a: &Limbs<L>) {
+        *self *= a;
+    }
+
+    #[inline]
+    fn divide(&mut self, a: &Limbs<L>) {
+        *self /= a;
+    }
+
+    #[inline]
+    fn add_product(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
+        *self += &(a * b);
+    }
+
+    #[inline]
+    fn subtract_product(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
+        *self -= &(a * b);
+    }
+
+    #[inline]
+    fn multiply_integer(&mut self, n: i32) {
+        *self = self.times_integer(n);
+    }
+
+    #[inline]
+    fn divide_integer(&mut self, n: i32) {
+        *self = self.over_integer(n);
+    }
+
+    #[inline]
+    fn negate(&mut self) {
+        *self = -*self;
+    }
+
+    #[inline]
+    fn make_absolute(&mut self) {
+        *self = self.abs();
+    }
+
+    fn make_at_least(&mut self, a: &Limbs<L>) {
+        if *self < *a {
+            *self = *a;
+        }
+    }
+
+    fn make_at_most(&mut self, a: &Limbs<L>) {
+        if *self > *a {
+            *self = *a;
+        }
+    }
+
+    fn make_nan_where_square_overflows(&mut self, a: &Limbs<L>) {
+        if Limbs::is_finite(self) && !a.has_finite_square() {
+            *self = Limbs::NAN;
+        }
+    }
+
+    #[inline]
+    fn is_finite(&self) -> bool {
+        Limbs::is_finite(self)
+    }
+}
+
+impl<const L: usize> Ordered for Limbs<L> {
+    fn is_below_zero(&self) -> bool {
+        Limbs::is_below_zero(self)
+    }
+
+    fn has_finite_square(&self) -> bool {
+        // 0 has no exponent; 3 (2x)² < (4x)²
+        Limbs::is_finite(self) && self.exponent().is_none_or(|exponent| exponent < (1 << 29) - 2)
+    }
+
+    fn to_f64(&self) -> f64 {
+        Limbs::to_f64(self)
+    }
+
+    fn log10_abs(&self) -> f64 {
+        let (significand, exponent) = self.to_f64_exponent();
+        significand.abs().log10() + f64::from(exponent) * LOG10_2
+    }
+
+    fn to_text(&self) -> String {
+        Limbs::to_text(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{functions, operations, products};
+    use super::{Limbs, Number, Ordered};
+    use crate::Rational;
+    use num_bigint::BigInt;
+    use proptest::prelude::*;
+
+    fn rational(n: i128, d: i128) -> Rational {
+        Rational::new(n.into(), d.into())
+    }
+
+    #[test]
+    fn signs_sizes_and_what_is_not_a_number() {
+        assert!(Limbs::<2>::from(-2.5).is_below_zero());
+        for x in [-0.0, 0.0, 1.0, f64::NAN] {
+            assert!(!Limbs::<2>::from(x).is_below_zero());
+        }
+        let mut x = Limbs::<2>::ONE;
+        x.divide_integer(0);
+        assert!(!Number::is_finite(&x));
+        assert_eq!(Ordered::to_text(&x), "inf");
+        for exponent in [-400, -5, 0, 7, 400] {
+            let x = Limbs::<2>::from_rational(&-Rational::from(BigInt::from(10)).pow(exponent), &());
+            assert!((x.log10_abs() - f64::from(exponent)).abs() < 1e-13);
+        }
+        assert_eq!(Limbs::<2>::ZERO.log10_abs(), f64::NEG_INFINITY);
+    }
+
+    #[test]
+    fn squares_are_finite_up_to_half_of_the_exponents() {
+        let mut x = Limbs::<3>::from(-3.0);
+        assert!(x.has_finite_square() && Limbs::<3>::ZERO.has_finite_square());
+        x = x.times_power_of_two(1 << 29);
+        assert!(Number::is_finite(&x) && !x.has_finite_square());
+        let mut one = Limbs::ONE;
+        one.make_nan_where_square_overflows(&x);
+        assert!(one.is_nan());
+        x = x.square();
+        assert!(!Number::is_finite(&x) && !x.has_finite_square());
+    }
+
+    #[cfg(feature = "mpfr")]
+    mod beside_mpfr {
+        use super::*;
+        use rug::integer::Order;
+        use rug::{Float, Integer};
+
+        const BITS: u32 = 64 * 7;
+
+        fn float(x: &Limbs<7>) -> Float {
+            let magnitude = Float::with_val(BITS, Integer::from_digits(x.mantissa(), Order::Lsf)) >> BITS;
+            let magnitude = magnitude << x.exponent().unwrap_or(0);
+            if x.is_sign_negative() { -magnitude } else { magnitude }
+        }
+
+        proptest! {
+            #[test]
+            fn operations_have_the_same_bits(a in 1e-60..1e60, b in -1e3..1e3, c in -1e-3..1e60) {
+                // thirds have all bits
+                let [a, b, c] = [a, b, c].map(|x| Limbs::<7>::from(x).over_integer(3));
+                let [x, y, z] = [a, b, c].map(|x| float(&x));
+                prop_assert_eq!(operations(&a, &b, &c).map(|x| float(&x)), operations(&x, &y, &z));
+                let product = Float::with_val(BITS, &x * &y);
+                let expected = [Float::with_val(BITS, &z + &product), Float::with_val(BITS, &z - &product)];
+                prop_assert_eq!(products(&a, &b, &c).map(|x| float(&x)), expected);
+            }
+
+            #[test]
+            fn functions_differ_by_at_most_the_last_bit(a in 0.0..100.0) {
+                let a = Limbs::<7>::from(a).over_integer(3);
+                for (own, expected) in functions(&a).iter().zip(functions(&float(&a))) {
+                    let own = float(own);
+                    let difference = Float::with_val(BITS, &own - &expected).abs();
+                    prop_assert!(own.is_nan() && expected.is_nan() || difference <= expected.abs() >> (BITS as i32 - 1));
+                }
+            }
+
+            #[test]
+            fn rational_is_rounded_once(n: i128, d in 1..i128::MAX, exponent in -2000i32..2000) {
+                let value = rational(n, d) * Rational::from(BigInt::from(2)).pow(exponent);
+                let [own, expected] = [
+                    float(&Limbs::from_rational(&value, &())),
+                    Float::from_rational(&value, &crate::number::Precision::bits(BITS).unwrap()),
+                ];
+                prop_assert_eq!(own, expected);
+            }
+        }
+    }
+
+    #[test]
+    fn rational_ties_go_to_even() {
+        let two_128 = Rational::from(BigInt::from(2)).pow(128);
+        for (above, even) in [(1, 0), (3, 4), (-1, 0)] {
+            let tie = &two_128 + rational(above, if above < 0 { 2 } else { 1 });
+            let expected = &two_128 + rational(even, 1);
+            assert_eq!(Limbs::<2>::from_rational(&tie, &()), Limbs::from_rational(&expected, &()));
+            let nudged = tie * (rational(1, 1) + rational(1, 1 << 100).pow(2));
+            assert!(Limbs::<2>::from_rational(&nudged, &()) >= Limbs::from_rational(&expected, &()));
+        }
+    }
+}
