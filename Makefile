@@ -1,9 +1,9 @@
-# The two commands: `make run` shows what this is for, `make test` checks everything. Both fetch what is missing.
+# The two commands: `make run` shows what this is for, `make test` checks everything and fetches what is missing.
 
 .PHONY: run test test-cluster deps format lint check docs bench stability rivals package fuzz valgrind
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
-run: deps
+run:
 	cargo run --release --locked -p shadowstep-cli -- drift --problem kepler \
 	    --scheme stormer-verlet,yoshida4,blanes-moan-s6,blanes-moan-srkn6b \
 	    --step 1/10,1/20,1/40 --until 100 --digits 120 --order auto
@@ -14,15 +14,16 @@ format:
 	cargo fmt --all --check
 
 lint:
-	cargo clippy --workspace --all-targets --locked -- -D warnings
+	cargo clippy --workspace --features mpfr --all-targets --locked -- -D warnings
 
-# all tests and doc tests; and the library without GMP
+# all tests and doc tests; and those of the library and the command line without GMP and MPFR
 check:
-	cargo test --workspace --locked
-	cargo check -p shadowstep --no-default-features --locked
+	cargo test --workspace --features mpfr --locked
+	cargo test -p shadowstep -p shadowstep-scenes -p shadowstep-cli --locked
 
 docs:
-	RUSTDOCFLAGS="-D warnings --html-in-header $(CURDIR)/runtime/katex.html" cargo doc --workspace --no-deps --locked
+	RUSTDOCFLAGS="-D warnings --html-in-header $(CURDIR)/runtime/katex.html" \
+	    cargo doc --workspace --features mpfr --no-deps --locked
 
 # Sweeps on Slurm (of Debian's packages, with a private configuration), with GNU parallel and with Dask, whose tasks and nodes are killed:
 # the results are those of one machine. What is not installed is skipped.
@@ -33,7 +34,7 @@ test-cluster: deps
 
 # What steps, potentials and the monitor cost: writes docs/benchmarks.md, on a machine without other load.
 bench: deps
-	cargo bench -p shadowstep --locked --no-run
+	cargo bench -p shadowstep --features mpfr --locked --no-run
 	{ printf '<!-- Written by `make bench`; do not edit. -->\n\n# Benchmarks\n\n'; \
 	  printf 'Medians of 21 rounds in which all contestants take turns; ratios are medians of those to the first one in the same round.\n'; \
 	  printf 'Measured on %s: %s, %s cores, %s. The load of the machine was %s when it began.\n' "$$(date +%F)" \
@@ -41,14 +42,14 @@ bench: deps
 	    "$$(rustc --version)" "$$(cut -d' ' -f1 /proc/loadavg 2>/dev/null)"; \
 	  for name in steps potentials monitor; do \
 	    printf '\n## %s\n\n`cargo bench -p shadowstep --bench %s`\n' "$$name" "$$name"; \
-	    cargo bench -p shadowstep --locked --bench "$$name"; \
+	    cargo bench -p shadowstep --features mpfr --locked --bench "$$name"; \
 	  done; } > docs/benchmarks.md.new
 	mv docs/benchmarks.md.new docs/benchmarks.md
 	cat docs/benchmarks.md
 
 # Hard cases for all shipped schemes: writes docs/stability.md, within 15 minutes on two cores.
 stability: deps
-	cargo run --release --locked -p shadowstep-cli -- stability --out target/stability
+	cargo run --release --features mpfr --locked -p shadowstep-cli -- stability --out target/stability
 	cp target/stability/stability.md docs/stability.md
 
 # Speed against error of Shadowstep and of what one would use instead: writes docs/speed-against-error.md.
@@ -63,9 +64,9 @@ fuzz: deps
 # A short run in MPFR with modified energies under valgrind: an invalid access or an uninitialised value is an error. Leaks are not looked
 # for: each thread has MPFR's caches of constants until the program ends.
 valgrind: deps
-	cargo build --locked -p shadowstep-cli
+	cargo build --features mpfr --locked -p shadowstep-cli
 	valgrind --quiet --error-exitcode=9 --leak-check=no target/debug/shadowstep drift kepler \
-	    --scheme yoshida4 --step 1/10 --until 1 --digits 50 --order 8 --no-summary
+	    --scheme yoshida4 --step 1/10 --until 1 --digits 50 --mpfr --order 8 --no-summary
 
 # Packs every crate but the tests as for crates.io, and builds each from its package. cargo would build again with the
 # packages that an earlier run has unpacked, so these are removed first.

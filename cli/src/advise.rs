@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use shadowstep::number::{Number, Ordered};
+use shadowstep::number::{Limbs, Number, Ordered};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::wrapped_to;
 use shadowstep_symbolic::decimal::to_text;
@@ -112,8 +112,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 }
 
 fn tolerance_log10(tolerance: &shadowstep::Rational, text: &str) -> Result<f64, Error> {
-    let digits = shadowstep::number::Precision::digits(20).expect("20 digits are possible");
-    let value = <shadowstep::number::Float as Number>::from_rational(tolerance, &digits);
+    let value = Limbs::<2>::from_rational(tolerance, &());
     if !value.is_finite() || value.is_below_zero() || value.log10_abs() == f64::NEG_INFINITY {
         return Err(Error::usage(
             format!("--tolerance {text}: the tolerance must be positive"),

@@ -7,7 +7,6 @@ mod record;
 mod table;
 
 use std::io::{IsTerminal, Write};
-use std::time::Instant;
 
 use clap::Args;
 use shadowstep::number::Rounded;
@@ -21,6 +20,7 @@ use shadowstep_scenes::run::Run;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::colour::on_stdout;
+use crate::cpu_time::CpuTime;
 use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::progress::Progress;
@@ -178,7 +178,7 @@ impl Computation for Measurement<'_> {
         let settings = selection.estimator.clone().with_errors(true);
         let system = &selection.problem.system;
         let compensated = selection.arithmetic.is_compensated() && propagator.scheme().is_some();
-        let begin = Instant::now();
+        let begin = CpuTime::begin();
         let estimates = Estimates { system, propagator, run, compensated, settings: &settings, summarised };
         let (found, finished) = measure::<N>(estimates, context, |n| {
             progress.reach(n);

@@ -11,16 +11,18 @@
 //! | [`work_precision`], [`advise`] | speed against error; a scheme and a step size for a tolerance |
 //! | [`sweep`], [`collect`] | many runs of a scene; their results |
 //! | [`stability`] | hard cases |
-//! | [`figures`] | the figures of the paper, and additional ones |
+//! | `figures` | the figures of the paper, and additional ones (feature `mpfr`) |
 //! | [`run_arguments`], [`quantity`] | the flags of runs; exact numbers |
 //! | [`selection`], [`system`], [`posed`] | flags → schemes and steps; flags → the system; with end and number type |
 //! | [`plot`] | charts of runs |
 //! | [`readable`], [`output`], [`progress`], [`tasks`] | tables, lines and bars |
 //! | [`report`], [`colour`], [`interrupt`] | messages on stderr and the exit status; colours; Ctrl-C |
+//! | [`cpu_time`] | what a run costs |
 
 mod advise;
 mod collect;
 mod drift;
+#[cfg(feature = "mpfr")]
 mod figures;
 mod problems;
 mod run;
@@ -32,6 +34,7 @@ mod trace;
 mod work_precision;
 
 mod colour;
+mod cpu_time;
 mod interrupt;
 mod output;
 mod plot;
@@ -54,15 +57,15 @@ use report::Status;
 
 /// Makes the enum of all commands from one list `Variant: module`.
 macro_rules! commands {
-    ($($Name:ident: $module:ident,)+) => {
+    ($($(#[$condition:meta])? $Name:ident: $module:ident,)+) => {
         #[derive(Debug, Subcommand)]
         enum Command {
-            $($Name($module::Arguments),)+
+            $($(#[$condition])? $Name($module::Arguments),)+
         }
 
         impl Command {
             fn execute(&self) -> Result<Status, Error> {
-                match self { $(Command::$Name(arguments) => $module::execute(arguments),)+ }
+                match self { $($(#[$condition])? Command::$Name(arguments) => $module::execute(arguments),)+ }
             }
         }
     };
@@ -79,7 +82,7 @@ commands! {
     Sweep: sweep,
     Collect: collect,
     Stability: stability,
-    Figures: figures,
+    #[cfg(feature = "mpfr")] Figures: figures,
     Problems: problems,
 }
 

@@ -24,6 +24,9 @@ pub(crate) struct PosedArguments {
     /// Decimal digits of all numbers, such as 50 [default: those of the scene, else double precision]
     #[arg(long, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS))]
     digits: Option<u32>,
+    /// MPFR's numbers, also for up to 307 digits, for which numbers of some limbs of 64 bits take less time
+    #[arg(long, requires = "digits")]
+    mpfr: bool,
     /// Double precision (f64) instead of the digits of the scene
     #[arg(long, conflicts_with = "digits")]
     double: bool,
@@ -53,7 +56,8 @@ impl Posed {
         };
         let arithmetic = match (arguments.digits, &scene) {
             (Some(digits), _) => {
-                Arithmetic::with_digits(digits).map_err(|error| Error::usage(error.to_string(), "use --digits 120"))?
+                let found = Arithmetic::of_digits(digits, arguments.mpfr);
+                found.map_err(|error| Error::usage(error.to_string(), "use --digits 120"))?
             }
             (None, _) if arguments.compensated => Arithmetic::Compensated,
             (None, Some(scene)) if !arguments.double => scene.arithmetic,

@@ -27,11 +27,14 @@ pub(crate) struct RunArguments {
     /// Decimal digits of all numbers, such as 50
     #[arg(long, default_value_t = DEFAULT_DIGITS, value_name = "DIGITS", value_parser = |text: &str| whole(text, 1..=MOST_DIGITS))]
     pub(crate) digits: u32,
+    /// MPFR's numbers, also for up to 307 digits, for which numbers of some limbs of 64 bits take less time
+    #[arg(long)]
+    pub(crate) mpfr: bool,
     /// Double precision (f64) instead of --digits
-    #[arg(long, conflicts_with = "digits")]
+    #[arg(long, conflicts_with_all = ["digits", "mpfr"])]
     pub(crate) double: bool,
     /// Double precision in which positions and momenta are sums with remainders: less round-off in long runs, for up to half more time
-    #[arg(long, conflicts_with_all = ["digits", "double"])]
+    #[arg(long, conflicts_with_all = ["digits", "mpfr", "double"])]
     pub(crate) compensated: bool,
     /// How the modified energy is estimated
     #[arg(long, value_name = "NAME", default_value = EstimatorSettings::NAMES[0], value_parser = words(EstimatorSettings::NAMES, EstimatorSettings::SUMMARIES))]

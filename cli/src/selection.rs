@@ -113,7 +113,7 @@ fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Error> {
     if arguments.double || arguments.compensated {
         return Ok(if arguments.compensated { Arithmetic::Compensated } else { Arithmetic::Double });
     }
-    let arithmetic = Arithmetic::with_digits(arguments.digits);
+    let arithmetic = Arithmetic::of_digits(arguments.digits, arguments.mpfr);
     arithmetic.map_err(|error| Error::usage(error.to_string(), "use --digits 120"))
 }
 

@@ -4,23 +4,24 @@
 //! flow of H, with β' = qᵀU_q − 2U, are a trajectory with H̄ = H.
 //!
 //! ```
-//! use shadowstep::number::{Float, Precision};
+//! use shadowstep::number::{Limbs, Ordered};
 //! use shadowstep::{StepSize, exact_flow::ExactFlow, problems::problem, run::ShadowRun, shadow::Bilinear};
 //!
 //! let kepler = problem("kepler").unwrap().setup(&[], 80).unwrap(); // H = −1/2
-//! let (h, digits) = (StepSize::try_from("1/20").unwrap(), Precision::digits(60).unwrap());
+//! let h = StepSize::try_from("1/20").unwrap();
 //! let settings = Bilinear::new(16);
-//! let mut control = ShadowRun::<ExactFlow<Float>, _>::of_exact_flow(&kepler, &h, 126, &settings, &digits).unwrap();
+//! let mut control = ShadowRun::<ExactFlow<Limbs<4>>, _>::of_exact_flow(&kepler, &h, 126, &settings, &()).unwrap();
 //! let found = control.drift().unwrap();
 //! assert!(found.drift.to_f64() < 1e-11); // of E_16 itself
 //! ```
 //!
-//! States are computed with MPFR, with 20 digits more than the run has and as many as its length and its initial state
-//! require in addition, and rounded once: also `f64` states are the nearest ones.
+//! States are computed with 20 digits more than the run has and as many as its length and its initial state
+//! require in addition, and rounded once: also `f64` states are the nearest ones. Where that takes more than 1088 bits, MPFR
+//! computes them (feature `mpfr`).
 
+mod points;
 pub(crate) mod solution;
-
-use rug::Float;
+pub(crate) mod solver;
 
 use crate::number::{Number, Rounded};
 use crate::problems::{PROBLEMS, Problem, Setup};
@@ -28,7 +29,9 @@ use crate::run::{RunError, ShadowRun, State, States, last};
 use crate::shadow::{BuildEstimator, Estimator};
 use crate::step_size::StepSize;
 use crate::system::OwnedIncrements;
-use solution::{Point, Request, Solution, Solver};
+use points::Points;
+use solution::Request;
+use solver::Solver;
 
 pub use solution::ExactFlowError;
 
@@ -38,14 +41,12 @@ pub use solution::ExactFlowError;
 /// rounded ones. [`problems`] lists the problems whose exact flow is known.
 #[derive(Debug)]
 pub struct ExactFlow<N> {
-    solution: Box<dyn Solution>,
+    points: Box<dyn Points<N>>,
     n: i64,
     last: i64,
     q: Vec<N>,
     p: Vec<N>,
     increments: OwnedIncrements<N>,
-    /// The state n; none before the first.
-    present: Option<Point>,
 }
 
 impl<N: Rounded> ExactFlow<N> {
@@ -65,24 +66,11 @@ impl<N: Rounded> ExactFlow<N> {
         let last = last(steps, reach);
         let longest = (f64::from_rational(h.exact(), &()) * (last as f64 + 1.0)).abs();
         let bits = N::precision(context).in_bits();
-        let solution = (solver.solve)(&Request { values: &setup.values, h: h.exact(), longest, bits })?;
+        let points = solver.points(&Request { values: &setup.values, h: h.exact(), longest, bits })?;
         let dimension = setup.values.positions().len();
         let zeros = || vec![N::zero(context); dimension];
         let (q, p, increments) = (zeros(), zeros(), OwnedIncrements::zero(dimension, context));
-        Ok(ExactFlow { solution, n: -(reach as i64) - 1, last, q, p, increments, present: None })
-    }
-}
-
-fn assign_rounded<N: Rounded>(numbers: &mut [N], values: &[Float]) {
-    numbers.iter_mut().zip(values).for_each(|(own, value)| own.assign_rounded(value));
-}
-
-impl<N: Rounded> OwnedIncrements<N> {
-    /// The increments from one point to the next, each rounded once.
-    fn assign_differences(&mut self, next: &Point, last: &Point) {
-        let vectors = self.q.iter_mut().zip(&next.q).zip(&last.q).chain(self.p.iter_mut().zip(&next.p).zip(&last.p));
-        vectors.for_each(|((own, next), last)| own.assign_rounded(&(next.clone() - last)));
-        self.beta.assign_rounded(&(next.beta.clone() - &last.beta));
+        Ok(ExactFlow { points, n: -(reach as i64) - 1, last, q, p, increments })
     }
 }
 
@@ -97,13 +85,8 @@ impl<N: Rounded> States for ExactFlow<N> {
         if self.n >= self.last {
             return Ok(None);
         }
-        let before = self.present.take().unwrap_or_else(|| self.solution.at(self.n));
         self.n += 1;
-        let present = self.solution.at(self.n);
-        assign_rounded(&mut self.q, &present.q);
-        assign_rounded(&mut self.p, &present.p);
-        self.increments.assign_differences(&present, &before);
-        self.present = Some(present);
+        self.points.assign(self.n, &mut self.q, &mut self.p, &mut self.increments);
         let state = State { n: self.n, q: &self.q, p: &self.p, increments: self.increments.view() };
         state.check()?;
         Ok(Some(state))

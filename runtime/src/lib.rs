@@ -20,19 +20,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The numbers may be `f64` or, with the feature `mpfr` (on by default), `rug::Float` at any precision. The energy
-//! oscillates; the *modified* energy, which the scheme conserves almost exactly, does not:
+//! The numbers may be `f64`, [`number::Limbs`] of 38 to 307 digits or, with the feature `mpfr`, `rug::Float` at any precision. The
+//! energy oscillates; the *modified* energy, which the scheme conserves almost exactly, does not:
 //!
-#![cfg_attr(feature = "mpfr", doc = "```")]
-#![cfg_attr(not(feature = "mpfr"), doc = "```ignore")]
+//! ```
 //! use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, run::energy_drift, shadow::Central, tables};
-//! use shadowstep::number::{Float, Number, Ordered, Precision};
+//! use shadowstep::number::{Limbs, Number, Ordered};
 //!
-//! let digits = Precision::digits(120)?;
-//! let number = |text| Float::from_rational(&shadowstep::exact(text).unwrap(), &digits);
-//! let motion = Motion::new(Kepler, UnitMasses, vec![number("0.4"), number("0")], vec![number("0"), number("2")])?;
+//! let number = |text| Limbs::<7>::from_rational(&shadowstep::exact(text).unwrap(), &()); // 134 digits
+//! let motion = Motion::new(Kepler, UnitMasses, [number("0.4"), number("0")], [number("0"), number("2")])?;
 //!
-//! let verlet = Stepper::with_context(tables::shipped("stormer-verlet").unwrap(), "1/40", &digits)?;
+//! let verlet = Stepper::new(tables::shipped("stormer-verlet").unwrap(), "1/40")?;
 //! let found = energy_drift(&verlet, motion, 400, &Central::fixed(20))?;
 //! assert!(found.drift.to_f64() < 1e-9); // the energy itself changes by 1e-3
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -67,13 +65,12 @@
 //! | [`step_size`], [`stepper`] | a scheme with its step size: what loops, runs and the monitor take |
 //! | [`shadow`] | estimators of the modified energy, and [a monitor](shadow::ShadowEnergy) for loops |
 //! | [`run`] | trajectories with the states that an estimator needs on both sides, and the energy drift |
-//! | `exact_flow` | states of the exact flow of a few problems, to see an estimator's own error (feature `mpfr`) |
+//! | `exact_flow` | states of the exact flow of a few problems, to see an estimator's own error |
 
 // generated code refers to `::shadowstep`, in this crate too
 extern crate self as shadowstep;
 
 mod coordinates;
-#[cfg(feature = "mpfr")]
 pub mod exact_flow;
 pub mod formula;
 pub mod instructions;

@@ -8,12 +8,13 @@ mod lanes;
 mod limbs;
 #[cfg(feature = "mpfr")]
 mod multiprecision;
-#[cfg(feature = "mpfr")]
+mod precision;
+mod reference;
 mod rounded;
+pub(crate) mod value;
 
-#[cfg(feature = "mpfr")]
-pub use multiprecision::{Precision, PrecisionError};
-#[cfg(feature = "mpfr")]
+pub use precision::{Precision, PrecisionError};
+pub use reference::Reference;
 pub use rounded::Rounded;
 
 /// Numbers of a fixed number of 64-bit limbs: [`shadowstep_limbs`].

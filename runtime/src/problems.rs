@@ -43,8 +43,7 @@ use std::collections::BTreeMap;
 use shadowstep_symbolic::{Budget, Exact, evaluate_within, parse, suggestion};
 
 use crate::Rational;
-#[cfg(feature = "mpfr")]
-use crate::exact_flow::solution::Solver;
+use crate::exact_flow::solver::Solver;
 use crate::kinetic::{Kinetic, Quadratic};
 use crate::motion::{Motion, MotionError};
 use crate::number::Number;
@@ -72,7 +71,6 @@ macro_rules! registry {
             }
 
             /// How its exact flow is computed, where a solution is known.
-            #[cfg(feature = "mpfr")]
             pub(crate) const fn exact_flow(self) -> Option<Solver> {
                 match self { $(Problem::$Name => <$module::Entry as Definition>::EXACT_FLOW,)+ }
             }

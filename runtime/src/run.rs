@@ -22,7 +22,6 @@ pub use error::{NotFinite, Quantity, RunError};
 pub(crate) use error::{check_energy, check_precision, check_value};
 pub use permanent::{Finding, LowErrorStates, PermanentChange};
 pub use shadow_run::{Estimated, ShadowRun};
-#[cfg(feature = "mpfr")]
 pub(crate) use state::last;
 pub use state::{State, States};
 pub use trajectory::Trajectory;

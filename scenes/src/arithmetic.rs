@@ -1,8 +1,10 @@
 //! The number type of a run and its digits: the list of number types, and the one place that dispatches on them.
 
 use num_traits::Zero;
-use shadowstep::number::{Float, Precision, Rounded};
-use shadowstep::{Rational, number::PrecisionError};
+use shadowstep::Rational;
+#[cfg(feature = "mpfr")]
+use shadowstep::number::Float;
+use shadowstep::number::{Limbs, Precision, PrecisionError, Rounded};
 use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_symbolic::Exact;
@@ -57,8 +59,8 @@ macro_rules! number_types {
         #[derive(Clone, Copy, Debug)]
         pub enum Arithmetic {
             $($(#[$doc])* $Name,)+
-            /// Decimal digits, and the precision in bits that has them: [`Float`].
-            Digits(u32, Precision),
+            /// Decimal digits, and the numbers that have them.
+            Digits(u32, Digits),
         }
 
         impl Arithmetic {
@@ -88,7 +90,7 @@ macro_rules! number_types {
             pub fn compute<C: Computation>(self, computation: C) -> C::Output {
                 match self {
                     $(Arithmetic::$Name => computation.compute::<$number>(&Default::default()),)+
-                    Arithmetic::Digits(_, precision) => computation.compute::<Float>(&precision),
+                    Arithmetic::Digits(_, digits) => digits.compute(computation),
                 }
             }
 
@@ -126,6 +128,37 @@ number_types! {
     Compensated: f64, "compensated", "double precision, compensated sums", 16;
 }
 
+/// Numbers of many digits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Digits {
+    /// So many limbs of 64 bits: [`Limbs`].
+    Limbs(usize),
+    /// MPFR's numbers: `Float`.
+    #[cfg(feature = "mpfr")]
+    Mpfr(Precision),
+}
+
+/// Makes the list of the numbers of limbs, and what dispatches on them.
+macro_rules! limbs {
+    ($($count:literal)+) => {
+        /// The numbers of limbs of 64 bits that runs can have. With every one from 2 to 16 the program would take twice as long to build.
+        pub const LIMBS: [usize; [$($count),+].len()] = [$($count),+];
+
+        impl Digits {
+            fn compute<C: Computation>(self, computation: C) -> C::Output {
+                match self {
+                    $(Digits::Limbs($count) => computation.compute::<Limbs<$count>>(&()),)+
+                    Digits::Limbs(other) => unreachable!("{other} limbs are not in the list"),
+                    #[cfg(feature = "mpfr")]
+                    Digits::Mpfr(precision) => computation.compute::<Float>(&precision),
+                }
+            }
+        }
+    };
+}
+
+limbs! { 2 3 4 5 7 9 12 16 }
+
 /// Whether a number neither overflows nor becomes 0 in a number type.
 struct Holds<'a>(&'a Rational);
 
@@ -158,12 +191,44 @@ impl Arithmetic {
         matches!(self, Arithmetic::Compensated)
     }
 
-    /// Multiprecision numbers with this many decimal digits.
+    /// Numbers with this many decimal digits: of the fewest [`LIMBS`] that have them, beyond 307 digits MPFR's.
     ///
     /// # Errors
-    /// More digits than MPFR has.
-    pub fn with_digits(digits: u32) -> Result<Self, PrecisionError> {
-        Ok(Arithmetic::Digits(digits, Precision::digits(digits)?))
+    /// More digits than MPFR has, or than 307 without the feature `mpfr`.
+    pub fn with_digits(digits: u32) -> Result<Self, DigitsError> {
+        let precision = Precision::digits(digits)?;
+        match LIMBS.into_iter().find(|limbs| precision <= Precision::of_limbs(*limbs)) {
+            Some(limbs) => Ok(Arithmetic::Digits(digits, Digits::Limbs(limbs))),
+            None => Arithmetic::with_mpfr(digits),
+        }
+    }
+
+    /// MPFR's numbers with this many decimal digits.
+    ///
+    /// # Errors
+    /// More digits than MPFR has; always without the feature `mpfr`.
+    pub fn with_mpfr(digits: u32) -> Result<Self, DigitsError> {
+        let precision = Precision::digits(digits)?;
+        #[cfg(feature = "mpfr")]
+        return Ok(Arithmetic::Digits(digits, Digits::Mpfr(precision)));
+        #[cfg(not(feature = "mpfr"))]
+        Err(DigitsError::NeedsMpfr(precision.in_digits()))
+    }
+
+    /// [`with_mpfr`](Arithmetic::with_mpfr) if `mpfr` is true, else [`with_digits`](Arithmetic::with_digits).
+    ///
+    /// # Errors
+    /// As these.
+    pub fn of_digits(digits: u32, mpfr: bool) -> Result<Self, DigitsError> {
+        if mpfr { Arithmetic::with_mpfr(digits) } else { Arithmetic::with_digits(digits) }
+    }
+
+    /// The number of limbs of 64 bits; `None` of other number types.
+    pub fn limbs(self) -> Option<usize> {
+        match self {
+            Arithmetic::Digits(_, Digits::Limbs(limbs)) => Some(limbs),
+            _ => None,
+        }
     }
 
     /// Whether a value neither overflows nor becomes 0.
@@ -214,6 +279,20 @@ impl Arithmetic {
         let held = order.digits.filter(|held| !closed_forms && *held < digits);
         Ok(held.map(|digits| Note::OrderHoldsTo { scheme: name.clone(), order: order.order, digits }))
     }
+}
+
+/// Digits that numbers cannot have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum DigitsError {
+    /// No number type has them.
+    #[error(transparent)]
+    Precision(#[from] PrecisionError),
+    /// MPFR has them.
+    #[error(
+        "{0} digits need MPFR, which this program was built without; it has up to {most} digits",
+        most = Precision::of_limbs(LIMBS[LIMBS.len() - 1]).in_digits()
+    )]
+    NeedsMpfr(u32),
 }
 
 /// A run with more digits than a scheme's weights have.

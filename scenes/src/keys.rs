@@ -41,7 +41,7 @@ pub const SECTIONS: [Section; 8] = [
 ];
 
 /// All keys, section by section.
-pub const KEYS: [Key; 38] = [
+pub const KEYS: [Key; 39] = [
     key(
         "problem",
         "name",
@@ -176,6 +176,13 @@ pub const KEYS: [Key; 38] = [
          positions and momenta are sums with remainders: less round-off in long runs, for up to half more time.",
         "120",
         Some("120"),
+    ),
+    key(
+        "run",
+        "mpfr",
+        "MPFR's numbers, also for up to 307 digits, for which numbers of some limbs of 64 bits take less time.",
+        "true",
+        Some("false"),
     ),
     key(
         "output",

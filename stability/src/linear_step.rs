@@ -2,25 +2,27 @@
 
 use num_traits::{One, Zero};
 use shadowstep::Rational;
-use shadowstep::number::{Float, Number, Precision};
+use shadowstep::number::{Limbs, Number};
 use shadowstep::tables::TableScheme;
 use shadowstep_schemes::map::MapKind;
 
-/// The matrix of a step with ω = 1 at 100 digits: q ← aq + bp, p ← cq + dp.
+/// 115 digits.
+type Digits = Limbs<6>;
+
+/// The matrix of a step with ω = 1 at 115 digits: q ← aq + bp, p ← cq + dp.
 pub(crate) struct LinearStep {
-    a: Float,
-    b: Float,
-    c: Float,
-    d: Float,
+    a: Digits,
+    b: Digits,
+    c: Digits,
+    d: Digits,
 }
 
 impl LinearStep {
     pub(crate) fn of(scheme: &TableScheme, h: &Rational) -> LinearStep {
-        let precision = Precision::digits(100).expect("MPFR has them");
-        let [one, zero] = [Rational::one(), Rational::zero()].map(|value| Float::from_rational(&value, &precision));
-        let mut matrix = LinearStep { a: one.clone(), b: zero.clone(), c: zero, d: one };
+        let [one, zero] = [Rational::one(), Rational::zero()].map(|value| Digits::from_rational(&value, &()));
+        let mut matrix = LinearStep { a: one, b: zero, c: zero, d: one };
         for map in scheme.proved().scheme.maps() {
-            let weight = Float::from_rational(&(h * &map.weight), &precision);
+            let weight = Digits::from_rational(&(h * &map.weight), &());
             let LinearStep { a, b, c, d } = &mut matrix;
             match map.kind {
                 MapKind::Kick => {
@@ -38,11 +40,11 @@ impl LinearStep {
 
     /// arcosh(|tr|/2), 0 if it is stable.
     pub(crate) fn growth(&self) -> f64 {
-        let mut half = self.a.clone();
+        let mut half = self.a;
         Number::add(&mut half, &self.d);
         half.divide_integer(2);
         half.make_absolute();
-        let one = Float::from_rational(&Rational::one(), &half.context());
+        let one = Digits::from_rational(&Rational::one(), &());
         Number::subtract(&mut half, &one);
         // arcosh(1 + x) = 2 arsinh √(x/2)
         let x = half.to_f64();
@@ -56,13 +58,13 @@ impl LinearStep {
 
     /// c q² + (d − a) q p − b p², which the step conserves, with the sign that makes it positive where the step is stable.
     pub(crate) fn invariant(&self, q: f64, p: f64) -> f64 {
-        let [a, b, c, d] = [&self.a, &self.b, &self.c, &self.d].map(Float::to_f64);
+        let [a, b, c, d] = [&self.a, &self.b, &self.c, &self.d].map(|entry| entry.to_f64());
         (c * q * q + (d - a) * q * p - b * p * p) * -b.signum()
     }
 
     /// The largest |q| of the ellipse of the invariant through (1, 0).
     pub(crate) fn largest(&self) -> f64 {
-        let [a, b, c, d] = [&self.a, &self.b, &self.c, &self.d].map(Float::to_f64);
+        let [a, b, c, d] = [&self.a, &self.b, &self.c, &self.d].map(|entry| entry.to_f64());
         let middle = d - a;
         (4.0 * b * c / (4.0 * b * c + middle * middle)).abs().sqrt()
     }

@@ -4,10 +4,9 @@
 use std::time::{Duration, Instant};
 
 use num_traits::ToPrimitive;
-use rug::Float;
 use serde::{Deserialize, Serialize};
 use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
-use shadowstep::number::{Precision, Rounded};
+use shadowstep::number::Rounded;
 use shadowstep::run::States;
 use shadowstep::{Ordered, StepSize};
 use shadowstep_scenes::Error;
@@ -150,26 +149,43 @@ impl Computation for Texts<'_> {
     }
 }
 
-fn of_exact_flow(problem: Problem<'_>, samples: u64) -> Result<Reference, Error> {
-    let setup = problem.system.setup().expect("the caller has checked it");
-    let digits = problem.arithmetic.digits() + MORE_DIGITS;
-    let precision = Precision::digits(digits).map_err(|error| Error::usage(error.to_string(), "use fewer digits"))?;
-    let h = StepSize::try_from(&problem.step_size(samples)).expect("the run has a nonzero length");
-    let failed =
-        |error: String| Error::run(format!("the exact flow cannot be followed: {error}"), "use a shorter time");
-    let mut flow =
-        ExactFlow::<Float>::new(&setup, &h, samples, 0, &precision).map_err(|error| failed(error.to_string()))?;
-    let mut positions = Vec::new();
-    while let Some(state) = flow.advance().map_err(|error| failed(error.to_string()))? {
-        if state.n > 0 {
-            positions.push(state.q.iter().map(Ordered::to_text).collect());
-        }
-    }
-    let errors = vec![Size::ZERO; positions.len()];
-    Ok(Reference { positions, errors, origin: Origin::ExactFlow })
+/// The number type with some digits more than that of the runs.
+fn precise(digits: u32) -> Result<Arithmetic, Error> {
+    Arithmetic::with_digits(digits).map_err(|error| Error::usage(error.to_string(), "use fewer digits"))
 }
 
-/// Halves the step until the error is below the round-off of the schemes' runs, or the time is over.
+fn of_exact_flow(problem: Problem<'_>, samples: u64) -> Result<Reference, Error> {
+    let positions = precise(problem.arithmetic.digits() + MORE_DIGITS)?.compute(ExactTexts { problem, samples })?;
+    Ok(Reference { errors: vec![Size::ZERO; positions.len()], positions, origin: Origin::ExactFlow })
+}
+
+/// The positions of the exact flow as texts.
+struct ExactTexts<'a> {
+    problem: Problem<'a>,
+    samples: u64,
+}
+
+impl Computation for ExactTexts<'_> {
+    type Output = Result<Vec<Vec<String>>, Error>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+        let ExactTexts { problem, samples } = self;
+        let setup = problem.system.setup().expect("the caller has checked it");
+        let h = StepSize::try_from(&problem.step_size(samples)).expect("the run has a nonzero length");
+        let failed =
+            |error: String| Error::run(format!("the exact flow cannot be followed: {error}"), "use a shorter time");
+        let mut flow =
+            ExactFlow::<N>::new(&setup, &h, samples, 0, context).map_err(|error| failed(error.to_string()))?;
+        let mut positions = Vec::new();
+        while let Some(state) = flow.advance().map_err(|error| failed(error.to_string()))? {
+            if state.n > 0 {
+                positions.push(state.q.iter().map(Ordered::to_text).collect());
+            }
+        }
+        Ok(positions)
+    }
+}
+
 fn of_scheme(
     problem: Problem<'_>,
     samples: u64,
@@ -185,38 +201,58 @@ fn of_scheme(
             format!("use --digits {most} or less, or a problem whose exact flow is known"),
         ));
     }
-    let precision = Precision::digits(digits).map_err(|error| Error::usage(error.to_string(), "use fewer digits"))?;
-    let precise = Problem { arithmetic: Arithmetic::Digits(digits, precision), ..problem };
-    let named = scheme(SCHEME)?;
-    let begin = Instant::now();
-    let mut steps = first_steps(problem, samples);
-    let (mut last, mut last_difference): (Option<Vec<Vec<Float>>>, f64) = (None, f64::INFINITY);
-    let mut best: Option<Reference> = None;
-    while continues() {
-        let found = positions::<Float>(precise, &named, (steps, samples), &precision)?;
-        if let Some(before) = last.filter(|before| before.len() == found.len() && found.len() as u64 == samples) {
-            let differences = distances(&before, &found, &precision);
-            let difference = differences.iter().map(|size| size.log10()).fold(f64::NEG_INFINITY, f64::max);
-            let shows_order = last_difference - difference >= GAIN.log10();
-            let gain = if shows_order { GAIN.log10() } else { 0.0 };
-            let errors = differences.iter().map(|size| size.times_power_of_ten(-gain)).collect();
-            let target = largest(&found) - f64::from(problem.arithmetic.digits() + 2);
-            let texts = |position: &Vec<Float>| position.iter().map(Ordered::to_text).collect();
-            let origin = Origin::Scheme { name: SCHEME.to_owned(), steps, digits };
-            best = Some(Reference { positions: found.iter().map(texts).collect(), errors, origin });
-            if difference - gain <= target {
+    let arithmetic = precise(digits)?;
+    let (target, named) = (f64::from(problem.arithmetic.digits() + 2), scheme(SCHEME)?);
+    let problem = Problem { arithmetic, ..problem };
+    arithmetic.compute(ByHalving { problem, named, digits, target, samples, time, continues })
+}
+
+/// Halves the step until the error is below the round-off of the schemes' runs, or the time is over.
+struct ByHalving<'a> {
+    problem: Problem<'a>,
+    named: NamedScheme,
+    digits: u32,
+    /// The error is to be below the largest coordinate by so many digits.
+    target: f64,
+    samples: u64,
+    time: Duration,
+    continues: &'a dyn Fn() -> bool,
+}
+
+impl Computation for ByHalving<'_> {
+    type Output = Result<Reference, Error>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+        let ByHalving { problem, named, digits, target, samples, time, continues } = self;
+        let begin = Instant::now();
+        let mut steps = first_steps(problem, samples);
+        let (mut last, mut last_difference): (Option<Vec<Vec<N>>>, f64) = (None, f64::INFINITY);
+        let mut best: Option<Reference> = None;
+        while continues() {
+            let found = positions::<N>(problem, &named, (steps, samples), context)?;
+            if let Some(before) = last.filter(|before| before.len() == found.len() && found.len() as u64 == samples) {
+                let differences = distances(&before, &found, context);
+                let difference = differences.iter().map(|size| size.log10()).fold(f64::NEG_INFINITY, f64::max);
+                let shows_order = last_difference - difference >= GAIN.log10();
+                let gain = if shows_order { GAIN.log10() } else { 0.0 };
+                let errors = differences.iter().map(|size| size.times_power_of_ten(-gain)).collect();
+                let texts = |position: &Vec<N>| position.iter().map(Ordered::to_text).collect();
+                let origin = Origin::Scheme { name: SCHEME.to_owned(), steps, digits };
+                best = Some(Reference { positions: found.iter().map(texts).collect(), errors, origin });
+                if difference - gain <= largest(&found) - target {
+                    break;
+                }
+                last_difference = difference;
+            }
+            // the next one takes twice as long as this
+            if best.is_some() && begin.elapsed() * 2 > time || begin.elapsed() > time * 4 {
                 break;
             }
-            last_difference = difference;
+            last = Some(found);
+            steps *= 2;
         }
-        // the next one takes twice as long as this
-        if best.is_some() && begin.elapsed() * 2 > time || begin.elapsed() > time * 4 {
-            break;
-        }
-        last = Some(found);
-        steps *= 2;
+        best.ok_or_else(|| Error::run("there is no reference: its states are not finite", "use a shorter time"))
     }
-    best.ok_or_else(|| Error::run("there is no reference: its states are not finite", "use a shorter time"))
 }
 
 /// So many steps that the fastest oscillation turns by about a radian in each.
@@ -240,12 +276,17 @@ fn positions<N: Ordered + 'static>(
 }
 
 /// |a − b| of each sample.
-fn distances(a: &[Vec<Float>], b: &[Vec<Float>], precision: &Precision) -> Vec<Size> {
-    let distance = |(a, b): (&Vec<Float>, &Vec<Float>)| Size::of(&square_distance(a, b, precision).sqrt());
+fn distances<N: Ordered>(a: &[Vec<N>], b: &[Vec<N>], context: &N::Context) -> Vec<Size> {
+    let distance = |(a, b): (&Vec<N>, &Vec<N>)| {
+        let square = square_distance(a, b, context);
+        let mut distance = square.clone();
+        distance.assign_sqrt(&square);
+        Size::of(&distance)
+    };
     a.iter().zip(b).map(distance).collect()
 }
 
 /// log₁₀ of the largest coordinate.
-fn largest(positions: &[Vec<Float>]) -> f64 {
+fn largest<N: Ordered>(positions: &[Vec<N>]) -> f64 {
     positions.iter().flatten().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max)
 }

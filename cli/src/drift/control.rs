@@ -5,7 +5,7 @@
 //! takes twice that time.
 
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use shadowstep::Rational;
 use shadowstep::StepSize;
@@ -22,6 +22,7 @@ use shadowstep_scenes::run::Run;
 
 use super::measure::measure;
 use super::record::{Control, Permanent};
+use crate::cpu_time::CpuTime;
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use crate::report;
@@ -101,7 +102,7 @@ fn expected<N: Rounded>(setup: &Setup, run: Run<'_>, context: &N::Context) -> Op
     let h = StepSize::try_from(run.h).ok()?;
     let mut flow = ExactFlow::<N>::new(setup, &h, run.steps, 0, context).ok()?;
     flow.advance().ok()?;
-    let begin = Instant::now();
+    let begin = CpuTime::begin();
     for _ in 0..SAMPLE {
         flow.advance().ok()?;
     }
@@ -117,7 +118,7 @@ fn control<N: Rounded + 'static>(
     (progress, interrupt): (&Progress, &Interrupt),
 ) -> Found {
     progress.restart(format!("on the exact flow, step {}", shortened(estimates.run.h, 20)));
-    let begin = Instant::now();
+    let begin = CpuTime::begin();
     let (steps, mut expected) = (estimates.run.steps as f64, None);
     let found = measure::<N>(estimates, context, |n| {
         progress.reach(n);
@@ -130,7 +131,8 @@ fn control<N: Rounded + 'static>(
     });
     match (found, expected) {
         (Ok((found, _)), _) => {
-            Found::Estimates(Control { drift: found.drift.to_text(), permanent_change: Permanent::of(&found) })
+            let (drift, permanent_change) = (found.drift.to_text(), Permanent::of(&found));
+            Found::Estimates(Control { drift, permanent_change, seconds: begin.elapsed().as_secs_f64() })
         }
         (Err(_), Some(expected)) => left_out(expected, seconds),
         (Err(error), None) => {

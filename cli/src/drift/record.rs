@@ -62,6 +62,7 @@ pub(super) struct Cost {
     /// Without those for the states that only the estimator needs.
     pub(super) own_force_evaluations: u64,
     pub(super) force_evaluations: u64,
+    /// CPU time of the run.
     pub(super) seconds: f64,
 }
 
@@ -85,6 +86,8 @@ pub(super) struct Permanent {
 pub(super) struct Control {
     pub(super) drift: String,
     pub(super) permanent_change: Option<Permanent>,
+    /// CPU time.
+    pub(super) seconds: f64,
 }
 
 impl Permanent {

@@ -19,7 +19,7 @@ const DIGITS: usize = 3;
 type Row = [String; 8];
 
 const COLUMNS: [&str; 8] =
-    ["step", "error\nof H", "energy\ndrift", "on exact\nflow", "permanent\nchange", "", "forces", "seconds"];
+    ["step", "error\nof H", "energy\ndrift", "on exact\nflow", "permanent\nchange", "", "forces", "seconds\n+ control"];
 /// Of the columns, that of the control, of the permanent change and of the order.
 const CONTROL: usize = 3;
 const PERMANENT: usize = 4;
@@ -39,6 +39,10 @@ fn row(run: Run<'_>, record: &Record) -> Row {
         (None, Some(_)) => LEFT_OUT.to_owned(),
         (None, None) => String::new(),
     };
+    let mut seconds = format!("{:.3}", record.cost.seconds);
+    if let Some(control) = &record.control {
+        seconds += &format!(" + {:.3}", control.seconds);
+    }
     [
         shortened(run.h, 12),
         error.unwrap_or_default(),
@@ -47,7 +51,7 @@ fn row(run: Run<'_>, record: &Record) -> Row {
         record.permanent_change.as_ref().map_or(NOT_RELIABLE.to_owned(), Permanent::shown),
         orders,
         record.cost.own_force_evaluations.to_string(),
-        format!("{:.3}", record.cost.seconds),
+        seconds,
     ]
 }
 

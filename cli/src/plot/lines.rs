@@ -126,7 +126,7 @@ fn distance(of: &Distance, state: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use shadowstep::exact;
-    use shadowstep::number::{Float, Number, Precision};
+    use shadowstep::number::{Limbs, Number};
     use shadowstep::problems::problem;
     use shadowstep_scenes::System;
 
@@ -137,8 +137,8 @@ mod tests {
         let system = System::of_setup(problem("kepler").unwrap().setup(&[], 50).unwrap());
         let picture = |text: &str| Picture::read(text, &system).unwrap();
         let pictures = ["energies", "orbit=y:x", "distance"].map(picture);
-        let mut run = RunLines::<Float>::new("run".to_owned(), 2, &pictures);
-        let number = |text: &str| Float::from_rational(&exact(text).unwrap(), &Precision::digits(50).unwrap());
+        let mut run = RunLines::<Limbs<3>>::new("run".to_owned(), 2, &pictures);
+        let number = |text: &str| Limbs::<3>::from_rational(&exact(text).unwrap(), &());
         let (error, energies) = (number("1e-40"), ["1", "1", "1 - 1e-45"].map(number));
         for (n, energy) in (0..).zip(&energies) {
             let (t, state) = (n as f64 / 4.0, [3.0, 4.0 * n as f64, 0.0, 0.0]);

@@ -1,12 +1,12 @@
-//! What a problem provides for its exact flow: a solution of its equations of motion, computed with MPFR.
+//! What a problem provides for its exact flow: a solution of its equations of motion.
 
 use std::fmt;
 
-use rug::Float;
 use thiserror::Error;
 
 use crate::Rational;
-use crate::number::{Ordered, Precision};
+use crate::number::value::Value;
+use crate::number::{Ordered, Reference};
 use crate::problems::values::Values;
 use crate::shadow::EstimatorError;
 
@@ -38,6 +38,12 @@ pub enum ExactFlowError {
         /// The largest number of additional bits that is allowed.
         most: u64,
     },
+    /// More digits are needed than numbers of a fixed number of limbs have.
+    #[error("the exact flow from this initial state to this time needs {bits} bits: build with the feature `mpfr`")]
+    NeedsMpfr {
+        /// The bits needed.
+        bits: u32,
+    },
     /// The settings of the estimator are not valid.
     #[error(transparent)]
     Estimator(#[from] EstimatorError),
@@ -45,43 +51,34 @@ pub enum ExactFlowError {
 
 /// q and p at a time, and β since t = 0.
 #[derive(Clone, Debug)]
-pub(crate) struct Point {
-    pub(crate) q: Vec<Float>,
-    pub(crate) p: Vec<Float>,
-    pub(crate) beta: Float,
+pub(crate) struct Point<R> {
+    pub(crate) q: Vec<Value<R>>,
+    pub(crate) p: Vec<Value<R>>,
+    pub(crate) beta: Value<R>,
 }
 
-/// A solution of the equations of motion from the initial state of a problem.
-pub(crate) trait Solution: fmt::Debug {
+/// A solution of the equations of motion from the initial state of a problem, in numbers of type R.
+pub(crate) trait Solution<R>: fmt::Debug {
+    /// The point at t = n h; fastest for consecutive n.
+    fn at(&mut self, n: i64) -> Point<R>;
+}
+
+/// A method that solves the equations of motion of a problem.
+pub(crate) trait Method {
+    /// What it makes.
+    type Solution<R: Reference>: Solution<R> + 'static;
+
     /// Refuses initial states that the solution does not cover.
-    fn check(values: &Values) -> Result<(), ExactFlowError>
-    where
-        Self: Sized,
-    {
+    fn check(values: &Values) -> Result<(), ExactFlowError> {
         let _ = values;
         Ok(())
     }
 
-    /// The solution at the times and with the digits that are requested.
-    fn new(request: &Request<'_>) -> Result<Self, ExactFlowError>
-    where
-        Self: Sized;
+    /// The bits to compute with; `rough` makes numbers with which sizes are estimated.
+    fn bits<R: Reference>(request: &Request<'_>, rough: &R::Context) -> Result<u32, ExactFlowError>;
 
-    /// The point at t = n h; fastest for consecutive n.
-    fn at(&mut self, n: i64) -> Point;
-}
-
-/// A type of [`Solution`], as the definition of a problem names it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Solver {
-    pub(super) check: fn(&Values) -> Result<(), ExactFlowError>,
-    pub(super) solve: fn(&Request<'_>) -> Result<Box<dyn Solution>, ExactFlowError>,
-}
-
-impl Solver {
-    pub(crate) const fn of<S: Solution + 'static>() -> Self {
-        Solver { check: S::check, solve: |request| Ok(Box::new(S::new(request)?)) }
-    }
+    /// The solution, computed with numbers of the context.
+    fn solve<R: Reference>(request: &Request<'_>, context: R::Context) -> Self::Solution<R>;
 }
 
 /// The initial values, times and digits for which a solution is made.
@@ -95,23 +92,16 @@ pub(crate) struct Request<'a> {
 }
 
 impl Request<'_> {
-    /// The precision to compute with, if errors grow by a factor of 2^`growth`, of which `most` is allowed.
-    pub(crate) fn precision(&self, growth: f64, most: u32) -> Result<Precision, ExactFlowError> {
-        let too_many = || ExactFlowError::TooSensitive { bits: growth.ceil() as u64, most: u64::from(most) };
+    /// The bits to compute with, if errors grow by a factor of 2^`growth`, of which `most` is allowed.
+    pub(crate) fn bits(&self, growth: f64, most: u32) -> Result<u32, ExactFlowError> {
         if growth > f64::from(most) {
-            return Err(too_many());
+            return Err(ExactFlowError::TooSensitive { bits: growth.ceil() as u64, most: u64::from(most) });
         }
-        let bits = f64::from(self.bits) + GUARD_BITS + growth.max(0.0).ceil();
-        Precision::bits(bits as u32).map_err(|_| too_many())
-    }
-
-    /// The precision at which sizes are estimated, on which the final precision depends.
-    pub(crate) fn rough(&self) -> Result<Precision, ExactFlowError> {
-        self.precision(f64::from(self.bits), u32::MAX)
+        Ok((f64::from(self.bits) + GUARD_BITS + growth.max(0.0).ceil()) as u32)
     }
 }
 
 /// log₂|x|, −∞ for 0.
-pub(crate) fn log2(x: &Float) -> f64 {
+pub(crate) fn log2(x: &impl Ordered) -> f64 {
     x.log10_abs() * std::f64::consts::LOG2_10
 }

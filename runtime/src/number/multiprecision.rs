@@ -1,76 +1,14 @@
-//! MPFR's numbers, [`rug::Float`], as a [`Number`], and their precision.
+//! MPFR's numbers, [`rug::Float`], as a [`Number`].
 
-use super::{Number, Ordered};
+use super::{Number, Ordered, Precision};
 use crate::Rational;
 use num_bigint::BigInt;
 use num_traits::Signed;
 use rug::float::{self, Special};
 use rug::integer::Order;
 use rug::{Assign, Float, Integer};
-use std::f64::consts::{LOG2_10, LOG10_2};
-use thiserror::Error;
-
-/// The precision of an MPFR number.
-///
-/// `n` decimal digits are ⌈n log₂10⌉ + 1 bits, so that any text of `n` digits survives being
-/// read and printed:
-///
-/// ```
-/// use shadowstep::number::Precision;
-///
-/// let precision = Precision::digits(120)?;
-/// assert_eq!(precision.in_bits(), 400);
-/// assert_eq!(precision.in_digits(), 120);
-/// # Ok::<(), shadowstep::number::PrecisionError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Precision {
-    bits: u32,
-}
-
-/// A precision out of range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-pub enum PrecisionError {
-    /// in decimal digits
-    #[error("the precision is {0} digits, but has to be from {least} to {most}",
-        least = Precision::LEAST.in_digits(), most = Precision::MOST.in_digits())]
-    Digits(u32),
-    /// in bits
-    #[error("the precision is {0} bits, but has to be from {least} to {most}",
-        least = Precision::LEAST.bits, most = Precision::MOST.bits)]
-    Bits(u32),
-}
-
-impl Precision {
-    const LEAST: Precision = Precision { bits: 5 };
-    const MOST: Precision = Precision { bits: 3_321_930 };
-
-    /// The precision for this many decimal digits, from 1 to 1 000 000.
-    pub fn digits(digits: u32) -> Result<Precision, PrecisionError> {
-        let bits = (f64::from(digits) * LOG2_10).ceil() as u32; // `as` saturates: no overflow
-        Precision::bits(bits.saturating_add(1)).map_err(|_| PrecisionError::Digits(digits))
-    }
-
-    /// The precision of this many bits, from 5 (1 digit) to 3 321 930 (1 000 000 digits).
-    pub fn bits(bits: u32) -> Result<Precision, PrecisionError> {
-        let precision = Precision { bits };
-        if (Precision::LEAST..=Precision::MOST).contains(&precision) {
-            Ok(precision)
-        } else {
-            Err(PrecisionError::Bits(bits))
-        }
-    }
-
-    /// The size of the significand in bits.
-    pub fn in_bits(self) -> u32 {
-        self.bits
-    }
-
-    /// How many decimal digits of a text survive: ⌊(bits − 1) log₁₀2⌋.
-    pub fn in_digits(self) -> u32 {
-        (f64::from(self.bits - 1) * LOG10_2) as u32
-    }
-}
+use shadowstep_limbs::Limbs;
+use std::f64::consts::LOG10_2;
 
 impl Number for Float {
     type Context = Precision;
@@ -81,16 +19,16 @@ impl Number for Float {
     }
 
     fn zero(precision: &Precision) -> Float {
-        Float::new(precision.bits)
+        Float::new(precision.in_bits())
     }
 
     fn from_rational(value: &Rational, precision: &Precision) -> Float {
         let exact = rug::Rational::from((integer(value.numer()), integer(value.denom())));
-        Float::with_val(precision.bits, exact)
+        Float::with_val(precision.in_bits(), exact)
     }
 
     fn context(&self) -> Precision {
-        Precision { bits: self.prec() }
+        Precision::of_bits(self.prec())
     }
 
     fn assign_zero(&mut self) {
@@ -279,6 +217,29 @@ impl Ordered for Float {
     }
 }
 
+/// target ← the number nearest to a
+pub(super) fn assign_limbs<const L: usize>(target: &mut Float, a: &Limbs<L>) {
+    match a.exponent() {
+        Some(exponent) => {
+            let magnitude = Integer::from_digits(a.mantissa(), Order::Lsf);
+            Assign::assign(target, if a.is_sign_negative() { -magnitude } else { magnitude });
+            *target <<= exponent - Limbs::<L>::BITS as i32;
+        }
+        None => Assign::assign(target, a.to_f64()),
+    }
+}
+
+/// The number of L limbs nearest to a.
+pub(super) fn to_limbs<const L: usize>(a: &Float) -> Limbs<L> {
+    match a.to_integer_exp() {
+        Some((integer, exponent)) => {
+            let magnitude: Vec<u64> = integer.to_digits(Order::Lsf);
+            Limbs::from_magnitude(a.is_sign_negative(), &magnitude, exponent.into(), false)
+        }
+        None => Limbs::from(a.to_f64()),
+    }
+}
+
 fn integer(value: &BigInt) -> Integer {
     let magnitude = Integer::from_digits(&value.magnitude().to_u64_digits(), Order::Lsf);
     if value.is_negative() { -magnitude } else { magnitude }
@@ -305,7 +266,7 @@ fn decimal(value: &Float, digits: u32) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::tests::{functions, operations, products};
-    use super::{Number, Ordered, Precision, PrecisionError};
+    use super::{Number, Ordered, Precision};
     use crate::Rational;
     use num_bigint::BigInt;
     use proptest::prelude::*;
@@ -318,30 +279,6 @@ mod tests {
 
     fn integer(n: i128) -> Rational {
         BigInt::from(n).into()
-    }
-
-    #[test]
-    fn bits_for_digits() {
-        for (digits, bits) in [(1, 5), (15, 51), (16, 55), (34, 114), (120, 400), (1000, 3323), (1_000_000, 3_321_930)]
-        {
-            let precision = Precision::digits(digits).unwrap();
-            assert_eq!(precision.in_bits(), bits);
-            assert_eq!(precision.in_digits(), digits);
-            assert_eq!(Precision::bits(bits), Ok(precision));
-        }
-        assert_eq!(Precision::bits(53).unwrap().in_digits(), 15);
-    }
-
-    #[test]
-    fn precision_out_of_range() {
-        for digits in [0, 1_000_001, u32::MAX] {
-            assert_eq!(Precision::digits(digits), Err(PrecisionError::Digits(digits)));
-        }
-        for bits in [0, 4, 3_321_931, u32::MAX] {
-            assert_eq!(Precision::bits(bits), Err(PrecisionError::Bits(bits)));
-        }
-        assert_eq!(PrecisionError::Digits(0).to_string(), "the precision is 0 digits, but has to be from 1 to 1000000");
-        assert_eq!(PrecisionError::Bits(4).to_string(), "the precision is 4 bits, but has to be from 5 to 3321930");
     }
 
     proptest! {

@@ -1,34 +1,43 @@
-//! Numbers that an MPFR number of more digits is rounded to.
+//! Numbers that a number of more digits is rounded to.
 
-use rug::{Assign, Float};
+use super::{Limbs, Ordered, Precision, Reference};
 
-use super::{Ordered, Precision};
-
-/// A number that takes an MPFR number of any precision with one rounding.
+/// A number that takes a number of any precision with one rounding.
 pub trait Rounded: Ordered {
     /// The precision of the numbers of a context.
     fn precision(context: &Self::Context) -> Precision;
 
     /// x ← the number nearest to a
-    fn assign_rounded(&mut self, a: &Float);
+    fn assign_rounded(&mut self, a: &impl Reference);
 }
 
 impl Rounded for f64 {
     fn precision((): &()) -> Precision {
-        Precision::bits(f64::MANTISSA_DIGITS).expect("53 bits")
+        Precision::of_bits(f64::MANTISSA_DIGITS)
     }
 
-    fn assign_rounded(&mut self, a: &Float) {
+    fn assign_rounded(&mut self, a: &impl Reference) {
         *self = a.to_f64();
     }
 }
 
-impl Rounded for Float {
+impl<const L: usize> Rounded for Limbs<L> {
+    fn precision((): &()) -> Precision {
+        Precision::of_limbs(L)
+    }
+
+    fn assign_rounded(&mut self, a: &impl Reference) {
+        *self = a.to_limbs();
+    }
+}
+
+#[cfg(feature = "mpfr")]
+impl Rounded for rug::Float {
     fn precision(context: &Precision) -> Precision {
         *context
     }
 
-    fn assign_rounded(&mut self, a: &Float) {
-        Assign::assign(self, a);
+    fn assign_rounded(&mut self, a: &impl Reference) {
+        a.round_to(self);
     }
 }

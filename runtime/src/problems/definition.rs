@@ -5,8 +5,7 @@ use num_traits::Signed;
 use super::initial::Initial;
 use super::values::Values;
 use crate::Rational;
-#[cfg(feature = "mpfr")]
-use crate::exact_flow::solution::Solver;
+use crate::exact_flow::solver::Solver;
 use crate::number::Number;
 use crate::potential::Potential;
 
@@ -16,7 +15,6 @@ pub(super) trait Definition {
     const DESCRIPTION: Description;
 
     /// How the exact flow is computed, where a solution is known.
-    #[cfg(feature = "mpfr")]
     const EXACT_FLOW: Option<Solver> = None;
 
     /// U(q) with these values of the parameters, each rounded once.

@@ -1,6 +1,5 @@
 //! The harmonic oscillator, whose modified Hamiltonian is known in closed form.
 
-#[cfg(feature = "mpfr")]
 mod exact_flow;
 
 use shadowstep_macros::potential;
@@ -8,8 +7,7 @@ use shadowstep_macros::potential;
 use super::definition::{Definition, Description, Parameter};
 use super::initial::Initial;
 use super::values::Values;
-#[cfg(feature = "mpfr")]
-use crate::exact_flow::solution::Solver;
+use crate::exact_flow::solver::Solver;
 use crate::number::Number;
 use crate::potential::Potential;
 
@@ -34,8 +32,7 @@ impl Definition for Entry {
         source: "closed form of the modified Hamiltonian of kick-drift-kick Störmer–Verlet: ½(p² + (1−x²)ω²q²)·arcsin(x)/(x√(1−x²)), x = hω/2",
     };
 
-    #[cfg(feature = "mpfr")]
-    const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::Rotation>());
+    const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::ClosedForm>());
 
     fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
         Box::new(HarmonicOscillator { omega: values.number("omega", context) })

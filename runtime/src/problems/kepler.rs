@@ -1,6 +1,5 @@
 //! Kepler's problem in the plane.
 
-#[cfg(feature = "mpfr")]
 mod exact_flow;
 
 use num_traits::{One, Signed};
@@ -10,8 +9,7 @@ use super::definition::{Definition, Description, Parameter};
 use super::initial::Initial;
 use super::values::Values;
 use crate::Rational;
-#[cfg(feature = "mpfr")]
-use crate::exact_flow::solution::Solver;
+use crate::exact_flow::solver::Solver;
 use crate::number::Number;
 use crate::potential::Potential;
 
@@ -47,8 +45,7 @@ impl Definition for Entry {
         source: "Moan & Niesen, section 5.2: e = 0.6, t in [0, 100]; H = -1/2, period 2 pi",
     };
 
-    #[cfg(feature = "mpfr")]
-    const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::Ellipse>());
+    const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::KeplersEquation>());
 
     fn potential<N: Number + 'static>(_: &Values, _: &N::Context) -> Box<dyn Potential<N>> {
         Box::new(Kepler)

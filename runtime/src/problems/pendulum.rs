@@ -1,8 +1,6 @@
 //! The mathematical pendulum.
 
-#[cfg(feature = "mpfr")]
 mod exact_flow;
-#[cfg(feature = "mpfr")]
 mod taylor;
 
 use shadowstep_macros::potential;
@@ -10,8 +8,7 @@ use shadowstep_macros::potential;
 use super::definition::{Definition, Description};
 use super::initial::Initial;
 use super::values::Values;
-#[cfg(feature = "mpfr")]
-use crate::exact_flow::solution::Solver;
+use crate::exact_flow::solver::Solver;
 use crate::number::Number;
 use crate::potential::Potential;
 
@@ -36,8 +33,7 @@ impl Definition for Entry {
         source: "Moan & Niesen, section 5.1: p(0) = 1, t in [0, 100]; p = 2 is the separatrix",
     };
 
-    #[cfg(feature = "mpfr")]
-    const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::Addition>());
+    const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::AdditionTheorems>());
 
     fn potential<N: Number + 'static>(_: &Values, _: &N::Context) -> Box<dyn Potential<N>> {
         Box::new(Pendulum)

@@ -22,7 +22,8 @@ pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Opti
         }
         Some(value) => u32::try_from(reader.whole(value, 1..=MOST_DIGITS.into())?).ok()?,
     };
-    match Arithmetic::with_digits(digits) {
+    let mpfr = run.get("mpfr").map(|value| reader.toml.truth(value));
+    match Arithmetic::of_digits(digits, mpfr.is_some_and(|mpfr| mpfr.is_some_and(|mpfr| mpfr.value))) {
         Ok(arithmetic) => Some(arithmetic),
         Err(error) => reader.toml.wrong(&run.at, error.to_string(), "write digits = 120"),
     }

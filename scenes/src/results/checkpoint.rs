@@ -205,7 +205,7 @@ fn number<N: Ordered>(text: &str, context: &N::Context) -> Option<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shadowstep::number::{Float, Number, Precision};
+    use shadowstep::number::{Limbs, Number};
 
     fn snapshot<N: Ordered>(q: &[N], p: &[N]) -> Snapshot<N> {
         Snapshot { n: 7, q: q.to_vec(), p: p.to_vec(), remainders: Remainders::default() }
@@ -213,25 +213,23 @@ mod tests {
 
     #[test]
     fn numbers_are_read_with_their_sign() {
-        let precision = Precision::digits(60).unwrap();
         for text in ["-0.0", "0.0", "0.1", "-1e-300", "5e-324", "1.7976931348623157e308"] {
             let x: f64 = text.parse().unwrap();
             let saved = SavedState::of(&snapshot(&[x], &[-x])).unwrap();
             let ((q, p), remainders) = saved.numbers::<f64>(&()).unwrap();
             assert_eq!(remainders, Remainders::default());
             assert_eq!((q[0].to_bits(), p[0].to_bits()), (x.to_bits(), (-x).to_bits()), "{text}");
-            let mut third = number::<Float>(text, &precision).unwrap();
+            let mut third = number::<Limbs<4>>(text, &()).unwrap();
             third.divide_integer(3);
-            let saved = SavedState::of(&snapshot(&[third.clone()], &[])).unwrap();
-            assert_eq!(saved.numbers::<Float>(&precision).unwrap().0.0, [third]);
+            let saved = SavedState::of(&snapshot(&[third], &[])).unwrap();
+            assert_eq!(saved.numbers::<Limbs<4>>(&()).unwrap().0.0, [third]);
         }
     }
 
     #[test]
     fn numbers_that_cannot_be_read_are_not_saved() {
-        let precision = Precision::digits(30).unwrap();
-        let mut tiny = number::<Float>("1e-9999", &precision).unwrap();
-        let same = tiny.clone();
+        let mut tiny = number::<Limbs<2>>("1e-9999", &()).unwrap();
+        let same = tiny;
         tiny.multiply(&same);
         assert!(!tiny.is_zero());
         assert_eq!(SavedState::of(&snapshot(&[tiny], &[])), None);

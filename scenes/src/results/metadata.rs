@@ -42,6 +42,8 @@ impl Metadata {
             ("scheme_order", json!(order.order)),
             ("digits", json!(scene.arithmetic.label())),
         ]);
+        // the same digits may be MPFR's, with other last places
+        all.extend(scene.arithmetic.limbs().map(|limbs| ("limbs", json!(limbs))));
         all.extend(system(&scene.system, scene.arithmetic));
         all.extend([
             ("step", json!(to_text(&scene.h))),

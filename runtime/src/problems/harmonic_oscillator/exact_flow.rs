@@ -1,41 +1,50 @@
 //! The harmonic oscillator: q = q₀ cos ωt + (p₀/ω) sin ωt, p = p₀ cos ωt − ω q₀ sin ωt. U is homogeneous of degree 2: β is 0.
 
-use rug::Float;
-
 use crate::Rational;
-use crate::exact_flow::solution::{ExactFlowError, Point, Request, Solution, log2};
-use crate::number::{Number, Precision};
+use crate::exact_flow::solution::{ExactFlowError, Method, Point, Request, Solution, log2};
+use crate::number::Reference;
+use crate::number::value::Value;
 
 /// A rotation of (ωq, p).
 #[derive(Debug)]
-pub(super) struct Rotation {
+pub(super) struct Rotation<R: Reference> {
     h: Rational,
-    precision: Precision,
-    omega: Float,
-    q: Float,
-    p: Float,
+    context: R::Context,
+    omega: Value<R>,
+    q: Value<R>,
+    p: Value<R>,
 }
 
-impl Solution for Rotation {
-    fn new(request: &Request<'_>) -> Result<Self, ExactFlowError> {
-        let omega = Float::from_rational(request.values.value("omega"), &request.rough()?);
+/// The rotation in closed form.
+#[derive(Debug)]
+pub(super) struct ClosedForm;
+
+impl Method for ClosedForm {
+    type Solution<R: Reference> = Rotation<R>;
+
+    fn bits<R: Reference>(request: &Request<'_>, rough: &R::Context) -> Result<u32, ExactFlowError> {
+        let omega = R::from_rational(request.values.value("omega"), rough);
         // the bits of the largest angle before its point
-        let precision = request.precision(log2(&omega) + request.longest.log2(), u32::MAX)?;
-        Ok(Rotation {
-            h: request.h.clone(),
-            precision,
-            omega: Float::from_rational(request.values.value("omega"), &precision),
-            q: request.values.q(&precision).remove(0),
-            p: request.values.p(&precision).remove(0),
-        })
+        request.bits(log2(&omega) + request.longest.log2(), u32::MAX)
     }
 
-    fn at(&mut self, n: i64) -> Point {
-        let t = Float::from_rational(&(&self.h * Rational::from_integer(n.into())), &self.precision);
-        let zero = Float::zero(&self.precision);
-        let (sin, cos) = (t * &self.omega).sin_cos(zero.clone());
+    fn solve<R: Reference>(request: &Request<'_>, context: R::Context) -> Rotation<R> {
+        Rotation {
+            h: request.h.clone(),
+            omega: Value(R::from_rational(request.values.value("omega"), &context)),
+            q: Value(request.values.q(&context).remove(0)),
+            p: Value(request.values.p(&context).remove(0)),
+            context,
+        }
+    }
+}
+
+impl<R: Reference> Solution<R> for Rotation<R> {
+    fn at(&mut self, n: i64) -> Point<R> {
+        let t = Value(R::from_rational(&(&self.h * Rational::from_integer(n.into())), &self.context));
+        let (sin, cos) = (t * &self.omega).sin_cos();
         let q = self.q.clone() * &cos + self.p.clone() / &self.omega * &sin;
         let p = self.p.clone() * &cos - self.q.clone() * &self.omega * &sin;
-        Point { q: vec![q], p: vec![p], beta: zero }
+        Point { q: vec![q], p: vec![p], beta: Value::zero(&self.context) }
     }
 }

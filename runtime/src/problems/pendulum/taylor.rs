@@ -10,15 +10,18 @@
 
 use std::f64::consts::{LN_2, LOG2_E};
 
-use rug::Float;
+use num_traits::FromPrimitive;
 
+use crate::Rational;
 use crate::exact_flow::solution::{Point, log2};
+use crate::number::Reference;
+use crate::number::value::Value;
 
 /// The number of consecutive terms that are examined, because every second one may be 0.
 const LAST_TERMS: usize = 4;
 
 /// The state after the time t.
-pub(super) fn flow(state: &Point, t: &Float) -> Point {
+pub(super) fn flow<R: Reference>(state: &Point<R>, t: &Value<R>) -> Point<R> {
     let (mut state, mut rest) = (state.clone(), t.clone());
     while !rest.is_zero() {
         (state, rest) = advance(&state, rest);
@@ -27,38 +30,39 @@ pub(super) fn flow(state: &Point, t: &Float) -> Point {
 }
 
 /// Advances by `rest`, or by the part of it that one series allows; returns the remainder as well.
-fn advance(state: &Point, rest: Float) -> (Point, Float) {
-    let bits = f64::from(rest.prec());
+fn advance<R: Reference>(state: &Point<R>, rest: Value<R>) -> (Point<R>, Value<R>) {
+    let bits = f64::from(rest.bits());
     let most = (bits * LN_2 / 2.0).ceil() as usize + LAST_TERMS;
     let mut terms = Terms::new(state);
     let step = loop {
         terms.extend();
-        if terms.are_small(log2(&rest), -bits) {
+        if terms.are_small(log2(&rest.0), -bits) {
             break rest.clone();
         }
         if terms.q.len() > most {
-            let fraction = terms.log2_radius() - 2.0 * LOG2_E - log2(&rest);
-            break rest.clone() * fraction.min(0.0).exp2();
+            let fraction = terms.log2_radius() - 2.0 * LOG2_E - log2(&rest.0);
+            let fraction = Rational::from_f64(fraction.min(0.0).exp2()).expect("a power of two");
+            break rest.clone() * Value(R::from_rational(&fraction, &rest.context()));
         }
     };
     (terms.sum(&step), rest - step)
 }
 
 /// The Taylor coefficients of the flow about a state.
-struct Terms {
-    q: Vec<Float>,
-    p: Vec<Float>,
-    beta: Vec<Float>,
-    sin: Vec<Float>,
-    cos: Vec<Float>,
+struct Terms<R> {
+    q: Vec<Value<R>>,
+    p: Vec<Value<R>>,
+    beta: Vec<Value<R>>,
+    sin: Vec<Value<R>>,
+    cos: Vec<Value<R>>,
     /// j q^j
-    weighted: Vec<Float>,
+    weighted: Vec<Value<R>>,
 }
 
-impl Terms {
-    fn new(Point { q, p, beta }: &Point) -> Self {
-        let zero = Float::new(beta.prec());
-        let (sin, cos) = q[0].clone().sin_cos(zero.clone());
+impl<R: Reference> Terms<R> {
+    fn new(Point { q, p, beta }: &Point<R>) -> Self {
+        let zero = Value::zero(&beta.context());
+        let (sin, cos) = q[0].sin_cos();
         Terms {
             q: q.clone(),
             p: p.clone(),
@@ -72,15 +76,15 @@ impl Terms {
     /// From the coefficients to k those of k + 1.
     fn extend(&mut self) {
         let k = self.q.len();
-        let last = |list: &[Float]| list[k - 1].clone();
-        let rate = last(&self.cos) * 2u32 + product(&self.q, &self.sin);
-        self.beta.push(rate / k as u32);
+        let last = |list: &[Value<R>]| list[k - 1].clone();
+        let rate = last(&self.cos) * 2 + product(&self.q, &self.sin);
+        self.beta.push(rate / k as i32);
         self.weighted.push(last(&self.p));
-        self.q.push(last(&self.p) / k as u32);
-        self.p.push(-last(&self.sin) / k as u32);
+        self.q.push(last(&self.p) / k as i32);
+        self.p.push(-last(&self.sin) / k as i32);
         // the 0 in front of `weighted` multiplies the coefficient that is not known yet
-        let sin = product(&self.weighted[1..], &self.cos) / k as u32;
-        let cos = -product(&self.weighted[1..], &self.sin) / k as u32;
+        let sin = product(&self.weighted[1..], &self.cos) / k as i32;
+        let cos = -product(&self.weighted[1..], &self.sin) / k as i32;
         self.sin.push(sin);
         self.cos.push(cos);
     }
@@ -89,7 +93,7 @@ impl Terms {
     fn last(&self) -> impl Iterator<Item = (f64, f64)> {
         let degrees = self.q.len().saturating_sub(LAST_TERMS).max(1)..self.q.len();
         degrees.map(|k| {
-            let sizes = [&self.q[k], &self.p[k], &self.beta[k]].map(log2);
+            let sizes = [&self.q[k], &self.p[k], &self.beta[k]].map(|term| log2(&term.0));
             (k as f64, sizes.into_iter().fold(f64::NEG_INFINITY, f64::max))
         })
     }
@@ -105,8 +109,8 @@ impl Terms {
     }
 
     /// The state after a step.
-    fn sum(&self, step: &Float) -> Point {
-        let horner = |list: &[Float]| {
+    fn sum(&self, step: &Value<R>) -> Point<R> {
+        let horner = |list: &[Value<R>]| {
             let (highest, others) = list.split_last().expect("the state is the first term");
             others.iter().rev().fold(highest.clone(), |sum, term| sum * step + term)
         };
@@ -115,8 +119,8 @@ impl Terms {
 }
 
 /// Σ_j a_j b_{k−j}
-fn product(a: &[Float], b: &[Float]) -> Float {
-    let mut sum = Float::new(a[0].prec());
-    a.iter().zip(b.iter().rev()).for_each(|(a, b)| sum += a * b);
-    sum
+fn product<R: Reference>(a: &[Value<R>], b: &[Value<R>]) -> Value<R> {
+    let mut sum = R::zero(&a[0].context());
+    a.iter().zip(b.iter().rev()).for_each(|(a, b)| sum.add_product(&a.0, &b.0));
+    Value(sum)
 }

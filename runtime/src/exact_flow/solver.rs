@@ -1,0 +1,72 @@
+//! The solution of a problem in the smallest numbers that have the digits needed.
+
+use shadowstep_limbs::Limbs;
+
+use super::points::{Points, PointsOf};
+use super::solution::{ExactFlowError, Method, Request};
+use crate::number::{Reference, Rounded};
+use crate::problems::values::Values;
+
+/// A [`Method`], as the definition of a problem names it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Solver {
+    pub(super) check: fn(&Values) -> Result<(), ExactFlowError>,
+    bits: fn(&Request<'_>) -> Result<u32, ExactFlowError>,
+    five_limbs: Solve<Limbs<5>>,
+    nine_limbs: Solve<Limbs<9>>,
+    most_limbs: Solve<MostLimbs>,
+    #[cfg(feature = "mpfr")]
+    mpfr: Solve<rug::Float>,
+}
+
+type MostLimbs = Limbs<17>;
+
+type Solve<R> = fn(&Request<'_>, bits: u32) -> Option<PointsOf<R>>;
+
+impl Solver {
+    pub(crate) const fn of<M: Method>() -> Self {
+        Solver {
+            check: M::check,
+            bits: bits::<M>,
+            five_limbs: solve::<M, _>,
+            nine_limbs: solve::<M, _>,
+            most_limbs: solve::<M, _>,
+            #[cfg(feature = "mpfr")]
+            mpfr: solve::<M, _>,
+        }
+    }
+
+    /// The points of the solution, to be rounded to numbers of type N.
+    pub(super) fn points<N: Rounded>(&self, request: &Request<'_>) -> Result<Box<dyn Points<N>>, ExactFlowError> {
+        let bits = (self.bits)(request)?;
+        let mut found = boxed((self.five_limbs)(request, bits));
+        found = found.or_else(|| boxed((self.nine_limbs)(request, bits)));
+        found = found.or_else(|| boxed((self.most_limbs)(request, bits)));
+        #[cfg(feature = "mpfr")]
+        {
+            found = found.or_else(|| boxed((self.mpfr)(request, bits)));
+        }
+        found.ok_or(ExactFlowError::NeedsMpfr { bits })
+    }
+}
+
+fn solve<M: Method, R: Reference>(request: &Request<'_>, bits: u32) -> Option<PointsOf<R>> {
+    R::context_of(bits).map(|context| PointsOf::new(Box::new(M::solve::<R>(request, context))))
+}
+
+fn boxed<N: Rounded, R: Reference>(points: Option<PointsOf<R>>) -> Option<Box<dyn Points<N>>> {
+    points.map(|points| Box::new(points) as Box<dyn Points<N>>)
+}
+
+/// The bits needed, by an estimate with numbers of twice the bits of the run.
+fn bits<M: Method>(request: &Request<'_>) -> Result<u32, ExactFlowError> {
+    let rough = request.bits(f64::from(request.bits), u32::MAX)?;
+    if let Some(context) = MostLimbs::context_of(rough) {
+        return M::bits::<MostLimbs>(request, &context);
+    }
+    #[cfg(feature = "mpfr")]
+    if let Some(context) = rug::Float::context_of(rough) {
+        return M::bits::<rug::Float>(request, &context);
+    }
+    Err(ExactFlowError::NeedsMpfr { bits: rough })
+}
