@@ -1,6 +1,8 @@
-//! Medians over rounds in which all contestants take turns, and ratios within one round.
+//! Medians over rounds in which all contestants take turns, and ratios within one round, of the CPU time of this thread.
 
-use std::time::Instant;
+use std::time::Duration;
+
+use rustix::time::{ClockId, clock_gettime};
 
 const ROUNDS: usize = 21;
 
@@ -20,13 +22,18 @@ pub(crate) fn measure(contestants: &mut [Contestant<'_>], repetitions: u32) -> V
     let mut times = vec![Vec::new(); contestants.len()];
     for _ in 0..ROUNDS {
         for ((_, run), times) in contestants.iter_mut().zip(&mut times) {
-            let start = Instant::now();
+            let start = cpu_time();
             run(repetitions);
-            times.push(start.elapsed().as_secs_f64() * 1e9 / f64::from(repetitions));
+            times.push((cpu_time() - start).as_secs_f64() * 1e9 / f64::from(repetitions));
         }
     }
     let ratio = |own: &[f64]| median(own.iter().zip(&times[0]).map(|(own, first)| own / first));
     times.iter().map(|own| Measured { nanoseconds: median(own.iter().copied()), ratio: ratio(own) }).collect()
+}
+
+/// The CPU time of this thread: on a machine with other load, the time on the clock means nothing.
+fn cpu_time() -> Duration {
+    Duration::try_from(clock_gettime(ClockId::ThreadCPUTime)).expect("it is positive")
 }
 
 fn median(values: impl Iterator<Item = f64>) -> f64 {

@@ -1,0 +1,168 @@
+//! What a step of one trajectory costs in an ensemble, as ratios to the loop over `f64`: thread CPU time, all contestants in turn.
+//!
+//! `cargo bench -p shadowstep --bench ensembles`
+//!
+//! Before anything is measured, the bits of all trajectories are compared with those that each has alone.
+
+mod timing;
+
+use std::hint::black_box;
+
+use shadowstep::instructions::Instructions;
+use shadowstep::kinetic::Quadratic;
+use shadowstep::number::Lanes;
+use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
+use shadowstep::{Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, splitting_scheme};
+
+use timing::{Contestant, compare};
+
+#[splitting_scheme("stormer-verlet.toml")]
+#[derive(Clone, Copy)]
+struct StormerVerlet;
+
+#[splitting_scheme("yoshida4.toml")]
+#[derive(Clone, Copy)]
+struct Yoshida4;
+
+/// Trajectories of an ensemble: 8 systems of 8 lanes, which fit into the nearest cache.
+const TRAJECTORIES: usize = 64;
+/// Steps at once.
+const STEPS: u64 = 100;
+
+/// A system of two coordinates at a start.
+struct Start<P> {
+    title: &'static str,
+    potential: P,
+    q: [f64; 2],
+    p: [f64; 2],
+}
+
+/// The state of a trajectory, a little different from the others.
+fn state<const D: usize>(start: [f64; 2], trajectory: usize) -> [f64; D] {
+    std::array::from_fn(|i| start[i] * (1.0 + 1e-3 * trajectory as f64))
+}
+
+type Alone<P, const D: usize> = Motion<f64, [f64; D], P, UnitMasses>;
+type Together<P, const D: usize, const W: usize> = Motion<Lanes<W>, [Lanes<W>; D], P, UnitMasses>;
+
+fn alone<P: Potential<f64> + Copy, const D: usize>(start: &Start<P>) -> Vec<Alone<P, D>> {
+    let motion = |t| Motion::new(start.potential, UnitMasses, state(start.q, t), state(start.p, t));
+    (0..TRAJECTORIES).map(|t| motion(t).expect("the dimensions agree")).collect()
+}
+
+fn together<P, const D: usize, const W: usize>(start: &Start<P>) -> Vec<Together<P, D, W>>
+where
+    P: Potential<Lanes<W>> + Copy,
+{
+    let lanes = |part: [f64; 2], first: usize| {
+        std::array::from_fn(|i| Lanes(std::array::from_fn(|lane| state::<D>(part, first + lane)[i])))
+    };
+    let motion = |first| Motion::new(start.potential, UnitMasses, lanes(start.q, first), lanes(start.p, first));
+    (0..TRAJECTORIES).step_by(W).map(|first| motion(first).expect("the dimensions agree")).collect()
+}
+
+fn check_bits<S, P, const D: usize, const W: usize>(scheme: S, start: &Start<P>)
+where
+    S: Scheme + ValidFor<Quadratic> + Copy,
+    P: Potential<f64> + Potential<Lanes<W>> + Copy,
+{
+    let stepper = Stepper::new(scheme, "1/100").expect("h is not 0");
+    let mut alone = alone::<P, D>(start);
+    alone.iter_mut().for_each(|motion| (0..STEPS).for_each(|_| stepper.step(motion)));
+    let stepper = Stepper::new(scheme, "1/100").expect("h is not 0");
+    for instructions in Instructions::available() {
+        let mut together = together::<P, D, W>(start);
+        instructions.only(|| stepper.steps(&mut together, STEPS));
+        for (t, alone) in alone.iter().enumerate() {
+            let found = together[t / W].q().iter().chain(together[t / W].p()).map(|x| x.0[t % W].to_bits());
+            assert!(found.eq(alone.q().iter().chain(alone.p()).map(|x| x.to_bits())), "{instructions:?}, {t}");
+        }
+    }
+}
+
+/// A repetition is `STEPS` steps of all trajectories.
+fn in_lanes<'a, S, P, const D: usize, const W: usize>(
+    name: &'static str,
+    scheme: S,
+    start: &Start<P>,
+    instructions: Instructions,
+) -> Contestant<'a>
+where
+    S: Scheme + ValidFor<Quadratic> + Copy + 'a,
+    P: Potential<Lanes<W>> + Copy + 'a,
+{
+    let stepper = Stepper::new(scheme, "1/100").expect("h is not 0");
+    let mut motions = together::<P, D, W>(start);
+    let run = move |repetitions: u32| {
+        instructions.only(|| (0..repetitions).for_each(|_| stepper.steps(&mut motions, STEPS)));
+        black_box(&motions);
+    };
+    (name, Box::new(run))
+}
+
+fn one_by_one<'a, S, P, const D: usize>(scheme: S, start: &Start<P>) -> Contestant<'a>
+where
+    S: Scheme + ValidFor<Quadratic> + Copy + 'a,
+    P: Potential<f64> + Copy + 'a,
+{
+    let stepper = Stepper::new(scheme, "1/100").expect("h is not 0");
+    let mut motions = alone::<P, D>(start);
+    let run = move |repetitions: u32| {
+        for motion in &mut motions {
+            (0..u64::from(repetitions) * STEPS).for_each(|_| stepper.step(motion));
+        }
+        black_box(&motions);
+    };
+    ("`f64`, one trajectory after the other", Box::new(run))
+}
+
+fn in_turn<'a, S, P, const D: usize>(scheme: S, start: &Start<P>) -> Contestant<'a>
+where
+    S: Scheme + ValidFor<Quadratic> + Copy + 'a,
+    P: Potential<f64> + Copy + 'a,
+{
+    let stepper = Stepper::new(scheme, "1/100").expect("h is not 0");
+    let mut motions = alone::<P, D>(start);
+    let run = move |repetitions: u32| {
+        for _ in 0..u64::from(repetitions) * STEPS {
+            motions.iter_mut().for_each(|motion| stepper.step(motion));
+        }
+        black_box(&motions);
+    };
+    ("`f64`, a step of each in turn", Box::new(run))
+}
+
+fn measure<S, P, const D: usize>(name: &str, scheme: S, start: &Start<P>)
+where
+    S: Scheme + ValidFor<Quadratic> + Copy,
+    P: Potential<f64> + Potential<Lanes<4>> + Potential<Lanes<8>> + Potential<Lanes<16>> + Copy,
+{
+    let mut contestants = vec![one_by_one::<S, P, D>(scheme, start), in_turn::<S, P, D>(scheme, start)];
+    for instructions in Instructions::available() {
+        let names = match instructions {
+            Instructions::Plain => ["4 lanes, plain", "8 lanes, plain", "16 lanes, plain"],
+            Instructions::Avx2 => ["4 lanes, AVX2", "8 lanes, AVX2", "16 lanes, AVX2"],
+            Instructions::Avx512 => ["4 lanes, AVX-512", "8 lanes, AVX-512", "16 lanes, AVX-512"],
+        };
+        contestants.push(in_lanes::<S, P, D, 4>(names[0], scheme, start, instructions));
+        contestants.push(in_lanes::<S, P, D, 8>(names[1], scheme, start, instructions));
+        contestants.push(in_lanes::<S, P, D, 16>(names[2], scheme, start, instructions));
+    }
+    let title = format!("{name} on {}, {STEPS} steps of {TRAJECTORIES} trajectories", start.title);
+    compare(&title, contestants, 100);
+}
+
+fn main() {
+    let kepler = Start { title: "Kepler", potential: Kepler, q: [0.4, 0.0], p: [0.0, 2.0] };
+    let henon_heiles = Start { title: "Hénon–Heiles", potential: HenonHeiles, q: [0.0, 0.1], p: [0.3, 0.0] };
+    let pendulum = Start { title: "the pendulum", potential: Pendulum, q: [0.5, 0.0], p: [1.0, 0.0] };
+    check_bits::<_, _, 2, 8>(Yoshida4, &kepler);
+    check_bits::<_, _, 2, 16>(StormerVerlet, &kepler);
+    check_bits::<_, _, 2, 4>(StormerVerlet, &henon_heiles);
+    check_bits::<_, _, 2, 8>(Yoshida4, &henon_heiles);
+    measure::<_, _, 2>("Störmer–Verlet", StormerVerlet, &kepler);
+    measure::<_, _, 2>("Yoshida 4", Yoshida4, &kepler);
+    measure::<_, _, 2>("Störmer–Verlet", StormerVerlet, &henon_heiles);
+    measure::<_, _, 2>("Yoshida 4", Yoshida4, &henon_heiles);
+    measure::<_, _, 1>("Störmer–Verlet", StormerVerlet, &pendulum);
+}
