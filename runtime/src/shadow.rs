@@ -61,8 +61,8 @@ mod walk;
 pub mod weights;
 mod window;
 
-pub use bilinear::{Bilinear, BilinearEstimator};
-pub use central::{Central, CentralEstimator};
+pub use bilinear::{Bilinear, BilinearEstimator, FixedBilinear, FixedBilinearEstimator};
+pub use central::{Central, CentralEstimator, FixedCentral, FixedCentralEstimator};
 pub use differences::{SelectionRule, StoppingRule};
 pub use estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
 pub use monitor::{Advice, Criterion, Missing, Report, Rough, Sample, ShadowEnergy, Trend, Verdict};

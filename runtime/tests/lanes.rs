@@ -5,6 +5,7 @@ use std::array::from_fn;
 use shadowstep::instructions::Instructions;
 use shadowstep::number::Lanes;
 use shadowstep::problems::{HenonHeiles, Kepler, PROBLEMS, Problem};
+use shadowstep::shadow::{BuildEstimator, Estimate, Estimator, FixedBilinear, FixedCentral};
 use shadowstep::tables::{self, TableScheme};
 use shadowstep::{Motion, Number, Potential, Stepper, System, UnitMasses, potential, splitting_scheme};
 
@@ -156,6 +157,48 @@ fn generated_steps_have_the_bits_of_f64() {
         generated::<8, _>(Kepler, compensated);
         generated::<16, _>(Kepler, compensated);
         generated::<8, _>(HenonHeiles, compensated);
+    }
+}
+
+/// Every number of the estimates of a lane.
+fn estimates<N>(settings: &impl BuildEstimator<N>, q: [N; 2], p: [N; 2]) -> Vec<[N; 3]>
+where
+    Kepler: Potential<N>,
+    N: Number<Context = ()>,
+{
+    let stepper = Stepper::new(Yoshida4, "1/20").unwrap();
+    let mut estimator = settings.build(stepper.step_size(), 2, &()).unwrap();
+    let mut motion = Motion::new(Kepler, UnitMasses, q, p).unwrap();
+    let mut found = Vec::new();
+    for _ in 0..40 {
+        stepper.step_augmented(&mut motion);
+        if let Some(Estimate { value, last_term, error, .. }) =
+            estimator.push(motion.q(), motion.p(), motion.increments())
+        {
+            found.push([value, last_term.unwrap_or(value), error.unwrap_or(value)].map(N::clone));
+        }
+    }
+    assert!(found.len() > 10);
+    found
+}
+
+fn compare_estimates<F: BuildEstimator<f64> + BuildEstimator<Lanes<8>>>(settings: &F) {
+    let [q, p] = [0, 1].map(|part| <[_; 2]>::try_from(in_lanes::<8>(&START[part])).unwrap());
+    let found = estimates(settings, q, p);
+    for lane in 0..8 {
+        let [q, p] = [0, 1].map(|part| <[_; 2]>::try_from(in_lane(&START[part], lane)).unwrap());
+        let expected = estimates(settings, q, p);
+        assert!(found.iter().map(|x| x.map(|x| x.0[lane].to_bits())).eq(expected.iter().map(|x| x.map(f64::to_bits))));
+    }
+}
+
+#[test]
+fn estimators_of_a_fixed_order_have_the_bits_of_f64() {
+    for k in [1, 2, 5, 8] {
+        compare_estimates(&FixedBilinear::new(k));
+        compare_estimates(&FixedBilinear::with_error(k));
+        compare_estimates(&FixedCentral::new(k));
+        compare_estimates(&FixedCentral::with_error(k));
     }
 }
 

@@ -171,9 +171,7 @@ impl<N: Ordered> BuildEstimator<N> for Bilinear {
     fn build(&self, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self::Estimator, EstimatorError> {
         Ok(BilinearEstimator(match self {
             Bilinear::Fixed { k, with_error } => {
-                EstimatorError::check_order("k", *k, 1)?;
-                EstimatorError::check_high_order("k", *k, Bilinear::LARGEST_K)?;
-                Kind::Fixed(FixedOrder::new(*k, *with_error, h.exact(), dimension, context))
+                Kind::Fixed(FixedBilinear { k: *k, with_error: *with_error }.build(h, dimension, context)?)
             }
             Bilinear::Best { largest, accuracy } => {
                 EstimatorError::check_order("the largest k", *largest, 2)?;
@@ -193,7 +191,7 @@ pub struct BilinearEstimator<N>(Kind<N>);
 
 #[derive(Clone, Debug)]
 enum Kind<N> {
-    Fixed(FixedOrder<N>),
+    Fixed(FixedBilinearEstimator<N>),
     Best(BestOrder<N>),
 }
 
@@ -214,22 +212,72 @@ impl<N: Ordered> Estimator<N> for BilinearEstimator<N> {
     }
 }
 
+/// E_k at one k. Nothing is compared, so that it works also on numbers without an order, such as [lanes](crate::number::Lanes).
+///
+/// ```
+/// use shadowstep::number::Lanes;
+/// use shadowstep::shadow::{BuildEstimator, Estimator, FixedBilinear};
+/// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, tables::shipped};
+///
+/// let verlet = Stepper::new(shipped("stormer-verlet").unwrap(), "1/20")?;
+/// let q = [Lanes([0.4, 0.5, 0.6, 0.7]), Lanes::all(0.0)];
+/// let mut motion = Motion::new(Kepler, UnitMasses, q, [Lanes::all(0.0), Lanes::all(1.2)])?;
+/// let energy = motion.energy();
+/// let mut estimator = FixedBilinear::new(8).build(verlet.step_size(), 2, &())?;
+/// for n in 0..100 {
+///     if let Some(estimate) = estimator.push(motion.q(), motion.p(), motion.increments()) {
+///         assert!((estimate.value.0[3] - energy.0[3]).abs() < 1e-2, "step {n}, lane 3");
+///     }
+///     verlet.step_augmented(&mut motion);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedBilinear {
+    k: u32,
+    with_error: bool,
+}
+
+impl FixedBilinear {
+    /// E_k without an estimate of its error.
+    pub fn new(k: u32) -> Self {
+        FixedBilinear { k, with_error: false }
+    }
+
+    /// E_k with its last term and an estimate of its error, for k ≥ 2.
+    pub fn with_error(k: u32) -> Self {
+        FixedBilinear { k, with_error: true }
+    }
+}
+
+impl<N: Number> BuildEstimator<N> for FixedBilinear {
+    type Estimator = FixedBilinearEstimator<N>;
+
+    /// # Errors
+    /// k = 0, or above [`Bilinear::LARGEST_K`].
+    fn build(&self, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self::Estimator, EstimatorError> {
+        EstimatorError::check_order("k", self.k, 1)?;
+        EstimatorError::check_high_order("k", self.k, Bilinear::LARGEST_K)?;
+        Ok(FixedBilinearEstimator::new(self.k, self.with_error, h.exact(), dimension, context))
+    }
+}
+
 /// E_k at one k.
 #[derive(Clone, Debug)]
-struct FixedOrder<N> {
+pub struct FixedBilinearEstimator<N> {
     products: Products<N>,
     form: Form<N>,
 }
 
-impl<N: Number> FixedOrder<N> {
+impl<N: Number> FixedBilinearEstimator<N> {
     fn new(k: u32, with_error: bool, h: &Rational, dimension: usize, context: &N::Context) -> Self {
         let form = Form::new(k, with_error, h, context);
         let states = form.k().max(form.delay()) + 1;
-        FixedOrder { products: Products::new(states, form.k(), dimension, context), form }
+        FixedBilinearEstimator { products: Products::new(states, form.k(), dimension, context), form }
     }
 }
 
-impl<N: Number> Estimator<N> for FixedOrder<N> {
+impl<N: Number> Estimator<N> for FixedBilinearEstimator<N> {
     fn states(&self) -> usize {
         self.form.k() + 1 + 2 * self.form.error_estimate.around()
     }

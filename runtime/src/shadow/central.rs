@@ -148,12 +148,16 @@ impl<N: Ordered> BuildEstimator<N> for Central {
 
     /// # Errors
     /// m = 0, or a largest m below 2.
-    fn build(&self, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self::Estimator, EstimatorError> {
-        let h = h.exact();
+    fn build(
+        &self,
+        step_size: &StepSize,
+        dimension: usize,
+        context: &N::Context,
+    ) -> Result<Self::Estimator, EstimatorError> {
+        let h = step_size.exact();
         Ok(CentralEstimator(match *self {
             Central::Fixed { m, with_error } => {
-                EstimatorError::check_order("m", m, 1)?;
-                Kind::Fixed(FixedOrder::new(m, with_error, h, dimension, context))
+                Kind::Fixed(FixedCentral { m, with_error }.build(step_size, dimension, context)?)
             }
             Central::Best { largest, stop, rule, with_error } => {
                 EstimatorError::check_order("the largest m", largest, 2)?;
@@ -170,7 +174,7 @@ pub struct CentralEstimator<N>(Kind<N>);
 
 #[derive(Clone, Debug)]
 enum Kind<N> {
-    Fixed(FixedOrder<N>),
+    Fixed(FixedCentralEstimator<N>),
     Best(AllOrders<N>),
 }
 
@@ -190,12 +194,42 @@ impl<N: Ordered> Estimator<N> for CentralEstimator<N> {
     }
 }
 
+/// D_m at one m. Nothing is compared, so that it works also on numbers without an order, such as [lanes](crate::number::Lanes).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedCentral {
+    m: u32,
+    with_error: bool,
+}
+
+impl FixedCentral {
+    /// D_m without an estimate of its error.
+    pub fn new(m: u32) -> Self {
+        FixedCentral { m, with_error: false }
+    }
+
+    /// D_m with its last term and an estimate of its error, for m ≥ 2.
+    pub fn with_error(m: u32) -> Self {
+        FixedCentral { m, with_error: true }
+    }
+}
+
+impl<N: Number> BuildEstimator<N> for FixedCentral {
+    type Estimator = FixedCentralEstimator<N>;
+
+    /// # Errors
+    /// m = 0.
+    fn build(&self, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self::Estimator, EstimatorError> {
+        EstimatorError::check_order("m", self.m, 1)?;
+        Ok(FixedCentralEstimator::new(self.m, self.with_error, h.exact(), dimension, context))
+    }
+}
+
 /// D_m at one m, by products of pairs.
 ///
 /// With B(i,k) = q_i·p_k − p_i·q_k + (β_k − β_i), i < k, the estimate at n is
 /// T_{m,m} = −1/(2h) Σ_j d_{m,j} (B(n, n+j) + B(n−j, n)), so each pair of states is multiplied once and serves both.
 #[derive(Clone, Debug)]
-struct FixedOrder<N> {
+pub struct FixedCentralEstimator<N> {
     m: usize,
     /// d_{m,j}/(2h)
     weights: Vec<N>,
@@ -216,7 +250,7 @@ struct Sums<N> {
     last_term: N,
 }
 
-impl<N: Number> FixedOrder<N> {
+impl<N: Number> FixedCentralEstimator<N> {
     fn new(m: u32, with_error: bool, h: &Rational, dimension: usize, context: &N::Context) -> Self {
         let twice_h = h * Rational::from_integer(2.into());
         let zero = N::zero(context);
@@ -224,7 +258,7 @@ impl<N: Number> FixedOrder<N> {
         let last_term: Vec<N> = last_term_weights(m, with_error).into_iter().map(number).collect();
         let around = if last_term.is_empty() { 0 } else { AROUND };
         let (m, states) = (m as usize, m as usize + 1 + around);
-        FixedOrder {
+        FixedCentralEstimator {
             m,
             weights: central(m as u32).iter().map(|d| number(d.clone())).collect(),
             last_term,
@@ -249,7 +283,7 @@ impl<N: Number> FixedOrder<N> {
     }
 }
 
-impl<N: Number> Estimator<N> for FixedOrder<N> {
+impl<N: Number> Estimator<N> for FixedCentralEstimator<N> {
     fn states(&self) -> usize {
         2 * (self.m + self.error_estimate.around()) + 1
     }

@@ -1,0 +1,182 @@
+//! Ensembles: the outcomes are those of each trajectory alone, whatever computes them.
+
+use std::num::NonZero;
+
+use shadowstep::ensemble::{Ensemble, EnsembleError, Outcome};
+use shadowstep::instructions::Instructions;
+use shadowstep::problems::Kepler;
+use shadowstep::shadow::{BuildEstimator, Estimator, FixedBilinear};
+use shadowstep::{DiagonalMasses, Motion, MotionError, Stepper, System, UnitMasses, potential, splitting_scheme};
+
+#[splitting_scheme("yoshida4.toml")]
+#[derive(Clone, Copy)]
+pub struct Yoshida4;
+
+potential! { pub struct Well { depth, width } U(x, y) = -depth / (1 + (x^2 + 2*y^2)/width^2) }
+
+/// 100 trajectories: columns of parameters and initial values.
+struct Columns {
+    depth: Vec<f64>,
+    width: Vec<f64>,
+    x: Vec<f64>,
+    p: Vec<f64>,
+}
+
+fn columns() -> Columns {
+    let column = |a: f64, b: f64| (0..100).map(|t| a + b * (f64::from(t) * 1.7).sin()).collect();
+    Columns { depth: column(1.0, 0.3), width: column(2.0, 0.5), x: column(0.1, 0.4), p: column(0.0, 0.6) }
+}
+
+const ENSEMBLE: Ensemble =
+    Ensemble { trajectories: 100, steps: 60, every: 10, modified_energy: Some(6), threads: None };
+
+fn run<const W: usize>(ensemble: Ensemble) -> Vec<Outcome> {
+    let Columns { depth, width, x, p } = columns();
+    let stepper = Stepper::new(Yoshida4, "1/10").unwrap();
+    let found = ensemble.run::<W, _, _, _>(&stepper, |block| {
+        let well = Well { depth: block.lanes(|t| depth[t]), width: block.lanes(|t| width[t]) };
+        let (q, p) = ([block.lanes(|t| x[t]), block.lanes(|_| 0.3)], [block.lanes(|t| p[t]), block.lanes(|_| 0.1)]);
+        Motion::new(well, UnitMasses, q, p)
+    });
+    found.unwrap()
+}
+
+/// The outcome of one trajectory by the plain loop over `f64`.
+fn alone(t: usize) -> Outcome {
+    let Columns { depth, width, x, p } = columns();
+    let stepper = Stepper::new(Yoshida4, "1/10").unwrap();
+    let well = Well { depth: depth[t], width: width[t] };
+    let mut motion = Motion::new(well, UnitMasses, [x[t], 0.3], [p[t], 0.1]).unwrap();
+    let initial = motion.energy();
+    let (mut largest, mut range) = (0.0_f64, [f64::INFINITY, f64::NEG_INFINITY]);
+    let mut estimator = None;
+    for n in 0..60 {
+        if n % 10 == 0 {
+            estimator = Some(FixedBilinear::new(6).build(stepper.step_size(), 2, &()).unwrap());
+        }
+        if let Some(estimate) = estimator.as_mut().unwrap().push(motion.q(), motion.p(), System::increments(&motion)) {
+            range = [range[0].min(*estimate.value), range[1].max(*estimate.value)];
+        }
+        stepper.step_augmented(&mut motion);
+        if n % 10 == 9 {
+            largest = largest.max((motion.energy() - initial).abs());
+        }
+        if n % 10 == 5 {
+            let estimate = estimator.as_mut().unwrap().push(motion.q(), motion.p(), System::increments(&motion));
+            let value = *estimate.expect("7 states").value;
+            range = [range[0].min(value), range[1].max(value)];
+            estimator = Some(FixedBilinear::new(6).build(stepper.step_size(), 2, &()).unwrap());
+        }
+    }
+    Outcome {
+        q: motion.q().to_vec(),
+        p: motion.p().to_vec(),
+        energy_error: largest / initial.abs(),
+        modified_drift: Some(range[1] - range[0]),
+        not_finite: None,
+    }
+}
+
+#[test]
+fn outcomes_are_those_of_each_trajectory_alone() {
+    let found = run::<8>(ENSEMBLE);
+    assert_eq!(found.len(), 100);
+    for (t, found) in found.iter().enumerate() {
+        let expected = alone(t);
+        assert_eq!([&found.q, &found.p], [&expected.q, &expected.p], "trajectory {t}");
+        assert_eq!(found.energy_error, expected.energy_error, "trajectory {t}");
+        assert_eq!(found.modified_drift, expected.modified_drift, "trajectory {t}");
+        assert!(found.modified_drift.unwrap() > 0.0);
+    }
+}
+
+#[test]
+fn outcomes_do_not_depend_on_lanes_threads_or_instructions() {
+    let expected = run::<8>(ENSEMBLE);
+    assert_eq!(run::<4>(ENSEMBLE), expected);
+    assert_eq!(run::<16>(ENSEMBLE), expected);
+    for threads in [1, 2, 3, 8] {
+        assert_eq!(run::<8>(Ensemble { threads: NonZero::new(threads), ..ENSEMBLE }), expected);
+    }
+    for instructions in Instructions::available() {
+        let one_thread = Ensemble { threads: NonZero::new(1), ..ENSEMBLE };
+        assert_eq!(instructions.only(|| run::<8>(one_thread)), expected, "{instructions:?}");
+    }
+    // the energy alone has the same states
+    for (with, without) in expected.iter().zip(run::<8>(Ensemble { modified_energy: None, ..ENSEMBLE })) {
+        assert_eq!((&with.q, &with.p, with.energy_error), (&without.q, &without.p, without.energy_error));
+        assert_eq!(without.modified_drift, None);
+    }
+}
+
+#[test]
+fn estimates_may_overlap() {
+    let every_step = run::<8>(Ensemble { every: 1, ..ENSEMBLE });
+    let every_ten = run::<8>(ENSEMBLE);
+    for (one, ten) in every_step.iter().zip(&every_ten) {
+        assert_eq!((&one.q, &one.p), (&ten.q, &ten.p));
+        assert!(one.energy_error >= ten.energy_error && one.modified_drift >= ten.modified_drift);
+    }
+}
+
+/// A trajectory begins at the centre, another one where r² overflows.
+#[test]
+fn a_trajectory_that_is_not_finite_is_reported_alone() {
+    let stepper = Stepper::new(Yoshida4, "1/20").unwrap();
+    let x = |t: usize| match t {
+        3 => 0.0,
+        70 => 1e200,
+        t => 0.5 + 0.01 * t as f64,
+    };
+    let ensemble = Ensemble { trajectories: 80, steps: 40, every: 7, modified_energy: Some(4), threads: None };
+    let found = ensemble.run::<8, _, _, _>(&stepper, |block| {
+        let [zero, speed] = [0.0, 1.1].map(|x| block.lanes(|_| x));
+        Motion::new(Kepler, UnitMasses, [block.lanes(x), zero], [zero, speed])
+    });
+    for (t, outcome) in found.unwrap().iter().enumerate() {
+        assert_eq!(outcome.not_finite, [3, 70].contains(&t).then_some(0), "trajectory {t}");
+        assert!(outcome.not_finite.is_some() || outcome.energy_error < 0.1 && outcome.modified_drift.unwrap() < 0.1);
+    }
+}
+
+#[test]
+fn masses_are_rounded_once_for_all() {
+    let stepper = Stepper::new(Yoshida4, "1/20").unwrap();
+    let masses = ["3", "5"].map(|text| shadowstep::exact(text).unwrap());
+    let ensemble = Ensemble { trajectories: 5, steps: 40, ..Ensemble::default() };
+    let found = ensemble.run::<4, _, _, _>(&stepper, |block| {
+        let [zero, one] = [0.0, 1.0].map(|x| block.lanes(|_| x));
+        Motion::new(Kepler, DiagonalMasses::new(&masses, &())?, [one, zero], [zero, block.lanes(|t| 1.0 + t as f64)])
+    });
+    let stepper = Stepper::new(Yoshida4, "1/20").unwrap();
+    for (t, outcome) in found.unwrap().iter().enumerate() {
+        let masses = DiagonalMasses::new(&masses, &()).unwrap();
+        let mut motion = Motion::new(Kepler, masses, [1.0, 0.0], [0.0, 1.0 + t as f64]).unwrap();
+        (0..40).for_each(|_| stepper.step(&mut motion));
+        assert_eq!(outcome.q, motion.q());
+    }
+}
+
+#[test]
+fn wrong_settings_are_errors() {
+    type Found = Result<Vec<Outcome>, EnsembleError<MotionError>>;
+    let run = |ensemble: Ensemble| -> Found {
+        let stepper = Stepper::new(Yoshida4, "1/10").unwrap();
+        ensemble.run::<4, _, _, _>(&stepper, |block| {
+            let one = block.lanes(|_| 1.0);
+            Motion::new(Kepler, UnitMasses, vec![one, one, one], vec![one, one, one])
+        })
+    };
+    let message = |ensemble| run(ensemble).unwrap_err().to_string();
+    assert_eq!(
+        message(Ensemble { trajectories: 2, ..Ensemble::default() }),
+        "q has 3 coordinates, but the potential is a function of 2"
+    );
+    assert_eq!(
+        message(Ensemble { every: 0, ..Ensemble::default() }),
+        "the energy can be looked at every 1 step or more, not every 0 steps"
+    );
+    let wrong = Ensemble { modified_energy: Some(0), ..Ensemble::default() };
+    assert_eq!(message(wrong), "the modified energy: k must be at least 1, not 0");
+    assert_eq!(run(Ensemble::default()), Ok(Vec::new()));
+}
