@@ -42,6 +42,8 @@ use crate::stepper::Stepper;
 use crate::system::System;
 use follow::follow;
 
+pub use follow::Outcome;
+
 /// What is computed of each of so many trajectories.
 ///
 /// A trajectory has the bits that it has alone: they depend neither on the other trajectories, nor on the number of lanes and threads, nor on
@@ -66,21 +68,6 @@ impl Default for Ensemble {
     fn default() -> Self {
         Ensemble { trajectories: 0, steps: 0, every: 1, modified_energy: None, threads: None }
     }
-}
-
-/// What became of a trajectory.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
-    /// Positions at the end.
-    pub q: Vec<f64>,
-    /// Momenta at the end.
-    pub p: Vec<f64>,
-    /// The largest |H − H₀|/|H₀| that was seen, H₀ at the beginning: finite ones only.
-    pub energy_error: f64,
-    /// max − min of the modified energy; `None` where it was not asked for, or no k + 1 states were finite.
-    pub modified_drift: Option<f64>,
-    /// The first step after which the state or the energy was found to be infinite or NaN. Other trajectories do not notice.
-    pub not_finite: Option<u64>,
 }
 
 /// The trajectories that are the lanes of one system.
@@ -162,7 +149,11 @@ impl Ensemble {
         let end = self.trajectories.min(first + AT_ONCE);
         let block = |first| Block { first, trajectories: self.trajectories };
         let systems: Result<Vec<M>, E> = (first..end).step_by(W).map(|first| system(block(first))).collect();
-        let mut outcomes = follow(self, stepper, systems.map_err(EnsembleError::System)?)?;
+        let systems = systems.map_err(EnsembleError::System)?;
+        let dimension = systems.first().map_or(0, |system| system.q().len());
+        let build = |k| FixedBilinear::new(k).build(stepper.step_size(), dimension, &());
+        let estimator = self.modified_energy.map(build).transpose().map_err(EnsembleError::Estimator)?;
+        let mut outcomes = follow(stepper, systems, (self.steps, self.every), estimator.as_ref());
         outcomes.truncate(end - first);
         Ok(outcomes)
     }

@@ -78,6 +78,7 @@ pub mod formula;
 pub mod instructions;
 mod interpreter;
 pub mod kinetic;
+mod maps;
 pub mod motion;
 pub mod number;
 pub mod pairs;

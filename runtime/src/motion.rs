@@ -4,9 +4,9 @@ use thiserror::Error;
 
 use crate::coordinates::Coordinates;
 use crate::kinetic::{Kinetic, MassError};
+use crate::maps::{MapKind, Maps};
 use crate::number::Number;
 use crate::potential::Potential;
-use crate::scheme::{MapKind, Maps};
 use crate::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
 use crate::system::{Increments, OwnedIncrements, Remainders, System};
 

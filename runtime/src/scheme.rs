@@ -1,11 +1,10 @@
 //! What every scheme can do: compiled from its table by [`crate::splitting_scheme`], or read from it at run time.
 
-pub use shadowstep_schemes::MapKind;
-
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::Rational;
 use crate::kinetic::Quadratic;
+pub use crate::maps::{MapKind, Maps};
 use crate::number::Number;
 use crate::system::System;
 
@@ -119,35 +118,6 @@ impl<A> StepWeights<A> {
     #[inline]
     pub fn back(&self) -> &A {
         &self.back
-    }
-}
-
-/// The kicks and drifts of a step in their order, with their weights.
-#[derive(Clone, Copy, Debug)]
-pub struct Maps<'a, N> {
-    kicks: &'a [N],
-    drifts: &'a [N],
-    maps: &'a [(MapKind, usize)],
-}
-
-impl<'a, N> Maps<'a, N> {
-    pub(crate) fn of<S: Scheme>(scheme: &'a S, weights: &'a [N]) -> Self {
-        let (kicks, maps) = scheme.maps();
-        let (kicks, drifts) = weights.split_at(kicks);
-        Maps { kicks, drifts, maps }
-    }
-
-    /// One after the other.
-    #[inline(always)]
-    pub fn iter(&self) -> impl Iterator<Item = (MapKind, &'a N)> {
-        let Maps { kicks, drifts, maps } = *self;
-        maps.iter().map(
-            #[inline(always)]
-            move |&(kind, index)| match kind {
-                MapKind::Kick => (kind, &kicks[index]),
-                MapKind::Drift => (kind, &drifts[index]),
-            },
-        )
     }
 }
 

@@ -1,8 +1,9 @@
 //! A scheme with a step size: the object that makes steps.
 
 use crate::Rational;
+use crate::maps::Maps;
 use crate::number::Number;
-use crate::scheme::{Maps, Scheme, StepWeights, ValidFor};
+use crate::scheme::{Scheme, StepWeights, ValidFor};
 use crate::step_size::{StepSize, StepSizeError};
 use crate::system::System;
 
@@ -106,7 +107,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     where
         S: ValidFor<M::Class>,
     {
-        M::advance(systems, Maps::of(&self.scheme, self.weights()), count);
+        M::advance(systems, Maps::new(self.weights(), self.scheme.maps()), count);
     }
 
     /// One step, with its [increments](System::increments) of q, p and β.

@@ -1,8 +1,8 @@
 //! What a splitting scheme advances: a system with its state, its kicks and its drifts.
 
 use crate::coordinates::Coordinates;
+use crate::maps::{MapKind, Maps};
 use crate::number::Number;
-use crate::scheme::{MapKind, Maps};
 
 /// A Hamiltonian system H = A + B with its state q, p and β, where the flows of A (*drifts*) and of B (*kicks*) are known.
 ///

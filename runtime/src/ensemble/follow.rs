@@ -1,6 +1,5 @@
 //! A few systems of lanes from their beginning to their end, and what is seen of each lane.
 
-use super::{Ensemble, EnsembleError, Outcome};
 use crate::number::{Lanes, Number};
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::{BuildEstimator, Estimator, FixedBilinear};
@@ -9,32 +8,46 @@ use crate::system::System;
 
 type EstimatorOf<const W: usize> = <FixedBilinear as BuildEstimator<Lanes<W>>>::Estimator;
 
-/// The outcomes of all lanes of the systems.
-pub(super) fn follow<const W: usize, S, M, E>(
-    ensemble: &Ensemble,
+/// What became of a trajectory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Positions at the end.
+    pub q: Vec<f64>,
+    /// Momenta at the end.
+    pub p: Vec<f64>,
+    /// The largest |H − H₀|/|H₀| that was seen, H₀ at the beginning: finite ones only.
+    pub energy_error: f64,
+    /// max − min of the modified energy; `None` where it was not asked for, or no k + 1 states were finite.
+    pub modified_drift: Option<f64>,
+    /// The first step after which the state or the energy was found to be infinite or NaN. Other trajectories do not notice.
+    pub not_finite: Option<u64>,
+}
+
+/// The outcomes of all lanes of the systems, whose energy is looked at every so many steps.
+pub(super) fn follow<const W: usize, S, M>(
     stepper: &Stepper<S, Lanes<W>>,
     mut systems: Vec<M>,
-) -> Result<Vec<Outcome>, EnsembleError<E>>
+    (steps, every): (u64, u64),
+    estimator: Option<&EstimatorOf<W>>,
+) -> Vec<Outcome>
 where
     S: Scheme + ValidFor<M::Class>,
     M: System<Number = Lanes<W>>,
 {
-    let dimension = systems.first().map_or(0, |system| system.q().len());
-    let build = |k| FixedBilinear::new(k).build(stepper.step_size(), dimension, &());
-    let estimator = ensemble.modified_energy.map(build).transpose().map_err(EnsembleError::Estimator)?;
     let mut seen: Vec<Seen<W>> = systems.iter_mut().map(Seen::new).collect();
-    let window = u64::from(ensemble.modified_energy.unwrap_or(0));
+    let window = estimator.map_or(0, |estimator| estimator.states() as u64 - 1);
     let mut n = 0;
-    let mut states_end = 0;
-    while n < ensemble.steps {
-        if n % ensemble.every == 0 {
-            if n >= states_end {
-                seen.iter_mut().zip(&systems).for_each(|(seen, system)| seen.begin_window(estimator.as_ref(), system));
+    // up to here each state goes to the estimator
+    let mut window_end = 0;
+    while n < steps {
+        if n % every == 0 {
+            if n >= window_end {
+                seen.iter_mut().zip(&systems).for_each(|(seen, system)| seen.begin_window(estimator, system));
             }
-            states_end = n + window;
+            window_end = n + window;
         }
-        let next = ensemble.steps.min(n - n % ensemble.every + ensemble.every);
-        if n < states_end {
+        let next = steps.min(n - n % every + every);
+        if n < window_end {
             for (seen, system) in seen.iter_mut().zip(&mut systems) {
                 stepper.step_augmented(system);
                 seen.push(system);
@@ -48,7 +61,7 @@ where
             seen.iter_mut().zip(&mut systems).for_each(|(seen, system)| seen.look(system, n));
         }
     }
-    Ok(seen.iter().zip(&systems).flat_map(|(seen, system)| (0..W).map(|lane| seen.outcome(system, lane))).collect())
+    seen.iter().zip(&systems).flat_map(|(seen, system)| (0..W).map(|lane| seen.outcome(system, lane))).collect()
 }
 
 /// What is seen of a system.
