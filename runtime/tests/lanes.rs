@@ -117,6 +117,41 @@ fn every_shipped_problem_has_the_bits_of_f64() {
     }
 }
 
+/// The states of W lanes after five steps of a problem.
+fn after_five_steps<N: Number<Context = ()> + 'static>(problem: Problem, start: impl Fn(&[f64]) -> Vec<N>) -> Vec<N> {
+    let setup = problem.setup(&[], 20).unwrap();
+    let stepper = Stepper::new(tables::shipped("yoshida4").unwrap(), problem.description().step).unwrap();
+    let values = setup.motion::<f64>(&()).unwrap();
+    let mut system = setup.motion::<N>(&()).unwrap();
+    system.set_state(&start(values.q()), &start(values.p()));
+    stepper.steps(std::slice::from_mut(&mut system), 5);
+    system.q().iter().chain(system.p()).cloned().collect()
+}
+
+/// exp, log, sin and cos are functions of lanes, not the platform's: the bits do not depend on the lanes and the instructions, and are
+/// close to those of f64.
+#[test]
+fn problems_with_elementary_functions() {
+    for problem in PROBLEMS.iter().copied().filter(|problem| !is_algebraic(problem)) {
+        let expected = after_five_steps(problem, in_lanes::<16>);
+        for instructions in Instructions::available() {
+            let four = instructions.only(|| after_five_steps(problem, in_lanes::<4>));
+            let eight = instructions.only(|| after_five_steps(problem, in_lanes::<8>));
+            assert!((0..4).all(|lane| bits(&four, lane) == bits(&expected, lane)), "{}", problem.name());
+            assert!((0..8).all(|lane| bits(&eight, lane) == bits(&expected, lane)), "{}", problem.name());
+        }
+        for lane in 0..16 {
+            let alone = after_five_steps(problem, |x| in_lane(x, lane));
+            // a last place or two of each of some hundred operations
+            assert!(
+                expected.iter().zip(&alone).all(|(x, alone)| (x.0[lane] - alone).abs() < 1e-13),
+                "{}",
+                problem.name()
+            );
+        }
+    }
+}
+
 const START: [[f64; 2]; 2] = [[0.3, 0.2], [0.1, 1.2]];
 
 fn generated<const W: usize, P: Potential<Lanes<W>> + Potential<f64> + Copy>(potential: P, compensated: bool) {
