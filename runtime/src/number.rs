@@ -3,6 +3,7 @@
 
 pub mod counting;
 mod double;
+mod double_double;
 mod epsilon;
 mod lanes;
 mod limbs;
@@ -23,6 +24,8 @@ pub use shadowstep_limbs::Limbs;
 /// MPFR's numbers, of the version that implements [`Number`].
 #[cfg(feature = "mpfr")]
 pub use rug::Float;
+
+pub use double_double::{DoubleDouble, Machine};
 
 pub(crate) use epsilon::epsilon;
 pub use lanes::Lanes;

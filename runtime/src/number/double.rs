@@ -8,34 +8,34 @@ use num_traits::ToPrimitive;
 
 /// A number of its own.
 #[derive(Debug)]
-pub struct Copied(f64);
+pub struct Copied<N>(pub(super) N);
 
-impl Deref for Copied {
-    type Target = f64;
+impl<N> Deref for Copied<N> {
+    type Target = N;
 
     #[inline]
-    fn deref(&self) -> &f64 {
+    fn deref(&self) -> &N {
         &self.0
     }
 }
 
-impl DerefMut for Copied {
+impl<N> DerefMut for Copied<N> {
     #[inline]
-    fn deref_mut(&mut self) -> &mut f64 {
+    fn deref_mut(&mut self) -> &mut N {
         &mut self.0
     }
 }
 
 /// 3 (2x)² is below the largest `f64`, 1.797e308.
-const LARGEST_SQUARED: f64 = 3.8e153;
+pub(super) const LARGEST_SQUARED: f64 = 3.8e153;
 
 impl Number for f64 {
     type Context = ();
     const KEEPS_INCREMENTS: bool = true;
-    type Register<'a> = Copied;
+    type Register<'a> = Copied<f64>;
 
     #[inline]
-    fn register(&mut self) -> Copied {
+    fn register(&mut self) -> Copied<f64> {
         Copied(*self)
     }
 

@@ -1,6 +1,7 @@
 //! Numbers that a number of more digits is rounded to.
 
-use super::{Limbs, Ordered, Precision, Reference};
+use super::{DoubleDouble, Limbs, Ordered, Precision, Reference};
+use crate::Rational;
 
 /// A number that takes a number of any precision with one rounding.
 pub trait Rounded: Ordered {
@@ -40,4 +41,24 @@ impl Rounded for rug::Float {
     fn assign_rounded(&mut self, a: &impl Reference) {
         a.round_to(self);
     }
+}
+
+impl Rounded for DoubleDouble {
+    /// 107 bits: the sign of the low part is one.
+    fn precision((): &()) -> Precision {
+        Precision::of_bits(2 * f64::MANTISSA_DIGITS + 1)
+    }
+
+    fn assign_rounded(&mut self, a: &impl Reference) {
+        let high = a.to_f64();
+        *self = Rational::from_float(high).map_or(DoubleDouble::from(high), |exact| {
+            let mut rest = a.clone();
+            rest.subtract(&from_rational_like(a, &exact)); // exact
+            DoubleDouble::new(high, rest.to_f64())
+        });
+    }
+}
+
+fn from_rational_like<R: Reference>(a: &R, value: &Rational) -> R {
+    R::from_rational(value, &a.context())
 }
