@@ -110,11 +110,13 @@ impl Selection {
 }
 
 fn arithmetic(arguments: &RunArguments) -> Result<Arithmetic, Error> {
-    if arguments.double || arguments.compensated {
-        return Ok(if arguments.compensated { Arithmetic::Compensated } else { Arithmetic::Double });
+    match (arguments.double, arguments.compensated, arguments.double_double) {
+        (true, ..) => Ok(Arithmetic::Double),
+        (_, true, _) => Ok(Arithmetic::Compensated),
+        (.., true) => Ok(Arithmetic::DoubleDouble),
+        _ => Arithmetic::of_digits(arguments.digits, arguments.mpfr)
+            .map_err(|error| Error::usage(error.to_string(), "use --digits 120")),
     }
-    let arithmetic = Arithmetic::of_digits(arguments.digits, arguments.mpfr);
-    arithmetic.map_err(|error| Error::usage(error.to_string(), "use --digits 120"))
 }
 
 fn estimator(arguments: &RunArguments) -> Result<EstimatorSettings, Error> {

@@ -4,7 +4,7 @@ use num_traits::Zero;
 use shadowstep::Rational;
 #[cfg(feature = "mpfr")]
 use shadowstep::number::Float;
-use shadowstep::number::{Limbs, Precision, PrecisionError, Rounded};
+use shadowstep::number::{DoubleDouble, Limbs, Precision, PrecisionError, Rounded};
 use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_symbolic::Exact;
@@ -126,6 +126,8 @@ number_types! {
     Double: f64, "double", "double precision", 16;
     /// Double precision with [compensated sums](shadowstep::summation::Compensated).
     Compensated: f64, "compensated", "double precision, compensated sums", 16;
+    /// Sums of two doubles: [`DoubleDouble`].
+    DoubleDouble: DoubleDouble, "double-double", "double-double precision", 32;
 }
 
 /// Numbers of many digits.
@@ -189,6 +191,11 @@ impl Arithmetic {
     /// Whether q and p are sums with remainders.
     pub fn is_compensated(self) -> bool {
         matches!(self, Arithmetic::Compensated)
+    }
+
+    /// Whether numbers have more digits than double precision.
+    pub fn is_longer_than_double(self) -> bool {
+        !matches!(self, Arithmetic::Double | Arithmetic::Compensated)
     }
 
     /// Numbers with this many decimal digits: of the fewest [`LIMBS`] that have them, beyond 307 digits MPFR's.

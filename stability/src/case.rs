@@ -104,6 +104,7 @@ fn finding<C: Case>(suite: &Suite, results: Vec<Option<Value>>) -> Finding {
 fn arithmetic_cost(arithmetic: Arithmetic) -> f64 {
     match arithmetic {
         Arithmetic::Double | Arithmetic::Compensated => 1.0,
+        Arithmetic::DoubleDouble => 6.0,
         Arithmetic::Digits(digits, _) => 30.0 + f64::from(digits).powf(1.5) / 20.0,
     }
 }

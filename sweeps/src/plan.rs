@@ -11,7 +11,6 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use shadowstep::tables::{Faults, Source};
-use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::family::Family;
 use shadowstep_scenes::{Error, Scene, elementary_functions, source};
 use shadowstep_schemes::document::{Fault, Reader, document};
@@ -117,7 +116,7 @@ impl Plan {
         let picture = picture.resolve(&mut reader, &axes, &columns);
         refuse(reader.faults)?;
         let digests = digests::of(&document, &family, &axes)?;
-        let long_numbers = matches!(first.arithmetic, Arithmetic::Digits(..)) || axes.find("digits").is_some();
+        let long_numbers = first.arithmetic.is_longer_than_double() || axes.find("digits").is_some();
         Ok(Plan { family, axes, keep, columns, picture, long_numbers, digests, source: source.clone() })
     }
 

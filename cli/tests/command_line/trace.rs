@@ -182,6 +182,23 @@ fn without_a_reliable_estimate_the_estimate_is_empty() {
 }
 
 /// Double precision, of which the sums have remainders: other bits, after a few steps, of the same run.
+/// Its numbers are those of 50 digits to about 30.
+#[test]
+fn double_double_is_a_number_type() {
+    const RUN: &str = "trace kepler --scheme yoshida4 --step 1/20 --until 10 --order 5 --no-summary --states";
+    let last = |flags: &str| objects(&quietly(&format!("{RUN} {flags}"))).pop().unwrap();
+    let x = |line: &serde_json::Value| shadowstep::exact(line["q"][0].as_str().unwrap()).unwrap();
+    let error = x(&last("--double-double")) - x(&last("--digits 50"));
+    let error = <f64 as shadowstep::Number>::from_rational(&error, &());
+    assert!(error != 0.0 && error.abs() < 1e-28, "{error:e}");
+    let drift =
+        "drift kepler --scheme yoshida4 --step 1/20 --until 10 --no-control --no-summary --json --double-double";
+    assert_eq!(objects(&quietly(drift))[0]["digits"], "double-double");
+    for other in ["--double", "--digits 30", "--compensated"] {
+        assert_eq!(shadowstep(&format!("{drift} {other}")).code, 2, "{other}");
+    }
+}
+
 #[test]
 fn compensated_sums_are_a_number_type() {
     const RUN: &str = "trace kepler --scheme yoshida4 --step 1/20 --until 10 --order 5 --no-summary --states";

@@ -11,7 +11,12 @@ use crate::program::{objects, quietly};
 
 #[test]
 fn values_are_those_of_drift() {
-    for (digits, flag) in [("\"double\"", "--double"), ("\"compensated\"", "--compensated"), ("30", "--digits 30")] {
+    for (digits, flag) in [
+        ("\"double\"", "--double"),
+        ("\"compensated\"", "--compensated"),
+        ("\"double-double\"", "--double-double"),
+        ("30", "--digits 30"),
+    ] {
         let sweep = format!(
             r#"
 problem.name = "kepler"
@@ -93,7 +98,7 @@ fn rows_of_runs(folder: &Path) -> BTreeMap<String, Vec<BTreeMap<String, String>>
 #[test]
 fn conditions_and_ends_are_those_of_the_rows() {
     for (scene, coordinate, bound) in SCENES {
-        for digits in ["\"double\"", "\"compensated\"", "30"] {
+        for digits in ["\"double\"", "\"compensated\"", "\"double-double\"", "30"] {
             let sweep = |stop: &str| {
                 format!(
                     r#"{scene}
