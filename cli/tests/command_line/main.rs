@@ -1,7 +1,9 @@
 //! The command line, used as a person or a script uses it.
 
 mod checkpoints;
+mod digits;
 mod drift;
+#[cfg(feature = "mpfr")]
 mod figures;
 mod lost_energy;
 mod output_files;

@@ -323,6 +323,7 @@ const NAMED: &str = "[problem]\nname = \"kepler\"\nparameters = { eccentricity =
                      [run]\nscheme = \"ruth3\"\nsteps = 2\nstep = 0.1\n[output]\nenergy = true\n";
 
 #[test]
+#[cfg(feature = "mpfr")]
 fn each_fault_of_a_shipped_problem_has_its_place_and_message() {
     for (part, replacement, sentence, help) in [
         ("\"kepler\"", "\"keppler\"", "2:8: there is no problem `keppler`", "did you mean `kepler`?"),
@@ -410,6 +411,7 @@ fn numbers_whose_squares_or_inverses_overflow_are_refused() {
 }
 
 #[test]
+#[cfg(feature = "mpfr")]
 fn irrational_values_of_a_problem_have_the_digits_of_the_run() {
     let scene = NAMED.replace("1/2", "1/3").replace("0.1", "0.1\ndigits = 6000");
     complains(&scene, "2:8: py is irrational and computed to 5000 digits", "digits = 4980");

@@ -41,6 +41,7 @@ fn ends(child: Child, hint: &str) {
 }
 
 #[test]
+#[cfg(feature = "mpfr")]
 fn a_run_ends_before_its_first_modified_energy() {
     for (name, checkpoint, hint) in [
         ("-TERM", "", "with `checkpoint = \"1 min\"` in [output] it could be resumed"),
@@ -56,6 +57,7 @@ fn a_run_ends_before_its_first_modified_energy() {
 }
 
 #[test]
+#[cfg(feature = "mpfr")]
 fn a_trace_or_drift_ends_before_its_first_modified_energy() {
     for command in ["trace", "drift"] {
         let folder = tempfile::tempdir().unwrap();

@@ -173,6 +173,7 @@ const CHECKPOINTS: &[(&str, &str)] =
     &[("\"checkpoint\"", "\"chekpoint\""), ("\"n\": 20", "\"n\": 21"), ("}", ""), ("{", "null {")];
 
 #[test]
+#[cfg(feature = "mpfr")]
 fn messages_and_exit_codes() {
     let valid = valid_folder();
     for words in [&["run", "scene.toml", "--no-summary"], &["schemes", "check", "mine.toml"][..]] {

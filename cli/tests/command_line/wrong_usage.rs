@@ -78,6 +78,7 @@ const WRONG: &[(&str, &str, &str)] = &[
 ];
 
 #[test]
+#[cfg(feature = "mpfr")]
 fn each_wrong_flag_has_its_message_and_hint() {
     for (flags, sentence, hint) in WRONG {
         let result = shadowstep(&completed(flags));

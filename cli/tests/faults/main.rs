@@ -36,7 +36,7 @@ const ERRORS: [(u32, &str); 3] =
     [(28, "No space left on device"), (30, "Read-only file system"), (13, "Permission denied")];
 
 fn each(test: fn(Disturbed, &mut Random), name: &str) {
-    for command in COMMANDS {
+    for &command in COMMANDS {
         test(command, &mut Random::of_test(&format!("{name}, {}", command.name)));
     }
 }
@@ -207,7 +207,7 @@ fn several_commands_do_not_write_one_file() {
 
 #[test]
 fn clocks_may_jump() {
-    for command in COMMANDS.into_iter().chain([TIMED]) {
+    for command in COMMANDS.iter().copied().chain([TIMED]) {
         let mut random = Random::of_test(&format!("clocks, {}", command.name));
         let Undisturbed { files, .. } = undisturbed(command);
         let work = Work::new(command);

@@ -61,12 +61,11 @@ fn boxed<N: Rounded, R: Reference>(points: Option<PointsOf<R>>) -> Option<Box<dy
 /// The bits needed, by an estimate with numbers of twice the bits of the run.
 fn bits<M: Method>(request: &Request<'_>) -> Result<u32, ExactFlowError> {
     let rough = request.bits(f64::from(request.bits), u32::MAX)?;
-    if let Some(context) = MostLimbs::context_of(rough) {
-        return M::bits::<MostLimbs>(request, &context);
-    }
     #[cfg(feature = "mpfr")]
-    if let Some(context) = rug::Float::context_of(rough) {
+    if let (None, Some(context)) = (MostLimbs::context_of(rough), rug::Float::context_of(rough)) {
         return M::bits::<rug::Float>(request, &context);
     }
-    Err(ExactFlowError::NeedsMpfr { bits: rough })
+    // without MPFR these are the most
+    let most = MostLimbs::context_of(rough.min(MostLimbs::BITS)).expect("they have as many bits");
+    M::bits::<MostLimbs>(request, &most)
 }
