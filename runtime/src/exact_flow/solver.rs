@@ -60,12 +60,13 @@ fn boxed<N: Rounded, R: Reference>(points: Option<PointsOf<R>>) -> Option<Box<dy
 
 /// The bits needed, by an estimate with numbers of twice the bits of the run.
 fn bits<M: Method>(request: &Request<'_>) -> Result<u32, ExactFlowError> {
-    let rough = request.bits(f64::from(request.bits), u32::MAX)?;
     #[cfg(feature = "mpfr")]
-    if let (None, Some(context)) = (MostLimbs::context_of(rough), rug::Float::context_of(rough)) {
-        return M::bits::<rug::Float>(request, &context);
+    {
+        let rough = request.bits(f64::from(request.bits), u32::MAX)?;
+        if let (None, Some(context)) = (MostLimbs::context_of(rough), rug::Float::context_of(rough)) {
+            return M::bits::<rug::Float>(request, &context);
+        }
     }
-    // without MPFR these are the most
-    let most = MostLimbs::context_of(rough.min(MostLimbs::BITS)).expect("they have as many bits");
-    M::bits::<MostLimbs>(request, &most)
+    // without MPFR there are no more bits
+    M::bits::<MostLimbs>(request, &())
 }
