@@ -109,19 +109,25 @@ pub fn limb_up<const N: usize>(x: &[u64; N]) -> [u64; N] {
 #[inline]
 pub fn shift_down<const N: usize>(x: &[u64; N], n: u32) -> [u64; N] {
     let (limbs, bits) = ((n / 64) as usize, n % 64);
-    let at = |i: usize| x.get(i).copied().unwrap_or(0);
-    std::array::from_fn(|i| at(i + limbs) >> bits | at(i + limbs + 1) << 1 << (63 - bits))
+    let at = |i: usize| if i < N { x[i] } else { 0 };
+    let mut shifted = [0; N];
+    for (i, limb) in shifted.iter_mut().enumerate() {
+        *limb = at(i + limbs) >> bits | at(i + limbs + 1) << 1 << (63 - bits);
+    }
+    shifted
 }
 
 /// x 2^n; 0 where n ≥ 64 N.
 #[inline]
 pub fn shift_up<const N: usize>(x: &[u64; N], n: u32) -> [u64; N] {
     let (limbs, bits) = ((n / 64) as usize, n % 64);
-    let at = |i: usize| x.get(i).copied().unwrap_or(0); // an index below 0 wraps: 0, too
-    std::array::from_fn(|i| {
+    let at = |i: usize| if i < N { x[i] } else { 0 }; // an index below 0 wraps: 0, too
+    let mut shifted = [0; N];
+    for (i, limb) in shifted.iter_mut().enumerate() {
         let i = i.wrapping_sub(limbs);
-        at(i) << bits | at(i.wrapping_sub(1)) >> 1 >> (63 - bits)
-    })
+        *limb = at(i) << bits | at(i.wrapping_sub(1)) >> 1 >> (63 - bits);
+    }
+    shifted
 }
 
 /// x ← n x of a number x ≥ 0; what is carried out.
@@ -259,13 +265,12 @@ pub fn high_square<const N: usize>(a: &[u64; N]) -> ([u64; N], u64) {
         high[2 * i - N] = carry;
     }
     // twice these products of two different limbs, and the squares
-    let mut bit = below >> 63;
-    below <<= 1;
+    let mut carry;
+    (below, carry) = below.carrying_add(below, false);
     for limb in &mut high {
-        (*limb, bit) = (*limb << 1 | bit, *limb >> 63);
+        (*limb, carry) = limb.carrying_add(*limb, carry);
     }
     let middle = (N - 1) / 2;
-    let mut carry;
     if N.is_multiple_of(2) {
         (below, carry) = below.overflowing_add(upper(a[middle], a[middle]));
     } else {

@@ -89,7 +89,11 @@ fn split<const N: usize, const L: usize>(x: &[u64; N]) -> ([u64; L], u64) {
 /// The highest limbs, or all limbs and zeros below.
 #[inline(always)]
 pub(crate) fn top<const A: usize, const B: usize>(x: &[u64; A]) -> [u64; B] {
-    std::array::from_fn(|i| if A + i >= B && A + i - B < A { x[A + i - B] } else { 0 })
+    let mut highest = [0; B];
+    for (i, limb) in highest.iter_mut().enumerate() {
+        *limb = if A + i >= B && A + i - B < A { x[A + i - B] } else { 0 };
+    }
+    highest
 }
 
 /// 1/(2√M) to 154, 309, 617 bits or more.
@@ -180,11 +184,15 @@ fn changed_by<const H: usize, const N: usize>(z: &[u64; H], change: &[u64; N], p
 #[inline(always)]
 fn square<const H: usize, const N: usize>(z: &[u64; H]) -> [u64; N] {
     let (low, high) = fixed::product(z, z);
-    std::array::from_fn(|i| match N - 1 - i {
-        down if down < H => high[H - 1 - down],
-        down if down < 2 * H => low[2 * H - 1 - down],
-        _ => 0,
-    })
+    let mut square = [0; N];
+    for (down, limb) in square.iter_mut().rev().enumerate() {
+        *limb = match down {
+            _ if down < H => high[H - 1 - down],
+            _ if down < 2 * H => low[2 * H - 1 - down],
+            _ => 0,
+        };
+    }
+    square
 }
 
 /// |u 2^shift| of the lowest limbs alone, which have a sign; whether that is −.
@@ -205,7 +213,11 @@ fn absolute_of_shifted<const N: usize>(u: &mut [u64; N], limbs: usize, shift: u3
 /// The highest limbs, as the lowest ones of an array.
 #[inline(always)]
 fn top_limbs<const H: usize, const N: usize>(z: &[u64; H], limbs: usize) -> [u64; N] {
-    std::array::from_fn(|i| if i < limbs && H + i >= limbs { z[H + i - limbs] } else { 0 })
+    let mut highest = [0; N];
+    for (i, limb) in highest.iter_mut().enumerate() {
+        *limb = if i < limbs && H + i >= limbs { z[H + i - limbs] } else { 0 };
+    }
+    highest
 }
 
 /// The lowest `columns` limbs of ⌊a b / 2^(64 n)⌋, a and b of n limbs, too small by a unit or so.

@@ -4,64 +4,111 @@ use crate::{Limbs, fixed};
 use std::ops::{Add, AddAssign, Neg, Sub, SubAssign};
 
 impl<const L: usize> Limbs<L> {
-    /// a + b, or a − b: correctly rounded.
+    /// x ← a + b, correctly rounded; in place, faster than `x = &a + &b`.
     #[inline]
-    fn sum(a: &Self, b: &Self, minus: bool) -> Self {
-        if !(a.is_regular() && b.is_regular()) {
-            return special(a, b, minus);
-        }
-        let b_negative = b.negative ^ minus;
-        let (large, small, negative) = if a.exponent >= b.exponent { (a, b, a.negative) } else { (b, a, b_negative) };
-        let distance = (large.exponent - small.exponent) as u32;
-        if a.negative == b_negative {
-            sum_of_magnitudes(large, small, distance, negative)
-        } else {
-            difference_of_magnitudes(large, small, distance, negative)
-        }
+    pub fn set_sum(&mut self, a: &Self, b: &Self) {
+        *self = quick_sum(a, b, false).unwrap_or_else(|| sum(*a, *b, false));
+    }
+
+    /// x ← a − b, correctly rounded; in place, faster than `x = &a - &b`.
+    #[inline]
+    pub fn set_difference(&mut self, a: &Self, b: &Self) {
+        *self = quick_sum(a, b, true).unwrap_or_else(|| sum(*a, *b, true));
     }
 }
 
+/// a ± b of numbers whose exponents differ by less than 64, where at most one bit is lost.
 #[inline(always)]
-fn sum_of_magnitudes<const L: usize>(large: &Limbs<L>, small: &Limbs<L>, distance: u32, negative: bool) -> Limbs<L> {
+fn quick_sum<const L: usize>(a: &Limbs<L>, b: &Limbs<L>, minus: bool) -> Option<Limbs<L>> {
+    if !(a.is_regular() & b.is_regular()) {
+        return None;
+    }
+    let b_negative = b.negative ^ minus;
+    let (large, small, negative) = if a.exponent >= b.exponent { (a, b, a.negative) } else { (b, a, b_negative) };
+    let distance = (large.exponent - small.exponent) as u32;
+    if distance >= 64 {
+        return None;
+    }
+    let (mut mantissa, mut below) = shifted_by_bits(&small.mantissa, distance);
+    let mut exponent = large.exponent;
+    if a.negative == b_negative {
+        if fixed::add(&mut mantissa, &large.mantissa) {
+            (mantissa, below) = halved(mantissa, below);
+            exponent += 1;
+        }
+    } else {
+        let borrows;
+        (mantissa, below, borrows) = difference(&large.mantissa, &mantissa, below);
+        if borrows || mantissa[L - 1] >> 62 == 0 {
+            return None;
+        }
+        if mantissa[L - 1] >> 63 == 0 {
+            (mantissa, below) = doubled(mantissa, below);
+            exponent -= 1;
+        }
+    }
+    Limbs::quickly_rounded(negative, exponent, mantissa, below)
+}
+
+/// a ± b of any numbers.
+#[inline(never)]
+fn sum<const L: usize>(a: Limbs<L>, b: Limbs<L>, minus: bool) -> Limbs<L> {
+    if !(a.is_regular() && b.is_regular()) {
+        return special(&a, &b, minus);
+    }
+    let b_negative = b.negative ^ minus;
+    let (large, small, negative) = if a.exponent >= b.exponent { (&a, &b, a.negative) } else { (&b, &a, b_negative) };
+    let distance = (large.exponent - small.exponent) as u32;
     let (mut mantissa, mut below) = shifted(&small.mantissa, distance);
     let mut exponent = large.exponent;
-    if fixed::add(&mut mantissa, &large.mantissa) {
-        below = mantissa[0] << 63 | below >> 1 | below & 1;
-        for i in 0..L - 1 {
-            mantissa[i] = mantissa[i] >> 1 | mantissa[i + 1] << 63;
+    if a.negative == b_negative {
+        if fixed::add(&mut mantissa, &large.mantissa) {
+            (mantissa, below) = halved(mantissa, below);
+            exponent += 1;
         }
-        mantissa[L - 1] = mantissa[L - 1] >> 1 | 1 << 63;
-        exponent += 1;
+    } else {
+        let borrows;
+        (mantissa, below, borrows) = difference(&large.mantissa, &mantissa, below);
+        if borrows || mantissa[L - 1] >> 62 == 0 {
+            return cancelled(negative, exponent, mantissa, below, borrows);
+        }
+        if mantissa[L - 1] >> 63 == 0 {
+            (mantissa, below) = doubled(mantissa, below);
+            exponent -= 1;
+        }
     }
     Limbs::rounded(negative, exponent, mantissa, below)
 }
 
+/// a − (b + below / 2^64) with its limb below, and whether it borrows.
 #[inline(always)]
-fn difference_of_magnitudes<const L: usize>(
-    large: &Limbs<L>,
-    small: &Limbs<L>,
-    distance: u32,
-    negative: bool,
-) -> Limbs<L> {
-    let (subtrahend, below) = shifted(&small.mantissa, distance);
-    let (mut below, mut borrow) = 0u64.overflowing_sub(below);
-    let mut mantissa = large.mantissa;
+fn difference<const L: usize>(a: &[u64; L], b: &[u64; L], below: u64) -> ([u64; L], u64, bool) {
+    let (below, mut borrow) = 0u64.overflowing_sub(below);
+    let mut difference = [0; L];
     for i in 0..L {
-        (mantissa[i], borrow) = mantissa[i].borrowing_sub(subtrahend[i], borrow);
+        (difference[i], borrow) = a[i].borrowing_sub(b[i], borrow);
     }
-    if borrow || mantissa[L - 1] >> 62 == 0 {
-        return cancelled(negative, large.exponent, mantissa, below, borrow);
+    (difference, below, borrow)
+}
+
+/// Half of 2^(64 L) + x.
+#[inline(always)]
+fn halved<const L: usize>(x: [u64; L], below: u64) -> ([u64; L], u64) {
+    let mut half = [0; L];
+    for i in 0..L {
+        half[i] = x[i] >> 1 | if i + 1 < L { x[i + 1] << 63 } else { 1 << 63 };
     }
-    let mut exponent = large.exponent;
-    if mantissa[L - 1] >> 63 == 0 {
-        for i in (1..L).rev() {
-            mantissa[i] = mantissa[i] << 1 | mantissa[i - 1] >> 63;
-        }
-        mantissa[0] = mantissa[0] << 1 | below >> 63;
-        below <<= 1;
-        exponent -= 1;
+    (half, x[0] << 63 | below >> 1 | below & 1)
+}
+
+/// 2 x
+#[inline(always)]
+fn doubled<const L: usize>(x: [u64; L], below: u64) -> ([u64; L], u64) {
+    let (mut double, mut carry) = ([0; L], below >> 63 != 0);
+    for i in 0..L {
+        (double[i], carry) = x[i].carrying_add(x[i], carry);
     }
-    Limbs::rounded(negative, exponent, mantissa, below)
+    (double, below << 1)
 }
 
 /// A difference that lost more than a bit, thus exact, of numbers whose exponents differ by at most 1: below 0 only where they are equal.
@@ -99,11 +146,14 @@ fn lowest<const L: usize>(below: u64, zeros: u32) -> [u64; L] {
 }
 
 /// a / 2^n: its integer part and the 64 bits below, the lowest of which is 1 where any after them is.
-#[inline(always)]
 fn shifted<const L: usize>(a: &[u64; L], n: u32) -> ([u64; L], u64) {
-    if n >= 64 {
-        return shifted_by_limbs(a, n);
-    }
+    if n < 64 { shifted_by_bits(a, n) } else { shifted_by_limbs(a, n) }
+}
+
+/// The same for n < 64.
+#[inline(always)]
+fn shifted_by_bits<const L: usize>(a: &[u64; L], n: u32) -> ([u64; L], u64) {
+    let n = n & 63;
     let mut shifted = [0; L];
     for i in 0..L - 1 {
         shifted[i] = a[i] >> n | a[i + 1] << 1 << (63 - n);
@@ -131,7 +181,6 @@ fn shifted_by_limbs<const L: usize>(a: &[u64; L], n: u32) -> ([u64; L], u64) {
 }
 
 /// Where a or b is 0, infinite or NaN.
-#[cold]
 fn special<const L: usize>(a: &Limbs<L>, b: &Limbs<L>, minus: bool) -> Limbs<L> {
     let b = Limbs { negative: b.negative ^ minus, ..*b };
     let opposite = a.negative != b.negative;
@@ -151,7 +200,7 @@ impl<const L: usize> Add for &Limbs<L> {
 
     #[inline]
     fn add(self, b: &Limbs<L>) -> Limbs<L> {
-        Limbs::sum(self, b, false)
+        quick_sum(self, b, false).unwrap_or_else(|| sum(*self, *b, false))
     }
 }
 
@@ -160,21 +209,21 @@ impl<const L: usize> Sub for &Limbs<L> {
 
     #[inline]
     fn sub(self, b: &Limbs<L>) -> Limbs<L> {
-        Limbs::sum(self, b, true)
+        quick_sum(self, b, true).unwrap_or_else(|| sum(*self, *b, true))
     }
 }
 
 impl<const L: usize> AddAssign<&Limbs<L>> for Limbs<L> {
     #[inline]
     fn add_assign(&mut self, b: &Limbs<L>) {
-        *self = Limbs::sum(self, b, false);
+        *self = quick_sum(self, b, false).unwrap_or_else(|| sum(*self, *b, false));
     }
 }
 
 impl<const L: usize> SubAssign<&Limbs<L>> for Limbs<L> {
     #[inline]
     fn sub_assign(&mut self, b: &Limbs<L>) {
-        *self = Limbs::sum(self, b, true);
+        *self = quick_sum(self, b, true).unwrap_or_else(|| sum(*self, *b, true));
     }
 }
 

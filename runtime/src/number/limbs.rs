@@ -45,17 +45,17 @@ impl<const L: usize> Number for Limbs<L> {
 
     #[inline]
     fn assign_sum(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
-        *self = a + b;
+        self.set_sum(a, b);
     }
 
     #[inline]
     fn assign_difference(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
-        *self = a - b;
+        self.set_difference(a, b);
     }
 
     #[inline]
     fn assign_product(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
-        *self = a * b;
+        self.set_product(a, b);
     }
 
     #[inline]
@@ -65,7 +65,7 @@ impl<const L: usize> Number for Limbs<L> {
 
     #[inline]
     fn assign_square(&mut self, a: &Limbs<L>) {
-        *self = a.square();
+        self.set_square(a);
     }
 
     fn assign_sqrt(&mut self, a: &Limbs<L>) {
