@@ -7,6 +7,7 @@ mod double_double;
 mod epsilon;
 mod lanes;
 mod limbs;
+mod limb_access;
 #[cfg(feature = "mpfr")]
 mod multiprecision;
 mod precision;
@@ -29,6 +30,8 @@ pub use double_double::{DoubleDouble, Machine};
 
 pub(crate) use epsilon::epsilon;
 pub use lanes::Lanes;
+#[doc(hidden)]
+pub use limb_access::{LimbAccess, Parts};
 
 use crate::Rational;
 use std::fmt;
@@ -78,6 +81,10 @@ pub trait Number: Clone + fmt::Debug {
     ///
     /// This keeps the round-off of the states out of the differences, which `f64` needs; with more digits it is not necessary.
     const KEEPS_INCREMENTS: bool = false;
+
+    /// For a number made of 64-bit limbs, with which estimators then compute in fixed point; without it they compute with numbers.
+    #[doc(hidden)]
+    const LIMBS: Option<LimbAccess<Self>> = None;
 
     /// Holds an intermediate result: for a big number, `&mut Self`; for one of a few bytes a copy, which can stay in the
     /// processor's registers.

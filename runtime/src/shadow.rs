@@ -47,10 +47,12 @@
 mod best_bilinear;
 mod bilinear;
 mod central;
+mod difference_table;
 mod differences;
 mod error_estimate;
 mod estimator;
 mod family;
+mod fixed;
 mod form;
 mod monitor;
 mod options;

@@ -1,6 +1,6 @@
 //! Numbers of a fixed number of limbs, [`Limbs`], as a [`Number`].
 
-use super::{Number, Ordered};
+use super::{LimbAccess, Number, Ordered, Parts};
 use crate::Rational;
 use num_traits::{Signed, Zero};
 use shadowstep_limbs::Limbs;
@@ -11,6 +11,13 @@ use std::f64::consts::LOG10_2;
 impl<const L: usize> Number for Limbs<L> {
     type Context = ();
     type Register<'a> = &'a mut Limbs<L>;
+
+    const LIMBS: Option<LimbAccess<Self>> = Some(LimbAccess {
+        limbs: L,
+        parts,
+        assign: |x, negative, magnitude, exponent| *x = Limbs::from_magnitude(negative, magnitude, exponent, false),
+        assign_nan: |x| *x = Limbs::NAN,
+    });
 
     #[inline]
     fn register(&mut self) -> &mut Limbs<L> {
@@ -199,6 +206,18 @@ impl<const L: usize> Number for Limbs<L> {
     #[inline]
     fn is_finite(&self) -> bool {
         Limbs::is_finite(self)
+    }
+}
+
+fn parts<const L: usize>(x: &Limbs<L>) -> Parts<'_> {
+    match x.exponent() {
+        Some(exponent) => Parts::Regular {
+            negative: x.is_sign_negative(),
+            exponent: exponent.into(),
+            significand: x.mantissa(),
+        },
+        None if x.is_zero() => Parts::Zero,
+        None => Parts::NotFinite,
     }
 }
 

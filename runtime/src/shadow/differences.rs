@@ -2,12 +2,15 @@
 //!
 //! T_{m,m} is the sum of the first m terms of Stirling's series, and term k needs ∇^{2k−1} of (q, p, β) at the states
 //! n + k and n + k − 1 only. The table of backward differences of the newest state is updated with 2M vector
-//! subtractions a step; with that of the state before it completes one term of each of M states.
+//! subtractions a step; with that of the state before it completes one term of each of M states: of those whose search for the best m
+//! has not ended before.
 
 use crate::Rational;
 use crate::number::Ordered;
+use crate::shadow::difference_table::DifferenceTable;
 use crate::shadow::error_estimate::{ErrorEstimate, Point};
 use crate::shadow::estimator::{Estimate, Estimator};
+use crate::shadow::fixed::FixedTable;
 use crate::shadow::weights::stirling;
 use crate::system::Increments;
 
@@ -57,27 +60,38 @@ pub(super) struct AllOrders<N> {
     rule: SelectionRule,
     /// c_k/(4h): the halves of μ and of H̄ are in it.
     coefficients: Vec<N>,
-    /// ∇^r of (q, p, β) at the newest state, r = 0..2M−1, and at the one before.
-    table: Vec<Vec<N>>,
-    previous: Vec<Vec<N>>,
-    /// 2 μδ^{2k−1} of (q, p, β)
-    mean: Vec<N>,
+    table: Table<N>,
     /// The newest states, the state k in place k mod their number: M + 1, and those whose values are there already.
     ring: Vec<Place<N>>,
     pushed: usize,
-    /// e_1, …, e_M and T_{1,1}, …, T_{M,M} of a state, up to where the search ended.
-    sizes: Vec<N>,
-    sums: Vec<N>,
     error_estimate: ErrorEstimate<N>,
     with_error: bool,
+}
+
+/// The differences, by the operations of the numbers or in fixed point.
+#[derive(Clone, Debug)]
+enum Table<N> {
+    Numbers(DifferenceTable<N>),
+    Fixed(FixedTable<N>),
 }
 
 #[derive(Clone, Debug)]
 struct Place<N> {
     q: Vec<N>,
     p: Vec<N>,
-    /// −qᵀδp + pᵀδq − δβ with δ = 2 μδ^{2k−1}, k = 1..M.
-    terms: Vec<N>,
+    search: Search<N>,
+}
+
+/// The terms of Stirling's series at a state, as far as they are needed.
+#[derive(Clone, Debug)]
+struct Search<N> {
+    /// e_1, e_2, …, and the signs of the terms.
+    sizes: Vec<N>,
+    negative: Vec<bool>,
+    /// How many terms have come.
+    count: usize,
+    /// Whether the search has ended with the last of them.
+    ended: bool,
 }
 
 impl<N: Ordered> AllOrders<N> {
@@ -91,103 +105,100 @@ impl<N: Ordered> AllOrders<N> {
     ) -> Self {
         let error_estimate = ErrorEstimate::new(around.unwrap_or(0), context);
         let size = largest as usize;
-        let zero = N::zero(context);
-        let numbers = |count| vec![zero.clone(); count];
+        let numbers = |count| vec![N::zero(context); count];
         let four_h = h * Rational::from_integer(4.into());
-        let table = vec![numbers(2 * dimension + 1); 2 * size];
-        let place = Place { q: numbers(dimension), p: numbers(dimension), terms: numbers(size) };
+        let search = Search { sizes: numbers(size), negative: vec![false; size], count: 0, ended: false };
+        let place = Place { q: numbers(dimension), p: numbers(dimension), search };
         AllOrders {
             largest: size,
             stop,
             rule,
             coefficients: stirling(largest).iter().map(|c| N::from_rational(&(c / &four_h), context)).collect(),
-            previous: table.clone(),
-            mean: numbers(2 * dimension + 1),
-            table,
+            table: match N::LIMBS {
+                Some(access) => Table::Fixed(FixedTable::new(access, size, dimension)),
+                None => Table::Numbers(DifferenceTable::new(size, dimension, context)),
+            },
             ring: vec![place; size + 1 + error_estimate.around()],
             pushed: 0,
-            sizes: numbers(size),
-            sums: numbers(size),
             error_estimate,
             with_error: around.is_some(),
         }
     }
 
-    /// ∇^0, ∇^1, … of the newest state, as far as there are states before it. The increments are first differences, of q and p too where
-    /// they are known.
-    fn update_table(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) {
-        std::mem::swap(&mut self.table, &mut self.previous);
-        for (entry, value) in self.table[0].iter_mut().zip(q.iter().chain(p)) {
-            entry.assign(value);
-        }
-        for r in 1..self.table.len().min(self.pushed + 1) {
-            let (lower, upper) = self.table.split_at_mut(r);
-            let below = lower[r - 1].iter().zip(&self.previous[r - 1]);
-            upper[0].iter_mut().zip(below).for_each(|(own, (this, last))| own.assign_difference(this, last));
-            if r == 1 {
-                set_first_differences(&mut upper[0], increments);
-            }
-        }
-    }
-
     fn place(&mut self, q: &[N], p: &[N]) -> usize {
         let newest = self.pushed % self.ring.len();
-        let place = &mut self.ring[newest];
-        place.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
-        place.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        let Place { q: own_q, p: own_p, search } = &mut self.ring[newest];
+        own_q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
+        own_p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        (search.count, search.ended) = (0, false);
         self.pushed += 1;
         newest
     }
 
-    /// Term k of the state n is complete when n + k has come. States with fewer than M before them get no value.
+    /// Term k of the state n is complete when n + k has come, and is computed if the search has not ended before it. States with
+    /// fewer than M before them get no value.
     fn add_terms(&mut self, newest: usize) {
         let size = self.ring.len();
         let newest_with_value = (self.pushed - 1).saturating_sub(self.largest);
         for k in 1..=self.largest.min(newest_with_value) {
-            let (this, last) = (&self.table[2 * k - 1], &self.previous[2 * k - 1]);
-            for ((mean, this), last) in self.mean.iter_mut().zip(this).zip(last) {
-                mean.assign_sum(this, last);
+            let Place { q, p, search } = &mut self.ring[(newest + size - k) % size];
+            if search.ended {
+                continue;
             }
-            self.ring[(newest + size - k) % size].set_term(k, &self.mean);
-        }
-    }
-
-    /// Sums the series at a state up to the end of the search; returns where that is.
-    fn sum_up(&mut self, place: usize) -> usize {
-        for m in 1..=self.largest {
-            let size = &mut self.sizes[m - 1];
-            size.assign_product(&self.coefficients[m - 1], &self.ring[place].terms[m - 1]);
-            let (before, sum) = self.sums.split_at_mut(m - 1);
-            match before.last() {
-                Some(before) => sum[0].assign_sum(before, size),
-                None => sum[0].assign(size),
+            let term = search.next();
+            match &mut self.table {
+                Table::Numbers(table) => table.term(k, (q, p), term),
+                Table::Fixed(table) => table.term(k, term),
             }
-            size.make_absolute();
-            if self.stops_at(m) {
-                return m;
-            }
+            term.multiply(&self.coefficients[k - 1]);
+            search.include(self.stop);
         }
-        self.largest
-    }
-
-    fn stops_at(&self, m: usize) -> bool {
-        // sizes[j − 1] is e_j, and e_2 is the first one that is a difference
-        if self.stop == StoppingRule::Full || m < STOP_WINDOW + 2 {
-            return false;
-        }
-        let before = largest(&self.sizes[m - STOP_WINDOW - 1..m - 1]);
-        let now = largest(&self.sizes[m - STOP_WINDOW..m]);
-        if self.stop == StoppingRule::Early { before < now } else { before <= now }
     }
 
     /// The value of the state whose last term has just come.
     fn add_value(&mut self, place: usize) {
-        let last = self.sum_up(place);
-        let best = self.rule.best(&self.sizes[..last]);
+        let Search { sizes, negative, count, .. } = &self.ring[place].search;
+        let best = self.rule.best(&sizes[..*count]);
         let Point { value, last_term, order } = self.error_estimate.next();
-        value.assign(&self.sums[best - 1]);
-        last_term.assign(&self.sizes[best - 1]);
+        value.assign_zero();
+        for (size, negative) in sizes[..best].iter().zip(negative) {
+            if *negative { value.subtract(size) } else { value.add(size) }
+        }
+        last_term.assign(&sizes[best - 1]);
         *order = best as u32;
+    }
+}
+
+impl<N: Ordered> Search<N> {
+    /// The place for the next term.
+    fn next(&mut self) -> &mut N {
+        &mut self.sizes[self.count]
+    }
+
+    /// Takes the term that has been written there.
+    fn include(&mut self, stop: StoppingRule) {
+        let size = &mut self.sizes[self.count];
+        self.negative[self.count] = size.is_below_zero();
+        size.make_absolute();
+        self.count += 1;
+        self.ended = stop.ends(&self.sizes[..self.count]);
+    }
+}
+
+impl StoppingRule {
+    /// Whether the search ends with the last of e_1, e_2, …
+    fn ends<N: PartialOrd>(self, sizes: &[N]) -> bool {
+        // e_2 is the first one that is a difference
+        if sizes.len() < STOP_WINDOW + 2 {
+            return false;
+        }
+        let (newest, before) = sizes[sizes.len() - STOP_WINDOW - 1..].split_last().expect("the window is not empty");
+        match self {
+            StoppingRule::Full => false,
+            StoppingRule::Early => before.iter().all(|size| size < newest),
+            // the maximum without the oldest term is not less than that without the newest
+            StoppingRule::Printed => before[1..].iter().chain([newest]).any(|size| before[0] <= *size),
+        }
     }
 }
 
@@ -206,29 +217,8 @@ impl SelectionRule {
     }
 }
 
-/// β's is always its increment; those of q and p are where these are known.
-fn set_first_differences<N: Ordered>(differences: &mut [N], Increments { q, p, beta }: Increments<'_, N>) {
-    let (last, others) = differences.split_last_mut().expect("β is there");
-    others.iter_mut().zip(q.iter().chain(p)).for_each(|(own, increment)| own.assign(increment));
-    last.assign(beta);
-}
-
 fn largest<N: PartialOrd>(numbers: &[N]) -> &N {
     numbers.iter().reduce(|a, b| if a < b { b } else { a }).expect("the window is not empty")
-}
-
-impl<N: Ordered> Place<N> {
-    fn set_term(&mut self, k: usize, mean: &[N]) {
-        let (dq, rest) = mean.split_at(self.q.len());
-        let (dp, dbeta) = rest.split_at(self.q.len());
-        let term = &mut self.terms[k - 1];
-        term.assign_zero();
-        for (((q, p), dq), dp) in self.q.iter().zip(&self.p).zip(dq).zip(dp) {
-            term.add_product(p, dq);
-            term.subtract_product(q, dp);
-        }
-        term.subtract(&dbeta[0]);
-    }
 }
 
 impl<N: Ordered> Estimator<N> for AllOrders<N> {
@@ -237,7 +227,10 @@ impl<N: Ordered> Estimator<N> for AllOrders<N> {
     }
 
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
-        self.update_table(q, p, increments);
+        match &mut self.table {
+            Table::Numbers(table) => table.push(q, p, increments),
+            Table::Fixed(table) => table.push(q, p, increments),
+        }
         let newest = self.place(q, p);
         self.add_terms(newest);
         if self.pushed <= 2 * self.largest {

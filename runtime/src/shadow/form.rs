@@ -3,9 +3,10 @@
 use num_bigint::BigInt;
 
 use crate::Rational;
-use crate::number::Number;
+use crate::number::{LimbAccess, Number};
 use crate::shadow::error_estimate::{ErrorEstimate, Point};
 use crate::shadow::estimator::Estimate;
+use crate::shadow::fixed::{IntegerWeights, OfLag, Rows, Sums};
 use crate::shadow::weights::BilinearWeights;
 use crate::shadow::window::Window;
 use crate::system::Increments;
@@ -16,11 +17,18 @@ pub(super) struct Products<N> {
     window: Window<N>,
     /// The number of states in the window.
     states: usize,
-    /// q_i·p − p_i·q + (β − β_i) of each state in the window and the i-th before it, by i = 1, 2, …, as they are summed: for each i
-    /// one after the other in memory, the state n in place n mod the number of states.
-    pairs: Vec<N>,
+    pairs: Pairs<N>,
     /// Those of the newest state.
     of_newest: Vec<N>,
+}
+
+/// q_i·p − p_i·q + (β − β_i) of each state in the window and the i-th before it, by i = 1, 2, …, as they are summed: for each i
+/// one after the other in memory, the state n in place n mod the number of states.
+#[derive(Clone, Debug)]
+enum Pairs<N> {
+    Numbers(Vec<N>),
+    /// In fixed point, divided by (−1)^i i.
+    Rows(LimbAccess<N>, Rows),
 }
 
 impl<N: Number> Products<N> {
@@ -30,7 +38,10 @@ impl<N: Number> Products<N> {
         Products {
             window: Window::new(states, dimension, context),
             states,
-            pairs: vec![zero.clone(); lags * states],
+            pairs: match N::LIMBS {
+                Some(access) => Pairs::Rows(access, Rows::new(access.limbs, lags * states)),
+                None => Pairs::Numbers(vec![zero.clone(); lags * states]),
+            },
             of_newest: vec![zero; lags],
         }
     }
@@ -39,8 +50,16 @@ impl<N: Number> Products<N> {
         self.window.push(q, p, increments);
         let newest = self.window.place(0);
         let count = self.window.pairs(&mut self.of_newest);
-        let of_lags = self.pairs.chunks_exact_mut(self.states);
-        of_lags.zip(&self.of_newest[..count]).for_each(|(of_lag, pair)| of_lag[newest].assign(pair));
+        let places = (0..count).map(|i| i * self.states + newest);
+        match &mut self.pairs {
+            Pairs::Numbers(pairs) => places.zip(&self.of_newest).for_each(|(place, pair)| pairs[place].assign(pair)),
+            Pairs::Rows(access, rows) => {
+                for ((place, pair), lag) in places.zip(&mut self.of_newest).zip(1..) {
+                    pair.divide_integer(if lag % 2 == 0 { lag } else { -lag });
+                    rows.set(place, (access.parts)(pair));
+                }
+            }
+        }
     }
 
     /// How many states have come.
@@ -52,42 +71,51 @@ impl<N: Number> Products<N> {
     pub(super) fn state(&self, back: usize) -> (&[N], &[N]) {
         self.window.state(back)
     }
-
-    /// The products of each state with the `lag`-th before it, by the place of the later one.
-    fn of_lag(&self, lag: usize) -> &[N] {
-        &self.pairs[(lag - 1) * self.states..lag * self.states]
-    }
 }
 
 /// E_k with its last term, and what it was at the states beside.
 #[derive(Clone, Debug)]
 pub(super) struct Form<N> {
-    /// P_{j+ℓ,j}/(2h) in row ℓ − 1, for the first half of the j's; P_{k−j,k−j−ℓ} is the same.
-    weights: Vec<Vec<N>>,
-    /// The same for the last term; empty where no error is computed, and for k = 1.
-    last_term: Vec<Vec<N>>,
+    k: usize,
+    has_error: bool,
+    weights: Weights<N>,
     pub(super) error_estimate: ErrorEstimate<N>,
-    sum: N,
+}
+
+/// Those of the value and of the last term; the latter are empty, or none, where no error is computed, and for k = 1.
+#[derive(Clone, Debug)]
+enum Weights<N> {
+    Numbers {
+        /// P_{j+ℓ,j}/(2h) in row ℓ − 1, for the first half of the j's; P_{k−j,k−j−ℓ} is the same.
+        value: Vec<Vec<N>>,
+        last_term: Vec<Vec<N>>,
+        sum: N,
+    },
+    Integers {
+        /// C(k,j+ℓ) C(k,j) and 1/(h C(2k,k))
+        value: (IntegerWeights, N),
+        last_term: Option<(IntegerWeights, N)>,
+    },
 }
 
 impl<N: Number> Form<N> {
     pub(super) fn new(k: u32, with_error: bool, h: &Rational, context: &N::Context) -> Self {
         let has_error = with_error && k > 1;
         Form {
-            weights: weights(k, h, context),
-            last_term: if has_error { last_term_weights(k, h, context) } else { Vec::new() },
+            k: k as usize,
+            has_error,
+            weights: Weights::new(k, has_error, h, context),
             error_estimate: ErrorEstimate::new(if has_error { around(k) } else { 0 }, context),
-            sum: N::zero(context),
         }
     }
 
     pub(super) fn k(&self) -> usize {
-        self.weights.len()
+        self.k
     }
 
     /// Whether it estimates its error.
     pub(super) fn has_error(&self) -> bool {
-        !self.last_term.is_empty()
+        self.has_error
     }
 
     /// How many states before the newest one of a value the state in the middle is to which its error is known; for an odd k
@@ -109,13 +137,48 @@ impl<N: Number> Form<N> {
         let Point { value, last_term, order } = self.error_estimate.next();
         value.assign_zero();
         last_term.assign_zero();
-        for lag in 1..=self.weights.len() {
-            let of_term = self.last_term.get(lag - 1).map_or(&[][..], Vec::as_slice);
-            let mut sums = [(&self.weights[lag - 1][..], &mut *value), (of_term, &mut *last_term)];
-            add_row(&mut sums, products, (back, lag, self.weights.len() - lag), &mut self.sum);
+        let (k, count) = (self.k, products.states);
+        let lags = (1..=k).map(|lag| OfLag { lag, last: k - lag, first: (lag - 1) * count, count, newest: products.window.place(back) });
+        match (&mut self.weights, &products.pairs) {
+            (Weights::Numbers { value: weights, last_term: of_term, sum }, Pairs::Numbers(pairs)) => {
+                for of_lag in lags {
+                    let term_weights = of_term.get(of_lag.lag - 1).map_or(&[][..], Vec::as_slice);
+                    let mut sums = [(&weights[of_lag.lag - 1][..], &mut *value), (term_weights, &mut *last_term)];
+                    add_row(&mut sums, pairs, of_lag, sum);
+                }
+            }
+            (Weights::Integers { value: of_value, last_term: of_term }, Pairs::Rows(access, rows)) => {
+                let kinds = [Some(&*of_value), of_term.as_ref()];
+                let weights = kinds.map(|kind| kind.map(|(weights, _)| weights));
+                let mut sums = Sums::zero();
+                lags.for_each(|of_lag| sums.add(rows, of_lag, weights));
+                for (at, (kind, x)) in kinds.into_iter().zip([value, &mut *last_term]).enumerate() {
+                    if let Some((weights, factor)) = kind {
+                        sums.read(at, weights, access, x);
+                        x.multiply(factor);
+                    }
+                }
+            }
+            _ => unreachable!("a number type has limbs or not"),
         }
         last_term.make_absolute();
-        *order = self.weights.len() as u32;
+        *order = k as u32;
+    }
+}
+
+impl<N: Number> Weights<N> {
+    fn new(k: u32, has_error: bool, h: &Rational, context: &N::Context) -> Self {
+        if N::LIMBS.is_some() {
+            return Weights::Integers {
+                value: integer_weights(k, h, context),
+                last_term: has_error.then(|| integer_last_term_weights(k, h, context)),
+            };
+        }
+        Weights::Numbers {
+            value: weights(k, h, context),
+            last_term: if has_error { last_term_weights(k, h, context) } else { Vec::new() },
+            sum: N::zero(context),
+        }
     }
 }
 
@@ -152,6 +215,24 @@ fn last_term_weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> V
     })
 }
 
+/// C(k,j+ℓ) C(k,j) and 1/(h C(2k,k)), whose products with (−1)^ℓ/ℓ are those.
+fn integer_weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> (IntegerWeights, N) {
+    let of_k = BilinearWeights::new(k);
+    let factor = (h * Rational::from_integer(of_k.of_2k().clone())).recip();
+    (IntegerWeights::new(&of_halves(k, |lag, j| of_k.product(lag, j))), N::from_rational(&factor, context))
+}
+
+/// The same of the last term, with C(2k,k) = C(2k−2,k−1) 2(2k − 1)/k: k times those of E_k less 2k − 1 times those of E_{k−1} at two places.
+fn integer_last_term_weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> (IntegerWeights, N) {
+    let [of_k, before] = [k, k - 1].map(BilinearWeights::new);
+    let factor = (h * Rational::from_integer(of_k.of_2k() * k)).recip();
+    let weights = of_halves(k, |lag, j| {
+        let others = before.product(lag, j) + j.checked_sub(1).map_or_else(BigInt::default, |j| before.product(lag, j));
+        of_k.product(lag, j) * k - others * (2 * k - 1)
+    });
+    (IntegerWeights::new(&weights), N::from_rational(&factor, context))
+}
+
 /// The first halves of rows that read the same backwards: row ℓ − 1 has j = 0..=k−ℓ.
 fn of_halves<N>(k: u32, weight: impl Fn(usize, usize) -> N) -> Vec<Vec<N>> {
     let k = k as usize;
@@ -159,19 +240,16 @@ fn of_halves<N>(k: u32, weight: impl Fn(usize, usize) -> N) -> Vec<Vec<N>> {
 }
 
 /// Adds Σ_j w_{j+ℓ,j} (the pair of the states j + ℓ and j), j = 0..=last, for each row of weights that is not empty; two pairs at once,
-/// whose sum all rows use. States are counted back from `back`.
+/// whose sum all rows use.
 fn add_row<N: Number>(
     sums: &mut [(&[N], &mut N); 2],
-    products: &Products<N>,
-    (back, lag, last): (usize, usize, usize),
+    pairs: &[N],
+    of_lag: OfLag,
     sum: &mut N,
 ) {
-    let pairs = products.of_lag(lag);
-    let newest = products.window.place(back);
-    // the place of the state j places before
-    let place = |j: usize| if j <= newest { newest - j } else { newest + pairs.len() - j };
+    let last = of_lag.last;
     for j in 0..=last / 2 {
-        let [pair, other] = [j, last - j].map(|j| &pairs[place(j)]);
+        let [pair, other] = [j, last - j].map(|j| &pairs[of_lag.place(j)]);
         let pair = if last - j == j {
             pair
         } else {

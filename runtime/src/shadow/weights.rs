@@ -131,8 +131,17 @@ impl BilinearWeights {
 
     /// 2 (−1)^ℓ C(k,j+ℓ) C(k,j), which is 0 beyond the last state.
     pub(super) fn numerator(&self, lag: usize, j: usize) -> BigInt {
-        let Some(later) = self.binomials.get(j + lag) else { return BigInt::default() };
-        BigInt::from(if lag.is_multiple_of(2) { 2 } else { -2 }) * later * &self.binomials[j]
+        self.product(lag, j) * if lag.is_multiple_of(2) { 2 } else { -2 }
+    }
+
+    /// C(k,j+ℓ) C(k,j), which is 0 beyond the last state.
+    pub(super) fn product(&self, lag: usize, j: usize) -> BigInt {
+        self.binomials.get(j + lag).map_or_else(BigInt::default, |later| later * &self.binomials[j])
+    }
+
+    /// C(2k,k)
+    pub(super) fn of_2k(&self) -> &BigInt {
+        &self.of_2k
     }
 
     /// ℓ C(2k,k)
