@@ -6,8 +6,8 @@ mod double;
 mod double_double;
 mod epsilon;
 mod lanes;
-mod limbs;
 mod limb_access;
+mod limbs;
 #[cfg(feature = "mpfr")]
 mod multiprecision;
 mod precision;

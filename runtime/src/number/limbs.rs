@@ -211,11 +211,9 @@ impl<const L: usize> Number for Limbs<L> {
 
 fn parts<const L: usize>(x: &Limbs<L>) -> Parts<'_> {
     match x.exponent() {
-        Some(exponent) => Parts::Regular {
-            negative: x.is_sign_negative(),
-            exponent: exponent.into(),
-            significand: x.mantissa(),
-        },
+        Some(exponent) => {
+            Parts::Regular { negative: x.is_sign_negative(), exponent: exponent.into(), significand: x.mantissa() }
+        }
         None if x.is_zero() => Parts::Zero,
         None => Parts::NotFinite,
     }

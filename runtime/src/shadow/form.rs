@@ -138,7 +138,13 @@ impl<N: Number> Form<N> {
         value.assign_zero();
         last_term.assign_zero();
         let (k, count) = (self.k, products.states);
-        let lags = (1..=k).map(|lag| OfLag { lag, last: k - lag, first: (lag - 1) * count, count, newest: products.window.place(back) });
+        let lags = (1..=k).map(|lag| OfLag {
+            lag,
+            last: k - lag,
+            first: (lag - 1) * count,
+            count,
+            newest: products.window.place(back),
+        });
         match (&mut self.weights, &products.pairs) {
             (Weights::Numbers { value: weights, last_term: of_term, sum }, Pairs::Numbers(pairs)) => {
                 for of_lag in lags {
@@ -150,11 +156,11 @@ impl<N: Number> Form<N> {
             (Weights::Integers { value: of_value, last_term: of_term }, Pairs::Rows(access, rows)) => {
                 let kinds = [Some(&*of_value), of_term.as_ref()];
                 let weights = kinds.map(|kind| kind.map(|(weights, _)| weights));
-                let mut sums = Sums::zero();
-                lags.for_each(|of_lag| sums.add(rows, of_lag, weights));
+                let mut sums = Sums::new(rows, weights);
+                lags.for_each(|of_lag| sums.add(of_lag));
                 for (at, (kind, x)) in kinds.into_iter().zip([value, &mut *last_term]).enumerate() {
-                    if let Some((weights, factor)) = kind {
-                        sums.read(at, weights, access, x);
+                    if let Some((_, factor)) = kind {
+                        sums.read(at, access, x);
                         x.multiply(factor);
                     }
                 }
@@ -241,12 +247,7 @@ fn of_halves<N>(k: u32, weight: impl Fn(usize, usize) -> N) -> Vec<Vec<N>> {
 
 /// Adds Σ_j w_{j+ℓ,j} (the pair of the states j + ℓ and j), j = 0..=last, for each row of weights that is not empty; two pairs at once,
 /// whose sum all rows use.
-fn add_row<N: Number>(
-    sums: &mut [(&[N], &mut N); 2],
-    pairs: &[N],
-    of_lag: OfLag,
-    sum: &mut N,
-) {
+fn add_row<N: Number>(sums: &mut [(&[N], &mut N); 2], pairs: &[N], of_lag: OfLag, sum: &mut N) {
     let last = of_lag.last;
     for j in 0..=last / 2 {
         let [pair, other] = [j, last - j].map(|j| &pairs[of_lag.place(j)]);

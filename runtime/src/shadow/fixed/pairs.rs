@@ -4,21 +4,18 @@
 //!
 //! E_k = 1/(h C(2k,k)) Σ_ℓ Σ_j C(k,j+ℓ) C(k,j) (−1)^ℓ B(j + ℓ, j)/ℓ
 //!
-//! For k ≤ 34 a weight is one limb. A sum begins with the unit of the first row, takes that of a coarser row where it meets one, and is rounded
-//! once at the end.
+//! For k ≤ 34 a weight is one limb. Sums have a limb below the unit of the coarsest row, and are rounded once at the end.
 
 use num_bigint::{BigInt, Sign};
 
-use super::{
-    MOST_LIMBS, MOST_OF_ROW, NOT_FINITE, Offset, ZERO, by_limbs, move_row, moved, read_number, sign, write_number,
-};
+use super::{MOST_LIMBS, MOST_OF_ROW, NOT_FINITE, Offset, ZERO, by_limbs, move_row, read_number, sign, write_number};
 use crate::number::{LimbAccess, Parts};
 
 /// Pairs are numbers about 1 in most units.
 const OFFSET: Offset = 32;
 
-/// The most limbs of a sum: those of a row, and as many as weights have, whose sum is below 2^(64 · 9) for k ≤ 256.
-const MOST_OF_SUM: usize = MOST_LIMBS + 1 + 10;
+/// The most limbs of a sum: those of a row, one below, and one more than weights have, which is 9 for k ≤ 256.
+const MOST_OF_SUM: usize = MOST_LIMBS + 1 + 11;
 
 /// Rows of pairs, by places.
 #[derive(Clone, Debug)]
@@ -91,70 +88,103 @@ impl IntegerWeights {
 
 /// Sums of the same rows with up to two kinds of weights.
 #[derive(Clone, Debug)]
-pub(in crate::shadow) struct Sums {
+pub(in crate::shadow) struct Sums<'a> {
+    rows: &'a Rows,
+    weights: [Option<&'a IntegerWeights>; 2],
+    /// That of the coarsest row, which the limb 1 is for.
     low: i64,
     limbs: [[u64; MOST_OF_SUM]; 2],
 }
 
-impl Sums {
-    pub(in crate::shadow) fn zero() -> Self {
-        Sums { low: ZERO, limbs: [[0; MOST_OF_SUM]; 2] }
+impl<'a> Sums<'a> {
+    /// Without rows.
+    pub(in crate::shadow) fn new(rows: &'a Rows, weights: [Option<&'a IntegerWeights>; 2]) -> Self {
+        Sums { rows, weights, low: ZERO, limbs: [[0; MOST_OF_SUM]; 2] }
     }
 
     /// Adds the rows of a lag with the weights of each kind; those at the same distance from both ends have the same weight.
-    pub(in crate::shadow) fn add(&mut self, rows: &Rows, of_lag: OfLag, weights: [Option<&IntegerWeights>; 2]) {
-        by_limbs!(add_rows(rows.size, self, rows, of_lag, weights));
+    pub(in crate::shadow) fn add(&mut self, of_lag: OfLag) {
+        by_limbs!(add_rows(self.rows.size, self, of_lag));
     }
 
     /// x ← the sum of a kind, whose limbs are lost.
-    pub(in crate::shadow) fn read<N>(&mut self, kind: usize, weights: &IntegerWeights, access: &LimbAccess<N>, x: &mut N) {
+    pub(in crate::shadow) fn read<N>(&mut self, kind: usize, access: &LimbAccess<N>, x: &mut N) {
         if self.low == NOT_FINITE {
             return (access.assign_nan)(x);
         }
-        let len = access.limbs + 1 + weights.width + 1;
-        read_number(x, access, &mut self.limbs[kind][..len], self.low, OFFSET);
+        let low = self.low.saturating_sub(1);
+        let [(first, _), (second, _)] = self.kinds();
+        read_number(x, access, if kind == 0 { first } else { second }, low, OFFSET);
     }
 
-    /// Gives the sums and a row the same `low`: the larger one.
+    /// The limbs of each sum, and its weights.
+    #[inline(always)]
+    fn kinds(&mut self) -> [(&mut [u64], Option<&'a IntegerWeights>); 2] {
+        let [first, second] = &mut self.limbs;
+        let size = self.rows.size + 2;
+        let len = |weights: Option<&IntegerWeights>| size + weights.map_or(1, |weights| weights.width);
+        let [a, b] = self.weights;
+        [(&mut first[..len(a)], a), (&mut second[..len(b)], b)]
+    }
+
+    /// Where a row is to be added, which is moved if it is too fine: at 1 if no row was coarser, and at 0 else.
+    #[inline(always)]
+    fn place(&mut self, row: &mut [u64], low: i64) -> usize {
+        if low == self.low { 1 } else { self.place_other(row, low) }
+    }
+
     #[cold]
-    fn move_to(&mut self, row: &mut [u64], low: i64) {
-        let common = self.low.max(low);
-        self.limbs.iter_mut().for_each(|limbs| move_row(limbs, common.saturating_sub(self.low)));
-        move_row(row, common.saturating_sub(low));
-        self.low = common;
+    fn place_other(&mut self, row: &mut [u64], low: i64) -> usize {
+        if low > self.low {
+            let by = low.saturating_sub(self.low);
+            self.kinds().into_iter().for_each(|(sum, _)| move_row(sum, by));
+            self.low = low;
+            return 1;
+        }
+        move_row(row, self.low.saturating_sub(1).saturating_sub(low));
+        0
     }
 }
 
 #[inline(always)]
-fn add_rows(len: usize, sums: &mut Sums, rows: &Rows, of_lag: OfLag, weights: [Option<&IntegerWeights>; 2]) {
+fn add_rows(len: usize, sums: &mut Sums<'_>, of_lag: OfLag) {
     let OfLag { lag, last, .. } = of_lag;
+    let rows = sums.rows;
     let mut row = [0; MOST_OF_ROW];
-    let row = &mut row[..len];
     for j in 0..=last / 2 {
-        let room;
-        let ((mut a, a_low), (mut b, b_low)) = (rows.row(of_lag.place(j)), rows.row(of_lag.place(last - j)));
-        if a_low != b_low {
-            room = moved(len, (a, a_low), (b, b_low));
-            [a, b] = [&room[0], &room[1]];
-        }
-        let low = a_low.max(b_low);
-        let (a, b) = (&a[..len], &b[..len]);
-        if last - j == j {
-            row.copy_from_slice(a);
+        let ((a, a_low), (b, b_low)) = (rows.row(of_lag.place(j)), rows.row(of_lag.place(last - j)));
+        let both = last - j != j;
+        if both && a_low == b_low {
+            add_limbs(&mut row[..len], &a[..len], &b[..len]);
         } else {
-            let mut carry = false;
-            for i in 0..len {
-                (row[i], carry) = a[i].carrying_add(b[i], carry);
-            }
+            row[..len].copy_from_slice(&a[..len]);
         }
-        if low != sums.low {
-            sums.move_to(row, low);
+        add_row(len, sums, (&mut row, a_low), (lag, j));
+        if both && a_low != b_low {
+            row[..len].copy_from_slice(&b[..len]);
+            add_row(len, sums, (&mut row, b_low), (lag, j));
         }
-        for (sum, weights) in sums.limbs.iter_mut().zip(weights) {
-            if let Some(IntegerWeights { of_lags, negative, width }) = weights {
-                let weight = &of_lags[lag - 1][j * width..(j + 1) * width];
-                add_multiple(len, &mut sum[..len + width + 1], row, weight, negative[lag - 1][j]);
-            }
+    }
+}
+
+/// sum ← a + b
+#[inline(always)]
+fn add_limbs(sum: &mut [u64], a: &[u64], b: &[u64]) {
+    let mut carry = false;
+    for i in 0..sum.len() {
+        (sum[i], carry) = a[i].carrying_add(b[i], carry);
+    }
+}
+
+/// Adds a row with the j-th weights of a lag.
+#[inline(always)]
+fn add_row(len: usize, sums: &mut Sums<'_>, (row, low): (&mut [u64], i64), (lag, j): (usize, usize)) {
+    let row = &mut row[..len];
+    let at = sums.place(row, low);
+    for (sum, weights) in sums.kinds() {
+        if let Some(IntegerWeights { of_lags, negative, width }) = weights {
+            let weight = &of_lags[lag - 1][j * width..(j + 1) * width];
+            add_multiple(len, &mut sum[at..], row, weight, negative[lag - 1][j]);
         }
     }
 }

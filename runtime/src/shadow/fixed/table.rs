@@ -6,7 +6,9 @@
 //! times less than one of a state. Each term is multiplied to the precision that its difference has: for one of n limbs only the n + 1 upper
 //! limbs of q and p are used, and the products of limbs that reach the limb below its unit.
 
-use super::{MOST_OF_ROW, NOT_FINITE, Offset, ZERO, by_limbs, move_row, moved, read_number, sign, write_magnitude, write_number};
+use super::{
+    MOST_OF_ROW, NOT_FINITE, Offset, ZERO, by_limbs, move_row, moved, read_number, sign, write_magnitude, write_number,
+};
 use crate::number::{LimbAccess, Number, Parts};
 use crate::system::Increments;
 
@@ -245,12 +247,7 @@ fn sum_of_products(len: usize, newest: &Level, before: &Level, factors: &Factors
 
 /// sum ← |a + b|; returns whether a + b < 0.
 #[inline(always)]
-fn magnitude_of_sum(
-    len: usize,
-    (mut a, a_low): (&[u64], i64),
-    (mut b, b_low): (&[u64], i64),
-    sum: &mut [u64],
-) -> bool {
+fn magnitude_of_sum(len: usize, (mut a, a_low): (&[u64], i64), (mut b, b_low): (&[u64], i64), sum: &mut [u64]) -> bool {
     let room;
     if a_low != b_low {
         room = moved(len, (a, a_low), (b, b_low));
