@@ -4,6 +4,7 @@ mod arithmetic;
 mod constants;
 mod decimal;
 mod exponential;
+mod lanes;
 mod machine;
 mod nearest;
 mod number;
@@ -23,21 +24,21 @@ pub use machine::Machine;
 ///
 /// | operation | algorithm | bound | largest found |
 /// | --- | --- | --- | --- |
-/// | a + b, a − b | AccurateDWPlusDW | 3u² + 13u³ | |
-/// | a b, a² | DWTimesDW1 | 5u² | |
-/// | a / b | DWDivDW2 | 15u² + 56u³ | |
-/// | n a, a / n | DWTimesFP2, DWDivFP3; powers of two are exact | 3u² | |
-/// | √a | SQRTDWtoDW | 25/8 u² | |
-/// | 1/√a | quotient of 1 and the root | 18.2u² | |
-/// | exp; log | table of 32 powers, of 47 logarithms; series | 4u²; 14u² | |
-/// | sinh; cosh; tanh | from exp; series | 12u²; 15u²; 29u² | |
-/// | sin, cos; tan | table of 17 sines; series | 22u²; 42u² | |
-/// | atan; asin; acos | a step of Newton from an `f64` | 38u²; 25u²; 30u² | |
-/// | n-th root, n > 2 | a step of Halley from an `f64` | 12u² | |
+/// | a + b, a − b | AccurateDWPlusDW | 3u² + 13u³ | 2.50u² |
+/// | a b, a² | DWTimesDW1 | 5u² | 4.48u² |
+/// | a / b | DWDivDW2 | 15u² + 56u³ | 7.31u² |
+/// | n a, a / n | DWTimesFP2, DWDivFP3; powers of two are exact | 3u² | 2.98u² |
+/// | √a | SQRTDWtoDW | 25/8 u² | 3.125u² |
+/// | 1/√a | quotient of 1 and the root | 18.2u² | 5.72u² |
+/// | exp; log | table of 32 powers, of 47 logarithms; series | 4u²; 14u² | 1.78u²; 2.06u² |
+/// | sinh; cosh; tanh | from exp; series | 12u²; 15u²; 29u² | 3.31u²; 2.84u²; 8.33u² |
+/// | sin, cos; tan | table of 17 sines; series | 22u²; 42u² | 2.63u²; 5.76u² |
+/// | atan; asin; acos | a step of Newton from an `f64` | 38u²; 25u²; 30u² | 4.11u²; 2.63u²; 3.82u² |
+/// | n-th root, n > 2 | a step of Halley from an `f64` | 12u² | 2.72u² |
 ///
-/// u² = 2⁻¹⁰⁶ = 1.2e-32. x + a b has an error of at most u² (|x + a b| + 2|x| + 9|a b|) (1 + 20u), as the product enters the sum without
-/// being rounded to a double word first: AccurateDWPlusDW's first two sums and its Fast2Sums stay exact for |low| ≤ 3.1u |high|, and what
-/// it neglects is u times its third sum and u times its fourth.
+/// u² = 2⁻¹⁰⁶ = 1.2e-32. x + a b has an error of at most u² (|x + a b| + 2|x| + 9|a b|) (1 + 20u), of which two thirds were found: the
+/// product enters the sum without being rounded to a double word first. AccurateDWPlusDW's first two sums and its Fast2Sums stay exact for
+/// |low| ≤ 3.1u |high|, and what it neglects is u times its third sum and u times its fourth.
 ///
 /// Sources: M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of double-word
 /// arithmetic", ACM Trans. Math. Softw. 44 (2017) 15; the bound of products from J.-M. Muller, L. Rideau, "Formalization of double-word

@@ -21,6 +21,7 @@ mod tests {
     #[test]
     fn the_last_place_of_1() {
         assert_eq!(epsilon::<f64>(&()), f64::EPSILON);
+        assert_eq!(epsilon::<crate::number::DoubleDouble>(&()), 2_f64.powi(-106).into());
         #[cfg(feature = "mpfr")]
         for bits in [2_u32, 3, 53, 100, 101, 400] {
             use crate::number::{Float, Precision};

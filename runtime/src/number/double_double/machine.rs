@@ -11,6 +11,12 @@ use super::product::error_of_product;
 pub trait Machine:
     Copy + Debug + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
+    /// Does some work, of lanes in the widest vector instructions that the processor has.
+    #[inline(always)]
+    fn in_widest_instructions<R>(work: impl FnOnce() -> R) -> R {
+        work()
+    }
+
     /// The same number in every lane.
     fn every(x: f64) -> Self;
 

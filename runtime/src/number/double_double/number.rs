@@ -27,12 +27,20 @@ macro_rules! functions {
     )*};
 }
 
+/// Increments are not kept. Without them, E_8 of Kepler's problem (e = 0.6) scatters by 0.15 u²/h from step to step: by 2e-31 with
+/// h = 1/100, 2e-30 with h = 1/1000. To keep them would cost two more sums a coordinate and map.
 impl<T: Machine> Number for DoubleDouble<T> {
     type Context = ();
     type Register<'a>
         = Copied<Self>
     where
         T: 'a;
+
+    /// Of lanes; for one number the instruction for exact products is chosen where it is needed.
+    #[inline(always)]
+    fn in_widest_instructions<R>(work: impl FnOnce() -> R) -> R {
+        T::in_widest_instructions(work)
+    }
 
     #[inline(always)]
     fn register(&mut self) -> Copied<Self> {

@@ -7,6 +7,8 @@ mod cases;
 #[cfg(feature = "mpfr")]
 mod tables;
 
+use std::array::from_fn;
+
 use num_bigint::BigInt;
 use proptest::prelude::*;
 use shadowstep_symbolic::decimal::from_text;
@@ -15,7 +17,8 @@ use super::super::tests::{functions, operations, products};
 use super::DoubleDouble;
 use super::nearest::nearest;
 use crate::Rational;
-use crate::number::{Number, Ordered};
+use crate::instructions::Instructions;
+use crate::number::{Lanes, Number, Ordered};
 
 fn rational(text: &str) -> Rational {
     from_text(text).unwrap()
@@ -93,6 +96,50 @@ proptest! {
         let a = 0.8 * a;
         prop_assert!(alike(&functions(&DoubleDouble::from(a)), &functions(&a)), "functions of {a}");
     }
+}
+
+type InLanes = DoubleDouble<Lanes<4>>;
+
+fn in_lanes(numbers: &[DoubleDouble]) -> InLanes {
+    DoubleDouble::of((Lanes(from_fn(|i| numbers[i].high)), Lanes(from_fn(|i| numbers[i].low))))
+}
+
+/// The bits of a lane; of a NaN its name.
+fn bits(high: f64, low: f64) -> Option<[u64; 2]> {
+    (!high.is_nan()).then(|| [high, low].map(f64::to_bits))
+}
+
+proptest! {
+    /// Also where others are special; but for products that underflow.
+    #[test]
+    fn a_lane_has_the_bits_of_one_number(numbers in prop::collection::vec(small_or_special(), 12)) {
+        let (a, b, c) = (&numbers[..4], &numbers[4..8], &numbers[8..]);
+        let [x, y, z] = [a, b, c].map(in_lanes);
+        for instructions in Instructions::available() {
+            let (some, others, more) = instructions.only(|| {
+                InLanes::in_widest_instructions(
+                    #[inline(always)]
+                    || (operations(&x, &y, &z), products(&x, &y, &z), functions(&x)),
+                )
+            });
+            let found = some.iter().chain(&others).chain(&more);
+            let found: Vec<_> = found.map(|lanes| lanes.parts()).collect();
+            for lane in 0..4 {
+                let (a, b, c) = (&a[lane], &b[lane], &c[lane]);
+                let (some, others, more) = (operations(a, b, c), products(a, b, c), functions(a));
+                for (i, (found, own)) in found.iter().zip(some.iter().chain(&others).chain(&more)).enumerate() {
+                    let found = bits(found.0.0[lane], found.1.0[lane]);
+                    prop_assert_eq!(found, bits(own.high, own.low), "{:?} operation {}: {:?} {:?} {:?}", instructions, i, a, b, c);
+                }
+            }
+        }
+    }
+}
+
+fn small_or_special() -> impl Strategy<Value = DoubleDouble> {
+    let special = prop::sample::select(vec![0.0, -0.0, 1.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, 1e300]);
+    let usual = (-1e3..1e3_f64, -0.5..0.5).prop_map(|(x, ratio)| DoubleDouble::new(x, x * f64::EPSILON * ratio));
+    prop_oneof![special.prop_map(DoubleDouble::from), usual.clone(), usual]
 }
 
 #[test]

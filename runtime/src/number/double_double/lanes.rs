@@ -1,0 +1,97 @@
+//! Lanes of `f64` as the machine numbers of a double-double.
+
+use std::array::from_fn;
+
+use super::machine::Machine;
+use super::product::from_halves;
+use crate::instructions;
+use crate::number::Lanes;
+
+/// Operations on each lane.
+macro_rules! operators {
+    ($($Trait:ident $method:ident;)*) => {$(
+        impl<const W: usize> std::ops::$Trait for Lanes<W> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, b: Self) -> Self {
+                Lanes(from_fn(|i| std::ops::$Trait::$method(self.0[i], b.0[i])))
+            }
+        }
+    )*};
+}
+
+operators! {
+    Add add;
+    Sub sub;
+    Mul mul;
+    Div div;
+}
+
+impl<const W: usize> std::ops::Neg for Lanes<W> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Lanes(self.0.map(std::ops::Neg::neg))
+    }
+}
+
+/// The pair in the lanes where it is chosen, the other one elsewhere.
+#[inline(always)]
+fn choose<const W: usize>(
+    chosen: [bool; W],
+    pair: (Lanes<W>, Lanes<W>),
+    other: (Lanes<W>, Lanes<W>),
+) -> (Lanes<W>, Lanes<W>) {
+    let each = |a: Lanes<W>, b: Lanes<W>| Lanes(from_fn(|i| if chosen[i] { a.0[i] } else { b.0[i] }));
+    (each(pair.0, other.0), each(pair.1, other.1))
+}
+
+/// Products are those of halves: which instructions a loop is compiled for is not known here, and without those for fused
+/// multiply-adds a lane would call a function of the C library.
+impl<const W: usize> Machine for Lanes<W> {
+    #[inline(always)]
+    fn in_widest_instructions<R>(work: impl FnOnce() -> R) -> R {
+        instructions::widest(work)
+    }
+
+    #[inline(always)]
+    fn every(x: f64) -> Self {
+        Lanes::all(x)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Lanes(self.0.map(f64::sqrt))
+    }
+
+    #[inline(always)]
+    fn two_product(self, b: Self) -> (Self, Self) {
+        let product = self * b;
+        (product, Lanes(from_fn(|i| from_halves(self.0[i], b.0[i], product.0[i]))))
+    }
+
+    #[inline(always)]
+    fn if_finite(test: Self, pair: (Self, Self), plain: Self) -> (Self, Self) {
+        choose(test.0.map(f64::is_finite), pair, (plain, Lanes::all(0.0)))
+    }
+
+    #[inline(always)]
+    fn where_less(a: (Self, Self), b: (Self, Self), less: (Self, Self), otherwise: (Self, Self)) -> (Self, Self) {
+        choose(from_fn(|i| (a.0.0[i], a.1.0[i]) < (b.0.0[i], b.1.0[i])), less, otherwise)
+    }
+
+    fn each<const N: usize>(
+        pair: (Self, Self),
+        functions: impl Fn((f64, f64)) -> [(f64, f64); N],
+    ) -> [(Self, Self); N] {
+        let results: [[(f64, f64); N]; W] = from_fn(|i| functions((pair.0.0[i], pair.1.0[i])));
+        from_fn(|n| (Lanes(from_fn(|i| results[i][n].0)), Lanes(from_fn(|i| results[i][n].1))))
+    }
+
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        self.0.into_iter().all(f64::is_finite)
+    }
+}
