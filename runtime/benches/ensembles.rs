@@ -8,11 +8,12 @@ mod timing;
 
 use std::hint::black_box;
 
+use shadowstep::formula::FormulaPotential;
 use shadowstep::instructions::Instructions;
 use shadowstep::kinetic::Quadratic;
 use shadowstep::number::Lanes;
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
-use shadowstep::{Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, splitting_scheme};
+use shadowstep::{Motion, Number, Potential, Scheme, Stepper, UnitMasses, ValidFor, splitting_scheme};
 
 use timing::{Contestant, compare};
 
@@ -29,6 +30,36 @@ const TRAJECTORIES: usize = 64;
 /// Steps at once.
 const STEPS: u64 = 100;
 
+/// A potential in numbers of any kind.
+trait In: Copy {
+    type Numbers<N: Number>: Potential<N>;
+    fn numbers<N: Number>(self) -> Self::Numbers<N>;
+}
+
+macro_rules! in_any_numbers {
+    ($($potential:ident)*) => {$(
+        impl In for $potential {
+            type Numbers<N: Number> = $potential;
+            fn numbers<N: Number>(self) -> $potential {
+                self
+            }
+        }
+    )*};
+}
+
+in_any_numbers! { Kepler HenonHeiles Pendulum }
+
+/// A formula in x and y that is read at run time.
+#[derive(Clone, Copy)]
+struct AtRunTime(&'static str);
+
+impl In for AtRunTime {
+    type Numbers<N: Number> = FormulaPotential<N>;
+    fn numbers<N: Number>(self) -> FormulaPotential<N> {
+        FormulaPotential::new(self.0, &["x", "y"], &[]).expect("a formula")
+    }
+}
+
 /// A system of two coordinates at a start.
 struct Start<P> {
     title: &'static str,
@@ -42,29 +73,31 @@ fn state<const D: usize>(start: [f64; 2], trajectory: usize) -> [f64; D] {
     std::array::from_fn(|i| start[i] * (1.0 + 1e-3 * trajectory as f64))
 }
 
-type Alone<P, const D: usize> = Motion<f64, [f64; D], P, UnitMasses>;
-type Together<P, const D: usize, const W: usize> = Motion<Lanes<W>, [Lanes<W>; D], P, UnitMasses>;
+type Alone<P, const D: usize> = Motion<f64, [f64; D], <P as In>::Numbers<f64>, UnitMasses>;
+type Together<P, const D: usize, const W: usize> =
+    Motion<Lanes<W>, [Lanes<W>; D], <P as In>::Numbers<Lanes<W>>, UnitMasses>;
 
-fn alone<P: Potential<f64> + Copy, const D: usize>(start: &Start<P>) -> Vec<Alone<P, D>> {
-    let motion = |t| Motion::new(start.potential, UnitMasses, state(start.q, t), state(start.p, t));
+fn alone<P: In, const D: usize>(start: &Start<P>) -> Vec<Alone<P, D>> {
+    let motion = |t| Motion::new(start.potential.numbers(), UnitMasses, state(start.q, t), state(start.p, t));
     (0..TRAJECTORIES).map(|t| motion(t).expect("the dimensions agree")).collect()
 }
 
 fn together<P, const D: usize, const W: usize>(start: &Start<P>) -> Vec<Together<P, D, W>>
 where
-    P: Potential<Lanes<W>> + Copy,
+    P: In,
 {
     let lanes = |part: [f64; 2], first: usize| {
         std::array::from_fn(|i| Lanes(std::array::from_fn(|lane| state::<D>(part, first + lane)[i])))
     };
-    let motion = |first| Motion::new(start.potential, UnitMasses, lanes(start.q, first), lanes(start.p, first));
+    let motion =
+        |first| Motion::new(start.potential.numbers(), UnitMasses, lanes(start.q, first), lanes(start.p, first));
     (0..TRAJECTORIES).step_by(W).map(|first| motion(first).expect("the dimensions agree")).collect()
 }
 
 fn check_bits<S, P, const D: usize, const W: usize>(scheme: S, start: &Start<P>)
 where
     S: Scheme + ValidFor<Quadratic> + Copy,
-    P: Potential<f64> + Potential<Lanes<W>> + Copy,
+    P: In,
 {
     let stepper = Stepper::new(scheme, "1/100").expect("h is not 0");
     let mut alone = alone::<P, D>(start);
@@ -89,7 +122,7 @@ fn in_lanes<'a, S, P, const D: usize, const W: usize>(
 ) -> Contestant<'a>
 where
     S: Scheme + ValidFor<Quadratic> + Copy + 'a,
-    P: Potential<Lanes<W>> + Copy + 'a,
+    P: In + 'a,
 {
     let stepper = Stepper::new(scheme, "1/100").expect("h is not 0");
     let mut motions = together::<P, D, W>(start);
@@ -103,7 +136,7 @@ where
 fn one_by_one<'a, S, P, const D: usize>(scheme: S, start: &Start<P>) -> Contestant<'a>
 where
     S: Scheme + ValidFor<Quadratic> + Copy + 'a,
-    P: Potential<f64> + Copy + 'a,
+    P: In + 'a,
 {
     let stepper = Stepper::new(scheme, "1/100").expect("h is not 0");
     let mut motions = alone::<P, D>(start);
@@ -119,7 +152,7 @@ where
 fn in_turn<'a, S, P, const D: usize>(scheme: S, start: &Start<P>) -> Contestant<'a>
 where
     S: Scheme + ValidFor<Quadratic> + Copy + 'a,
-    P: Potential<f64> + Copy + 'a,
+    P: In + 'a,
 {
     let stepper = Stepper::new(scheme, "1/100").expect("h is not 0");
     let mut motions = alone::<P, D>(start);
@@ -135,7 +168,7 @@ where
 fn measure<S, P, const D: usize>(name: &str, scheme: S, start: &Start<P>)
 where
     S: Scheme + ValidFor<Quadratic> + Copy,
-    P: Potential<f64> + Potential<Lanes<4>> + Potential<Lanes<8>> + Potential<Lanes<16>> + Copy,
+    P: In + 'static,
 {
     let mut contestants = vec![one_by_one::<S, P, D>(scheme, start), in_turn::<S, P, D>(scheme, start)];
     for instructions in Instructions::available() {
@@ -165,4 +198,10 @@ fn main() {
     measure::<_, _, 2>("Störmer–Verlet", StormerVerlet, &henon_heiles);
     measure::<_, _, 2>("Yoshida 4", Yoshida4, &henon_heiles);
     measure::<_, _, 1>("Störmer–Verlet", StormerVerlet, &pendulum);
+    let formula = AtRunTime("(x^2 + y^2)/2 + x^2*y - y^3/3");
+    let at_run_time =
+        Start {
+            title: "Hénon–Heiles, a formula read at run time", potential: formula, q: [0.0, 0.1], p: [0.3, 0.0]
+        };
+    measure::<_, _, 2>("Störmer–Verlet", StormerVerlet, &at_run_time);
 }

@@ -104,7 +104,14 @@ impl<N: Number> Interpreter<N> {
     }
 
     fn compute<'r>(&self, program: &[Instruction<Slot>], x: &[N], registers: &'r mut [N]) -> &'r mut [N] {
-        program.iter().for_each(|instruction| execute(instruction, registers, x));
+        N::in_widest_instructions(
+            #[inline(always)]
+            || {
+                for instruction in program {
+                    execute(instruction, registers, x);
+                }
+            },
+        );
         &mut registers[self.layout.outputs..]
     }
 }
@@ -153,7 +160,7 @@ fn exact<N: Number>(value: &Rational, context: &N::Context) -> N {
     N::from_rational(value, context)
 }
 
-#[inline]
+#[inline(always)]
 fn execute<N: Number>(instruction: &Instruction<Slot>, registers: &mut [N], x: &[N]) {
     use Instruction as I;
     let (before, rest) = registers.split_at_mut(instruction.target().index as usize);
@@ -191,7 +198,7 @@ fn execute<N: Number>(instruction: &Instruction<Slot>, registers: &mut [N], x: &
 struct Operands<'a, N>([&'a [N]; 3]);
 
 impl<N> Operands<'_, N> {
-    #[inline]
+    #[inline(always)]
     fn at(&self, slot: Slot) -> &N {
         &self.0[slot.side as usize][slot.index as usize]
     }
