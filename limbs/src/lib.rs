@@ -13,12 +13,16 @@
 //! ```
 //!
 //! Elementary functions are there for up to 16 limbs ([`exp`](Limbs::exp) and those after it), and decimal text that reads back
-//! ([`to_text`](Limbs::to_text)).  Only text allocates, and sines of arguments above 2^2112.
+//! ([`to_text`](Limbs::to_text)).  Arithmetic never allocates; functions do so for their tables, at first use, and for sines of
+//! arguments above 2^2112.
 //!
 //! # Rounding
 //!
 //! Sums, differences, products, squares, quotients, square roots and their reciprocals, and conversions round to nearest with ties to
-//! even: as MPFR does for 64 L bits.  Elementary functions err by little more than half of the last place.  The same input gives the same bits on every machine.
+//! even: as MPFR does for 64 L bits.  The same input gives the same bits on every machine.
+//!
+//! Elementary functions err by less than (1/2 + 2^-20) ulp.  Some begin at a value of the platform's `f64` functions: where that
+//! differs, so may the last bit, if a result is that close to the middle between two numbers.
 //!
 //! Zeros and infinities have signs, 1/0 is an infinity, and 0/0 is not a number (NaN): as IEEE 754 has it.  A result of magnitude
 //! 2^(2^30 − 1) or more is infinite.  One below 2^−2^30, the smallest number other than 0, is that number or 0, whichever is nearer:
