@@ -33,7 +33,7 @@ pub(crate) struct PosedArguments {
     /// Double precision in which positions and momenta are sums with remainders: less round-off in long runs, for up to half more time
     #[arg(long, conflicts_with_all = ["digits", "double"])]
     compensated: bool,
-    /// Numbers that are sums of two doubles, about 32 digits, at most 8 times as slow as double precision
+    /// Numbers that are sums of two doubles, about 32 digits, for 4 to 9 times the time of double precision
     #[arg(long, conflicts_with_all = ["digits", "double", "compensated"])]
     double_double: bool,
 }

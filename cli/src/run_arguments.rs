@@ -36,7 +36,7 @@ pub(crate) struct RunArguments {
     /// Double precision in which positions and momenta are sums with remainders: less round-off in long runs, for up to half more time
     #[arg(long, conflicts_with_all = ["digits", "mpfr", "double"])]
     pub(crate) compensated: bool,
-    /// Numbers that are sums of two doubles, about 32 digits, at most 8 times as slow as double precision
+    /// Numbers that are sums of two doubles, about 32 digits, for 4 to 9 times the time of double precision
     #[arg(long, conflicts_with_all = ["digits", "mpfr", "double", "compensated"])]
     pub(crate) double_double: bool,
     /// How the modified energy is estimated

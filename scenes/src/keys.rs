@@ -174,7 +174,7 @@ pub const KEYS: [Key; 39] = [
         "digits",
         "The decimal digits of all numbers, or \"double\" for double precision, or \"compensated\" for double precision in which \
          positions and momenta are sums with remainders: less round-off in long runs, for up to half more time; or \
-         \"double-double\" for sums of two doubles, about 32 digits, at most 8 times as slow as double precision.",
+         \"double-double\" for sums of two doubles, about 32 digits, for 4 to 9 times the time of double precision.",
         "120",
         Some("120"),
     ),
