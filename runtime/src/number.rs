@@ -82,6 +82,9 @@ pub trait Number: Clone + fmt::Debug {
     /// This keeps the round-off of the states out of the differences, which `f64` needs; with more digits it is not necessary.
     const KEEPS_INCREMENTS: bool = false;
 
+    /// Whether several of these numbers fit into a vector of the processor, so that sums over pairs of bodies take blocks of bodies.
+    const IN_VECTORS: bool = false;
+
     /// For a number made of 64-bit limbs, with which estimators then compute in fixed point; without it they compute with numbers.
     #[doc(hidden)]
     const LIMBS: Option<LimbAccess<Self>> = None;

@@ -1,38 +1,20 @@
 //! Sums over pairs of bodies: all pairs i < j in D dimensions, or neighbours in a chain.
 
+mod blocks;
+mod chain;
+mod pair;
+#[cfg(test)]
+mod tests;
+
+pub use pair::{BLOCK, Ends, Pair, PairPotential};
 pub use shadowstep_symbolic::Separation;
 
 use thiserror::Error;
 
 use crate::number::Number;
 use crate::potential::Potential;
-
-/// What the energy u of a pair of bodies depends on.
-pub trait Pair {
-    /// What u is a function of: of d = q_j − q_i on a line, or of r² = |q_j − q_i|² in any dimension.
-    fn separation(&self) -> Separation;
-
-    /// For each property of the bodies, such as a mass, for how many bodies it is given.
-    fn properties(&self) -> Vec<usize>;
-}
-
-/// The energy u of a pair of bodies i < j. [`crate::potential!`] implements it for a `pair` formula.
-pub trait PairPotential<N: Number>: Pair {
-    /// How many numbers of scratch space there must be for every call.
-    fn scratch(&self) -> usize;
-
-    /// Puts into the scratch space what every call finds there: what depends on parameters only.
-    fn prepare(&self, scratch: &mut [N], context: &N::Context);
-
-    /// energy ← u(x) of the bodies i and j
-    fn energy(&self, i: usize, j: usize, x: &N, energy: &mut N, scratch: &mut [N]);
-
-    /// slope ← u'(d) or 2u'(r²), so that ∂u/∂q_j = slope or slope·(q_j − q_i)
-    fn slope(&self, i: usize, j: usize, x: &N, slope: &mut N, scratch: &mut [N]);
-
-    /// The slope, and rate ← d u'(d) − 2u or 2r²u'(r²) − 2u: what the pair adds to qᵀU_q − 2U
-    fn slope_and_rate(&self, i: usize, j: usize, x: &N, slope: &mut N, rate: &mut N, scratch: &mut [N]);
-}
+use blocks::Blocks;
+use chain::Chain;
 
 /// The potential U = Σ u over pairs of bodies in D dimensions.
 ///
@@ -58,24 +40,18 @@ pub struct Pairs<P, const D: usize> {
     pair: P,
     bodies: usize,
     which: Which,
+    /// Whether bodies have no properties.
+    alike: bool,
 }
+
+/// From so many bodies on there are blocks.
+const LEAST_BODIES: usize = 2 * BLOCK;
 
 /// The pairs that interact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Which {
     All,
     Neighbours(Ends),
-}
-
-/// What is at the ends of a chain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ends {
-    /// Nothing: the first and the last body have one neighbour.
-    Free,
-    /// Walls: both have a neighbour that rests at 0.
-    Fixed,
-    /// The first body follows the last one: a ring. Positions are displacements, hence unwrapped.
-    Periodic,
 }
 
 impl<P: Pair, const D: usize> Pairs<P, D> {
@@ -105,9 +81,10 @@ impl<P: Pair, const D: usize> Pairs<P, D> {
         if D > 1 && pair.separation() != Separation::SquaredDistance {
             return Err(PairsError::Separation { dimensions: D });
         }
-        match pair.properties().into_iter().find(|count| *count != bodies) {
-            Some(values) => Err(PairsError::Property { values, bodies }),
-            None => Ok(Pairs { pair, bodies, which }),
+        let properties = pair.properties();
+        match properties.iter().find(|count| **count != bodies) {
+            Some(values) => Err(PairsError::Property { values: *values, bodies }),
+            None => Ok(Pairs { pair, bodies, which, alike: properties.is_empty() }),
         }
     }
 
@@ -231,6 +208,52 @@ impl<P, const D: usize> Pairs<P, D> {
         }
     }
 
+    /// Whether numbers of a few bytes are summed over blocks: all pairs of many bodies, and chains on a line of many bodies without
+    /// properties, so that all springs are alike.
+    fn is_in_blocks(&self) -> bool {
+        let suits = match self.which {
+            Which::All => true,
+            Which::Neighbours(_) => D == 1 && self.alike,
+        };
+        suits && self.bodies >= LEAST_BODIES
+    }
+
+    /// The place of a pair in its block; none, if it is one of those that are left over.
+    fn place_in_block(&self, i: usize, j: usize) -> Option<usize> {
+        let (place, count) = match self.which {
+            Which::All => (j - i - 1, self.bodies - i - 1),
+            Which::Neighbours(_) if j == i + 1 => (i, self.bodies - 1),
+            Which::Neighbours(_) => return None,
+        };
+        (place < count - count % BLOCK).then_some(place % BLOCK)
+    }
+
+    fn scratch_of_blocks<N: Number>(&self) -> usize {
+        let in_blocks = N::IN_VECTORS && self.which == Which::All && self.is_in_blocks();
+        if in_blocks { blocks::scratch(self.bodies, D) } else { 0 }
+    }
+
+    /// The scratch space of blocks and that of the pair, where the sum is over blocks.
+    fn blocks<'a, N: Number>(&self, scratch: &'a mut [N]) -> Option<(&'a mut [N], &'a mut [N])> {
+        let size = self.scratch_of_blocks::<N>();
+        (size > 0).then(|| {
+            let (others, axes) = scratch.split_at_mut(scratch.len() - size);
+            (axes, &mut others[own_scratch(D)..])
+        })
+    }
+
+    fn all_blocks(&self) -> Blocks<'_, P, D> {
+        Blocks { pair: &self.pair, bodies: self.bodies }
+    }
+
+    /// The ends, where the sum is over blocks of springs.
+    fn chain_in_blocks<N: Number>(&self) -> Option<Ends> {
+        match self.which {
+            Which::Neighbours(ends) if N::IN_VECTORS && self.is_in_blocks() => Some(ends),
+            _ => None,
+        }
+    }
+
     /// Visits the pairs that interact.
     fn each<'q, N>(&self, q: &'q [N], visit: impl FnMut(End<'q, N, D>, End<'q, N, D>)) {
         match self.which {
@@ -325,7 +348,7 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn scratch(&self) -> usize {
-        own_scratch(D) + self.pair.scratch()
+        own_scratch(D) + self.pair.scratch() + self.scratch_of_blocks::<N>()
     }
 
     fn prepare(&self, scratch: &mut [N], context: &N::Context) {
@@ -344,14 +367,37 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
+        if let Some((axes, pair)) = self.blocks(scratch) {
+            return self.all_blocks().sum((q, gradient), None, axes, pair);
+        }
+        if let Some(ends) = self.chain_in_blocks::<N>() {
+            let chain = Chain { pair: &self.pair, ends };
+            return chain.sum((q, gradient), None, &mut scratch[own_scratch(D)..]);
+        }
         self.sum_gradient(q, gradient, scratch, |i, j, x, slope, _, scratch| self.pair.slope(i, j, x, slope, scratch));
     }
 
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
+        if let Some((axes, pair)) = self.blocks(scratch) {
+            return self.all_blocks().sum((q, gradient), Some(rate), axes, pair);
+        }
+        if let Some(ends) = self.chain_in_blocks::<N>() {
+            let chain = Chain { pair: &self.pair, ends };
+            return chain.sum((q, gradient), Some(rate), &mut scratch[own_scratch(D)..]);
+        }
         rate.assign_zero();
+        if !(N::KEEPS_INCREMENTS && self.is_in_blocks()) {
+            return self.sum_gradient(q, gradient, scratch, |i, j, x, slope, part, scratch| {
+                self.pair.slope_and_rate(i, j, x, slope, part, scratch);
+                rate.add(part);
+            });
+        }
+        // several numbers in lanes have the bits of one
+        let mut rates: [N; BLOCK] = std::array::from_fn(|_| N::zero(&q[0].context()));
         self.sum_gradient(q, gradient, scratch, |i, j, x, slope, part, scratch| {
             self.pair.slope_and_rate(i, j, x, slope, part, scratch);
-            rate.add(part);
+            self.place_in_block(i, j).map_or(&mut *rate, |place| &mut rates[place]).add(part);
         });
+        rates.iter().for_each(|of_place| rate.add(of_place));
     }
 }

@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use shadowstep_symbolic::{PotentialPrograms, Program};
+use shadowstep_symbolic::{Place, PotentialPrograms, Program};
 
 use crate::program::{Names, numbered, own, size, statement};
 
@@ -70,29 +70,85 @@ impl Methods<'_> {
         self.body(&self.programs.gradient_and_rate, self.programs.energy.kept, outputs)
     }
 
+    /// U_q of a block at once into `outputs`, one block for each: every instruction for all places of the block before the next one, so that
+    /// each is an operation on vectors.
+    pub(crate) fn gradient_of_block(&self, lane: &Ident, outputs: &[(Ident, Ident)]) -> TokenStream {
+        self.block_body(&self.programs.gradient, lane, outputs)
+    }
+
+    /// The same with qᵀU_q − 2U into the last of them.
+    pub(crate) fn gradient_and_rate_of_block(&self, lane: &Ident, outputs: &[(Ident, Ident)]) -> TokenStream {
+        self.block_body(&self.programs.gradient_and_rate, lane, outputs)
+    }
+
+    fn block_body(&self, program: &Program, lane: &Ident, outputs: &[(Ident, Ident)]) -> TokenStream {
+        let constants = scratch_names(program, self.programs.energy.kept, self.programs.kept(), false);
+        let block = quote! { ::shadowstep::pairs::BLOCK };
+        let own_xs = own("xs");
+        let blocks = (0..program.scratch).map(|i| {
+            let block_of = numbered("scratch_of_block", i);
+            quote! { let mut #block_of: [N; #block] = ::core::clone::Clone::clone(#own_xs); }
+        });
+        let arguments = &self.arguments;
+        let names: Vec<_> = outputs.iter().map(|(_, name)| quote! { #name }).collect();
+        let statements = program.instructions.iter().map(|instruction| {
+            let targets = instruction.targets();
+            let places =
+                targets.iter().map(|at| (*at, true)).chain(instruction.operands().into_iter().map(|at| (at, false)));
+            let mut bound: Vec<Place> = Vec::new();
+            let mut bindings = Vec::new();
+            for (at, is_target) in places {
+                if bound.contains(&at) {
+                    continue;
+                }
+                bound.push(at);
+                let mutable = is_target.then(|| quote! { mut });
+                match at {
+                    Place::Scratch(i) => {
+                        let (name, of_block) = (numbered("scratch", i), numbered("scratch_of_block", i));
+                        bindings.push(quote! { let #name = & #mutable #of_block[#lane]; });
+                    }
+                    Place::Output(i) => {
+                        let (of_block, name) = &outputs[i];
+                        bindings.push(quote! { let #name = & #mutable #of_block[#lane]; });
+                    }
+                    _ => {}
+                }
+            }
+            let statement = statement(instruction, &self.names, &names);
+            quote! { for #lane in 0..#block { #arguments #(#bindings)* #statement } }
+        });
+        quote! {
+            #constants
+            #(#blocks)*
+            #(#statements)*
+        }
+    }
+
     /// A program, whose constants begin at `kept_before` in the scratch space.
     fn body(&self, program: &Program, kept_before: usize, outputs: &[TokenStream]) -> TokenStream {
         let arguments = &self.arguments;
-        let scratch = scratch_names(program, kept_before, self.programs.kept());
+        let scratch = scratch_names(program, kept_before, self.programs.kept(), true);
         let statements = program.instructions.iter().map(|i| statement(i, &self.names, outputs));
         quote! { #arguments #scratch #(#statements)* }
     }
 }
 
-/// Names the numbers in the scratch space: `kept` constants, of which this program's begin at `kept_before`, then its
+/// Names the numbers in the scratch space: `kept` constants, of which this program's begin at `kept_before`, then, where they are wanted, its
 /// intermediate results; nothing, where it needs none.
-fn scratch_names(program: &Program, kept_before: usize, kept: usize) -> Option<TokenStream> {
+fn scratch_names(program: &Program, kept_before: usize, kept: usize, intermediate: bool) -> Option<TokenStream> {
     let before = (0..kept_before).map(|_| quote! { _ });
     let constants = (0..program.kept).map(|i| numbered("constant", i));
     let after = (kept_before + program.kept..kept).map(|_| quote! { _ });
-    let intermediate: Vec<_> = (0..program.scratch).map(|i| numbered("scratch", i)).collect();
+    let count = if intermediate { program.scratch } else { 0 };
+    let intermediate: Vec<_> = (0..count).map(|i| numbered("scratch", i)).collect();
     let places = before.chain(constants).chain(after).chain(intermediate.iter().cloned());
     let scratch = own("scratch");
     // small numbers are copied, so that no intermediate result is stored
     let registers = (!intermediate.is_empty()).then(|| {
         quote! { let [#(mut #intermediate),*] = [#(#intermediate),*].map(N::register); }
     });
-    (program.kept + program.scratch > 0).then(|| {
+    (program.kept + count > 0).then(|| {
         quote! {
             let [#(#places,)* ..] = #scratch else { ::core::unreachable!("as much as asked for") };
             #registers

@@ -6,7 +6,7 @@ use shadowstep_symbolic::{PotentialPrograms, Separation, is_symmetric};
 
 use crate::definition::{Definition, texts};
 use crate::methods::Methods;
-use crate::program::{own, size};
+use crate::program::{numbered, own, size};
 
 /// The struct and its implementation.
 ///
@@ -24,18 +24,23 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     };
     let x = &definition.arguments[0];
     let [i, j, energy, slope, rate, scratch] = ["i", "j", "energy", "slope", "rate", "scratch"].map(own);
-    let written = definition.properties.iter().map(|name| {
-        let text = name.to_string();
-        let (property, index) =
-            if text.ends_with("_i") { (&text[..text.len() - 2], &i) } else { (&text[..text.len() - 2], &j) };
-        let property = format_ident!("{property}", span = name.span());
-        quote! { let #name = &self.#property[#index]; }
-    });
-    let methods = Methods { programs: &programs, names: definition.names(), arguments: quote! { #(#written)* } };
+    let methods =
+        Methods { programs: &programs, names: definition.names(), arguments: property_values(definition, [&i, &j]) };
+    let [xs, slopes, rates, lane] = ["xs", "slopes", "rates", "lane"].map(own);
+    let in_lane = Methods {
+        programs: &programs,
+        names: definition.names(),
+        arguments: values_in_lane(definition, [&i, &xs, &lane]),
+    };
+    let property_blocks = property_blocks(definition, &j);
     let prepare = methods.prepare().unwrap_or_else(|| quote! { fn prepare(&self, _: &mut [N], _: &N::Context) {} });
     let energy_body = methods.energy(&energy);
     let slope_body = methods.gradient(&[quote! { #slope }]);
     let rate_body = methods.gradient_and_rate(&[quote! { #slope }, quote! { #rate }]);
+    let outputs = [(slopes.clone(), slope.clone()), (rates.clone(), rate.clone())];
+    let slopes_body = in_lane.gradient_of_block(&lane, &outputs[..1]);
+    let rates_body = in_lane.gradient_and_rate_of_block(&lane, &outputs);
+    let block = quote! { ::shadowstep::pairs::BLOCK };
     let scratch_size = size(methods.scratch());
     let kind = format_ident!("{separation:?}");
     Ok(quote! {
@@ -53,11 +58,11 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
             fn energy(&self, #i: usize, #j: usize, #x: &N, #energy: &mut N, #scratch: &mut [N]) {
                 #energy_body
             }
-            #[inline]
+            #[inline(always)]
             fn slope(&self, #i: usize, #j: usize, #x: &N, #slope: &mut N, #scratch: &mut [N]) {
                 #slope_body
             }
-            #[inline]
+            #[inline(always)]
             fn slope_and_rate(
                 &self,
                 #i: usize,
@@ -69,8 +74,76 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
             ) {
                 #rate_body
             }
+            #[inline(always)]
+            fn slopes(
+                &self,
+                #i: usize,
+                #j: usize,
+                #xs: &[N; #block],
+                #slopes: &mut [N; #block],
+                #scratch: &mut [N],
+            ) {
+                #property_blocks
+                #slopes_body
+            }
+            #[inline(always)]
+            fn slopes_and_rates(
+                &self,
+                #i: usize,
+                #j: usize,
+                #xs: &[N; #block],
+                #slopes: &mut [N; #block],
+                #rates: &mut [N; #block],
+                #scratch: &mut [N],
+            ) {
+                #property_blocks
+                #rates_body
+            }
         }
     })
+}
+
+/// A property as the formula names it, `m_i` or `m_j`, with the list that it is from, and whether it is that of the body i.
+fn listed(definition: &Definition) -> impl Iterator<Item = (&Ident, Ident, bool)> {
+    definition.properties.iter().map(|name| {
+        let text = name.to_string();
+        (name, format_ident!("{}", &text[..text.len() - 2], span = name.span()), text.ends_with("_i"))
+    })
+}
+
+/// The properties of the bodies i and j.
+fn property_values(definition: &Definition, [i, j]: [&Ident; 2]) -> TokenStream {
+    let values = listed(definition).map(|(name, list, is_first)| {
+        let index = if is_first { i } else { j };
+        quote! { let #name = &self.#list[#index]; }
+    });
+    quote! { #(#values)* }
+}
+
+/// Those of the bodies from j on.
+fn property_blocks(definition: &Definition, j: &Ident) -> TokenStream {
+    let blocks = listed(definition).enumerate().filter(|(_, (_, _, is_first))| !is_first).map(|(n, (_, list, _))| {
+        let block = numbered("block", n);
+        quote! {
+            let #block: &[N; ::shadowstep::pairs::BLOCK] =
+                self.#list[#j..].first_chunk().expect("the block is within the bodies");
+        }
+    });
+    quote! { #(#blocks)* }
+}
+
+/// The distance and the properties of the body i and of the one in a lane.
+fn values_in_lane(definition: &Definition, [i, xs, lane]: [&Ident; 3]) -> TokenStream {
+    let x = &definition.arguments[0];
+    let values = listed(definition).enumerate().map(|(n, (name, list, is_first))| {
+        if is_first {
+            quote! { let #name = &self.#list[#i]; }
+        } else {
+            let block = numbered("block", n);
+            quote! { let #name = &#block[#lane]; }
+        }
+    });
+    quote! { let #x = &#xs[#lane]; #(#values)* }
 }
 
 /// What the formula is in, by the name of its only argument.

@@ -32,6 +32,7 @@ pub(super) const LARGEST_SQUARED: f64 = 3.8e153;
 impl Number for f64 {
     type Context = ();
     const KEEPS_INCREMENTS: bool = true;
+    const IN_VECTORS: bool = true;
     type Register<'a> = Copied<f64>;
 
     #[inline]

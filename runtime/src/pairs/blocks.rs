@@ -1,0 +1,222 @@
+//! The sum over all pairs for numbers of a few bytes: of each body with a block of others at once, in vectors of the processor.
+//!
+//! The gradient is added up in the order of the plain loop over i < j, so that it has its bits; the rate in a sum for each place in a block. So
+//! results do not depend on the vectors.
+
+use super::pair::{BLOCK, PairPotential};
+use crate::instructions;
+use crate::number::Number;
+use shadowstep_symbolic::Separation;
+
+/// How many numbers of scratch space blocks take: coordinates and gradient by axes.
+pub(super) const fn scratch(bodies: usize, dimensions: usize) -> usize {
+    2 * bodies * dimensions
+}
+
+/// Room for the results of a block.
+struct Room<N, const D: usize> {
+    difference: [[N; BLOCK]; D],
+    squared: [N; BLOCK],
+    slope: [N; BLOCK],
+    part: [N; BLOCK],
+}
+
+impl<N: Number, const D: usize> Room<N, D> {
+    #[inline(always)]
+    fn new(context: &N::Context) -> Self {
+        let zeros = || std::array::from_fn(|_| N::zero(context));
+        Room { difference: std::array::from_fn(|_| zeros()), squared: zeros(), slope: zeros(), part: zeros() }
+    }
+}
+
+/// A sum over all pairs of bodies in D dimensions.
+pub(super) struct Blocks<'a, P, const D: usize> {
+    pub(super) pair: &'a P,
+    pub(super) bodies: usize,
+}
+
+impl<P, const D: usize> Blocks<'_, P, D> {
+    /// gradient ← U_q, and the rate where it is wanted; `axes` is the scratch space of blocks, `pair` that of the pair.
+    pub(super) fn sum<N: Number>(
+        &self,
+        (q, gradient): (&[N], &mut [N]),
+        rate: Option<&mut N>,
+        axes: &mut [N],
+        pair: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
+        let (q_axes, g_axes) = axes.split_at_mut(self.bodies * D);
+        transpose(q, D, q_axes);
+        g_axes.iter_mut().for_each(N::assign_zero);
+        instructions::widest(
+            #[inline(always)]
+            || match rate {
+                Some(rate) => {
+                    rate.assign_zero();
+                    self.add_blocks::<N, true>(q_axes, g_axes, rate, pair);
+                }
+                None => {
+                    let mut none = N::zero(&q[0].context());
+                    self.add_blocks::<N, false>(q_axes, g_axes, &mut none, pair);
+                }
+            },
+        );
+        transpose(g_axes, self.bodies, gradient);
+    }
+
+    #[inline(always)]
+    fn add_blocks<N: Number, const RATE: bool>(&self, q: &[N], gradient: &mut [N], rate: &mut N, pair: &mut [N])
+    where
+        P: PairPotential<N>,
+    {
+        let bodies = self.bodies;
+        let [mut room, mut last] = [(); 2].map(|()| Room::<N, D>::new(&q[0].context()));
+        // of β's rate a sum for each place in a block
+        let mut rates: [N; BLOCK] = std::array::from_fn(|_| N::zero(&q[0].context()));
+        for i in 0..bodies {
+            let q_i: [N; D] = std::array::from_fn(|axis| q[axis * bodies + i].clone());
+            let mut own: [N; D] = std::array::from_fn(|axis| gradient[axis * bodies + i].clone());
+            let mut j = i + 1;
+            while j + BLOCK <= bodies {
+                self.forces::<N, RATE>((i, j), q, &q_i, &mut room, pair);
+                for axis in 0..D {
+                    let forces = &room.difference[axis];
+                    let of_axis: &mut [N; BLOCK] =
+                        gradient[axis * bodies + j..].first_chunk_mut().expect("the block is within the bodies");
+                    of_axis.iter_mut().zip(forces).for_each(|(own, force)| own.add(force));
+                    forces.iter().for_each(|force| own[axis].subtract(force));
+                }
+                if RATE {
+                    rates.iter_mut().zip(&room.part).for_each(|(own, part)| own.add(part));
+                }
+                j += BLOCK;
+            }
+            if j < bodies && i + BLOCK < bodies {
+                // the last bodies are in a block with some that had their turn
+                self.forces::<N, RATE>((i, bodies - BLOCK), q, &q_i, &mut last, pair);
+                for l in BLOCK - (bodies - j)..BLOCK {
+                    for axis in 0..D {
+                        gradient[(axis + 1) * bodies - BLOCK + l].add(&last.difference[axis][l]);
+                        own[axis].subtract(&last.difference[axis][l]);
+                    }
+                    if RATE {
+                        rate.add(&last.part[l]);
+                    }
+                }
+                j = bodies;
+            }
+            for axis in 0..D {
+                gradient[axis * bodies + i].assign(&own[axis]);
+            }
+            for j in j..bodies {
+                self.add_one::<N, RATE>((i, j), (q, gradient), rate, pair);
+            }
+        }
+        rates.iter().for_each(|of_place| rate.add(of_place));
+    }
+
+    /// The forces of the body i at q_i with a block of bodies from j on, in place of their differences.
+    #[inline(always)]
+    fn forces<N: Number, const RATE: bool>(
+        &self,
+        (i, j): (usize, usize),
+        q: &[N],
+        q_i: &[N; D],
+        Room { difference, squared, slope, part }: &mut Room<N, D>,
+        pair: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
+        for axis in 0..D {
+            let q_j = block(q, axis * self.bodies + j);
+            for l in 0..BLOCK {
+                difference[axis][l].assign_difference(&q_j[l], &q_i[axis]);
+            }
+        }
+        let x = match self.pair.separation() {
+            Separation::Difference => &difference[0],
+            Separation::SquaredDistance => {
+                for l in 0..BLOCK {
+                    squared[l].assign_square(&difference[0][l]);
+                }
+                for of_axis in &difference[1..] {
+                    for l in 0..BLOCK {
+                        squared[l].add_product(&of_axis[l], &of_axis[l]);
+                    }
+                }
+                &*squared
+            }
+        };
+        if RATE {
+            self.pair.slopes_and_rates(i, j, x, slope, part, pair);
+        } else {
+            self.pair.slopes(i, j, x, slope, pair);
+        }
+        for of_axis in difference.iter_mut() {
+            for l in 0..BLOCK {
+                match self.pair.separation() {
+                    Separation::Difference => of_axis[l].assign(&slope[l]),
+                    Separation::SquaredDistance => of_axis[l].multiply(&slope[l]),
+                }
+            }
+        }
+    }
+
+    /// Adds one pair.
+    #[inline(always)]
+    fn add_one<N: Number, const RATE: bool>(
+        &self,
+        (i, j): (usize, usize),
+        (q, gradient): (&[N], &mut [N]),
+        rate: &mut N,
+        pair: &mut [N],
+    ) where
+        P: PairPotential<N>,
+    {
+        let bodies = self.bodies;
+        let context = q[0].context();
+        let [mut x, mut slope, mut part] = [(); 3].map(|()| N::zero(&context));
+        let mut difference: [N; D] = std::array::from_fn(|_| N::zero(&context));
+        for axis in 0..D {
+            difference[axis].assign_difference(&q[axis * bodies + j], &q[axis * bodies + i]);
+        }
+        match self.pair.separation() {
+            Separation::Difference => x.assign(&difference[0]),
+            Separation::SquaredDistance => {
+                x.assign_square(&difference[0]);
+                difference[1..].iter().for_each(|of_axis| x.add_product(of_axis, of_axis));
+            }
+        }
+        if RATE {
+            self.pair.slope_and_rate(i, j, &x, &mut slope, &mut part, pair);
+            rate.add(&part);
+        } else {
+            self.pair.slope(i, j, &x, &mut slope, pair);
+        }
+        for axis in 0..D {
+            let force = &mut difference[axis];
+            match self.pair.separation() {
+                Separation::Difference => force.assign(&slope),
+                Separation::SquaredDistance => force.multiply(&slope),
+            }
+            gradient[axis * bodies + j].add(force);
+            gradient[axis * bodies + i].subtract(force);
+        }
+    }
+}
+
+#[inline(always)]
+fn block<N>(numbers: &[N], first: usize) -> &[N; BLOCK] {
+    numbers[first..].first_chunk().expect("the block is within the bodies")
+}
+
+/// Rows of this length become columns.
+fn transpose<N: Number>(from: &[N], length: usize, to: &mut [N]) {
+    let rows = from.len() / length;
+    for (r, row) in from.chunks_exact(length).enumerate() {
+        for (c, x) in row.iter().enumerate() {
+            to[c * rows + r].assign(x);
+        }
+    }
+}

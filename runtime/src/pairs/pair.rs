@@ -1,0 +1,70 @@
+//! What a pair of bodies is: its energy and slope, of one pair or of a block of them.
+
+use shadowstep_symbolic::Separation;
+
+use crate::number::Number;
+
+/// How many bodies are in a block, which sums over pairs take at once: a vector of AVX-512, two of AVX2, four of SSE2.
+pub const BLOCK: usize = 8;
+
+/// What the energy u of a pair of bodies depends on.
+pub trait Pair {
+    /// What u is a function of: of d = q_j − q_i on a line, or of r² = |q_j − q_i|² in any dimension.
+    fn separation(&self) -> Separation;
+
+    /// For each property of the bodies, such as a mass, for how many bodies it is given.
+    fn properties(&self) -> Vec<usize>;
+}
+
+/// The energy u of a pair of bodies i < j. [`crate::potential!`] implements it for a `pair` formula.
+pub trait PairPotential<N: Number>: Pair {
+    /// How many numbers of scratch space there must be for every call.
+    fn scratch(&self) -> usize;
+
+    /// Puts into the scratch space what every call finds there: what depends on parameters only.
+    fn prepare(&self, scratch: &mut [N], context: &N::Context);
+
+    /// energy ← u(x) of the bodies i and j
+    fn energy(&self, i: usize, j: usize, x: &N, energy: &mut N, scratch: &mut [N]);
+
+    /// slope ← u'(d) or 2u'(r²), so that ∂u/∂q_j = slope or slope·(q_j − q_i)
+    fn slope(&self, i: usize, j: usize, x: &N, slope: &mut N, scratch: &mut [N]);
+
+    /// The slope, and rate ← d u'(d) − 2u or 2r²u'(r²) − 2u: what the pair adds to qᵀU_q − 2U
+    fn slope_and_rate(&self, i: usize, j: usize, x: &N, slope: &mut N, rate: &mut N, scratch: &mut [N]);
+
+    /// The slopes of the body i with the bodies j, j + 1, …, one x for each.
+    #[inline(always)]
+    fn slopes(&self, i: usize, j: usize, x: &[N; BLOCK], slopes: &mut [N; BLOCK], scratch: &mut [N]) {
+        for l in 0..BLOCK {
+            self.slope(i, j + l, &x[l], &mut slopes[l], scratch);
+        }
+    }
+
+    /// Those slopes, and the rates.
+    #[inline(always)]
+    fn slopes_and_rates(
+        &self,
+        i: usize,
+        j: usize,
+        x: &[N; BLOCK],
+        slopes: &mut [N; BLOCK],
+        rates: &mut [N; BLOCK],
+        scratch: &mut [N],
+    ) {
+        for l in 0..BLOCK {
+            self.slope_and_rate(i, j + l, &x[l], &mut slopes[l], &mut rates[l], scratch);
+        }
+    }
+}
+
+/// What is at the ends of a chain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// Nothing: the first and the last body have one neighbour.
+    Free,
+    /// Walls: both have a neighbour that rests at 0.
+    Fixed,
+    /// The first body follows the last one: a ring. Positions are displacements, hence unwrapped.
+    Periodic,
+}

@@ -1,0 +1,140 @@
+//! Sums in blocks against sums of one pair after the other.
+
+use super::{Ends, Pairs};
+use crate::Potential;
+use crate::instructions::Instructions;
+use crate::number::Lanes;
+use crate::number::counting::Counting;
+use crate::pairs::PairPotential;
+use crate::problems::{CubicSpring, Gravity, LennardJones, TodaSpring};
+
+/// Bodies with some disorder, in `dimensions` dimensions.
+fn places(bodies: usize, dimensions: usize) -> Vec<f64> {
+    // apart from one another and from 0
+    let place = |c: usize| (c / dimensions % 7) as f64 + 0.3 * (c as f64).sin() + 2.0 * (c % dimensions) as f64 + 0.4;
+    (0..bodies * dimensions).map(place).collect()
+}
+
+fn evaluated<N: crate::Number, P: PairPotential<N>, const D: usize>(
+    pairs: &Pairs<P, D>,
+    q: &[N],
+) -> (Vec<N>, Vec<N>, N) {
+    let context = q[0].context();
+    let zeros = |count| vec![N::zero(&context); count];
+    let mut scratch = zeros(Potential::<N>::scratch(pairs));
+    pairs.prepare(&mut scratch, &context);
+    let (mut plain, mut with_rate, mut rate) = (zeros(q.len()), zeros(q.len()), N::zero(&context));
+    pairs.gradient(q, &mut plain, &mut scratch);
+    pairs.gradient_and_rate(q, &mut with_rate, &mut rate, &mut scratch);
+    (plain, with_rate, rate)
+}
+
+/// Numbers that count their operations take one pair after the other.
+fn agree<P, Q, const D: usize>(pairs: &Pairs<P, D>, one_by_one: &Pairs<Q, D>)
+where
+    P: PairPotential<f64>,
+    Q: PairPotential<Counting<f64>>,
+{
+    let q = places(pairs.bodies(), D);
+    let counting: Vec<_> = q.iter().copied().map(Counting).collect();
+    let expected = evaluated(one_by_one, &counting);
+    let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+    let gradient: Vec<f64> = expected.0.iter().map(|x| x.0).collect();
+    for instructions in Instructions::available() {
+        let found = instructions.only(|| evaluated(pairs, &q));
+        let what = format!("{} bodies, {instructions:?}, {:?}", pairs.bodies(), pairs.which);
+        assert!(found.0.iter().all(|x| x.is_finite()) && (q.len() == 1 || found.0.iter().any(|x| *x != 0.0)), "{what}");
+        assert_eq!(bits(&found.0), bits(&gradient), "{what}");
+        assert_eq!(bits(&found.1), bits(&gradient), "{what}");
+        // of these the rate is added up in another order
+        let off = (found.2 - expected.2.0).abs();
+        assert!(off <= 1e-13 * expected.2.0.abs(), "{what}: {off:e}");
+    }
+}
+
+#[test]
+fn blocks_have_the_bits_of_pairs_one_by_one() {
+    for bodies in [2, 8, 15, 16, 17, 23, 24, 25, 40] {
+        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        let counting = m.iter().copied().map(Counting).collect();
+        agree(
+            &Pairs::<_, 3>::all(bodies, Gravity { g: 0.7, m }).unwrap(),
+            &Pairs::<_, 3>::all(bodies, Gravity { g: Counting(0.7), m: counting }).unwrap(),
+        );
+        agree(
+            &Pairs::<_, 2>::all(bodies, LennardJones { epsilon: 1.5, sigma: 0.4 }).unwrap(),
+            &Pairs::<_, 2>::all(bodies, LennardJones { epsilon: Counting(1.5), sigma: Counting(0.4) }).unwrap(),
+        );
+    }
+}
+
+#[test]
+fn chains_in_blocks_have_the_bits_of_springs_one_by_one() {
+    for bodies in [1, 2, 8, 15, 16, 17, 24, 25, 40] {
+        for ends in [Ends::Free, Ends::Fixed, Ends::Periodic] {
+            agree(
+                &Pairs::<_, 1>::neighbours(bodies, CubicSpring { alpha: 0.25 }, ends).unwrap(),
+                &Pairs::<_, 1>::neighbours(bodies, CubicSpring { alpha: Counting(0.25) }, ends).unwrap(),
+            );
+            agree(
+                &Pairs::<_, 1>::neighbours(bodies, TodaSpring, ends).unwrap(),
+                &Pairs::<_, 1>::neighbours(bodies, TodaSpring, ends).unwrap(),
+            );
+            if ends != Ends::Periodic {
+                agree(
+                    &Pairs::<_, 1>::neighbours(bodies, LennardJones { epsilon: 1.5, sigma: 0.4 }, ends).unwrap(),
+                    &Pairs::<_, 1>::neighbours(
+                        bodies,
+                        LennardJones { epsilon: Counting(1.5), sigma: Counting(0.4) },
+                        ends,
+                    )
+                    .unwrap(),
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_rate_does_not_depend_on_the_vectors() {
+    let pairs = Pairs::<_, 3>::all(37, LennardJones { epsilon: 1.5, sigma: 0.4 }).unwrap();
+    let rates: Vec<f64> = Instructions::available().map(|i| i.only(|| evaluated(&pairs, &places(37, 3)).2)).collect();
+    assert!(rates.iter().all(|rate| rate.to_bits() == rates[0].to_bits()), "{rates:?}");
+}
+
+/// Blocks are for all pairs.
+#[test]
+fn chains_have_no_blocks() {
+    let pair = || LennardJones { epsilon: 1.0, sigma: 1.0 };
+    let chain = Pairs::<_, 1>::neighbours(40, pair(), Ends::Free).unwrap();
+    let all = Pairs::<_, 1>::all(40, pair()).unwrap();
+    let [chain, all] = [&chain, &all].map(Potential::<f64>::scratch);
+    assert_eq!(all - chain, 80);
+}
+
+/// Numbers in lanes take one pair after the other, too, but add up the rate in the order of blocks.
+#[test]
+fn lanes_have_the_bits_of_f64() {
+    fn compare<P, Q, const D: usize>(pairs: &Pairs<P, D>, in_lanes: &Pairs<Q, D>)
+    where
+        P: PairPotential<f64>,
+        Q: PairPotential<Lanes<4>>,
+    {
+        let q = places(pairs.bodies(), D);
+        let lanes: Vec<_> = q.iter().copied().map(Lanes::all).collect();
+        let (one, all) = (evaluated(pairs, &q), evaluated(in_lanes, &lanes));
+        assert_eq!(one.1, all.1.iter().map(|x| x.0[3]).collect::<Vec<_>>());
+        assert_eq!(one.2, all.2.0[3], "{} bodies, {:?}", pairs.bodies(), pairs.which);
+    }
+    for bodies in [15, 16, 17, 24, 25, 39] {
+        let all = |sigma: f64| Pairs::<_, 3>::all(bodies, LennardJones { epsilon: 1.5, sigma }).unwrap();
+        let sigma = Lanes::all(0.4);
+        compare(&all(0.4), &Pairs::all(bodies, LennardJones { epsilon: Lanes::all(1.5), sigma }).unwrap());
+        for ends in [Ends::Free, Ends::Fixed, Ends::Periodic] {
+            compare(
+                &Pairs::<_, 1>::neighbours(bodies, CubicSpring { alpha: 0.25 }, ends).unwrap(),
+                &Pairs::<_, 1>::neighbours(bodies, CubicSpring { alpha: Lanes::all(0.25) }, ends).unwrap(),
+            );
+        }
+    }
+}
