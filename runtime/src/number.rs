@@ -5,6 +5,7 @@ pub mod counting;
 mod double;
 mod double_double;
 mod epsilon;
+mod fused;
 mod lanes;
 mod limb_access;
 mod limbs;
@@ -29,6 +30,7 @@ pub use rug::Float;
 pub use double_double::{DoubleDouble, Machine};
 
 pub(crate) use epsilon::epsilon;
+pub use fused::Fused;
 pub use lanes::Lanes;
 #[doc(hidden)]
 pub use limb_access::{LimbAccess, Parts};
