@@ -4,7 +4,7 @@
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run:
-	cargo run --release --locked -p shadowstep-cli -- drift --problem kepler \
+	cargo run --profile quick --locked -p shadowstep-cli -- drift --problem kepler \
 	    --scheme stormer-verlet,yoshida4,blanes-moan-s6,blanes-moan-srkn6b \
 	    --step 1/10,1/20,1/40 --until 100 --digits 120 --order auto
 
