@@ -84,8 +84,8 @@ macro_rules! number_types {
             /// }
             ///
             /// assert_eq!(Arithmetic::Double.compute(Third), "0.3333333333333333");
-            /// assert_eq!(Arithmetic::with_digits(30)?.compute(Third).len(), "0.".len() + 31);
-            /// # Ok::<(), shadowstep::number::PrecisionError>(())
+            /// assert_eq!(Arithmetic::with_digits(30)?.compute(Third).len(), "0.".len() + 39);
+            /// # Ok::<(), shadowstep_scenes::arithmetic::DigitsError>(())
             /// ```
             pub fn compute<C: Computation>(self, computation: C) -> C::Output {
                 match self {
