@@ -1,9 +1,9 @@
 //! Computing chunks with several threads.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::thread;
+use std::thread::{self, Thread};
 use std::time::Duration;
 
 use shadowstep_scenes::Error;
@@ -49,13 +49,14 @@ pub fn compute(
     let due = Due { plan, manifest, folder, stops: &stops };
     let state = Mutex::new(State { chunks, open: Vec::new(), computed: Computed::default(), saved: 0, error: None });
     let (threads, attendant) = (rayon::current_num_threads(), thread::current());
+    let working = AtomicUsize::new(threads);
     let work = || {
+        let _end = Ends { working: &working, attendant: &attendant };
         due.work(&state);
-        attendant.unpark();
     };
     thread::scope(|scope| {
         let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        attend(&workers, &state, &stops, all, observer);
+        attend(&working, &state, &stops, all, observer);
         workers.into_iter().for_each(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
     });
     let state = state.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -69,16 +70,29 @@ pub fn compute(
     }
 }
 
+/// At its end a thread is counted off before the waiting thread wakes, be it by a panic.
+struct Ends<'a> {
+    working: &'a AtomicUsize,
+    attendant: &'a Thread,
+}
+
+impl Drop for Ends<'_> {
+    fn drop(&mut self) {
+        self.working.fetch_sub(1, Ordering::Release);
+        self.attendant.unpark();
+    }
+}
+
 /// Waits for the threads; shows the progress, and stops them when the observer asks for it.
 fn attend<I>(
-    workers: &[thread::ScopedJoinHandle<'_, ()>],
+    working: &AtomicUsize,
     state: &Mutex<State<I>>,
     stops: &AtomicBool,
     all: u64,
     observer: &mut dyn Observer,
 ) {
     let mut shown = u64::MAX;
-    while !workers.iter().all(thread::ScopedJoinHandle::is_finished) {
+    while working.load(Ordering::Acquire) > 0 {
         thread::park_timeout(TICK);
         if observer.stops() {
             stops.store(true, Ordering::Relaxed);

@@ -25,7 +25,7 @@ fn limbs_and_mpfr_agree_to_the_digits_of_the_run() {
 #[test]
 #[cfg(not(feature = "mpfr"))]
 fn more_digits_than_limbs_have_need_mpfr() {
-    let words = "drift kepler --scheme yoshida4 --step 1/20 --until 2 --order 8";
+    let words = "drift kepler --scheme stormer-verlet --step 1/20 --until 2 --order 8";
     for (more, digits) in [("--digits 308", 308), ("--digits 20 --mpfr", 20)] {
         let result = shadowstep(&format!("{words} {more}"));
         assert_eq!(result.code, 2, "{more}");

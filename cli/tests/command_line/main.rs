@@ -1,4 +1,8 @@
 //! The command line, used as a person or a script uses it.
+#![cfg_attr(
+    not(feature = "mpfr"),
+    allow(dead_code, unused_imports, reason = "some tests need more digits than limbs have")
+)]
 
 mod checkpoints;
 mod digits;

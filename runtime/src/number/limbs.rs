@@ -245,11 +245,9 @@ impl<const L: usize> Ordered for Limbs<L> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{functions, operations, products};
     use super::{Limbs, Number, Ordered};
     use crate::Rational;
     use num_bigint::BigInt;
-    use proptest::prelude::*;
 
     fn rational(n: i128, d: i128) -> Rational {
         Rational::new(n.into(), d.into())
@@ -287,7 +285,9 @@ mod tests {
 
     #[cfg(feature = "mpfr")]
     mod beside_mpfr {
+        use super::super::super::tests::{functions, operations, products};
         use super::*;
+        use proptest::prelude::*;
         use rug::integer::Order;
         use rug::{Float, Integer};
 

@@ -137,6 +137,7 @@ fn interrupted(child: Child, name: &str) {
 }
 
 #[test]
+#[cfg(feature = "mpfr")]
 fn a_signal_ends_it_within_a_long_run() {
     for (sweep, name) in ENDLESS.into_iter().zip(["-INT", "-TERM"]) {
         for flags in ["", " --chunk 1/1"] {
