@@ -12,6 +12,8 @@
 //! assert!(error.abs() <= two.times_power_of_two(-447));
 //! ```
 //!
+//! [`AnyLimbs`] has as many limbs as are chosen at run time.
+//!
 //! Elementary functions are there for up to 16 limbs ([`exp`](Limbs::exp) and those after it), and decimal text that reads back
 //! ([`to_text`](Limbs::to_text)).  Arithmetic never allocates; functions do so for their tables, at first use, and for sines of
 //! arguments above 2^2112.
@@ -30,6 +32,7 @@
 
 #![forbid(unsafe_code)]
 
+mod any;
 mod convert;
 mod decimal;
 pub mod fixed;
@@ -43,6 +46,7 @@ mod root;
 mod round;
 mod sum;
 
+pub use any::{AnyLimbs, LimbCount};
 pub use decimal::ParseError;
 
 /// A floating-point number with a significand of L 64-bit limbs.
@@ -88,6 +92,18 @@ impl<const L: usize> Limbs<L> {
         Limbs { mantissa, exponent, negative: false }
     }
 
+    /// x ← 0
+    #[inline]
+    pub const fn set_zero(&mut self) {
+        *self = Self::ZERO;
+    }
+
+    /// x ← NaN
+    #[inline]
+    pub const fn set_nan(&mut self) {
+        *self = Self::NAN;
+    }
+
     /// Whether the number is finite and not 0.
     #[inline(always)]
     const fn is_regular(&self) -> bool {
@@ -98,6 +114,12 @@ impl<const L: usize> Limbs<L> {
     #[inline]
     pub const fn is_finite(&self) -> bool {
         self.exponent < EXPONENTS
+    }
+
+    /// Whether r² of two points in space with such coordinates is finite: 3 (2x)² < (4x)².
+    #[inline]
+    pub const fn has_finite_square(&self) -> bool {
+        self.is_zero() || self.is_regular() && self.exponent < EXPONENTS / 2 - 2
     }
 
     /// Whether the number is NaN.

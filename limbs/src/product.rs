@@ -16,6 +16,18 @@ impl<const L: usize> Limbs<L> {
         *self = quick_square(a).unwrap_or_else(|| product(*a, *a));
     }
 
+    /// x ← x + a b, with two roundings.
+    #[inline]
+    pub fn add_product(&mut self, a: &Self, b: &Self) {
+        *self += &(a * b);
+    }
+
+    /// x ← x − a b, with two roundings.
+    #[inline]
+    pub fn subtract_product(&mut self, a: &Self, b: &Self) {
+        *self -= &(a * b);
+    }
+
     /// x², correctly rounded.
     #[inline]
     pub fn square(&self) -> Self {

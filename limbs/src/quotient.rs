@@ -6,6 +6,12 @@ use std::cmp::Ordering;
 use std::ops::{Div, DivAssign};
 
 impl<const L: usize> Limbs<L> {
+    /// x ← a / b, correctly rounded.
+    #[inline]
+    pub fn set_quotient(&mut self, a: &Self, b: &Self) {
+        *self = a / b;
+    }
+
     /// a / b, correctly rounded: limb by limb, with the exact remainder.
     #[inline]
     fn quotient(a: &Self, b: &Self) -> Self {

@@ -1,4 +1,4 @@
-//! Steps and functions in numbers of seven limbs beside MPFR's of 120 digits, as ratios within one run.
+//! Steps and functions in numbers of seven limbs, of a number of limbs chosen at run time, and MPFR's of 120 digits, as ratios within one run.
 //!
 //! `cargo bench -p shadowstep --bench limbs`
 
@@ -6,7 +6,7 @@ mod timing;
 
 use std::hint::black_box;
 
-use shadowstep::number::{Float, Limbs, Precision};
+use shadowstep::number::{AnyLimbs, Float, LimbCount, Limbs, Precision};
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
 use shadowstep::{Motion, Number, Ordered, Potential, Stepper, UnitMasses, exact, splitting_scheme};
 
@@ -54,6 +54,7 @@ fn functions<'a, N: Ordered + 'a>(name: &'static str, context: &N::Context, appl
 
 fn main() {
     let digits = Precision::digits(120).expect("120 digits are allowed");
+    let any = LimbCount::of_bits(digits.in_bits()).expect("few enough");
     type Seven = Limbs<7>;
     for (title, augmented) in [("Step", false), ("Step with β", true)] {
         let state = (["0.4", "0"], ["0", "2"]);
@@ -62,6 +63,7 @@ fn main() {
             vec![
                 steps("MPFR", motion::<Float, _, 2>(Kepler, &digits, state.0, state.1), augmented),
                 steps("7 limbs", motion::<Seven, _, 2>(Kepler, &(), state.0, state.1), augmented),
+                steps("any limbs", motion::<AnyLimbs, _, 2>(Kepler, &any, state.0, state.1), augmented),
             ],
             300,
         );
@@ -71,6 +73,7 @@ fn main() {
             vec![
                 steps("MPFR", motion::<Float, _, 2>(HenonHeiles, &digits, state.0, state.1), augmented),
                 steps("7 limbs", motion::<Seven, _, 2>(HenonHeiles, &(), state.0, state.1), augmented),
+                steps("any limbs", motion::<AnyLimbs, _, 2>(HenonHeiles, &any, state.0, state.1), augmented),
             ],
             300,
         );
@@ -79,6 +82,7 @@ fn main() {
             vec![
                 steps("MPFR", motion::<Float, _, 1>(Pendulum, &digits, ["0.1"], ["1.5"]), augmented),
                 steps("7 limbs", motion::<Seven, _, 1>(Pendulum, &(), ["0.1"], ["1.5"]), augmented),
+                steps("any limbs", motion::<AnyLimbs, _, 1>(Pendulum, &any, ["0.1"], ["1.5"]), augmented),
             ],
             100,
         );

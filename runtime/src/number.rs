@@ -17,11 +17,11 @@ mod rounded;
 pub(crate) mod value;
 
 pub use precision::{Precision, PrecisionError};
-pub use reference::Reference;
+pub use reference::{Reference, ScaledInteger};
 pub use rounded::Rounded;
 
-/// Numbers of a fixed number of 64-bit limbs: [`shadowstep_limbs`].
-pub use shadowstep_limbs::Limbs;
+/// Numbers of 64-bit limbs, whose number is part of the type or chosen at run time: [`shadowstep_limbs`].
+pub use shadowstep_limbs::{AnyLimbs, LimbCount, Limbs};
 
 /// MPFR's numbers, of the version that implements [`Number`].
 #[cfg(feature = "mpfr")]
@@ -76,7 +76,7 @@ use std::ops::DerefMut;
 /// There is no order, and no text: a number may be several at once, as in lanes. What compares, searches or prints needs an
 /// [`Ordered`] number; potentials, kinetic energies and steps do not.
 pub trait Number: Clone + fmt::Debug {
-    /// What a new number needs: `()` for `f64` and [`Limbs`], the precision for MPFR.
+    /// What a new number needs: `()` for `f64` and [`Limbs`], the number of limbs for [`AnyLimbs`], the precision for MPFR.
     type Context: Clone + PartialEq + fmt::Debug;
 
     /// Whether a system keeps the increments of q and p, from which estimators then take the differences of states.

@@ -4,7 +4,7 @@ use num_traits::Zero;
 use shadowstep::Rational;
 #[cfg(feature = "mpfr")]
 use shadowstep::number::Float;
-use shadowstep::number::{DoubleDouble, Limbs, Precision, PrecisionError, Rounded};
+use shadowstep::number::{AnyLimbs, DoubleDouble, LimbCount, Precision, PrecisionError, Rounded};
 use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_symbolic::Exact;
@@ -133,33 +133,25 @@ number_types! {
 /// Numbers of many digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Digits {
-    /// So many limbs of 64 bits: [`Limbs`].
-    Limbs(usize),
+    /// So many limbs of 64 bits: [`AnyLimbs`].
+    Limbs(LimbCount),
     /// MPFR's numbers: `Float`.
     #[cfg(feature = "mpfr")]
     Mpfr(Precision),
 }
 
-/// Makes the list of the numbers of limbs, and what dispatches on them.
-macro_rules! limbs {
-    ($($count:literal)+) => {
-        /// The numbers of limbs of 64 bits that runs can have. Each one is compiled into every command, which takes time.
-        pub const LIMBS: [usize; [$($count),+].len()] = [$($count),+];
+/// The most digits that numbers of limbs have in a run; references to compare with may have one limb more.
+const MOST_LIMBS: usize = 16;
 
-        impl Digits {
-            fn compute<C: Computation>(self, computation: C) -> C::Output {
-                match self {
-                    $(Digits::Limbs($count) => computation.compute::<Limbs<$count>>(&()),)+
-                    Digits::Limbs(other) => unreachable!("{other} limbs are not in the list"),
-                    #[cfg(feature = "mpfr")]
-                    Digits::Mpfr(precision) => computation.compute::<Float>(&precision),
-                }
-            }
+impl Digits {
+    fn compute<C: Computation>(self, computation: C) -> C::Output {
+        match self {
+            Digits::Limbs(count) => computation.compute::<AnyLimbs>(&count),
+            #[cfg(feature = "mpfr")]
+            Digits::Mpfr(precision) => computation.compute::<Float>(&precision),
         }
-    };
+    }
 }
-
-limbs! { 2 4 7 11 16 }
 
 /// Whether a number neither overflows nor becomes 0 in a number type.
 struct Holds<'a>(&'a Rational);
@@ -198,14 +190,14 @@ impl Arithmetic {
         !matches!(self, Arithmetic::Double | Arithmetic::Compensated)
     }
 
-    /// Numbers with this many decimal digits: of the fewest [`LIMBS`] that have them, beyond 307 digits MPFR's.
+    /// Numbers with this many decimal digits: of the fewest limbs that have them, beyond 307 digits MPFR's.
     ///
     /// # Errors
     /// More digits than MPFR has, or than 307 without the feature `mpfr`.
     pub fn with_digits(digits: u32) -> Result<Self, DigitsError> {
         let precision = Precision::digits(digits)?;
-        match LIMBS.into_iter().find(|limbs| precision <= Precision::of_limbs(*limbs)) {
-            Some(limbs) => Ok(Arithmetic::Digits(digits, Digits::Limbs(limbs))),
+        match LimbCount::of_bits(precision.in_bits()).filter(|count| count.get() <= MOST_LIMBS) {
+            Some(count) => Ok(Arithmetic::Digits(digits, Digits::Limbs(count))),
             None => Arithmetic::with_mpfr(digits),
         }
     }
@@ -233,7 +225,7 @@ impl Arithmetic {
     /// The number of limbs of 64 bits; `None` of other number types.
     pub fn limbs(self) -> Option<usize> {
         match self {
-            Arithmetic::Digits(_, Digits::Limbs(limbs)) => Some(limbs),
+            Arithmetic::Digits(_, Digits::Limbs(count)) => Some(count.get()),
             _ => None,
         }
     }
@@ -297,7 +289,7 @@ pub enum DigitsError {
     /// MPFR has them.
     #[error(
         "{0} digits need MPFR, which this program was built without; it has up to {most} digits",
-        most = Precision::of_limbs(LIMBS[LIMBS.len() - 1]).in_digits()
+        most = Precision::of_limbs(MOST_LIMBS).in_digits()
     )]
     NeedsMpfr(u32),
 }

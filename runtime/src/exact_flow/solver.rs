@@ -1,10 +1,8 @@
 //! The solution of a problem in the smallest numbers that have the digits needed.
 
-use shadowstep_limbs::Limbs;
-
 use super::points::{Points, PointsOf};
 use super::solution::{ExactFlowError, Method, Request};
-use crate::number::{Reference, Rounded};
+use crate::number::{AnyLimbs, LimbCount, Reference, Rounded};
 use crate::problems::values::Values;
 
 /// A [`Method`], as the definition of a problem names it.
@@ -12,14 +10,10 @@ use crate::problems::values::Values;
 pub(crate) struct Solver {
     pub(super) check: fn(&Values) -> Result<(), ExactFlowError>,
     bits: fn(&Request<'_>) -> Result<u32, ExactFlowError>,
-    five_limbs: Solve<Limbs<5>>,
-    nine_limbs: Solve<Limbs<9>>,
-    most_limbs: Solve<MostLimbs>,
+    limbs: Solve<AnyLimbs>,
     #[cfg(feature = "mpfr")]
     mpfr: Solve<rug::Float>,
 }
-
-type MostLimbs = Limbs<17>;
 
 type Solve<R> = fn(&Request<'_>, bits: u32) -> Option<PointsOf<R>>;
 
@@ -28,9 +22,7 @@ impl Solver {
         Solver {
             check: M::check,
             bits: bits::<M>,
-            five_limbs: solve::<M, _>,
-            nine_limbs: solve::<M, _>,
-            most_limbs: solve::<M, _>,
+            limbs: solve::<M, _>,
             #[cfg(feature = "mpfr")]
             mpfr: solve::<M, _>,
         }
@@ -39,13 +31,9 @@ impl Solver {
     /// The points of the solution, to be rounded to numbers of type N.
     pub(super) fn points<N: Rounded>(&self, request: &Request<'_>) -> Result<Box<dyn Points<N>>, ExactFlowError> {
         let bits = (self.bits)(request)?;
-        let mut found = boxed((self.five_limbs)(request, bits));
-        found = found.or_else(|| boxed((self.nine_limbs)(request, bits)));
-        found = found.or_else(|| boxed((self.most_limbs)(request, bits)));
+        let found = boxed((self.limbs)(request, bits));
         #[cfg(feature = "mpfr")]
-        {
-            found = found.or_else(|| boxed((self.mpfr)(request, bits)));
-        }
+        let found = found.or_else(|| boxed((self.mpfr)(request, bits)));
         found.ok_or(ExactFlowError::NeedsMpfr { bits })
     }
 }
@@ -63,10 +51,10 @@ fn bits<M: Method>(request: &Request<'_>) -> Result<u32, ExactFlowError> {
     #[cfg(feature = "mpfr")]
     {
         let rough = request.bits(f64::from(request.bits), u32::MAX)?;
-        if let (None, Some(context)) = (MostLimbs::context_of(rough), rug::Float::context_of(rough)) {
+        if let (None, Some(context)) = (AnyLimbs::context_of(rough), rug::Float::context_of(rough)) {
             return M::bits::<rug::Float>(request, &context);
         }
     }
     // without MPFR there are no more bits
-    M::bits::<MostLimbs>(request, &())
+    M::bits::<AnyLimbs>(request, &LimbCount::MOST)
 }

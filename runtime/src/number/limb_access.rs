@@ -4,8 +4,8 @@ use std::fmt;
 
 /// How the limbs of a number are read and written.
 pub struct LimbAccess<N> {
-    /// How many limbs a significand has.
-    pub limbs: usize,
+    /// How many limbs the significand of a number has, also of 0.
+    pub limbs: fn(&N) -> usize,
     /// The number in parts.
     pub parts: fn(&N) -> Parts<'_>,
     /// x ← the number nearest to Σ magnitude\[i\] 2^(64 i + exponent), or to its opposite: `assign(x, negative, magnitude, exponent)`.
@@ -24,7 +24,7 @@ impl<N> Copy for LimbAccess<N> {}
 
 impl<N> fmt::Debug for LimbAccess<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} limbs", self.limbs)
+        f.write_str("LimbAccess")
     }
 }
 

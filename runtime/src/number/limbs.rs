@@ -1,251 +1,299 @@
-//! Numbers of a fixed number of limbs, [`Limbs`], as a [`Number`].
+//! Numbers of limbs as a [`Number`]: [`Limbs`], whose number of limbs is part of the type, and [`AnyLimbs`], for which it is chosen at run
+//! time.
 
 use super::{LimbAccess, Number, Ordered, Parts};
 use crate::Rational;
 use num_traits::{Signed, Zero};
-use shadowstep_limbs::Limbs;
+use shadowstep_limbs::{AnyLimbs, LimbCount, Limbs};
 use std::f64::consts::LOG10_2;
 
+/// How a number of limbs is made.
+trait Nearest: Number {
+    /// The number nearest to ± Σ magnitude\[i\] 2^(64 i + exponent), where `more` stands for some part of a unit of that sum.
+    fn nearest(negative: bool, magnitude: &[u64], exponent: i64, more: bool, context: &Self::Context) -> Self;
+}
+
+impl<const L: usize> Nearest for Limbs<L> {
+    fn nearest(negative: bool, magnitude: &[u64], exponent: i64, more: bool, (): &()) -> Self {
+        Limbs::from_magnitude(negative, magnitude, exponent, more)
+    }
+}
+
+impl Nearest for AnyLimbs {
+    fn nearest(negative: bool, magnitude: &[u64], exponent: i64, more: bool, count: &LimbCount) -> Self {
+        AnyLimbs::from_magnitude(negative, magnitude, exponent, more, *count)
+    }
+}
+
+/// Implements [`Number`] and [`Ordered`], with what is different for a type.
+///
 /// Sums, products, quotients, square roots and their reciprocals are correctly rounded, a b + c with two roundings, and elementary
 /// functions err by little more than half an ulp.
-impl<const L: usize> Number for Limbs<L> {
+macro_rules! number_of_limbs {
+    ([$($L:tt)*] $Limbs:ty { $($own:item)* }) => {
+        impl<$($L)*> Number for $Limbs {
+            type Register<'a> = &'a mut Self;
+
+            $($own)*
+
+            const LIMBS: Option<LimbAccess<Self>> = Some(LimbAccess {
+                limbs: |x| x.mantissa().len(),
+                parts: |x| match x.exponent() {
+                    Some(exponent) => Parts::Regular {
+                        negative: x.is_sign_negative(),
+                        exponent: exponent.into(),
+                        significand: x.mantissa(),
+                    },
+                    None if x.is_zero() => Parts::Zero,
+                    None => Parts::NotFinite,
+                },
+                assign: |x, negative, magnitude, exponent| {
+                    *x = Nearest::nearest(negative, magnitude, exponent, false, &x.context());
+                },
+                assign_nan: |x| x.set_nan(),
+            });
+
+            #[inline]
+            fn register(&mut self) -> &mut Self {
+                self
+            }
+
+            fn from_rational(value: &Rational, context: &Self::Context) -> Self {
+                let bits = 64 * <$Limbs as Number>::zero(context).mantissa().len() as u32;
+                let (quotient, exponent, is_exact) = quotient(value, bits);
+                Self::nearest(value.is_negative(), &quotient, exponent, !is_exact, context)
+            }
+
+            #[inline]
+            fn assign_zero(&mut self) {
+                self.set_zero();
+            }
+
+            #[inline]
+            fn assign(&mut self, a: &Self) {
+                *self = *a;
+            }
+
+            #[inline]
+            fn assign_sum(&mut self, a: &Self, b: &Self) {
+                self.set_sum(a, b);
+            }
+
+            #[inline]
+            fn assign_difference(&mut self, a: &Self, b: &Self) {
+                self.set_difference(a, b);
+            }
+
+            #[inline]
+            fn assign_product(&mut self, a: &Self, b: &Self) {
+                self.set_product(a, b);
+            }
+
+            #[inline]
+            fn assign_quotient(&mut self, a: &Self, b: &Self) {
+                self.set_quotient(a, b);
+            }
+
+            #[inline]
+            fn assign_square(&mut self, a: &Self) {
+                self.set_square(a);
+            }
+
+            fn assign_sqrt(&mut self, a: &Self) {
+                *self = a.sqrt();
+            }
+
+            fn assign_reciprocal_sqrt(&mut self, a: &Self) {
+                *self = a.reciprocal_sqrt();
+            }
+
+            fn assign_root(&mut self, a: &Self, n: u32) {
+                *self = a.root(n);
+            }
+
+            fn assign_exp(&mut self, a: &Self) {
+                *self = a.exp();
+            }
+
+            fn assign_sin(&mut self, a: &Self) {
+                *self = a.sin();
+            }
+
+            fn assign_cos(&mut self, a: &Self) {
+                *self = a.cos();
+            }
+
+            fn assign_log(&mut self, a: &Self) {
+                *self = a.log();
+            }
+
+            fn assign_tan(&mut self, a: &Self) {
+                *self = a.tan();
+            }
+
+            fn assign_sinh(&mut self, a: &Self) {
+                *self = a.sinh();
+            }
+
+            fn assign_cosh(&mut self, a: &Self) {
+                *self = a.cosh();
+            }
+
+            fn assign_tanh(&mut self, a: &Self) {
+                *self = a.tanh();
+            }
+
+            fn assign_atan(&mut self, a: &Self) {
+                *self = a.atan();
+            }
+
+            fn assign_asin(&mut self, a: &Self) {
+                *self = a.asin();
+            }
+
+            fn assign_acos(&mut self, a: &Self) {
+                *self = a.acos();
+            }
+
+            fn assign_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
+                (*sin, *cos) = a.sin_cos();
+            }
+
+            #[inline]
+            fn add(&mut self, a: &Self) {
+                *self += a;
+            }
+
+            #[inline]
+            fn subtract(&mut self, a: &Self) {
+                *self -= a;
+            }
+
+            #[inline]
+            fn multiply(&mut self, a: &Self) {
+                *self *= a;
+            }
+
+            #[inline]
+            fn divide(&mut self, a: &Self) {
+                *self /= a;
+            }
+
+            #[inline]
+            fn add_product(&mut self, a: &Self, b: &Self) {
+                <$Limbs>::add_product(self, a, b);
+            }
+
+            #[inline]
+            fn subtract_product(&mut self, a: &Self, b: &Self) {
+                <$Limbs>::subtract_product(self, a, b);
+            }
+
+            #[inline]
+            fn multiply_integer(&mut self, n: i32) {
+                *self = self.times_integer(n);
+            }
+
+            #[inline]
+            fn divide_integer(&mut self, n: i32) {
+                *self = self.over_integer(n);
+            }
+
+            #[inline]
+            fn negate(&mut self) {
+                *self = -*self;
+            }
+
+            #[inline]
+            fn make_absolute(&mut self) {
+                *self = self.abs();
+            }
+
+            fn make_at_least(&mut self, a: &Self) {
+                if *self < *a {
+                    *self = *a;
+                }
+            }
+
+            fn make_at_most(&mut self, a: &Self) {
+                if *self > *a {
+                    *self = *a;
+                }
+            }
+
+            fn make_nan_where_square_overflows(&mut self, a: &Self) {
+                if <$Limbs>::is_finite(self) && !a.has_finite_square() {
+                    self.set_nan();
+                }
+            }
+
+            #[inline]
+            fn is_finite(&self) -> bool {
+                <$Limbs>::is_finite(self)
+            }
+        }
+
+        impl<$($L)*> Ordered for $Limbs {
+            fn is_below_zero(&self) -> bool {
+                <$Limbs>::is_below_zero(self)
+            }
+
+            fn has_finite_square(&self) -> bool {
+                <$Limbs>::has_finite_square(self)
+            }
+
+            fn to_f64(&self) -> f64 {
+                <$Limbs>::to_f64(self)
+            }
+
+            fn log10_abs(&self) -> f64 {
+                let (significand, exponent) = self.to_f64_exponent();
+                significand.abs().log10() + f64::from(exponent) * LOG10_2
+            }
+
+            fn to_text(&self) -> String {
+                <$Limbs>::to_text(self)
+            }
+        }
+    };
+}
+
+number_of_limbs! { [const L: usize] Limbs<L> {
     type Context = ();
-    type Register<'a> = &'a mut Limbs<L>;
-
-    const LIMBS: Option<LimbAccess<Self>> = Some(LimbAccess {
-        limbs: L,
-        parts,
-        assign: |x, negative, magnitude, exponent| *x = Limbs::from_magnitude(negative, magnitude, exponent, false),
-        assign_nan: |x| *x = Limbs::NAN,
-    });
-
-    #[inline]
-    fn register(&mut self) -> &mut Limbs<L> {
-        self
-    }
 
     fn zero((): &()) -> Limbs<L> {
         Limbs::ZERO
     }
 
-    fn from_rational(value: &Rational, (): &()) -> Limbs<L> {
-        let (n, d) = (value.numer().magnitude(), value.denom().magnitude());
-        // a quotient with more bits than the number has
-        let shift = (u64::from(Limbs::<L>::BITS) + 2 + d.bits()).saturating_sub(n.bits());
-        let dividend = n << shift;
-        let quotient = &dividend / d;
-        let is_exact = (dividend - &quotient * d).is_zero();
-        Limbs::from_magnitude(value.is_negative(), &quotient.to_u64_digits(), -(shift as i64), !is_exact)
-    }
-
     fn context(&self) {}
+} }
 
-    #[inline]
-    fn assign_zero(&mut self) {
-        *self = Limbs::ZERO;
+number_of_limbs! { [] AnyLimbs {
+    type Context = LimbCount;
+
+    fn zero(count: &LimbCount) -> AnyLimbs {
+        AnyLimbs::zero(*count)
     }
 
-    #[inline]
-    fn assign(&mut self, a: &Limbs<L>) {
-        *self = *a;
+    fn context(&self) -> LimbCount {
+        self.count()
     }
+} }
 
-    #[inline]
-    fn assign_sum(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
-        self.set_sum(a, b);
-    }
-
-    #[inline]
-    fn assign_difference(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
-        self.set_difference(a, b);
-    }
-
-    #[inline]
-    fn assign_product(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
-        self.set_product(a, b);
-    }
-
-    #[inline]
-    fn assign_quotient(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
-        *self = a / b;
-    }
-
-    #[inline]
-    fn assign_square(&mut self, a: &Limbs<L>) {
-        self.set_square(a);
-    }
-
-    fn assign_sqrt(&mut self, a: &Limbs<L>) {
-        *self = a.sqrt();
-    }
-
-    fn assign_reciprocal_sqrt(&mut self, a: &Limbs<L>) {
-        *self = a.reciprocal_sqrt();
-    }
-
-    fn assign_root(&mut self, a: &Limbs<L>, n: u32) {
-        *self = a.root(n);
-    }
-
-    fn assign_exp(&mut self, a: &Limbs<L>) {
-        *self = a.exp();
-    }
-
-    fn assign_sin(&mut self, a: &Limbs<L>) {
-        *self = a.sin();
-    }
-
-    fn assign_cos(&mut self, a: &Limbs<L>) {
-        *self = a.cos();
-    }
-
-    fn assign_log(&mut self, a: &Limbs<L>) {
-        *self = a.log();
-    }
-
-    fn assign_tan(&mut self, a: &Limbs<L>) {
-        *self = a.tan();
-    }
-
-    fn assign_sinh(&mut self, a: &Limbs<L>) {
-        *self = a.sinh();
-    }
-
-    fn assign_cosh(&mut self, a: &Limbs<L>) {
-        *self = a.cosh();
-    }
-
-    fn assign_tanh(&mut self, a: &Limbs<L>) {
-        *self = a.tanh();
-    }
-
-    fn assign_atan(&mut self, a: &Limbs<L>) {
-        *self = a.atan();
-    }
-
-    fn assign_asin(&mut self, a: &Limbs<L>) {
-        *self = a.asin();
-    }
-
-    fn assign_acos(&mut self, a: &Limbs<L>) {
-        *self = a.acos();
-    }
-
-    fn assign_sin_cos(sin: &mut Limbs<L>, cos: &mut Limbs<L>, a: &Limbs<L>) {
-        (*sin, *cos) = a.sin_cos();
-    }
-
-    #[inline]
-    fn add(&mut self, a: &Limbs<L>) {
-        *self += a;
-    }
-
-    #[inline]
-    fn subtract(&mut self, a: &Limbs<L>) {
-        *self -= a;
-    }
-
-    #[inline]
-    fn multiply(&mut self, a: &Limbs<L>) {
-        *self *= a;
-    }
-
-    #[inline]
-    fn divide(&mut self, a: &Limbs<L>) {
-        *self /= a;
-    }
-
-    #[inline]
-    fn add_product(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
-        *self += &(a * b);
-    }
-
-    #[inline]
-    fn subtract_product(&mut self, a: &Limbs<L>, b: &Limbs<L>) {
-        *self -= &(a * b);
-    }
-
-    #[inline]
-    fn multiply_integer(&mut self, n: i32) {
-        *self = self.times_integer(n);
-    }
-
-    #[inline]
-    fn divide_integer(&mut self, n: i32) {
-        *self = self.over_integer(n);
-    }
-
-    #[inline]
-    fn negate(&mut self) {
-        *self = -*self;
-    }
-
-    #[inline]
-    fn make_absolute(&mut self) {
-        *self = self.abs();
-    }
-
-    fn make_at_least(&mut self, a: &Limbs<L>) {
-        if *self < *a {
-            *self = *a;
-        }
-    }
-
-    fn make_at_most(&mut self, a: &Limbs<L>) {
-        if *self > *a {
-            *self = *a;
-        }
-    }
-
-    fn make_nan_where_square_overflows(&mut self, a: &Limbs<L>) {
-        if Limbs::is_finite(self) && !a.has_finite_square() {
-            *self = Limbs::NAN;
-        }
-    }
-
-    #[inline]
-    fn is_finite(&self) -> bool {
-        Limbs::is_finite(self)
-    }
-}
-
-fn parts<const L: usize>(x: &Limbs<L>) -> Parts<'_> {
-    match x.exponent() {
-        Some(exponent) => {
-            Parts::Regular { negative: x.is_sign_negative(), exponent: exponent.into(), significand: x.mantissa() }
-        }
-        None if x.is_zero() => Parts::Zero,
-        None => Parts::NotFinite,
-    }
-}
-
-impl<const L: usize> Ordered for Limbs<L> {
-    fn is_below_zero(&self) -> bool {
-        Limbs::is_below_zero(self)
-    }
-
-    fn has_finite_square(&self) -> bool {
-        // 0 has no exponent; 3 (2x)² < (4x)²
-        Limbs::is_finite(self) && self.exponent().is_none_or(|exponent| exponent < (1 << 29) - 2)
-    }
-
-    fn to_f64(&self) -> f64 {
-        Limbs::to_f64(self)
-    }
-
-    fn log10_abs(&self) -> f64 {
-        let (significand, exponent) = self.to_f64_exponent();
-        significand.abs().log10() + f64::from(exponent) * LOG10_2
-    }
-
-    fn to_text(&self) -> String {
-        Limbs::to_text(self)
-    }
+/// |value| as an integer of more than so many bits, rounded down, times a power of 2, and whether it is exact.
+fn quotient(value: &Rational, bits: u32) -> (Vec<u64>, i64, bool) {
+    let (n, d) = (value.numer().magnitude(), value.denom().magnitude());
+    let shift = (u64::from(bits) + 2 + d.bits()).saturating_sub(n.bits());
+    let dividend = n << shift;
+    let quotient = &dividend / d;
+    let is_exact = (dividend - &quotient * d).is_zero();
+    (quotient.to_u64_digits(), -(shift as i64), is_exact)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Limbs, Number, Ordered};
+    use super::super::tests::{functions, operations, products};
+    use super::{AnyLimbs, LimbCount, Limbs, Number, Ordered};
     use crate::Rational;
     use num_bigint::BigInt;
 
@@ -283,9 +331,34 @@ mod tests {
         assert!(!Number::is_finite(&x) && !x.has_finite_square());
     }
 
+    fn bits_are_those_of_limbs<const L: usize>() {
+        let numbers = ["17/3", "-1/7", "100/7"].map(|text| crate::exact(text).unwrap());
+        let [a, b, c] = numbers.each_ref().map(|value| Limbs::<L>::from_rational(value, &()));
+        let of_any =
+            numbers.each_ref().map(|value| AnyLimbs::from_rational(value, &LimbCount::of_bits(64 * L as u32).unwrap()));
+        let [x, y, z] = &of_any;
+        let same = |found: &[AnyLimbs], expected: &[Limbs<L>]| {
+            let text = |x: &dyn std::fmt::Debug| format!("{x:?}");
+            for (found, expected) in found.iter().zip(expected) {
+                assert_eq!((text(found), Ordered::to_text(found)), (text(expected), Ordered::to_text(expected)));
+            }
+        };
+        same(&of_any, &[a, b, c]);
+        same(&operations(x, y, z), &operations(&a, &b, &c));
+        same(&products(x, y, z), &products(&a, &b, &c));
+        same(&functions(x), &functions(&a));
+    }
+
+    #[test]
+    fn bits_are_those_of_so_many_limbs() {
+        bits_are_those_of_limbs::<2>();
+        bits_are_those_of_limbs::<7>();
+        bits_are_those_of_limbs::<11>();
+        bits_are_those_of_limbs::<16>();
+    }
+
     #[cfg(feature = "mpfr")]
     mod beside_mpfr {
-        use super::super::super::tests::{functions, operations, products};
         use super::*;
         use proptest::prelude::*;
         use rug::integer::Order;

@@ -1,5 +1,6 @@
 //! MPFR's numbers, [`rug::Float`], as a [`Number`].
 
+use super::reference::ScaledInteger;
 use super::{Number, Ordered, Precision};
 use crate::Rational;
 use num_bigint::BigInt;
@@ -7,7 +8,6 @@ use num_traits::Signed;
 use rug::float::{self, Special};
 use rug::integer::Order;
 use rug::{Assign, Float, Integer};
-use shadowstep_limbs::Limbs;
 use std::f64::consts::LOG10_2;
 
 impl Number for Float {
@@ -218,26 +218,10 @@ impl Ordered for Float {
 }
 
 /// target ← the number nearest to a
-pub(super) fn assign_limbs<const L: usize>(target: &mut Float, a: &Limbs<L>) {
-    match a.exponent() {
-        Some(exponent) => {
-            let magnitude = Integer::from_digits(a.mantissa(), Order::Lsf);
-            Assign::assign(target, if a.is_sign_negative() { -magnitude } else { magnitude });
-            *target <<= exponent - Limbs::<L>::BITS as i32;
-        }
-        None => Assign::assign(target, a.to_f64()),
-    }
-}
-
-/// The number of L limbs nearest to a.
-pub(super) fn to_limbs<const L: usize>(a: &Float) -> Limbs<L> {
-    match a.to_integer_exp() {
-        Some((integer, exponent)) => {
-            let magnitude: Vec<u64> = integer.to_digits(Order::Lsf);
-            Limbs::from_magnitude(a.is_sign_negative(), &magnitude, exponent.into(), false)
-        }
-        None => Limbs::from(a.to_f64()),
-    }
+pub(super) fn assign_scaled(target: &mut Float, a: &ScaledInteger) {
+    let magnitude = Integer::from_digits(&a.magnitude, Order::Lsf);
+    Assign::assign(target, if a.negative { -magnitude } else { magnitude });
+    *target <<= i32::try_from(a.exponent).expect("exponents have less than 32 bits");
 }
 
 fn integer(value: &BigInt) -> Integer {

@@ -1,8 +1,6 @@
 //! Numbers of many digits that exact results are computed with, before these are rounded to the numbers of a run.
 
-use shadowstep_limbs::Limbs;
-
-use super::Ordered;
+use super::{AnyLimbs, LimbCount, Ordered};
 
 /// A number type whose numbers can be rounded to any other.
 pub trait Reference: Ordered + 'static {
@@ -12,37 +10,48 @@ pub trait Reference: Ordered + 'static {
     /// The bits of the significand.
     fn bits(&self) -> u32;
 
-    /// This number with so many bits, where the type has numbers of several sizes; else this number.
+    /// This number with so many bits at least, rounded once where it had more.
+    ///
+    /// # Panics
+    /// The type has no such numbers.
     #[must_use]
-    fn at_bits(&self, bits: u32) -> Self {
-        let _ = bits;
-        self.clone()
-    }
+    fn at_bits(&self, bits: u32) -> Self;
 
-    /// The number of L limbs nearest to this one.
-    fn to_limbs<const L: usize>(&self) -> Limbs<L>;
-
-    /// target ← the number of its precision nearest to this one.
-    #[cfg(feature = "mpfr")]
-    fn round_to(&self, target: &mut rug::Float);
+    /// This finite number as an integer times a power of 2; `None` of infinities and NaN.
+    fn scaled_integer(&self) -> Option<ScaledInteger>;
 }
 
-impl<const M: usize> Reference for Limbs<M> {
-    fn context_of(bits: u32) -> Option<()> {
-        (bits as usize <= 64 * M).then_some(())
+/// ± Σ magnitude\[i\] 2^(64 i + exponent), i = 0, 1, …
+#[derive(Clone, Debug)]
+pub struct ScaledInteger {
+    /// Whether the sign is −.
+    pub negative: bool,
+    /// The lowest limb first; none of 0.
+    pub magnitude: Vec<u64>,
+    /// Of 2.
+    pub exponent: i64,
+}
+
+impl Reference for AnyLimbs {
+    fn context_of(bits: u32) -> Option<LimbCount> {
+        LimbCount::of_bits(bits)
     }
 
     fn bits(&self) -> u32 {
-        64 * M as u32
+        self.count().bits()
     }
 
-    fn to_limbs<const L: usize>(&self) -> Limbs<L> {
-        self.resized()
+    fn at_bits(&self, bits: u32) -> Self {
+        self.resized(Self::context_of(bits).expect("at most 17 limbs"))
     }
 
-    #[cfg(feature = "mpfr")]
-    fn round_to(&self, target: &mut rug::Float) {
-        super::multiprecision::assign_limbs(target, self);
+    fn scaled_integer(&self) -> Option<ScaledInteger> {
+        let (magnitude, exponent) = match self.exponent() {
+            Some(exponent) => (self.mantissa(), i64::from(exponent) - i64::from(self.count().bits())),
+            None if self.is_zero() => (&[][..], 0),
+            None => return None,
+        };
+        Some(ScaledInteger { negative: self.is_sign_negative(), magnitude: magnitude.to_vec(), exponent })
     }
 }
 
@@ -60,11 +69,12 @@ impl Reference for rug::Float {
         rug::Float::with_val(bits, self)
     }
 
-    fn to_limbs<const L: usize>(&self) -> Limbs<L> {
-        super::multiprecision::to_limbs(self)
-    }
-
-    fn round_to(&self, target: &mut rug::Float) {
-        rug::Assign::assign(target, self);
+    fn scaled_integer(&self) -> Option<ScaledInteger> {
+        let (integer, exponent) = self.to_integer_exp()?;
+        Some(ScaledInteger {
+            negative: self.is_sign_negative(),
+            magnitude: integer.to_digits(rug::integer::Order::Lsf),
+            exponent: exponent.into(),
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! Numbers that a number of more digits is rounded to.
 
-use super::{DoubleDouble, Limbs, Ordered, Precision, Reference};
+use super::{AnyLimbs, DoubleDouble, LimbCount, Limbs, Ordered, Precision, Reference};
 use crate::Rational;
 
 /// A number that takes a number of any precision with one rounding.
@@ -28,7 +28,24 @@ impl<const L: usize> Rounded for Limbs<L> {
     }
 
     fn assign_rounded(&mut self, a: &impl Reference) {
-        *self = a.to_limbs();
+        *self = match a.scaled_integer() {
+            Some(a) => Limbs::from_magnitude(a.negative, &a.magnitude, a.exponent, false),
+            None => Limbs::from(a.to_f64()),
+        };
+    }
+}
+
+impl Rounded for AnyLimbs {
+    fn precision(count: &LimbCount) -> Precision {
+        Precision::of_bits(count.bits())
+    }
+
+    fn assign_rounded(&mut self, a: &impl Reference) {
+        let count = self.count();
+        *self = match a.scaled_integer() {
+            Some(a) => AnyLimbs::from_magnitude(a.negative, &a.magnitude, a.exponent, false, count),
+            None => AnyLimbs::from_f64(a.to_f64(), count),
+        };
     }
 }
 
@@ -39,7 +56,10 @@ impl Rounded for rug::Float {
     }
 
     fn assign_rounded(&mut self, a: &impl Reference) {
-        a.round_to(self);
+        match a.scaled_integer() {
+            Some(a) => super::multiprecision::assign_scaled(self, &a),
+            None => rug::Assign::assign(self, a.to_f64()),
+        }
     }
 }
 

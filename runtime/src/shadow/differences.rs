@@ -115,7 +115,7 @@ impl<N: Ordered> AllOrders<N> {
             rule,
             coefficients: stirling(largest).iter().map(|c| N::from_rational(&(c / &four_h), context)).collect(),
             table: match N::LIMBS {
-                Some(access) => Table::Fixed(FixedTable::new(access, size, dimension)),
+                Some(access) => Table::Fixed(FixedTable::new(access, &N::zero(context), size, dimension)),
                 None => Table::Numbers(DifferenceTable::new(size, dimension, context)),
             },
             ring: vec![place; size + 1 + error_estimate.around()],

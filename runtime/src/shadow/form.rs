@@ -39,7 +39,7 @@ impl<N: Number> Products<N> {
             window: Window::new(states, dimension, context),
             states,
             pairs: match N::LIMBS {
-                Some(access) => Pairs::Rows(access, Rows::new(access.limbs, lags * states)),
+                Some(access) => Pairs::Rows(access, Rows::new((access.limbs)(&zero), lags * states)),
                 None => Pairs::Numbers(vec![zero.clone(); lags * states]),
             },
             of_newest: vec![zero; lags],

@@ -197,8 +197,8 @@ impl<R: Reference> Solution<R> for Addition<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::AnyLimbs;
     use crate::problems::problem;
-    use shadowstep_limbs::Limbs;
 
     /// The two methods have nothing in common but one step.
     #[test]
@@ -212,7 +212,7 @@ mod tests {
         {
             let (values, h) = (values(q, p), "1/3".parse().unwrap());
             let request = Request { values: &values, h: &h, longest: 40.0, bits: 200 };
-            let mut steps: Addition<Limbs<5>> = AdditionTheorems::solve(&request, ());
+            let mut steps: Addition<AnyLimbs> = AdditionTheorems::solve(&request, AnyLimbs::context_of(320).unwrap());
             let start = steps.start.point.clone();
             for n in [1, 7, 100, -1, -60] {
                 let (found, t) = (steps.at(n), start.beta.integer(n) / 3);
@@ -227,7 +227,7 @@ mod tests {
         }
         let at_rest = values("0", "0");
         let request = Request { values: &at_rest, h: &"1/3".parse().unwrap(), longest: 40.0, bits: 200 };
-        let mut resting: Addition<Limbs<5>> = AdditionTheorems::solve(&request, ());
+        let mut resting: Addition<AnyLimbs> = AdditionTheorems::solve(&request, AnyLimbs::context_of(320).unwrap());
         let point = resting.at(30);
         assert!(point.q[0].is_zero() && point.p[0].is_zero() && log2(&(point.beta - 20).0) < -200.0);
     }

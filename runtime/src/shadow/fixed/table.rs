@@ -48,9 +48,9 @@ struct Factors {
 }
 
 impl<N: Number> FixedTable<N> {
-    /// For terms 1..=`terms` of Stirling's series.
-    pub(in crate::shadow) fn new(access: LimbAccess<N>, terms: usize, dimension: usize) -> Self {
-        let (rows, room) = (2 * dimension + 1, access.limbs + 2);
+    /// For terms 1..=`terms` of Stirling's series, in numbers like this 0.
+    pub(in crate::shadow) fn new(access: LimbAccess<N>, zero: &N, terms: usize, dimension: usize) -> Self {
+        let (rows, room) = (2 * dimension + 1, (access.limbs)(zero) + 2);
         let level = Level { len: 1, low: vec![ZERO; rows], limbs: vec![0; rows * room], room };
         let factors = Factors {
             low: vec![ZERO; 2 * dimension],
