@@ -11,7 +11,7 @@
 //! | [`work_precision`], [`advise`] | speed against error; a scheme and a step size for a tolerance |
 //! | [`sweep`], [`collect`] | many runs of a scene; their results |
 //! | [`stability`] | hard cases |
-//! | `figures` | the figures of the paper, and additional ones (feature `mpfr`) |
+//! | [`figures`] | the figures of the paper, and additional ones |
 //! | [`run_arguments`], [`quantity`] | the flags of runs; exact numbers |
 //! | [`selection`], [`system`], [`posed`] | flags → schemes and steps; flags → the system; with end and number type |
 //! | [`plot`] | charts of runs |
@@ -22,7 +22,6 @@
 mod advise;
 mod collect;
 mod drift;
-#[cfg(feature = "mpfr")]
 mod figures;
 mod problems;
 mod run;
@@ -57,15 +56,15 @@ use report::Status;
 
 /// Makes the enum of all commands from one list `Variant: module`.
 macro_rules! commands {
-    ($($(#[$condition:meta])? $Name:ident: $module:ident,)+) => {
+    ($($Name:ident: $module:ident,)+) => {
         #[derive(Debug, Subcommand)]
         enum Command {
-            $($(#[$condition])? $Name($module::Arguments),)+
+            $($Name($module::Arguments),)+
         }
 
         impl Command {
             fn execute(&self) -> Result<Status, Error> {
-                match self { $($(#[$condition])? Command::$Name(arguments) => $module::execute(arguments),)+ }
+                match self { $(Command::$Name(arguments) => $module::execute(arguments),)+ }
             }
         }
     };
@@ -82,7 +81,7 @@ commands! {
     Sweep: sweep,
     Collect: collect,
     Stability: stability,
-    #[cfg(feature = "mpfr")] Figures: figures,
+    Figures: figures,
     Problems: problems,
 }
 

@@ -3,10 +3,9 @@
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
-use rug::Float;
 use serde::{Deserialize, Serialize};
 use shadowstep::exact_flow::ExactFlow;
-use shadowstep::number::{Number, Ordered};
+use shadowstep::number::{AnyLimbs, LimbCount, Number, Ordered};
 use shadowstep::run::{Finding, RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::{BuildEstimator, Estimate, Estimator, EstimatorSettings};
 use shadowstep::{Rational, StepSize};
@@ -56,11 +55,14 @@ pub(crate) struct Orbit {
     pub(crate) y: Vec<f64>,
 }
 
+/// The numbers in which errors are summed.
+const TWO_LIMBS: LimbCount = LimbCount::of_bits(128).expect("two limbs");
+
 /// How often, at most, a computation asks whether it is to continue.
 const OFTEN: Duration = Duration::from_millis(50);
 
 /// Estimates along states of any source.
-type Estimates<'a> = ShadowRun<&'a mut dyn States<Number = Float>, Box<dyn Estimator<Float>>>;
+type Estimates<'a> = ShadowRun<&'a mut dyn States<Number = AnyLimbs>, Box<dyn Estimator<AnyLimbs>>>;
 
 /// A run that is measured.
 pub(crate) struct Measure<'a> {
@@ -108,7 +110,7 @@ impl Measure<'_> {
         let mut escape = Escape::default();
         let mut n = 0_u32;
         self.states(|q, p| {
-            let numbers = |vector: &[Float]| [vector[0].to_f64(), vector[1].to_f64()];
+            let numbers = |vector: &[AnyLimbs]| [vector[0].to_f64(), vector[1].to_f64()];
             escape.include(f64::from(n) * h, h, numbers(q), numbers(p));
             n += 1;
         })?;
@@ -118,21 +120,29 @@ impl Measure<'_> {
     /// The largest |q − q of the exact flow|.
     pub(crate) fn coordinate_error(&self) -> Result<String, Error> {
         let mut exact = self.flow.expect("its exact flow is recorded").states(0);
-        let mut largest = Float::new(53);
+        let mut largest = AnyLimbs::zero(TWO_LIMBS);
         self.states(|q, _| {
             let Ok(Some(state)) = exact.advance() else { return };
-            let squares = q.iter().zip(state.q).map(|(q, exact)| Float::with_val(53, q.clone() - exact).square());
-            largest.max_mut(&squares.fold(Float::new(53), |sum, square| sum + square).sqrt());
+            let mut square = AnyLimbs::zero(TWO_LIMBS);
+            for (q, exact) in q.iter().zip(state.q) {
+                let mut difference = *q;
+                difference -= exact;
+                let difference = difference.resized(TWO_LIMBS);
+                square.add_product(&difference, &difference);
+            }
+            largest.make_at_least(&square.sqrt());
         })?;
         Ok(largest.to_text())
     }
 
     /// H at the end less H at the start.
     pub(crate) fn transit(&self) -> Result<String, Error> {
-        let mut system = motion::<Float>(&self.run.setup(), &self.run.precision());
+        let mut system = motion::<AnyLimbs>(&self.run.setup(), &self.run.limbs());
         let first = system.energy();
         let (q, p) = self.states(|_, _| ())?;
-        Ok((system.energy_at(&q, &p) - first).to_text())
+        let mut change = system.energy_at(&q, &p);
+        change -= &first;
+        Ok(change.to_text())
     }
 
     /// The states of the exact flow, with `reach` of them before 0 and after the end.
@@ -150,8 +160,8 @@ impl Measure<'_> {
         settings: &EstimatorSettings,
         measure: &mut dyn FnMut(Estimates<'_>) -> Result<T, RunError>,
     ) -> Result<T, Error> {
-        let (h, context) = (self.step_size(), self.run.precision());
-        let estimator = BuildEstimator::<Float>::build(settings, &h, self.run.dimension(), &context);
+        let (h, context) = (self.step_size(), self.run.limbs());
+        let estimator = BuildEstimator::<AnyLimbs>::build(settings, &h, self.run.dimension(), &context);
         let mut estimator = Some(estimator.expect("figures have valid orders"));
         let reach = (estimator.as_ref().map_or(1, |estimator| estimator.states()) - 1) / 2;
         self.with_states(reach, &mut |states| {
@@ -164,25 +174,25 @@ impl Measure<'_> {
     fn with_states<T>(
         &self,
         reach: usize,
-        measure: &mut dyn FnMut(&mut dyn States<Number = Float>) -> Result<T, RunError>,
+        measure: &mut dyn FnMut(&mut dyn States<Number = AnyLimbs>) -> Result<T, RunError>,
     ) -> Result<T, Error> {
         let (run, setup, h) = (self.run, self.run.setup(), self.run.h());
         let steps = Steps { propagator: run.propagator, h: &h, steps: run.steps(), order: None };
         let failed = |error| steps.failed(&error);
         let watch = |from: i64| self.watch(from, run.steps() as f64 + reach as f64);
-        let precision = run.precision();
+        let limbs = run.limbs();
         if let Some(flow) = self.flow {
             return measure(&mut Watched { states: flow.states(reach), continues: watch(-(reach as i64)) })
                 .map_err(failed);
         }
         let propagator = Propagator::read(run.propagator, &setup)?;
         let Some(scheme) = propagator.scheme() else {
-            let states = ExactFlow::<Float>::new(&setup, &self.step_size(), run.steps(), reach, &precision);
+            let states = ExactFlow::<AnyLimbs>::new(&setup, &self.step_size(), run.steps(), reach, &limbs);
             let states = states.map_err(|error| steps.not_followed(&error))?;
             return measure(&mut Watched { states, continues: watch(-(reach as i64)) }).map_err(failed);
         };
-        let stepper = stepper(scheme, steps, &precision);
-        let start = motion::<Float>(&setup, &precision);
+        let stepper = stepper(scheme, steps, &limbs);
+        let start = motion::<AnyLimbs>(&setup, &limbs);
         let states = Trajectory::new(&stepper, start, run.steps(), reach).map_err(failed)?;
         measure(&mut Watched { states, continues: watch(-(reach as i64)) }).map_err(failed)
     }
@@ -200,13 +210,13 @@ impl Measure<'_> {
     }
 
     /// Gives q and p of each state of a scheme to `take`, without increments; returns the last q and p.
-    fn states(&self, mut take: impl FnMut(&[Float], &[Float])) -> Result<(Vec<Float>, Vec<Float>), Error> {
+    fn states(&self, mut take: impl FnMut(&[AnyLimbs], &[AnyLimbs])) -> Result<(Vec<AnyLimbs>, Vec<AnyLimbs>), Error> {
         let (run, setup, h) = (self.run, self.run.setup(), self.run.h());
         let steps = Steps { propagator: run.propagator, h: &h, steps: run.steps(), order: None };
         let failed = |error| steps.failed(&error);
         let propagator = Propagator::read(run.propagator, &setup)?;
-        let stepper = stepper(propagator.scheme().expect("it is a scheme"), steps, &run.precision());
-        let start = motion::<Float>(&setup, &run.precision());
+        let stepper = stepper(propagator.scheme().expect("it is a scheme"), steps, &run.limbs());
+        let start = motion::<AnyLimbs>(&setup, &run.limbs());
         let states = Trajectory::plain(&stepper, start, 0, run.steps()).map_err(failed)?;
         let mut states = Watched { states, continues: self.watch(0, run.steps() as f64) };
         while let Some(state) = states.advance().map_err(failed)? {
@@ -224,8 +234,8 @@ fn time_of_value(h: &Rational, n: i64, settings: &EstimatorSettings) -> f64 {
 }
 
 impl Energies {
-    fn include(&mut self, time: f64, estimate: &Estimate<'_, Float>) {
-        let size = |number: Option<&Float>| number.map(Ordered::log10_abs).filter(|size| size.is_finite());
+    fn include(&mut self, time: f64, estimate: &Estimate<'_, AnyLimbs>) {
+        let size = |number: Option<&AnyLimbs>| number.map(Ordered::log10_abs).filter(|size| size.is_finite());
         self.times.push(time);
         self.distances.push(estimate.q.iter().map(|q| q.to_f64().powi(2)).sum::<f64>().sqrt());
         self.values.push(estimate.value.to_text());

@@ -1,17 +1,19 @@
 //! Numbers as texts: with all their digits, and for people.
 
-use rug::Float;
 use shadowstep::Ordered;
+use shadowstep::number::Limbs;
+
+/// A number with more digits than any run has.
+pub(crate) type Wide = Limbs<17>;
 
 /// log₁₀|x| of a number in a text; −∞ for 0.
 pub(crate) fn log10(text: &str) -> f64 {
     number(text).log10_abs()
 }
 
-/// The number in a text, with more digits than any run has.
-pub(crate) fn number(text: &str) -> Float {
-    let bits = (text.len() as f64 * std::f64::consts::LOG2_10) as u32 + 64;
-    Float::with_val(bits, Float::parse(text).expect("the texts are those of numbers"))
+/// The number in a text.
+pub(crate) fn number(text: &str) -> Wide {
+    text.parse().expect("the texts are those of numbers")
 }
 
 /// 1.2e-34 from its log₁₀.

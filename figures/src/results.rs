@@ -7,7 +7,6 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use rug::Float;
 use shadowstep::Ordered;
 use shadowstep::shadow::EstimatorSettings;
 
@@ -15,7 +14,7 @@ use crate::calculation::{Calculation, Outcome, Quantity};
 use crate::escape::Escape;
 use crate::measured::{Drift, Energies, Orbit};
 use crate::noise::{Block, Differences};
-use crate::numbers::{log10, number};
+use crate::numbers::{Wide, log10, number};
 use crate::run::Run;
 use crate::{Error, Observer};
 use shadowstep_report::verdict::Coverage;
@@ -116,7 +115,7 @@ impl Results {
     /// −log₁₀ of the difference between the drift of a run and that of the same run with more digits.
     pub(crate) fn digits_held(&self, run: &Run, estimator: &EstimatorSettings, digits: u32) -> Option<f64> {
         let [this, more] = [run.clone(), run.clone().digits(digits)].map(|run| self.drift(&run, estimator));
-        Some(-(number(&this?.drift) - number(&more?.drift)).log10_abs())
+        Some(-(&number(&this?.drift) - &number(&more?.drift)).log10_abs())
     }
 
     /// The modified energies of a run.
@@ -152,7 +151,7 @@ impl Results {
     }
 
     /// H at the end of a run less H at its start.
-    pub(crate) fn transit(&self, run: &Run) -> Option<Float> {
+    pub(crate) fn transit(&self, run: &Run) -> Option<Wide> {
         let change = self.number(Quantity::Transit { run: run.clone() })?;
         self.using(Used::Number(run.clone(), "change of H", change.clone()));
         Some(number(&change))

@@ -1,7 +1,7 @@
 //! The runs of figures: a problem, what advances it, and the steps.
 
 use serde::{Serialize, Serializer};
-use shadowstep::number::Precision;
+use shadowstep::number::{LimbCount, Precision};
 use shadowstep::problems::{Problem, Setup};
 use shadowstep::{Rational, exact};
 use shadowstep_scenes::arithmetic::GUARD_DIGITS;
@@ -98,7 +98,9 @@ impl Run {
         setup.expect("figures have values that their problems allow")
     }
 
-    pub(crate) fn precision(&self) -> Precision {
-        Precision::digits(self.digits).expect("figures have digits that MPFR allows")
+    /// The numbers of the run.
+    pub(crate) fn limbs(&self) -> LimbCount {
+        let precision = Precision::digits(self.digits).expect("figures have digits");
+        LimbCount::of_bits(precision.in_bits()).expect("figures have less than 300 digits")
     }
 }

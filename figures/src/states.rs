@@ -1,7 +1,7 @@
 //! Where the states of a run come from: a scheme, or a recorded trajectory; watched while they are used.
 
-use rug::Float;
 use shadowstep::OwnedIncrements;
+use shadowstep::number::AnyLimbs;
 use shadowstep::run::{RunError, State, States};
 
 /// The states of a trajectory, kept for several estimators.
@@ -15,14 +15,14 @@ pub(crate) struct Recorded {
 #[derive(Debug)]
 struct Kept {
     n: i64,
-    q: Vec<Float>,
-    p: Vec<Float>,
-    increments: OwnedIncrements<Float>,
+    q: Vec<AnyLimbs>,
+    p: Vec<AnyLimbs>,
+    increments: OwnedIncrements<AnyLimbs>,
 }
 
 impl Recorded {
     /// All states of a trajectory that has `reach` of them before 0, and after the last one of the run.
-    pub(crate) fn of(mut states: impl States<Number = Float>, reach: usize) -> Result<Self, RunError> {
+    pub(crate) fn of(mut states: impl States<Number = AnyLimbs>, reach: usize) -> Result<Self, RunError> {
         let mut all = Vec::new();
         while let Some(State { n, q, p, increments }) = states.advance()? {
             all.push(Kept { n, q: q.to_vec(), p: p.to_vec(), increments: increments.to_owned() });
@@ -44,9 +44,9 @@ pub(crate) struct Replay<'a> {
 }
 
 impl States for Replay<'_> {
-    type Number = Float;
+    type Number = AnyLimbs;
 
-    fn advance(&mut self) -> Result<Option<State<'_, Float>>, RunError> {
+    fn advance(&mut self) -> Result<Option<State<'_, AnyLimbs>>, RunError> {
         let state = self.states.next();
         Ok(state.map(|Kept { n, q, p, increments }| State { n: *n, q, p, increments: increments.view() }))
     }

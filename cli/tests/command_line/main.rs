@@ -7,7 +7,6 @@
 mod checkpoints;
 mod digits;
 mod drift;
-#[cfg(feature = "mpfr")]
 mod figures;
 mod lost_energy;
 mod output_files;

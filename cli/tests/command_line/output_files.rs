@@ -177,7 +177,6 @@ fn failed(output: &Output, parts: &[&str]) {
 /// A file that cannot grow is as a full disk, for everybody and everywhere.
 #[cfg(unix)]
 #[test]
-#[cfg(feature = "mpfr")]
 fn a_file_that_cannot_grow_is_named() {
     let rows = |folder: &Path| fs::read_to_string(folder.join("out.csv")).unwrap();
     let plain = short().replace("every = 1000", "every = 10");

@@ -17,7 +17,6 @@ pub(crate) const COMMANDS: &[Disturbed] = &[
     Disturbed { name: "run with modified energies", words: RUN, scene: SHADOWED, resumes: true },
     Disturbed { name: "run without checkpoints", words: RUN, scene: UNSAVED, resumes: false },
     Disturbed { name: "trace", words: TRACE, scene: "", resumes: false },
-    #[cfg(feature = "mpfr")]
     Disturbed { name: "figures", words: "figures reliability --quick --out FOLDER", scene: "", resumes: true },
     Disturbed { name: "stability", words: STABILITY, scene: "", resumes: true },
     Disturbed { name: "sweep", words: "sweep FOLDER/scene.toml --out FOLDER", scene: SWEEP, resumes: true },

@@ -49,7 +49,7 @@ pub(super) const FAR: f64 = 1.5;
 /// (t, log₁₀|value − reference|)
 pub(super) fn off(energies: &Energies, reference: usize) -> Vec<(f64, f64)> {
     let reference = number(&energies.values[reference]);
-    let sizes = energies.values.iter().map(|value| (number(value) - &reference).log10_abs());
+    let sizes = energies.values.iter().map(|value| (&number(value) - &reference).log10_abs());
     energies.times.iter().copied().zip(sizes).collect()
 }
 

@@ -1,6 +1,5 @@
 //! Kepler's problem: the modified energy in time, for several step sizes and schemes.
 
-use rug::Float;
 use shadowstep::Ordered;
 
 use super::kepler::{FAR, NEAR, apocentre, off, run};
@@ -8,7 +7,7 @@ use crate::drawing::Drawing;
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::measured::Energies;
-use crate::numbers::{number, power};
+use crate::numbers::{Wide, number, power};
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, SCHEMES};
 use shadowstep_report::chart::{Axis, Curve, Mark, power_of_ten};
@@ -130,7 +129,7 @@ fn compare_schemes(drawing: &mut Drawing, of: &Labelled) {
 }
 
 /// The value at each apocentre, and the time.
-fn at_apocentres(energies: &Energies) -> Vec<(f64, Float)> {
+fn at_apocentres(energies: &Energies) -> Vec<(f64, Wide)> {
     let distances = &energies.distances;
     let is_apocentre =
         |n: &usize| distances[*n] > FAR && distances[n - 1] < distances[*n] && distances[*n] >= distances[n + 1];
@@ -140,11 +139,11 @@ fn at_apocentres(energies: &Energies) -> Vec<(f64, Float)> {
 
 /// The signed change of the modified energy from apocentre to apocentre, whose jumps are at the encounters.
 fn staircases(results: &Results, drawing: &mut Drawing) {
-    let mut columns: Vec<(&str, Vec<Float>)> = Vec::new();
+    let mut columns: Vec<(&str, Vec<Wide>)> = Vec::new();
     for (i, (scheme, label)) in SCHEMES.into_iter().enumerate() {
         let Some(energies) = results.energies(&run(scheme, 10), &bilinear(24)) else { continue };
         let values = at_apocentres(&energies);
-        let jumps: Vec<Float> = values.windows(2).map(|pair| pair[1].1.clone() - &pair[0].1).collect();
+        let jumps: Vec<Wide> = values.windows(2).map(|pair| &pair[1].1 - &pair[0].1).collect();
         if !jumps.is_empty() {
             staircase(drawing, (label, i), &values, &jumps);
             columns.push((label, jumps));
@@ -161,11 +160,12 @@ fn staircases(results: &Results, drawing: &mut Drawing) {
 }
 
 /// t ≤ 40; the values between two encounters are those at the apocentre there.
-fn staircase(drawing: &mut Drawing, (label, colour): (&str, usize), values: &[(f64, Float)], jumps: &[Float]) {
+fn staircase(drawing: &mut Drawing, (label, colour): (&str, usize), values: &[(f64, Wide)], jumps: &[Wide]) {
     let decade = jumps.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max).floor();
-    let relative = |value: &Float| {
-        let change = value.clone() - &values[0].1;
-        if change.is_zero() { 0.0 } else { change.clone().signum().to_f64() * 10_f64.powf(change.log10_abs() - decade) }
+    let relative = |value: &Wide| {
+        let change = value - &values[0].1;
+        let size = 10_f64.powf(change.log10_abs() - decade);
+        if change.is_sign_negative() { -size } else { size }
     };
     let shown: Vec<_> = values.iter().filter(|(t, _)| *t <= 40.0).collect();
     let middle = |n: usize| f64::midpoint(shown[n].0, shown[n + 1].0);
@@ -185,6 +185,6 @@ fn staircase(drawing: &mut Drawing, (label, colour): (&str, usize), values: &[(f
 }
 
 /// +1.23e-9
-fn signed(value: &Float) -> String {
+fn signed(value: &Wide) -> String {
     format!("{}{}", if value.is_sign_negative() { "−" } else { "+" }, power(value.log10_abs()))
 }

@@ -9,7 +9,7 @@ use crate::estimator::best;
 use crate::figure::Figure;
 use crate::interval::Interval;
 use crate::measured::Energies;
-use crate::numbers::{number, power};
+use crate::numbers::{Wide, number, power};
 use crate::results::Results;
 use shadowstep_report::chart::{Axis, Curve, Marker};
 
@@ -90,7 +90,7 @@ fn near_the_singularity(drawing: &mut Drawing, full: &Energies) {
 
 fn with_orders(drawing: &mut Drawing, label: &str, found: &Energies) {
     let values: Vec<_> = found.values.iter().map(|value| number(value)).collect();
-    let steps = values.windows(2).map(|pair| (pair[1].clone() - &pair[0]).log10_abs());
+    let steps = values.windows(2).map(|pair| (&pair[1] - &pair[0]).log10_abs());
     let shown = |points: Vec<(f64, f64)>| points.into_iter().filter(|(t, _)| *t <= 20.0).collect::<Vec<_>>();
     let per_step = found.times[1..].iter().copied().zip(steps).collect();
     let orders = found.times.iter().zip(&found.orders).map(|(t, m)| (*t, f64::from(*m))).collect();
@@ -111,7 +111,8 @@ fn with_orders(drawing: &mut Drawing, label: &str, found: &Energies) {
 /// log₁₀ of max − min
 fn drift(energies: &Energies) -> f64 {
     let values: Vec<_> = energies.values.iter().map(|value| number(value)).collect();
-    let most = values.iter().max_by(|a, b| a.total_cmp(b)).expect("there are values");
-    let least = values.iter().min_by(|a, b| a.total_cmp(b)).expect("there are values");
-    (most.clone() - least).log10_abs()
+    let ordered = |a: &&Wide, b: &&Wide| a.partial_cmp(b).expect("energies are finite");
+    let most = values.iter().max_by(ordered).expect("there are values");
+    let least = values.iter().min_by(ordered).expect("there are values");
+    (most - least).log10_abs()
 }

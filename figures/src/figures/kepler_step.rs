@@ -9,7 +9,7 @@ use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::{BEST, central};
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, against_aliasing, decay_row, theory_row};
-use crate::numbers::{number, power};
+use crate::numbers::{Wide, number, power};
 use crate::results::Results;
 use crate::run::EXACT_FLOW;
 use shadowstep_report::chart::{Axis, Curve};
@@ -74,7 +74,7 @@ fn errors_against_m(results: &Results, drawing: &mut Drawing) {
         results.grid(&[2, 5, 10, 15, 20, 25, 30, 35, 40, 50, 60, 80, 100, 130, 160, 200], &[5, 20, 35, 50, 200]);
     let off = |m: u32| {
         let energies = results.energies(&run(EXACT_FLOW, 20).until("4"), &central(m))?;
-        let at = |n: usize| (number(&energies.values[n]) + 0.5_f64).log10_abs();
+        let at = |n: usize| (&number(&energies.values[n]) + &Wide::from(0.5)).log10_abs();
         Some((f64::from(m), at(0), at(apocentre(&energies))))
     };
     let found: Vec<_> = orders.iter().filter_map(|&m| off(m)).collect();

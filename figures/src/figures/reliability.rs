@@ -8,7 +8,7 @@ use crate::drawing::Drawing;
 use crate::estimator::{best, bilinear, central};
 use crate::figure::Figure;
 use crate::measured::Energies;
-use crate::numbers::number;
+use crate::numbers::{Wide, number};
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, Run};
 use shadowstep_report::chart::{Axis, Curve};
@@ -36,7 +36,7 @@ fn run(e: &str, h: &str, until: &'static str) -> Run {
 
 /// log₁₀ of the true errors: the energy is −1/2.
 fn true_errors(found: &Energies) -> Vec<f64> {
-    found.values.iter().map(|value| (number(value) + 0.5_f64).log10_abs()).collect()
+    found.values.iter().map(|value| (&number(value) + &Wide::from(0.5)).log10_abs()).collect()
 }
 
 /// log₁₀ of true error/estimate; infinite ratios, of zeros, are left out.

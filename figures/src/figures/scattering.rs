@@ -1,6 +1,5 @@
 //! Scattering at a hill that vanishes far away: there H is the modified energy, and its change is observed without an estimator.
 
-use rug::Float;
 use shadowstep::Ordered;
 use shadowstep::problems::Problem;
 
@@ -8,7 +7,7 @@ use crate::drawing::Drawing;
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, decay, decay_row};
-use crate::numbers::power;
+use crate::numbers::{Wide, power};
 use crate::results::Results;
 use crate::run::Run;
 use shadowstep_report::chart::{Axis, Curve, Marker};
@@ -34,7 +33,7 @@ fn run(n: u32, phase: u32) -> Run {
 }
 
 /// H after the encounter less H before it.
-fn change(results: &Results, n: u32, phase: u32) -> Option<Float> {
+fn change(results: &Results, n: u32, phase: u32) -> Option<Wide> {
     results.transit(&run(n, phase % PHASES))
 }
 
@@ -85,7 +84,7 @@ fn draw(results: &Results) -> Drawing {
     );
     let held = [run(8, 1), run(8, 1).digits(200)].map(|run| results.transit(&run));
     if let [Some(few), Some(many)] = held {
-        drawing.digits_held("the change of H at h = 1/8 from the second start", Some(-(many - few).log10_abs()));
+        drawing.digits_held("the change of H at h = 1/8 from the second start", Some(-(&many - &few).log10_abs()));
     }
     drawing
 }
