@@ -1,4 +1,4 @@
-//! sin, cos and their inverses, from a table of sines of multiples of π/32 and from series.
+//! sin, cos and their inverses, from a table of sines of multiples of π/256 and from series.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -6,18 +6,18 @@ use num_traits::ToPrimitive;
 
 use super::DoubleDouble;
 use super::arithmetic::two_sum;
-use super::constants::{HALF_PI, INVERSE_FACTORIALS, PI_32, PI_TIMES_2_1400, SINES};
+use super::constants::{HALF_PI, INVERSE_FACTORIALS, PI_256, PI_TIMES_2_1400, SINES};
 use super::exponential::nearest_integer;
 use super::nearest::nearest;
 use super::polynomial::{alternate, polynomial};
 use crate::Rational;
 
 pub(super) fn sin(x: DoubleDouble) -> DoubleDouble {
-    sin_cos(x).0
+    Near::of(x).map_or(DoubleDouble::every(f64::NAN), |near| near.sin())
 }
 
 pub(super) fn cos(x: DoubleDouble) -> DoubleDouble {
-    sin_cos(x).1
+    Near::of(x).map_or(DoubleDouble::every(f64::NAN), |near| near.cos())
 }
 
 pub(super) fn tan(x: DoubleDouble) -> DoubleDouble {
@@ -25,35 +25,64 @@ pub(super) fn tan(x: DoubleDouble) -> DoubleDouble {
     sin / cos
 }
 
-/// sin x = sin t + (sin t (cos r − 1) + cos t sin r), cos x likewise; x = t + r, t the nearest multiple of π/32
 pub(super) fn sin_cos(x: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
-    if !x.high.is_finite() {
-        return (DoubleDouble::every(f64::NAN), DoubleDouble::every(f64::NAN));
-    }
-    let (r, multiple) = reduced(x);
-    let minus_square = -r.square();
-    let terms: [_; 8] = alternate(&INVERSE_FACTORIALS[3..]);
-    let sin_r = r.plus_product(r * minus_square, polynomial(minus_square, &terms[..4], &terms[4..]));
-    let terms: [_; 8] = alternate(&INVERSE_FACTORIALS[2..]);
-    let cos_r_minus_1 = minus_square * polynomial(minus_square, &terms[..4], &terms[4..]);
-    if multiple == 0 {
-        return (sin_r, DoubleDouble::every(1.0) + cos_r_minus_1);
-    }
-    let (sin_t, cos_t) = (sine(multiple), sine(multiple + 16));
-    let sin = sin_t + (cos_t * sin_r).plus_product(sin_t, cos_r_minus_1);
-    let cos = cos_t + (cos_t * cos_r_minus_1).minus_product(sin_t, sin_r);
-    (sin, cos)
+    Near::of(x).map_or((DoubleDouble::every(f64::NAN), DoubleDouble::every(f64::NAN)), |near| (near.sin(), near.cos()))
 }
 
-/// sin(j π/32)
+/// x = t + r, t the nearest multiple of π/256: the multiple modulo 512, sin r and cos r − 1.
+struct Near {
+    multiple: usize,
+    sin_r: DoubleDouble,
+    cos_r_minus_1: DoubleDouble,
+}
+
+impl Near {
+    /// None of an x that is not finite.
+    #[inline(always)]
+    fn of(x: DoubleDouble) -> Option<Near> {
+        if !x.high.is_finite() {
+            return None;
+        }
+        let (r, multiple) = reduced(x);
+        let minus_square = -r.square();
+        // |r| < 0.0062: what is left out is below 2⁻¹²⁰ r and 2⁻¹³⁹, and what is summed in `f64` below 2⁻⁵⁶ r and 2⁻⁵³
+        let terms: [_; 5] = alternate(&INVERSE_FACTORIALS[3..]);
+        let sin_r = r.plus_product(r * minus_square, polynomial(minus_square, &terms[..2], &terms[2..]));
+        let terms: [_; 6] = alternate(&INVERSE_FACTORIALS[2..]);
+        let cos_r_minus_1 = minus_square * polynomial(minus_square, &terms[..2], &terms[2..]);
+        Some(Near { multiple, sin_r, cos_r_minus_1 })
+    }
+
+    /// sin x = sin t + (sin t (cos r − 1) + cos t sin r)
+    #[inline(always)]
+    fn sin(&self) -> DoubleDouble {
+        if self.multiple == 0 {
+            return self.sin_r;
+        }
+        let (sin_t, cos_t) = (sine(self.multiple), sine(self.multiple + 128));
+        sin_t + (cos_t * self.sin_r).plus_product(sin_t, self.cos_r_minus_1)
+    }
+
+    /// cos x = cos t + (cos t (cos r − 1) − sin t sin r)
+    #[inline(always)]
+    fn cos(&self) -> DoubleDouble {
+        if self.multiple == 0 {
+            return DoubleDouble::every(1.0) + self.cos_r_minus_1;
+        }
+        let (sin_t, cos_t) = (sine(self.multiple), sine(self.multiple + 128));
+        cos_t + (cos_t * self.cos_r_minus_1).minus_product(sin_t, self.sin_r)
+    }
+}
+
+/// sin(j π/256)
 fn sine(j: usize) -> DoubleDouble {
-    let value = DoubleDouble::of(SINES[if j & 16 == 0 { j & 15 } else { 16 - (j & 15) }]);
-    if j & 32 == 0 { value } else { -value }
+    let value = DoubleDouble::of(SINES[if j & 128 == 0 { j & 127 } else { 128 - (j & 127) }]);
+    if j & 256 == 0 { value } else { -value }
 }
 
-/// The rest of x after the nearest multiple j π/32, and j modulo 64.
+/// The rest of x after the nearest multiple j π/256, and j modulo 512.
 fn reduced(x: DoubleDouble) -> (DoubleDouble, usize) {
-    let ([a, b], c) = PI_32;
+    let ([a, b], c) = PI_256;
     let j = nearest_integer(x.high / a);
     if j == 0.0 {
         return (x, 0);
@@ -62,20 +91,20 @@ fn reduced(x: DoubleDouble) -> (DoubleDouble, usize) {
         let rest = DoubleDouble::of(two_sum(x.high, -j * a)) - DoubleDouble::every(j * b); // exact
         let rest = (rest + DoubleDouble::every(x.low)) - DoubleDouble::of(c).times(j);
         if rest.high.abs() > 1e-12 {
-            return (rest, (j as i32).rem_euclid(64) as usize);
+            return (rest, (j as i32).rem_euclid(512) as usize);
         }
     }
     exactly_reduced(x)
 }
 
-/// The same in integers, 2¹⁴⁰⁵ x and 2¹⁴⁰⁰ π: for large x, and for x so near to a multiple that digits cancel.
+/// The same in integers, 2¹⁴⁰⁸ x and 2¹⁴⁰⁰ π: for large x, and for x so near to a multiple that digits cancel.
 #[cold]
 fn exactly_reduced(x: DoubleDouble) -> (DoubleDouble, usize) {
     let pi = BigInt::parse_bytes(PI_TIMES_2_1400.as_bytes(), 16).expect("hexadecimal digits");
-    let x = shifted(x.high, 1405) + shifted(x.low, 1405);
+    let x = shifted(x.high, 1408) + shifted(x.low, 1408);
     let j: BigInt = (BigInt::from(2) * &x + &pi).div_floor(&(BigInt::from(2) * &pi));
-    let rest = nearest(&Rational::new(x - &j * pi, BigInt::from(1) << 1405));
-    (rest, j.mod_floor(&BigInt::from(64)).to_usize().expect("less than 64"))
+    let rest = nearest(&Rational::new(x - &j * pi, BigInt::from(1) << 1408));
+    (rest, j.mod_floor(&BigInt::from(512)).to_usize().expect("less than 512"))
 }
 
 /// 2^bits x, an integer

@@ -40,7 +40,7 @@ fn entries_are_nearest() {
         assert_eq!(entry, rounded(&(log_2.clone() * j / 32_u32).exp()), "2^({j}/32)");
     }
     for (j, entry) in (0_u32..).zip(SINES) {
-        assert_eq!(entry, rounded(&(pi() * j / 32_u32).sin()), "sin({j} π/32)");
+        assert_eq!(entry, rounded(&(pi() * j / 256_u32).sin()), "sin({j} π/256)");
     }
     for (i, (c, entry)) in (45_u32..).zip(LOGARITHMS) {
         assert!((c * f64::from(i) / 64.0 - 1.0).abs() < 0.003 && bits(c) <= 9, "{c}");
@@ -59,7 +59,7 @@ fn parts_of_reductions() {
         assert!(bits(a) <= most);
         assert_eq!(b, rounded(&(whole - a)));
     }
-    let ([a, b], c) = PI_32;
-    assert!(bits(a) <= 32 && bits(b) <= 32);
-    assert_eq!(c, rounded(&(pi() / 32_u32 - a - b)));
+    let ([a, b], c) = PI_256;
+    assert!(bits(a) <= 30 && bits(b) <= 30);
+    assert_eq!(c, rounded(&(pi() / 256_u32 - a - b)));
 }
