@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything and fetches what is missing.
 
-.PHONY: run test test-cluster deps format lint check docs bench stability rivals package fuzz valgrind
+.PHONY: run test wasm test-cluster deps format lint check docs bench stability rivals package fuzz valgrind
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run:
@@ -8,7 +8,7 @@ run:
 	    --scheme stormer-verlet,yoshida4,blanes-moan-s6,blanes-moan-srkn6b \
 	    --step 1/10,1/20,1/40 --until 100 --digits 120 --order auto
 
-test: deps format lint check docs
+test: deps format lint check wasm docs
 
 format:
 	cargo fmt --all --check
@@ -20,6 +20,12 @@ lint:
 check:
 	cargo test --workspace --features mpfr --locked
 	cargo test -p shadowstep -p shadowstep-scenes -p shadowstep-cli --locked
+
+# The library and scenes compile for WebAssembly; skipped without that target of rustc.
+wasm:
+	@if [ -d "$$(rustc --print sysroot)/lib/rustlib/wasm32-unknown-unknown" ]; then \
+	    cargo check --target wasm32-unknown-unknown -p shadowstep -p shadowstep-scenes --locked; \
+	else echo "WebAssembly is skipped: rustup target add wasm32-unknown-unknown"; fi
 
 docs:
 	RUSTDOCFLAGS="-D warnings --html-in-header $(CURDIR)/runtime/katex.html" \
