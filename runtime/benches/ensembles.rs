@@ -1,6 +1,6 @@
 //! What a step of one trajectory costs in an ensemble, as ratios to the loop over `f64`: thread CPU time, all contestants in turn.
 //!
-//! `cargo bench -p shadowstep --bench ensembles`
+//! `cargo bench -p shadowstep --bench ensembles`, with `-- --parts` for the first table only.
 //!
 //! Before anything is measured, the bits of all trajectories are compared with those that each has alone.
 
@@ -10,10 +10,13 @@ use std::hint::black_box;
 
 use shadowstep::formula::FormulaPotential;
 use shadowstep::instructions::Instructions;
-use shadowstep::kinetic::Quadratic;
+use shadowstep::kinetic::{Kinetic, Quadratic};
 use shadowstep::number::Lanes;
+use shadowstep::potential::Widest;
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
-use shadowstep::{Motion, Number, Potential, Scheme, Stepper, UnitMasses, ValidFor, splitting_scheme};
+use shadowstep::{
+    DiagonalMasses, FullMasses, Motion, Number, Potential, Scheme, Stepper, UnitMasses, ValidFor, splitting_scheme,
+};
 
 use timing::{Contestant, compare};
 
@@ -185,7 +188,92 @@ where
     compare(&title, contestants, 100);
 }
 
+/// A system of 8 lanes with any potential and masses.
+type OfParts<P, K> = Motion<Lanes<8>, [Lanes<8>; 2], P, K>;
+
+/// What a loop does with the systems, `STEPS` times.
+type Loop<P, K> = fn(&Stepper<Yoshida4, Lanes<8>>, &mut [OfParts<P, K>]);
+
+/// Kepler's problem in 8 lanes with another potential, masses or loop, in the widest instructions.
+fn kepler_of<'a, P, K>(name: &'static str, potential: fn() -> P, masses: fn() -> K, steps: Loop<P, K>) -> Contestant<'a>
+where
+    P: Potential<Lanes<8>> + 'a,
+    K: Kinetic<Lanes<8>, Class = Quadratic> + 'a,
+{
+    let stepper = Stepper::new(Yoshida4, "1/100").expect("h is not 0");
+    let lanes = |x: f64, first: usize| Lanes(std::array::from_fn(|lane| x * (1.0 + 1e-3 * (first + lane) as f64)));
+    let motion = |t| {
+        let (q, p) = ([lanes(0.4, t), lanes(0.0, t)], [lanes(0.0, t), lanes(2.0, t)]);
+        Motion::new(potential(), masses(), q, p).expect("the dimensions agree")
+    };
+    let mut motions: Vec<_> = (0..TRAJECTORIES).step_by(8).map(motion).collect();
+    let run = move |repetitions: u32| {
+        (0..repetitions).for_each(|_| steps(&stepper, &mut motions));
+        black_box(&motions);
+    };
+    (name, Box::new(run))
+}
+
+/// Potentials behind a `dyn`, masses that differ, augmented steps.
+fn measure_parts() {
+    type Boxed = Box<dyn Potential<Lanes<8>>>;
+    fn plain<P: Potential<Lanes<8>>, K: Kinetic<Lanes<8>, Class = Quadratic>>(
+        stepper: &Stepper<Yoshida4, Lanes<8>>,
+        motions: &mut [OfParts<P, K>],
+    ) {
+        stepper.steps(motions, STEPS);
+    }
+    fn diagonal() -> DiagonalMasses<Lanes<8>> {
+        let each: [_; 8] = std::array::from_fn(|t| DiagonalMasses::from_numbers(&[1.0, 1.0 + 0.1 * t as f64]).unwrap());
+        DiagonalMasses::of_each(&each.each_ref()).unwrap()
+    }
+    fn full() -> FullMasses<Lanes<8>> {
+        let rows = [["1", "1/5"], ["1/5", "1"]].map(|row| row.map(|text| shadowstep::exact(text).unwrap()).to_vec());
+        let each: [_; 8] = std::array::from_fn(|_| FullMasses::from_inverse(&rows, &()).unwrap());
+        FullMasses::of_each(&each.each_ref()).unwrap()
+    }
+    let boxed: fn() -> Boxed = || Box::new(Kepler);
+    let widest: fn() -> Boxed = || Box::new(Widest(Kepler));
+    let kepler: fn() -> Kepler = || Kepler;
+    let contestants = vec![
+        kepler_of("the potential's type is known", kepler, || UnitMasses, plain),
+        kepler_of("behind a `dyn`", boxed, || UnitMasses, plain),
+        kepler_of("behind a `dyn`, `Widest`", widest, || UnitMasses, plain),
+        kepler_of("a mass for each coordinate and trajectory", kepler, diagonal, plain),
+        kepler_of("a matrix for each trajectory", kepler, full, plain),
+        kepler_of(
+            "augmented steps, one by one",
+            kepler,
+            || UnitMasses,
+            |stepper, motions| {
+                (0..STEPS).for_each(|_| motions.iter_mut().for_each(|motion| stepper.step_augmented(motion)));
+            },
+        ),
+        kepler_of(
+            "augmented steps in the widest instructions",
+            kepler,
+            || UnitMasses,
+            |stepper, motions| {
+                (0..STEPS).for_each(|_| stepper.step_each_augmented(motions));
+            },
+        ),
+        kepler_of(
+            "the same behind a `dyn`, `Widest`",
+            widest,
+            || UnitMasses,
+            |stepper, motions| {
+                (0..STEPS).for_each(|_| stepper.step_each_augmented(motions));
+            },
+        ),
+    ];
+    compare(&format!("Yoshida 4 on Kepler in 8 lanes, {STEPS} steps of {TRAJECTORIES} trajectories"), contestants, 100);
+}
+
 fn main() {
+    measure_parts();
+    if std::env::args().any(|argument| argument == "--parts") {
+        return;
+    }
     let kepler = Start { title: "Kepler", potential: Kepler, q: [0.4, 0.0], p: [0.0, 2.0] };
     let henon_heiles = Start { title: "Hénon–Heiles", potential: HenonHeiles, q: [0.0, 0.1], p: [0.3, 0.0] };
     let pendulum = Start { title: "the pendulum", potential: Pendulum, q: [0.5, 0.0], p: [1.0, 0.0] };

@@ -80,8 +80,22 @@ pub struct Block<const W: usize> {
 impl<const W: usize> Block<W> {
     /// A number of each trajectory, such as a coordinate or a parameter: `block.lanes(|t| column[t])`.
     pub fn lanes(&self, value: impl Fn(usize) -> f64) -> Lanes<W> {
-        // where trajectories end, the last one is there again
-        Lanes(std::array::from_fn(|lane| value((self.first + lane).min(self.trajectories - 1))))
+        Lanes(self.each(value))
+    }
+
+    /// Something of the trajectory of each lane, such as its masses.
+    pub fn each<T>(&self, of: impl Fn(usize) -> T) -> [T; W] {
+        std::array::from_fn(|lane| of(self.trajectory(lane)))
+    }
+
+    /// The trajectory of each lane.
+    pub fn trajectories(&self) -> impl Iterator<Item = usize> {
+        (0..W).map(|lane| self.trajectory(lane))
+    }
+
+    /// Where trajectories end, the last one is there again.
+    fn trajectory(&self, lane: usize) -> usize {
+        (self.first + lane).min(self.trajectories - 1)
     }
 }
 

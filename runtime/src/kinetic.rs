@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 use thiserror::Error;
 
 use crate::Rational;
-use crate::number::{Number, Ordered, epsilon};
+use crate::number::{Lanes, Number, Ordered, epsilon};
 use num_traits::Signed;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 
@@ -120,7 +120,7 @@ impl<N: Number> Kinetic<N> for UnitMasses {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], _: &mut N, scratch: &mut [N]) {
         self.drift(weight, p, q, scratch);
     }
@@ -185,6 +185,43 @@ impl<N: Ordered> DiagonalMasses<N> {
     }
 }
 
+impl<const W: usize> DiagonalMasses<Lanes<W>> {
+    /// Masses that differ in the trajectories of an [ensemble](crate::ensemble): those of one in each lane, with the bits that they have
+    /// alone.
+    ///
+    /// ```
+    /// use shadowstep::{DiagonalMasses, Motion, Stepper, ensemble::Ensemble, problems::HenonHeiles, tables::shipped};
+    ///
+    /// let masses: Vec<_> = (1..=20).map(|t| DiagonalMasses::from_numbers(&[1.0, f64::from(t)])).collect::<Result<_, _>>()?;
+    /// let stepper = Stepper::new(shipped("yoshida4").unwrap(), "1/20")?;
+    /// let ensemble = Ensemble { trajectories: 20, steps: 100, ..Ensemble::default() };
+    /// let outcomes = ensemble.run::<8, _, _, _>(&stepper, |block| {
+    ///     let masses = DiagonalMasses::of_each(&block.each(|t| &masses[t]))?;
+    ///     let [zero, part] = [0.0, 0.1].map(|x| block.lanes(|_| x));
+    ///     Motion::new(HenonHeiles, masses, [zero, part], [part, zero])
+    /// })?;
+    /// assert!(outcomes[0].q != outcomes[19].q && outcomes.iter().all(|outcome| outcome.energy_error < 1e-6));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Masses of different numbers of coordinates.
+    pub fn of_each(each: &[&DiagonalMasses<f64>; W]) -> Result<Self, MassError> {
+        let dimension = each.first().map_or(0, |first| first.inverse.len());
+        check_same_dimension(dimension, each.iter().map(|masses| masses.inverse.len()))?;
+        let lanes = |i: usize| Lanes(std::array::from_fn(|lane| each[lane].inverse[i]));
+        Ok(DiagonalMasses { inverse: (0..dimension).map(lanes).collect() })
+    }
+}
+
+/// Refuses lanes of different dimensions.
+fn check_same_dimension(first: usize, mut each: impl Iterator<Item = usize>) -> Result<(), MassError> {
+    match each.find(|other| *other != first) {
+        Some(other) => Err(MassError::Dimensions { first, other }),
+        None => Ok(()),
+    }
+}
+
 /// The rounding of a positive number, if it has neither overflowed nor underflowed.
 fn in_range<N: Number>(number: N) -> Option<N> {
     let mut quotient = N::zero(&number.context());
@@ -212,7 +249,7 @@ impl<N: Number> Kinetic<N> for DiagonalMasses<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], _: &mut N, scratch: &mut [N]) {
         self.drift(weight, p, q, scratch);
     }
@@ -273,6 +310,20 @@ impl<N: Ordered> FullMasses<N> {
     }
 }
 
+impl<const W: usize> FullMasses<Lanes<W>> {
+    /// Matrices that differ in the trajectories: that of one in each lane, with the bits that it has alone.
+    ///
+    /// # Errors
+    /// Matrices of different dimensions.
+    pub fn of_each(each: &[&FullMasses<f64>; W]) -> Result<Self, MassError> {
+        let dimension = each.first().map_or(0, |first| first.inverse.len());
+        check_same_dimension(dimension, each.iter().map(|masses| masses.inverse.len()))?;
+        let lanes = |i: usize, j: usize| Lanes(std::array::from_fn(|lane| each[lane].inverse[i][j]));
+        let row = |i: usize| (0..dimension).map(|j| lanes(i, j)).collect();
+        Ok(FullMasses { inverse: (0..dimension).map(row).collect() })
+    }
+}
+
 /// Refuses a symmetric matrix with a pivot that is not positive, beyond round-off.
 fn check_positive_definite<N: Ordered>(rows: &[Vec<N>], context: &N::Context) -> Result<(), MassError> {
     let mut rest = rows.to_vec();
@@ -306,6 +357,7 @@ impl<N: Number> Kinetic<N> for FullMasses<N> {
         1
     }
 
+    #[inline(always)]
     fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
         let velocity = &mut scratch[0];
         for (q, row) in q.iter_mut().zip(&self.inverse) {
@@ -314,7 +366,7 @@ impl<N: Number> Kinetic<N> for FullMasses<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], _: &mut N, scratch: &mut [N]) {
         self.drift(weight, p, q, scratch);
     }
@@ -330,6 +382,7 @@ impl<N: Number> Kinetic<N> for FullMasses<N> {
     }
 }
 
+#[inline(always)]
 fn dot<N: Number>(a: &[N], b: &[N], product: &mut N) {
     product.assign_zero();
     for (a, b) in a.iter().zip(b) {
@@ -381,5 +434,13 @@ pub enum MassError {
         row: usize,
         /// Column of it.
         column: usize,
+    },
+    /// The masses of several trajectories are of different numbers of coordinates.
+    #[error("the masses of one trajectory are for {first} coordinates, those of another for {other}")]
+    Dimensions {
+        /// The coordinates of the first trajectory.
+        first: usize,
+        /// Those of another.
+        other: usize,
     },
 }

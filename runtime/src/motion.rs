@@ -284,6 +284,38 @@ where
         self.kept = Kept::Nothing;
     }
 
+    /// [`System::kick_augmented`], likewise.
+    #[inline(always)]
+    fn kick_augmented_here(&mut self, weight: &N) {
+        self.settle();
+        if self.kept != Kept::GradientAndRate {
+            self.evaluate_here(true);
+        }
+        self.kick_with_kept_gradient(weight);
+        self.increments.beta.add_product(weight, &self.rate);
+        if N::KEEPS_INCREMENTS {
+            for (increment, gradient) in self.increments.p.as_mut().iter_mut().zip(self.gradient.as_ref()) {
+                increment.subtract_product(weight, gradient);
+            }
+        }
+    }
+
+    /// [`System::drift_augmented`], likewise.
+    #[inline(always)]
+    fn drift_augmented_here(&mut self, weight: &N) {
+        self.settle();
+        let Motion { summation, kinetic, p, q, increments, kinetic_scratch, .. } = self;
+        summation.drift_augmented(
+            kinetic,
+            weight,
+            p.as_ref(),
+            q.as_mut(),
+            (increments.q.as_mut(), &mut increments.beta),
+            kinetic_scratch,
+        );
+        self.kept = Kept::Nothing;
+    }
+
     #[inline(always)]
     fn evaluate_here(&mut self, with_rate: bool) {
         let (q, gradient) = (self.q.as_ref(), self.gradient.as_mut());
@@ -450,17 +482,7 @@ where
 
     #[inline]
     fn kick_augmented(&mut self, weight: &N) {
-        self.settle();
-        if self.kept != Kept::GradientAndRate {
-            self.evaluate(true);
-        }
-        self.kick_with_kept_gradient(weight);
-        self.increments.beta.add_product(weight, &self.rate);
-        if N::KEEPS_INCREMENTS {
-            for (increment, gradient) in self.increments.p.as_mut().iter_mut().zip(self.gradient.as_ref()) {
-                increment.subtract_product(weight, gradient);
-            }
-        }
+        self.kick_augmented_here(weight);
     }
 
     #[inline]
@@ -492,19 +514,26 @@ where
         );
     }
 
+    fn advance_augmented(motions: &mut [Self], maps: Maps<'_, N>) {
+        N::in_widest_instructions(
+            #[inline(always)]
+            || {
+                for motion in motions {
+                    motion.clear_increments();
+                    for (kind, weight) in maps.iter() {
+                        match kind {
+                            MapKind::Kick => motion.kick_augmented_here(weight),
+                            MapKind::Drift => motion.drift_augmented_here(weight),
+                        }
+                    }
+                }
+            },
+        );
+    }
+
     #[inline]
     fn drift_augmented(&mut self, weight: &N) {
-        self.settle();
-        let Motion { summation, kinetic, p, q, increments, kinetic_scratch, .. } = self;
-        summation.drift_augmented(
-            kinetic,
-            weight,
-            p.as_ref(),
-            q.as_mut(),
-            (increments.q.as_mut(), &mut increments.beta),
-            kinetic_scratch,
-        );
-        self.kept = Kept::Nothing;
+        self.drift_augmented_here(weight);
     }
 
     #[inline]

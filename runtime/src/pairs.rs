@@ -327,6 +327,7 @@ fn each_pair<'q, N, const D: usize>(q: &'q [N], mut visit: impl FnMut(End<'q, N,
 }
 
 /// Visits the pairs of neighbours in a chain.
+#[inline(always)]
 fn each_neighbour<'q, N, const D: usize>(q: &'q [N], ends: Ends, mut visit: impl FnMut(End<'q, N, D>, End<'q, N, D>)) {
     let (q, _) = q.as_chunks::<D>();
     let body = |number: usize| End::Body(number, &q[number]);
@@ -374,7 +375,14 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
             let chain = Chain { pair: &self.pair, ends };
             return chain.sum((q, gradient), None, &mut scratch[own_scratch(D)..]);
         }
-        self.sum_gradient(q, gradient, scratch, |i, j, x, slope, _, scratch| self.pair.slope(i, j, x, slope, scratch));
+        N::in_widest_instructions(
+            #[inline(always)]
+            || {
+                self.sum_gradient(q, gradient, scratch, |i, j, x, slope, _, scratch| {
+                    self.pair.slope(i, j, x, slope, scratch)
+                })
+            },
+        );
     }
 
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
@@ -385,6 +393,20 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
             let chain = Chain { pair: &self.pair, ends };
             return chain.sum((q, gradient), Some(rate), &mut scratch[own_scratch(D)..]);
         }
+        N::in_widest_instructions(
+            #[inline(always)]
+            || self.sum_gradient_and_rate(q, gradient, rate, scratch),
+        );
+    }
+}
+
+impl<P, const D: usize> Pairs<P, D> {
+    /// The sum of one pair after the other.
+    #[inline(always)]
+    fn sum_gradient_and_rate<N: Number>(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N])
+    where
+        P: PairPotential<N>,
+    {
         rate.assign_zero();
         if !(N::KEEPS_INCREMENTS && self.is_in_blocks()) {
             return self.sum_gradient(q, gradient, scratch, |i, j, x, slope, part, scratch| {

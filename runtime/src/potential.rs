@@ -1,8 +1,10 @@
 //! Potentials U(q).
 
 mod from_fn;
+mod widest;
 
 pub use from_fn::{FromFn, from_fn};
+pub use widest::Widest;
 
 use crate::number::Number;
 

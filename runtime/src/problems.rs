@@ -46,7 +46,7 @@ use crate::Rational;
 use crate::exact_flow::solver::Solver;
 use crate::kinetic::{Kinetic, Quadratic};
 use crate::motion::{Motion, MotionError};
-use crate::number::Number;
+use crate::number::{Lanes, Number};
 use crate::potential::Potential;
 use definition::Definition;
 
@@ -75,8 +75,8 @@ macro_rules! registry {
                 match self { $(Problem::$Name => <$module::Entry as Definition>::EXACT_FLOW,)+ }
             }
 
-            fn potential<N: Number + 'static>(self, values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
-                match self { $(Problem::$Name => $module::Entry::potential(values, context),)+ }
+            fn potential<N: Number + 'static>(self, number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
+                match self { $(Problem::$Name => $module::Entry::potential(number),)+ }
             }
         }
     };
@@ -190,7 +190,20 @@ fn value_of(
 impl Setup {
     /// The potential energy U(q).
     pub fn potential<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Potential<N>> {
-        self.problem.potential(&self.values, context)
+        self.problem.potential(&|name| self.values.number(name, context))
+    }
+
+    /// The potential energy of several trajectories of one problem, whose parameters may differ: those of one in each lane.
+    ///
+    /// # Panics
+    /// If they are not all of one problem.
+    pub fn potential_of_each<const W: usize>(each: &[&Setup; W]) -> Box<dyn Potential<Lanes<W>>> {
+        let problem = each[0].problem;
+        assert!(
+            each.iter().all(|setup| setup.problem == problem),
+            "trajectories of different problems are not one system"
+        );
+        problem.potential(&|name| Lanes(each.map(|setup| setup.values.number(name, &()))))
     }
 
     /// The system at its initial state.

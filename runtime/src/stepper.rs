@@ -110,6 +110,15 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         M::advance(systems, Maps::new(self.weights(), self.scheme.maps()), count);
     }
 
+    /// One step of each of several systems with its [increments](System::increments) of q, p and β, with the bits that
+    /// [`Stepper::step_augmented`] gives. Of lanes it is compiled for the widest vector instructions, as [`Stepper::steps`] is.
+    pub fn step_each_augmented<M: System<Number = N>>(&self, systems: &mut [M])
+    where
+        S: ValidFor<M::Class>,
+    {
+        M::advance_augmented(systems, Maps::new(self.weights(), self.scheme.maps()));
+    }
+
     /// One step, with its [increments](System::increments) of q, p and β.
     #[inline]
     pub fn step_augmented<M: System<Number = N>>(&self, system: &mut M)

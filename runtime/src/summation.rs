@@ -86,7 +86,7 @@ impl<N: Number> Summation<N> for Plain {
         kinetic.drift(weight, p, q, scratch);
     }
 
-    #[inline]
+    #[inline(always)]
     fn drift_augmented<K: Kinetic<N>>(
         &mut self,
         kinetic: &K,
@@ -120,7 +120,7 @@ impl<N: Number, S: Summation<N>> Summation<N> for Option<S> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn drift_augmented<K: Kinetic<N>>(
         &mut self,
         kinetic: &K,

@@ -78,6 +78,24 @@ pub trait System {
         }
     }
 
+    /// One step of several systems with its [increments](System::increments), with the bits that their kicks and drifts have one by one: what
+    /// [`Stepper::step_each_augmented`](crate::Stepper::step_each_augmented) does. [`Motion`](crate::Motion) does it in the widest
+    /// instructions.
+    fn advance_augmented(systems: &mut [Self], maps: Maps<'_, Self::Number>)
+    where
+        Self: Sized,
+    {
+        for system in systems {
+            system.clear_increments();
+            for (kind, weight) in maps.iter() {
+                match kind {
+                    MapKind::Kick => system.kick_augmented(weight),
+                    MapKind::Drift => system.drift_augmented(weight),
+                }
+            }
+        }
+    }
+
     /// Sets the increments to 0: an augmented step begins with it, so that β keeps its digits in long runs.
     fn clear_increments(&mut self);
 

@@ -2,11 +2,15 @@
 
 use std::num::NonZero;
 
-use shadowstep::ensemble::{Ensemble, EnsembleError, Outcome};
+use shadowstep::ensemble::{Block, Ensemble, EnsembleError, Outcome};
 use shadowstep::instructions::Instructions;
+use shadowstep::kinetic::{Kinetic, Quadratic};
+use shadowstep::number::Lanes;
 use shadowstep::problems::Kepler;
 use shadowstep::shadow::{BuildEstimator, Estimator, FixedBilinear};
-use shadowstep::{DiagonalMasses, Motion, MotionError, Stepper, System, UnitMasses, potential, splitting_scheme};
+use shadowstep::{
+    DiagonalMasses, FullMasses, Motion, MotionError, Stepper, System, UnitMasses, potential, splitting_scheme,
+};
 
 #[splitting_scheme("yoshida4.toml")]
 #[derive(Clone, Copy)]
@@ -155,6 +159,55 @@ fn masses_are_rounded_once_for_all() {
         (0..40).for_each(|_| stepper.step(&mut motion));
         assert_eq!(outcome.q, motion.q());
     }
+}
+
+/// E_4 and the errors of H, of trajectories with different masses.
+fn with_masses<const W: usize, K, A>(together: impl Fn(&Block<W>) -> K + Sync, alone: impl Fn(usize) -> A)
+where
+    K: Kinetic<Lanes<W>, Class = Quadratic>,
+    A: Kinetic<f64, Class = Quadratic>,
+{
+    const TRAJECTORIES: usize = 21;
+    let ensemble =
+        Ensemble { trajectories: TRAJECTORIES, steps: 40, every: 10, modified_energy: Some(4), threads: None };
+    let stepper = Stepper::new(Yoshida4, "1/20").unwrap();
+    for instructions in Instructions::available() {
+        let one_thread = Ensemble { threads: NonZero::new(1), ..ensemble };
+        let found = instructions.only(|| {
+            one_thread.run::<W, _, _, _>(&stepper, |block| {
+                let [zero, one] = [0.0, 1.0].map(|x| block.lanes(|_| x));
+                Motion::new(Kepler, together(&block), [one, zero], [zero, one])
+            })
+        });
+        for (t, outcome) in found.unwrap().iter().enumerate() {
+            let stepper = Stepper::new(Yoshida4, "1/20").unwrap();
+            let mut motion = Motion::new(Kepler, alone(t), [1.0, 0.0], [0.0, 1.0]).unwrap();
+            let initial = motion.energy();
+            (0..40).for_each(|_| stepper.step(&mut motion));
+            assert_eq!((&outcome.q[..], &outcome.p[..]), (motion.q(), motion.p()), "trajectory {t}");
+            assert!(outcome.energy_error >= ((motion.energy() - initial) / initial).abs());
+            // the increments have the same masses: with others E_4 would be no better than H
+            assert!(outcome.modified_drift.unwrap() < 0.2 * outcome.energy_error, "trajectory {t}: {outcome:?}");
+        }
+    }
+}
+
+#[test]
+fn masses_may_differ_from_trajectory_to_trajectory() {
+    let heavy = |t: usize| 1.0 + 0.1 * t as f64;
+    let alone = |t: usize| DiagonalMasses::from_numbers(&[1.0, heavy(t)]).unwrap();
+    let all: Vec<_> = (0..21).map(alone).collect();
+    with_masses::<8, _, _>(|block| DiagonalMasses::of_each(&block.each(|t| &all[t])).unwrap(), alone);
+    let alone = |t: usize| {
+        let rational = |text: &str| shadowstep::exact(text).unwrap();
+        let rows = [vec![rational("1"), rational("1/5")], vec![rational("1/5"), rational(&heavy(t).to_string())]];
+        FullMasses::from_inverse(&rows, &()).unwrap()
+    };
+    let all: Vec<_> = (0..21).map(alone).collect();
+    with_masses::<4, _, _>(|block| FullMasses::of_each(&block.each(|t| &all[t])).unwrap(), alone);
+    let [two, three]: [DiagonalMasses<f64>; 2] = [2, 3].map(|d| DiagonalMasses::from_numbers(&vec![1.0; d]).unwrap());
+    let error = DiagonalMasses::of_each(&[&two, &two, &three, &two]).unwrap_err();
+    assert_eq!(error.to_string(), "the masses of one trajectory are for 2 coordinates, those of another for 3");
 }
 
 #[test]

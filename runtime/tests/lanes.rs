@@ -1,6 +1,7 @@
 //! Trajectories in lanes have the bits that they have alone, in all instructions of this processor.
 
 use std::array::from_fn;
+use std::slice::from_mut;
 
 use shadowstep::instructions::Instructions;
 use shadowstep::number::Lanes;
@@ -84,8 +85,8 @@ fn compare_shipped<const W: usize>(problem: Problem, scheme: &str) {
             system
         },
         |system| {
-            stepper.steps(std::slice::from_mut(system), 3);
-            stepper.step_augmented(system);
+            stepper.steps(from_mut(system), 3);
+            stepper.step_each_augmented(from_mut(system));
             stepper.step_back(system);
         },
         |system| {
@@ -124,7 +125,7 @@ fn after_five_steps<N: Number<Context = ()> + 'static>(problem: Problem, start: 
     let values = setup.motion::<f64>(&()).unwrap();
     let mut system = setup.motion::<N>(&()).unwrap();
     system.set_state(&start(values.q()), &start(values.p()));
-    stepper.steps(std::slice::from_mut(&mut system), 5);
+    stepper.steps(from_mut(&mut system), 5);
     system.q().iter().chain(system.p()).cloned().collect()
 }
 

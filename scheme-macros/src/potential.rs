@@ -54,7 +54,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #components
                 #gradient_body
             }
-            #[inline]
+            #[inline(always)]
             fn gradient_and_rate(
                 &self,
                 #q: &[N],

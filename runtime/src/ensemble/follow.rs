@@ -48,10 +48,8 @@ where
         }
         let next = steps.min(n - n % every + every);
         if n < window_end {
-            for (seen, system) in seen.iter_mut().zip(&mut systems) {
-                stepper.step_augmented(system);
-                seen.push(system);
-            }
+            stepper.step_each_augmented(&mut systems);
+            seen.iter_mut().zip(&systems).for_each(|(seen, system)| seen.push(system));
             n += 1;
         } else {
             stepper.steps(&mut systems, next - n);

@@ -4,7 +4,6 @@ use shadowstep_macros::potential;
 
 use super::definition::{Definition, Description, Parameter};
 use super::initial::{Body, Initial};
-use super::values::Values;
 use crate::number::Number;
 use crate::pairs::Pairs;
 use crate::potential::Potential;
@@ -52,8 +51,7 @@ impl Definition for Entry {
         source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.4.1: H(0) = -1260.2 k_b, 0.2 ns",
     };
 
-    fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
-        let number = |name| values.number(name, context);
+    fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
         let pair = LennardJones { epsilon: number("epsilon"), sigma: number("sigma") };
         Box::new(Pairs::<_, 2>::all(ATOMS, pair).expect("the pairs fit"))
     }

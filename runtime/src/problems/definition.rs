@@ -3,7 +3,6 @@
 use num_traits::Signed;
 
 use super::initial::Initial;
-use super::values::Values;
 use crate::Rational;
 use crate::exact_flow::solver::Solver;
 use crate::number::Number;
@@ -17,8 +16,8 @@ pub(super) trait Definition {
     /// How the exact flow is computed, where a solution is known.
     const EXACT_FLOW: Option<Solver> = None;
 
-    /// U(q) with these values of the parameters, each rounded once.
-    fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>>;
+    /// U(q); `number` gives the parameters by their names.
+    fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>>;
 }
 
 /// A problem in texts: its formula and, as exact expressions, its parameters and initial state.

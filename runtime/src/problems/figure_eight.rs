@@ -3,7 +3,6 @@
 use super::definition::{Definition, Description};
 use super::gravity::{THREE_MASSES, gravity, three_bodies};
 use super::initial::{Body, Initial};
-use super::values::Values;
 use crate::number::Number;
 use crate::potential::Potential;
 
@@ -30,7 +29,7 @@ impl Definition for Entry {
         source: "Chenciner & Montgomery, Annals of Mathematics 152 (2000) 881; initial values by C. Simó; period 6.32591398",
     };
 
-    fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
-        gravity::<N, 2>(values, &THREE_MASSES, context)
+    fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
+        gravity::<N, 2>(number, &THREE_MASSES)
     }
 }

@@ -4,7 +4,6 @@ use shadowstep_macros::potential;
 
 use super::definition::{Definition, Description, Parameter};
 use super::initial::Initial;
-use super::values::Values;
 use crate::number::Number;
 use crate::pairs::{Ends, Pairs};
 use crate::potential::Potential;
@@ -33,8 +32,8 @@ impl Definition for Entry {
         source: "Fermi, Pasta, Ulam & Tsingou, Los Alamos report LA-1940 (1955): first mode, at rest. Common today: steps of 0.025 until 48000",
     };
 
-    fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
-        let pair = CubicSpring { alpha: values.number("alpha", context) };
+    fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
+        let pair = CubicSpring { alpha: number("alpha") };
         Box::new(Pairs::<_, 1>::neighbours(BODIES, pair, Ends::Fixed).expect("the pairs fit"))
     }
 }

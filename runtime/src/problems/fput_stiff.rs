@@ -4,9 +4,8 @@ use shadowstep_macros::potential;
 
 use super::definition::{Definition, Description, Parameter};
 use super::initial::Initial;
-use super::values::Values;
 use crate::number::Number;
-use crate::potential::Potential;
+use crate::potential::{Potential, Widest};
 
 potential! {
     /// Three stiff springs of frequency omega between soft, quartic ones: x01, x02, x03 are (scaled) positions of the
@@ -35,7 +34,7 @@ impl Definition for Entry {
         source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.5.1: H(0) = 2.00120008, steps of 0.001 and 0.03",
     };
 
-    fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
-        Box::new(StiffFput { omega: values.number("omega", context) })
+    fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
+        Box::new(Widest(StiffFput { omega: number("omega") }))
     }
 }

@@ -3,7 +3,6 @@
 use shadowstep_macros::potential;
 
 use super::definition::Parameter;
-use super::values::Values;
 use crate::number::Number;
 use crate::pairs::Pairs;
 use crate::potential::Potential;
@@ -29,11 +28,9 @@ pub(super) const fn three_bodies(masses: [&'static str; 3]) -> [Parameter; 4] {
 
 /// Gravity among bodies in D dimensions, with the parameter `g` and these names of the masses.
 pub(super) fn gravity<N: Number + 'static, const D: usize>(
-    values: &Values,
+    number: &dyn Fn(&str) -> N,
     masses: &[&str],
-    context: &N::Context,
 ) -> Box<dyn Potential<N>> {
-    let number = |name: &str| values.number(name, context);
     let m: Vec<N> = masses.iter().map(|name| number(name)).collect();
     Box::new(Pairs::<_, D>::all(m.len(), Gravity { g: number("g"), m }).expect("the pairs fit"))
 }

@@ -6,10 +6,9 @@ use shadowstep_macros::potential;
 
 use super::definition::{Definition, Description, Parameter};
 use super::initial::Initial;
-use super::values::Values;
 use crate::exact_flow::solver::Solver;
 use crate::number::Number;
-use crate::potential::Potential;
+use crate::potential::{Potential, Widest};
 
 potential! {
     /// The harmonic oscillator. U is homogeneous of degree 2: β stays 0.
@@ -34,7 +33,7 @@ impl Definition for Entry {
 
     const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::ClosedForm>());
 
-    fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
-        Box::new(HarmonicOscillator { omega: values.number("omega", context) })
+    fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
+        Box::new(Widest(HarmonicOscillator { omega: number("omega") }))
     }
 }

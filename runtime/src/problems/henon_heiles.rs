@@ -4,9 +4,8 @@ use shadowstep_macros::potential;
 
 use super::definition::{Definition, Description};
 use super::initial::Initial;
-use super::values::Values;
 use crate::number::Number;
-use crate::potential::Potential;
+use crate::potential::{Potential, Widest};
 
 potential! {
     /// The Hénon–Heiles potential.
@@ -29,7 +28,7 @@ impl Definition for Entry {
         source: "Moan & Niesen, section 5.3: p_1(0) = 0.1; chaotic from H = 1/12, escape from H = 1/6",
     };
 
-    fn potential<N: Number + 'static>(_: &Values, _: &N::Context) -> Box<dyn Potential<N>> {
-        Box::new(HenonHeiles)
+    fn potential<N: Number + 'static>(_: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
+        Box::new(Widest(HenonHeiles))
     }
 }

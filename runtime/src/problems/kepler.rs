@@ -7,11 +7,10 @@ use shadowstep_macros::potential;
 
 use super::definition::{Definition, Description, Parameter};
 use super::initial::Initial;
-use super::values::Values;
 use crate::Rational;
 use crate::exact_flow::solver::Solver;
 use crate::number::Number;
-use crate::potential::Potential;
+use crate::potential::{Potential, Widest};
 
 potential! {
     /// Kepler's problem in the plane.
@@ -47,7 +46,7 @@ impl Definition for Entry {
 
     const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::KeplersEquation>());
 
-    fn potential<N: Number + 'static>(_: &Values, _: &N::Context) -> Box<dyn Potential<N>> {
-        Box::new(Kepler)
+    fn potential<N: Number + 'static>(_: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
+        Box::new(Widest(Kepler))
     }
 }

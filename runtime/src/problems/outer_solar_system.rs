@@ -3,7 +3,6 @@
 use super::definition::{Definition, Description, Parameter};
 use super::gravity::gravity;
 use super::initial::{Body, Initial};
-use super::values::Values;
 use crate::number::Number;
 use crate::potential::Potential;
 
@@ -71,7 +70,7 @@ impl Definition for Entry {
         source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.2.2: steps of 100 to 200 days over 200000 days",
     };
 
-    fn potential<N: Number + 'static>(values: &Values, context: &N::Context) -> Box<dyn Potential<N>> {
-        gravity::<N, 3>(values, &MASSES, context)
+    fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
+        gravity::<N, 3>(number, &MASSES)
     }
 }

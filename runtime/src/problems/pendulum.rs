@@ -7,10 +7,9 @@ use shadowstep_macros::potential;
 
 use super::definition::{Definition, Description};
 use super::initial::Initial;
-use super::values::Values;
 use crate::exact_flow::solver::Solver;
 use crate::number::Number;
-use crate::potential::Potential;
+use crate::potential::{Potential, Widest};
 
 potential! {
     /// The mathematical pendulum.
@@ -35,7 +34,7 @@ impl Definition for Entry {
 
     const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::AdditionTheorems>());
 
-    fn potential<N: Number + 'static>(_: &Values, _: &N::Context) -> Box<dyn Potential<N>> {
-        Box::new(Pendulum)
+    fn potential<N: Number + 'static>(_: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
+        Box::new(Widest(Pendulum))
     }
 }

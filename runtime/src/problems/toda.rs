@@ -4,7 +4,6 @@ use shadowstep_macros::potential;
 
 use super::definition::{Definition, Description};
 use super::initial::Initial;
-use super::values::Values;
 use crate::number::Number;
 use crate::pairs::{Ends, Pairs};
 use crate::potential::Potential;
@@ -32,7 +31,7 @@ impl Definition for Entry {
         source: "Toda, Journal of the Physical Society of Japan 22 (1967) 431: integrable, with solitons; the wave is our choice",
     };
 
-    fn potential<N: Number + 'static>(_: &Values, _: &N::Context) -> Box<dyn Potential<N>> {
+    fn potential<N: Number + 'static>(_: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
         Box::new(Pairs::<_, 1>::neighbours(BODIES, TodaSpring, Ends::Periodic).expect("the pairs fit"))
     }
 }

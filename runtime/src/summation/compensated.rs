@@ -75,7 +75,7 @@ impl<N: Number, V: Coordinates<N>> Summation<N> for Compensated<N, V> {
         self.add_increment(q);
     }
 
-    #[inline]
+    #[inline(always)]
     fn drift_augmented<K: Kinetic<N>>(
         &mut self,
         kinetic: &K,
