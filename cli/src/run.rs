@@ -5,7 +5,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use clap::Args;
-use shadowstep_scenes::{Error, FileOptions, Format, Note, Observer, Outcome, Scene, Summary};
+use shadowstep_scenes::ensemble::Ensemble;
+use shadowstep_scenes::{Error, FileOptions, Format, Note, Observer, Outcome, Scene, Summary, WholeFile};
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
@@ -46,7 +47,11 @@ pub(crate) struct Arguments {
 
 /// Runs a scene.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let scene = Scene::open(&arguments.scene)?;
+    let source = shadowstep_scenes::source(Path::new(&arguments.scene))?;
+    if Ensemble::is_in(&source) {
+        return ensemble(&Ensemble::read(source)?, arguments.force);
+    }
+    let scene = Scene::read(source)?;
     scene.notes.iter().for_each(report::note);
     let interrupt = Interrupt::listen(&scene.source.path, again(&scene));
     let plot = scene.output.plot.as_ref();
@@ -86,6 +91,21 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
             Err(Error::run(format!("{}: interrupted at n = {n}", scene.source.path), again(&scene)))
         }
     }
+}
+
+/// Computes an ensemble: a row for each trajectory, to the file of the scene or to stdout.
+fn ensemble(ensemble: &Ensemble, force: bool) -> Result<Status, Error> {
+    let scene = ensemble.first();
+    scene.notes.iter().for_each(report::note);
+    let _interrupt = Interrupt::listen(&scene.source.path, "run the scene again");
+    let Some((path, _)) = &scene.output.file else {
+        ensemble.run_into(&mut Output::stdout())?;
+        return Ok(Status::Success);
+    };
+    let mut file = if force { WholeFile::create(path, "file") } else { WholeFile::create_new(path, "file") }?;
+    ensemble.run_into(&mut file)?;
+    file.finish()?;
+    Ok(Status::Success)
 }
 
 /// What can be done after an interruption.

@@ -1,10 +1,10 @@
 //! What every key of a scene means.
 
-use crate::keys::{KEYS, Key, SECTIONS, Section};
+use crate::keys::{ENSEMBLE, ENSEMBLE_KEYS, KEYS, Key, SECTIONS, Section};
 use crate::readable::wrapped;
 
 const INTRODUCTION: &str = "\
-A scene is a TOML file with the sections [problem], [initial], [run] and [output].
+A scene is a TOML file with the sections [problem], [initial], [run] and [output]; with [ensemble] it describes many trajectories.
 
 A number is written in digits, 0.05 or 1e-3, and is used exactly; or it is an exact expression in quotes, \"1/20\" or \
 \"sqrt(2)/2\", which can contain the parameters of the problem. It is rounded once, to the digits of the run.";
@@ -15,15 +15,20 @@ A number is written in digits, 0.05 or 1e-3, and is used exactly; or it is an ex
 /// assert!(shadowstep_scenes::explain().contains("step = \"1/20\""));
 /// ```
 pub fn explain() -> String {
-    explanation(INTRODUCTION, &SECTIONS, &KEYS)
+    explanation(INTRODUCTION, SECTIONS.iter().chain([&ENSEMBLE]), KEYS.iter().chain(&ENSEMBLE_KEYS))
 }
 
 /// The keys of several sections, likewise, after an introduction.
-pub fn explanation(introduction: &str, sections: &[Section], keys: &[Key]) -> String {
+pub fn explanation<'a>(
+    introduction: &str,
+    sections: impl IntoIterator<Item = &'a Section>,
+    keys: impl IntoIterator<Item = &'a Key, IntoIter: Clone>,
+) -> String {
     let mut text = wrapped(introduction, "");
+    let keys = keys.into_iter();
     for section in sections {
         text += &format!("\n{}\n{}", section.heading, wrapped(section.meaning, ""));
-        for key in keys.iter().filter(|key| key.section == section.name) {
+        for key in keys.clone().filter(|key| key.section == section.name) {
             text += &format!("\n  {} = {}\n{}", key.name, key.example, wrapped(key.meaning, "      "));
             let default = key.default.map_or("Required.".to_owned(), |default| format!("Default: {default}."));
             text += &wrapped(&default, "      ");

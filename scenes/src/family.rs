@@ -9,7 +9,7 @@ use shadowstep_schemes::document::document;
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_text;
 use toml::Spanned;
-use toml::de::DeValue;
+use toml::de::{DeTable, DeValue};
 
 use crate::library::Schemes;
 use crate::read::{Names, read};
@@ -53,6 +53,15 @@ pub struct Family {
     schemes: Schemes,
 }
 
+/// The text of a family, parsed.
+#[derive(Debug)]
+pub struct Parsed<'a> {
+    family: &'a Family,
+    document: DeTable<'a>,
+    /// Whether a name stands for a whole value somewhere: `"$name"`.
+    has_words: bool,
+}
+
 /// What a name stands for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Meaning {
@@ -83,13 +92,19 @@ impl Family {
     /// # Errors
     /// All faults of the text with these values.
     pub fn scene(&self, names: &[(String, Meaning)]) -> Result<Scene, Faults> {
+        self.parsed()?.scene(names)
+    }
+
+    /// The text, parsed once for many scenes.
+    ///
+    /// # Errors
+    /// Faults of the syntax.
+    pub fn parsed(&self) -> Result<Parsed<'_>, Faults> {
         let (document, faults) = document(&self.source);
-        let Some(mut document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
-        let words: Vec<_> = names.iter().map(|(name, meaning)| (name.as_str(), meaning.text())).collect();
-        document.iter_mut().for_each(|(_, value)| substitute(value.get_mut(), &words));
-        let numbers = names.iter().filter_map(|(name, meaning)| Some((name.clone(), meaning.number()?))).collect();
-        let names = Names { numbers, others: self.others, schemes: &self.schemes };
-        read(&self.source, &document, names)
+        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
+        let mut words = Vec::new();
+        document.iter().for_each(|(_, value)| collect_whole_names(value, &mut words));
+        Ok(Parsed { family: self, document, has_words: !words.is_empty() })
     }
 
     /// All names in the texts of the scene, whatever they stand for.
@@ -117,6 +132,25 @@ impl Family {
         sections.for_each(|(_, section)| collect_whole_names(section, &mut found));
         found.sort_by_key(|(_, at)| at.start);
         Ok(found)
+    }
+}
+
+impl Parsed<'_> {
+    /// The scene with these values of the names.
+    ///
+    /// # Errors
+    /// All faults of the text with these values.
+    pub fn scene(&self, names: &[(String, Meaning)]) -> Result<Scene, Faults> {
+        let Family { source, others, schemes } = self.family;
+        let numbers = names.iter().filter_map(|(name, meaning)| Some((name.clone(), meaning.number()?))).collect();
+        let numbers = Names { numbers, others, schemes };
+        if !self.has_words {
+            return read(source, &self.document, numbers);
+        }
+        let words: Vec<_> = names.iter().map(|(name, meaning)| (name.as_str(), meaning.text())).collect();
+        let mut document = self.document.clone();
+        document.iter_mut().for_each(|(_, value)| substitute(value.get_mut(), &words));
+        read(source, &document, numbers)
     }
 }
 

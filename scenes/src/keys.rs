@@ -307,6 +307,35 @@ pub const KEYS: [Key; 39] = [
     ),
 ];
 
+/// Trajectories of one scene.
+pub const ENSEMBLE: Section = section(
+    "ensemble",
+    "[ensemble]",
+    "Makes many trajectories of the scene, which differ in initial values and parameters. `shadowstep run` computes them in vectors of the \
+     processor and on all cores, and writes a row for each: its state at the end, the largest |H - H(0)|/|H(0)|, and max - min of the \
+     modified energy, if [output] has `modified_energy`.",
+);
+
+/// The keys of \[ensemble\].
+pub const ENSEMBLE_KEYS: [Key; 2] = [
+    key(
+        "ensemble",
+        "columns",
+        "Names, each with a list of one number for each trajectory. All numbers and formulas of [problem] and [initial] can \
+         contain the names.",
+        "{ x0 = [1, 1.1, \"3/2\"] }",
+        Some("none; a `file` is given instead"),
+    ),
+    key(
+        "ensemble",
+        "file",
+        "A file of CSV in place of `columns`: a line of names, then a line of numbers for each trajectory. Its path is relative to the \
+         scene's folder.",
+        "\"starts.csv\"",
+        Some("none; `columns` are given instead"),
+    ),
+];
+
 /// A section.
 pub const fn section(name: &'static str, heading: &'static str, meaning: &'static str) -> Section {
     Section { name, heading, meaning }
@@ -335,6 +364,6 @@ pub fn find(section: &str, name: &str) -> Option<&'static Key> {
 
 /// The heading of the section that has a key of this name: `[run]`.
 pub(crate) fn section_with(name: &str) -> Option<&'static str> {
-    let key = KEYS.iter().find(|key| key.name == name)?;
-    SECTIONS.iter().find(|section| section.name == key.section).map(|section| section.heading)
+    let key = KEYS.iter().chain(&ENSEMBLE_KEYS).find(|key| key.name == name)?;
+    SECTIONS.iter().chain([&ENSEMBLE]).find(|section| section.name == key.section).map(|section| section.heading)
 }

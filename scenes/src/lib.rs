@@ -69,6 +69,7 @@
 //! | `scene` | the content of a scene: plain data |
 //! | [`keys`] | every key with its meaning; `explain` lists them, `template` writes scenes with them |
 //! | [`family`] | scenes that differ in the values of some names |
+//! | [`ensemble`], [`lanes`] | many trajectories of such a family; their systems as one system of lanes |
 //! | `read` | a scene's text → a scene, or all its faults |
 //! | `execute`, `engine`, `snapshots` | the run of a scene |
 //! | `observer`, `note` | how a caller watches a run and stops it |
@@ -86,6 +87,7 @@
 
 pub mod arithmetic;
 mod engine;
+pub mod ensemble;
 mod error;
 pub mod estimates;
 pub mod estimator;
@@ -94,6 +96,7 @@ mod explain;
 pub mod family;
 mod frequency;
 pub mod keys;
+pub mod lanes;
 pub mod library;
 pub mod lock;
 mod note;

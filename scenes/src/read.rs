@@ -25,7 +25,7 @@ use toml::de::DeTable;
 
 use crate::arithmetic::Arithmetic;
 use crate::error::Error;
-use crate::keys::{self, SECTIONS};
+use crate::keys::{self, ENSEMBLE, SECTIONS};
 use crate::library::Schemes;
 use crate::note::Note;
 use crate::read::reader::Reader;
@@ -159,6 +159,11 @@ fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>, required
     let is_known = |name: &str| names.contains(&name) || others.contains(&name);
     for key in root.keys().filter(|key| !is_known(key.get_ref())) {
         let word: &str = key.get_ref();
+        if word == ENSEMBLE.name {
+            let help = "remove [ensemble], or give one trajectory's values";
+            reader.toml.fault(&key.span(), "an ensemble is computed by `shadowstep run` only", help);
+            continue;
+        }
         let help = match (keys::section_with(word), nearest(word, names.iter().copied())) {
             (Some(section), _) => format!("`{word}` is a key of {section}"),
             (None, Some(near)) => format!("did you mean [{near}]?"),

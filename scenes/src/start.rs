@@ -1,7 +1,7 @@
 //! A system at a state with its stepper: the one place that dispatches on the class of its kinetic energy.
 
 use shadowstep::tables::TableScheme;
-use shadowstep::{Motion, MotionError, Ordered, Rational, Scheme, Stepper, System, ValidFor};
+use shadowstep::{Motion, MotionError, Number, Rational, Scheme, Stepper, System, ValidFor};
 
 use crate::scene::{self, ClassifiedKinetic};
 
@@ -17,7 +17,7 @@ pub struct Steps<'a> {
 }
 
 /// What is done with a system at a state and a stepper, whatever the class of its kinetic energy.
-pub trait Work<N: Ordered> {
+pub trait Work<N: Number> {
     /// Its result.
     type Output;
 
@@ -36,7 +36,7 @@ impl scene::System {
     ///
     /// # Panics
     /// If the step size is 0 or the scheme is not valid for T(p), which reading a system and its scheme excludes.
-    pub fn with<N: Ordered + 'static, W: Work<N>>(
+    pub fn with<N: Number + 'static, W: Work<N>>(
         &self,
         Steps { scheme, h, compensated }: Steps<'_>,
         (q, p): (Vec<N>, Vec<N>),
@@ -58,6 +58,6 @@ impl scene::System {
     }
 }
 
-fn stepper<S: Scheme, N: Ordered>(scheme: S, h: &Rational, context: &N::Context) -> Stepper<S, N> {
+fn stepper<S: Scheme, N: Number>(scheme: S, h: &Rational, context: &N::Context) -> Stepper<S, N> {
     Stepper::with_context(scheme, h, context).expect("the step size was read as nonzero")
 }

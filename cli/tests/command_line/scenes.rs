@@ -461,3 +461,122 @@ fn a_folder_is_refused_as_a_file() {
     assert_eq!(result.code, 2);
     assert!(result.err.contains("`bad/` is a folder"), "{}", result.err);
 }
+
+/// Three trajectories; at the second one the force is infinite.
+const ENSEMBLE: &str = r#"
+[problem]
+potential = "-depth/sqrt(x^2 + y^2)"
+coordinates = ["x", "y"]
+parameters = { depth = "1 + d" }
+[initial]
+q = ["x0", 0]
+p = [0, 1]
+[run]
+scheme = "yoshida4"
+step = "1/20"
+steps = 40
+digits = "double"
+[output]
+modified_energy = { estimator = "bilinear", order = 4, every = 10 }
+file = "out.csv"
+"#;
+
+/// The rows of an ensemble, cell by cell.
+fn rows(text: &str) -> Vec<Vec<String>> {
+    text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+#[test]
+fn an_ensemble_has_a_row_for_each_trajectory() {
+    let lists = format!("{ENSEMBLE}[ensemble]\ncolumns = {{ d = [0, 0.25, \"1/3\"], x0 = [1, 0, 1.5] }}\n");
+    let of_lists = folder(&lists);
+    assert_eq!(run(of_lists.path(), "").code, 0);
+    let text = fs::read_to_string(of_lists.path().join("out.csv")).unwrap();
+    let table = rows(&text);
+    assert_eq!(table[0].join(","), "trajectory,d,x0,x,y,px,py,energy_error,modified_drift,not_finite");
+    assert_eq!(table.len(), 4);
+    assert_eq!(table.iter().skip(1).map(|row| row[9].as_str()).collect::<Vec<_>>(), ["", "0", ""]);
+    // each is the run of its own scene
+    for (row, d) in [(1, "0"), (3, "1/3")] {
+        let own = ENSEMBLE.replace("1 + d", &format!("1 + {d}")).replace("x0", &table[row][2]);
+        let own = folder(&own.replace(
+            "modified_energy = { estimator = \"bilinear\", order = 4, every = 10 }",
+            "trajectory = { every = 40 }",
+        ));
+        assert_eq!(run(own.path(), "").code, 0);
+        let last = fs::read_to_string(own.path().join("out.csv")).unwrap();
+        let last = rows(last.lines().last().unwrap()).remove(0);
+        assert_eq!(table[row][3..7], last[last.len() - 4..], "{last:?}");
+        let [error, drift]: [f64; 2] = [7, 8].map(|cell| table[row][cell].parse().unwrap());
+        assert!(0.0 < drift && drift < error && error < 1e-2, "{error} {drift}");
+    }
+    // the same from a file
+    let of_file = folder(&format!("{ENSEMBLE}[ensemble]\nfile = \"starts.csv\"\n"));
+    fs::write(of_file.path().join("starts.csv"), "# made by hand\nd, x0\n0, 1\n0.25, 0\n1/3, 1.5\n").unwrap();
+    assert_eq!(run(of_file.path(), "").code, 0);
+    assert_eq!(fs::read_to_string(of_file.path().join("out.csv")).unwrap(), text);
+    // a file that is there stays
+    assert!(run(of_file.path(), "").code != 0 && run(of_file.path(), "--force").code == 0);
+}
+
+#[test]
+fn masses_and_parameters_of_shipped_problems_differ_in_the_trajectories_of_an_ensemble() {
+    let run_of = "[run]\nscheme = \"yoshida4\"\nstep = \"1/20\"\nsteps = 40\ndigits = \"double\"\n[output]\nfile = \"out.csv\"\n";
+    let masses = "[problem]\npotential = \"x^2*y^2/2\"\ncoordinates = [\"x\", \"y\"]\nmasses = [1, \"a\"]\n\
+                  [initial]\nq = [1, \"1/2\"]\np = [0, 1]\n";
+    let oscillator = "[problem]\nname = \"harmonic-oscillator\"\nparameters.omega = \"a\"\n";
+    let three = "[problem]\nname = \"figure-eight\"\nparameters.m_2 = \"a\"\n";
+    for problem in [masses, oscillator, three] {
+        let ensemble =
+            folder(&format!("{problem}{run_of}energy = true\n[ensemble]\ncolumns = {{ a = [1, \"1/3\", 2] }}\n"));
+        assert_eq!(run(ensemble.path(), "").code, 0, "{}", run(ensemble.path(), "").err);
+        let table = rows(&fs::read_to_string(ensemble.path().join("out.csv")).unwrap());
+        for (row, a) in [(1, "1"), (2, "1/3"), (3, "2")] {
+            let own = folder(
+                &format!("{problem}{run_of}trajectory = {{ every = 40 }}\n").replace("\"a\"", &format!("\"{a}\"")),
+            );
+            assert_eq!(run(own.path(), "").code, 0);
+            let last = fs::read_to_string(own.path().join("out.csv")).unwrap();
+            let last = rows(last.lines().last().unwrap()).remove(0);
+            assert_eq!(table[row][2..last.len()], last[2..], "{problem}");
+        }
+    }
+}
+
+#[test]
+fn wrong_ensembles_have_a_sentence_each() {
+    let columns = "[ensemble]\ncolumns = { d = [0, 1], x0 = [1, 2] }\n";
+    for (scene, sentence) in [
+        (format!("{ENSEMBLE}[ensemble]\n"), "scene.toml:17:1: one of the keys `columns`, `file` is needed"),
+        (
+            format!("{ENSEMBLE}[ensemble]\ncolumns = {{ d = [0, 1], x0 = [1] }}\n"),
+            "scene.toml:18:30: columns need the same number of values",
+        ),
+        (format!("{ENSEMBLE}[ensemble]\ncolumns = {{ d = [0, \"a\"], x0 = [1, 2] }}\n"), "scene.toml:18:22: "),
+        (format!("{ENSEMBLE}[ensemble]\nfile = \"none.csv\"\n"), "none.csv cannot be read"),
+        (format!("{ENSEMBLE}[ensemble]\ncolums = {{}}\n"), "unknown key `colums`"),
+        (
+            format!("{ENSEMBLE}{columns}").replace("order = 4", "order = \"auto\""),
+            "scene.toml:15:19: the modified energy of an ensemble is E_k of a fixed k",
+        ),
+        (
+            format!("{ENSEMBLE}{columns}").replace("\"double\"", "30"),
+            "scene.toml:13:10: an ensemble is computed in double",
+        ),
+        (format!("{ENSEMBLE}trajectory = true\n{columns}"), "scene.toml:17:14: an ensemble has no `trajectory`"),
+        (format!("{ENSEMBLE}{columns}").replace("1/20", "1/20 + x0"), "trajectory 1 has another step size"),
+        (
+            format!("{ENSEMBLE}{columns}").replace("q = [\"x0\", 0]", "q = [\"1/(2 - x0)\", 0]"),
+            "division by zero (trajectory 1: d = 1, x0 = 2)",
+        ),
+        (format!("{ENSEMBLE}{columns}").replace("x0 = [1, 2]", "x1 = [1, 2]"), "x0"),
+    ] {
+        let finished = run(folder(&scene).path(), "");
+        assert!(finished.code != 0 && finished.err.contains(sentence), "{scene}\n{}", finished.err);
+    }
+    // other commands say which one computes it
+    let scene = folder(&format!("{ENSEMBLE}{columns}"));
+    let finished = shadowstep(&format!("advise {} --tolerance 1e-6", scene.path().join("scene.toml").display()));
+    let sentence = "scene.toml:17:2: an ensemble is computed by `shadowstep run` only";
+    assert!(finished.code != 0 && finished.err.contains(sentence), "{}", finished.err);
+}

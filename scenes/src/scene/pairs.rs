@@ -43,7 +43,11 @@ impl PairEnergy {
         parameters: &[(String, Exact)],
         context: &N::Context,
     ) -> Box<dyn Potential<N>> {
-        let pair = self.pair(parameters, context).expect("the formula was read with the scene");
+        self.of_pair(self.pair(parameters, context).expect("the formula was read with the scene"))
+    }
+
+    /// U of the pair's energy.
+    pub(crate) fn of_pair<N: Number + 'static>(&self, pair: FormulaPair<N>) -> Box<dyn Potential<N>> {
         match self.dimensions {
             1 => self.sum::<N, 1>(pair),
             2 => self.sum::<N, 2>(pair),

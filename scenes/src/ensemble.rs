@@ -1,0 +1,151 @@
+//! Ensembles: a scene with a section \[ensemble\], whose columns have a number for each trajectory.
+//!
+//! All numbers of the scene can contain the names of the columns, as they contain parameters. The trajectories are computed in lanes and on
+//! all cores ([`shadowstep::ensemble`]): each has the bits that it has alone, but for exp, log, sin and cos.
+//!
+//! ```
+//! use shadowstep::tables::Source;
+//! use shadowstep_scenes::ensemble::Ensemble;
+//!
+//! let text = r#"
+//! [problem]
+//! name = "kepler"
+//! parameters.eccentricity = "e"
+//! [run]
+//! scheme = "yoshida4"
+//! step = "1/20"
+//! steps = 100
+//! digits = "double"
+//! [output]
+//! energy = { every = 10 }
+//! [ensemble]
+//! columns = { e = [0, "1/3", 0.5] }
+//! "#;
+//! let ensemble = Ensemble::read(Source { path: "scene.toml".to_owned(), text: text.to_owned() })?;
+//! let mut rows = Vec::new();
+//! ensemble.run_into(&mut rows)?;
+//! let rows = String::from_utf8(rows).unwrap();
+//! assert_eq!(rows.lines().next(), Some("trajectory,e,x,y,px,py,energy_error,not_finite"));
+//! assert!(rows.lines().nth(2).unwrap().starts_with("1,1/3,"));
+//! # Ok::<(), shadowstep_scenes::Error>(())
+//! ```
+
+mod columns;
+mod rows;
+mod settings;
+
+use std::io::Write;
+
+use shadowstep::ensemble::{self, Block, EnsembleError, Outcome};
+use shadowstep::number::Lanes;
+use shadowstep::tables::{Faults, Source};
+use shadowstep::{Scheme, Stepper};
+use shadowstep_schemes::document::document;
+
+use crate::error::Error;
+use crate::family::{Family, Parsed};
+use crate::keys::ENSEMBLE;
+use crate::lanes::Together;
+use crate::scene::Scene;
+use columns::Columns;
+use settings::{Observed, settings};
+
+/// Trajectories that are computed together.
+const LANES: usize = 8;
+
+/// A scene with columns of initial values and parameters.
+#[derive(Debug)]
+pub struct Ensemble {
+    family: Family,
+    columns: Columns,
+    /// The scene of the first trajectory, with what is the same in all.
+    first: Scene,
+    observed: Observed,
+}
+
+impl Ensemble {
+    /// Whether the text has a section \[ensemble\].
+    pub fn is_in(source: &Source) -> bool {
+        document(source).0.is_some_and(|document| document.contains_key(ENSEMBLE.name))
+    }
+
+    /// Reads the scene and its columns.
+    ///
+    /// # Errors
+    /// All faults of the text with the values of the first trajectory; a file of columns that cannot be read; a scene of which there can be no
+    /// ensemble.
+    pub fn read(source: Source) -> Result<Ensemble, Error> {
+        let columns = Columns::read(&source)?;
+        let family = Family::new(source, &[ENSEMBLE.name]);
+        let first = family.scene(&columns.values(0)).map_err(|faults| columns.with_trajectory(faults, 0))?;
+        let observed = settings(family.source(), &first)?;
+        Ok(Ensemble { family, columns, first, observed })
+    }
+
+    /// The scene of the first trajectory.
+    pub fn first(&self) -> &Scene {
+        &self.first
+    }
+
+    /// Computes all trajectories, and writes a row for each.
+    ///
+    /// # Errors
+    /// Values of a trajectory that the scene cannot have, a writer that fails.
+    pub fn run_into(&self, writer: &mut dyn Write) -> Result<(), Error> {
+        let outcomes = self.outcomes()?;
+        rows::write(&self.columns, &self.first.system, self.observed.modified_energy.is_some(), &outcomes, writer)
+    }
+
+    fn outcomes(&self) -> Result<Vec<Outcome>, Error> {
+        let parsed = self.family.parsed()?;
+        let compensated = self.first.arithmetic.is_compensated();
+        let scheme = self.first.scheme.scheme.clone();
+        let outcomes = if self.first.system.has_general_kinetic() {
+            let stepper = self.stepper(scheme.for_every_kinetic().expect("the scheme was read for this T"));
+            self.trajectories().run(&stepper, |block| Ok(self.together(&parsed, &block)?.general(compensated)))
+        } else {
+            let stepper = self.stepper(scheme);
+            self.trajectories().run(&stepper, |block| Ok(self.together(&parsed, &block)?.quadratic(compensated)))
+        };
+        outcomes.map_err(|error| match error {
+            EnsembleError::System(error) => error,
+            other => Error::usage(other.to_string(), "give another order of the estimator"),
+        })
+    }
+
+    fn trajectories(&self) -> ensemble::Ensemble {
+        let Observed { every, modified_energy } = self.observed;
+        let (trajectories, steps) = (self.columns.trajectories(), self.first.steps);
+        ensemble::Ensemble { trajectories, steps, every, modified_energy, threads: None }
+    }
+
+    fn stepper<S: Scheme>(&self, scheme: S) -> Stepper<S, Lanes<LANES>> {
+        Stepper::new(scheme, self.first.h.clone()).expect("the step size was read as nonzero")
+    }
+
+    /// The system of some lanes.
+    fn together(&self, parsed: &Parsed<'_>, block: &Block<LANES>) -> Result<Together<LANES>, Error> {
+        let mut scenes = Vec::with_capacity(LANES);
+        for t in block.trajectories() {
+            let scene =
+                parsed.scene(&self.columns.values(t)).map_err(|faults| self.columns.with_trajectory(faults, t))?;
+            self.refuse_other_steps(&scene, t)?;
+            scenes.push(scene);
+        }
+        let systems = std::array::from_fn(|lane| &scenes[lane].system);
+        Together::of(&systems).ok_or_else(|| {
+            let fault = self.columns.fault(self.family.source(), "trajectories differ in more than numbers");
+            Faults(vec![fault.hint("use the names of columns in numbers and formulas only")]).into()
+        })
+    }
+
+    fn refuse_other_steps(&self, scene: &Scene, t: usize) -> Result<(), Error> {
+        let steps = |scene: &Scene| (scene.h.clone(), scene.steps, scene.scheme.name.clone());
+        if steps(scene) == steps(&self.first) {
+            return Ok(());
+        }
+        let message = format!("trajectory {t} has another step size, number of steps or scheme than trajectory 0");
+        let hint = "use the names of columns in [problem] and [initial] only; a sweep can have different steps";
+        Err(Faults(vec![self.columns.fault(self.family.source(), message).hint(hint)]).into())
+    }
+}

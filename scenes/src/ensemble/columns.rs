@@ -1,0 +1,156 @@
+//! The section \[ensemble\]: columns in the text, or in a file.
+
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+
+use shadowstep::tables::{Faults, Source};
+use shadowstep::{Rational, exact};
+use shadowstep_schemes::document::{Fault, Key, Keys, Reader, Section, Text, Value, document};
+use shadowstep_symbolic::decimal::to_text;
+use toml::de::DeValue;
+
+use crate::error::Error;
+use crate::family::Meaning;
+use crate::keys::{ENSEMBLE, ENSEMBLE_KEYS};
+
+/// Values of some names in each trajectory.
+#[derive(Debug)]
+pub(super) struct Columns {
+    pub(super) names: Vec<String>,
+    /// A row for each trajectory, at least one.
+    pub(super) rows: Vec<Vec<Rational>>,
+    /// Where they are in the scene.
+    at: Range<usize>,
+}
+
+impl Columns {
+    pub(super) fn read(source: &Source) -> Result<Columns, Error> {
+        let (document, faults) = document(source);
+        let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults).into()) };
+        let mut reader = Reader::new(source, Vec::new());
+        let keys = ENSEMBLE_KEYS.iter().map(|key| Key::new(key.name, key.example));
+        let section = reader.section(&document, ENSEMBLE.name, Keys::new(ENSEMBLE.heading, keys));
+        let found = match (section.get("columns"), section.get("file")) {
+            (Some(columns), None) => of_lists(&mut reader, columns),
+            (None, Some(file)) => match reader.text(file) {
+                Some(file) if reader.faults.is_empty() => return of_file(source, &file),
+                _ => None,
+            },
+            (Some(_), Some(file)) => {
+                reader.wrong(&file.span(), "columns and file are both given", "keep one of the two")
+            }
+            (None, None) => missing(&mut reader, &section),
+        };
+        match (Faults::of(reader.faults), found) {
+            (None, Some(columns)) => Ok(columns),
+            (Some(faults), _) => Err(faults.into()),
+            (None, None) => unreachable!("what cannot be read is a fault"),
+        }
+    }
+
+    /// How many trajectories there are.
+    pub(super) fn trajectories(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// The names with their values in a trajectory.
+    pub(super) fn values(&self, t: usize) -> Vec<(String, Meaning)> {
+        let meaning = |value: &Rational| Meaning::Number(value.clone());
+        self.names.iter().cloned().zip(self.rows[t].iter().map(meaning)).collect()
+    }
+
+    /// A fault at the place of the columns.
+    pub(super) fn fault(&self, source: &Source, message: impl Into<String>) -> Fault {
+        source.fault(&self.at, message)
+    }
+
+    /// The faults of a trajectory's scene, with its values.
+    pub(super) fn with_trajectory(&self, faults: Faults, t: usize) -> Faults {
+        let values = self.names.iter().zip(&self.rows[t]).map(|(name, value)| format!("{name} = {}", to_text(value)));
+        let trajectory = format!(" (trajectory {t}: {})", values.collect::<Vec<_>>().join(", "));
+        let named = |fault: Fault| Fault { message: fault.message.clone() + &trajectory, ..fault };
+        Faults(faults.0.into_iter().map(named).collect())
+    }
+}
+
+fn missing<T>(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<T> {
+    reader.missing(section, &["columns", "file"]);
+    None
+}
+
+/// columns = { x0 = [0.1, 0.2], depth = [1, 2] }
+fn of_lists(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Columns> {
+    let DeValue::Table(table) = value.get_ref() else {
+        return reader.wrong_kind(value, "a table of lists: { x0 = [0.1, 0.2] }");
+    };
+    let (mut names, mut columns): (Vec<String>, Vec<Vec<Rational>>) = (Vec::new(), Vec::new());
+    // in the order of the text
+    let mut lists: Vec<_> = table.iter().collect();
+    lists.sort_by_key(|(name, _)| name.span().start);
+    for (name, list) in lists {
+        let column = column(reader, list)?;
+        if let Some(first) = columns.first().filter(|first| first.len() != column.len()) {
+            let fault = reader.source.fault(&list.span(), "columns need the same number of values");
+            reader.faults.push(fault.values(column.len().to_string(), first.len().to_string()));
+            return None;
+        }
+        names.push(Text::of_key(name).value);
+        columns.push(column);
+    }
+    let Some(first) = columns.first() else {
+        return reader.wrong(&value.span(), "there is no column", "write columns = { x0 = [0.1, 0.2] }");
+    };
+    let row = |t: usize| columns.iter().map(|column| column[t].clone()).collect();
+    Some(Columns { names, rows: (0..first.len()).map(row).collect(), at: value.span() })
+}
+
+fn column(reader: &mut Reader<'_>, list: &Value<'_>) -> Option<Vec<Rational>> {
+    let number = |reader: &mut Reader<'_>, value: &Value<'_>| {
+        let text = reader.number(value, "1, 0.05, or \"1/3\"")?;
+        match exact(&text.value) {
+            Ok(number) => Some(number),
+            Err(error) => reader.wrong(&text.place(&error.range()), error.to_string(), "write a number or a fraction"),
+        }
+    };
+    Some(reader.list(list, "a list of numbers: [0.1, 0.2]", number)?.value)
+}
+
+/// A file of CSV with a line of names; its path is relative to the folder of the scene.
+fn of_file(source: &Source, file: &Text) -> Result<Columns, Error> {
+    let path = Path::new(&source.path).parent().unwrap_or(Path::new("")).join(&file.value);
+    let text = fs::read_to_string(&path).map_err(|error| {
+        let fault = source.fault(&file.at, format!("{} cannot be read: {error}", path.display()));
+        Faults(vec![fault.hint("give a file of CSV with a line of names")])
+    })?;
+    let shown = path.display().to_string();
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
+    let names: Vec<String> =
+        reader.headers().map_err(|error| unreadable(&shown, &error))?.iter().map(str::to_owned).collect();
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        rows.push(row(&shown, &names, &record.map_err(|error| unreadable(&shown, &error))?)?);
+    }
+    if rows.is_empty() || names.iter().any(String::is_empty) {
+        let hint = "write a line of names, and a row of numbers for each trajectory";
+        return Err(Error::usage(format!("{shown} has no trajectories"), hint));
+    }
+    Ok(Columns { names, rows, at: file.at.clone() })
+}
+
+/// The numbers of a trajectory, from a line of the file.
+fn row(file: &str, names: &[String], record: &csv::StringRecord) -> Result<Vec<Rational>, Error> {
+    let line = record.position().map_or(0, csv::Position::line);
+    let value = |(name, cell): (&String, &str)| {
+        let message = |_| {
+            Error::usage(format!("{file}:{line}: {name} is {cell:?}, which is not a number"), "write 0.1, 1e-3 or 1/3")
+        };
+        exact(cell).map_err(message)
+    };
+    names.iter().zip(record).map(value).collect()
+}
+
+/// A line with more or fewer cells than names, for example.
+fn unreadable(file: &str, error: &csv::Error) -> Error {
+    Error::usage(format!("{file}: {error}"), "each line has a number for each name")
+}

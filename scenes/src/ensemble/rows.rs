@@ -1,0 +1,42 @@
+//! The rows of an ensemble: one for each trajectory.
+
+use std::io::Write;
+
+use shadowstep::ensemble::Outcome;
+use shadowstep_symbolic::decimal::to_text;
+
+use super::columns::Columns;
+use crate::error::Error;
+use crate::scene::System;
+
+/// A line of names, and a row for each outcome.
+pub(super) fn write(
+    columns: &Columns,
+    system: &System,
+    has_modified_energy: bool,
+    outcomes: &[Outcome],
+    writer: &mut dyn Write,
+) -> Result<(), Error> {
+    let mut csv = csv::Writer::from_writer(writer);
+    let state = system.coordinates.iter().chain(&system.momenta);
+    let names = columns.names.iter().chain(state).map(String::as_str);
+    let modified_drift = has_modified_energy.then_some("modified_drift");
+    let energies = ["energy_error"].into_iter().chain(modified_drift);
+    csv.write_record(["trajectory"].into_iter().chain(names).chain(energies).chain(["not_finite"]))?;
+    for (t, (outcome, values)) in outcomes.iter().zip(&columns.rows).enumerate() {
+        let Outcome { q, p, energy_error, modified_drift, not_finite } = outcome;
+        let state = q.iter().chain(p).map(number);
+        let drift = modified_drift.as_ref().map(number).unwrap_or_default();
+        let energies = [number(energy_error)].into_iter().chain(has_modified_energy.then_some(drift));
+        let not_finite = not_finite.map(|n| n.to_string()).unwrap_or_default();
+        let row = [t.to_string()].into_iter().chain(values.iter().map(to_text)).chain(state);
+        csv.write_record(row.chain(energies).chain([not_finite]))?;
+    }
+    csv.flush()?;
+    Ok(())
+}
+
+/// Text that reads back to the same bits, as in the rows of other scenes.
+fn number(x: &f64) -> String {
+    format!("{x:?}")
+}

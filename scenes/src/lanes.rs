@@ -1,0 +1,166 @@
+//! Several systems of one form, whose numbers differ → one system of lanes.
+
+use shadowstep::formula::{FormulaKinetic, FormulaPair, FormulaPotential};
+use shadowstep::kinetic::{General, Quadratic};
+use shadowstep::number::{Lanes, Number};
+use shadowstep::problems::Setup;
+use shadowstep::summation::Compensated;
+use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Rational, Stepper, UnitMasses};
+use shadowstep_symbolic::Exact;
+
+use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, PotentialEnergy, System};
+use crate::start::{Steps, Work};
+
+/// The systems of W trajectories as one, at their initial states.
+pub struct Together<const W: usize> {
+    potential: Box<dyn Potential<Lanes<W>>>,
+    kinetic: ClassifiedKinetic<Lanes<W>>,
+    q: Vec<Lanes<W>>,
+    p: Vec<Lanes<W>>,
+}
+
+/// A system of lanes.
+pub(crate) type MotionInLanes<const W: usize, C> = Motion<
+    Lanes<W>,
+    Vec<Lanes<W>>,
+    Box<dyn Potential<Lanes<W>>>,
+    Box<dyn Kinetic<Lanes<W>, Class = C>>,
+    Option<Compensated<Lanes<W>, Vec<Lanes<W>>>>,
+>;
+
+const READ: &str = "the system was read with the scene";
+const QUADRATIC: &str = "T is of the class of the first system";
+
+impl<const W: usize> Together<W> {
+    /// `None` if the systems differ in more than numbers.
+    pub fn of(systems: &[&System; W]) -> Option<Self> {
+        systems.iter().all(|system| have_one_form(systems[0], system)).then(|| Together {
+            potential: potential(systems),
+            kinetic: kinetic(systems),
+            q: in_lanes(|lane| &systems[lane].q),
+            p: in_lanes(|lane| &systems[lane].p),
+        })
+    }
+
+    /// Does some work with the system and a scheme that is valid for it.
+    ///
+    /// # Panics
+    /// If the step size is 0 or the scheme is not valid for T(p), which reading a scene excludes.
+    pub fn with<T: Work<Lanes<W>>>(self, Steps { scheme, h, compensated }: Steps<'_>, work: T) -> T::Output {
+        const VALID: &str = "the scheme and the step size were read with the scene";
+        if matches!(self.kinetic, ClassifiedKinetic::Quadratic(_)) {
+            return work.with(&Stepper::new(scheme.clone(), h.clone()).expect(VALID), self.quadratic(compensated));
+        }
+        let scheme = scheme.clone().for_every_kinetic().expect(VALID);
+        work.with(&Stepper::new(scheme, h.clone()).expect(VALID), self.general(compensated))
+    }
+
+    pub(crate) fn quadratic(self, compensated: bool) -> MotionInLanes<W, Quadratic> {
+        let ClassifiedKinetic::Quadratic(kinetic) = self.kinetic else { unreachable!("{QUADRATIC}") };
+        Motion::new(self.potential, kinetic, self.q, self.p).expect(READ).compensated_if(compensated)
+    }
+
+    pub(crate) fn general(self, compensated: bool) -> MotionInLanes<W, General> {
+        let ClassifiedKinetic::General(kinetic) = self.kinetic else { unreachable!("{QUADRATIC}") };
+        Motion::new(self.potential, kinetic, self.q, self.p).expect(READ).compensated_if(compensated)
+    }
+}
+
+impl System {
+    /// The parameters in lanes, with their names: those of one of the systems in each.
+    ///
+    /// # Panics
+    /// If a system has other parameters than the first.
+    pub fn parameters_of_each<'a, const W: usize>(systems: &[&'a System; W]) -> Vec<(&'a str, Lanes<W>)> {
+        let names = systems[0].parameters.iter().enumerate();
+        names.map(|(i, (name, _))| (name.as_str(), lanes_of(|lane| &systems[lane].parameters[i].1))).collect()
+    }
+}
+
+/// Whether two systems differ in numbers only.
+fn have_one_form(a: &System, b: &System) -> bool {
+    let names = |system: &System| system.parameters.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+    let kinetic = match (&a.kinetic, &b.kinetic) {
+        (KineticEnergy::Masses(_), KineticEnergy::Masses(_)) => true,
+        (KineticEnergy::Formula(a), KineticEnergy::Formula(b)) => a == b,
+        _ => false,
+    };
+    let potential = match (&a.potential, &b.potential) {
+        (PotentialEnergy::Shipped(a), PotentialEnergy::Shipped(b)) => a.problem == b.problem,
+        (PotentialEnergy::Formula(a), PotentialEnergy::Formula(b)) => a == b,
+        (PotentialEnergy::Pairs(a), PotentialEnergy::Pairs(b)) => pairs_have_one_form(a, b),
+        _ => false,
+    };
+    kinetic && potential && names(a) == names(b) && a.coordinates == b.coordinates && a.momenta == b.momenta
+}
+
+fn pairs_have_one_form(a: &PairEnergy, b: &PairEnergy) -> bool {
+    let names = |pairs: &PairEnergy| pairs.properties.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+    let form = |pairs: &PairEnergy| (pairs.separation, pairs.dimensions, pairs.bodies, pairs.ends);
+    a.formula == b.formula && form(a) == form(b) && names(a) == names(b)
+}
+
+/// An exact number of each system, rounded once.
+fn lanes_of<'a, const W: usize>(exact: impl Fn(usize) -> &'a Exact) -> Lanes<W> {
+    Lanes(std::array::from_fn(|lane| f64::from_rational(&exact(lane).value, &())))
+}
+
+/// A list of each system, likewise.
+fn in_lanes<'a, const W: usize>(list: impl Fn(usize) -> &'a [Exact]) -> Vec<Lanes<W>> {
+    (0..list(0).len()).map(|i| lanes_of(|lane| &list(lane)[i])).collect()
+}
+
+fn names(names: &[String]) -> Vec<&str> {
+    names.iter().map(String::as_str).collect()
+}
+
+fn potential<const W: usize>(systems: &[&System; W]) -> Box<dyn Potential<Lanes<W>>> {
+    match &systems[0].potential {
+        PotentialEnergy::Shipped(_) => Setup::potential_of_each(&systems.map(|system| match &system.potential {
+            PotentialEnergy::Shipped(setup) => setup,
+            _ => unreachable!("the systems have one form"),
+        })),
+        PotentialEnergy::Formula(formula) => {
+            let parameters = System::parameters_of_each(systems);
+            Box::new(FormulaPotential::new(formula, &names(&systems[0].coordinates), &parameters).expect(READ))
+        }
+        PotentialEnergy::Pairs(pairs) => pairs.of_pair(pair(systems, pairs)),
+    }
+}
+
+fn pair<const W: usize>(systems: &[&System; W], first: &PairEnergy) -> FormulaPair<Lanes<W>> {
+    let property = |lane: usize, k: usize| match &systems[lane].potential {
+        PotentialEnergy::Pairs(pairs) => pairs.properties[k].1.as_slice(),
+        _ => unreachable!("the systems have one form"),
+    };
+    let properties = first.properties.iter().enumerate();
+    let properties: Vec<_> =
+        properties.map(|(k, (name, _))| (name.as_str(), in_lanes(|lane| property(lane, k)))).collect();
+    let parameters = System::parameters_of_each(systems);
+    FormulaPair::new(&first.formula, first.separation, &properties, &parameters).expect(READ)
+}
+
+fn kinetic<const W: usize>(systems: &[&System; W]) -> ClassifiedKinetic<Lanes<W>> {
+    let KineticEnergy::Formula(formula) = &systems[0].kinetic else {
+        return ClassifiedKinetic::Quadratic(of_masses(systems));
+    };
+    let kinetic = FormulaKinetic::new(formula, &names(&systems[0].momenta), &System::parameters_of_each(systems));
+    match kinetic.expect(READ).into_quadratic() {
+        Ok(quadratic) => ClassifiedKinetic::Quadratic(Box::new(quadratic)),
+        Err(general) => ClassifiedKinetic::General(Box::new(general)),
+    }
+}
+
+fn of_masses<const W: usize>(systems: &[&System; W]) -> Box<dyn Kinetic<Lanes<W>, Class = Quadratic>> {
+    let masses = systems.map(|system| match &system.kinetic {
+        KineticEnergy::Masses(masses) => masses.as_ref(),
+        KineticEnergy::Formula(_) => unreachable!("the systems have one form"),
+    });
+    if masses.iter().all(Option::is_none) {
+        return Box::new(UnitMasses);
+    }
+    let ones = || vec![Rational::from_integer(1.into()); systems[0].q.len()];
+    let exact = |given: &Vec<Exact>| given.iter().map(|mass| mass.value.clone()).collect();
+    let each = masses.map(|masses| DiagonalMasses::new(&masses.map_or_else(ones, exact), &()).expect(READ));
+    Box::new(DiagonalMasses::of_each(&each.each_ref()).expect(READ))
+}
