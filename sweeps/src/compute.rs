@@ -7,6 +7,7 @@ use std::thread::{self, Thread};
 use std::time::Duration;
 
 use shadowstep_scenes::Error;
+use shadowstep_scenes::family::Parsed;
 use shadowstep_tasks::{Observer, Progress};
 
 use crate::chunk::{self, Chunk, Header};
@@ -42,13 +43,13 @@ pub fn compute(
     chunks: impl IntoIterator<Item = Chunk, IntoIter: Send + Clone>,
     observer: &mut dyn Observer,
 ) -> Result<Computed, Error> {
-    let chunks = chunks.into_iter();
+    let (chunks, parsed) = (chunks.into_iter(), plan.family().parsed()?);
     let runs = |chunk: Chunk| chunk.runs(manifest.runs);
     let all = chunks.clone().map(runs).map(|runs| runs.end - runs.start).sum();
     let stops = AtomicBool::new(false);
-    let due = Due { plan, manifest, folder, stops: &stops };
     let state = Mutex::new(State { chunks, open: Vec::new(), computed: Computed::default(), saved: 0, error: None });
     let (threads, attendant) = (rayon::current_num_threads(), thread::current());
+    let due = Due { plan, parsed: &parsed, manifest, folder, stops: &stops, threads };
     let working = AtomicUsize::new(threads);
     let work = || {
         let _end = Ends { working: &working, attendant: &attendant };
@@ -113,9 +114,11 @@ fn attend<I>(
 /// What is to be computed.
 struct Due<'a> {
     plan: &'a Plan,
+    parsed: &'a Parsed<'a>,
     manifest: &'a Manifest,
     folder: &'a Path,
     stops: &'a AtomicBool,
+    threads: usize,
 }
 
 /// What is being computed. At most one chunk is open for each thread, whatever the number of runs.
@@ -146,7 +149,7 @@ impl Due<'_> {
         while !self.stops.load(Ordering::Relaxed) {
             let next = self.next(&mut locked(state));
             let done = match next {
-                Ok(Some(Work::Run(chunk, run))) => self.run(state, chunk, run),
+                Ok(Some(Work::Runs(chunk, runs))) => self.make(state, chunk, &runs),
                 Ok(Some(Work::Finish(open))) => self.finish(open),
                 Ok(None) => return,
                 Err(error) => Err(error),
@@ -158,12 +161,13 @@ impl Due<'_> {
         }
     }
 
-    /// The next run, of an open chunk or of one that is opened for it.
+    /// The next runs, of an open chunk or of one that is opened for them.
     fn next<I: Iterator<Item = Chunk>>(&self, state: &mut State<I>) -> Result<Option<Work>, Error> {
         loop {
             for open in &mut state.open {
-                if let Some(run) = open.take() {
-                    return Ok(Some(Work::Run(open.chunk, run)));
+                let runs = open.take(self.plan.batch(), self.threads);
+                if !runs.is_empty() {
+                    return Ok(Some(Work::Runs(open.chunk, runs)));
                 }
             }
             // a chunk all of whose runs were saved before
@@ -184,16 +188,18 @@ impl Due<'_> {
         }
     }
 
-    /// Makes a run and keeps its record.
-    fn run<I>(&self, state: &Mutex<State<I>>, chunk: Chunk, run: u64) -> Result<(), Error> {
-        let record = self.plan.run(run, self.stops);
+    /// Makes runs and keeps their records.
+    fn make<I>(&self, state: &Mutex<State<I>>, chunk: Chunk, runs: &[u64]) -> Result<(), Error> {
+        self.plan.make(self.parsed, runs, self.stops, |record| self.keep(state, chunk, &record))
+    }
+
+    fn keep<I>(&self, state: &Mutex<State<I>>, chunk: Chunk, record: &Record) -> Result<(), Error> {
         let mut state = locked(state);
-        let Some(record) = record else { return Ok(()) };
         let place =
             state.open.iter().position(|open| open.chunk == chunk).expect("a chunk stays open while it has runs");
         state.open[place].running -= 1;
-        state.open[place].partial.keep(&record)?;
-        state.computed.include(&record);
+        state.open[place].partial.keep(record)?;
+        state.computed.include(record);
         if state.open[place].is_complete() {
             let open = state.open.swap_remove(place);
             drop(state);
@@ -209,22 +215,20 @@ impl Due<'_> {
 
 /// What a thread does next.
 enum Work {
-    Run(Chunk, u64),
+    Runs(Chunk, Vec<u64>),
     Finish(Open),
 }
 
 impl Open {
-    /// Takes a run that is not saved.
-    fn take(&mut self) -> Option<u64> {
-        while self.next < self.end {
-            let run = self.next;
-            self.next += 1;
-            if !self.partial.records.contains_key(&run) {
-                self.running += 1;
-                return Some(run);
-            }
-        }
-        None
+    /// Takes runs that are not saved, `most` at most, and fewer at the end of the chunk, so that all threads have some.
+    fn take(&mut self, most: usize, threads: usize) -> Vec<u64> {
+        let left = usize::try_from(self.end - self.next).unwrap_or(usize::MAX);
+        let most = most.min(left.div_ceil(2 * threads));
+        let saved = &self.partial.records;
+        let runs: Vec<u64> = (self.next..self.end).filter(|run| !saved.contains_key(run)).take(most).collect();
+        self.next = runs.last().filter(|_| runs.len() == most).map_or(self.end, |last| last + 1);
+        self.running += runs.len();
+        runs
     }
 
     fn is_complete(&self) -> bool {

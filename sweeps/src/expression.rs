@@ -3,10 +3,11 @@
 use std::cmp::Ordering;
 
 use shadowstep::formula::{FormulaError, FormulaPotential};
+use shadowstep::number::{Lanes, Number};
 use shadowstep::{Ordered, Potential, Rational};
 use shadowstep_scenes::System;
 use shadowstep_schemes::document::{Reader, Text};
-use shadowstep_symbolic::{Expression as Syntax, Kind, parse};
+use shadowstep_symbolic::{Exact, Expression as Syntax, Kind, parse};
 
 /// The time and the energy.
 const TIME: &str = "t";
@@ -119,14 +120,23 @@ pub(crate) struct Evaluator<N> {
     has_energy: bool,
 }
 
-impl<N: Ordered> Evaluator<N> {
+impl<N: Number> Evaluator<N> {
     pub(crate) fn new(expression: &Expression, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
+        let number = |exact: &Exact| N::from_rational(&exact.value, context);
+        let parameters = system.parameters.iter().map(|(name, exact)| (name.as_str(), number(exact))).collect();
+        Evaluator::with(expression, system, parameters, context)
+    }
+
+    /// For a system with these values of its parameters.
+    fn with(
+        expression: &Expression,
+        system: &System,
+        mut parameters: Vec<(&str, N)>,
+        context: &N::Context,
+    ) -> Result<Self, FormulaError> {
         let names = system.coordinates.iter().chain(&system.momenta).map(String::as_str).chain([TIME, ENERGY]);
         let names: Vec<&str> = names.collect();
-        let is_other = |name: &str| !names.contains(&name);
-        let parameters = system.parameters.iter().filter(|(name, _)| is_other(name));
-        let parameters: Vec<(&str, N)> =
-            parameters.map(|(name, exact)| (name.as_str(), N::from_rational(&exact.value, context))).collect();
+        parameters.retain(|(name, _)| !names.contains(name));
         let formula = FormulaPotential::new(&expression.formula, &names, &parameters)?;
         let zero = N::zero(context);
         let mut scratch = vec![zero.clone(); formula.scratch()];
@@ -155,6 +165,13 @@ impl<N: Ordered> Evaluator<N> {
     }
 }
 
+impl<const W: usize> Evaluator<Lanes<W>> {
+    /// For several systems of one form, each in a lane.
+    pub(crate) fn of_each(expression: &Expression, systems: &[&System; W]) -> Result<Self, FormulaError> {
+        Evaluator::with(expression, systems[0], System::parameters_of_each(systems), &())
+    }
+}
+
 /// A condition in the numbers of a run.
 pub(crate) struct Test<N> {
     difference: Evaluator<N>,
@@ -174,8 +191,31 @@ impl<N: Ordered> Test<N> {
         system: &mut M,
         time: impl Fn() -> Rational,
     ) -> bool {
-        let ordering = self.difference.value(system, time).partial_cmp(&self.zero);
-        match self.met {
+        self.met.is_of(self.difference.value(system, time).partial_cmp(&self.zero))
+    }
+}
+
+impl<const W: usize> Test<Lanes<W>> {
+    /// For several systems of one form, each in a lane.
+    pub(crate) fn of_each(condition: &Condition, systems: &[&System; W]) -> Result<Self, FormulaError> {
+        let difference = Evaluator::of_each(&condition.difference, systems)?;
+        Ok(Test { difference, met: condition.met, zero: Lanes::all(0.0) })
+    }
+
+    /// Whether the state in each lane meets the condition.
+    pub(crate) fn is_met_by_each<M: shadowstep::System<Number = Lanes<W>>>(
+        &mut self,
+        system: &mut M,
+        time: impl Fn() -> Rational,
+    ) -> [bool; W] {
+        self.difference.value(system, time).0.map(|difference| self.met.is_of(difference.partial_cmp(&0.0)))
+    }
+}
+
+impl Comparison {
+    /// Whether it is that of a difference with 0; NaN has none.
+    fn is_of(self, ordering: Option<Ordering>) -> bool {
+        match self {
             Comparison::Less => ordering == Some(Ordering::Less),
             Comparison::LessOrEqual => matches!(ordering, Some(Ordering::Less | Ordering::Equal)),
             Comparison::Greater => ordering == Some(Ordering::Greater),

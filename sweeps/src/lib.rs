@@ -37,6 +37,7 @@
 //! | `keys` | every key with its meaning |
 //! | `keep`, `values`, `expression` | what is kept of a run |
 //! | `record` | one run |
+//! | `batch`, `together` | some runs of one thread; runs that are computed together, one in each lane |
 //! | `chunk`, `partial` | the file of a chunk, and of one that is not complete |
 //! | `manifest` | what the chunks in a folder are of |
 //! | `compute` | chunks on all cores |
@@ -47,6 +48,7 @@
 
 mod axes;
 mod axis;
+mod batch;
 mod chunk;
 mod collect;
 mod compute;
@@ -60,6 +62,7 @@ mod plan;
 mod record;
 pub mod slurm;
 mod task;
+mod together;
 mod values;
 
 pub use axes::{Axes, MOST_RUNS};

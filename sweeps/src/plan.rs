@@ -19,7 +19,7 @@ use toml::de::{DeTable, DeValue};
 use crate::axes::Axes;
 use crate::keep::{Column, Keep};
 use crate::picture::{Picture, Written};
-use crate::record::{Record, measure, rows};
+use crate::record::{Record, measured};
 
 /// The sections and keys of a sweep that are not of its scene.
 const OTHERS: &[&str] = &["scene", "axes", "zip", "keep", "picture"];
@@ -165,22 +165,19 @@ impl Plan {
 
     /// Makes a run; `None` if it was stopped. A run that fails is a record, too.
     pub fn run(&self, run: u64, stops: &AtomicBool) -> Option<Record> {
-        let found = self.measured(run, stops);
-        match found {
-            Ok(Some((values, rows))) => Some(Record { run, values, failure: None, rows }),
-            Ok(None) => None,
-            Err(failure) => Some(Record { run, values: Vec::new(), failure: Some(failure), rows: None }),
+        match self.scene(run) {
+            Ok(scene) => measured(run, &scene, &self.keep, stops),
+            Err(faults) => Some(Record::failed(run, faults.0[0].message.clone())),
         }
     }
 
-    /// The values and rows of a run, or why it failed.
-    fn measured(&self, run: u64, stops: &AtomicBool) -> Result<Option<Measured>, String> {
-        let scene = self.scene(run).map_err(|faults| faults.0[0].message.clone())?;
-        let Some(values) = measure(&scene, &self.keep, stops).map_err(sentence)? else { return Ok(None) };
-        if !self.keep.rows {
-            return Ok(Some((values, None)));
-        }
-        Ok(rows(&scene, stops).map_err(sentence)?.map(|rows| (values, Some(rows))))
+    /// The scenes of all runs.
+    pub(crate) fn family(&self) -> &Family {
+        &self.family
+    }
+
+    pub(crate) fn keep(&self) -> &Keep {
+        &self.keep
     }
 }
 
@@ -196,17 +193,6 @@ pub(crate) fn axes_and_picture(source: &Source, columns: &[Column]) -> Result<(A
     let picture = picture.resolve(&mut reader, &axes, columns);
     refuse(reader.faults)?;
     Ok((axes, picture))
-}
-
-/// Values of the columns, and rows.
-type Measured = (Vec<Option<String>>, Option<String>);
-
-/// The message of an error without its hint.
-fn sentence(error: Error) -> String {
-    match error {
-        Error::Usage { message, .. } | Error::Run { message, .. } => message,
-        other => other.to_string(),
-    }
 }
 
 fn refuse(faults: Vec<Fault>) -> Result<(), Error> {

@@ -34,13 +34,47 @@ pub struct Record {
     pub rows: Option<String>,
 }
 
+/// The values of all columns.
+pub(crate) type Values = Vec<Option<String>>;
+
+impl Record {
+    pub(crate) fn of(run: u64, values: Values) -> Record {
+        Record { run, values, failure: None, rows: None }
+    }
+
+    pub(crate) fn failed(run: u64, failure: String) -> Record {
+        Record { run, values: Vec::new(), failure: Some(failure), rows: None }
+    }
+}
+
+/// Makes a scene's run; `None` if it was stopped. A run that fails is a record, too.
+pub(crate) fn measured(run: u64, scene: &Scene, keep: &Keep, stops: &AtomicBool) -> Option<Record> {
+    let found = match measure(scene, keep, stops) {
+        Ok(Some(values)) if keep.rows => rows(scene, stops).map(|rows| rows.map(|rows| (values, Some(rows)))),
+        other => other.map(|values| values.map(|values| (values, None))),
+    };
+    match found {
+        Ok(Some((values, rows))) => Some(Record { rows, ..Record::of(run, values) }),
+        Ok(None) => None,
+        Err(error) => Some(Record::failed(run, sentence(error))),
+    }
+}
+
+/// The message of an error without its hint.
+fn sentence(error: Error) -> String {
+    match error {
+        Error::Usage { message, .. } | Error::Run { message, .. } => message,
+        other => other.to_string(),
+    }
+}
+
 /// What is kept of a scene's run; `None` if it was stopped.
-pub(crate) fn measure(scene: &Scene, keep: &Keep, stops: &AtomicBool) -> Result<Option<Vec<Option<String>>>, Error> {
+fn measure(scene: &Scene, keep: &Keep, stops: &AtomicBool) -> Result<Option<Values>, Error> {
     scene.arithmetic.compute(Measuring { scene, keep, stops })
 }
 
 /// The rows of a scene's \[output\] without their head; `None` if it was stopped.
-pub(crate) fn rows(scene: &Scene, stops: &AtomicBool) -> Result<Option<String>, Error> {
+fn rows(scene: &Scene, stops: &AtomicBool) -> Result<Option<String>, Error> {
     struct Stops<'a>(&'a AtomicBool);
     impl Observer for Stops<'_> {
         fn stops(&mut self) -> bool {
@@ -64,7 +98,7 @@ struct Measuring<'a> {
 }
 
 impl Computation for Measuring<'_> {
-    type Output = Result<Option<Vec<Option<String>>>, Error>;
+    type Output = Result<Option<Values>, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         let scene = self.scene;
@@ -84,7 +118,7 @@ struct InNumbers<'a, N: Ordered> {
 }
 
 impl<N: Rounded + 'static> Work<N> for InNumbers<'_, N> {
-    type Output = Result<Option<Vec<Option<String>>>, Error>;
+    type Output = Result<Option<Values>, Error>;
 
     fn with<S, M>(self, stepper: &Stepper<S, N>, mut system: M) -> Self::Output
     where
@@ -275,7 +309,7 @@ impl<'a, S: Scheme + Clone, N: Rounded> Following<'a, S, N> {
     }
 
     /// The values of all columns.
-    fn values(self, run: Run<'_>, ended: &Ended<N>) -> Result<Vec<Option<String>>, Error> {
+    fn values(self, run: Run<'_>, ended: &Ended<N>) -> Result<Values, Error> {
         let Following { keep, watch, tests, last, end, .. } = self;
         let end = end.expect("the last state was included");
         if !end.has_energy {

@@ -1,0 +1,356 @@
+//! Runs that are computed together: they differ in the numbers of their systems only, and each is a lane.
+//!
+//! What is kept of a run has the bytes that it has alone. A run whose state or energy is found to be infinite or NaN is left to be made alone,
+//! which gives the message.
+
+use std::slice::from_mut;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use shadowstep::number::counting::{Counting, count};
+use shadowstep::number::{Lanes, Number, Ordered};
+use shadowstep::{Scheme, Stepper, System, ValidFor};
+use shadowstep_scenes::Scene;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::lanes::Together;
+use shadowstep_scenes::start::{Steps, Work};
+use shadowstep_symbolic::decimal::to_text;
+
+use crate::expression::{Evaluator, Test};
+use crate::keep::Keep;
+use crate::record::Values;
+use crate::values::{Kept, Need};
+
+/// The most runs that are computed together.
+pub(crate) const LANES: usize = 16;
+
+/// The most steps of runs that are computed together: all of them are lost where a call is stopped.
+const MOST_STEPS: u64 = 1_000_000;
+
+/// So many steps are made at once where only the last state is of interest.
+const STEPS_AT_ONCE: u64 = 1000;
+
+const CHECKED: &str = "the formulas were checked with the sweep";
+
+/// Whether runs of which this is kept can be computed together: the monitor and estimates follow a run alone.
+pub(crate) fn allows(keep: &Keep) -> bool {
+    !(keep.rows || keep.needs(Need::Summary) || keep.needs(Need::Estimates))
+}
+
+/// Whether a run can be computed together with others like it.
+///
+/// exp, log, sin, … of lanes are not those of the platform, which a run has alone.
+pub(crate) fn suits(scene: &Scene, keep: &Keep) -> bool {
+    sums(scene).is_some() && scene.steps <= MOST_STEPS && !has_elementary_functions(scene, keep)
+}
+
+/// Whether two runs can be computed together, as far as their numbers and steps are concerned.
+pub(crate) fn are_alike(a: &Scene, b: &Scene) -> bool {
+    let steps = |scene: &Scene| (sums(scene), scene.steps, scene.scheme.scheme.maps().1.to_vec());
+    steps(a) == steps(b) && a.h == b.h && a.scheme.name == b.scheme.name
+}
+
+/// How doubles are added; `None` for other numbers.
+fn sums(scene: &Scene) -> Option<&'static str> {
+    match scene.arithmetic {
+        Arithmetic::Double => Some("plain"),
+        Arithmetic::Compensated => Some("compensated"),
+        _ => None,
+    }
+}
+
+/// What is kept of each run, which are at most [`LANES`]; `None` of those that have to be made alone.
+pub(crate) fn measure(scenes: &[&Scene], keep: &Keep, stops: &AtomicBool) -> Vec<Option<Values>> {
+    // lanes without a run have the last one
+    let of_lanes: [&Scene; LANES] = std::array::from_fn(|lane| scenes[lane.min(scenes.len() - 1)]);
+    let Some(together) = Together::of(&of_lanes.map(|scene| &scene.system)) else { return vec![None; scenes.len()] };
+    let mut found = together.with(steps(scenes[0]), InLanes { scenes: &of_lanes, keep, stops });
+    found.truncate(scenes.len());
+    found
+}
+
+fn steps(scene: &Scene) -> Steps<'_> {
+    Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated: scene.arithmetic.is_compensated() }
+}
+
+/// Counted in a step, an energy and all formulas.
+fn has_elementary_functions(scene: &Scene, keep: &Keep) -> bool {
+    struct OneStep<'a>(&'a Scene, &'a Keep);
+    impl Work<Counting<f64>> for OneStep<'_> {
+        type Output = ();
+
+        fn with<S, M>(self, stepper: &Stepper<S, Counting<f64>>, mut system: M)
+        where
+            S: Scheme + ValidFor<M::Class>,
+            M: System<Number = Counting<f64>>,
+        {
+            let OneStep(scene, keep) = self;
+            stepper.step(&mut system);
+            system.energy();
+            let conditions = keep.first_time.iter().map(|(_, condition)| condition.difference());
+            for expression in conditions.chain(keep.at_end.iter().map(|(_, end)| end)) {
+                let evaluator = Evaluator::new(expression, &scene.system, &());
+                evaluator.expect(CHECKED).value(&mut system, || scene.as_run().time(1));
+            }
+        }
+    }
+    let start = scene.system.start(&());
+    let (_, operations) = count(|| scene.system.with(steps(scene), start, &(), OneStep(scene, keep)));
+    operations.elementary > 0
+}
+
+/// A run in each lane.
+struct InLanes<'a> {
+    scenes: &'a [&'a Scene; LANES],
+    keep: &'a Keep,
+    stops: &'a AtomicBool,
+}
+
+impl Work<Lanes<LANES>> for InLanes<'_> {
+    type Output = Vec<Option<Values>>;
+
+    fn with<S, M>(self, stepper: &Stepper<S, Lanes<LANES>>, mut system: M) -> Self::Output
+    where
+        S: Scheme + ValidFor<M::Class>,
+        M: System<Number = Lanes<LANES>>,
+    {
+        let mut following = Following::begin(self.scenes, self.keep, &mut system);
+        let at_once = if following.follows_all() { 1 } else { STEPS_AT_ONCE };
+        let (mut n, last) = (0, self.scenes[0].steps);
+        following.include(n, &mut system);
+        while n < last && following.goes_on() {
+            let count = at_once.min(last - n);
+            stepper.steps(from_mut(&mut system), count);
+            n += count;
+            following.include(n, &mut system);
+            if self.stops.load(Ordering::Relaxed) {
+                return vec![None; LANES];
+            }
+        }
+        following.values.into_iter().collect()
+    }
+}
+
+/// What is kept, as far as the states have come.
+struct Following<'a> {
+    scene: &'a Scene,
+    keep: &'a Keep,
+    /// H − H(0), where it is kept.
+    energies: Option<Energies>,
+    /// The conditions, each with the n of the first states that meet it.
+    tests: Vec<(Test<Lanes<LANES>>, [Option<u64>; LANES])>,
+    at_end: Vec<Evaluator<Lanes<LANES>>>,
+    /// Whether a run is followed: it has not ended, and all that was seen of it is finite.
+    active: [bool; LANES],
+    values: [Option<Values>; LANES],
+}
+
+/// The errors of H.
+struct Energies {
+    initial: Lanes<LANES>,
+    largest: Lanes<LANES>,
+    last: Lanes<LANES>,
+}
+
+impl<'a> Following<'a> {
+    fn begin<M>(scenes: &[&'a Scene; LANES], keep: &'a Keep, system: &mut M) -> Self
+    where
+        M: System<Number = Lanes<LANES>>,
+    {
+        let systems = scenes.map(|scene| &scene.system);
+        let tests = keep
+            .first_time
+            .iter()
+            .map(|(_, condition)| (Test::of_each(condition, &systems).expect(CHECKED), [None; LANES]));
+        let at_end = keep.at_end.iter().map(|(_, text)| Evaluator::of_each(text, &systems).expect(CHECKED));
+        let (initial, zero) = (system.energy(), Lanes::all(0.0));
+        Following {
+            scene: scenes[0],
+            keep,
+            energies: keep.needs(Need::Energies).then_some(Energies { initial, largest: zero, last: zero }),
+            tests: tests.collect(),
+            at_end: at_end.collect(),
+            active: initial.0.map(f64::is_finite),
+            values: [const { None }; LANES],
+        }
+    }
+
+    /// Whether more than the last state is of interest.
+    fn follows_all(&self) -> bool {
+        self.energies.is_some() || !self.tests.is_empty()
+    }
+
+    fn goes_on(&self) -> bool {
+        self.active.contains(&true)
+    }
+
+    /// Takes the state n.
+    fn include<M: System<Number = Lanes<LANES>>>(&mut self, n: u64, system: &mut M) {
+        if n > 0
+            && let Some(energies) = &mut self.energies
+        {
+            energies.include(&system.energy(), &mut self.active);
+        }
+        let mut ends = [n == self.scene.steps; LANES];
+        let run = self.scene.as_run();
+        for (place, (test, met)) in self.tests.iter_mut().enumerate() {
+            let stops = self.keep.stop.contains(&place);
+            let is_met = test.is_met_by_each(system, || run.time(n.cast_signed()));
+            for lane in (0..LANES).filter(|lane| is_met[*lane]) {
+                met[lane].get_or_insert(n);
+                ends[lane] |= stops;
+            }
+        }
+        let ended = std::array::from_fn(|lane| ends[lane] && self.active[lane]);
+        if ended.contains(&true) {
+            self.end(n, &ended, system);
+        }
+    }
+
+    /// Some runs end at the state n.
+    fn end<M: System<Number = Lanes<LANES>>>(&mut self, n: u64, ended: &[bool; LANES], system: &mut M) {
+        let run = self.scene.as_run();
+        let energy = system.energy();
+        let at_end: Vec<_> =
+            self.at_end.iter_mut().map(|end| *end.value(system, || run.time(n.cast_signed()))).collect();
+        for lane in (0..LANES).filter(|lane| ended[*lane]) {
+            self.active[lane] = false;
+            let of_lane = |x: &Lanes<LANES>| x.0[lane];
+            let state: Vec<f64> = system.q().iter().chain(system.p()).map(of_lane).collect();
+            if !(energy.0[lane].is_finite() && state.iter().all(|x| x.is_finite())) {
+                continue;
+            }
+            let values = self.keep.values.iter().map(|kept| self.value(*kept, lane, n, system.evaluations()));
+            let times = self.tests.iter().map(|(_, met)| met[lane].map(|n| to_text(&run.time(n.cast_signed()))));
+            let text = |x: f64| x.is_finite().then(|| x.to_text());
+            let ends = at_end.iter().map(of_lane).map(text);
+            let state = state.iter().copied().filter(|_| self.keep.state).map(text);
+            self.values[lane] = Some(values.chain(times).chain(ends).chain(state).collect());
+        }
+    }
+
+    fn value(&self, kept: Kept, lane: usize, n: u64, evaluations: u64) -> Option<String> {
+        let energies = || self.energies.as_ref().expect("they are followed where they are kept");
+        match kept {
+            Kept::EnergyError => Some(energies().largest.0[lane].to_text()),
+            Kept::RelativeEnergyError => {
+                let size = energies().initial.0[lane].abs();
+                (size > 0.0).then(|| (energies().largest.0[lane] / size).to_text())
+            }
+            Kept::LastEnergyError => Some(energies().last.0[lane].to_text()),
+            Kept::Steps => Some(n.to_string()),
+            Kept::ForceEvaluations => Some(evaluations.to_string()),
+            _ => unreachable!("runs of which it is kept are not computed together"),
+        }
+    }
+}
+
+impl Energies {
+    /// Takes H of a state; a run in which it is not finite is not followed further.
+    fn include(&mut self, energy: &Lanes<LANES>, active: &mut [bool; LANES]) {
+        let Energies { initial, largest, last } = self;
+        last.assign_difference(energy, initial);
+        for ((active, largest), last) in active.iter_mut().zip(&mut largest.0).zip(&last.0) {
+            let size = last.abs();
+            *active &= size.is_finite();
+            *largest = if size > *largest { size } else { *largest };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowstep::tables::Source;
+
+    use super::*;
+    use crate::plan::Plan;
+    use crate::record::measured;
+
+    const HENON_HEILES: &str = "problem = { potential = \"(x^2 + y^2)/2 + x^2*y - y^3/3\", coordinates = [\"x\", \"y\"] }\n\
+         initial = { q = [0, \"y0\"], p = [\"1/2\", \"v0\"] }\n\
+         run = { scheme = \"yoshida4\", step = \"1/10\", steps = 300, digits = \"double\" }\n\
+         [axes]\ny0 = \"0 … 6/5 in 6 values\"\nv0 = \"-1/2 … 1/2 in 5 values\"\n";
+
+    fn plan(text: &str) -> Plan {
+        Plan::of(&Source { path: "sweep.toml".to_owned(), text: text.to_owned() })
+            .unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// How many runs of a sweep, all of which suit, are computed together; each has what it has alone.
+    fn together(text: &str) -> usize {
+        let (plan, stops) = (plan(text), AtomicBool::new(false));
+        let scenes: Vec<Scene> = (0..plan.axes().runs()).map(|run| plan.scene(run).unwrap()).collect();
+        assert!(allows(plan.keep()));
+        let mut count = 0;
+        for group in scenes.chunks(LANES) {
+            assert!(suits(&group[0], plan.keep()) && group.iter().all(|scene| are_alike(&group[0], scene)), "{text}");
+            for (scene, found) in group.iter().zip(measure(&group.iter().collect::<Vec<_>>(), plan.keep(), &stops)) {
+                let alone = measured(0, scene, plan.keep(), &stops).unwrap();
+                assert_eq!(found.is_some(), alone.failure.is_none(), "{text}\n{alone:?}");
+                if let Some(found) = found {
+                    assert_eq!(found, alone.values, "{text}");
+                    count += 1;
+                }
+            }
+        }
+        count
+    }
+
+    #[test]
+    fn runs_together_have_the_bytes_of_runs_alone() {
+        // of 30, some leave the well until H overflows
+        let ends = together(&format!("{HENON_HEILES}[keep]\nstate = true\nat_end = {{ E1 = \"E*t + y0\" }}\n"));
+        assert!((5..30).contains(&ends), "{ends}");
+        let energies = "values = [\"steps\", \"energy_error\", \"relative_energy_error\", \"last_energy_error\", \"force_evaluations\"]";
+        assert_eq!(together(&format!("{HENON_HEILES}[keep]\n{energies}\n")), ends);
+        let escape =
+            "first_time = { escape = \"x^2 + y^2 > 9\", turn = \"px < 0\", late = \"t > 10\" }\nstop = [\"escape\"]";
+        assert_eq!(together(&format!("{HENON_HEILES}[keep]\n{energies}\n{escape}\nstate = true\n")), 30);
+    }
+
+    #[test]
+    fn masses_parameters_and_bodies_differ() {
+        let run = "run = { scheme = \"ruth3\", step = \"1/20\", steps = 50, digits = \"compensated\" }\n";
+        let keep = "[axes]\na = \"1/3 … 2 in 7 values\"\n[keep]\nstate = true\nvalues = [\"energy_error\"]\nat_end = { x = \"a*t\" }\n";
+        for problem in [
+            "problem = { name = \"harmonic-oscillator\", parameters.omega = \"a\" }\n",
+            "problem = { name = \"kepler\", parameters.eccentricity = \"a/3\" }\n",
+            "problem = { name = \"figure-eight\", parameters.m_2 = \"a\" }\n",
+            "problem = { potential = \"u^2*v^2/a\", coordinates = [\"u\", \"v\"], masses = [1, \"a\"] }\ninitial = { q = [1, \"a\"], p = [0, 1] }\n",
+            "problem = { potential = \"u^2/2\", coordinates = [\"u\"], kinetic = \"sqrt(1 + pu^2*a)\" }\ninitial = { q = [\"a\"], p = [0] }\n",
+            "problem = { pair = \"-m_i*m_j*a/sqrt(r2)\", dimensions = 2, bodies = { m = [1, \"a\"] }, masses = \"m\" }\n\
+             initial = { q = [0, 0, \"a\", 1], v = [0, 0, 0, \"a\"] }\n",
+        ] {
+            let keep = keep.replace("x = ", "end = ");
+            assert_eq!(together(&format!("{problem}{run}{keep}")), 7, "{problem}");
+        }
+    }
+
+    #[test]
+    fn other_runs_are_made_alone() {
+        let suits_of = |text: &str| {
+            let plan = plan(text);
+            allows(plan.keep()) && suits(&plan.scene(0).unwrap(), plan.keep())
+        };
+        let keep = "[keep]\nstate = true\n";
+        assert!(suits_of(&format!("{HENON_HEILES}{keep}")));
+        for (from, to) in [
+            ("state = true", "values = [\"verdict\"]"),
+            ("state = true", "at_end = { a = \"exp(x)\" }"),
+            ("state = true", "first_time = { a = \"sin(x) > 0\" }"),
+            ("\"double\"", "30"),
+            ("y^3/3", "exp(y)"),
+            ("steps = 300", "steps = 2000000"),
+        ] {
+            let text = format!("{HENON_HEILES}{keep}").replace(from, to);
+            assert!(!suits_of(&text), "{text}");
+        }
+        let scene = |text: &str| plan(text).scene(0).unwrap();
+        let text = format!("{HENON_HEILES}{keep}");
+        for (from, to) in [("1/10", "1/11"), ("yoshida4", "ruth3"), ("= 300", "= 301"), ("double", "compensated")] {
+            assert!(!are_alike(&scene(&text), &scene(&text.replace(from, to))), "{to}");
+        }
+        let other = scene(&text.replace("y^3/3", "y^3/4"));
+        let (first, stops) = (scene(&text), AtomicBool::new(false));
+        assert_eq!(measure(&[&first, &other], plan(&text).keep(), &stops), [None, None]);
+    }
+}
