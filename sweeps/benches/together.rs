@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use rustix::time::{ClockId, clock_gettime};
 use shadowstep::tables::Source;
+use shadowstep_scenes::ensemble::Ensemble;
 use shadowstep_sweeps::{Manifest, Plan, compute};
 
 /// The sweep of the documentation with fewer places.
@@ -31,10 +32,7 @@ fn main() {
     let escape = ESCAPE.replace("in 250 values", "in 50 values");
     for (name, text) in [
         ("Hénon–Heiles: the time of escape, two of five places have no orbit", escape.clone()),
-        (
-            "Hénon–Heiles: H at each of 3000 states",
-            escape.replace("stop = [\"escape\"]", "values = [\"energy_error\"]"),
-        ),
+        ("Hénon–Heiles: H at each of 3000 states", all_energies(&escape)),
         ("Hénon–Heiles: the state after 3000 steps", at_the_end(&escape)),
         ("Kepler: the state after 2000 steps", KEPLER.to_owned()),
         ("Kepler: the state after 100 steps", KEPLER.replace("2000", "100")),
@@ -42,6 +40,13 @@ fn main() {
         let plan = Plan::of(&Source { path: "sweep.toml".to_owned(), text }).expect("the sweep is valid");
         measure(name, &plan, rounds);
     }
+    ensemble(10_000, 1);
+    ensemble(10_000, 1000);
+    ensemble(10_000, 10_000);
+}
+
+fn all_energies(escape: &str) -> String {
+    escape.replace("stop = [\"escape\"]", "values = [\"energy_error\"]").replace("energy_error = \"E", "last = \"E")
 }
 
 fn at_the_end(escape: &str) -> String {
@@ -53,8 +58,11 @@ fn measure(name: &str, plan: &Plan, rounds: usize) {
     let folder = tempfile::tempdir().expect("there is a temporary folder");
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let runs = plan.axes().runs();
-    let (mut alone, mut together) = (Vec::new(), Vec::new());
+    let (mut alone, mut together, mut reading) = (Vec::new(), Vec::new(), Vec::new());
     for round in 0..rounds {
+        let begin = cpu_seconds();
+        (0..runs).for_each(|run| _ = black_box(plan.scene(run)));
+        reading.push(cpu_seconds() - begin);
         let begin = cpu_seconds();
         (0..runs).for_each(|run| _ = black_box(plan.run(run, &AtomicBool::new(false))));
         alone.push(cpu_seconds() - begin);
@@ -66,10 +74,34 @@ fn measure(name: &str, plan: &Plan, rounds: usize) {
         assert_eq!(computed.expect("the runs are made").runs, runs);
     }
     let of_run = |seconds: f64| 1e6 * seconds / runs as f64;
-    let (alone, together) = (of_run(median(alone)), of_run(median(together)));
+    let (alone, together, reading) = (of_run(median(alone)), of_run(median(together)), of_run(median(reading)));
     println!("{name}: {runs} runs");
+    println!("  reading its scene         {reading:8.1} µs a run");
     println!("  one by one, without files {alone:8.1} µs a run");
     println!("  the sweep with its files  {together:8.1} µs a run, {:5.1} times as fast", alone / together);
+}
+
+/// An ensemble: columns in a scene, all cores.
+fn ensemble(trajectories: u32, steps: u32) {
+    let column =
+        |f: fn(f64) -> f64| (0..trajectories).map(|t| format!("{:.6}", f(f64::from(t)))).collect::<Vec<_>>().join(", ");
+    let text = format!(
+        "problem = {{ potential = \"(x^2 + y^2)/2 + x^2*y - y^3/3\", coordinates = [\"x\", \"y\"] }}\n\
+         initial = {{ q = [0, \"y0\"], p = [\"0.1 + u\", 0] }}\n\
+         run = {{ scheme = \"yoshida4\", step = \"1/10\", steps = {steps}, digits = \"double\" }}\noutput.energy = {{ every = 100 }}\n\
+         ensemble.columns = {{ y0 = [{}], u = [{}] }}\n",
+        column(|t| 0.1 * (0.7 * t).sin()),
+        column(|t| 0.1 * (1.3 * t).cos())
+    );
+    let begin = cpu_seconds();
+    let ensemble = Ensemble::read(Source { path: "scene.toml".to_owned(), text }).expect("the scene is valid");
+    let read = cpu_seconds();
+    ensemble.run_into(&mut std::io::sink()).expect("the rows are written");
+    let of_one = |seconds: f64| 1e6 * seconds / f64::from(trajectories);
+    let (read, run) = (of_one(read - begin), of_one(cpu_seconds() - read));
+    println!(
+        "An ensemble of {trajectories} trajectories of {steps} steps: read {read:.1} µs, computed and written {run:.1} µs a trajectory"
+    );
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
