@@ -27,7 +27,7 @@ pub(crate) const LANES: usize = 16;
 const MOST_STEPS: u64 = 1_000_000;
 
 /// So many steps are made at once where only the last state is of interest.
-const STEPS_AT_ONCE: u64 = 1000;
+const STEPS_AT_ONCE: u64 = 50;
 
 const CHECKED: &str = "the formulas were checked with the sweep";
 
@@ -185,6 +185,10 @@ impl<'a> Following<'a> {
 
     /// Takes the state n.
     fn include<M: System<Number = Lanes<LANES>>>(&mut self, n: u64, system: &mut M) {
+        // a position that is not finite stays so
+        for q in system.q() {
+            self.active.iter_mut().zip(&q.0).for_each(|(active, q)| *active &= q.is_finite());
+        }
         if n > 0
             && let Some(energies) = &mut self.energies
         {
