@@ -1,5 +1,7 @@
 //! The system of a potential and a kinetic energy, with its state.
 
+mod flows;
+
 use thiserror::Error;
 
 use crate::coordinates::Coordinates;
@@ -10,13 +12,7 @@ use crate::potential::Potential;
 use crate::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
 use crate::system::{Increments, OwnedIncrements, Remainders, System};
 
-/// What is kept at the present q.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kept {
-    Nothing,
-    Gradient,
-    GradientAndRate,
-}
+use flows::{Flows, Kept, Moving};
 
 /// A system H = T(p) + U(q) and its state.
 ///
@@ -26,24 +22,10 @@ enum Kept {
 /// [fixed point](Motion::fixed_point).
 #[derive(Clone, Debug)]
 pub struct Motion<N, V, P, K, S = Plain> {
-    summation: S,
-    potential: P,
-    kinetic: K,
-    q: V,
-    p: V,
+    flows: Flows<N, P, K>,
+    moving: Moving<N, V, S>,
     /// Of q and p only where the numbers keep these.
     increments: OwnedIncrements<N, V>,
-    gradient: V,
-    /// qᵀU_q − 2U
-    rate: N,
-    kept: Kept,
-    /// Whether plain kicks that evaluate the gradient find and keep the rate as well.
-    keeps_rate: bool,
-    /// The potential's, with what it keeps there.
-    scratch: Vec<N>,
-    /// The kinetic energy's, likewise.
-    kinetic_scratch: Vec<N>,
-    evaluations: u64,
 }
 
 impl<N, V, P, K> Motion<N, V, P, K>
@@ -67,21 +49,10 @@ where
         potential.prepare(&mut scratch, &context);
         let mut kinetic_scratch = vec![zero.clone(); kinetic.scratch()];
         kinetic.prepare(&mut kinetic_scratch, &context);
-        Ok(Motion {
-            summation: Plain,
-            scratch,
-            kinetic_scratch,
-            gradient: p.clone(),
-            rate: zero,
-            increments,
-            kept: Kept::Nothing,
-            keeps_rate: false,
-            evaluations: 0,
-            potential,
-            kinetic,
-            q,
-            p,
-        })
+        let moving =
+            Moving { summation: Plain, gradient: p.clone(), rate: zero, kept: Kept::Nothing, evaluations: 0, q, p };
+        let flows = Flows { potential, kinetic, keeps_rate: false, scratch, kinetic_scratch };
+        Ok(Motion { flows, moving, increments })
     }
 
     /// The same system with compensated sums: the round-off of a kick or drift is ε times the increment, in place of ε times the
@@ -108,35 +79,21 @@ where
     /// ```
     #[must_use]
     pub fn compensated(self) -> Motion<N, V, P, K, Compensated<N, V>> {
-        let summation = Compensated::of(&self.q, &self.context());
+        let summation = Compensated::of(&self.moving.q, &self.context());
         self.with(summation)
     }
 
     /// The same system with compensated sums if `compensated` is true: for a choice at run time.
     #[must_use]
     pub fn compensated_if(self, compensated: bool) -> Motion<N, V, P, K, Option<Compensated<N, V>>> {
-        let summation = compensated.then(|| Compensated::of(&self.q, &self.context()));
+        let summation = compensated.then(|| Compensated::of(&self.moving.q, &self.context()));
         self.with(summation)
     }
 
     fn with<S>(self, summation: S) -> Motion<N, V, P, K, S> {
-        let Motion { potential, kinetic, q, p, increments, gradient, rate, kept, .. } = self;
-        let Motion { keeps_rate, scratch, kinetic_scratch, evaluations, .. } = self;
-        Motion {
-            summation,
-            potential,
-            kinetic,
-            q,
-            p,
-            increments,
-            gradient,
-            rate,
-            kept,
-            keeps_rate,
-            scratch,
-            kinetic_scratch,
-            evaluations,
-        }
+        let Motion { flows, moving, increments } = self;
+        let Moving { q, p, gradient, rate, kept, evaluations, .. } = moving;
+        Motion { flows, moving: Moving { summation, q, p, gradient, rate, kept, evaluations }, increments }
     }
 }
 
@@ -170,9 +127,9 @@ where
         q_ranges: &[f64],
         p_ranges: &[f64],
     ) -> Result<Motion<f64, V, P, K, FixedPoint<V>>, RangeError> {
-        let summation = FixedPoint::of((&self.q, &self.p), (q_ranges, p_ranges))?;
+        let summation = FixedPoint::of((&self.moving.q, &self.moving.p), (q_ranges, p_ranges))?;
         let mut motion = self.with(summation);
-        motion.settle();
+        motion.moving.settle();
         Ok(motion)
     }
 }
@@ -187,12 +144,12 @@ where
 {
     /// Positions.
     pub fn q(&self) -> &[N] {
-        self.q.as_ref()
+        self.moving.q.as_ref()
     }
 
     /// Momenta.
     pub fn p(&self) -> &[N] {
-        self.p.as_ref()
+        self.moving.p.as_ref()
     }
 
     /// What the last augmented step added to β.
@@ -208,34 +165,34 @@ where
 
     /// Positions, to be changed; the kept gradient and remainders of sums are dropped.
     pub fn q_mut(&mut self) -> &mut [N] {
-        self.kept = Kept::Nothing;
-        self.summation.forget_positions();
-        self.q.as_mut()
+        self.moving.kept = Kept::Nothing;
+        self.moving.summation.forget_positions();
+        self.moving.q.as_mut()
     }
 
     /// Momenta, to be changed; remainders of sums are dropped.
     pub fn p_mut(&mut self) -> &mut [N] {
-        self.summation.forget_momenta();
-        self.p.as_mut()
+        self.moving.summation.forget_momenta();
+        self.moving.p.as_mut()
     }
 
     /// The potential.
     pub fn potential(&self) -> &P {
-        &self.potential
+        &self.flows.potential
     }
 
     /// Changes the potential, which keeps its dimension; the kept gradient is dropped.
     pub fn change_potential(&mut self, change: impl FnOnce(&mut P)) {
-        change(&mut self.potential);
-        self.kept = Kept::Nothing;
+        change(&mut self.flows.potential);
+        self.moving.kept = Kept::Nothing;
         let context = self.context();
-        self.scratch.resize(self.potential.scratch(), N::zero(&context));
-        self.potential.prepare(&mut self.scratch, &context);
+        self.flows.scratch.resize(self.flows.potential.scratch(), N::zero(&context));
+        self.flows.potential.prepare(&mut self.flows.scratch, &context);
     }
 
     /// The number of evaluations of the gradient U_q; those of T_p in drifts are not counted.
     pub fn evaluations(&self) -> u64 {
-        self.evaluations
+        self.moving.evaluations
     }
 
     /// The context of the numbers.
@@ -246,55 +203,36 @@ where
     /// H = T(p) + U(q) at the present state; NaN where squares of distances overflow, a coordinate above 3.8e153 in `f64`:
     /// there a potential such as −1/r would be 0.
     pub fn energy(&mut self) -> N {
-        let Motion { potential, kinetic, q, p, scratch, kinetic_scratch, increments, .. } = self;
-        let [mut energy, mut kinetic_energy] = [increments.beta.clone(), increments.beta.clone()];
-        let energies = (&mut energy, &mut kinetic_energy);
-        assign_energies(potential, kinetic, (q.as_ref(), p.as_ref()), (scratch, kinetic_scratch), energies);
+        let [mut energy, mut kinetic_energy] = [self.beta().clone(), self.beta().clone()];
+        let Motion { flows, moving, .. } = self;
+        flows.assign_energies((moving.q.as_ref(), moving.p.as_ref()), &mut energy, &mut kinetic_energy);
         energy
     }
 
     /// H = T(p) + U(q) at another state of the same system.
     pub fn energy_at(&mut self, q: &[N], p: &[N]) -> N {
         let [mut energy, mut kinetic_energy] = [self.beta().clone(), self.beta().clone()];
-        self.assign_energies_at(q, p, &mut energy, &mut kinetic_energy);
+        self.flows.assign_energies((q, p), &mut energy, &mut kinetic_energy);
         energy
     }
 
     #[inline]
     fn evaluate(&mut self, with_rate: bool) {
-        self.evaluate_here(with_rate);
+        self.flows.evaluate(&mut self.moving, with_rate);
     }
 
-    /// [`System::kick`], compiled for the instructions of the caller.
-    #[inline(always)]
-    fn kick_here(&mut self, weight: &N) {
-        self.settle();
-        if self.kept == Kept::Nothing {
-            self.evaluate_here(self.keeps_rate);
-        }
-        self.kick_with_kept_gradient(weight);
-    }
-
-    /// [`System::drift`], likewise.
-    #[inline(always)]
-    fn drift_here(&mut self, weight: &N) {
-        self.settle();
-        let Motion { summation, kinetic, p, q, kinetic_scratch, .. } = self;
-        summation.drift(kinetic, weight, p.as_ref(), q.as_mut(), kinetic_scratch);
-        self.kept = Kept::Nothing;
-    }
-
-    /// [`System::kick_augmented`], likewise.
+    /// [`System::kick_augmented`], compiled for the instructions of the caller.
     #[inline(always)]
     fn kick_augmented_here(&mut self, weight: &N) {
-        self.settle();
-        if self.kept != Kept::GradientAndRate {
-            self.evaluate_here(true);
+        let Motion { flows, moving, increments } = self;
+        moving.settle();
+        if moving.kept != Kept::GradientAndRate {
+            flows.evaluate(moving, true);
         }
-        self.kick_with_kept_gradient(weight);
-        self.increments.beta.add_product(weight, &self.rate);
+        moving.kick_with_kept_gradient(weight);
+        increments.beta.add_product(weight, &moving.rate);
         if N::KEEPS_INCREMENTS {
-            for (increment, gradient) in self.increments.p.as_mut().iter_mut().zip(self.gradient.as_ref()) {
+            for (increment, gradient) in increments.p.as_mut().iter_mut().zip(moving.gradient.as_ref()) {
                 increment.subtract_product(weight, gradient);
             }
         }
@@ -303,67 +241,23 @@ where
     /// [`System::drift_augmented`], likewise.
     #[inline(always)]
     fn drift_augmented_here(&mut self, weight: &N) {
-        self.settle();
-        let Motion { summation, kinetic, p, q, increments, kinetic_scratch, .. } = self;
-        summation.drift_augmented(
-            kinetic,
+        let Motion { flows, moving, increments } = self;
+        moving.settle();
+        moving.summation.drift_augmented(
+            &flows.kinetic,
             weight,
-            p.as_ref(),
-            q.as_mut(),
+            moving.p.as_ref(),
+            moving.q.as_mut(),
             (increments.q.as_mut(), &mut increments.beta),
-            kinetic_scratch,
+            &mut flows.kinetic_scratch,
         );
-        self.kept = Kept::Nothing;
-    }
-
-    #[inline(always)]
-    fn evaluate_here(&mut self, with_rate: bool) {
-        let (q, gradient) = (self.q.as_ref(), self.gradient.as_mut());
-        self.potential.update(q);
-        self.kept = if with_rate {
-            self.potential.gradient_and_rate(q, gradient, &mut self.rate, &mut self.scratch);
-            Kept::GradientAndRate
-        } else {
-            self.potential.gradient(q, gradient, &mut self.scratch);
-            Kept::Gradient
-        };
-        self.evaluations += 1;
+        moving.kept = Kept::Nothing;
     }
 
     /// Whether every q, p and β is a finite number.
     pub fn is_finite(&self) -> bool {
         self.increments.beta.is_finite() && self.q().iter().chain(self.p()).all(N::is_finite)
     }
-
-    #[inline(always)]
-    fn kick_with_kept_gradient(&mut self, weight: &N) {
-        self.summation.kick(weight, self.gradient.as_ref(), self.p.as_mut());
-    }
-
-    #[inline(always)]
-    fn settle(&mut self) {
-        self.summation.settle(self.q.as_mut(), self.p.as_mut());
-    }
-}
-
-/// energy ← T(p) + U(q), kinetic_energy ← T(p)
-fn assign_energies<N: Number, P: Potential<N>, K: Kinetic<N>>(
-    potential: &mut P,
-    kinetic: &K,
-    (q, p): (&[N], &[N]),
-    (scratch, kinetic_scratch): (&mut [N], &mut [N]),
-    (energy, kinetic_energy): (&mut N, &mut N),
-) {
-    kinetic.energy(p, kinetic_energy, kinetic_scratch);
-    potential.update(q);
-    potential.energy(q, energy, scratch);
-    energy.add(kinetic_energy);
-    refuse_overflow(q, energy);
-}
-
-/// energy ← NaN where it is finite though squares of positions overflow: an infinite r² makes 0 of 1/r.
-fn refuse_overflow<N: Number>(q: &[N], energy: &mut N) {
-    q.iter().for_each(|position| energy.make_nan_where_square_overflows(position));
 }
 
 /// Checks that dimensions and precisions agree; returns the context of the numbers.
@@ -441,11 +335,11 @@ where
     type Class = K::Class;
 
     fn q(&self) -> &[N] {
-        self.q.as_ref()
+        self.moving.q.as_ref()
     }
 
     fn p(&self) -> &[N] {
-        self.p.as_ref()
+        self.moving.p.as_ref()
     }
 
     #[inline]
@@ -456,28 +350,28 @@ where
     fn set_state(&mut self, q: &[N], p: &[N]) {
         self.q_mut().iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
         self.p_mut().iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
-        self.settle();
+        self.moving.settle();
     }
 
     fn remainders(&self) -> Remainders<N> {
-        self.summation.remainders(self.q.as_ref(), self.p.as_ref())
+        self.moving.summation.remainders(self.q(), self.p())
     }
 
     fn set_remainders(&mut self, remainders: &Remainders<N>) {
-        self.summation.set_remainders(remainders);
+        self.moving.summation.set_remainders(remainders);
     }
 
     fn is_compensated(&self) -> bool {
-        self.summation.is_compensated()
+        self.moving.summation.is_compensated()
     }
 
     #[inline]
     fn kick(&mut self, weight: &N) {
-        self.settle();
-        if self.kept == Kept::Nothing {
-            self.evaluate(self.keeps_rate);
+        self.moving.settle();
+        if self.moving.kept == Kept::Nothing {
+            self.evaluate(self.flows.keeps_rate);
         }
-        self.kick_with_kept_gradient(weight);
+        self.moving.kick_with_kept_gradient(weight);
     }
 
     #[inline]
@@ -487,24 +381,27 @@ where
 
     #[inline]
     fn drift(&mut self, weight: &N) {
-        self.drift_here(weight);
+        self.flows.drift(&mut self.moving, weight);
     }
 
     fn advance(motions: &mut [Self], maps: Maps<'_, N>, count: u64) {
         N::in_widest_instructions(
             #[inline(always)]
-            || {
-                for _ in 0..count {
-                    for (kind, weight) in maps.iter() {
-                        match kind {
-                            MapKind::Kick => {
-                                for motion in &mut *motions {
-                                    motion.kick_here(weight);
+            || match motions {
+                [Motion { flows, moving, .. }] => flows.advance(moving, &maps, count),
+                many => {
+                    for _ in 0..count {
+                        for (kind, weight) in maps.iter() {
+                            match kind {
+                                MapKind::Kick => {
+                                    for Motion { flows, moving, .. } in &mut *many {
+                                        flows.kick(moving, weight, flows.keeps_rate);
+                                    }
                                 }
-                            }
-                            MapKind::Drift => {
-                                for motion in &mut *motions {
-                                    motion.drift_here(weight);
+                                MapKind::Drift => {
+                                    for Motion { flows, moving, .. } in &mut *many {
+                                        flows.drift(moving, weight);
+                                    }
                                 }
                             }
                         }
@@ -547,24 +444,20 @@ where
 
     /// Where the gradient and the rate are kept, U = ½(qᵀU_q − rate) costs no evaluation.
     fn assign_energies(&mut self, energy: &mut N, kinetic_energy: &mut N) {
-        let Motion { potential, kinetic, q, p, gradient, rate, kept, scratch, kinetic_scratch, .. } = self;
-        kinetic.energy(p.as_ref(), kinetic_energy, kinetic_scratch);
-        if *kept == Kept::GradientAndRate {
-            energy.assign_zero();
-            q.as_ref().iter().zip(gradient.as_ref()).for_each(|(q, u)| energy.add_product(q, u));
-            energy.subtract(rate);
-            energy.divide_integer(2);
-        } else {
-            potential.update(q.as_ref());
-            potential.energy(q.as_ref(), energy, scratch);
+        let Motion { flows, moving: Moving { q, p, gradient, rate, kept, .. }, .. } = self;
+        let (q, p) = (q.as_ref(), p.as_ref());
+        if *kept != Kept::GradientAndRate {
+            return flows.assign_energies((q, p), energy, kinetic_energy);
         }
-        energy.add(kinetic_energy);
-        refuse_overflow(q.as_ref(), energy);
+        energy.assign_zero();
+        q.iter().zip(gradient.as_ref()).for_each(|(q, u)| energy.add_product(q, u));
+        energy.subtract(rate);
+        energy.divide_integer(2);
+        flows.add_kinetic_energy((q, p), energy, kinetic_energy);
     }
 
     fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic_energy: &mut N) {
-        let Motion { potential, kinetic, scratch, kinetic_scratch, .. } = self;
-        assign_energies(potential, kinetic, (q, p), (scratch, kinetic_scratch), (energy, kinetic_energy));
+        self.flows.assign_energies((q, p), energy, kinetic_energy);
     }
 
     fn energy(&mut self) -> N {
@@ -572,11 +465,11 @@ where
     }
 
     fn evaluations(&self) -> u64 {
-        self.evaluations
+        self.moving.evaluations
     }
 
     /// Keeps the rate of the last gradient: an augmented step would have to evaluate that gradient again.
     fn before_augmented_step(&mut self, follows: bool) {
-        self.keeps_rate = follows;
+        self.flows.keeps_rate = follows;
     }
 }

@@ -22,7 +22,7 @@ use crate::system::Remainders;
 /// How increments are added to q and p.
 ///
 /// `Option<S>` adds plainly if it is `None`: for a choice at run time.
-pub trait Summation<N: Number> {
+pub trait Summation<N: Number>: Clone {
     /// p ← p − weight·gradient
     fn kick(&mut self, weight: &N, gradient: &[N], p: &mut [N]);
 

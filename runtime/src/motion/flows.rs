@@ -1,0 +1,153 @@
+//! The flows of T(p) and U(q), and what they change.
+
+use crate::kinetic::Kinetic;
+use crate::maps::{MapKind, Maps};
+use crate::number::Number;
+use crate::potential::Potential;
+use crate::summation::Summation;
+
+/// What is kept at the present q.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kept {
+    Nothing,
+    Gradient,
+    GradientAndRate,
+}
+
+/// What flows change: the state with the remainders of its sums, and what is kept at its q.
+#[derive(Clone, Debug)]
+pub(super) struct Moving<N, V, S> {
+    pub(super) summation: S,
+    pub(super) q: V,
+    pub(super) p: V,
+    pub(super) gradient: V,
+    /// qᵀU_q − 2U
+    pub(super) rate: N,
+    pub(super) kept: Kept,
+    pub(super) evaluations: u64,
+}
+
+/// A potential and a kinetic energy with their scratch space.
+#[derive(Clone, Debug)]
+pub(super) struct Flows<N, P, K> {
+    pub(super) potential: P,
+    pub(super) kinetic: K,
+    /// Whether plain kicks that evaluate the gradient find and keep the rate as well.
+    pub(super) keeps_rate: bool,
+    /// The potential's, with what it keeps there.
+    pub(super) scratch: Vec<N>,
+    /// The kinetic energy's, likewise.
+    pub(super) kinetic_scratch: Vec<N>,
+}
+
+impl<N, V, S> Moving<N, V, S>
+where
+    N: Number,
+    V: AsRef<[N]> + AsMut<[N]>,
+    S: Summation<N>,
+{
+    #[inline(always)]
+    pub(super) fn settle(&mut self) {
+        self.summation.settle(self.q.as_mut(), self.p.as_mut());
+    }
+
+    #[inline(always)]
+    pub(super) fn kick_with_kept_gradient(&mut self, weight: &N) {
+        self.summation.kick(weight, self.gradient.as_ref(), self.p.as_mut());
+    }
+}
+
+/// Flows are compiled for the instructions of the caller.
+impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
+    #[inline(always)]
+    pub(super) fn evaluate<V, S>(&mut self, moving: &mut Moving<N, V, S>, with_rate: bool)
+    where
+        V: AsRef<[N]> + AsMut<[N]>,
+    {
+        let (q, gradient) = (moving.q.as_ref(), moving.gradient.as_mut());
+        self.potential.update(q);
+        moving.kept = if with_rate {
+            self.potential.gradient_and_rate(q, gradient, &mut moving.rate, &mut self.scratch);
+            Kept::GradientAndRate
+        } else {
+            self.potential.gradient(q, gradient, &mut self.scratch);
+            Kept::Gradient
+        };
+        moving.evaluations += 1;
+    }
+
+    #[inline(always)]
+    pub(super) fn kick<V, S>(&mut self, moving: &mut Moving<N, V, S>, weight: &N, with_rate: bool)
+    where
+        V: AsRef<[N]> + AsMut<[N]>,
+        S: Summation<N>,
+    {
+        moving.settle();
+        if moving.kept == Kept::Nothing {
+            self.evaluate(moving, with_rate);
+        }
+        moving.kick_with_kept_gradient(weight);
+    }
+
+    #[inline(always)]
+    pub(super) fn drift<V, S>(&mut self, moving: &mut Moving<N, V, S>, weight: &N)
+    where
+        V: AsRef<[N]> + AsMut<[N]>,
+        S: Summation<N>,
+    {
+        moving.settle();
+        let Moving { summation, q, p, kept, .. } = moving;
+        summation.drift(&self.kinetic, weight, p.as_ref(), q.as_mut(), &mut self.kinetic_scratch);
+        *kept = Kept::Nothing;
+    }
+
+    /// energy ← T(p) + U(q), kinetic_energy ← T(p)
+    pub(super) fn assign_energies(&mut self, (q, p): (&[N], &[N]), energy: &mut N, kinetic_energy: &mut N) {
+        self.potential.update(q);
+        self.potential.energy(q, energy, &mut self.scratch);
+        self.add_kinetic_energy((q, p), energy, kinetic_energy);
+    }
+
+    /// Of an energy U(q), energy ← T(p) + U(q) and kinetic_energy ← T(p); NaN where U is finite though squares of positions overflow: an
+    /// infinite r² makes 0 of 1/r.
+    pub(super) fn add_kinetic_energy(&mut self, (q, p): (&[N], &[N]), energy: &mut N, kinetic_energy: &mut N) {
+        self.kinetic.energy(p, kinetic_energy, &mut self.kinetic_scratch);
+        energy.add(kinetic_energy);
+        q.iter().for_each(|position| energy.make_nan_where_square_overflows(position));
+    }
+
+    /// `count` steps. A state in arrays is copied, so that the compiler can hold it in registers.
+    #[inline(always)]
+    pub(super) fn advance<V, S>(&mut self, moving: &mut Moving<N, V, S>, maps: &Maps<'_, N>, count: u64)
+    where
+        V: AsRef<[N]> + AsMut<[N]> + Clone,
+        S: Summation<N>,
+    {
+        // the rate is kept for what follows the last step
+        let with_rate = u64::from(self.keeps_rate).min(count);
+        if std::mem::needs_drop::<Moving<N, V, S>>() {
+            self.advance_in_place::<_, _, false>(moving, maps, count - with_rate);
+        } else {
+            let mut copy = moving.clone();
+            self.advance_in_place::<_, _, false>(&mut copy, maps, count - with_rate);
+            *moving = copy;
+        }
+        self.advance_in_place::<_, _, true>(moving, maps, with_rate);
+    }
+
+    #[inline(always)]
+    fn advance_in_place<V, S, const RATE: bool>(&mut self, moving: &mut Moving<N, V, S>, maps: &Maps<'_, N>, count: u64)
+    where
+        V: AsRef<[N]> + AsMut<[N]>,
+        S: Summation<N>,
+    {
+        for _ in 0..count {
+            for (kind, weight) in maps.iter() {
+                match kind {
+                    MapKind::Kick => self.kick(moving, weight, RATE),
+                    MapKind::Drift => self.drift(moving, weight),
+                }
+            }
+        }
+    }
+}
