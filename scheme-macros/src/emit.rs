@@ -9,6 +9,9 @@ use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::{Kinetic, MapKind, Plan, Proved, to_text};
 use syn::{Ident, ItemStruct, LitStr};
 
+/// The most kicks and drifts of a step that is inlined wherever it is called: 7 are those of Yoshida's scheme of order 4.
+const MOST_INLINED: usize = 8;
+
 /// The struct with its documentation and its steps.
 pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> TokenStream {
     let ItemStruct { attrs, vis, ident, .. } = item;
@@ -149,7 +152,7 @@ fn weight_name((kind, index): (MapKind, usize)) -> Ident {
 fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)], augmented: bool) -> TokenStream {
     let (name, direction) = (format_ident!("{name}"), format_ident!("{direction}"));
     let count = Literal::usize_unsuffixed(names.len());
-    let maps = maps.iter().map(|&map| {
+    let statements = maps.iter().map(|&map| {
         let weight = weight_name(map);
         match (map.0, augmented) {
             (MapKind::Kick, false) => quote! { system.kick(#weight); },
@@ -159,8 +162,14 @@ fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)],
         }
     });
     let begin = augmented.then(|| quote! { system.clear_increments(); });
+    // inlined into a loop, a short step can hold its state in registers
+    let inline = if maps.len() <= MOST_INLINED {
+        quote! { #[inline(always)] }
+    } else {
+        quote! { #[inline] }
+    };
     quote! {
-        #[inline]
+        #inline
         fn #name<M: ::shadowstep::System>(
             &self,
             weights: &::shadowstep::StepWeights<[M::Number; #count]>,
@@ -171,7 +180,7 @@ fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)],
         {
             let [#(#names),*] = weights.#direction();
             #begin
-            #(#maps)*
+            #(#statements)*
         }
     }
 }
