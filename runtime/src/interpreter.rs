@@ -187,6 +187,13 @@ fn execute<N: Number>(instruction: &Instruction<Slot>, registers: &mut [N], x: &
         I::Divide(_, a) => target.divide(of.at(a)),
         I::AddProduct(_, a, b) => target.add_product(of.at(a), of.at(b)),
         I::SubtractProduct(_, a, b) => target.subtract_product(of.at(a), of.at(b)),
+        I::AssignSumWithProduct(_, c, t, a, b) => {
+            target.assign_sum_with_product(of.at(c), of.at(t), of.at(a), of.at(b));
+        }
+        I::AssignDifferenceWithProduct(_, c, t, a, b) => {
+            target.assign_difference_with_product(of.at(c), of.at(t), of.at(a), of.at(b));
+        }
+        I::AddToProduct(_, c, a, b) => target.add_to_product(of.at(c), of.at(a), of.at(b)),
         I::MultiplyInteger(_, n) => target.multiply_integer(n),
         I::DivideInteger(_, n) => target.divide_integer(n),
         I::Negate(_) => target.negate(),

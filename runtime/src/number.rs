@@ -205,6 +205,27 @@ pub trait Number: Clone + fmt::Debug {
     /// x ← x − a b, rounded like [`add_product`](Number::add_product)
     fn subtract_product(&mut self, a: &Self, b: &Self);
 
+    /// x ← c + a b, where `product` is a b, rounded: the sum of these two, unless the number type [fuses](Fused) products
+    #[inline(always)]
+    fn assign_sum_with_product(&mut self, c: &Self, product: &Self, a: &Self, b: &Self) {
+        let _ = (a, b);
+        self.assign_sum(product, c);
+    }
+
+    /// x ← c − a b, likewise
+    #[inline(always)]
+    fn assign_difference_with_product(&mut self, c: &Self, product: &Self, a: &Self, b: &Self) {
+        let _ = (a, b);
+        self.assign_difference(c, product);
+    }
+
+    /// x ← x + c, where x is a b, rounded, likewise
+    #[inline(always)]
+    fn add_to_product(&mut self, c: &Self, a: &Self, b: &Self) {
+        let _ = (a, b);
+        self.add(c);
+    }
+
     /// x ← n x
     fn multiply_integer(&mut self, n: i32);
 

@@ -7,14 +7,13 @@ use super::{Number, Ordered};
 use crate::Rational;
 use crate::instructions;
 
-/// An `f64` whose [`add_product`](Number::add_product) and [`subtract_product`](Number::subtract_product) round once, as
-/// [`f64::mul_add`] does.
-///
-/// The instruction of the processor is used where the loop is compiled for it: in a program that is built for such a processor
-/// (`-C target-cpu=native`), or for ARM64, and in [`instructions::widest`](crate::instructions::widest). Elsewhere each product is a call of
-/// a function, whose results are the same, but which is slower than `f64`.
+/// An `f64` whose sums with a product, such as [`add_product`](Number::add_product), round once, as [`f64::mul_add`] does.
 ///
 /// Results have other bits than those of `f64`, the same on all machines apart from elementary functions.
+///
+/// The instruction of the processor is used by [`Stepper::steps`](crate::Stepper::steps), wherever the program runs, and by all loops in a program
+/// that is built for such a processor (`-C target-cpu=native`) or for ARM64. Elsewhere, as in a loop of
+/// [`Stepper::step`](crate::Stepper::step), each product is a call of a function: the results are the same, but it is slower than `f64`.
 ///
 /// ```
 /// use shadowstep::number::Fused;
@@ -103,6 +102,24 @@ impl Number for Fused {
     #[inline(always)]
     fn subtract_product(&mut self, a: &Self, b: &Self) {
         self.0 = (-a.0).mul_add(b.0, self.0);
+    }
+
+    /// x ← c + a b, with one rounding
+    #[inline(always)]
+    fn assign_sum_with_product(&mut self, c: &Self, _: &Self, a: &Self, b: &Self) {
+        self.0 = a.0.mul_add(b.0, c.0);
+    }
+
+    /// x ← c − a b, with one rounding
+    #[inline(always)]
+    fn assign_difference_with_product(&mut self, c: &Self, _: &Self, a: &Self, b: &Self) {
+        self.0 = (-a.0).mul_add(b.0, c.0);
+    }
+
+    /// x ← a b + c, with one rounding
+    #[inline(always)]
+    fn add_to_product(&mut self, c: &Self, a: &Self, b: &Self) {
+        self.0 = a.0.mul_add(b.0, c.0);
     }
 
     delegate! {
@@ -206,6 +223,38 @@ mod tests {
         let mut square = a;
         square.assign_square(&a);
         assert_eq!(products(&a, &a, &square)[1], Fused(-f64::EPSILON * f64::EPSILON));
+    }
+
+    #[test]
+    fn sums_with_known_products_round_once() {
+        let a = Fused(1.0 + f64::EPSILON);
+        let [mut product, mut sum, mut difference] = [a; 3];
+        product.assign_square(&a);
+        let minus = Fused(-product.0);
+        sum.assign_sum_with_product(&minus, &product, &a, &a);
+        difference.assign_difference_with_product(&product, &product, &a, &a);
+        let mut in_place = product;
+        in_place.add_to_product(&minus, &a, &a);
+        assert_eq!([sum, difference, in_place].map(|x| x.0 / f64::EPSILON.powi(2)), [1.0, -1.0, 1.0]);
+        // of other numbers they are sums of two numbers
+        let (a, product) = (a.0, product.0);
+        let [mut sum, mut difference, mut in_place] = [a, a, product];
+        sum.assign_sum_with_product(&-product, &product, &a, &a);
+        difference.assign_difference_with_product(&product, &product, &a, &a);
+        in_place.add_to_product(&-product, &a, &a);
+        assert_eq!([sum, difference, in_place], [0.0; 3]);
+    }
+
+    #[test]
+    fn plain_and_augmented_steps_have_the_same_bits() {
+        let stepper = Stepper::new(shipped("yoshida4").unwrap(), "1/20").unwrap();
+        let mut plain = Motion::new(HenonHeiles, UnitMasses, [0.1, 0.2].map(Fused), [0.1, 0.0].map(Fused)).unwrap();
+        let mut augmented = plain.clone();
+        for _ in 0..100 {
+            stepper.step(&mut plain);
+            stepper.step_augmented(&mut augmented);
+            assert_eq!((plain.q(), plain.p()), (augmented.q(), augmented.p()));
+        }
     }
 
     /// With instructions for products and without them.

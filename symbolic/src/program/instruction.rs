@@ -66,6 +66,12 @@ pub enum Instruction<P = Place> {
     AddProduct(P, P, P),
     /// x ← x − a b
     SubtractProduct(P, P, P),
+    /// x ← c + t, where t is a b, with c, t, a and b in this order
+    AssignSumWithProduct(P, P, P, P, P),
+    /// x ← c − t, where t is a b, likewise
+    AssignDifferenceWithProduct(P, P, P, P, P),
+    /// x ← x + c, where x is a b, with c, a and b in this order
+    AddToProduct(P, P, P, P),
     /// x ← n x
     MultiplyInteger(P, i32),
     /// x ← x / n
@@ -100,6 +106,9 @@ impl<P: Copy> Instruction<P> {
             Instruction::Divide(..) => "divide",
             Instruction::AddProduct(..) => "add_product",
             Instruction::SubtractProduct(..) => "subtract_product",
+            Instruction::AssignSumWithProduct(..) => "assign_sum_with_product",
+            Instruction::AssignDifferenceWithProduct(..) => "assign_difference_with_product",
+            Instruction::AddToProduct(..) => "add_to_product",
             Instruction::MultiplyInteger(..) => "multiply_integer",
             Instruction::DivideInteger(..) => "divide_integer",
             Instruction::Negate(..) => "negate",
@@ -117,7 +126,8 @@ impl<P: Copy> Instruction<P> {
             I::Add(x, _) | I::Subtract(x, _) | I::Multiply(x, _) | I::Divide(x, _) => x,
             I::AssignSum(x, _, _) | I::AssignDifference(x, _, _) | I::AssignProduct(x, _, _) => x,
             I::AssignQuotient(x, _, _) | I::AssignSinCos(x, _, _) => x,
-            I::AddProduct(x, _, _) | I::SubtractProduct(x, _, _) => x,
+            I::AddProduct(x, _, _) | I::SubtractProduct(x, _, _) | I::AddToProduct(x, ..) => x,
+            I::AssignSumWithProduct(x, ..) | I::AssignDifferenceWithProduct(x, ..) => x,
         }
     }
 
@@ -135,9 +145,10 @@ impl<P: Copy> Instruction<P> {
 
     /// Whether it overwrites its target without reading it.
     pub fn overwrites(&self) -> bool {
-        use Instruction::{Add, AddProduct, Divide, DivideInteger, Multiply, MultiplyInteger, Negate, Subtract};
+        use Instruction::{Add, AddProduct, AddToProduct, Divide, DivideInteger, Multiply, MultiplyInteger};
+        use Instruction::{Negate, Subtract, SubtractProduct};
         let changes = matches!(self, Add(..) | AddProduct(..) | Divide(..) | DivideInteger(..) | Multiply(..))
-            || matches!(self, MultiplyInteger(..) | Negate(..) | Subtract(..) | Instruction::SubtractProduct(..));
+            || matches!(self, MultiplyInteger(..) | Negate(..) | Subtract(..) | SubtractProduct(..) | AddToProduct(..));
         !changes
     }
 
@@ -164,6 +175,11 @@ impl<P: Copy> Instruction<P> {
             I::Divide(x, a) => I::Divide(to(x), to(a)),
             I::AddProduct(x, a, b) => I::AddProduct(to(x), to(a), to(b)),
             I::SubtractProduct(x, a, b) => I::SubtractProduct(to(x), to(a), to(b)),
+            I::AssignSumWithProduct(x, c, t, a, b) => I::AssignSumWithProduct(to(x), to(c), to(t), to(a), to(b)),
+            I::AssignDifferenceWithProduct(x, c, t, a, b) => {
+                I::AssignDifferenceWithProduct(to(x), to(c), to(t), to(a), to(b))
+            }
+            I::AddToProduct(x, c, a, b) => I::AddToProduct(to(x), to(c), to(a), to(b)),
             I::MultiplyInteger(x, n) => I::MultiplyInteger(to(x), n),
             I::DivideInteger(x, n) => I::DivideInteger(to(x), n),
             I::Negate(x) => I::Negate(to(x)),
@@ -182,6 +198,10 @@ impl<P: Copy> Instruction<P> {
             I::AssignSum(x, a, b) | I::AssignDifference(x, a, b) | I::AssignProduct(x, a, b) => vec![x, a, b],
             I::AssignQuotient(x, a, b) | I::AssignSinCos(x, a, b) => vec![x, a, b],
             I::AddProduct(x, a, b) | I::SubtractProduct(x, a, b) => vec![x, a, b],
+            I::AssignSumWithProduct(x, c, t, a, b) | I::AssignDifferenceWithProduct(x, c, t, a, b) => {
+                vec![x, c, t, a, b]
+            }
+            I::AddToProduct(x, c, a, b) => vec![x, c, a, b],
         }
     }
 }

@@ -2,9 +2,10 @@
 //!
 //! [`collect`] lists what is computed: sums, products of atoms, functions. [`products`] and [`sums`] find their common
 //! parts. [`sequence`] splits them into operations with two operands, in order. [`places`] assigns a place to each result
-//! and writes the instructions.
+//! and writes the instructions. [`known_products`] gives sums the factors of their products.
 
 mod collect;
+mod known_products;
 mod places;
 mod products;
 mod sequence;
@@ -23,7 +24,7 @@ pub(crate) fn program(graph: &mut Graph, outputs: &[Node]) -> Program {
         places::place(&sequence::sequence(collect::plan(graph, &hoisted, collect::Stage::Prepare)), hoisted.len());
     Program {
         prepare: early.instructions.into_iter().map(|instruction| to_constants(instruction, hoisted.len())).collect(),
-        instructions: main.instructions,
+        instructions: known_products::with_factors(main.instructions),
         constants: hoisted.len() + early.scratch,
         kept: hoisted.len(),
         scratch: main.scratch,

@@ -34,6 +34,9 @@ impl Operations {
         match instruction {
             I::AssignRational(..) | I::AssignZero(..) | I::Assign(..) | I::Negate(..) => {}
             I::AssignSum(..) | I::AssignDifference(..) | I::Add(..) | I::Subtract(..) => self.additions += 1,
+            I::AssignSumWithProduct(..) | I::AssignDifferenceWithProduct(..) | I::AddToProduct(..) => {
+                self.additions += 1
+            }
             I::AssignProduct(..) | I::AssignSquare(..) | I::Multiply(..) | I::MultiplyInteger(..) => {
                 self.multiplications += 1;
             }
