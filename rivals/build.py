@@ -5,7 +5,7 @@ import os
 import subprocess
 from pathlib import Path
 
-from contestants import BUILD, HERE, RIVALS
+from contestants import BUILD, HERE, SCHEMES
 from problems import PROBLEMS
 
 
@@ -60,7 +60,7 @@ def initial_states_and_weights():
     ours = BUILD / "cargo" / "release" / "ours"
     for system in {problem.initial for problem in PROBLEMS}:
         output(BUILD / "initial" / f"{system}.txt", ours, "initial", system)
-    for method in RIVALS[0].methods:
+    for method in SCHEMES:
         output(BUILD / "schemes" / f"{method.name}.txt", ours, "weights", method.name)
 
 

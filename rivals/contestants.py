@@ -77,6 +77,14 @@ SCHEMES = [
     Method("sofroniou-spaletta10-35", 35, "sofroniou-spaletta10-35"),
 ]
 
+# In numbers with fused products, and with compensated sums as well.
+FUSED = [
+    Method(f"{numbers}/{scheme.name}", scheme.forces, scheme.name if numbers == "fused" else None, SMALL)
+    for numbers, least in (("fused", 5), ("fused-compensated", 14))
+    for scheme in SCHEMES
+    if scheme.forces >= least
+]
+
 KEPLER_SPLIT = (
     "WHFast, SABA and EOS split off the Kepler orbits around the Sun, so that only the small attractions of the planets are left to "
     "the splitting; Shadowstep splits T and U"
@@ -90,11 +98,21 @@ def decades(first, last):
 RIVALS = [
     Rival(
         "Shadowstep",
-        "generated steps and potentials, `-C target-cpu=native`, LTO",
+        "generated steps and potentials, `-C target-cpu=native`, LTO; in `f64`, in `Fused` numbers (fused/…), and these with compensated sums "
+        "(fused-compensated/…)",
         "the schemes of order 6 to 10 need few evaluations, and their steps are unrolled into the potential",
         [BUILD / "cargo" / "release" / "ours"],
-        SCHEMES,
+        SCHEMES + FUSED,
         (*ALL, *DIGITS),
+    ),
+    Rival(
+        "Shadowstep, lanes",
+        "64 trajectories, all alike, in four systems of 16 lanes (lanes/…), on one core; the time is for one of them",
+        "it computes several trajectories in one vector",
+        [BUILD / "cargo" / "release" / "ours"],
+        [Method(f"lanes/{scheme.name}", scheme.forces) for scheme in SCHEMES if scheme.forces >= 5],
+        ("kepler", "henon-heiles", "outer-solar-system"),
+        many=True,
     ),
     Rival(
         "C by hand",

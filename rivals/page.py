@@ -4,7 +4,7 @@ import json
 from math import inf
 
 from compare import all_results, listed, same_schemes, verdicts
-from contestants import HERE, RIVALS
+from contestants import HERE, RIVALS, SCHEMES
 from picture import draw
 from readme import write_readme
 
@@ -63,7 +63,7 @@ def time_table(results, error):
 
 
 def speed_table(results):
-    schemes = [method.scheme for method in RIVALS[0].methods]
+    schemes = [method.scheme for method in SCHEMES]
     rows = []
     for scheme in schemes:
         speeds = [results.steps_per_second(rival, scheme) for rival in results.rivals]

@@ -1,13 +1,6 @@
 /* Splitting schemes written by hand in C: the last kick (or drift) of a step and the first one of the next are one. */
 #include "forces.h"
-
-#define MOST_MAPS 100
-
-/* A step between its merged ends: `opening` kick, then drift[i] and kick[i] in turn, then `closing` drift. */
-struct plan {
-    int stages;
-    double opening, drift[MOST_MAPS], kick[MOST_MAPS], closing;
-};
+#include "plan.h"
 
 /* Reads the maps that `ours weights` has printed into the folder of the environment variable SCHEMES. */
 static void read_plan(const char *scheme, double h, struct plan *plan)

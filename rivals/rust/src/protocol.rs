@@ -57,6 +57,12 @@ impl Answer {
         result
     }
 
+    /// The time of one trajectory of so many that were computed at once.
+    #[allow(dead_code, reason = "the other crates compute one trajectory at a time")]
+    pub fn divide_time(&mut self, trajectories: u32) {
+        self.time /= trajectories;
+    }
+
     /// Reports a state.
     pub fn state(&mut self, numbers: impl IntoIterator<Item = f64>) {
         for number in numbers {

@@ -1,10 +1,11 @@
 //! The integrations that are measured: generated steps of a generated potential.
 
-use shadowstep::number::{Float, Number, Ordered, Precision};
+use shadowstep::number::{Float, Fused, Lanes, Number, Ordered, Precision};
 use shadowstep::pairs::{Ends, Pairs};
 use shadowstep::problems::{CubicSpring, Gravity, HenonHeiles, Kepler, LennardJones};
 use shadowstep::{
-    DiagonalMasses, Kinetic, Motion, Potential, Rational, Scheme, Stepper, UnitMasses, exact, kinetic::Quadratic,
+    DiagonalMasses, Kinetic, Motion, Potential, Rational, Scheme, Stepper, System, UnitMasses, exact,
+    kinetic::Quadratic,
 };
 
 use crate::initial::Initial;
@@ -12,83 +13,164 @@ use crate::problems::exact_text;
 use crate::protocol::{Answer, Request};
 use crate::schemes::{WithScheme, with_scheme};
 
-/// Does what a request asks for. `kepler-120` is Kepler's problem at 120 digits.
+/// Does what a request asks for. `kepler-120` is Kepler's problem at 120 digits; `fused/SCHEME` computes with fused products, and
+/// `fused-compensated/SCHEME` with compensated sums as well; `lanes/SCHEME` with many trajectories at once.
 pub fn answer(request: &Request) -> Answer {
     let name = request.problem.strip_suffix("-120").unwrap_or(&request.problem);
     let initial = Initial::of(name);
-    let masses = || DiagonalMasses::from_numbers(&initial.masses).expect("positive masses");
-    match request.problem.as_str() {
-        "kepler" => small::<2, _, _>(request, &initial, Kepler, UnitMasses),
-        "henon-heiles" => small::<2, _, _>(request, &initial, HenonHeiles, UnitMasses),
-        "outer-solar-system" => {
-            let m = initial.masses.iter().step_by(3).copied().collect();
-            let pairs = Pairs::<_, 3>::all(6, Gravity { g: initial.parameters[0], m }).expect("six bodies");
-            small::<18, _, _>(request, &initial, pairs, masses())
-        }
-        "fput-alpha" => {
-            let spring = CubicSpring { alpha: initial.parameters[0] };
-            let chain = Pairs::<_, 1>::neighbours(32, spring, Ends::Fixed).expect("a chain");
-            small::<32, _, _>(request, &initial, chain, UnitMasses)
-        }
-        "argon" => {
-            let pair = LennardJones { epsilon: initial.parameters[0], sigma: initial.parameters[1] };
-            let pairs = Pairs::<_, 3>::all(initial.q.len() / 3, pair).expect("atoms");
-            let motion = Motion::new(pairs, masses(), initial.q.clone(), initial.p.clone());
-            run(request, motion.expect("the dimensions agree"))
-        }
-        "kepler-120" => at_120_digits(request, &initial),
-        other => panic!("no problem {other}"),
+    let (numbers, scheme) = request.method.split_once('/').unwrap_or(("f64", &request.method));
+    let asked = Asked { request, initial: &initial, scheme };
+    match (request.problem.as_str(), numbers) {
+        ("argon", "f64") => asked.argon(),
+        ("kepler-120", "f64") => asked.at_120_digits(),
+        (problem, "f64") => asked.small::<f64>(problem, |x| x, false),
+        (problem, "fused") => asked.small(problem, Fused, false),
+        (problem, "fused-compensated") => asked.small(problem, Fused, true),
+        (problem, "lanes") => asked.ensemble(problem),
+        (_, other) => panic!("no numbers {other}"),
     }
 }
 
-fn small<const D: usize, P, K>(request: &Request, initial: &Initial, potential: P, kinetic: K) -> Answer
-where
-    P: Potential<f64>,
-    K: Kinetic<f64, Class = Quadratic>,
-{
-    let array = |numbers: &Vec<f64>| <[f64; D]>::try_from(numbers.as_slice()).expect("the dimension");
-    run(request, Motion::new(potential, kinetic, array(&initial.q), array(&initial.p)).expect("the dimensions agree"))
-}
-
-fn at_120_digits(request: &Request, initial: &Initial) -> Answer {
-    let digits = Precision::digits(120).expect("120 digits are allowed");
-    let number = |value: &f64| Float::from_rational(&exact(&exact_text(*value)).expect("a number"), &digits);
-    let array = |numbers: &[f64]| [number(&numbers[0]), number(&numbers[1])];
-    run(request, Motion::new(Kepler, UnitMasses, array(&initial.q), array(&initial.p)).expect("the dimensions agree"))
-}
-
-struct Run<'a, N, V, P, K> {
+/// A request, and what it is about.
+struct Asked<'a> {
     request: &'a Request,
-    motion: Motion<N, V, P, K>,
+    initial: &'a Initial,
+    scheme: &'a str,
 }
 
-fn run<N, V, P, K>(request: &Request, motion: Motion<N, V, P, K>) -> Answer
-where
-    N: Ordered,
-    V: AsRef<[N]> + AsMut<[N]> + Clone,
-    P: Potential<N>,
-    K: Kinetic<N, Class = Quadratic>,
-{
-    with_scheme(&request.method, Run { request, motion })
+impl Asked<'_> {
+    /// A problem whose coordinates are arrays.
+    fn small<N: Ordered<Context = ()>>(&self, problem: &str, number: fn(f64) -> N, compensated: bool) -> Answer {
+        let numbers = |values: &[f64]| -> Vec<N> { values.iter().copied().map(number).collect() };
+        let Initial { parameters, masses, .. } = self.initial;
+        match problem {
+            "kepler" => self.arrays::<2, _, _, _>(Kepler, UnitMasses, number, compensated),
+            "henon-heiles" => self.arrays::<2, _, _, _>(HenonHeiles, UnitMasses, number, compensated),
+            "outer-solar-system" => {
+                let m = numbers(masses).into_iter().step_by(3).collect();
+                let pairs = Pairs::<_, 3>::all(6, Gravity { g: number(parameters[0]), m }).expect("six bodies");
+                let masses = DiagonalMasses::from_numbers(&numbers(masses)).expect("positive masses");
+                self.arrays::<18, _, _, _>(pairs, masses, number, compensated)
+            }
+            "fput-alpha" => {
+                let spring = CubicSpring { alpha: number(parameters[0]) };
+                let chain = Pairs::<_, 1>::neighbours(32, spring, Ends::Fixed).expect("a chain");
+                self.arrays::<32, _, _, _>(chain, UnitMasses, number, compensated)
+            }
+            other => panic!("no problem {other}"),
+        }
+    }
+
+    fn arrays<const D: usize, N, P, K>(
+        &self,
+        potential: P,
+        kinetic: K,
+        number: fn(f64) -> N,
+        compensated: bool,
+    ) -> Answer
+    where
+        N: Ordered<Context = ()>,
+        P: Potential<N>,
+        K: Kinetic<N, Class = Quadratic>,
+    {
+        let array = |numbers: &[f64]| -> [N; D] { std::array::from_fn(|i| number(numbers[i])) };
+        let (q, p) = (array(&self.initial.q), array(&self.initial.p));
+        let motion = Motion::new(potential, kinetic, q, p).expect("the dimensions agree");
+        if compensated { self.run(motion.compensated()) } else { self.run(motion) }
+    }
+
+    /// Trajectories in lanes, all alike; the time is for one of them.
+    fn ensemble(&self, problem: &str) -> Answer {
+        let Initial { parameters, masses, .. } = self.initial;
+        match problem {
+            "kepler" => self.lanes::<2, _, _>(Kepler, UnitMasses),
+            "henon-heiles" => self.lanes::<2, _, _>(HenonHeiles, UnitMasses),
+            "outer-solar-system" => {
+                let m = masses.iter().step_by(3).map(|m| Lanes::all(*m)).collect();
+                let gravity = Gravity { g: Lanes::all(parameters[0]), m };
+                let exact = |mass: &f64| Rational::from_float(*mass).expect("a finite mass");
+                let masses: Vec<_> = masses.iter().map(exact).collect();
+                let masses = DiagonalMasses::new(&masses, &()).expect("positive masses");
+                self.lanes::<18, _, _>(Pairs::<_, 3>::all(6, gravity).expect("six bodies"), masses)
+            }
+            other => panic!("no ensemble of {other}"),
+        }
+    }
+
+    fn lanes<const D: usize, P, K>(&self, potential: P, kinetic: K) -> Answer
+    where
+        P: Potential<Lanes<WIDTH>> + Clone,
+        K: Kinetic<Lanes<WIDTH>, Class = Quadratic> + Clone,
+    {
+        let array = |numbers: &[f64]| -> [Lanes<WIDTH>; D] { std::array::from_fn(|i| Lanes::all(numbers[i])) };
+        let motion = Motion::new(potential, kinetic, array(&self.initial.q), array(&self.initial.p));
+        let systems = vec![motion.expect("the dimensions agree"); SYSTEMS];
+        with_scheme(self.scheme, RunAll { request: self.request, systems })
+    }
+
+    fn argon(&self) -> Answer {
+        let Initial { parameters, masses, q, p } = self.initial;
+        let pair = LennardJones { epsilon: parameters[0], sigma: parameters[1] };
+        let pairs = Pairs::<_, 3>::all(q.len() / 3, pair).expect("atoms");
+        let masses = DiagonalMasses::from_numbers(masses).expect("positive masses");
+        self.run(Motion::new(pairs, masses, q.clone(), p.clone()).expect("the dimensions agree"))
+    }
+
+    fn at_120_digits(&self) -> Answer {
+        let digits = Precision::digits(120).expect("120 digits are allowed");
+        let number = |value: &f64| Float::from_rational(&exact(&exact_text(*value)).expect("a number"), &digits);
+        let array = |numbers: &[f64]| [number(&numbers[0]), number(&numbers[1])];
+        let (q, p) = (array(&self.initial.q), array(&self.initial.p));
+        self.run(Motion::new(Kepler, UnitMasses, q, p).expect("the dimensions agree"))
+    }
+
+    fn run<M: System<Class = Quadratic, Number: Ordered>>(&self, system: M) -> Answer {
+        with_scheme(self.scheme, Run { request: self.request, system })
+    }
 }
 
-impl<N, V, P, K> WithScheme for Run<'_, N, V, P, K>
-where
-    N: Ordered,
-    V: AsRef<[N]> + AsMut<[N]> + Clone,
-    P: Potential<N>,
-    K: Kinetic<N, Class = Quadratic>,
-{
+/// Lanes of a system, and systems that take turns.
+const WIDTH: usize = 16;
+const SYSTEMS: usize = 4;
+
+struct RunAll<'a, M> {
+    request: &'a Request,
+    systems: Vec<M>,
+}
+
+impl<M: System<Class = Quadratic, Number = Lanes<WIDTH>>> WithScheme for RunAll<'_, M> {
     type Result = Answer;
 
     fn with<S: Scheme>(self, scheme: S) -> Answer {
-        let Run { request, mut motion } = self;
+        let RunAll { request, mut systems } = self;
         let h = step_size(request.until, request.steps());
-        let stepper = Stepper::with_context(scheme, h, &motion.context()).expect("a step size");
+        let stepper = Stepper::with_context(scheme, h, &()).expect("a step size");
         let mut answer = Answer::default();
         for _ in 0..request.samples {
-            answer.time(|| (0..request.steps() / request.samples).for_each(|_| stepper.step(&mut motion)));
-            answer.state(motion.q().iter().chain(motion.p()).map(Ordered::to_f64));
+            answer.time(|| stepper.steps(&mut systems, request.steps() / request.samples));
+            answer.state(systems[0].q().iter().chain(systems[0].p()).map(|x| x.0[0]));
+        }
+        answer.divide_time((WIDTH * SYSTEMS) as u32);
+        answer
+    }
+}
+
+struct Run<'a, M> {
+    request: &'a Request,
+    system: M,
+}
+
+impl<M: System<Class = Quadratic, Number: Ordered>> WithScheme for Run<'_, M> {
+    type Result = Answer;
+
+    fn with<S: Scheme>(self, scheme: S) -> Answer {
+        let Run { request, mut system } = self;
+        let h = step_size(request.until, request.steps());
+        let stepper = Stepper::with_context(scheme, h, &system.context()).expect("a step size");
+        let mut answer = Answer::default();
+        for _ in 0..request.samples {
+            answer.time(|| stepper.steps(std::slice::from_mut(&mut system), request.steps() / request.samples));
+            answer.state(system.q().iter().chain(system.p()).map(Ordered::to_f64));
         }
         answer
     }

@@ -1,7 +1,7 @@
 //! Reference solutions at 40 digits.
 
 use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
-use shadowstep::number::{Float, Number, Ordered, Precision};
+use shadowstep::number::{Float, Ordered, Precision};
 use shadowstep::run::States as _;
 use shadowstep::step_size::StepSize;
 use shadowstep::{Stepper, tables};

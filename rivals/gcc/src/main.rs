@@ -1,0 +1,193 @@
+//! Steps in `f64` and `Fused` beside those of C by gcc -O3 -march=native, in one process: ratios to C.
+//!
+//! `cargo run --release`, for any processor of the architecture; `RUSTFLAGS="-C target-cpu=native" cargo run --release`, for this one.
+
+#[path = "../../../runtime/benches/timing/mod.rs"]
+mod timing;
+
+use std::hint::black_box;
+
+use shadowstep::kinetic::Quadratic;
+use shadowstep::number::{Fused, Number, Ordered};
+use shadowstep::pairs::Pairs;
+use shadowstep::problems::{Gravity, HenonHeiles, Kepler, Pendulum};
+use shadowstep::scheme::MapKind;
+use shadowstep::{
+    DiagonalMasses, Kinetic, Motion, Potential, Scheme, Stepper, System, UnitMasses, ValidFor, exact, splitting_scheme,
+};
+
+use timing::{Contestant, compare};
+
+#[derive(Clone, Copy)]
+#[splitting_scheme("stormer-verlet.toml")]
+struct StormerVerlet;
+
+#[derive(Clone, Copy)]
+#[splitting_scheme("yoshida4.toml")]
+struct Yoshida4;
+
+unsafe extern "C" {
+    fn set_initial(dimension: i32, masses: *const f64, parameters: i32, values: *const f64);
+    fn verlet(problem: i32, h: f64, steps: i64, q: *mut f64, p: *mut f64);
+    fn scheme(
+        problem: i32,
+        stages: i32,
+        opening: f64,
+        drifts: *const f64,
+        kicks: *const f64,
+        steps: i64,
+        q: *mut f64,
+        p: *mut f64,
+    );
+}
+
+/// A problem: its number in C, the initial state, and the step size.
+struct Setting<'a, const D: usize> {
+    problem: i32,
+    q: [f64; D],
+    p: [f64; D],
+    h: &'a str,
+}
+
+fn number<N: Number<Context = ()>>(x: f64) -> N {
+    N::from_rational(&shadowstep::Rational::from_float(x).expect("a finite number"), &())
+}
+
+impl<const D: usize> Setting<'_, D> {
+    /// The steps in C: Störmer–Verlet as everybody writes it, another scheme from the list of its kicks and drifts.
+    fn in_c<S: Scheme>(&self, of: S) -> impl FnMut(u32, &mut [f64; D], &mut [f64; D]) + use<S, D> {
+        let problem = self.problem;
+        let h = number(f64::from_rational(&exact(self.h).expect("a number"), &()));
+        let stepper = Stepper::<S, f64>::new(of, self.h).expect("h is not 0");
+        let (count, maps) = stepper.scheme().maps();
+        let (kicks, drifts) = stepper.weights().split_at(count);
+        let of_kind = |wanted, weights: &[f64]| -> Vec<f64> {
+            maps.iter().filter(|(kind, _)| *kind == wanted).map(|(_, index)| weights[*index]).collect()
+        };
+        let (kicks, drifts) = (of_kind(MapKind::Kick, kicks), of_kind(MapKind::Drift, drifts));
+        assert_eq!(kicks.len(), drifts.len() + 1, "kicks at both ends");
+        move |steps: u32, q: &mut [f64; D], p: &mut [f64; D]| {
+            let (steps, q, p) = (i64::from(steps), q.as_mut_ptr(), p.as_mut_ptr());
+            // SAFETY: q and p are as long as the problem's states, and there are as many weights as stated
+            unsafe {
+                if drifts.len() == 1 {
+                    verlet(problem, h, steps, q, p);
+                } else {
+                    scheme(problem, drifts.len() as i32, kicks[0], drifts.as_ptr(), kicks[1..].as_ptr(), steps, q, p);
+                }
+            }
+        }
+    }
+
+    /// Checks that C computes the same.
+    fn check<S, M>(&self, of: S, stepper: &Stepper<S, M::Number>, mut system: M)
+    where
+        S: Scheme + ValidFor<M::Class>,
+        M: System<Number: Ordered>,
+    {
+        let (mut q, mut p) = (self.q, self.p);
+        self.in_c(of)(100, &mut q, &mut p);
+        stepper.steps(std::slice::from_mut(&mut system), 100);
+        let agree = |(a, b): (&f64, &M::Number)| (a - b.to_f64()).abs() < 1e-12 * a.abs().max(1.0);
+        assert!(q.iter().zip(system.q()).all(agree), "{q:?} is not {:?}", system.q());
+    }
+
+    fn by_gcc<S: Scheme + 'static>(&self, of: S) -> Contestant<'static> {
+        let (mut steps, mut q, mut p) = (self.in_c(of), self.q, self.p);
+        let run = move |repetitions: u32| {
+            steps(repetitions, &mut q, &mut p);
+            black_box((&q, &p));
+        };
+        ("C by gcc", Box::new(run))
+    }
+
+    fn ours<'a, N, S, P, K>(&self, names: [&'static str; 2], of: S, potential: P, masses: K) -> [Contestant<'a>; 2]
+    where
+        N: Ordered + Number<Context = ()> + Copy + 'a,
+        S: Scheme + Copy + 'a,
+        P: Potential<N> + Clone + 'a,
+        K: Kinetic<N, Class = Quadratic> + Clone + 'a,
+    {
+        let start = Motion::new(potential, masses, self.q.map(number::<N>), self.p.map(number::<N>));
+        let mut one = start.expect("the dimensions agree");
+        let stepper = Stepper::<S, N>::new(of, self.h).expect("h is not 0");
+        self.check(of, &stepper, one.clone());
+        let (same, mut all) = (stepper.clone(), one.clone());
+        let step = move |repetitions| {
+            for _ in 0..repetitions {
+                stepper.step(&mut one);
+            }
+            black_box(one.q());
+        };
+        let steps = move |repetitions: u32| {
+            same.steps(std::slice::from_mut(&mut all), repetitions.into());
+            black_box(all.q());
+        };
+        [(names[0], Box::new(step)), (names[1], Box::new(steps))]
+    }
+}
+
+fn small<'a, const D: usize, S, P>(of: S, setting: &Setting<'_, D>, potential: P) -> Vec<Contestant<'a>>
+where
+    S: Scheme + Copy + 'a,
+    P: Potential<f64> + Potential<Fused> + Copy + 'a,
+{
+    let plain = setting.ours::<f64, _, _, _>(["f64, step", "f64, steps"], of, potential, UnitMasses);
+    let fused = setting.ours::<Fused, _, _, _>(["Fused, step", "Fused, steps"], of, potential, UnitMasses);
+    plain.into_iter().chain(fused).collect()
+}
+
+fn against<const D: usize, S, P>(title: &str, of: S, setting: &Setting<'_, D>, potential: P)
+where
+    S: Scheme + Copy + 'static,
+    P: Potential<f64> + Potential<Fused> + Copy,
+{
+    let mut contestants = vec![setting.by_gcc(of)];
+    contestants.extend(small(of, setting, potential));
+    compare(title, contestants, 100_000);
+}
+
+const MASSES: [f64; 6] = [
+    1.000_005_976_823_1,
+    0.000_954_786_104_043,
+    0.000_285_583_733_151,
+    0.000_043_727_316_454_6,
+    0.000_051_775_913_844_879_3,
+    7.692_307_692_307_69e-9,
+];
+
+fn planets() {
+    let problem = shadowstep::problems::problem("outer-solar-system").expect("it is shipped");
+    let values = problem.setup(&[], 40).expect("the defaults are valid").values;
+    let array = |x: Vec<f64>| <[f64; 18]>::try_from(x).expect("six bodies");
+    let setting = Setting { problem: 2, q: array(values.q(&())), p: array(values.p(&())), h: "100" };
+    let masses: [f64; 18] = std::array::from_fn(|i| MASSES[i / 3]);
+    let g = 2.959_122_082_86e-4;
+    // SAFETY: the arrays are as long as stated
+    unsafe { set_initial(18, masses.as_ptr(), 1, [g].as_ptr()) };
+    let plain = Pairs::<_, 3>::all(6, Gravity { g, m: MASSES.to_vec() }).expect("six bodies");
+    let fused = Pairs::<_, 3>::all(6, Gravity { g: Fused(g), m: MASSES.map(Fused).to_vec() }).expect("six bodies");
+    let plain_masses = DiagonalMasses::from_numbers(&masses).expect("positive masses");
+    let fused_masses = DiagonalMasses::from_numbers(&masses.map(Fused)).expect("positive masses");
+    let mut contestants = vec![setting.by_gcc(StormerVerlet)];
+    contestants.extend(setting.ours::<f64, _, _, _>(["f64, step", "f64, steps"], StormerVerlet, plain, plain_masses));
+    contestants.extend(setting.ours::<Fused, _, _, _>(
+        ["Fused, step", "Fused, steps"],
+        StormerVerlet,
+        fused,
+        fused_masses,
+    ));
+    compare("the Sun and five planets, Störmer–Verlet", contestants, 20_000);
+}
+
+fn main() {
+    let kepler = Setting { problem: 0, q: [0.4, 0.0], p: [0.0, 2.0], h: "1/100" };
+    let star = Setting { problem: 1, q: [0.1, 0.2], p: [0.1, 0.0], h: "1/20" };
+    let pendulum = Setting { problem: 3, q: [1.0], p: [0.0], h: "1/20" };
+    against("Kepler, Störmer–Verlet", StormerVerlet, &kepler, Kepler);
+    against("Kepler, Yoshida 4", Yoshida4, &kepler, Kepler);
+    against("Hénon–Heiles, Störmer–Verlet", StormerVerlet, &star, HenonHeiles);
+    against("Hénon–Heiles, Yoshida 4", Yoshida4, &star, HenonHeiles);
+    planets();
+    against("pendulum, Störmer–Verlet", StormerVerlet, &pendulum, Pendulum);
+}
