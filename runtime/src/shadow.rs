@@ -54,6 +54,7 @@ mod estimator;
 mod family;
 mod fixed;
 mod form;
+mod lagged;
 mod monitor;
 mod options;
 #[cfg(feature = "serde")]

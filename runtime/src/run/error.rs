@@ -104,6 +104,7 @@ pub(crate) fn check_precision<S: Scheme, N: Ordered>(
 }
 
 /// Refuses a value that is not finite. States may be finite where their products overflow.
+#[inline]
 pub(crate) fn check_value<N: Ordered>(value: &N, quantity: Quantity, step: i64) -> Result<(), RunError> {
     if value.is_finite() {
         return Ok(());

@@ -24,7 +24,16 @@ impl<'a, N: Ordered> State<'a, N> {
     }
 
     /// Refuses a state with a value that is not finite.
+    #[inline(always)]
     pub(crate) fn check(&self) -> Result<(), RunError> {
+        let State { q, p, increments, .. } = *self;
+        // without a branch for each coordinate
+        let are_finite = |numbers: &[N]| numbers.iter().fold(true, |finite, x| finite & x.is_finite());
+        if are_finite(q) & are_finite(p) & increments.beta.is_finite() { Ok(()) } else { self.refuse() }
+    }
+
+    #[cold]
+    fn refuse(&self) -> Result<(), RunError> {
         let State { n, q, p, increments } = *self;
         for (index, position) in q.iter().enumerate() {
             check_value(position, Quantity::Position(index), n)?;

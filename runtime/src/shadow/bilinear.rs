@@ -11,6 +11,7 @@ use crate::shadow::best_bilinear::BestOrder;
 use crate::shadow::estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
 use crate::shadow::family::Family;
 use crate::shadow::form::{Form, Products};
+use crate::shadow::lagged::LaggedEstimator;
 use crate::shadow::options::EstimatorOptions;
 use crate::step_size::StepSize;
 use crate::system::Increments;
@@ -203,7 +204,7 @@ impl<N: Ordered> Estimator<N> for BilinearEstimator<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         match &mut self.0 {
             Kind::Fixed(fixed) => fixed.push(q, p, increments),
@@ -264,33 +265,53 @@ impl<N: Number> BuildEstimator<N> for FixedBilinear {
 
 /// E_k at one k.
 #[derive(Clone, Debug)]
-pub struct FixedBilinearEstimator<N> {
-    products: Products<N>,
-    form: Form<N>,
+pub struct FixedBilinearEstimator<N>(By<N>);
+
+/// How E_k is computed.
+#[derive(Clone, Debug)]
+enum By<N> {
+    Increments(LaggedEstimator<N>),
+    Pairs(Products<N>, Form<N>),
 }
 
 impl<N: Number> FixedBilinearEstimator<N> {
     fn new(k: u32, with_error: bool, h: &Rational, dimension: usize, context: &N::Context) -> Self {
+        if N::KEEPS_INCREMENTS && k <= LaggedEstimator::<N>::LARGEST_K {
+            return FixedBilinearEstimator(By::Increments(LaggedEstimator::new(k, with_error, h, dimension, context)));
+        }
         let form = Form::new(k, with_error, h, context);
         let states = form.k().max(form.delay()) + 1;
-        FixedBilinearEstimator { products: Products::new(states, form.k(), dimension, context), form }
+        FixedBilinearEstimator(By::Pairs(Products::new(states, form.k(), dimension, context), form))
     }
 }
 
 impl<N: Number> Estimator<N> for FixedBilinearEstimator<N> {
     fn states(&self) -> usize {
-        self.form.k() + 1 + 2 * self.form.error_estimate.around()
+        match &self.0 {
+            By::Increments(lagged) => lagged.states(),
+            By::Pairs(_, form) => form.k() + 1 + 2 * form.error_estimate.around(),
+        }
     }
 
+    #[inline(always)]
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
-        self.products.push(q, p, increments);
-        if self.products.pushed() <= self.form.k() {
-            return None;
+        match &mut self.0 {
+            By::Increments(lagged) => lagged.push(q, p, increments),
+            By::Pairs(products, form) => push_pairs(products, form, (q, p), increments),
         }
-        self.form.add_value(&self.products, 0);
-        if !self.form.error_estimate.update() {
-            return None;
-        }
-        Some(self.form.estimate(self.products.state(self.form.delay())))
     }
+}
+
+fn push_pairs<'a, N: Number>(
+    products: &'a mut Products<N>,
+    form: &'a mut Form<N>,
+    (q, p): (&[N], &[N]),
+    increments: Increments<'_, N>,
+) -> Option<Estimate<'a, N>> {
+    products.push(q, p, increments);
+    if products.pushed() <= form.k() {
+        return None;
+    }
+    form.add_value(products, 0);
+    form.error_estimate.update().then(|| form.estimate(products.state(form.delay())))
 }

@@ -31,6 +31,14 @@ pub(super) struct Point<N> {
     pub(super) order: u32,
 }
 
+impl<N: Number> Point<N> {
+    pub(super) fn assign(&mut self, other: &Self) {
+        self.value.assign(&other.value);
+        self.last_term.assign(&other.last_term);
+        self.order = other.order;
+    }
+}
+
 impl<N: Number> ErrorEstimate<N> {
     /// With `around` values on either side.
     pub(super) fn new(around: usize, context: &N::Context) -> Self {
@@ -88,4 +96,14 @@ impl<N: Number> ErrorEstimate<N> {
     fn is_complete(&self) -> bool {
         self.points.len() > 2 * self.around
     }
+}
+
+/// From how many values on either side the error of E_k is estimated.
+///
+/// The error is a bump of a few steps' width that grows like √k. With three, the largest true error/estimate on the orbits of
+/// the tests grows from 1.0 for k ≤ 8 to 2.9 for k = 96; with ⌈k/2⌉ it is 1.0, and estimates are many decades too large where the error
+/// changes fast; with this it is 1.01.
+pub(super) fn around(k: u32) -> usize {
+    let root = k.isqrt();
+    1 + root as usize + usize::from(root * root < k)
 }

@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 
 use crate::Rational;
 use crate::number::{LimbAccess, Number};
-use crate::shadow::error_estimate::{ErrorEstimate, Point};
+use crate::shadow::error_estimate::{ErrorEstimate, Point, around};
 use crate::shadow::estimator::Estimate;
 use crate::shadow::fixed::{IntegerWeights, OfLag, Rows, Sums};
 use crate::shadow::weights::BilinearWeights;
@@ -186,16 +186,6 @@ impl<N: Number> Weights<N> {
             sum: N::zero(context),
         }
     }
-}
-
-/// From how many values on either side the error of E_k is estimated.
-///
-/// The error is a bump of a few steps' width that grows like √k. With three, the largest true error/estimate on the orbits of
-/// the tests grows from 1.0 for k ≤ 8 to 2.9 for k = 96; with ⌈k/2⌉ it is 1.0, and estimates are many decades too large where the error
-/// changes fast; with this it is 1.01.
-fn around(k: u32) -> usize {
-    let root = k.isqrt();
-    1 + root as usize + usize::from(root * root < k)
 }
 
 /// P_{j+ℓ,j}/(2h) of E_k, of the rows the first halves, each rounded once.

@@ -58,6 +58,7 @@ impl<N: Ordered> Blocks<N> {
     }
 
     /// Takes an estimate and the energy at the same state; returns the most accurate estimate of its block so far.
+    #[inline]
     pub(super) fn push(&mut self, energy: &N, newest: &Estimated<N>) -> &Estimated<N> {
         let place = self.full;
         let block = &mut self.blocks[place];

@@ -15,6 +15,7 @@ impl<N: Ordered> Estimated<N> {
         Estimated { value: N::zero(context), error: N::zero(context) }
     }
 
+    #[inline]
     pub(super) fn assign(&mut self, other: &Self) {
         self.value.assign(&other.value);
         self.error.assign(&other.error);

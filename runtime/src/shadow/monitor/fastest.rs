@@ -1,7 +1,13 @@
 //! The coordinate that turns fastest, each by itself, however little of the energy it has.
 
-use super::recent::{STATES, Sums, Turning, assign_differences, assign_second_difference, turning};
+use super::turning::{STATES, Sums, Turning, assign_second_difference, turning};
+use crate::instructions;
 use crate::number::{Ordered, epsilon};
+
+/// So many coordinates of a long state are computed at once.
+const LANES: usize = 8;
+/// From this dimension on the choice of instructions costs less than it gains.
+const LONG: usize = 64;
 
 /// A second difference of fewer last places of p than this is round-off.
 const ROUNDING: i32 = 1000;
@@ -17,10 +23,10 @@ pub(super) struct Fastest<N> {
     /// p of the first states, as far as they have come.
     start: [Vec<N>; STATES],
     begun: usize,
-    coordinates: Vec<Sums<N>>,
+    /// For each coordinate Σ (δ²p)², then for each Σ δ²p δ⁴p, and for each Σ (δ⁴p)².
+    sums: Vec<N>,
     /// 1000 ε
     rounding: N,
-    round_off: N,
     x: N,
     y: N,
     z: N,
@@ -34,9 +40,8 @@ impl<N: Ordered> Fastest<N> {
         Fastest {
             start: std::array::from_fn(|_| vec![zero(); dimension]),
             begun: 0,
-            coordinates: vec![Sums::zero(context); dimension],
+            sums: vec![zero(); 3 * dimension],
             rounding,
-            round_off: zero(),
             x: zero(),
             y: zero(),
             z: zero(),
@@ -45,7 +50,7 @@ impl<N: Ordered> Fastest<N> {
 
     /// The number of coordinates.
     pub(super) fn dimension(&self) -> usize {
-        self.coordinates.len()
+        self.sums.len() / 3
     }
 
     /// Takes p of the state n: a body that is lost in the first steps turns only there.
@@ -56,19 +61,72 @@ impl<N: Ordered> Fastest<N> {
         self.begun += 1;
     }
 
-    /// Takes p of successive states.
-    pub(super) fn add(&mut self, [p0, p1, p2, p3, p4]: &[Vec<N>; STATES]) {
-        let Fastest { coordinates, rounding, round_off, x, y, z, .. } = self;
-        for (i, sums) in coordinates.iter_mut().enumerate() {
-            assign_differences([x, y], z, [&p0[i], &p1[i], &p2[i], &p3[i], &p4[i]]);
-            round_off.assign_product(&p2[i], rounding);
-            round_off.make_absolute();
-            z.assign(x);
-            z.make_absolute();
-            if *z > *round_off {
-                sums.add(x, y);
-            }
+    /// Takes second differences of p at successive states, and p at the middle one.
+    #[inline(always)]
+    pub(super) fn add(&mut self, [before, second, after]: [&[N]; 3], p: &[N]) {
+        let dimension = p.len();
+        let (before, second, after) = (&before[..dimension], &second[..dimension], &after[..dimension]);
+        if dimension >= LANES {
+            self.add_lanes([before, second, after, p]);
         }
+        let Fastest { sums, rounding, x, y, z, .. } = self;
+        let (squares, others) = sums.split_at_mut(dimension);
+        let (products, fourths) = others.split_at_mut(dimension);
+        let fourths = &mut fourths[..dimension];
+        for i in dimension - dimension % LANES..dimension {
+            let differences = [&before[i], &second[i], &after[i]];
+            add_coordinate(
+                [&mut squares[i], &mut products[i], &mut fourths[i]],
+                differences,
+                (&p[i], rounding),
+                [x, y, z],
+            );
+        }
+    }
+
+    /// The coordinates of a long state in groups.
+    fn add_lanes(&mut self, vectors: [&[N]; 4]) {
+        if N::IN_VECTORS && vectors[0].len() >= LONG {
+            instructions::widest(
+                #[inline(always)]
+                || self.add_lanes_here(vectors),
+            );
+        } else {
+            self.add_lanes_here(vectors);
+        }
+    }
+
+    #[inline(always)]
+    fn add_lanes_here(&mut self, [before, second, after, p]: [&[N]; 4]) {
+        let Fastest { sums, rounding, x, y, z, .. } = self;
+        let (squares, others) = sums.split_at_mut(p.len());
+        let (products, fourths) = others.split_at_mut(p.len());
+        let in_groups = |vector| -> &[[N; LANES]] { <[N]>::as_chunks(vector).0 };
+        let (before, second, after, p) = (in_groups(before), in_groups(second), in_groups(after), in_groups(p));
+        let sums = squares.as_chunks_mut::<LANES>().0.iter_mut();
+        let sums = sums.zip(products.as_chunks_mut::<LANES>().0).zip(fourths.as_chunks_mut::<LANES>().0);
+        for (((squares, products), fourths), (((before, second), after), p)) in
+            sums.zip(before.iter().zip(second).zip(after).zip(p))
+        {
+            let mut of_group = [squares.clone(), products.clone(), fourths.clone()];
+            let [of_squares, of_products, of_fourths] = &mut of_group;
+            for l in 0..LANES {
+                let differences = [&before[l], &second[l], &after[l]];
+                add_coordinate(
+                    [&mut of_squares[l], &mut of_products[l], &mut of_fourths[l]],
+                    differences,
+                    (&p[l], rounding),
+                    [x, y, z],
+                );
+            }
+            [*squares, *products, *fourths] = of_group;
+        }
+    }
+
+    /// Of a coordinate.
+    fn sums(&self, i: usize) -> Sums<N> {
+        let of = |place: usize| self.sums[place * self.dimension() + i].clone();
+        Sums { squares: of(0), products: of(1), fourths: of(2) }
     }
 
     /// A coordinate that turned fast in the first five states, and turns at most a third as fast, or not at all, in the windows since; counted from
@@ -77,7 +135,7 @@ impl<N: Ordered> Fastest<N> {
         if self.begun < STATES {
             return None;
         }
-        let still = |i: usize| turning(&self.coordinates[i], &mut self.x.clone()).map_or(0.0, |turning| turning.angle);
+        let still = |i: usize| turning(&self.sums(i), &mut self.x.clone()).map_or(0.0, |turning| turning.angle);
         let angles = (0..self.dimension()).filter_map(|i| Some((i, self.angle_at_start(i)?)));
         angles
             .filter(|(i, angle)| *angle >= FAST && still(*i) <= angle / 3.0)
@@ -100,16 +158,51 @@ impl<N: Ordered> Fastest<N> {
         says.then(|| ((before + after) / (2.0 * middle)).clamp(-1.0, 1.0).acos())
     }
 
+    /// Of p at the first states from the n-th on.
+    fn second_differences(&self, n: usize) -> Vec<N> {
+        let mut differences = self.start[n].clone();
+        for (i, own) in differences.iter_mut().enumerate() {
+            assign_second_difference(own, &self.start[n][i], &self.start[n + 1][i], &self.start[n + 2][i]);
+        }
+        differences
+    }
+
     /// The coordinate that turns by the largest angle, counted from 0; `None` where none turns.
     pub(super) fn found(&self) -> Option<(usize, Turning)> {
         let (mut all, mut quotient) = (self.clone(), self.x.clone());
         if self.begun == STATES {
-            all.add(&self.start);
+            let [before, second, after] = [0, 1, 2].map(|n| self.second_differences(n));
+            all.add([&before, &second, &after], &self.start[2]);
         }
-        let turnings = all.coordinates.iter().map(|sums| turning(sums, &mut quotient)).enumerate();
+        let turnings = (0..all.dimension()).map(|i| turning(&all.sums(i), &mut quotient)).enumerate();
         let regular = turnings.filter_map(|(i, turning)| Some((i, turning?)));
         regular
             .filter(|(_, turning)| turning.irregular <= LARGEST_IRREGULARITY)
             .reduce(|fastest, other| if other.1.angle > fastest.1.angle { other } else { fastest })
+    }
+}
+
+/// Adds the products of δ²p and δ⁴p of a coordinate, where δ²p is not round-off.
+#[inline(always)]
+fn add_coordinate<N: Ordered>(
+    [squares, products, fourths]: [&mut N; 3],
+    [before, second, after]: [&N; 3],
+    (p, rounding): (&N, &N),
+    [x, y, z]: [&mut N; 3],
+) {
+    let (mut x, mut y, mut z) = (x.register(), y.register(), z.register());
+    x.assign(second);
+    x.make_absolute();
+    z.assign_product(p, rounding);
+    z.make_absolute();
+    let turns = *x > *z;
+    assign_second_difference(&mut *y, before, second, after);
+    // without a branch, so that the compiler makes vectors of coordinates
+    for (sum, [a, b]) in [(squares, [second, second]), (products, [second, &y]), (fourths, [&y, &y])] {
+        z.assign(sum);
+        z.add_product(a, b);
+        if turns {
+            sum.assign(&z);
+        }
     }
 }

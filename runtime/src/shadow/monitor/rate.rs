@@ -1,10 +1,8 @@
-//! Whether the rate is qᵀU_q − 2U: H from the gradient and the rate against H itself, in some windows.
+//! Whether the rate is qᵀU_q − 2U: H from the gradient and the rate against H itself.
 
 use crate::number::{Ordered, epsilon};
 use crate::system::System;
 
-/// They are compared in so many windows, and then in one of so many.
-const WINDOWS: u64 = 8;
 /// Both are rounded; a difference of so many last places of |H| + T is not.
 const LARGEST_ROUNDING: i32 = 1_000_000_000;
 
@@ -31,11 +29,8 @@ impl<N: Ordered> RateCheck<N> {
         RateCheck { q: zeros(), p: zeros(), energy: zero(), kinetic: zero(), size: zero(), rounding, wrong: 0 }
     }
 
-    /// Compares H as the system gives it at its present state, in the n-th window.
-    pub(super) fn compare<M: System<Number = N>>(&mut self, system: &mut M, energy: &N, window: u64) {
-        if window >= WINDOWS && !window.is_multiple_of(WINDOWS) {
-            return;
-        }
+    /// Compares H as the system gives it at its present state.
+    pub(super) fn compare<M: System<Number = N>>(&mut self, system: &mut M, energy: &N) {
         self.q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
         self.p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
         system.assign_energies_at(&self.q, &self.p, &mut self.energy, &mut self.kinetic);

@@ -1,26 +1,28 @@
 //! What follows from the newest states of a window besides H̄: the effect of round-off on the energy, the angle by which the fastest
 //! motion turns, and whether the states belong to the increments.
 
-use std::f64::consts::TAU;
-
+use super::fastest::Fastest;
+use super::partial_sums::PartialSums;
 use super::roughness::{Rough, Roughness};
+use super::turning::{STATES, Sums, Turning, assign_second_difference, turning};
 use crate::number::{Ordered, epsilon};
 use crate::shadow::estimator::EstimatorError;
-use crate::shadow::walk::{add_squares, add_squares_of_increments, kick_factor};
+use crate::shadow::walk::{add_squares_of_increments, kick_factor};
 use crate::step_size::StepSize;
-use crate::system::{Increments, System};
+use crate::system::System;
 
-/// States that the turning needs: three second differences.
-pub(super) const STATES: usize = 5;
+/// The states that are kept, with second differences.
+const KEPT: usize = 3;
 /// A fourth difference of p is off by less than so many last places of p: rms by √(20 s) · 0.2123, s the stages of a step.
 const LAST_PLACES: f64 = 10.0;
 
 /// The newest states of a window, and sums over all windows.
 #[derive(Clone, Debug)]
 pub(super) struct Recent<N> {
-    /// The newest last.
-    q: [Vec<N>; 3],
-    p: [Vec<N>; STATES],
+    /// For each in turn q, p, and δ²p of it and the two states before it.
+    states: Vec<N>,
+    /// The place of the newest.
+    newest: usize,
     /// Evaluations of the gradient up to the state before the newest, and up to the newest.
     evaluations: [u64; 2],
     /// Whether round-off is that of the increments.
@@ -47,47 +49,12 @@ pub(super) struct Recent<N> {
     /// Σ ½(p_0 + p_1)ᵀ(q_1 − q_0) over the last steps of the windows.
     action: N,
     /// Intermediate results.
+    two: PartialSums<N, 2>,
+    three: PartialSums<N, 3>,
+    four: PartialSums<N, 4>,
     x: N,
     y: N,
     z: N,
-}
-
-/// Over the windows, and over the coordinates of each; δ²p and δ⁴p are second and fourth differences, centred at the same state.
-///
-/// Of δ²p_0 + δ²p_2 = 2 cos θ δ²p_1 short steps would lose θ: it is δ⁴p that keeps it.
-#[derive(Clone, Debug)]
-pub(super) struct Sums<N> {
-    /// Σ (δ²p)²
-    squares: N,
-    /// Σ δ²p δ⁴p
-    products: N,
-    /// Σ (δ⁴p)²
-    fourths: N,
-}
-
-impl<N: Ordered> Sums<N> {
-    pub(super) fn zero(context: &N::Context) -> Self {
-        let zero = || N::zero(context);
-        Sums { squares: zero(), products: zero(), fourths: zero() }
-    }
-
-    /// Adds δ²p and δ⁴p of one coordinate.
-    pub(super) fn add(&mut self, second: &N, fourth: &N) {
-        self.squares.add_product(second, second);
-        self.products.add_product(second, fourth);
-        self.fourths.add_product(fourth, fourth);
-    }
-}
-
-/// How the fastest motion turns.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Turning {
-    /// θ, from one step to the next.
-    pub(super) angle: f64,
-    /// The part of δ⁴p that is not −4 sin²(θ/2) δ²p: 0 for one oscillation, 1 for noise.
-    pub(super) irregular: f64,
-    /// By how much round-off of p may change 4 sin²(θ/2), which is θ² for short steps.
-    pub(super) round_off: f64,
 }
 
 impl<N: Ordered> Recent<N> {
@@ -98,7 +65,6 @@ impl<N: Ordered> Recent<N> {
         context: &N::Context,
     ) -> Result<Self, EstimatorError> {
         let zero = || N::zero(context);
-        let zeros = || vec![zero(); dimension];
         let sums = || Sums::zero(context);
         let mut epsilon: N = epsilon(context);
         let factor = kick_factor(&epsilon, h.exact(), context);
@@ -106,8 +72,8 @@ impl<N: Ordered> Recent<N> {
         let mut rounding = zero();
         rounding.assign_square(&epsilon);
         Ok(Recent {
-            q: std::array::from_fn(|_| zeros()),
-            p: std::array::from_fn(|_| zeros()),
+            states: vec![zero(); KEPT * 3 * dimension],
+            newest: 0,
             evaluations: [0; 2],
             compensated: false,
             factor,
@@ -122,71 +88,78 @@ impl<N: Ordered> Recent<N> {
             mismatches: 0,
             moves: false,
             action: zero(),
+            two: PartialSums::new(context),
+            three: PartialSums::new(context),
+            four: PartialSums::new(context),
             x: zero(),
             y: zero(),
             z: zero(),
         })
     }
 
-    /// Takes the next state of a window, and what the step to it added, where that is known.
-    pub(super) fn push<M: System<Number = N>>(&mut self, system: &M, added: Option<Increments<'_, N>>) {
-        self.q.rotate_left(1);
-        self.p.rotate_left(1);
-        let ([.., q], [.., p]) = (&mut self.q, &mut self.p);
-        q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
-        p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
+    /// Takes the next state of a window, to which an augmented step may have led.
+    #[inline(always)]
+    pub(super) fn push<M: System<Number = N>>(&mut self, system: &M, is_augmented: bool) {
+        let (q, p, added) = (system.q(), system.p(), system.increments());
+        self.newest = if self.newest + 1 < KEPT { self.newest + 1 } else { 0 };
+        let [before, last, own] = in_order(&mut self.states, self.newest, q.len());
+        for (second, ((p0, p1), p2)) in own.second.iter_mut().zip(before.p.iter().zip(&*last.p).zip(p)) {
+            assign_second_difference(second, p0, p1, p2);
+        }
+        own.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
+        own.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        if is_augmented && added.has_vectors() {
+            let Recent { rounding, three, x, y, .. } = self;
+            let mut differs =
+                |before: &[N], after: &[N], added: &[N]| differ([before, after, added], rounding, three, [x, y]);
+            self.mismatch |= differs(last.q, q, added.q) | differs(last.p, p, added.p);
+        }
         self.evaluations = [self.evaluations[1], system.evaluations()];
         self.compensated = system.is_compensated();
-        self.roughness.push(system.q(), system.p(), added);
-        if let Some(added) = added.filter(|added| added.has_vectors()) {
-            self.mismatch |= self.differs_from(added);
+        if self.roughness.takes() {
+            self.roughness.push(q, p, is_augmented.then_some(added));
         }
     }
 
-    /// Whether the newest state differs from the one before plus its increments, by more than 1/1000 of these and 1000 ε of q and p.
-    ///
-    /// Increments that a plain step left behind are those of an earlier step, or 0.
-    fn differs_from(&mut self, added: Increments<'_, N>) -> bool {
-        let Recent { q: [_, q0, q1], p: [.., p0, p1], rounding, x, y, z, .. } = self;
-        [(q0, q1, added.q), (p0, p1, added.p)].into_iter().any(|(before, after, added)| {
-            y.assign_zero(); // what is off, 1000 times, squared
-            z.assign_zero(); // what it may be
-            for ((before, after), added) in before.iter().zip(after).zip(added) {
-                x.assign_difference(after, before);
-                z.add_product(x, x);
-                x.subtract(added);
-                x.multiply_integer(1000);
-                y.add_product(x, x);
-                x.assign_product(after, rounding);
-                z.add_product(x, after);
-            }
-            // false for NaN, which is found elsewhere
-            *y > *z
-        })
-    }
-
-    /// Ends a window of `states` states.
-    pub(super) fn end(&mut self, states: usize) {
+    /// Ends a window of `states` states of this dimension.
+    #[inline(always)]
+    pub(super) fn end(&mut self, states: usize, dimension: usize, fastest: &mut Fastest<N>) {
         self.mismatches += u64::from(std::mem::take(&mut self.mismatch));
-        self.moves |= self.q[1] != self.q[2];
-        self.add_kick();
-        self.add_action();
+        self.add_kick_and_action(dimension);
         if states >= STATES {
-            self.add_turning();
+            self.add_turning(dimension, fastest);
         }
-        let angle = turning(&self.window, &mut self.x).map(|turning| turning.angle);
-        self.roughness.end(angle, &self.square_kick);
+        if self.roughness.ends() {
+            let angle = turning(&self.window, &mut self.x).map(|turning| turning.angle);
+            self.roughness.end(angle, &self.square_kick);
+        }
     }
 
     /// Adds s (cε/h)² Σ ((Δq p)² + (Δp q)²): T_p is Δq/h, U_q is −Δp/h, and s stages round q and p by cε|q| and cε|p| each; where sums are
     /// compensated, Δq and Δp.
-    fn add_kick(&mut self) {
-        let Recent { q: [q0, q1, q2], p: [.., p0, p1, p2], x, y, z, .. } = self;
-        z.assign_zero();
+    #[inline(always)]
+    fn add_kick_and_action(&mut self, dimension: usize) {
+        let Recent { states, newest, two, x, y, z, .. } = self;
+        let [before, s0, s1] = in_order(states, *newest, dimension);
+        self.moves = self.moves || s0.q != s1.q;
+        let [kick, action] = two.of([s0.q, s1.q, s0.p, s1.p], |[q0, q1, p0, p1], [kick, action]| {
+            let (mut x, mut y) = (x.register(), y.register());
+            x.assign_difference(q1, q0);
+            y.assign_sum(p0, p1);
+            action.add_product(&x, &y);
+            x.multiply(p1);
+            kick.add_product(&x, &x);
+            y.assign_difference(p1, p0);
+            y.multiply(q1);
+            kick.add_product(&y, &y);
+        });
+        z.assign(&action);
+        z.divide_integer(2);
+        self.action.add(z);
+        z.assign(&kick);
         if self.compensated {
-            add_squares_of_increments(z, [q0, q1, q2], [p0, p1, p2], [x, y]);
-        } else {
-            add_squares(z, [q1, q2], [p1, p2], [x, y]);
+            z.assign_zero();
+            add_squares_of_increments(z, [before.q, s0.q, s1.q], [before.p, s0.p, s1.p], [x, y]);
         }
         let stages = self.evaluations[1].saturating_sub(self.evaluations[0]).max(1);
         z.multiply_integer(i32::try_from(stages).unwrap_or(i32::MAX));
@@ -194,35 +167,30 @@ impl<N: Ordered> Recent<N> {
         self.kicks.add(&self.square_kick);
     }
 
-    fn add_action(&mut self) {
-        let Recent { q: [_, q0, q1], p: [.., p0, p1], action, x, y, .. } = self;
-        for (((q0, q1), p0), p1) in q0.iter().zip(q1).zip(p0).zip(p1) {
-            x.assign_difference(q1, q0);
-            y.assign_sum(p0, p1);
-            y.divide_integer(2);
-            action.add_product(x, y);
-        }
-    }
-
-    fn add_turning(&mut self) {
-        let Recent { p: [p0, p1, p2, p3, p4], window: sums, weighted, x, y, z, .. } = self;
-        sums.squares.assign_zero();
-        sums.products.assign_zero();
-        sums.fourths.assign_zero();
-        for ((((p0, p1), p2), p3), p4) in p0.iter().zip(p1).zip(p2).zip(p3).zip(p4) {
-            assign_differences([x, y], z, [p0, p1, p2, p3, p4]);
-            sums.add(x, y);
-            x.multiply(p2);
-            weighted.add_product(x, x);
-        }
-        self.sums.squares.add(&sums.squares);
-        self.sums.products.add(&sums.products);
-        self.sums.fourths.add(&sums.fourths);
-    }
-
-    /// p of the newest states, if a window of `states` states has as many.
-    pub(super) fn momenta(&self, states: usize) -> Option<&[Vec<N>; STATES]> {
-        (states >= STATES).then_some(&self.p)
+    #[inline(always)]
+    fn add_turning(&mut self, dimension: usize, fastest: &mut Fastest<N>) {
+        let Recent { states, newest, window, four, x, y, .. } = self;
+        let [s2, s3, s4] = in_order(states, *newest, dimension);
+        let [squares, products, fourths, weighted] = four.of(
+            [s2.second, s3.second, s4.second, s2.p],
+            |[before, second, after, p], [squares, products, fourths, weighted]| {
+                let (mut x, mut y) = (x.register(), y.register());
+                assign_second_difference(&mut *y, before, second, after);
+                squares.add_product(second, second);
+                products.add_product(second, &y);
+                fourths.add_product(&y, &y);
+                x.assign_product(second, p);
+                weighted.add_product(&x, &x);
+            },
+        );
+        fastest.add([s2.second, s3.second, s4.second], s2.p);
+        self.weighted.add(&weighted);
+        window.squares.assign(&squares);
+        window.products.assign(&products);
+        window.fourths.assign(&fourths);
+        self.sums.squares.add(&squares);
+        self.sums.products.add(&products);
+        self.sums.fourths.add(&fourths);
     }
 
     /// The number of windows in which a state differs from its increments.
@@ -270,45 +238,64 @@ impl<N: Ordered> Recent<N> {
     }
 }
 
-/// `None` where nothing turns; without the effect of round-off.
-pub(super) fn turning<N: Ordered>(Sums { squares, products, fourths }: &Sums<N>, quotient: &mut N) -> Option<Turning> {
-    let mut ratio = |a: &N| {
-        quotient.assign_quotient(a, squares);
-        quotient.to_f64()
-    };
-    // 4 sin²(θ/2) = 2 − 2 cos θ
-    let (square, rest) = (-ratio(products), ratio(fourths));
-    let angle = 2.0 * (square.sqrt() / 2.0).asin();
-    let turning = Turning { angle, irregular: (rest - square * square) / 2.0, round_off: 0.0 };
-    (turning.angle.is_finite() && turning.irregular.is_finite()).then_some(turning)
+/// A state that is kept.
+struct Kept<'a, N> {
+    q: &'a mut [N],
+    p: &'a mut [N],
+    second: &'a mut [N],
 }
 
-impl Turning {
-    /// In how many steps it turns once.
-    pub(super) fn steps(self) -> f64 {
-        TAU / self.angle
+/// The states from the oldest to the newest.
+#[inline(always)]
+fn in_order<N>(states: &mut [N], newest: usize, dimension: usize) -> [Kept<'_, N>; KEPT] {
+    let length = 3 * dimension;
+    let (a, others) = states.split_at_mut(length);
+    let (b, others) = others.split_at_mut(length);
+    let c = &mut others[..length];
+    let [a, b, c] = match newest {
+        0 => [b, c, a],
+        1 => [c, a, b],
+        _ => [a, b, c],
+    };
+    [Kept::of(a, dimension), Kept::of(b, dimension), Kept::of(c, dimension)]
+}
+
+impl<'a, N> Kept<'a, N> {
+    #[inline(always)]
+    fn of(row: &'a mut [N], dimension: usize) -> Self {
+        let (q, others) = row.split_at_mut(dimension);
+        let (p, second) = others.split_at_mut(dimension);
+        Kept { q, p, second }
     }
 }
 
-/// The second and the fourth difference of p in the middle of five states.
-pub(super) fn assign_differences<N: Ordered>(
-    [second, fourth]: [&mut N; 2],
-    x: &mut N,
-    [p0, p1, p2, p3, p4]: [&N; STATES],
-) {
-    assign_second_difference(second, p1, p2, p3);
-    assign_second_difference(fourth, p0, p1, p2);
-    assign_second_difference(x, p2, p3, p4);
-    fourth.add(x);
-    fourth.subtract(second);
-    fourth.subtract(second);
-}
-
-/// out ← a − 2b + c
-pub(super) fn assign_second_difference<N: Ordered>(out: &mut N, a: &N, b: &N, c: &N) {
-    out.assign_sum(a, c);
-    out.subtract(b);
-    out.subtract(b);
+/// Whether a state differs from the one before plus its increments, by more than 1/1000 of these and 1000 ε of its numbers: of q, or of p.
+///
+/// Increments that a plain step left behind are those of an earlier step, or 0.
+#[inline(always)]
+fn differ<N: Ordered>(
+    [before, after, added]: [&[N]; 3],
+    rounding: &N,
+    three: &mut PartialSums<N, 3>,
+    [x, y]: [&mut N; 2],
+) -> bool {
+    let [off, changes, sizes] =
+        three.of([after, before, &added[..after.len()]], |[after, before, added], [off, changes, sizes]| {
+            let mut difference = x.register();
+            difference.assign_difference(after, before);
+            changes.add_product(&difference, &difference);
+            difference.subtract(added);
+            off.add_product(&difference, &difference);
+            sizes.add_product(after, after);
+        });
+    // what is off, 1000 times, squared; and what it may be
+    let (mut x, mut y) = (x.register(), y.register());
+    x.assign(&off);
+    x.multiply_integer(1_000_000);
+    y.assign(&changes);
+    y.add_product(&sizes, rounding);
+    // false for NaN, which is found elsewhere
+    *x > *y
 }
 
 #[cfg(test)]

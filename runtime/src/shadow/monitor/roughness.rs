@@ -72,6 +72,12 @@ impl<N: Ordered> Roughness<N> {
         Ok(Roughness { spacings, states, skipped: 0, ended: 0, windows: 0, squares: [zero(), zero()], kicks: zero() })
     }
 
+    /// Whether it takes states: windows are long enough.
+    #[inline]
+    pub(super) fn takes(&self) -> bool {
+        self.spacings.is_some()
+    }
+
     /// Takes a state of a window; what the step to it added is not known of the first one.
     pub(super) fn push(&mut self, q: &[N], p: &[N], added: Option<Increments<'_, N>>) {
         if self.skipped > 0 {
@@ -81,10 +87,16 @@ impl<N: Ordered> Roughness<N> {
         }
     }
 
-    /// Ends a window in which the motion turns by `angle` a step, and a step rounds the energy by √`square_kick`.
-    pub(super) fn end(&mut self, angle: Option<f64>, square_kick: &N) {
+    /// Ends a window; whether it has last terms.
+    #[inline]
+    pub(super) fn ends(&mut self) -> bool {
         self.ended += 1;
-        let Some(spacings) = self.spacings.as_mut().filter(|spacings| spacings.is_complete()) else { return };
+        self.spacings.as_ref().is_some_and(Spacings::is_complete)
+    }
+
+    /// The last terms of a window in which the motion turns by `angle` a step, and a step rounds the energy by √`square_kick`.
+    pub(super) fn end(&mut self, angle: Option<f64>, square_kick: &N) {
+        let Some(spacings) = &mut self.spacings else { return };
         spacings.count = 0;
         if self.ended > ALL_WINDOWS {
             self.skipped = 3 * self.states;

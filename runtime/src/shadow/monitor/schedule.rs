@@ -30,38 +30,61 @@ impl Schedule {
     }
 
     /// Whether the state n belongs to a window.
+    #[inline]
     pub(super) fn takes(&self, n: u64) -> bool {
         self.overlaps() || n + self.states > self.end
     }
 
     /// Whether the state n is the first one of a window that follows plain steps.
+    #[inline]
     pub(super) fn begins(&self, n: u64) -> bool {
         self.takes(n) && !self.needs_increments(n)
     }
 
     /// Whether the step to the state n must be augmented: not to the first one of a window, of which only q and p are used.
+    #[inline]
     pub(super) fn needs_increments(&self, n: u64) -> bool {
         self.overlaps() || n + self.states > self.end + 1
     }
 
     /// Whether the state n is the last one of its window.
+    #[inline]
     pub(super) fn ends(&self, n: u64) -> bool {
         n == self.end
     }
 
     /// Whether windows have states in common.
+    #[inline]
     pub(super) fn overlaps(&self) -> bool {
         self.every <= self.states
     }
 
     /// Whether the state n is the one in the middle of its window, or just before.
+    #[inline]
     pub(super) fn is_middle(&self, n: u64) -> bool {
         n + self.states / 2 == self.end
     }
 
+    /// From one window to the next that has no state in common with it.
+    #[inline]
+    pub(super) fn windows_apart(&self) -> u64 {
+        if self.overlaps() { self.states.div_ceil(self.every) } else { 1 }
+    }
+
+    /// How many states a window has.
+    #[inline]
+    pub(super) fn states(&self) -> usize {
+        self.states as usize
+    }
+
     /// Goes on to the next window.
+    #[inline]
     pub(super) fn advance(&mut self) {
         self.window += 1;
+        if self.every == 1 {
+            self.end += 1;
+            return;
+        }
         let places = if self.overlaps() { self.every } else { self.every - self.reserved() + 1 };
         let place = (u128::from(self.window.wrapping_mul(GOLDEN)) * u128::from(places)) >> 64;
         self.end = self.last_of_first_place() + self.window * self.every + place as u64;

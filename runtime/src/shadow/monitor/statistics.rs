@@ -19,6 +19,7 @@ impl<N: Ordered> Range<N> {
         Range { least: first.clone(), largest: first.clone() }
     }
 
+    #[inline]
     pub(super) fn include(&mut self, value: &N) {
         if *value < self.least {
             self.least.assign(value);
@@ -68,6 +69,7 @@ impl<N: Ordered> Statistics<N> {
     }
 
     /// Takes a window: H, T, H − H̄ and H̄.
+    #[inline]
     pub(super) fn add(&mut self, energy: &N, kinetic: &N, method: &N, modified: &Estimated<N>) {
         self.energy.include(energy);
         self.include_bounds(modified);
@@ -95,6 +97,7 @@ impl<N: Ordered> Statistics<N> {
         root(&quotient(&self.errors, &self.count()))
     }
 
+    #[inline]
     fn include_bounds(&mut self, Estimated { value, error }: &Estimated<N>) {
         let Range { least, largest } = &mut self.beyond_errors;
         for (sign, bound) in [(-ERROR_FACTOR, largest), (ERROR_FACTOR, least)] {

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use super::change::Change;
-use super::recent::Turning;
 use super::trend::Trend;
+use super::turning::Turning;
 
 /// The conclusion about the step size of a run.
 ///
