@@ -109,7 +109,7 @@ fn different_sizes() -> ! {
     panic!("the numbers of an operation have different numbers of limbs")
 }
 
-/// Methods of [`Limbs`] with the same meaning: those that change the number, that give another, and that tell about it.
+/// Methods of [`Limbs`] with the same meaning: those that change the number, that give another, and that describe it.
 macro_rules! methods {
     (changes { $($change:ident($($a:ident),*);)+ } gives { $($give:ident($($n:ident)?);)+ } is { $($is:ident -> $result:ty;)+ }) => {
         $(
