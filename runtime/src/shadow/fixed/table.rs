@@ -90,10 +90,9 @@ impl<N: Number> FixedTable<N> {
     /// term ← −qᵀδp + pᵀδq − δβ at the state k before the newest, with δ = 2 μδ^{2k−1}.
     pub(in crate::shadow) fn term(&mut self, k: usize, term: &mut N) {
         let [newest, before] = [&mut self.newest, &mut self.before].map(|levels| &mut levels[2 * k - 1]);
-        let len = Level::widen_both(newest, before);
         let factors = &self.factors[(self.pushed - 1 - k) % self.factors.len()];
         let mut sum = [0; MOST_OF_ROW + 3];
-        let low = by_limbs!(sum_of_products(len, newest, before, factors, &mut sum));
+        let (len, low) = sum_of_term(newest, before, factors, &mut sum);
         if low == NOT_FINITE {
             (self.access.assign_nan)(term);
         } else {
@@ -221,7 +220,13 @@ fn is_small(top: u64) -> bool {
     top.wrapping_add(1 << 62) >> 63 == 0
 }
 
-/// Σ factor (newest + before) − δβ in len + 3 limbs; returns `low`.
+/// Σ factor (newest + before) − δβ in len + 3 limbs; returns len and `low`. It is compiled once for all number types.
+fn sum_of_term(newest: &mut Level, before: &mut Level, factors: &Factors, sum: &mut [u64]) -> (usize, i64) {
+    let len = Level::widen_both(newest, before);
+    (len, by_limbs!(sum_of_products(len, newest, before, factors, sum)))
+}
+
+/// The same for a number of limbs.
 #[inline(always)]
 fn sum_of_products(len: usize, newest: &Level, before: &Level, factors: &Factors, sum: &mut [u64]) -> i64 {
     let last = factors.low.len();
