@@ -32,8 +32,8 @@ pub use machine::Machine;
 /// | 1/√a | quotient of 1 and the root | 18.2u² | 5.72u² |
 /// | exp; log | table of 32 powers, of 47 logarithms; series | 4u²; 14u² | 1.78u²; 2.06u² |
 /// | sinh; cosh; tanh | from exp; series | 12u²; 15u²; 29u² | 3.31u²; 2.84u²; 8.33u² |
-/// | sin, cos; tan | table of 129 sines; series | 22u²; 42u² | 2.63u²; 5.76u² |
-/// | atan; asin; acos | a step of Newton from an `f64` | 38u²; 25u²; 30u² | 4.11u²; 2.63u²; 3.82u² |
+/// | sin, cos; tan | table of 129 sines; series | 22u²; 42u² | 2.95u²; 5.92u² |
+/// | atan; asin; acos | a step of Newton from an `f64` | 38u²; 25u²; 30u² | 4.11u²; 3.02u²; 3.95u² |
 /// | n-th root, n > 2 | a step of Halley from an `f64` | 12u² | 2.72u² |
 ///
 /// u² = 2⁻¹⁰⁶ = 1.2e-32. x + a b has an error of at most u² (|x + a b| + 2|x| + 9|a b|) (1 + 20u), of which two thirds were found: the
