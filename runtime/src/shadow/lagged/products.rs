@@ -7,8 +7,6 @@ use crate::number::Number;
 const LANES: usize = 8;
 /// So many lags of long states take turns.
 const AT_ONCE: usize = 4;
-/// From this dimension on the choice of instructions costs less than it gains.
-const LONG: usize = 64;
 
 /// What the newest steps added to β, q and p.
 #[derive(Clone, Debug)]
@@ -95,14 +93,12 @@ impl<N: Number> LaggedProducts<N> {
     #[inline(never)]
     fn of_long_state<const K: usize>(&mut self, [q, p]: [&[N]; 2]) -> [N; K] {
         let mut products = std::array::from_fn(|_| N::zero(&q[0].context()));
-        if N::IN_VECTORS && q.len() >= LONG {
-            instructions::widest(
-                #[inline(always)]
-                || self.add_groups(q, p, &mut products),
-            );
-        } else {
-            self.add_groups(q, p, &mut products);
-        }
+        instructions::widest_if_long(
+            N::IN_VECTORS,
+            q.len(),
+            #[inline(always)]
+            || self.add_groups(q, p, &mut products),
+        );
         products
     }
 

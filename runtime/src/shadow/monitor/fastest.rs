@@ -6,8 +6,6 @@ use crate::number::{Ordered, epsilon};
 
 /// So many coordinates of a long state are computed at once.
 const LANES: usize = 8;
-/// From this dimension on the choice of instructions costs less than it gains.
-const LONG: usize = 64;
 
 /// A second difference of fewer last places of p than this is round-off.
 const ROUNDING: i32 = 1000;
@@ -86,14 +84,12 @@ impl<N: Ordered> Fastest<N> {
 
     /// The coordinates of a long state in groups.
     fn add_lanes(&mut self, vectors: [&[N]; 4]) {
-        if N::IN_VECTORS && vectors[0].len() >= LONG {
-            instructions::widest(
-                #[inline(always)]
-                || self.add_lanes_here(vectors),
-            );
-        } else {
-            self.add_lanes_here(vectors);
-        }
+        instructions::widest_if_long(
+            N::IN_VECTORS,
+            vectors[0].len(),
+            #[inline(always)]
+            || self.add_lanes_here(vectors),
+        );
     }
 
     #[inline(always)]

@@ -5,8 +5,6 @@ use crate::number::Number;
 
 /// In how many partial sums the coordinates of a long state are added up, which do not wait for one another: as many on all machines.
 const LANES: usize = 8;
-/// From this dimension on the choice of instructions costs less than it gains.
-const LONG: usize = 64;
 
 /// Room for S sums at once.
 #[derive(Clone, Debug)]
@@ -55,14 +53,12 @@ impl<N: Number, const S: usize> PartialSums<N, S> {
     }
 
     fn add_lanes<const V: usize>(&mut self, vectors: [&[N]; V], add: &mut impl FnMut([&N; V], [&mut N; S])) {
-        if N::IN_VECTORS && vectors[0].len() >= LONG {
-            instructions::widest(
-                #[inline(always)]
-                || self.add_lanes_here(vectors, add),
-            );
-        } else {
-            self.add_lanes_here(vectors, add);
-        }
+        instructions::widest_if_long(
+            N::IN_VECTORS,
+            vectors[0].len(),
+            #[inline(always)]
+            || self.add_lanes_here(vectors, add),
+        );
     }
 
     /// The lanes of a sum are side by side in memory at the end: so the compiler makes vectors of them.
