@@ -66,6 +66,7 @@
 //! | [`shadow`] | estimators of the modified energy, and [a monitor](shadow::ShadowEnergy) for loops |
 //! | [`ensemble`] | many trajectories at once, in lanes and on all cores |
 //! | [`run`] | trajectories with the states that an estimator needs on both sides, and the energy drift |
+//! | [`kepler_drift`] | the exact flow of Kepler's problem, in every number type |
 //! | `exact_flow` | states of the exact flow of a few problems, to see an estimator's own error |
 
 // generated code refers to `::shadowstep`, in this crate too
@@ -77,6 +78,7 @@ pub mod exact_flow;
 pub mod formula;
 pub mod instructions;
 mod interpreter;
+pub mod kepler_drift;
 pub mod kinetic;
 mod maps;
 pub mod motion;

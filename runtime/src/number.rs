@@ -29,6 +29,7 @@ pub use rug::Float;
 
 pub use double_double::{DoubleDouble, Machine};
 
+pub(crate) use double::scaled;
 pub(crate) use epsilon::epsilon;
 pub use fused::Fused;
 pub use lanes::Lanes;
@@ -86,6 +87,9 @@ pub trait Number: Clone + fmt::Debug {
 
     /// Whether several of these numbers fit into a vector of the processor, so that sums over pairs of bodies take blocks of bodies.
     const IN_VECTORS: bool = false;
+
+    /// How many numbers this is: those in lanes, else 1.
+    const LANES: usize = 1;
 
     /// For a number made of 64-bit limbs, with which estimators then compute in fixed point; without it they compute with numbers.
     #[doc(hidden)]
@@ -246,6 +250,15 @@ pub trait Number: Clone + fmt::Debug {
 
     /// x ← NaN where x is finite, but not r² of two points in space with such a coordinate a: |a| > 3.8e153 in `f64`.
     fn make_nan_where_square_overflows(&mut self, a: &Self);
+
+    /// The number in a lane as m 2ⁿ, rounded to 53 bits, for decisions that depend on sizes. n is 0 unless the exponents are beyond those of `f64`.
+    fn lane(&self, lane: usize) -> (f64, i64);
+
+    /// The number in a lane ← m 2ⁿ
+    fn set_lane(&mut self, lane: usize, m: f64, n: i64);
+
+    /// The number in a lane ← that of a
+    fn assign_lane(&mut self, lane: usize, a: &Self);
 
     /// Whether x is neither infinite nor NaN; of several numbers in lanes, whether all are so.
     fn is_finite(&self) -> bool;

@@ -74,6 +74,7 @@ macro_rules! delegate {
 
 impl<N: Number> Number for Counting<N> {
     type Context = N::Context;
+    const LANES: usize = N::LANES;
     type Register<'a>
         = &'a mut Self
     where
@@ -147,6 +148,18 @@ impl<N: Number> Number for Counting<N> {
     fn divide_integer(&mut self, n: i32) {
         tally(|operations| operations.divisions += 1);
         self.0.divide_integer(n);
+    }
+
+    fn lane(&self, lane: usize) -> (f64, i64) {
+        self.0.lane(lane)
+    }
+
+    fn set_lane(&mut self, lane: usize, m: f64, n: i64) {
+        self.0.set_lane(lane, m, n);
+    }
+
+    fn assign_lane(&mut self, lane: usize, a: &Self) {
+        self.0.assign_lane(lane, &a.0);
     }
 
     fn is_finite(&self) -> bool {

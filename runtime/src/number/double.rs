@@ -26,6 +26,13 @@ impl<N> DerefMut for Copied<N> {
     }
 }
 
+/// x 2ⁿ, with one rounding; more below the smallest normal number.
+pub(crate) fn scaled(x: f64, n: i64) -> f64 {
+    let n = n.clamp(-2200, 2200) as i32; // beyond, a finite x overflows or underflows anyway
+    let half = n / 2;
+    if n == 0 { x } else { x * 2_f64.powi(half / 2) * 2_f64.powi(half - half / 2) * 2_f64.powi(n - half) }
+}
+
 /// 3 (2x)² is below the largest `f64`, 1.797e308.
 pub(super) const LARGEST_SQUARED: f64 = 3.8e153;
 
@@ -188,6 +195,20 @@ impl Number for f64 {
         if self.is_finite() && !a.has_finite_square() {
             *self = f64::NAN;
         }
+    }
+
+    #[inline(always)]
+    fn lane(&self, _: usize) -> (f64, i64) {
+        (*self, 0)
+    }
+
+    fn set_lane(&mut self, _: usize, m: f64, n: i64) {
+        *self = scaled(m, n);
+    }
+
+    #[inline(always)]
+    fn assign_lane(&mut self, _: usize, a: &Self) {
+        *self = *a;
     }
 
     fn is_finite(&self) -> bool {

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
+use super::double::scaled;
 use super::{Number, Ordered};
 use crate::Rational;
 use crate::instructions;
@@ -166,6 +167,20 @@ impl Number for Fused {
 
     fn assign_root(&mut self, a: &Self, n: u32) {
         self.0.assign_root(&a.0, n);
+    }
+
+    #[inline(always)]
+    fn lane(&self, _: usize) -> (f64, i64) {
+        (self.0, 0)
+    }
+
+    fn set_lane(&mut self, _: usize, m: f64, n: i64) {
+        *self = Fused(scaled(m, n));
+    }
+
+    #[inline(always)]
+    fn assign_lane(&mut self, _: usize, a: &Self) {
+        *self = *a;
     }
 
     #[inline(always)]

@@ -3,6 +3,7 @@
 mod functions;
 
 use super::Number;
+use super::double::scaled;
 use crate::{Rational, instructions};
 use functions::{cos_each, exp_each, log_each, sin_cos_each, sin_each};
 use std::array::from_fn;
@@ -116,6 +117,7 @@ macro_rules! change_by_two {
 impl<const W: usize> Number for Lanes<W> {
     type Context = ();
     const KEEPS_INCREMENTS: bool = true;
+    const LANES: usize = W;
     type Register<'a> = Copied<W>;
 
     #[inline(always)]
@@ -239,6 +241,20 @@ impl<const W: usize> Number for Lanes<W> {
         for (x, a) in self.0.iter_mut().zip(&a.0) {
             x.make_nan_where_square_overflows(a);
         }
+    }
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> (f64, i64) {
+        (self.0[lane], 0)
+    }
+
+    fn set_lane(&mut self, lane: usize, m: f64, n: i64) {
+        self.0[lane] = scaled(m, n);
+    }
+
+    #[inline(always)]
+    fn assign_lane(&mut self, lane: usize, a: &Self) {
+        self.0[lane] = a.0[lane];
     }
 
     fn is_finite(&self) -> bool {

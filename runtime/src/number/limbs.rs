@@ -11,17 +11,28 @@ use std::f64::consts::LOG10_2;
 trait Nearest: Number {
     /// The number nearest to ± Σ magnitude\[i\] 2^(64 i + exponent), where `more` stands for some part of a unit of that sum.
     fn nearest(negative: bool, magnitude: &[u64], exponent: i64, more: bool, context: &Self::Context) -> Self;
+
+    /// The same number as an `f64`.
+    fn exact(x: f64, context: &Self::Context) -> Self;
 }
 
 impl<const L: usize> Nearest for Limbs<L> {
     fn nearest(negative: bool, magnitude: &[u64], exponent: i64, more: bool, (): &()) -> Self {
         Limbs::from_magnitude(negative, magnitude, exponent, more)
     }
+
+    fn exact(x: f64, (): &()) -> Self {
+        Limbs::from(x)
+    }
 }
 
 impl Nearest for AnyLimbs {
     fn nearest(negative: bool, magnitude: &[u64], exponent: i64, more: bool, count: &LimbCount) -> Self {
         AnyLimbs::from_magnitude(negative, magnitude, exponent, more, *count)
+    }
+
+    fn exact(x: f64, count: &LimbCount) -> Self {
+        AnyLimbs::from_f64(x, *count)
     }
 }
 
@@ -225,6 +236,20 @@ macro_rules! number_of_limbs {
                 if <$Limbs>::is_finite(self) && !a.has_finite_square() {
                     self.set_nan();
                 }
+            }
+
+            fn lane(&self, _: usize) -> (f64, i64) {
+                let (significand, exponent) = self.to_f64_exponent();
+                (significand, exponent.into())
+            }
+
+            fn set_lane(&mut self, _: usize, m: f64, n: i64) {
+                let n = n.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
+                *self = <$Limbs as Nearest>::exact(m, &self.context()).times_power_of_two(n);
+            }
+
+            fn assign_lane(&mut self, _: usize, a: &Self) {
+                *self = *a;
             }
 
             #[inline]

@@ -175,6 +175,20 @@ impl Number for Float {
         }
     }
 
+    fn lane(&self, _: usize) -> (f64, i64) {
+        let (significand, exponent) = self.to_f64_exp();
+        (significand, exponent.into())
+    }
+
+    fn set_lane(&mut self, _: usize, m: f64, n: i64) {
+        Assign::assign(self, m);
+        *self <<= n.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
+    }
+
+    fn assign_lane(&mut self, _: usize, a: &Float) {
+        Assign::assign(self, a);
+    }
+
     fn is_finite(&self) -> bool {
         Float::is_finite(self)
     }

@@ -51,6 +51,8 @@ fn choose<const W: usize>(
 /// Products are those of halves: which instructions a loop is compiled for is not known here, and without those for fused
 /// multiply-adds a lane would call a function of the C library.
 impl<const W: usize> Machine for Lanes<W> {
+    const LANES: usize = W;
+
     #[inline(always)]
     fn in_widest_instructions<R>(work: impl FnOnce() -> R) -> R {
         instructions::widest(work)
@@ -88,6 +90,16 @@ impl<const W: usize> Machine for Lanes<W> {
     ) -> [(Self, Self); N] {
         let results: [[(f64, f64); N]; W] = from_fn(|i| functions((pair.0.0[i], pair.1.0[i])));
         from_fn(|n| (Lanes(from_fn(|i| results[i][n].0)), Lanes(from_fn(|i| results[i][n].1))))
+    }
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, value: f64) {
+        self.0[lane] = value;
     }
 
     #[inline(always)]

@@ -11,6 +11,9 @@ use super::product::error_of_product;
 pub trait Machine:
     Copy + Debug + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
+    /// How many lanes it has: 1 of `f64`.
+    const LANES: usize;
+
     /// Does some work, of lanes in the widest vector instructions that the processor has.
     #[inline(always)]
     fn in_widest_instructions<R>(work: impl FnOnce() -> R) -> R {
@@ -36,11 +39,19 @@ pub trait Machine:
     fn each<const N: usize>(pair: (Self, Self), functions: impl Fn((f64, f64)) -> [(f64, f64); N])
     -> [(Self, Self); N];
 
+    /// The number in a lane.
+    fn lane(&self, lane: usize) -> f64;
+
+    /// The number in a lane ← value
+    fn set_lane(&mut self, lane: usize, value: f64);
+
     /// Whether it is neither infinite nor NaN, in every lane.
     fn is_finite(self) -> bool;
 }
 
 impl Machine for f64 {
+    const LANES: usize = 1;
+
     #[inline(always)]
     fn every(x: f64) -> f64 {
         x
@@ -70,6 +81,16 @@ impl Machine for f64 {
     #[inline(always)]
     fn each<const N: usize>(pair: (f64, f64), functions: impl Fn((f64, f64)) -> [(f64, f64); N]) -> [(f64, f64); N] {
         functions(pair)
+    }
+
+    #[inline(always)]
+    fn lane(&self, _: usize) -> f64 {
+        *self
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, _: usize, value: f64) {
+        *self = value;
     }
 
     #[inline(always)]

@@ -5,7 +5,7 @@ use std::fmt;
 use super::nearest::nearest;
 use super::{DoubleDouble, Machine, decimal, exponential, root, trigonometric};
 use crate::Rational;
-use crate::number::double::{Copied, LARGEST_SQUARED};
+use crate::number::double::{Copied, LARGEST_SQUARED, scaled};
 use crate::number::{Number, Ordered};
 
 impl<T: Machine> DoubleDouble<T> {
@@ -31,6 +31,7 @@ macro_rules! functions {
 /// h = 1/100, 2e-30 with h = 1/1000. To keep them would cost two more sums a coordinate and map.
 impl<T: Machine> Number for DoubleDouble<T> {
     type Context = ();
+    const LANES: usize = T::LANES;
     type Register<'a>
         = Copied<Self>
     where
@@ -201,6 +202,22 @@ impl<T: Machine> Number for DoubleDouble<T> {
         let [limit, infinity, nan] = [LARGEST_SQUARED.next_up(), f64::INFINITY, f64::NAN].map(DoubleDouble::every);
         let checked = DoubleDouble::where_less(a.absolute(), limit, *self, nan);
         *self = DoubleDouble::where_less(self.absolute(), infinity, checked, *self);
+    }
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> (f64, i64) {
+        (self.high.lane(lane), 0)
+    }
+
+    fn set_lane(&mut self, lane: usize, m: f64, n: i64) {
+        self.high.set_lane(lane, scaled(m, n));
+        self.low.set_lane(lane, 0.0);
+    }
+
+    #[inline(always)]
+    fn assign_lane(&mut self, lane: usize, a: &Self) {
+        self.high.set_lane(lane, a.high.lane(lane));
+        self.low.set_lane(lane, a.low.lane(lane));
     }
 
     #[inline(always)]
