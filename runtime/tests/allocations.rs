@@ -12,6 +12,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use gmp_mpfr_sys::gmp;
 use rug::Float;
 use shadowstep::formula::{FormulaKinetic, FormulaPair, FormulaPotential};
+use shadowstep::kepler_drift::KeplerDrift;
 use shadowstep::number::{Number, Precision};
 use shadowstep::pairs::{Ends, Pairs, Separation};
 use shadowstep::problems::{HenonHeiles, Kepler};
@@ -176,6 +177,25 @@ fn steps_and_estimators_do_not_allocate() {
     let formula = FormulaKinetic::new("(px^4 + py^4)/4 + px^2*py", &["px", "py"], &[]).unwrap();
     let (q, p) = state();
     of_schemes(any, &Motion::new(HenonHeiles, formula, q, p).unwrap(), nothing);
+
+    // a Kepler drift in f64 also where it computes in double-double, and after the first of such
+    let mut drift = KeplerDrift::<f64>::new(&());
+    let found = allocations(|| {
+        for (v, t) in [(1.0, 0.1), (-4.0, 3.0), (0.3, 9.0), (-1.0, 2.0)] {
+            let (mut q, mut p) = ([1.0, 0.1, 0.0], [v, 0.2, 0.1]);
+            drift.advance(&1.0, &t, &mut q, &mut p);
+        }
+    });
+    assert_eq!(found, (0, 0), "Kepler drifts in f64");
+    let mut drift = KeplerDrift::<Float>::new(&digits);
+    let (mut q, mut v) = (numbers(["0.4", "0"], &digits), numbers(["0", "2"], &digits));
+    let [mu, t] = [1.0, 0.05].map(|x| Float::with_val(digits.in_bits(), x));
+    let found = allocations(|| {
+        for _ in 0..STEPS {
+            drift.advance(&mu, &t, &mut q, &mut v);
+        }
+    });
+    assert_eq!(found, (0, 0), "Kepler drifts at 120 digits");
 
     // Kepler: what its reciprocal square roots allocate, and nothing else
     let root = {

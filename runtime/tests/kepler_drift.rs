@@ -118,6 +118,16 @@ fn errors_are_a_few_units_of_the_last_place_times_the_condition() {
     }
 }
 
+/// From the first guess both terms of the step to the root are long, but their sum is short.
+#[test]
+fn terms_of_a_step_that_cancel_by_chance() {
+    let q = [11.863841986000011, 8.404289091002756, -7.668337769148922];
+    let v = [0.201920653579026, 0.2941001786722487, -0.11891535585920407];
+    let input = [1.1621836174209779, q[0], q[1], q[2], v[0], v[1], v[2], -52.74623311233583];
+    let (found, expected) = (drift(&mut new::<f64>(), input), reference(&input));
+    assert!((found[0] / expected[0].to_f64() - 1.0).abs() < 1e-13, "{found:?}");
+}
+
 /// Orbits and times as those of `kepler_drift/reference.py`.
 struct Orbits(Pcg64Mcg);
 
@@ -176,33 +186,64 @@ fn rotated([x, y]: [f64; 2], [a, b, c]: [f64; 3]) -> [f64; 3] {
     [x * c.cos() - y * c.sin(), x * c.sin() + y * c.cos(), z]
 }
 
-/// The largest error of q or v, and the median.
-fn largest_and_median<N: Ordered + Number<Context = ()>>(count: usize, u: f64, of: impl Fn(f64) -> N) -> [f64; 2] {
+/// The larger error of q and v of random orbits, sorted, by their eccentricities.
+fn errors_by_kind<N: Ordered + Number<Context = ()>>(count: usize, u: f64, of: impl Fn(f64) -> N) -> [Vec<f64>; 4] {
     let (mut orbits, mut kepler) = (Orbits::new(5), new::<N>());
-    let mut all: Vec<f64> = (0..count)
-        .map(|_| {
-            let input = orbits.input();
-            let [q, v] = errors(&drift(&mut kepler, input.map(&of)), &input, &reference(&input), u);
-            q.max(v)
-        })
-        .collect();
-    all.sort_by(f64::total_cmp);
-    [all[count - 1], all[count / 2]]
+    let mut kinds = [const { Vec::new() }; 4];
+    for _ in 0..count {
+        let input = orbits.input();
+        let [q, v] = errors(&drift(&mut kepler, input.map(&of)), &input, &reference(&input), u);
+        let e = eccentricity(&input);
+        let kind = if (e - 1.0).abs() < 1e-7 {
+            2
+        } else if e > 1.0 {
+            3
+        } else {
+            usize::from(e > 0.3)
+        };
+        kinds[kind].push(q.max(v));
+    }
+    kinds.iter_mut().for_each(|kind| kind.sort_by(f64::total_cmp));
+    kinds
+}
+
+/// e² = (1 − αr/μ)² + αη²/μ²
+fn eccentricity([mu, x, y, z, vx, vy, vz, _]: &Input<f64>) -> f64 {
+    let (r, eta) = ((x * x + y * y + z * z).sqrt(), x * vx + y * vy + z * vz);
+    let alpha = 2.0 * mu / r - (vx * vx + vy * vy + vz * vz);
+    ((1.0 - alpha * r / mu).powi(2) + alpha * (eta / mu).powi(2)).sqrt()
 }
 
 #[test]
 fn errors_of_random_orbits() {
-    let [largest, median] = largest_and_median(300, f64::EPSILON / 2.0, |x| x);
-    assert!(largest < 6.0 && median < 0.5, "{largest}, {median}");
+    for kind in errors_by_kind(300, f64::EPSILON / 2.0, |x| x) {
+        let (largest, median) = (kind[kind.len() - 1], kind[kind.len() / 2]);
+        assert!(largest < 8.0 && median < 0.7, "{largest}, {median}");
+    }
 }
 
 /// What the documentation says: `cargo test --release -p shadowstep --test kepler_drift -- --ignored --nocapture`
 #[test]
 #[ignore = "some minutes"]
 fn errors_of_a_hundred_thousand_random_orbits() {
-    let [largest, median] = largest_and_median(100_000, f64::EPSILON / 2.0, |x| x);
-    eprintln!("f64: largest {largest:.2}, median {median:.2}");
-    assert!(largest < 12.0 && median < 0.5);
+    let u = f64::EPSILON / 2.0;
+    let kinds = [
+        ("f64", errors_by_kind(100_000, u, |x| x)),
+        ("double-double", errors_by_kind(100_000, u * u, DoubleDouble::from)),
+    ];
+    for (name, kinds) in kinds {
+        for (kind, errors) in ["e < 0.3", "0.3 < e < 1", "|e - 1| < 1e-7", "e > 1"].iter().zip(kinds) {
+            let at = |part: f64| errors[((errors.len() - 1) as f64 * part) as usize];
+            eprintln!(
+                "{name}, {kind}: {} median {:.2}, 99 % {:.2}, largest {:.1}",
+                errors.len(),
+                at(0.5),
+                at(0.99),
+                at(1.0)
+            );
+            assert!(name != "f64" || at(1.0) < 15.0);
+        }
+    }
 }
 
 /// Lanes of orbits of all kinds at once.
@@ -480,8 +521,12 @@ fn round_off_wanders() {
 fn ten_million_drifts_wander() {
     for drifts in [10_000, 100_000, 1_000_000, 10_000_000] {
         let errors = wander(32, drifts);
-        let [energy, momentum, angle] = [0, 1, 2].map(|i| bias_and_size(&errors, i));
-        eprintln!("{drifts} drifts: energy {energy:.2?}, angular momentum {momentum:.2?}, pericentre {angle:.2?}");
+        let [energy, momentum, angle] = [0, 1, 2].map(|i| {
+            let [bias, size] = bias_and_size(&errors, i);
+            assert!(bias.abs() < 4.5, "{drifts} drifts, {i}: {bias}");
+            format!("{size:.1e} (mean {bias:.1} standard errors)")
+        });
+        eprintln!("{drifts} drifts: energy {energy}, angular momentum {momentum}, pericentre {angle}");
     }
 }
 

@@ -31,13 +31,16 @@ impl Orbit {
 
     /// s of the time t, at most half a revolution, to some 10 digits: further steps in another number type refine it. NaN if a number is not finite.
     pub(super) fn anomaly(&self, t: f64) -> f64 {
-        if t < 0.0 {
-            return -Orbit { eta: -self.eta, ..*self }.anomaly(-t);
-        }
         let finite = [t, self.mu, self.r0, self.eta, self.alpha, self.zeta].into_iter().all(f64::is_finite);
         if t == 0.0 || !finite {
             return if finite { 0.0 } else { f64::NAN };
         }
+        // backwards as forwards with the opposite velocity
+        Orbit { eta: self.eta * t.signum(), ..*self }.search(t.abs()).0 * t.signum()
+    }
+
+    /// s of a time t > 0, and the number of steps.
+    fn search(&self, t: f64) -> (f64, usize) {
         // the eccentric anomaly of half a revolution is at most 4.62, where x = π + 2 sin(x/2)
         let (mut low, mut high) = (0.0, if self.alpha > 0.0 { 1.5 * PI / self.alpha.sqrt() } else { f64::INFINITY });
         let within = |s: f64, low: f64, high: f64| s > low && s < high;
@@ -48,7 +51,7 @@ impl Orbit {
         for count in 0..MOST_STEPS {
             let at = self.equation(s, t);
             if at.is_solved() {
-                return s;
+                return (s, count);
             }
             if at.f < 0.0 {
                 low = s
@@ -57,21 +60,19 @@ impl Orbit {
             }
             let step = at.laguerre();
             let next = s + step;
-            if within(next, low, high) {
-                if at.is_small(step, s) {
-                    return next;
-                }
-                if count % 4 != 3 {
-                    s = next;
-                    continue;
-                }
+            if at.is_small(step, s) {
+                return (next.clamp(low, high), count);
+            }
+            if within(next, low, high) && count % 4 != 3 {
+                s = next;
+                continue;
             }
             s = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * s };
             if !within(s, low, high) {
-                return s; // the bounds are neighbours
+                return (s, count); // the bounds are neighbours
             }
         }
-        s
+        (s, MOST_STEPS)
     }
 
     /// A first s: of short steps by the series in t, of bound orbits by Danby's (Fundamentals of Celestial Mechanics, eq. 6.8.20), of long hyperbolic
@@ -156,7 +157,7 @@ impl Equation {
 
 /// c₀ … c₃ of z to some 12 digits.
 fn stumpff(z: f64) -> [f64; 4] {
-    if z < -5e5 {
+    if z.abs() > 5e5 {
         return [f64::INFINITY; 4]; // the hyperbolic functions overflow
     }
     let (mut y, mut count) = (z, 0);
@@ -180,4 +181,60 @@ fn stumpff(z: f64) -> [f64; 4] {
         c0 = 1.0 - y * c2;
     }
     [c0, c1, c2, c3]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_pcg::Pcg64Mcg;
+    use rand_pcg::rand_core::{RngCore, SeedableRng};
+
+    fn number(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {
+        low + (high - low) * (random.next_u64() >> 11) as f64 * 2_f64.powi(-53)
+    }
+
+    /// Of any eccentricity, from any point, also nearly or exactly radial ones; r₀ = 1 and the larger of the squared velocities is 1.
+    fn orbit(random: &mut Pcg64Mcg) -> Orbit {
+        let mu = 10_f64.powf(number(random, -6.0, 0.0).max(-5.0));
+        let square = if mu < 1.0 { number(random, 0.0, 2.0) } else { 0.0 } + 2.0 * number(random, 0.0, 1.0).powi(8);
+        let tilt = [number(random, -1.0, 1.0), 1.0, -1.0, 0.0][(random.next_u64() % 4) as usize];
+        let near = 1.0 - 10_f64.powf(number(random, -17.0, -1.0));
+        let v2 = if random.next_u64() & 1 == 0 { square } else { 2.0 * mu * near };
+        let alpha = 2.0 * mu - v2;
+        Orbit { mu, r0: 1.0, eta: v2.sqrt() * tilt * near, alpha, zeta: mu - alpha }
+    }
+
+    #[test]
+    fn few_steps_are_needed() {
+        let mut random = Pcg64Mcg::seed_from_u64(3);
+        let (mut most, mut sum) = (0, 0);
+        let count = 100_000;
+        for _ in 0..count {
+            let orbit = orbit(&mut random);
+            let mut t = 10_f64.powf(number(&mut random, -12.0, 12.0));
+            if orbit.alpha > 0.0 {
+                t = t.min(number(&mut random, 0.0, PI) * orbit.mu / orbit.alpha.powf(1.5));
+            }
+            let (s, steps) = orbit.search(t);
+            let at = orbit.equation(s, t);
+            // a wrong s would leave a part of t; a rounded one leaves at most what a change of s in the 9th digit does
+            let close = at.f.abs() <= 100.0 * at.round_off + 1e-9 * s * at.r + 1e-9 * t;
+            assert!(close, "{orbit:?}, t = {t:e}: s = {s:e} leaves {:e} after {steps} steps", at.f);
+            assert!(steps <= 40, "{orbit:?}, t = {t:e}: {steps}");
+            most = most.max(steps);
+            sum += steps;
+        }
+        assert!(most <= 40 && sum < 5 * count, "{most} steps, {sum} in all");
+    }
+
+    #[test]
+    fn any_numbers_end() {
+        let sizes = [0.0, 1.0, -1.0, 1e-300, 1e300, -1e300, 1e-17, f64::MAX, f64::NAN, f64::INFINITY];
+        for index in 0..sizes.len().pow(5) {
+            let pick = |i: u32| sizes[index / sizes.len().pow(i) % sizes.len()];
+            let orbit = Orbit { mu: 1.0, r0: pick(0), eta: pick(1), alpha: pick(2), zeta: pick(3) };
+            orbit.anomaly(pick(4));
+            orbit.revolutions(pick(4));
+        }
+    }
 }

@@ -35,10 +35,15 @@ pub(super) struct Equation<N> {
     f: N,
     r: N,
     slope: N,
+    /// Newton's step −f/r.
+    newton: N,
+    /// That with the next term.
     step: N,
     /// Whole revolutions that the time is without.
     revolutions: N,
     has_revolutions: bool,
+    /// s with that of whole revolutions.
+    anomaly: N,
     /// Whether the step is long in some lane.
     is_long: bool,
     pi: N,
@@ -81,9 +86,11 @@ impl<N: Number> Equation<N> {
             f: zero(),
             r: zero(),
             slope: zero(),
+            newton: zero(),
             step: zero(),
             revolutions: zero(),
             has_revolutions: false,
+            anomaly: zero(),
             is_long: false,
             pi,
             one,
@@ -191,22 +198,22 @@ impl<N: Number> Equation<N> {
     /// Newton's step and the next term, of which the error is cubic (Chebyshev): d − d² r′/(2r), d = −f/r.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn assign_step(&mut self) {
-        let [inverse, newton, _] = &mut self.scratch;
+        let [inverse, ..] = &mut self.scratch;
         inverse.assign_quotient(&self.one, &self.r);
-        newton.assign_product(&self.f, inverse);
-        newton.negate();
+        self.newton.assign_product(&self.f, inverse);
+        self.newton.negate();
         inverse.multiply(&self.slope);
-        inverse.multiply(newton);
+        inverse.multiply(&self.newton);
         inverse.divide_integer(2);
-        self.step.assign(newton);
-        self.step.subtract_product(newton, inverse);
+        self.step.assign(&self.newton);
+        self.step.subtract_product(&self.newton, inverse);
     }
 
-    /// Whether the step was short, so that what is left of the error is below 10⁻⁶ of the orbit's own scales.
+    /// Whether Newton's step was short (the two terms of the step may cancel by chance), so that what is left of the error is below 10⁻⁶ of the orbit's own scales.
     #[inline(always)]
     fn is_close(&self, lane: usize) -> bool {
         let [mu, alpha, s, z, r, slope, step] =
-            [&self.mu, &self.alpha, &self.s, &self.z, &self.r, &self.slope, &self.step].map(|x| value(x, lane));
+            [&self.mu, &self.alpha, &self.s, &self.z, &self.r, &self.slope, &self.newton].map(|x| value(x, lane));
         self.stumpff.is_small(z)
             && (step * slope).abs() <= 1e-2 * r
             && step * step * (mu + alpha.abs() * r) <= 1e-4 * r
@@ -289,16 +296,16 @@ impl<N: Number> Equation<N> {
         let [_, ratio, square] = &mut self.scratch;
         // a NaN has nothing to refine
         let at_most = |x: &N, bound: f64| value(x, lane).abs().partial_cmp(&bound) != Some(Ordering::Greater);
-        if at_most(&self.step, 0.0) {
+        if at_most(&self.newton, 0.0) {
             return true;
         }
-        ratio.assign_quotient(&self.step, &self.s);
+        ratio.assign_quotient(&self.newton, &self.s);
         let mut small = at_most(ratio, self.last_step);
-        ratio.assign_product(&self.step, &self.slope);
+        ratio.assign_product(&self.newton, &self.slope);
         ratio.divide(&self.r);
         small &= at_most(ratio, self.last_step);
         // |r″| ≤ μ + |α|r
-        square.assign_square(&self.step);
+        square.assign_square(&self.newton);
         ratio.assign_quotient(&self.mu, &self.r);
         ratio.multiply(square);
         small &= at_most(ratio, self.last_step.powi(2));
@@ -343,12 +350,13 @@ impl<N: Number> Equation<N> {
         change.subtract_product(half, slope);
         g1.add_product(&self.step, change);
         self.assign_radius();
+        self.anomaly.assign(&self.s);
         if self.has_revolutions {
             self.add_revolutions();
         }
     }
 
-    /// s ← s + count·2π/√α
+    /// anomaly ← s + count·2π/√α
     #[cold]
     fn add_revolutions(&mut self) {
         let [root, turns, sum] = &mut self.scratch;
@@ -358,33 +366,35 @@ impl<N: Number> Equation<N> {
         turns.divide(root);
         sum.assign_sum(&self.s, turns);
         for lane in (0..N::LANES).filter(|lane| value(&self.revolutions, *lane) != 0.0) {
-            self.s.assign_lane(lane, sum);
+            self.anomaly.assign_lane(lane, sum);
         }
     }
 
-    /// Whether terms of r cancel in some lane: on hyperbolic passages of the centre only, as |ηG₁| ≤ 2(r₀ + r) on other orbits.
+    /// Whether terms of r or of t cancel in some lane: on the way to the pericentre and past it, of hyperbolas above all.
     #[inline(always)]
     pub(super) fn cancels(&self) -> bool {
         self.is_double && self.is_long && (0..N::LANES).any(|lane| self.cancels_in(lane))
     }
 
-    /// Whether they do in this lane, and the numbers have the size of those that `f64` squares.
+    /// Whether they do in this lane, and the numbers have the size of those that `f64` multiplies.
     pub(super) fn cancels_in(&self, lane: usize) -> bool {
         let [eta, g1, r0, r, s, t] =
             [&self.eta, &self.g[0], &self.r0, &self.r, &self.s, &self.time].map(|x| value(x, lane));
-        let sizes = [&self.r0, &self.alpha, &self.time, &self.mu].map(|x| exponent(x.lane(lane)).abs());
-        ((eta * g1).abs() > 4.0 * (r0 + r) || r0 * s.abs() > 2.5 * t.abs()) && sizes.into_iter().all(|size| size < 250)
+        let in_range = |x: &N| exponent(x.lane(lane)).abs() < 250;
+        ((eta * g1).abs() > 1.5 * (r0 + r) || r0 * s.abs() > 2.5 * t.abs())
+            && [&self.r0, &self.time, &self.mu].into_iter().all(in_range)
+            && exponent(self.alpha.lane(lane)) < 250
     }
 
     /// s of a lane ← that of an `f64`
     pub(super) fn set_anomaly(&mut self, lane: usize, s: f64) {
-        self.s.set_lane(lane, s, 0);
+        self.anomaly.set_lane(lane, s, 0);
     }
 
     /// s = ∫dt/r
     #[inline(always)]
     pub(super) fn anomaly(&self) -> &N {
-        &self.s
+        &self.anomaly
     }
 
     /// f − 1 = −μG₂/r₀, g = r₀G₁ + ηG₂, ḟ = −μG₁/(r₀r), ġ − 1 = −μG₂/r
