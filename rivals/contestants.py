@@ -115,6 +115,24 @@ RIVALS = [
         many=True,
     ),
     Rival(
+        "Shadowstep, planets",
+        "the same, with the Kepler orbits of the planets and their interactions as parts, in Jacobi coordinates",
+        "it splits off the Kepler orbits around the Sun, so that only the small attractions of the planets are left to the splitting",
+        [BUILD / "cargo" / "release" / "ours"],
+        [
+            Method(f"wisdom-holman/{name}", kicks)
+            for name, kicks in (
+                ("drift-kick-drift", 1),
+                ("saba2", 2),
+                ("saba4", 4),
+                ("abah864", 8),
+                ("abah1064", 9),
+                ("aba1064", 8),
+            )
+        ],
+        PLANETS,
+    ),
+    Rival(
         "C by hand",
         "gcc -O3 -march=native, the potentials and loops written for each problem, merged kicks",
         "it merges the kicks at the ends of neighbouring steps, and gcc fuses multiplications and additions and makes vector "

@@ -3,8 +3,8 @@
 use std::io::Write;
 
 use clap::Args;
-use shadowstep::problems::{Description, PROBLEMS, problem};
-use shadowstep_scenes::Error;
+use shadowstep::problems::{PROBLEMS, problem};
+use shadowstep_scenes::{Error, PLANETARY_SCENES, planetary_scene};
 
 use crate::output::Output;
 use crate::quantity::problem_error;
@@ -15,11 +15,11 @@ const EXAMPLE: &str = "\
 Example:
   shadowstep scene kepler > scene.toml";
 
-/// Writes the scene of a problem as a template, lists the problems, or explains the keys of scenes.
+/// Writes the scene of a problem or planetary system, lists all, or explains the keys of scenes.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
-    /// The problem, such as kepler
+    /// The problem or planetary system, such as kepler or eight-planets
     name: Option<String>,
     /// Explains every key of a scene
     #[arg(long, conflicts_with = "name")]
@@ -30,7 +30,10 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let text = match &arguments.name {
         _ if arguments.explain => shadowstep_scenes::explain(),
-        Some(name) => shadowstep_scenes::template(problem(name).map_err(problem_error)?.description()),
+        Some(name) => match planetary_scene(name) {
+            Some(scene) => scene.text.to_owned(),
+            None => shadowstep_scenes::template(problem(name).map_err(problem_error)?.description()),
+        },
         None => list(),
     };
     let mut output = Output::stdout();
@@ -40,9 +43,14 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 }
 
 fn list() -> String {
-    let line = |problem: &Description| format!("  {:<20}  {}\n", problem.name, problem.title);
-    let names: String = PROBLEMS.iter().map(|problem| line(problem.description())).collect();
+    let line = |name: &str, title: &str| format!("  {name:<20}  {title}\n");
+    let problems = PROBLEMS.iter().map(|problem| problem.description());
+    let names: String = problems.map(|problem| line(problem.name, problem.title)).collect();
+    let planets: String = PLANETARY_SCENES.iter().map(|scene| line(scene.name, scene.title)).collect();
     let how = "`shadowstep scene kepler > scene.toml` writes one, `shadowstep run scene.toml` runs it, and \
                `shadowstep scene --explain` explains all keys.";
-    format!("There is a scene for each of these problems:\n{names}{}", wrapped(how, ""))
+    format!(
+        "There is a scene for each of these problems:\n{names}and of planetary systems:\n{planets}{}",
+        wrapped(how, "")
+    )
 }

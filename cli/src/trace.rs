@@ -127,7 +127,7 @@ impl Computation for Following<'_, '_> {
         let Following { selection, propagator, run, several, arguments, progress, interrupt, write, mut plots } = self;
         let (settings, between) = (selection.estimator.clone().with_errors(true), selection.estimator.is_between());
         let system = &selection.problem.system;
-        let mut energy_of = system.energy::<N>(context);
+        let (mut energy_of, mut shown) = (system.energy::<N>(context), system.shown::<N>(context));
         let name = several.then(|| RunName { scheme: run.propagator.to_owned(), step: to_text(run.h) });
         let (compensated, summarised) = (selection.arithmetic.is_compensated(), !arguments.run.no_summary);
         let estimates = Estimates { system, propagator, run, compensated, settings: &settings, summarised };
@@ -139,8 +139,12 @@ impl Computation for Following<'_, '_> {
                 return Err(run.not_finite(&format!("the energy at n = {n}")));
             }
             let t = N::from_rational(&run.time_of_value(n, &selection.estimator), context);
+            let (q, p) = match &mut shown {
+                Some(shown) => shown.of_state(found.q, found.p),
+                None => (found.q, found.p),
+            };
             if let Some(lines) = &mut lines {
-                let numbers = found.q.iter().chain(found.p).filter(|_| with_states);
+                let numbers = q.iter().chain(p).filter(|_| with_states);
                 lines.take(&Values {
                     n: n.unsigned_abs(),
                     t: t.to_f64(),
@@ -164,8 +168,8 @@ impl Computation for Following<'_, '_> {
                 modified_energy: found.value.to_text(),
                 estimate: found.error.map(N::to_text),
                 order: found.order,
-                q: texts(found.q),
-                p: texts(found.p),
+                q: texts(q),
+                p: texts(p),
             })
         })?;
         if let (Some(plots), Some(lines)) = (&mut plots, lines) {

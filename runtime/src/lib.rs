@@ -66,6 +66,7 @@
 //! | [`shadow`] | estimators of the modified energy, and [a monitor](shadow::ShadowEnergy) for loops |
 //! | [`ensemble`] | many trajectories at once, in lanes and on all cores |
 //! | [`run`] | trajectories with the states that an estimator needs on both sides, and the energy drift |
+//! | [`wisdom_holman`] | planets: H = A + B with Kepler orbits as A |
 //! | [`kepler_drift`] | the exact flow of Kepler's problem, in every number type |
 //! | `exact_flow` | states of the exact flow of a few problems, to see an estimator's own error |
 
@@ -95,6 +96,7 @@ pub mod stepper;
 pub mod summation;
 pub mod system;
 pub mod tables;
+pub mod wisdom_holman;
 
 #[doc(inline)]
 pub use coordinates::Coordinates;

@@ -48,6 +48,7 @@ use crate::kinetic::{Kinetic, Quadratic};
 use crate::motion::{Motion, MotionError};
 use crate::number::{Lanes, Number};
 use crate::potential::Potential;
+use crate::wisdom_holman::Bodies;
 use definition::Definition;
 
 /// Makes the enum of all problems and everything that depends on which one it is, from one list `Variant: module`, whose
@@ -73,6 +74,10 @@ macro_rules! registry {
             /// How its exact flow is computed, where a solution is known.
             pub(crate) const fn exact_flow(self) -> Option<Solver> {
                 match self { $(Problem::$Name => <$module::Entry as Definition>::EXACT_FLOW,)+ }
+            }
+
+            const fn gravity(self) -> Option<usize> {
+                match self { $(Problem::$Name => <$module::Entry as Definition>::GRAVITY,)+ }
             }
 
             fn potential<N: Number + 'static>(self, number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
@@ -191,6 +196,13 @@ impl Setup {
     /// The potential energy U(q).
     pub fn potential<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Potential<N>> {
         self.problem.potential(&|name| self.values.number(name, context))
+    }
+
+    /// The bodies and their number of dimensions, if only Newton's gravity acts between them.
+    pub fn bodies(&self) -> Option<(Bodies, usize)> {
+        let dimensions = self.problem.gravity()?;
+        let masses = self.values.masses()?.iter().step_by(dimensions).map(|mass| mass.value.clone());
+        Some((Bodies::new(self.values.value("g").clone(), masses.collect()).ok()?, dimensions))
     }
 
     /// The potential energy of several trajectories of one problem, whose parameters may differ: those of one in each lane.

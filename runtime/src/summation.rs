@@ -13,6 +13,7 @@ mod compensated;
 mod fixed_point;
 
 pub use compensated::Compensated;
+pub(crate) use compensated::add_with_remainder;
 pub use fixed_point::{FixedPoint, RangeError};
 
 use crate::kinetic::Kinetic;

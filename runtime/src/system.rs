@@ -16,8 +16,9 @@ pub trait System {
     /// The type of its numbers.
     type Number: Number;
 
-    /// What is known of A: [`Quadratic`](crate::kinetic::Quadratic) if A = ½pᵀM⁻¹p and B = U(q), else
-    /// [`General`](crate::kinetic::General). Schemes whose order holds for quadratic T only do not advance the latter.
+    /// What is known of A and B: [`Quadratic`](crate::kinetic::Quadratic) if A = ½pᵀM⁻¹p + f(q) and B = U(q), else
+    /// [`General`](crate::kinetic::General). Schemes whose order holds for quadratic T only do not advance the latter. (Their order holds with any f, as
+    /// the brackets that vanish do so by their degree in p.)
     type Class;
 
     /// Positions.

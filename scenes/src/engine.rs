@@ -11,7 +11,7 @@ use crate::note::Note;
 use crate::observer::Observer;
 use crate::results::{Checkpoint, ModifiedEnergy, Row, Rows, SavedState};
 use crate::run::Run;
-use crate::scene::{CheckpointInterval, Scene};
+use crate::scene::{CheckpointInterval, Scene, Shown};
 use crate::snapshots::{Snapshot, Snapshots};
 use crate::start::{Steps, Work};
 use crate::summary::Summary;
@@ -61,6 +61,7 @@ pub(crate) fn follow<N: Ordered + 'static>(
         observer,
         from: saved.map(|saved| saved.n),
         remainders,
+        shown: scene.system.shown(context),
     };
     let compensated = scene.arithmetic.is_compensated();
     let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated };
@@ -94,6 +95,8 @@ struct Recorder<'a, 'r, N: Ordered> {
     from: Option<i64>,
     /// Those of that state.
     remainders: Remainders<N>,
+    /// Converts states for rows, where these have other coordinates than the steps.
+    shown: Option<Shown<N>>,
 }
 
 impl<N: Ordered + 'static> Work<N> for Recorder<'_, '_, N> {
@@ -131,7 +134,8 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         };
         let first = (self.from.unwrap_or(0), initial);
         let watch = Watch::begin(stepper, system, self.run, first, Energies::Windows, true);
-        watch.map(Some).map_err(|error| self.failed(&error))
+        let watch = watch.map_err(|error| self.failed(&error))?;
+        Ok(Some(watch.with_planets_of(&self.scene.system)))
     }
 
     /// The error of the run, with the scene's names of coordinates and momenta.
@@ -259,10 +263,15 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         if energy.is_none() && modified.is_none() && !state_is_due {
             return Ok(());
         }
+        let (q, p) = match &mut self.shown {
+            Some(shown) if state_is_due => shown.of_state(q, p),
+            _ => (q, p),
+        };
         let texts = |numbers: &[N]| state_is_due.then(|| numbers.iter().map(N::to_text).collect());
+        let (q, p) = (texts(q), texts(p));
         let t = N::from_rational(&self.run.time(n), self.context).to_text();
         let energy = energy.map(N::to_text);
-        self.rows.row(&Row { n, t, energy, modified_energy: modified, q: texts(q), p: texts(p) })
+        self.rows.row(&Row { n, t, energy, modified_energy: modified, q, p })
     }
 
     /// Makes a checkpoint where it is time for one, or where the run is stopped: then it ends.

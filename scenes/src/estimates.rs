@@ -98,7 +98,7 @@ where
         let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
         let initial = system.energy();
         let watch = Watch::begin(stepper, &mut system, run, (0, initial), Energies::All, summarised);
-        let mut watch = watch.map_err(failed)?;
+        let mut watch = watch.map_err(failed)?.with_planets_of(described);
         let mut evaluations = Evaluations::default();
         let mut shadow = ShadowRun::new(stepper, system, run.steps, settings).map_err(failed)?;
         let last = i64::try_from(run.steps).unwrap_or(i64::MAX);

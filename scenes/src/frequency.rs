@@ -3,7 +3,7 @@
 use shadowstep::Potential;
 use shadowstep_symbolic::{Graph, parse};
 
-use crate::scene::{KineticEnergy, PotentialEnergy, System};
+use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System};
 
 /// ω, the largest frequency of the linearised system.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,11 +23,13 @@ const DISTANCE: f64 = 1e-6;
 
 impl System {
     /// The largest frequency at the initial state, in double precision, from differences of the gradient by the power method;
-    /// `None` where nothing oscillates, T(p) is given by a formula, the initial energy is not finite, or numbers overflow.
+    /// `None` where nothing oscillates, T(p) is given by a formula or is not a part, the initial energy is not finite, or numbers overflow.
     ///
     /// An eigenvalue that the iterations do not reach is underestimated.
     pub fn fastest_frequency(&self) -> Option<Frequency> {
-        let KineticEnergy::Masses(masses) = &self.kinetic else { return None };
+        let (KineticEnergy::Masses(masses), Parts::KineticAndPotential) = (&self.kinetic, &self.parts) else {
+            return None;
+        };
         let (q, p) = self.start::<f64>(&());
         if !self.energy::<f64>(&())(&q, &p).is_finite() {
             return None;

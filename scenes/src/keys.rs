@@ -25,11 +25,18 @@ pub struct Key {
 }
 
 /// All sections, in the order of the explanation.
-pub const SECTIONS: [Section; 8] = [
+pub const SECTIONS: [Section; 10] = [
     section(
         "problem",
         "[problem]",
         "The system H = T(p) + U(q). U is that of a shipped problem, a formula in the coordinates, or a sum over pairs of bodies.",
+    ),
+    section("problem.units", "[problem.units]", "The table `units`."),
+    section(
+        "body",
+        "[[body]]",
+        "A body of a planetary system, in place of a name, a potential or a pair: a section for each, the central body first. \
+         A planet has either q and v, in an inertial frame, or orbital elements, with angles in degrees.",
     ),
     section("initial", "[initial]", "The state at t = 0."),
     section("run", "[run]", "The scheme, its steps, and the number type."),
@@ -41,7 +48,7 @@ pub const SECTIONS: [Section; 8] = [
 ];
 
 /// All keys, section by section.
-pub const KEYS: [Key; 39] = [
+pub const KEYS: [Key; 57] = [
     key(
         "problem",
         "name",
@@ -129,6 +136,65 @@ pub const KEYS: [Key; 39] = [
         "[\"px\", \"py\"]",
         Some("`p` and the coordinate: px for x"),
     ),
+    key(
+        "problem",
+        "parts",
+        "How H is split into a part for drifts and one for kicks, for [[body]] or a shipped problem of bodies: \"kinetic-potential\", \
+         T(p) and U(q); \"wisdom-holman\", the Kepler orbits of the planets in Jacobi coordinates and their interactions, for \
+         schemes such as abah864; or \"wisdom-holman-heliocentric\", the same in democratic heliocentric coordinates, for \
+         schemes for every T(p). States are written in inertial coordinates.",
+        "\"wisdom-holman\"",
+        Some("\"kinetic-potential\""),
+    ),
+    key(
+        "problem",
+        "units",
+        "For [[body]]: the units of length (AU, km, m), time (day, year of 365.25 days, s) and mass (solar, earth, jupiter, kg), from \
+         which the gravitational constant follows.",
+        "{ length = \"AU\", time = \"day\", mass = \"solar\" }",
+        Some("none; a parameter g is given instead"),
+    ),
+    key(
+        "problem",
+        "elements",
+        "For [[body]]: what orbital elements are relative to: \"heliocentric\", the first body; or \"jacobi\", the centre of mass of \
+         the bodies before.",
+        "\"jacobi\"",
+        Some("\"heliocentric\""),
+    ),
+    key(
+        "problem",
+        "barycentric",
+        "For [[body]]: moves the centre of mass to the origin, and to rest.",
+        "true",
+        Some("false"),
+    ),
+    key("problem.units", "length", "\"AU\", \"km\" or \"m\".", "\"AU\"", None),
+    key("problem.units", "time", "\"day\", \"year\" or \"s\".", "\"day\"", None),
+    key("problem.units", "mass", "\"solar\", \"earth\", \"jupiter\" or \"kg\".", "\"solar\"", None),
+    key(
+        "body",
+        "name",
+        "Its name, with which its coordinates are x_sun, y_sun, z_sun, px_sun, …",
+        "\"sun\"",
+        Some("none; coordinates have the numbers of the bodies: x1, y1, …"),
+    ),
+    key("body", "mass", "Its mass, positive.", "\"1/1047.35\"", None),
+    key("body", "q", "Its position.", "[1, 0, 0]", Some("0 for the first body; otherwise elements are given instead")),
+    key("body", "v", "Its velocity.", "[0, 1, 0]", Some("0 for the first body; otherwise elements are given instead")),
+    key(
+        "body",
+        "a",
+        "The semi-major axis of its orbit; negative of a hyperbola.",
+        "5.2",
+        Some("none; q and v are given instead"),
+    ),
+    key("body", "e", "The eccentricity.", "0.05", Some("0")),
+    key("body", "i", "The inclination.", "1.3", Some("0")),
+    key("body", "node", "The longitude Ω of the ascending node.", "100.5", Some("0")),
+    key("body", "pericentre", "The argument ω of the pericentre.", "-86", Some("0")),
+    key("body", "M", "The mean anomaly.", "20", Some("0")),
+    key("body", "lambda", "The mean longitude Ω + ω + M, in place of M.", "34.4", Some("none; M is used")),
     key(
         "initial",
         "q",

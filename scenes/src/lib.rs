@@ -86,6 +86,7 @@
 //! | [`readable`], `error` | numbers and texts for people; what can go wrong |
 
 pub mod arithmetic;
+mod boxed;
 mod engine;
 pub mod ensemble;
 mod error;
@@ -108,6 +109,7 @@ pub mod readable;
 mod results;
 pub mod run;
 mod scene;
+mod shipped;
 mod snapshots;
 pub mod stability;
 pub mod start;
@@ -127,10 +129,12 @@ pub use observer::Observer;
 pub use read::source;
 pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::{
-    CheckpointInterval, EnergyAt, Format, KineticEnergy, Outputs, PairEnergy, PotentialEnergy, Scene, System,
+    Canonical, CheckpointInterval, EnergyAt, Format, KineticEnergy, Outputs, PairEnergy, Parts, Planets,
+    PotentialEnergy, Scene, Shown, System,
 };
+pub use shipped::{PLANETARY_SCENES, ShippedScene, planetary_scene};
 pub use summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use template::template;
 pub use temporary::{Temporary, remove_temporary_files};
-pub use watch::Encounter;
+pub use watch::{Approach, Encounter, Interactions};
 pub use whole_file::WholeFile;

@@ -1,6 +1,7 @@
 //! The text of a scene → the scene, or all its faults. Each section has its file.
 
 mod bodies;
+mod elements;
 mod formula;
 mod given;
 mod initial;
@@ -9,11 +10,13 @@ mod names;
 mod numbers;
 mod output;
 mod pair;
+mod planets;
 mod plot;
 mod problem;
 mod reader;
 mod run;
 mod shipped;
+mod units;
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -124,7 +127,8 @@ impl System {
         reader.arithmetic = arithmetic;
         refuse_unknown_sections(&mut reader, &document, &["problem"], &[]);
         let (problem, initial) = (reader.section(&document, "problem"), reader.section(&document, "initial"));
-        let system = problem::system(&mut reader, &problem, &initial);
+        let bodies = planets::given(&mut reader, &document);
+        let system = problem::system(&mut reader, &problem, &initial, &bodies);
         match (Faults::of(reader.toml.faults), system) {
             (None, Some(system)) => Ok((system, reader.notes)),
             (Some(faults), _) => Err(faults),
@@ -146,7 +150,8 @@ fn parts(
     // the digits come first: values are computed to them
     let arithmetic = run::arithmetic(reader, &run);
     reader.arithmetic = arithmetic.unwrap_or(Arithmetic::Double);
-    let system = problem::system(reader, &problem, &initial);
+    let bodies = planets::given(reader, root);
+    let system = problem::system(reader, &problem, &initial, &bodies);
     let general = system.as_ref().is_some_and(System::has_general_kinetic);
     let steps = run::Steps::read(reader, &run, general, schemes);
     let output = output::read(reader, &output, system.as_ref());

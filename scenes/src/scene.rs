@@ -4,12 +4,15 @@ mod format;
 mod output;
 mod pairs;
 mod parameters;
+mod parts;
 mod system;
 
 pub(crate) use format::COLUMNS;
 pub use format::Format;
 pub use output::{CheckpointInterval, Outputs};
 pub use pairs::PairEnergy;
+pub(crate) use parts::OfPlanets;
+pub use parts::{Canonical, Parts, Planets, Shown};
 pub(crate) use system::{ClassifiedKinetic, formula_kinetic, formula_potential};
 pub use system::{EnergyAt, KineticEnergy, PotentialEnergy, System};
 

@@ -3,7 +3,7 @@
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, MotionError, Number, Rational, Scheme, Stepper, System, ValidFor};
 
-use crate::scene::{self, ClassifiedKinetic};
+use crate::scene::{self, ClassifiedKinetic, Parts};
 
 /// The steps that are made.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +43,10 @@ impl scene::System {
         context: &N::Context,
         work: W,
     ) -> Result<W::Output, MotionError> {
+        if let Parts::WisdomHolman(planets) = &self.parts {
+            let system = planets.system((&q, &p), compensated, context)?;
+            return Ok(work.with(&stepper(scheme.clone(), h, context), system));
+        }
         let (potential, scheme) = (self.potential(context), scheme.clone());
         Ok(match self.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {

@@ -9,6 +9,7 @@ use shadowstep_symbolic::decimal::{from_text, to_significant, to_text};
 
 use crate::readable::wrapped_to;
 use crate::watch::encounters::Encounter;
+use crate::watch::{Approach, Interactions};
 
 /// What a run, or the part of it since it was resumed, has shown.
 ///
@@ -27,6 +28,8 @@ pub struct Summary {
     /// How many close encounters there were, and the closest of them.
     pub(crate) encounters: u64,
     pub(crate) closest: Vec<Encounter>,
+    /// Of planets.
+    pub(crate) interactions: Option<Interactions>,
     pub(crate) fine: bool,
     pub(crate) verdict: String,
     pub(crate) reason: String,
@@ -118,6 +121,19 @@ impl Summary {
         }
     }
 
+    /// What a run of planets has shown of their interactions.
+    pub fn interactions(&self) -> Option<&Interactions> {
+        self.interactions.as_ref()
+    }
+
+    fn interactions_text(&self, interactions: &Interactions) -> String {
+        let Interactions { epsilon, of, closest } = interactions;
+        let closest = closest.as_ref().map_or(String::new(), |Approach { n, bodies: [i, j], hill_radii }| {
+            format!("; closest approach {hill_radii:.3} Hill radii, {i} and {j} at t = {}", self.time(*n))
+        });
+        format!("interactions at most {epsilon:.1e} of the Kepler force ({of}){closest}")
+    }
+
     fn time(&self, n: i64) -> String {
         to_significant(&(&self.h * Rational::from_integer(n.into())), 6)
     }
@@ -165,12 +181,13 @@ impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let since = if self.from == 0 { String::new() } else { format!(" since n = {}", self.from) };
         write!(f, "{}, {} steps{since}", self.run, self.to - self.from)?;
+        let planets = self.interactions.as_ref().map(|interactions| ("planets", self.interactions_text(interactions)));
         let facts = [
             ("error of H", self.energy_text()),
             ("modified energy", self.modified_energy_text()),
             ("close encounters", self.encounters_text(SHOWN)),
-            ("verdict", self.verdict_with_reason()),
         ];
+        let facts = facts.into_iter().chain(planets).chain([("verdict", self.verdict_with_reason())]);
         for (name, fact) in facts {
             let lines = wrapped_to(&fact, &" ".repeat(20), 80);
             write!(f, "\n  {name:<18}{}", lines.trim())?;
@@ -192,13 +209,16 @@ impl Serialize for Summary {
             t: to_text(&(&self.h * Rational::from_integer((*n).into()))),
             steps: *steps,
         });
-        let mut object = serializer.serialize_struct("Summary", 9)?;
+        let mut object = serializer.serialize_struct("Summary", 9 + usize::from(self.interactions.is_some()))?;
         object.serialize_field("from", &self.from)?;
         object.serialize_field("to", &self.to)?;
         object.serialize_field("energy_error", &self.energy)?;
         object.serialize_field("modified_energy", &self.modified_energy)?;
         object.serialize_field("close_encounters", &self.encounters)?;
         object.serialize_field("closest_encounters", &closest.collect::<Vec<_>>())?;
+        if let Some(interactions) = &self.interactions {
+            object.serialize_field("planets", interactions)?;
+        }
         object.serialize_field("verdict", &self.verdict)?;
         object.serialize_field("reason", &self.reason)?;
         object.serialize_field("fine", &self.fine)?;

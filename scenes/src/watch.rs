@@ -1,5 +1,6 @@
 //! Follows a run: the error of H, the modified energy by a monitor, and close encounters.
 
+pub(crate) mod approaches;
 pub(crate) mod encounters;
 mod energy;
 
@@ -7,10 +8,13 @@ use shadowstep::run::RunError;
 use shadowstep::shadow::{Bilinear, BuildEstimator, Criterion, Missing, Report, ShadowEnergy, Verdict};
 use shadowstep::{Ordered, Scheme, Stepper, System};
 
+use self::approaches::Approaches;
+pub use self::approaches::{Approach, Interactions};
 pub use self::encounters::Encounter;
 use self::encounters::Encounters;
 use self::energy::EnergyError;
 use crate::run::Run;
+use crate::scene;
 use crate::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 
 /// The monitor's estimator is E_16 with its error: 17 states a window.
@@ -48,6 +52,9 @@ pub struct Watch<S: Scheme, N: Ordered> {
 struct Observed<S: Scheme, N: Ordered> {
     monitor: ShadowEnergy<S, N, <Bilinear as BuildEstimator<N>>::Estimator>,
     encounters: Encounters<N>,
+    approaches: Option<Approaches>,
+    /// The states between windows of the monitor.
+    every: u64,
 }
 
 impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
@@ -68,9 +75,23 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
         let mut observed = None;
         if summarised {
             let monitor = ShadowEnergy::new(stepper.clone(), system, &Bilinear::with_error(MONITOR_ORDER))?;
-            observed = Some(Observed { monitor: monitor.every(every), encounters: Encounters::new(system.p()) });
+            observed = Some(Observed {
+                monitor: monitor.every(every),
+                encounters: Encounters::new(system.p()),
+                approaches: None,
+                every,
+            });
         }
         Ok(Watch { energies, energy: EnergyError::new(initial), observed, from, n: from })
+    }
+
+    /// Follows the planets of a system that has some, too.
+    #[must_use]
+    pub fn with_planets_of(mut self, system: &scene::System) -> Self {
+        if let Some(observed) = &mut self.observed {
+            observed.approaches = Approaches::of(system);
+        }
+        self
     }
 
     /// Whether the next step must compute increments.
@@ -88,8 +109,11 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
             self.energy.include(n, &energy);
             self.energy.include_kinetic(&kinetic);
         }
-        let Some(Observed { monitor, encounters }) = &mut self.observed else { return };
+        let Some(Observed { monitor, encounters, approaches, every }) = &mut self.observed else { return };
         encounters.include(n, system.p());
+        if let Some(approaches) = approaches {
+            approaches.include(n, (system.q(), system.p()), n.unsigned_abs().is_multiple_of(*every));
+        }
         // what is not finite is found by the run as well, or by the verdict
         if let Ok(Some(sample)) = monitor.observe(system)
             && self.energies == Energies::Windows
@@ -123,7 +147,7 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
         let energy = self.energy();
         let of_kinetic = self.energy.of_kinetic();
         let Watch { observed, from, n, .. } = self;
-        let Observed { monitor, encounters } = observed?;
+        let Observed { monitor, encounters, approaches, .. } = observed?;
         let report = monitor.report();
         let (verdict, reason) = conclusion(&report, of_kinetic);
         // where the energy is lost, the modified energy does not bound it
@@ -146,6 +170,7 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
             modified_energy,
             encounters,
             closest,
+            interactions: approaches.map(Approaches::found),
             fine: verdict.is_fine(),
             verdict: verdict.to_string(),
             reason,

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use shadowstep::formula::{FormulaError, FormulaPotential};
 use shadowstep::number::{Lanes, Number};
 use shadowstep::{Ordered, Potential, Rational};
-use shadowstep_scenes::System;
+use shadowstep_scenes::{Shown, System};
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::{Exact, Expression as Syntax, Kind, parse};
 
@@ -118,9 +118,11 @@ pub(crate) struct Evaluator<N> {
     value: N,
     has_time: bool,
     has_energy: bool,
+    /// Converts states, where formulas are in other coordinates than the steps.
+    shown: Option<Shown<N>>,
 }
 
-impl<N: Number> Evaluator<N> {
+impl<N: Number + 'static> Evaluator<N> {
     pub(crate) fn new(expression: &Expression, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
         let number = |exact: &Exact| N::from_rational(&exact.value, context);
         let parameters = system.parameters.iter().map(|(name, exact)| (name.as_str(), number(exact))).collect();
@@ -142,7 +144,8 @@ impl<N: Number> Evaluator<N> {
         let mut scratch = vec![zero.clone(); formula.scratch()];
         formula.prepare(&mut scratch, context);
         let (has_time, has_energy) = (expression.has_time, expression.has_energy);
-        Ok(Evaluator { formula, scratch, point: vec![zero.clone(); names.len()], value: zero, has_time, has_energy })
+        let (point, shown) = (vec![zero.clone(); names.len()], system.shown(context));
+        Ok(Evaluator { formula, scratch, point, value: zero, shown, has_time, has_energy })
     }
 
     /// The value at a state.
@@ -153,7 +156,11 @@ impl<N: Number> Evaluator<N> {
     ) -> &N {
         let dimension = system.q().len();
         let (state, rest) = self.point.split_at_mut(2 * dimension);
-        state.iter_mut().zip(system.q().iter().chain(system.p())).for_each(|(own, value)| own.assign(value));
+        let (q, p) = match &mut self.shown {
+            Some(shown) => shown.of_state(system.q(), system.p()),
+            None => (system.q(), system.p()),
+        };
+        state.iter_mut().zip(q.iter().chain(p)).for_each(|(own, value)| own.assign(value));
         if self.has_time {
             rest[0] = N::from_rational(&time(), &self.value.context());
         }
@@ -179,7 +186,7 @@ pub(crate) struct Test<N> {
     zero: N,
 }
 
-impl<N: Ordered> Test<N> {
+impl<N: Ordered + 'static> Test<N> {
     pub(crate) fn new(condition: &Condition, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
         let difference = Evaluator::new(&condition.difference, system, context)?;
         Ok(Test { difference, met: condition.met, zero: N::zero(context) })

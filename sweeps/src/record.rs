@@ -11,7 +11,7 @@ use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::start::{Steps, Work};
 use shadowstep_scenes::watch::{Energies, Watch};
-use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, Summary};
+use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, Shown, Summary};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::expression::{Evaluator, Test};
@@ -226,6 +226,8 @@ struct Following<'a, S: Scheme, N: Ordered> {
     /// The n of the last state: that of the run, or the one at which a condition ends it.
     last: i64,
     end: Option<End>,
+    /// Converts states, where columns are in other coordinates than the steps.
+    shown: Option<Shown<N>>,
 }
 
 /// The last state.
@@ -236,7 +238,7 @@ struct End {
     has_energy: bool,
 }
 
-impl<'a, S: Scheme + Clone, N: Rounded> Following<'a, S, N> {
+impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
     fn begin<M: shadowstep::System<Number = N>>(
         scene: &'a Scene,
         keep: &'a Keep,
@@ -268,6 +270,7 @@ impl<'a, S: Scheme + Clone, N: Rounded> Following<'a, S, N> {
             at_end: at_end.collect(),
             last,
             end: None,
+            shown: scene.system.shown(context),
         })
     }
 
@@ -302,8 +305,11 @@ impl<'a, S: Scheme + Clone, N: Rounded> Following<'a, S, N> {
         if n == self.last {
             let text = |number: &N| number.is_finite().then(|| number.to_text());
             let expressions = self.at_end.iter_mut().map(|end| text(end.value(system, || run.time(n)))).collect();
-            let state =
-                if self.keep.state { system.q().iter().chain(system.p()).map(text).collect() } else { Vec::new() };
+            let (q, p) = match &mut self.shown {
+                Some(shown) => shown.of_state(system.q(), system.p()),
+                None => (system.q(), system.p()),
+            };
+            let state = if self.keep.state { q.iter().chain(p).map(text).collect() } else { Vec::new() };
             self.end = Some(End { expressions, state, has_energy: system.energy().is_finite() });
         }
     }

@@ -16,6 +16,10 @@ pub(super) trait Definition {
     /// How the exact flow is computed, where a solution is known.
     const EXACT_FLOW: Option<Solver> = None;
 
+    /// In how many dimensions bodies with the masses of the coordinates attract each other by Newton's law with the constant `g`; `None`
+    /// of other problems.
+    const GRAVITY: Option<usize> = None;
+
     /// U(q); `number` gives the parameters by their names.
     fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>>;
 }

@@ -29,6 +29,8 @@ impl Definition for Entry {
         source: "Chenciner & Montgomery, Annals of Mathematics 152 (2000) 881; initial values by C. Simó; period 6.32591398",
     };
 
+    const GRAVITY: Option<usize> = Some(2);
+
     fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
         gravity::<N, 2>(number, &THREE_MASSES)
     }

@@ -70,6 +70,8 @@ impl Definition for Entry {
         source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.2.2: steps of 100 to 200 days over 200000 days",
     };
 
+    const GRAVITY: Option<usize> = Some(3);
+
     fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
         gravity::<N, 3>(number, &MASSES)
     }

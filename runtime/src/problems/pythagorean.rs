@@ -27,6 +27,8 @@ impl Definition for Entry {
         source: "Burrau, Astronomische Nachrichten 195 (1913) 113: no fixed step resolves its encounters",
     };
 
+    const GRAVITY: Option<usize> = Some(2);
+
     fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
         gravity::<N, 2>(number, &THREE_MASSES)
     }

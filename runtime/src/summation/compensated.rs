@@ -43,14 +43,14 @@ impl<N: Number, V: Coordinates<N>> Compensated<N, V> {
         let (mut y, mut sum) = (self.y.register(), self.sum.register());
         for ((q, remainder), increment) in q.iter_mut().zip(self.q.as_mut()).zip(self.increment.as_ref()) {
             y.assign_sum(remainder, increment);
-            add(q, remainder, &y, &mut sum);
+            add_with_remainder(q, remainder, &y, &mut sum);
         }
     }
 }
 
 /// a ← a + y, and what is rounded away is the remainder.
 #[inline(always)]
-fn add<N: Number>(a: &mut N, remainder: &mut N, y: &N, sum: &mut N) {
+pub(crate) fn add_with_remainder<N: Number>(a: &mut N, remainder: &mut N, y: &N, sum: &mut N) {
     sum.assign_sum(a, y);
     remainder.assign_difference(a, sum);
     remainder.add(y);
@@ -64,7 +64,7 @@ impl<N: Number, V: Coordinates<N>> Summation<N> for Compensated<N, V> {
         for ((p, remainder), gradient) in p.iter_mut().zip(self.p.as_mut()).zip(gradient) {
             y.assign(remainder);
             y.subtract_product(weight, gradient);
-            add(p, remainder, &y, &mut sum);
+            add_with_remainder(p, remainder, &y, &mut sum);
         }
     }
 

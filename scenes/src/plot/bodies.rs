@@ -13,12 +13,18 @@ pub(super) struct Bodies {
 }
 
 impl Bodies {
-    /// Those of a sum over pairs, or of coordinates such as x_sun, y_sun, x_jupiter, y_jupiter; `None` without bodies.
+    /// Those with coordinates such as x_sun, y_sun, x_jupiter, y_jupiter, or those of a sum over pairs; `None` without bodies.
     pub(super) fn of(system: &System) -> Option<Bodies> {
-        if let PotentialEnergy::Pairs(pairs) = &system.potential {
-            let names = (1..=pairs.bodies).map(|body| body.to_string()).collect();
-            return Some(Bodies { names, dimensions: pairs.dimensions });
-        }
+        Bodies::named(system).or_else(|| match &system.potential {
+            PotentialEnergy::Pairs(pairs) => {
+                let names = (1..=pairs.bodies).map(|body| body.to_string()).collect();
+                Some(Bodies { names, dimensions: pairs.dimensions })
+            }
+            _ => None,
+        })
+    }
+
+    fn named(system: &System) -> Option<Bodies> {
         let split: Vec<_> = system.coordinates.iter().map(|name| name.split_once('_')).collect::<Option<_>>()?;
         let groups: Vec<_> = split.chunk_by(|a, b| a.1 == b.1).collect();
         let dimensions = groups.first()?.len();

@@ -6,7 +6,7 @@ use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::scene::COLUMNS;
-use crate::scene::{KineticEnergy, PotentialEnergy, System, formula_potential};
+use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System, formula_potential};
 use shadowstep_schemes::document::{Placed, Text};
 
 /// The system with this potential.
@@ -39,7 +39,16 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -
     let (q, p) = given.state.values(reader, values, masses.as_deref());
     let potential = PotentialEnergy::Formula(potential.value.clone());
     let kinetic = kinetic.unwrap_or(KineticEnergy::Masses(masses));
-    Some(System { potential, kinetic, parameters, coordinates, momenta, q: q?, p: p? })
+    Some(System {
+        potential,
+        kinetic,
+        parts: Parts::KineticAndPotential,
+        parameters,
+        coordinates,
+        momenta,
+        q: q?,
+        p: p?,
+    })
 }
 
 /// The names of the coordinates and of their momenta, each different from all other names.

@@ -10,7 +10,7 @@ use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::note::Note;
 use crate::scene::PairEnergy;
-use crate::scene::{KineticEnergy, PotentialEnergy, System};
+use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System};
 use shadowstep_schemes::document::Text;
 
 /// The formula of the energy of a pair.
@@ -91,7 +91,16 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, pair: Option<PairFo
     let (q, p) = given.state.values(reader, values, masses.as_deref());
     let kinetic = kinetic.unwrap_or(KineticEnergy::Masses(masses));
     let potential = PotentialEnergy::Pairs(pair_energy(reader, given, &pair, bodies, dimensions, &parameters));
-    Some(System { potential, kinetic, parameters, coordinates, momenta, q: q?, p: p? })
+    Some(System {
+        potential,
+        kinetic,
+        parts: Parts::KineticAndPotential,
+        parameters,
+        coordinates,
+        momenta,
+        q: q?,
+        p: p?,
+    })
 }
 
 fn pair_energy(

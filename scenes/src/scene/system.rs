@@ -3,12 +3,13 @@
 use shadowstep::formula::{FormulaError, FormulaKinetic, FormulaPotential};
 use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::problems::Setup;
-use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, UnitMasses};
+use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, System as _, UnitMasses};
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::scene::pairs::PairEnergy;
 use crate::scene::parameters::rounded;
+use crate::scene::parts::{Canonical, Parts, Shown};
 
 /// H = T(p) + U(q) and the state at t = 0, all exact.
 #[derive(Debug)]
@@ -17,6 +18,8 @@ pub struct System {
     pub potential: PotentialEnergy,
     /// T(p)
     pub kinetic: KineticEnergy,
+    /// How H is split for the steps.
+    pub parts: Parts,
     /// Parameters of formulas or of the shipped problem: names and values.
     pub parameters: Vec<(String, Exact)>,
     /// Names of q_1, q_2, ….
@@ -59,10 +62,22 @@ pub(crate) enum ClassifiedKinetic<N> {
 }
 
 impl System {
-    /// Positions and momenta at t = 0.
-    pub fn start<N: Number>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
+    /// Positions and momenta at t = 0, in the coordinates of the steps.
+    pub fn start<N: Number + 'static>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
         let numbers = |values: &[Exact]| values.iter().map(|v| N::from_rational(&v.value, context)).collect();
-        (numbers(&self.q), numbers(&self.p))
+        let (q, p): (Vec<N>, Vec<N>) = (numbers(&self.q), numbers(&self.p));
+        match &self.parts {
+            Parts::KineticAndPotential => (q, p),
+            Parts::WisdomHolman(planets) => planets.canonical((&q, &p), context),
+        }
+    }
+
+    /// Converts states from the coordinates of the steps to those that are shown, where these differ.
+    pub fn shown<N: Number + 'static>(&self, context: &N::Context) -> Option<Shown<N>> {
+        match &self.parts {
+            Parts::KineticAndPotential => None,
+            Parts::WisdomHolman(planets) => Some(planets.shown(context)),
+        }
     }
 
     /// U(q)
@@ -96,13 +111,18 @@ impl System {
         }
     }
 
-    /// H of any state.
+    /// H of any state, in the coordinates of the steps.
     ///
     /// # Panics
     /// If q, p and U have different dimensions, which reading a system excludes.
     pub fn energy<N: Number + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
         const READ: &str = "the dimensions were read with the system";
-        let ((q, p), potential) = (self.start(context), self.potential(context));
+        let (q, p) = self.start(context);
+        if let Parts::WisdomHolman(planets) = &self.parts {
+            let mut system = planets.system((&q, &p), false, context).expect(READ);
+            return Box::new(move |q, p| system.energy_at(q, p));
+        }
+        let potential = self.potential(context);
         match self.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {
                 let mut motion = Motion::new(potential, kinetic, q, p).expect(READ);
@@ -133,11 +153,15 @@ impl System {
         let state = values.positions().len() + values.momenta().len();
         let parameters = values.named()[..values.named().len() - state].to_vec();
         let kinetic = KineticEnergy::Masses(values.masses().map(<[_]>::to_vec));
-        System { potential: PotentialEnergy::Shipped(setup), kinetic, parameters, coordinates, momenta, q, p }
+        let (potential, parts) = (PotentialEnergy::Shipped(setup), Parts::KineticAndPotential);
+        System { potential, kinetic, parts, parameters, coordinates, momenta, q, p }
     }
 
     /// Whether schemes for quadratic T only do not move it.
     pub fn has_general_kinetic(&self) -> bool {
+        if let Parts::WisdomHolman(planets) = &self.parts {
+            return planets.coordinates == Canonical::DemocraticHeliocentric;
+        }
         match &self.kinetic {
             KineticEnergy::Masses(_) => false,
             KineticEnergy::Formula(_) => matches!(self.kinetic::<f64>(&()), ClassifiedKinetic::General(_)),

@@ -2,6 +2,7 @@
 
 use shadowstep::number::{Float, Fused, Lanes, Number, Ordered, Precision};
 use shadowstep::pairs::{Ends, Pairs};
+use shadowstep::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
 use shadowstep::problems::{CubicSpring, Gravity, HenonHeiles, Kepler, LennardJones};
 use shadowstep::{
     DiagonalMasses, Kinetic, Motion, Potential, Rational, Scheme, Stepper, System, UnitMasses, exact,
@@ -14,7 +15,8 @@ use crate::protocol::{Answer, Request};
 use crate::schemes::{WithScheme, with_scheme};
 
 /// Does what a request asks for. `kepler-120` is Kepler's problem at 120 digits; `fused/SCHEME` computes with fused products, and
-/// `fused-compensated/SCHEME` with compensated sums as well; `lanes/SCHEME` with many trajectories at once.
+/// `fused-compensated/SCHEME` with compensated sums as well; `lanes/SCHEME` with many trajectories at once; `wisdom-holman/SCHEME` with the
+/// Kepler orbits of the planets and their interactions as parts.
 pub fn answer(request: &Request) -> Answer {
     let name = request.problem.strip_suffix("-120").unwrap_or(&request.problem);
     let initial = Initial::of(name);
@@ -27,6 +29,7 @@ pub fn answer(request: &Request) -> Answer {
         (problem, "fused") => asked.small(problem, Fused, false),
         (problem, "fused-compensated") => asked.small(problem, Fused, true),
         (problem, "lanes") => asked.ensemble(problem),
+        ("outer-solar-system", "wisdom-holman") => asked.planets(),
         (_, other) => panic!("no numbers {other}"),
     }
 }
@@ -108,6 +111,15 @@ impl Asked<'_> {
         with_scheme(self.scheme, RunAll { request: self.request, systems })
     }
 
+    /// In Jacobi coordinates; the answer is in inertial ones.
+    fn planets(&self) -> Answer {
+        let Initial { parameters, masses, q, p } = self.initial;
+        let exact = |x: &f64| Rational::from_float(*x).expect("a finite number");
+        let bodies = Bodies::new(exact(&parameters[0]), masses.iter().step_by(3).map(exact).collect());
+        let system = Planets::new(&bodies.expect("six bodies"), (q, p), &()).expect("a state of six bodies");
+        with_scheme(self.scheme, RunPlanets { request: self.request, system })
+    }
+
     fn argon(&self) -> Answer {
         let Initial { parameters, masses, q, p } = self.initial;
         let pair = LennardJones { epsilon: parameters[0], sigma: parameters[1] };
@@ -171,6 +183,29 @@ impl<M: System<Class = Quadratic, Number: Ordered>> WithScheme for Run<'_, M> {
         for _ in 0..request.samples {
             answer.time(|| stepper.steps(std::slice::from_mut(&mut system), request.steps() / request.samples));
             answer.state(system.q().iter().chain(system.p()).map(Ordered::to_f64));
+        }
+        answer
+    }
+}
+
+type Planets = WisdomHolman<f64, Jacobi<f64, 3>, 3>;
+
+struct RunPlanets<'a> {
+    request: &'a Request,
+    system: Planets,
+}
+
+impl WithScheme for RunPlanets<'_> {
+    type Result = Answer;
+
+    fn with<S: Scheme>(self, scheme: S) -> Answer {
+        let RunPlanets { request, mut system } = self;
+        let stepper = Stepper::new(scheme, step_size(request.until, request.steps())).expect("a step size");
+        let mut answer = Answer::default();
+        for _ in 0..request.samples {
+            answer.time(|| stepper.steps(std::slice::from_mut(&mut system), request.steps() / request.samples));
+            let (q, p) = system.inertial();
+            answer.state(q.into_iter().chain(p));
         }
         answer
     }

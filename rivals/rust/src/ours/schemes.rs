@@ -9,6 +9,10 @@ pub trait WithScheme {
     fn with<S: Scheme>(self, scheme: S) -> Self::Result;
 }
 
+/// Störmer–Verlet that begins with a drift.
+#[shadowstep::splitting_scheme("stormer-verlet.toml", first = "drift")]
+struct DriftKickDrift;
+
 macro_rules! schemes {
     ($($Name:ident: $name:literal = $table:literal,)+) => {
         $(
@@ -19,6 +23,7 @@ macro_rules! schemes {
         /// Calls with the scheme of this name.
         pub fn with_scheme<W: WithScheme>(name: &str, work: W) -> W::Result {
             match name {
+                "drift-kick-drift" => work.with(DriftKickDrift),
                 $($name => work.with($Name),)+
                 _ => panic!("no scheme {name} takes part"),
             }
@@ -36,5 +41,10 @@ schemes! {
     BlanesMoan11: "blanes-moan-srkn11b" = "blanes-moan-srkn11b.toml",
     BlanesMoan14: "blanes-moan-srkn14a" = "blanes-moan-srkn14a.toml",
     Nystrom8: "bce-rkn8-17" = "bce-rkn8-17.toml",
+    Saba2: "saba2" = "saba2.toml",
+    Saba4: "saba4" = "saba4.toml",
+    Abah864: "abah864" = "abah864.toml",
+    Abah1064: "abah1064" = "abah1064.toml",
+    Aba1064: "aba1064" = "aba1064.toml",
     SofroniouSpaletta10: "sofroniou-spaletta10-35" = "sofroniou-spaletta10-35.toml",
 }

@@ -1,0 +1,285 @@
+//! Planetary systems H = A + B with A solved exactly: Kepler orbits about the central body, and the interactions of the planets.
+//!
+//! Schemes for H = A + εB, such as the SABA and ABAH families, gain their factor ε only where A is the larger part *and* its flow is exact
+//! (Wisdom & Holman, Astron. J. 102 (1991) 1528; Laskar & Robutel, Celest. Mech. 80 (2001) 39). Here a drift moves the centre of mass and
+//! each planet on its Kepler orbit, A = P₀²/2M + Σ (P_i²/2m_i′ − κ_i/|Q_i|), and a kick is by the rest of the forces.
+//!
+//! Along an exact flow of A the modified energy's β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt (Moan & Niesen, eq. 2). A quadratic form adds
+//! nothing; of p²/2m − κ/r the integrand is 3κ/r, and ∫dt/r is the universal anomaly s, which the [Kepler drift](crate::kepler_drift)
+//! has found anyway: **β += 3κ s**. B is homogeneous of degree −1, so that a kick adds −3B times its weight.
+
+mod bodies;
+mod heliocentric;
+mod interactions;
+mod jacobi;
+mod orbits;
+mod sum;
+
+pub use bodies::{Bodies, BodiesError};
+pub use heliocentric::DemocraticHeliocentric;
+pub use jacobi::Jacobi;
+pub use orbits::Orbits;
+
+use crate::number::Number;
+use crate::system::{Increments, OwnedIncrements, Remainders, System};
+use sum::Sum;
+
+/// Canonical coordinates in which a planetary system is a sum of Kepler orbits and interactions.
+///
+/// Q₀ is the centre of mass and P₀ the total momentum; Q_i and P_i, i ≥ 1, are those of the planets. All is linear in the inertial
+/// positions and momenta.
+pub trait PlanetaryCoordinates<N: Number, const D: usize> {
+    /// [`Quadratic`](crate::kinetic::Quadratic) where the kick depends on Q only, else [`General`](crate::kinetic::General).
+    type Class;
+
+    /// The coordinates for bodies of these masses.
+    fn new(bodies: &Bodies, context: &N::Context) -> Self;
+
+    /// The Kepler orbits of A.
+    fn orbits(&self) -> &Orbits<N>;
+
+    /// canonical ← the coordinates of an inertial state; each is positions and momenta, body after body.
+    fn assign_from_inertial(&mut self, inertial: (&[N], &[N]), canonical: (&mut [N], &mut [N]));
+
+    /// inertial ← the state with these coordinates.
+    fn assign_inertial(&mut self, canonical: (&[N], &[N]), inertial: (&mut [N], &mut [N]));
+
+    /// gradient ← ∂B/∂Q and, if asked for, rate ← QᵀB_Q − 2B = −3B, of the part of B that depends on Q.
+    fn gradient_and_rate(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>);
+
+    /// The velocity with which the part of B that depends on P moves all planets; there is none by default.
+    fn jump(&mut self, p: &[N]) -> Option<&[N; D]> {
+        let _ = p;
+        None
+    }
+
+    /// energy ← B
+    fn assign_interaction_energy(&mut self, canonical: (&[N], &[N]), energy: &mut N);
+}
+
+/// A planetary system in D dimensions with its state, in coordinates `C`: [`Jacobi`] or [`DemocraticHeliocentric`].
+///
+/// The first body is the central one. Positions and momenta of the [`System`] are the canonical coordinates Q and P;
+/// [`inertial`](WisdomHolman::inertial) converts them.
+///
+/// ```
+/// use shadowstep::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
+/// use shadowstep::{Stepper, System, exact, tables};
+///
+/// // two planets of a thousandth of the central mass, with G = 1
+/// let masses = ["1", "1/1000", "1/1000"].map(|mass| exact(mass).unwrap());
+/// let bodies = Bodies::new(exact("1").unwrap(), masses.to_vec())?;
+/// let (q, p) = ([0.0, 0.0, 1.0, 0.0, 0.0, 1.8], [0.0, -0.001, 0.0, 0.001, -0.00074, 0.0]);
+/// let mut planets = WisdomHolman::<_, Jacobi<_, 2>, 2>::new(&bodies, (&q, &p), &())?;
+///
+/// let before = planets.energy();
+/// let stepper = Stepper::new(tables::shipped("saba4").unwrap(), "1/4")?;
+/// for _ in 0..1000 {
+///     stepper.step(&mut planets);
+/// }
+/// assert!((planets.energy() / before - 1.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct WisdomHolman<N: Number, C, const D: usize> {
+    coordinates: C,
+    q: Vec<N>,
+    p: Vec<N>,
+    /// ∂B/∂Q
+    gradient: Vec<N>,
+    /// −3B
+    rate: N,
+    kept: Kept,
+    increments: OwnedIncrements<N>,
+    orbits: orbits::Advance<N, D>,
+    /// Of q and of p.
+    sums: [Sum<N>; 2],
+    evaluations: u64,
+}
+
+/// What is known of B at the present Q.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kept {
+    Nothing,
+    Gradient,
+    GradientAndRate,
+}
+
+impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C, D> {
+    /// The system at inertial positions and momenta, body after body.
+    ///
+    /// # Errors
+    /// A state of another number of bodies.
+    pub fn new(bodies: &Bodies, (q, p): (&[N], &[N]), context: &N::Context) -> Result<Self, BodiesError> {
+        let dimension = bodies.count() * D;
+        for found in [q.len(), p.len()] {
+            if found != dimension {
+                return Err(BodiesError::State { found, bodies: bodies.count(), dimensions: D });
+            }
+        }
+        let zeros = || vec![N::zero(context); dimension];
+        let mut system = WisdomHolman {
+            coordinates: C::new(bodies, context),
+            q: zeros(),
+            p: zeros(),
+            gradient: zeros(),
+            rate: N::zero(context),
+            kept: Kept::Nothing,
+            increments: OwnedIncrements::zero(dimension, context),
+            orbits: orbits::Advance::new(context),
+            sums: [Sum::plain(context), Sum::plain(context)],
+            evaluations: 0,
+        };
+        system.set_inertial(q, p);
+        Ok(system)
+    }
+
+    /// The same system with [compensated sums](crate::summation::Compensated): the round-off of a kick or drift is ε times the increment, in place of ε
+    /// times the coordinate.
+    #[must_use]
+    pub fn compensated(mut self) -> Self {
+        let dimension = self.q.len();
+        self.sums.iter_mut().for_each(|sum| sum.compensate(dimension));
+        self
+    }
+
+    /// The inertial positions and momenta.
+    pub fn inertial(&mut self) -> (Vec<N>, Vec<N>) {
+        let (mut q, mut p) = (self.q.clone(), self.p.clone());
+        self.coordinates.assign_inertial((&self.q, &self.p), (&mut q, &mut p));
+        (q, p)
+    }
+
+    /// Sets the inertial positions and momenta.
+    pub fn set_inertial(&mut self, q: &[N], p: &[N]) {
+        self.coordinates.assign_from_inertial((q, p), (&mut self.q, &mut self.p));
+        self.sums.iter_mut().for_each(Sum::forget);
+        self.kept = Kept::Nothing;
+    }
+
+    /// The coordinates, which convert states.
+    pub fn coordinates(&self) -> &C {
+        &self.coordinates
+    }
+
+    /// Evaluates the gradient at the present Q, unless it is known.
+    fn evaluate(&mut self, with_rate: bool) {
+        let wanted = if with_rate { Kept::GradientAndRate } else { Kept::Gradient };
+        if self.kept == Kept::GradientAndRate || self.kept == wanted {
+            return;
+        }
+        let rate = with_rate.then_some(&mut self.rate);
+        self.coordinates.gradient_and_rate(&self.q, &mut self.gradient, rate);
+        self.kept = wanted;
+        self.evaluations += 1;
+    }
+
+    /// The jump and the kick by the gradient at the place where it ends: the two commute.
+    fn kick_by(&mut self, weight: &N, augmented: bool) {
+        self.jump(weight, augmented);
+        self.evaluate(augmented);
+        for (number, (p, gradient)) in self.p.iter_mut().zip(&self.gradient).enumerate() {
+            self.sums[1].subtract_product(number, p, weight, gradient);
+        }
+        if augmented {
+            self.increments.beta.add_product(weight, &self.rate);
+            for (increment, gradient) in self.increments.p.iter_mut().zip(&self.gradient) {
+                increment.subtract_product(weight, gradient);
+            }
+        }
+    }
+
+    fn jump(&mut self, weight: &N, augmented: bool) {
+        let WisdomHolman { coordinates, q, p, sums, increments, kept, .. } = self;
+        let Some(velocity) = coordinates.jump(p) else { return };
+        for number in D..q.len() {
+            let velocity = &velocity[number % D];
+            sums[0].add_product(number, &mut q[number], weight, velocity);
+            if augmented && N::KEEPS_INCREMENTS {
+                increments.q[number].add_product(weight, velocity);
+            }
+        }
+        *kept = Kept::Nothing;
+    }
+
+    fn drift_by(&mut self, weight: &N, augmented: bool) {
+        let WisdomHolman { coordinates, q, p, sums, increments, orbits, .. } = self;
+        orbits.advance(coordinates.orbits(), weight, (q, p), sums, augmented.then_some(increments));
+        self.kept = Kept::Nothing;
+    }
+}
+
+impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for WisdomHolman<N, C, D> {
+    type Number = N;
+    type Class = C::Class;
+
+    fn q(&self) -> &[N] {
+        &self.q
+    }
+
+    fn p(&self) -> &[N] {
+        &self.p
+    }
+
+    fn increments(&self) -> Increments<'_, N> {
+        self.increments.view()
+    }
+
+    fn set_state(&mut self, q: &[N], p: &[N]) {
+        self.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
+        self.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        self.sums.iter_mut().for_each(Sum::forget);
+        self.kept = Kept::Nothing;
+    }
+
+    fn remainders(&self) -> Remainders<N> {
+        let [q, p] = [0, 1].map(|of| self.sums[of].remainders.clone());
+        Remainders { q, p }
+    }
+
+    fn set_remainders(&mut self, remainders: &Remainders<N>) {
+        for (sum, given) in self.sums.iter_mut().zip([&remainders.q, &remainders.p]) {
+            sum.remainders.iter_mut().zip(given).for_each(|(own, given)| own.assign(given));
+        }
+    }
+
+    fn is_compensated(&self) -> bool {
+        !self.sums[0].remainders.is_empty()
+    }
+
+    fn kick(&mut self, weight: &N) {
+        self.kick_by(weight, false);
+    }
+
+    fn kick_augmented(&mut self, weight: &N) {
+        self.kick_by(weight, true);
+    }
+
+    fn drift(&mut self, weight: &N) {
+        self.drift_by(weight, false);
+    }
+
+    fn drift_augmented(&mut self, weight: &N) {
+        self.drift_by(weight, true);
+    }
+
+    fn clear_increments(&mut self) {
+        self.increments.assign_zero();
+    }
+
+    /// H is the same as in inertial coordinates; `kinetic` is T.
+    fn assign_energies(&mut self, energy: &mut N, kinetic: &mut N) {
+        let WisdomHolman { coordinates, q, p, orbits, .. } = self;
+        coordinates.assign_interaction_energy((q, p), energy);
+        orbits.add_energies(coordinates.orbits(), (q, p), energy, kinetic);
+    }
+
+    fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic: &mut N) {
+        self.coordinates.assign_interaction_energy((q, p), energy);
+        self.orbits.add_energies(self.coordinates.orbits(), (q, p), energy, kinetic);
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+}

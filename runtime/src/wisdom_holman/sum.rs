@@ -1,0 +1,52 @@
+//! How increments are added to the coordinates of planets: plainly, or with the remainder of each sum.
+
+use crate::number::Number;
+use crate::summation::add_with_remainder;
+
+/// Adds increments to positions, or to momenta.
+#[derive(Clone, Debug)]
+pub(super) struct Sum<N> {
+    /// Of each coordinate; none where sums are plain.
+    pub(super) remainders: Vec<N>,
+    y: N,
+    sum: N,
+}
+
+impl<N: Number> Sum<N> {
+    pub(super) fn plain(context: &N::Context) -> Self {
+        Sum { remainders: Vec::new(), y: N::zero(context), sum: N::zero(context) }
+    }
+
+    /// Keeps remainders from now on.
+    pub(super) fn compensate(&mut self, dimension: usize) {
+        self.remainders = vec![N::zero(&self.y.context()); dimension];
+    }
+
+    /// Drops the remainders, where coordinates were set.
+    pub(super) fn forget(&mut self) {
+        self.remainders.iter_mut().for_each(N::assign_zero);
+    }
+
+    /// x ← x + by, x being the coordinate of this number
+    pub(super) fn add(&mut self, number: usize, x: &mut N, by: &N) {
+        let Some(remainder) = self.remainders.get_mut(number) else { return x.add(by) };
+        self.y.assign_sum(remainder, by);
+        add_with_remainder(x, remainder, &self.y, &mut self.sum);
+    }
+
+    /// x ← x + a b
+    pub(super) fn add_product(&mut self, number: usize, x: &mut N, a: &N, b: &N) {
+        let Some(remainder) = self.remainders.get_mut(number) else { return x.add_product(a, b) };
+        self.y.assign(remainder);
+        self.y.add_product(a, b);
+        add_with_remainder(x, remainder, &self.y, &mut self.sum);
+    }
+
+    /// x ← x − a b
+    pub(super) fn subtract_product(&mut self, number: usize, x: &mut N, a: &N, b: &N) {
+        let Some(remainder) = self.remainders.get_mut(number) else { return x.subtract_product(a, b) };
+        self.y.assign(remainder);
+        self.y.subtract_product(a, b);
+        add_with_remainder(x, remainder, &self.y, &mut self.sum);
+    }
+}

@@ -1,0 +1,474 @@
+//! [[body]]: the bodies of a planetary system, by Cartesian states or orbital elements.
+
+use std::ops::Range;
+
+use num_traits::{One, Zero};
+use shadowstep::Rational;
+use shadowstep::pairs::Separation;
+use shadowstep::wisdom_holman::Bodies;
+use shadowstep_symbolic::Exact;
+use toml::de::{DeTable, DeValue};
+
+use super::elements::{Elements, Vector};
+use super::given::Given;
+use super::kinetic;
+use super::names::check_name;
+use super::numbers::Numbers;
+use super::reader::Reader;
+use super::units;
+use crate::scene::{Canonical, KineticEnergy, PairEnergy, Parts, Planets, PotentialEnergy, System};
+use shadowstep_schemes::document::{Placed, Section, Text};
+
+/// The name of the section.
+pub(super) const BODY: &str = "body";
+
+/// The most bodies: what is read of each takes some milliseconds.
+const MOST_BODIES: usize = 1000;
+
+/// The keys of elements besides `a`, which all are 0 unless they are given.
+const ANGLES_AND_SHAPE: [&str; 6] = ["e", "i", "node", "pericentre", "M", "lambda"];
+
+/// What the text gives of a body.
+pub(super) struct GivenBody {
+    name: Option<Text>,
+    mass: Option<Text>,
+    q: Option<Placed<Vec<Text>>>,
+    v: Option<Placed<Vec<Text>>>,
+    a: Option<Text>,
+    elements: Vec<(&'static str, Text)>,
+    at: Range<usize>,
+}
+
+/// What the elements of a planet are relative to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Centre {
+    /// The central body.
+    Body,
+    /// The centre of mass of the bodies before.
+    Inner,
+}
+
+/// Reads all sections [[body]].
+pub(super) fn given(reader: &mut Reader<'_>, root: &DeTable<'_>) -> Vec<GivenBody> {
+    let Some(value) = root.get(BODY) else { return Vec::new() };
+    let tables: Vec<_> = match value.get_ref() {
+        DeValue::Table(_) => vec![value],
+        DeValue::Array(array) => array.iter().collect(),
+        _ => {
+            reader.toml.wrong_kind::<()>(value, "a section for each body: [[body]]");
+            return Vec::new();
+        }
+    };
+    if tables.len() > MOST_BODIES {
+        let message = format!("{} bodies are too many", tables.len());
+        reader.toml.fault(&value.span(), message, format!("at most {MOST_BODIES} are read from elements"));
+        return Vec::new();
+    }
+    let mut bodies = Vec::new();
+    for value in tables {
+        match value.get_ref() {
+            DeValue::Table(table) => {
+                let section = reader.table(table, value, BODY);
+                bodies.push(GivenBody::read(reader, &section));
+            }
+            _ => reader.toml.wrong_kind::<()>(value, "a section for each body: [[body]]").unwrap_or(()),
+        }
+    }
+    bodies
+}
+
+impl GivenBody {
+    fn read(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> GivenBody {
+        let mut number = |key: &str| section.get(key).and_then(|value| reader.number(value));
+        let (mass, a) = (number("mass"), number("a"));
+        let elements = ANGLES_AND_SHAPE.into_iter().filter_map(|key| Some((key, number(key)?))).collect();
+        let mut list =
+            |key: &str| section.get(key).and_then(|value| reader.numbers(value, "a list of numbers: [1, 0, 0]"));
+        let (q, v) = (list("q"), list("v"));
+        if section.get("mass").is_none() {
+            reader.toml.missing(section, &["mass"]);
+        }
+        let name = section.get("name").and_then(|value| reader.toml.text(value));
+        GivenBody { name, mass, q, v, a, elements, at: section.at.clone() }
+    }
+
+    fn element(&self, key: &str) -> Option<&Text> {
+        self.elements.iter().find(|(name, _)| *name == key).map(|(_, text)| text)
+    }
+
+    fn is_by_elements(&self) -> bool {
+        self.a.is_some() || !self.elements.is_empty()
+    }
+
+    /// The elements; their faults are reported.
+    fn elements(&self, reader: &mut Reader<'_>) -> Option<Elements> {
+        let Some(a) = &self.a else {
+            let help = "add the semi-major axis, `a = 5.2`, or give q and v instead";
+            return reader.toml.wrong(&self.at, "the key `a` is missing", help);
+        };
+        if let (Some(_), Some(text)) = (self.element("M"), self.element("lambda")) {
+            return reader.toml.wrong(&text.at, "M and lambda are both given", "keep one of the two");
+        }
+        let zero = || Some(Exact { value: Rational::zero(), rounded: false });
+        let mut value = |key: &str| self.element(key).map_or_else(zero, |text| reader.evaluate(text));
+        let [e, i, node, pericentre, anomaly, longitude] = ANGLES_AND_SHAPE.map(|key| value(key).map(|e| e.value));
+        let (node, pericentre) = (node?, pericentre?);
+        let anomaly = match self.element("lambda") {
+            None => anomaly?,
+            Some(_) => longitude? - &node - &pericentre,
+        };
+        let elements = Elements { a: reader.evaluate(a)?.value, e: e?, i: i?, node, pericentre, anomaly };
+        match elements.fault() {
+            None => Some(elements),
+            Some((message, help)) => {
+                let at = self.element("e").map_or(&a.at, |text| &text.at);
+                reader.toml.wrong(at, message, help)
+            }
+        }
+    }
+}
+
+/// Bodies with their exact states so far.
+struct Placing {
+    g: Rational,
+    dimensions: usize,
+    centre: Centre,
+    masses: Vec<Rational>,
+    /// Positions and velocities.
+    states: Vec<[Vec<Rational>; 2]>,
+}
+
+/// The system of the bodies.
+pub(super) fn system(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    problem: &Section<'_, '_>,
+    (settings, bodies): (&Settings, &[GivenBody]),
+) -> Option<System> {
+    given.refuse(
+        reader,
+        &["coordinates", "momenta", "masses", "kinetic", "bodies", "dimensions", "neighbours"],
+        |key| (format!("{key} cannot be set with [[body]]"), format!("remove `{key}`")),
+    );
+    if let Some(initial) = &given.initial {
+        let help = "give q and v, or orbital elements, in [[body]]";
+        reader.toml.fault(initial, "with [[body]] there is no section [initial]", help);
+    }
+    let mut parameters = given.own_parameters(reader);
+    let constant = settings.constant(reader, problem, &parameters);
+    if bodies.len() < 2 {
+        let at = bodies.first().map_or(&given.problem, |body| &body.at);
+        return reader.toml.wrong(at, "a planetary system has a central body and at least one planet", "add [[body]]");
+    }
+    let (g, centre, parts) = (constant?, settings.centre?, settings.parts?);
+    let dimensions = bodies.iter().find_map(|body| body.q.as_ref()).map_or(3, |q| q.value.len());
+    let masses = masses(reader, bodies)?;
+    let mut placing = Placing { g: g.clone(), dimensions, centre, masses, states: Vec::new() };
+    let before = reader.toml.faults.len();
+    for (index, body) in bodies.iter().enumerate() {
+        let state = placing.state(reader, index, body).unwrap_or_else(|| placing.origin());
+        placing.states.push(state);
+    }
+    let names = names(reader, bodies);
+    if reader.toml.faults.len() > before {
+        return None;
+    }
+    if settings.barycentric? {
+        placing.move_to_barycentre();
+    }
+    if !parameters.iter().any(|(name, _)| name == "g") {
+        parameters.push(("g".to_owned(), Exact { value: g, rounded: false }));
+    }
+    placing.into_system(reader, parts, parameters, &names, &given.problem)
+}
+
+/// What [problem] says of bodies.
+pub(super) struct Settings {
+    /// Coordinates of the steps, or none for T(p) and U(q).
+    pub(super) parts: Option<Option<Canonical>>,
+    /// The constant in these units.
+    units: Option<Option<Rational>>,
+    centre: Option<Centre>,
+    barycentric: Option<bool>,
+}
+
+impl Settings {
+    pub(super) fn read(reader: &mut Reader<'_>, problem: &Section<'_, '_>) -> Settings {
+        let [first, second] = Canonical::NAMES.map(|(name, canonical)| (name, Some(canonical)));
+        let parts = [first, second, ("kinetic-potential", None)];
+        let centres = [("heliocentric", Centre::Body), ("jacobi", Centre::Inner)];
+        Settings {
+            parts: problem.get("parts").map_or(Some(None), |value| reader.word(value, &parts)),
+            units: problem.get("units").map(|value| units::constant(reader, value)),
+            centre: problem.get("elements").map_or(Some(Centre::Body), |value| reader.word(value, &centres)),
+            barycentric: problem
+                .get("barycentric")
+                .map_or(Some(false), |value| reader.toml.truth(value).map(|truth| truth.value)),
+        }
+    }
+
+    /// G from `units`, or from a parameter g.
+    fn constant(
+        &self,
+        reader: &mut Reader<'_>,
+        problem: &Section<'_, '_>,
+        parameters: &[(String, Exact)],
+    ) -> Option<Rational> {
+        let parameter = parameters.iter().find(|(name, _)| name == "g").map(|(_, value)| value.value.clone());
+        match (&self.units, parameter) {
+            (Some(constant), None) => constant.clone(),
+            (None, Some(g)) => Some(g),
+            (Some(_), Some(_)) => {
+                let at = problem.get("units").map_or(problem.at.clone(), |value| value.span());
+                let help = "remove `units`, or the parameter g";
+                reader.toml.wrong(&at, "g is given by the units and by a parameter", help)
+            }
+            (None, None) => {
+                let help =
+                    "add units = { length = \"AU\", time = \"day\", mass = \"solar\" }, or parameters = { g = 1 }";
+                reader.toml.wrong(&problem.at, "the gravitational constant is missing", help)
+            }
+        }
+    }
+}
+
+fn masses(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Option<Vec<Rational>> {
+    let mut masses = Vec::new();
+    for body in bodies {
+        let text = body.mass.as_ref();
+        masses.push(text.and_then(|text| {
+            let numbers = Numbers::List(Placed { value: vec![text.clone()], at: text.at.clone() });
+            let value = reader.evaluate(text)?;
+            let before = reader.toml.faults.len();
+            kinetic::masses(reader, &numbers, vec![value.clone()]);
+            (reader.toml.faults.len() == before).then_some(value.value)
+        }));
+    }
+    masses.into_iter().collect()
+}
+
+/// The names of the bodies, or their numbers if one has no name.
+fn names(reader: &mut Reader<'_>, bodies: &[GivenBody]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for body in bodies {
+        let Some(name) = &body.name else { return (1..=bodies.len()).map(|body| body.to_string()).collect() };
+        check_name(reader, name);
+        if names.contains(&name.value) {
+            let message = format!("the body `{}` is named twice", name.value);
+            reader.toml.fault(&name.at, message, "give it another name");
+        }
+        names.push(name.value.clone());
+    }
+    names.into_iter().map(|name| format!("_{name}")).collect()
+}
+
+impl Placing {
+    fn origin(&self) -> [Vec<Rational>; 2] {
+        [(); 2].map(|()| vec![Rational::zero(); self.dimensions])
+    }
+
+    /// Position and velocity of a body.
+    fn state(&self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
+        match (&body.q, &body.v) {
+            (Some(q), Some(v)) => {
+                if body.is_by_elements() {
+                    let help = "keep one of the two";
+                    return reader.toml.wrong(&body.at, "this body has q and v and orbital elements", help);
+                }
+                let mut values = |list| {
+                    let values = reader.values(list, self.dimensions, "dimension")?;
+                    Some(values.into_iter().map(|exact| exact.value).collect::<Vec<_>>())
+                };
+                let (q, v) = (values(q), values(v));
+                Some([q?, v?])
+            }
+            (Some(given), None) | (None, Some(given)) => {
+                let key = if body.q.is_some() { "v" } else { "q" };
+                let help = "give both q and v, or orbital elements";
+                reader.toml.wrong(&given.at, format!("the key `{key}` is missing"), help)
+            }
+            (None, None) if index == 0 => match body.is_by_elements() {
+                false => Some(self.origin()),
+                true => {
+                    let help = "give it q and v, or nothing for a body at the origin";
+                    reader.toml.wrong(&body.at, "the first body is the central one and has no orbit", help)
+                }
+            },
+            (None, None) => self.on_orbit(reader, index, body),
+        }
+    }
+
+    /// The state of a planet on its orbit.
+    fn on_orbit(&self, reader: &mut Reader<'_>, index: usize, body: &GivenBody) -> Option<[Vec<Rational>; 2]> {
+        let elements = body.elements(reader)?;
+        let inner = match self.centre {
+            Centre::Body => 1,
+            Centre::Inner => index,
+        };
+        let attracting: Rational = self.masses[..inner].iter().sum();
+        let mu = &self.g * (&attracting + &self.masses[index]);
+        let relative = match elements.state(&mu, reader.arithmetic.value_digits()) {
+            Ok(relative) => relative,
+            Err(error) => return reader.toml.wrong(&body.at, error.to_string(), "choose other elements"),
+        };
+        if self.dimensions < 3 && relative.iter().any(|vector: &Vector| !vector[2].is_zero()) {
+            let help = "give the other bodies positions in three dimensions";
+            return reader.toml.wrong(&body.at, "this orbit is not in the plane of the other bodies", help);
+        }
+        let mut state = self.mean(inner, &attracting);
+        for (sum, part) in state.iter_mut().zip(&relative) {
+            sum.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
+        }
+        Some(state)
+    }
+
+    /// The centre of mass of the first bodies, whose mass is given, and its velocity.
+    fn mean(&self, bodies: usize, mass: &Rational) -> [Vec<Rational>; 2] {
+        let mut mean = self.origin();
+        for (state, own) in self.states[..bodies].iter().zip(&self.masses) {
+            for (sum, part) in mean.iter_mut().zip(state) {
+                sum.iter_mut().zip(part).for_each(|(sum, part)| *sum += part * own / mass);
+            }
+        }
+        mean
+    }
+
+    fn move_to_barycentre(&mut self) {
+        let mean = self.mean(self.states.len(), &self.masses.iter().sum());
+        for state in &mut self.states {
+            for (own, by) in state.iter_mut().zip(&mean) {
+                own.iter_mut().zip(by).for_each(|(own, by)| *own -= by);
+            }
+        }
+    }
+
+    fn into_system(
+        self,
+        reader: &mut Reader<'_>,
+        parts: Option<Canonical>,
+        parameters: Vec<(String, Exact)>,
+        names: &[String],
+        at: &Range<usize>,
+    ) -> Option<System> {
+        let Placing { g, dimensions, masses, states, .. } = self;
+        let exact = |value: Rational| Exact { value, rounded: true };
+        let bodies = match Bodies::new(g, masses.clone()) {
+            Ok(bodies) => bodies,
+            Err(error) => return reader.toml.wrong(at, error.to_string(), "use positive masses and units"),
+        };
+        let axes = [("x", "px"), ("y", "py"), ("z", "pz")];
+        let (coordinates, momenta) = names
+            .iter()
+            .flat_map(|name| axes[..dimensions].iter().map(move |(q, p)| (format!("{q}{name}"), format!("{p}{name}"))))
+            .unzip();
+        let p = states.iter().zip(&masses).flat_map(|([_, v], mass)| v.iter().map(move |v| exact(v * mass)));
+        let of_coordinates: Vec<_> = masses.iter().flat_map(|mass| vec![exact(mass.clone()); dimensions]).collect();
+        let unit = of_coordinates.iter().all(|mass| mass.value.is_one());
+        let pairs = PairEnergy {
+            formula: "-g*m_i*m_j/sqrt(r2)".to_owned(),
+            separation: Separation::SquaredDistance,
+            dimensions,
+            bodies: masses.len(),
+            properties: vec![("m".to_owned(), masses.iter().cloned().map(exact).collect())],
+            ends: None,
+        };
+        Some(System {
+            p: p.collect(),
+            q: states.iter().flat_map(|[q, _]| q.iter().cloned().map(exact)).collect(),
+            potential: PotentialEnergy::Pairs(pairs),
+            kinetic: KineticEnergy::Masses((!unit).then_some(of_coordinates)),
+            parts: match parts {
+                None => Parts::KineticAndPotential,
+                Some(coordinates) => Parts::WisdomHolman(Planets { coordinates, bodies, dimensions }),
+            },
+            parameters,
+            coordinates,
+            momenta,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowstep::tables::{Faults, Source};
+
+    use crate::shipped::PLANETARY_SCENES;
+    use crate::{Parts, Scene};
+
+    fn read(text: &str) -> Result<Scene, Vec<String>> {
+        let source = Source { path: "scene.toml".to_owned(), text: text.to_owned() };
+        Scene::read(source).map_err(|Faults(faults)| {
+            faults.iter().map(|fault| format!("{}:{}: {}", fault.line, fault.column, fault.message)).collect()
+        })
+    }
+
+    /// Two planets, the second by elements, with these lines in [problem].
+    fn scene(problem: &str, second: &str) -> String {
+        format!(
+            "[problem]\n{problem}\n[[body]]\nmass = 1\n[[body]]\nmass = 0.1\nq = [2, 0]\nv = [0, 1]\n[[body]]\nmass = 0.01\n{second}\n\
+             [run]\nscheme = \"abah864\"\nstep = 1\nsteps = 9\ndigits = \"double\"\n[output]\nenergy = true"
+        )
+    }
+
+    const G: &str = "parts = \"wisdom-holman\"\nparameters = { g = 1 }";
+
+    #[test]
+    fn elements_are_relative_to_the_central_body_or_to_the_inner_ones() {
+        let position = |problem: &str| {
+            let scene = read(&scene(&format!("{G}\n{problem}"), "a = 4\nM = 0")).unwrap();
+            let numbers =
+                scene.system.q.iter().map(|exact| <f64 as shadowstep::Number>::from_rational(&exact.value, &()));
+            numbers.collect::<Vec<_>>()
+        };
+        assert_eq!(position(""), [0.0, 0.0, 2.0, 0.0, 4.0, 0.0]);
+        let centre = 0.2 / 1.1;
+        assert!((position("elements = \"jacobi\"")[4] - 4.0 - centre).abs() < 1e-15);
+        let centred = position("barycentric = true");
+        assert!((centred[0] + (0.2 + 0.04) / 1.11).abs() < 1e-15 && (centred[4] - centred[0] - 4.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_constant_follows_from_the_units() {
+        let units = "units = { length = \"AU\", time = \"day\", mass = \"solar\" }";
+        let scene = read(&scene(&format!("parts = \"wisdom-holman\"\n{units}"), "a = 4")).unwrap();
+        let (name, g) = &scene.system.parameters[0];
+        // Gauss's constant squared, known to 1e-9 of it since the masses are nominal
+        let squared = 0.01720209895_f64.powi(2);
+        let g = <f64 as shadowstep::Number>::from_rational(&g.value, &());
+        assert!(name == "g" && (g / squared - 1.0).abs() < 1e-9 && g != squared, "{g:e}");
+    }
+
+    #[test]
+    fn wrong_bodies_are_refused_with_their_places() {
+        for (problem, second, fault) in [
+            (G, "a = 4\nM = 1\nlambda = 2", "13:10: M and lambda are both given"),
+            (G, "a = -4", "11:5: the semi-major axis of an ellipse must be positive"),
+            (G, "a = 4\ne = 1", "12:5: a parabola has no semi-major axis"),
+            (G, "a = 4\ne = 2", "12:5: with e = 2 the orbit is a hyperbola, whose a is negative"),
+            (G, "a = 4\ne = -0.1", "12:5: the eccentricity -0.1 is negative"),
+            (G, "e = 0.1", "9:1: the key `a` is missing"),
+            (G, "a = 4\ni = 10", "9:1: this orbit is not in the plane of the other bodies"),
+            (G, "q = [1, 0]", "11:5: the key `v` is missing"),
+            (G, "q = [1, 0, 0]\nv = [0, 0]", "11:5: this list needs a number for each dimension"),
+            (G, "a = 4\nq = [1, 0]\nv = [0, 0]", "9:1: this body has q and v and orbital elements"),
+            ("parts = \"wisdom\"\nparameters = { g = 1 }", "a = 4", "2:9: `wisdom` is not known here"),
+            ("parts = \"wisdom-holman\"", "a = 4", "1:1: the gravitational constant is missing"),
+            ("name = \"kepler\"", "a = 4", "2:8: name and [[body]] are both given"),
+        ] {
+            let faults = read(&scene(problem, second)).unwrap_err();
+            let place = fault.split_once(": ").unwrap().1;
+            assert!(faults.iter().any(|found| found.ends_with(place)), "{second}: {faults:?} for {fault}");
+        }
+        let text = "[problem]\nname = \"kepler\"\nparts = \"wisdom-holman\"\n[run]\nscheme = \"abah864\"\nstep = 1\nsteps = 9\n[output]\nenergy = true";
+        let faults = read(text).unwrap_err();
+        assert_eq!(faults, ["3:9: only bodies that attract each other have these parts"]);
+    }
+
+    #[test]
+    fn the_shipped_scenes_are_of_planets() {
+        for shipped in &PLANETARY_SCENES {
+            let scene = read(shipped.text).unwrap();
+            assert!(matches!(scene.system.parts, Parts::WisdomHolman(_)), "{}", shipped.name);
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Close approaches of planets, in Hill radii, and the size of their interactions.
+
+use serde::Serialize;
+use shadowstep::Ordered;
+
+use crate::scene::{OfPlanets, Parts, Planets, Shown, System};
+
+/// The closest approach of two planets.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Approach {
+    /// The state at which it was found.
+    pub n: i64,
+    /// The names or numbers of the bodies.
+    pub bodies: [String; 2],
+    /// The distance in mutual Hill radii, ((m_i + m_j)/3m_0)^(1/3) (r_i + r_j)/2.
+    pub hill_radii: f64,
+}
+
+/// What a run has shown of the planets' interactions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Interactions {
+    /// ε, the largest |B_Q|/|A_Q| of a planet: its part of the force that a kick makes, beside that of its Kepler orbit.
+    pub epsilon: f64,
+    /// The planet that has it.
+    pub of: String,
+    /// The closest approach; `None` of a single planet.
+    pub closest: Option<Approach>,
+}
+
+/// Follows the planets of a run in double precision.
+pub(super) struct Approaches {
+    planets: Planets,
+    names: Vec<String>,
+    masses: Vec<f64>,
+    shown: Shown<f64>,
+    epsilon: OfPlanets,
+    q: Vec<f64>,
+    p: Vec<f64>,
+    found: Interactions,
+}
+
+impl Approaches {
+    /// `None` of a system whose parts are T(p) and U(q).
+    pub(super) fn of(system: &System) -> Option<Approaches> {
+        let Parts::WisdomHolman(planets) = &system.parts else { return None };
+        let masses = planets.bodies.masses().iter().map(|mass| <f64 as shadowstep::Number>::from_rational(mass, &()));
+        let names = system.coordinates.iter().step_by(planets.dimensions);
+        let names: Vec<_> = names.map(|name| name.trim_start_matches('x').trim_start_matches('_').to_owned()).collect();
+        let of = names[1].clone();
+        Some(Approaches {
+            masses: masses.collect(),
+            names,
+            shown: planets.shown(&()),
+            epsilon: planets.epsilon(),
+            planets: planets.clone(),
+            q: vec![0.0; system.coordinates.len()],
+            p: vec![0.0; system.coordinates.len()],
+            found: Interactions { epsilon: 0.0, of, closest: None },
+        })
+    }
+
+    /// Takes the state n, in the coordinates of the steps; and ε of it if that is asked for.
+    pub(super) fn include<N: Ordered>(&mut self, n: i64, (q, p): (&[N], &[N]), with_epsilon: bool) {
+        self.q.iter_mut().zip(q).for_each(|(own, q)| *own = q.to_f64());
+        self.p.iter_mut().zip(p).for_each(|(own, p)| *own = p.to_f64());
+        if with_epsilon {
+            for (planet, epsilon) in (self.epsilon)(&self.q).into_iter().enumerate() {
+                if epsilon > self.found.epsilon {
+                    (self.found.epsilon, self.found.of) = (epsilon, self.names[planet + 1].clone());
+                }
+            }
+        }
+        let (q, _) = self.shown.of_state(&self.q, &self.p);
+        let places: Vec<_> = q.chunks_exact(self.planets.dimensions).collect();
+        let distance = |i: usize, j: usize| -> f64 {
+            places[i].iter().zip(places[j]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+        };
+        for j in 2..places.len() {
+            for i in 1..j {
+                let part = ((self.masses[i] + self.masses[j]) / (3.0 * self.masses[0])).cbrt();
+                let hill_radii = distance(i, j) / (part * (distance(0, i) + distance(0, j)) / 2.0);
+                if self.found.closest.as_ref().is_none_or(|closest| hill_radii < closest.hill_radii) {
+                    let bodies = [i, j].map(|body| self.names[body].clone());
+                    self.found.closest = Some(Approach { n, bodies, hill_radii });
+                }
+            }
+        }
+    }
+
+    pub(super) fn found(self) -> Interactions {
+        self.found
+    }
+}
