@@ -23,9 +23,37 @@ use passage::Passage;
 /// Ellipses, parabolas and hyperbolas are one case, and increments have no cancellation of f and ġ with 1. Whole revolutions are taken off t
 /// first, of which s keeps its part. Along the flow β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt = 3κs.
 ///
-/// **Solution.** In `f64`, a step of a fraction of a revolution begins with the series of s in t and is refined by two steps of third order. Elsewhere, and
-/// of more digits always, s is found in scaled `f64` by Laguerre's steps between two bounds, at most 400; then steps in the number type triple the digits. A
-/// lane has the bits that it has alone.
+/// **Solution.** In `f64`, a step of a fraction of a revolution begins with the series of s in t and is refined by two steps of third order.
+/// Elsewhere, and always with more digits, s is found in `f64` by Laguerre's steps between two bounds, at most 400; then steps in the number type
+/// triple the digits. Where the terms of r or t cancel, as on hyperbolic passages of the centre, an `f64` drift is computed in double-double. A lane
+/// has the bits that it has alone.
+///
+/// **Errors** of q and v, relative to |q| and |v|, in units of u (1 + K): u = 2⁻⁵³ for `f64`, 2⁻¹⁰⁶ for double-doubles, and K is the condition of the
+/// problem, the root of the sum of squares of relative changes of the result by relative changes of μ, q, v and t. Of 10⁵ random orbits from any point, over 10⁻⁶
+/// to 30 periods of both signs:
+///
+/// | orbits | `f64`: median | 99 % | largest | double-double: median | 99 % | largest |
+/// | --- | --- | --- | --- | --- | --- | --- |
+/// | e < 0.3 | 0.33 | 1.34 | 2.3 | 0.14 | 1.30 | 3.1 |
+/// | 0.3 < e ≤ 0.9999 | 0.35 | 1.73 | 5.5 | 0.19 | 1.71 | 23 |
+/// | \|1 − e\| ≤ 10⁻⁸ | 0.32 | 1.60 | 7.7 | 0.14 | 1.61 | 8.6 |
+/// | 1 + 10⁻⁶ ≤ e ≤ 10 | 0.32 | 1.62 | 5.0 | 0.14 | 8.31 | 341 |
+///
+/// In number types of more digits than `f64`, a hyperbolic passage loses those of |ηG₁|/(r₀ + r), which grows like r₀/|a|. Numbers of five limbs (96 digits) agreed
+/// with mpmath's of 60 digits on 10⁵ cases, to 1.3e-61 (1 + K).
+///
+/// **Long runs.** Errors wander like √n: means over the orbits are below 2 standard errors at each n. Root mean squares over 32 orbits (0.01 < e < 0.3, 15 to 100 steps a
+/// period, `f64`) of the relative error of energy and angular momentum and of the angle of the pericentre:
+///
+/// | drifts | energy | angular momentum | angle |
+/// | --- | --- | --- | --- |
+/// | 10⁴ | 1.2e-14 | 5.5e-15 | 6.1e-14 |
+/// | 10⁵ | 3.2e-14 | 1.5e-14 | 2.1e-13 |
+/// | 10⁶ | 1.1e-13 | 5.5e-14 | 6.9e-13 |
+/// | 10⁷ | 3.9e-13 | 1.9e-13 | 1.6e-12 |
+///
+/// Both tables are from `cargo test --release -p shadowstep --test kepler_drift -- --ignored --nocapture`. What a drift costs: `cargo bench -p shadowstep --bench
+/// kepler_drift`; for planets about 105 ns in `f64` and 24 ns an orbit in `Lanes<16>` with AVX-512.
 ///
 /// **Radial orbits** (of no angular momentum) pass through the centre as ellipses and hyperbolas do whose pericentre goes to 0: the body comes back
 /// where it came from. At the centre itself v is infinite or NaN.

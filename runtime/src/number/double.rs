@@ -26,11 +26,14 @@ impl<N> DerefMut for Copied<N> {
     }
 }
 
-/// x 2ⁿ, with one rounding; more below the smallest normal number.
+/// x 2ⁿ, with one rounding; with more where it is subnormal.
 pub(crate) fn scaled(x: f64, n: i64) -> f64 {
-    let n = n.clamp(-2200, 2200) as i32; // beyond, a finite x overflows or underflows anyway
-    let half = n / 2;
-    if n == 0 { x } else { x * 2_f64.powi(half / 2) * 2_f64.powi(half - half / 2) * 2_f64.powi(n - half) }
+    if n == 0 || x == 0.0 {
+        return x;
+    }
+    let n = n.clamp(-2200, 2200) as i32; // beyond, x overflows or underflows anyway
+    let quarter = 2_f64.powi(n / 4); // no factor overflows or underflows
+    x * quarter * quarter * quarter * 2_f64.powi(n - n / 4 * 3)
 }
 
 /// 3 (2x)² is below the largest `f64`, 1.797e308.
@@ -363,6 +366,23 @@ mod tests {
             (f64::NEG_INFINITY, "-inf"),
         ] {
             assert_eq!(x.to_text(), text);
+        }
+    }
+
+    #[test]
+    fn powers_of_two_scale() {
+        for (x, n, expected) in [
+            (1.0, -1074, f64::from_bits(1)),
+            (-1.5, 1023, -1.5 * 2_f64.powi(1023)),
+            (f64::from_bits(1), 2097, 2_f64.powi(1023)),
+            (f64::MAX, -2097, f64::from_bits(2)),
+            (3.0, 1 << 40, f64::INFINITY),
+            (-3.0, -1 << 40, -0.0),
+            (0.0, 1 << 40, 0.0),
+            (f64::INFINITY, -1 << 40, f64::INFINITY),
+            (0.1, 0, 0.1),
+        ] {
+            assert_eq!(super::scaled(x, n).to_bits(), expected.to_bits(), "{x} · 2^{n}");
         }
     }
 
