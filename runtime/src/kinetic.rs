@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use crate::Rational;
 use crate::number::{Lanes, Number, Ordered, epsilon};
+use crate::partial_sums::add_sum;
 use num_traits::Signed;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
 
@@ -125,11 +126,10 @@ impl<N: Number> Kinetic<N> for UnitMasses {
         self.drift(weight, p, q, scratch);
     }
 
+    #[inline]
     fn energy(&self, p: &[N], energy: &mut N, _: &mut [N]) {
         energy.assign_zero();
-        for p in p {
-            energy.add_product(p, p);
-        }
+        add_sum(energy, [p], |[p], energy| energy.add_product(p, p));
         energy.divide_integer(2);
     }
 }
@@ -255,12 +255,12 @@ impl<N: Number> Kinetic<N> for DiagonalMasses<N> {
     }
 
     fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
-        let velocity = &mut scratch[0];
+        let mut velocity = scratch[0].register();
         energy.assign_zero();
-        for (p, inverse) in p.iter().zip(&self.inverse) {
+        add_sum(energy, [p, &self.inverse], |[p, inverse], energy| {
             velocity.assign_product(inverse, p);
-            energy.add_product(velocity, p);
-        }
+            energy.add_product(&velocity, p);
+        });
         energy.divide_integer(2);
     }
 }

@@ -85,6 +85,7 @@ mod maps;
 pub mod motion;
 pub mod number;
 pub mod pairs;
+mod partial_sums;
 pub mod potential;
 pub mod potential_check;
 pub mod problems;

@@ -5,9 +5,11 @@ mod flows;
 use thiserror::Error;
 
 use crate::coordinates::Coordinates;
+use crate::instructions;
 use crate::kinetic::{Kinetic, MassError};
 use crate::maps::{MapKind, Maps};
 use crate::number::Number;
+use crate::partial_sums::add_sum;
 use crate::potential::Potential;
 use crate::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
 use crate::system::{Increments, OwnedIncrements, Remainders, System};
@@ -229,13 +231,20 @@ where
         if moving.kept != Kept::GradientAndRate {
             flows.evaluate(moving, true);
         }
-        moving.kick_with_kept_gradient(weight);
         increments.beta.add_product(weight, &moving.rate);
-        if N::KEEPS_INCREMENTS {
-            for (increment, gradient) in increments.p.as_mut().iter_mut().zip(moving.gradient.as_ref()) {
-                increment.subtract_product(weight, gradient);
-            }
-        }
+        instructions::widest_if_long(
+            N::IN_VECTORS,
+            moving.p.as_ref().len(),
+            #[inline(always)]
+            || {
+                moving.kick_with_kept_gradient(weight);
+                if N::KEEPS_INCREMENTS {
+                    for (increment, gradient) in increments.p.as_mut().iter_mut().zip(moving.gradient.as_ref()) {
+                        increment.subtract_product(weight, gradient);
+                    }
+                }
+            },
+        );
     }
 
     /// [`System::drift_augmented`], likewise.
@@ -243,13 +252,20 @@ where
     fn drift_augmented_here(&mut self, weight: &N) {
         let Motion { flows, moving, increments } = self;
         moving.settle();
-        moving.summation.drift_augmented(
-            &flows.kinetic,
-            weight,
-            moving.p.as_ref(),
-            moving.q.as_mut(),
-            (increments.q.as_mut(), &mut increments.beta),
-            &mut flows.kinetic_scratch,
+        instructions::widest_if_long(
+            N::IN_VECTORS,
+            moving.p.as_ref().len(),
+            #[inline(always)]
+            || {
+                moving.summation.drift_augmented(
+                    &flows.kinetic,
+                    weight,
+                    moving.p.as_ref(),
+                    moving.q.as_mut(),
+                    (increments.q.as_mut(), &mut increments.beta),
+                    &mut flows.kinetic_scratch,
+                );
+            },
         );
         moving.kept = Kept::Nothing;
     }
@@ -443,6 +459,7 @@ where
     }
 
     /// Where the gradient and the rate are kept, U = ½(qᵀU_q − rate) costs no evaluation.
+    #[inline]
     fn assign_energies(&mut self, energy: &mut N, kinetic_energy: &mut N) {
         let Motion { flows, moving: Moving { q, p, gradient, rate, kept, .. }, .. } = self;
         let (q, p) = (q.as_ref(), p.as_ref());
@@ -450,7 +467,7 @@ where
             return flows.assign_energies((q, p), energy, kinetic_energy);
         }
         energy.assign_zero();
-        q.iter().zip(gradient.as_ref()).for_each(|(q, u)| energy.add_product(q, u));
+        add_sum(energy, [q, gradient.as_ref()], |[q, u], energy| energy.add_product(q, u));
         energy.subtract(rate);
         energy.divide_integer(2);
         flows.add_kinetic_energy((q, p), energy, kinetic_energy);

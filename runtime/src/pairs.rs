@@ -218,14 +218,19 @@ impl<P, const D: usize> Pairs<P, D> {
         suits && self.bodies >= LEAST_BODIES
     }
 
-    /// The place of a pair in its block; none, if it is one of those that are left over.
+    /// The place of a pair in its block; none, if it is one of those that are left over. The last bodies are in a block with some that had
+    /// their turn, if there are as many after the body i.
     fn place_in_block(&self, i: usize, j: usize) -> Option<usize> {
         let (place, count) = match self.which {
             Which::All => (j - i - 1, self.bodies - i - 1),
             Which::Neighbours(_) if j == i + 1 => (i, self.bodies - 1),
             Which::Neighbours(_) => return None,
         };
-        (place < count - count % BLOCK).then_some(place % BLOCK)
+        match self.which {
+            _ if place < count - count % BLOCK => Some(place % BLOCK),
+            Which::All if count >= BLOCK => Some(j + BLOCK - self.bodies),
+            _ => None,
+        }
     }
 
     fn scratch_of_blocks<N: Number>(&self) -> usize {

@@ -3,6 +3,7 @@
 use crate::kinetic::Kinetic;
 use crate::maps::{MapKind, Maps};
 use crate::number::Number;
+use crate::partial_sums::{LONG, add_sum};
 use crate::potential::Potential;
 use crate::summation::Summation;
 
@@ -110,10 +111,22 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
 
     /// Of an energy U(q), energy ← T(p) + U(q) and kinetic_energy ← T(p); NaN where U is finite though squares of positions overflow: an
     /// infinite r² makes 0 of 1/r.
+    #[inline(always)]
     pub(super) fn add_kinetic_energy(&mut self, (q, p): (&[N], &[N]), energy: &mut N, kinetic_energy: &mut N) {
         self.kinetic.energy(p, kinetic_energy, &mut self.kinetic_scratch);
         energy.add(kinetic_energy);
-        q.iter().for_each(|position| energy.make_nan_where_square_overflows(position));
+        if N::KEEPS_INCREMENTS && q.len() >= LONG {
+            let zero = N::zero(&energy.context());
+            let mut overflows = zero.clone();
+            add_sum(&mut overflows, [q], |[position], overflows| {
+                let mut part = zero.clone();
+                part.make_nan_where_square_overflows(position);
+                overflows.add(&part);
+            });
+            energy.make_nan_where_square_overflows(&overflows);
+        } else {
+            q.iter().for_each(|position| energy.make_nan_where_square_overflows(position));
+        }
     }
 
     /// `count` steps. A state in arrays is copied, so that the compiler can hold it in registers.

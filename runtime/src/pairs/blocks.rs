@@ -71,7 +71,8 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         P: PairPotential<N>,
     {
         let bodies = self.bodies;
-        let [mut room, mut last] = [(); 2].map(|()| Room::<N, D>::new(&q[0].context()));
+        let mut room = Room::<N, D>::new(&q[0].context());
+        let mut forces = room.difference.clone();
         // of β's rate a sum for each place in a block
         let mut rates: [N; BLOCK] = std::array::from_fn(|_| N::zero(&q[0].context()));
         for i in 0..bodies {
@@ -80,29 +81,28 @@ impl<P, const D: usize> Blocks<'_, P, D> {
             let mut j = i + 1;
             while j + BLOCK <= bodies {
                 self.forces::<N, RATE>((i, j), q, &q_i, &mut room, pair);
-                for axis in 0..D {
-                    let forces = &room.difference[axis];
-                    let of_axis: &mut [N; BLOCK] =
-                        gradient[axis * bodies + j..].first_chunk_mut().expect("the block is within the bodies");
-                    of_axis.iter_mut().zip(forces).for_each(|(own, force)| own.add(force));
-                    forces.iter().for_each(|force| own[axis].subtract(force));
-                }
-                if RATE {
-                    rates.iter_mut().zip(&room.part).for_each(|(own, part)| own.add(part));
-                }
+                self.add_block::<N, RATE>(j, &room, gradient, (&mut own, &mut rates));
                 j += BLOCK;
             }
             if j < bodies && i + BLOCK < bodies {
                 // the last bodies are in a block with some that had their turn
-                self.forces::<N, RATE>((i, bodies - BLOCK), q, &q_i, &mut last, pair);
-                for l in BLOCK - (bodies - j)..BLOCK {
+                let first = bodies - BLOCK;
+                self.forces::<N, RATE>((i, first), q, &q_i, &mut room, pair);
+                // a copy in memory, so that the room itself may stay in registers
+                forces.clone_from(&room.difference);
+                for l in j - first..BLOCK {
                     for axis in 0..D {
-                        gradient[(axis + 1) * bodies - BLOCK + l].add(&last.difference[axis][l]);
-                        own[axis].subtract(&last.difference[axis][l]);
+                        gradient[axis * bodies + first + l].add(&forces[axis][l]);
+                        own[axis].subtract(&forces[axis][l]);
                     }
-                    if RATE {
-                        rate.add(&last.part[l]);
-                    }
+                }
+                if RATE {
+                    room.part
+                        .iter_mut()
+                        .enumerate()
+                        .filter(|(l, _)| first + l < j)
+                        .for_each(|(_, part)| part.assign_zero());
+                    rates.iter_mut().zip(&room.part).for_each(|(own, part)| own.add(part));
                 }
                 j = bodies;
             }
@@ -114,6 +114,26 @@ impl<P, const D: usize> Blocks<'_, P, D> {
             }
         }
         rates.iter().for_each(|of_place| rate.add(of_place));
+    }
+
+    /// Adds the forces and rates of a block of bodies from j on with a body, whose gradient is `own`.
+    #[inline(always)]
+    fn add_block<N: Number, const RATE: bool>(
+        &self,
+        j: usize,
+        room: &Room<N, D>,
+        gradient: &mut [N],
+        (own, rates): (&mut [N; D], &mut [N; BLOCK]),
+    ) {
+        for (axis, forces) in room.difference.iter().enumerate() {
+            let of_axis: &mut [N; BLOCK] =
+                gradient[axis * self.bodies + j..].first_chunk_mut().expect("the block is within the bodies");
+            of_axis.iter_mut().zip(forces).for_each(|(own, force)| own.add(force));
+            forces.iter().for_each(|force| own[axis].subtract(force));
+        }
+        if RATE {
+            rates.iter_mut().zip(&room.part).for_each(|(own, part)| own.add(part));
+        }
     }
 
     /// The forces of the body i at q_i with a block of bodies from j on, in place of their differences.

@@ -1,5 +1,6 @@
 //! States in the order of time, wherever they come from.
 
+use crate::instructions;
 use crate::number::Ordered;
 use crate::run::error::{Quantity, RunError, check_value};
 use crate::system::{Increments, System};
@@ -28,7 +29,14 @@ impl<'a, N: Ordered> State<'a, N> {
     pub(crate) fn check(&self) -> Result<(), RunError> {
         let State { q, p, increments, .. } = *self;
         // without a branch for each coordinate
-        let are_finite = |numbers: &[N]| numbers.iter().fold(true, |finite, x| finite & x.is_finite());
+        let are_finite = |numbers: &[N]| {
+            instructions::widest_if_long(
+                N::IN_VECTORS,
+                numbers.len(),
+                #[inline(always)]
+                || numbers.iter().fold(true, |finite, x| finite & x.is_finite()),
+            )
+        };
         if are_finite(q) & are_finite(p) & increments.beta.is_finite() { Ok(()) } else { self.refuse() }
     }
 

@@ -4,7 +4,6 @@
 //! | --- | --- |
 //! | `schedule` | which states belong to windows |
 //! | `energies` | H and T at the middles of windows |
-//! | `partial_sums` | sums over the coordinates of a state |
 //! | `blocks` | the most accurate estimates and the means of the parts of a run, in fixed memory |
 //! | `change`, `trend` | what these say: a permanent change and its uncertainty; constant, random walk or line |
 //! | `statistics` | extremes and sums over the windows |
@@ -21,7 +20,6 @@ mod change;
 mod energies;
 mod estimated;
 mod fastest;
-mod partial_sums;
 mod rate;
 mod recent;
 mod report;

@@ -72,13 +72,10 @@ impl<N: Ordered> Fastest<N> {
         let (products, fourths) = others.split_at_mut(dimension);
         let fourths = &mut fourths[..dimension];
         for i in dimension - dimension % LANES..dimension {
-            let differences = [&before[i], &second[i], &after[i]];
-            add_coordinate(
-                [&mut squares[i], &mut products[i], &mut fourths[i]],
-                differences,
-                (&p[i], rounding),
-                [x, y, z],
-            );
+            if turns(&second[i], (&p[i], rounding), [x, z]) {
+                assign_second_difference(y, &before[i], &second[i], &after[i]);
+                add_products([&mut squares[i], &mut products[i], &mut fourths[i]], &second[i], y);
+            }
         }
     }
 
@@ -107,13 +104,16 @@ impl<N: Ordered> Fastest<N> {
             let mut of_group = [squares.clone(), products.clone(), fourths.clone()];
             let [of_squares, of_products, of_fourths] = &mut of_group;
             for l in 0..LANES {
-                let differences = [&before[l], &second[l], &after[l]];
-                add_coordinate(
-                    [&mut of_squares[l], &mut of_products[l], &mut of_fourths[l]],
-                    differences,
-                    (&p[l], rounding),
-                    [x, y, z],
-                );
+                let turns = turns(&second[l], (&p[l], rounding), [x, z]);
+                let (mut x, mut y) = (x.register(), y.register());
+                x.assign(&second[l]);
+                assign_second_difference(&mut *y, &before[l], &second[l], &after[l]);
+                // zeros are added in place of a branch, so that the compiler makes vectors of coordinates
+                if !turns {
+                    x.assign_zero();
+                    y.assign_zero();
+                }
+                add_products([&mut of_squares[l], &mut of_products[l], &mut of_fourths[l]], &x, &y);
             }
             [*squares, *products, *fourths] = of_group;
         }
@@ -178,27 +178,21 @@ impl<N: Ordered> Fastest<N> {
     }
 }
 
-/// Adds the products of δ²p and δ⁴p of a coordinate, where δ²p is not round-off.
+/// Whether δ²p is more than round-off.
 #[inline(always)]
-fn add_coordinate<N: Ordered>(
-    [squares, products, fourths]: [&mut N; 3],
-    [before, second, after]: [&N; 3],
-    (p, rounding): (&N, &N),
-    [x, y, z]: [&mut N; 3],
-) {
-    let (mut x, mut y, mut z) = (x.register(), y.register(), z.register());
+fn turns<N: Ordered>(second: &N, (p, rounding): (&N, &N), [x, z]: [&mut N; 2]) -> bool {
+    let (mut x, mut z) = (x.register(), z.register());
     x.assign(second);
     x.make_absolute();
     z.assign_product(p, rounding);
     z.make_absolute();
-    let turns = *x > *z;
-    assign_second_difference(&mut *y, before, second, after);
-    // without a branch, so that the compiler makes vectors of coordinates
-    for (sum, [a, b]) in [(squares, [second, second]), (products, [second, &y]), (fourths, [&y, &y])] {
-        z.assign(sum);
-        z.add_product(a, b);
-        if turns {
-            sum.assign(&z);
-        }
-    }
+    *x > *z
+}
+
+/// Adds the products of δ²p and δ⁴p of a coordinate.
+#[inline(always)]
+fn add_products<N: Ordered>([squares, products, fourths]: [&mut N; 3], second: &N, fourth: &N) {
+    squares.add_product(second, second);
+    products.add_product(second, fourth);
+    fourths.add_product(fourth, fourth);
 }

@@ -2,10 +2,11 @@
 //! motion turns, and whether the states belong to the increments.
 
 use super::fastest::Fastest;
-use super::partial_sums::PartialSums;
 use super::roughness::{Rough, Roughness};
 use super::turning::{STATES, Sums, Turning, assign_second_difference, turning};
+use crate::instructions;
 use crate::number::{Ordered, epsilon};
+use crate::partial_sums::PartialSums;
 use crate::shadow::estimator::EstimatorError;
 use crate::shadow::walk::{add_squares_of_increments, kick_factor};
 use crate::step_size::StepSize;
@@ -103,9 +104,16 @@ impl<N: Ordered> Recent<N> {
         let (q, p, added) = (system.q(), system.p(), system.increments());
         self.newest = if self.newest + 1 < KEPT { self.newest + 1 } else { 0 };
         let [before, last, own] = in_order(&mut self.states, self.newest, q.len());
-        for (second, ((p0, p1), p2)) in own.second.iter_mut().zip(before.p.iter().zip(&*last.p).zip(p)) {
-            assign_second_difference(second, p0, p1, p2);
-        }
+        instructions::widest_if_long(
+            N::IN_VECTORS,
+            p.len(),
+            #[inline(always)]
+            || {
+                for (second, ((p0, p1), p2)) in own.second.iter_mut().zip(before.p.iter().zip(&*last.p).zip(p)) {
+                    assign_second_difference(second, p0, p1, p2);
+                }
+            },
+        );
         own.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
         own.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
         if is_augmented && added.has_vectors() {

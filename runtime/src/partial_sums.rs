@@ -6,15 +6,63 @@ use crate::number::Number;
 /// In how many partial sums the coordinates of a long state are added up, which do not wait for one another: as many on all machines.
 const LANES: usize = 8;
 
+/// From so many coordinates on [`add_sum`] adds numbers that [keep increments](Number::KEEPS_INCREMENTS) in partial sums.
+pub(crate) const LONG: usize = 64;
+
+/// sum ← sum + what `add` adds for each coordinate, which gets that of each of these vectors.
+#[inline(always)]
+pub(crate) fn add_sum<N: Number, const V: usize>(
+    sum: &mut N,
+    vectors: [&[N]; V],
+    mut add: impl FnMut([&N; V], &mut N),
+) {
+    let length = vectors[0].len();
+    let in_lanes = if N::KEEPS_INCREMENTS && length >= LONG { length - length % LANES } else { 0 };
+    if in_lanes > 0 {
+        let mut lanes: [N; LANES] = std::array::from_fn(|_| N::zero(&sum.context()));
+        add_to_lanes(&mut lanes, &vectors, &mut add);
+        lanes.iter().for_each(|lane| sum.add(lane));
+    }
+    let vectors = vectors.map(|vector| &vector[..length]);
+    for i in in_lanes..length {
+        add(vectors.map(|vector| &vector[i]), sum);
+    }
+}
+
+/// Not inlined, so that the lanes are in memory at the end and the compiler makes vectors of them.
+#[inline(never)]
+fn add_to_lanes<N: Number, const V: usize>(
+    lanes: &mut [N; LANES],
+    vectors: &[&[N]; V],
+    add: &mut impl FnMut([&N; V], &mut N),
+) {
+    instructions::widest_if_long(
+        N::IN_VECTORS,
+        vectors[0].len(),
+        #[inline(always)]
+        || {
+            let mut own = lanes.clone();
+            let chunks = vectors.map(|vector| vector.as_chunks::<LANES>().0);
+            for i in 0..chunks[0].len() {
+                let groups = chunks.map(|chunks| &chunks[i]);
+                for l in 0..LANES {
+                    add(groups.map(|group| &group[l]), &mut own[l]);
+                }
+            }
+            *lanes = own;
+        },
+    );
+}
+
 /// Room for S sums at once.
 #[derive(Clone, Debug)]
-pub(super) struct PartialSums<N, const S: usize> {
+pub(crate) struct PartialSums<N, const S: usize> {
     lanes: [[N; LANES]; S],
     sums: [N; S],
 }
 
 impl<N: Number, const S: usize> PartialSums<N, S> {
-    pub(super) fn new(context: &N::Context) -> Self {
+    pub(crate) fn new(context: &N::Context) -> Self {
         let zeros = || std::array::from_fn(|_| N::zero(context));
         let lanes = || std::array::from_fn(|_| N::zero(context));
         PartialSums { lanes: std::array::from_fn(|_| lanes()), sums: zeros() }
@@ -22,7 +70,7 @@ impl<N: Number, const S: usize> PartialSums<N, S> {
 
     /// The sums over all coordinates of what `add` adds for one, which gets the coordinate of each of these vectors.
     #[inline(always)]
-    pub(super) fn of<const V: usize>(
+    pub(crate) fn of<const V: usize>(
         &mut self,
         mut vectors: [&[N]; V],
         mut add: impl FnMut([&N; V], [&mut N; S]),
@@ -85,5 +133,37 @@ impl<N: Number, const S: usize> PartialSums<N, S> {
             }
         }
         self.lanes = sums;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Lanes;
+
+    /// Of multiples of 1/1024 every sum is exact, so that nothing may be missing or twice.
+    #[test]
+    fn every_coordinate_is_added_once() {
+        for length in [1, 7, 8, LONG - 1, LONG, LONG + 1, 10 * LONG + 5] {
+            let a: Vec<f64> = (0..length).map(|i| ((i * i) % 101) as f64 / 1024.0).collect();
+            let b: Vec<f64> = (0..length).map(|i| ((7 * i) % 31) as f64 - 15.0).collect();
+            let expected = 0.5 + a.iter().zip(&b).map(|(a, b)| a * b).sum::<f64>();
+            let mut sum = 0.5;
+            add_sum(&mut sum, [&a, &b], |[a, b], sum| sum.add_product(a, b));
+            assert_eq!(sum, expected, "{length}");
+        }
+    }
+
+    #[test]
+    fn lanes_have_the_bits_of_f64() {
+        for length in [3, LONG, 10 * LONG + 5] {
+            let a: Vec<f64> = (0..length).map(|i| (i as f64).sin()).collect();
+            let (mut sum, mut lanes) = (0.0, Lanes::<4>::all(0.0));
+            add_sum(&mut sum, [&a], |[a], sum| sum.add_product(a, a));
+            add_sum(&mut lanes, [&a.iter().copied().map(Lanes::all).collect::<Vec<_>>()], |[a], sum| {
+                sum.add_product(a, a)
+            });
+            assert_eq!(lanes, Lanes::all(sum), "{length}");
+        }
     }
 }
