@@ -26,6 +26,8 @@ use shadowstep_schemes::map::{Map, MapKind};
 pub struct Analysis {
     /// Evaluations of the gradient a step.
     pub evaluations: usize,
+    /// Hessian–vector products a step.
+    pub hessian_products: usize,
     /// The leading error for every T(p).
     pub general: LeadingError,
     /// The leading error for quadratic T.
@@ -39,6 +41,8 @@ pub struct Analysis {
     pub kicks: Sizes,
     /// The sizes of the drifts' weights.
     pub drifts: Sizes,
+    /// The sizes of the gradient kicks' weights.
+    pub gradient_kicks: Sizes,
 }
 
 /// The sizes of the weights of one kind of map; weights that are 0 are left out.
@@ -59,12 +63,14 @@ impl Analysis {
         let [general, quadratic] = LeadingError::of(proved);
         Analysis {
             evaluations: proved.plan.evaluations,
+            hessian_products: proved.plan.hessian_products,
             general,
             quadratic,
             stability: Stability::of_scheme(proved),
             phase: PhaseError::of(&maps, proved.scheme.held, proof.quadratic.order),
             kicks: Sizes::of(&maps, MapKind::Kick),
             drifts: Sizes::of(&maps, MapKind::Drift),
+            gradient_kicks: Sizes::of(&maps, MapKind::GradientKick),
         }
     }
 
@@ -76,9 +82,10 @@ impl Analysis {
         }
     }
 
-    /// The effective error for a class of kinetic energies: see [`LeadingError::effective`].
+    /// The effective error for a class of kinetic energies, a Hessian–vector product counted like an evaluation of the gradient: see
+    /// [`LeadingError::effective`].
     pub fn effective_error(&self, kinetic: Kinetic) -> f64 {
-        self.error(kinetic).effective(self.evaluations)
+        self.error(kinetic).effective(self.evaluations + self.hessian_products)
     }
 }
 

@@ -138,13 +138,18 @@ mod tests {
     use num_traits::Signed;
 
     use super::*;
-    use shadowstep_schemes::map::merged;
+    use shadowstep_schemes::map::Stages;
 
     #[test]
     fn logarithms_are_lie_polynomials() {
-        let rationals = |values: [(i64, i64); 3]| values.map(|(n, d)| Rational::new(n.into(), d.into()));
+        let rationals = |values: [(i64, i64); 3]| values.map(|(n, d)| Rational::new(n.into(), d.into())).to_vec();
         // consistent, and of order 1 only, so that squares and cubes of X are needed
-        let maps = merged(&rationals([(1, 3), (-1, 2), (7, 6)]), &rationals([(2, 5), (1, 10), (1, 2)]));
+        let maps = Stages {
+            kick: rationals([(1, 3), (-1, 2), (7, 6)]),
+            gradient_kick: rationals([(1, 7), (0, 1), (-2, 9)]),
+            drift: rationals([(2, 5), (1, 10), (1, 2)]),
+        };
+        let maps = maps.maps();
         let arithmetic = FixedPoint::new(DIGITS);
         // the rounding errors of seven letters, far below the coefficients
         let tolerance = BigInt::from(10_000);

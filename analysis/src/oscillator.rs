@@ -28,6 +28,7 @@ impl Oscillator {
                 match kind {
                     MapKind::Kick => *p -= weight * h_omega * h_omega * *q,
                     MapKind::Drift => *q += weight * *p,
+                    MapKind::GradientKick => *p += 2.0 * weight * h_omega.powi(4) * *q,
                 }
             }
         }

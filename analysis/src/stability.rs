@@ -57,7 +57,7 @@ pub struct Gap {
 impl Stability {
     /// The stability of a proved scheme; gaps that the rounding of its weights explains are left out. `None` for a step of more than [`MOST_MAPS`].
     pub fn of_scheme(proved: &Proved) -> Option<Stability> {
-        Some(Stability::of(&proved.scheme.maps(), proved.plan.evaluations)?.resolved(proved.scheme.held))
+        Some(Stability::of(&proved.scheme.maps(), proved.plan.degree())?.resolved(proved.scheme.held))
     }
 
     /// Without the gaps that rounding of the weights may have opened where the trace only touches ±2.
@@ -68,13 +68,13 @@ impl Stability {
         Stability { limit: gaps.first().map_or(self.limit, |gap| gap.from.clone()), gaps }
     }
 
-    /// The stability of the step that these maps make with this number of force evaluations.
-    pub(crate) fn of(maps: &[Map], evaluations: usize) -> Option<Stability> {
+    /// The stability of the step that these maps make, whose trace has at most this degree in (hω)².
+    pub(crate) fn of(maps: &[Map], degree: usize) -> Option<Stability> {
         let part = repeated_part(maps);
         if part.len() > MOST_MAPS {
             return None;
         }
-        let last = 4 * (evaluations as u64).pow(2);
+        let last = 4 * (degree as u64).pow(2);
         let crossings = parted(crossings(&part, last));
         let limit = crossings.first().expect("a consistent scheme is unstable beyond 2·(evaluations)").text();
         let gaps = crossings.chunks(2).filter(|ends| ends[0].is_below(last)).map(|ends| {

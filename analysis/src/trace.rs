@@ -1,8 +1,8 @@
 //! The trace of a step of the harmonic oscillator: an exact polynomial in x = (hω)².
 //!
-//! For H = (p² + ω²q²)/2 a kick is hp −= a x q, a drift q += b (hp), and a step a matrix of determinant 1. Its trace,
-//! 2 cos φ for a step that turns by φ, is Σ_k t_k x^k, where t_k has the sign (−1)^k and is a sum of products of k of the
-//! a's and k of the b's.
+//! For H = (p² + ω²q²)/2 a kick is hp −= a x q, a drift q += b (hp), a gradient kick hp += 2c x² q, and a step a matrix of determinant 1.
+//! Its trace, 2 cos φ for a step that turns by φ, is Σ_k t_k x^k, where t_k has the sign (−1)^k and is a sum of products of k of the
+//! a's, or of a c in place of two, and the b's.
 
 use std::ops::Range;
 
@@ -46,7 +46,9 @@ impl Trace {
     /// Its terms up to x^degree.
     fn up_to(maps: &[Map], degree: usize) -> Trace {
         let scale = maps.iter().fold(BigInt::one(), |lcm, map| lcm.lcm(map.weight.denom()));
-        let integer = |map: &Map| (map.kind, map.weight.numer() * (&scale / map.weight.denom()));
+        // in units of 1/scale for each power of h
+        let rest = |kind: MapKind| scale.pow(kind.power() - 1);
+        let integer = |map: &Map| (map.kind, map.weight.numer() * (&scale / map.weight.denom()) * rest(map.kind));
         let maps: Vec<_> = maps.iter().map(integer).collect();
         let mut integers = trace(&maps, degree, &BigInt::zero(), &BigInt::one(), |sum, a, b| *sum += a * b);
         integers.iter_mut().skip(1).step_by(2).for_each(|value| *value = -&*value);
@@ -84,7 +86,7 @@ impl PhaseError {
         let found = PhaseError::among(first..first + FEW_TERMS, maps, held);
         // beyond the degree there is nothing that the cosine's coefficient could be equal to
         found
-            .or_else(|| PhaseError::among(first + FEW_TERMS..maps.len() + 2, maps, held))
+            .or_else(|| PhaseError::among(first + FEW_TERMS..2 * maps.len() + 2, maps, held))
             .expect("a step is not a cosine")
     }
 
@@ -124,7 +126,12 @@ pub(crate) fn residues(maps: &[Map]) -> Option<Vec<u64>> {
 pub(crate) fn scaled(maps: &[Map], range: u64, bits: u64) -> Vec<BigInt> {
     let range = Rational::from_integer(range.into());
     let one = Rational::one();
-    let factor = |kind| if kind == MapKind::Kick { &range } else { &one };
+    let square = &range * &range;
+    let factor = |kind| match kind {
+        MapKind::Kick => &range,
+        MapKind::Drift => &one,
+        MapKind::GradientKick => &square,
+    };
     let mut more = 64;
     loop {
         let arithmetic = FixedPoint::with_bits((bits + more) as u32);
@@ -159,6 +166,31 @@ fn slopes(maps: &[Map], degree: usize) -> Vec<f64> {
     traces.iter().map(|sensitive| sensitive.slope).collect()
 }
 
+/// The degree in x that a matrix has after some maps.
+#[derive(Default)]
+pub(crate) struct Degree {
+    now: usize,
+    /// After the last drift: what follows it adds to q's.
+    of_position: usize,
+}
+
+impl Degree {
+    /// After all maps.
+    pub(crate) fn of(kinds: impl Iterator<Item = MapKind>) -> usize {
+        let mut degree = Degree::default();
+        kinds.for_each(|kind| degree.pass(kind));
+        degree.now
+    }
+
+    fn pass(&mut self, kind: MapKind) {
+        match kind {
+            MapKind::Drift => self.of_position = self.now,
+            MapKind::Kick => self.now = self.now.max(self.of_position + 1),
+            MapKind::GradientKick => self.now = self.now.max(self.of_position + 2),
+        }
+    }
+}
+
 /// The coefficients of the trace in −x up to a degree, which are sums of products without a sign.
 fn trace<V: Clone>(
     maps: &[(MapKind, V)],
@@ -167,7 +199,7 @@ fn trace<V: Clone>(
     one: &V,
     add_product: impl Fn(&mut V, &V, &V),
 ) -> Vec<V> {
-    let most = most.min(maps.iter().filter(|(kind, _)| *kind == MapKind::Kick).count());
+    let most = most.min(Degree::of(maps.iter().map(|(kind, _)| *kind)));
     let size = most + 1;
     let polynomial = |constant: &V| {
         let mut coefficients = vec![zero.clone(); size];
@@ -176,13 +208,19 @@ fn trace<V: Clone>(
     };
     // the columns of the matrix: where the step takes (q, hp) = (1, 0) and (0, 1)
     let mut columns = [[polynomial(one), polynomial(zero)], [polynomial(zero), polynomial(one)]];
-    let mut degree = 0;
+    let mut reached = Degree::default();
     for (kind, weight) in maps {
-        degree = most.min(degree + usize::from(*kind == MapKind::Kick));
+        reached.pass(*kind);
+        let degree = most.min(reached.now);
+        let mut twice = zero.clone();
+        (0..2).for_each(|_| add_product(&mut twice, one, weight));
         for [q, p] in &mut columns {
             match kind {
                 MapKind::Kick => (0..degree).for_each(|k| add_product(&mut p[k + 1], weight, &q[k])),
                 MapKind::Drift => (0..=degree).for_each(|k| add_product(&mut q[k], weight, &p[k])),
+                MapKind::GradientKick => {
+                    (0..degree.saturating_sub(1)).for_each(|k| add_product(&mut p[k + 2], &twice, &q[k]));
+                }
             }
         }
     }

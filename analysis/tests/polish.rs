@@ -41,7 +41,9 @@ fn reproduce(name: &str, request: Option<&Table>) {
         polish(&published(name), &|name, _| shipped(name), &wanted).unwrap_or_else(|e| panic!("{name}: {e}"));
     assert!(polished.residual < -250.0, "{name}: {}", polished.residual);
     let [found, ours] = [&polished.proved.scheme, &shipped_proved(name).unwrap().scheme];
-    for (list, found, ours) in [("kick", &found.kick, &ours.kick), ("drift", &found.drift, &ours.drift)] {
+    for (list, found, ours) in
+        [("kick", &found.stages.kick, &ours.stages.kick), ("drift", &found.stages.drift, &ours.stages.drift)]
+    {
         assert_eq!(found.len(), ours.len(), "{name}");
         for (i, (found, ours)) in found.iter().zip(ours).enumerate() {
             // the table has 250 digits, and weights that are what is left of 1 have the rounding of the others
@@ -128,7 +130,7 @@ fn fourteen_digits_become_three_hundred() {
     let polished = polished(&table(6, &lines), 300, &[]).unwrap();
     assert_eq!((polished.proved.proof.general.order, polished.proved.proof.symmetric), (6, true));
     assert!(polished.proved.order().digits.unwrap() >= 300);
-    assert!(polished.proved.scheme.drift.iter().sum::<Rational>().is_one(), "exactly");
+    assert!(polished.proved.scheme.stages.drift.iter().sum::<Rational>().is_one(), "exactly");
     let text = &polished.text;
     assert!(text.contains("# as a library prints it\n[constants]\ng1 = \"0.784513610477557263819497"), "{text}");
     assert!(text.contains("\ng4 = \"1 - 2*(g1 + g2 + g3)\"\n\n[composition]"), "{text}");
@@ -161,10 +163,10 @@ fn formulas_of_decimals_are_solved_for_these() {
 fn weights_with_more_structure_than_their_conditions_know_are_polished() {
     // Yoshida's A as stages: 10 conditions of a palindrome for 8 decimals
     let gamma = polished(&published("yoshida6-a"), 120, &[]).unwrap().proved.scheme;
-    let lines = stages(&gamma.kick, &gamma.drift);
+    let lines = stages(&gamma.stages.kick, &gamma.stages.drift);
     let polished = polished(&table(6, &lines), 100, &[]).unwrap();
     assert_eq!((polished.conditions, polished.weights.len()), (10, 8));
-    for (stages, gamma) in polished.proved.scheme.kick.iter().zip(&gamma.kick) {
+    for (stages, gamma) in polished.proved.scheme.stages.kick.iter().zip(&gamma.stages.kick) {
         assert!((stages - gamma).abs() < power(100));
     }
 }
@@ -217,8 +219,8 @@ fn constants_that_mirror_each_other_become_one() {
     assert_eq!(roles(&one, Role::Held), ["a0", "a1", "b0"]);
     assert!(one.text.contains("\na6 = \"a0\"\n") && one.text.contains("\nb3 = \"b2\"\n"), "{}", one.text);
     assert_eq!(
-        (&one.proved.scheme.kick, &one.proved.scheme.drift),
-        (&mirrored.proved.scheme.kick, &mirrored.proved.scheme.drift)
+        (&one.proved.scheme.stages.kick, &one.proved.scheme.stages.drift),
+        (&mirrored.proved.scheme.stages.kick, &mirrored.proved.scheme.stages.drift)
     );
 }
 
@@ -336,16 +338,16 @@ fn verlet_steps_typed_as_stages_are_told() {
     let steps =
         "these are Störmer–Verlet steps: write them as [composition] with base = \"stormer-verlet\" and gamma = ";
     let scheme = &shipped_proved("sofroniou-spaletta6-13").unwrap().scheme;
-    let said = refusal(&table(6, &stages(&scheme.kick, &scheme.drift)), &[]);
+    let said = refusal(&table(6, &stages(&scheme.stages.kick, &scheme.stages.drift)), &[]);
     assert!(said.ends_with(&format!(": {steps}the drifts")), "{said}");
     // a drift first: one more stage, without its kick
-    let mut exchanged = (scheme.drift.clone(), scheme.kick.clone());
+    let mut exchanged = (scheme.stages.drift.clone(), scheme.stages.kick.clone());
     exchanged.0.rotate_right(1);
     let said = refusal(&table(6, &stages(&exchanged.0, &exchanged.1)), &[]);
     assert!(said.ends_with(&format!(": {steps}the kicks")), "{said}");
     // others are no such steps: here the claim is wrong
     let other = &shipped_proved("blanes-moan-s6").unwrap().scheme;
-    let said = refusal(&table(6, &stages(&other.kick, &other.drift)), &[]);
+    let said = refusal(&table(6, &stages(&other.stages.kick, &other.stages.drift)), &[]);
     assert!(!said.contains("Verlet"), "{said}");
 }
 

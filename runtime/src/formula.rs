@@ -8,7 +8,7 @@ mod pair;
 pub use pair::FormulaPair;
 
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use shadowstep_symbolic::{Graph, SemanticError, SyntaxError, parse};
 use thiserror::Error;
@@ -17,7 +17,7 @@ pub use kinetic::FormulaKinetic;
 
 use crate::interpreter::Interpreter;
 use crate::number::Number;
-use crate::potential::Potential;
+use crate::potential::{HessianProduct, Potential};
 use newest::{Derived, Role, Text, derived};
 
 /// A potential from a formula read at run time: a list of operations, executed without allocation.
@@ -33,6 +33,10 @@ use newest::{Derived, Role, Text, derived};
 pub struct FormulaPotential<N> {
     dimension: usize,
     interpreter: Interpreter<N>,
+    parameters: Vec<N>,
+    derived: Arc<Derived>,
+    /// Of the second derivatives, made when gradient kicks ask for them.
+    second: OnceLock<Interpreter<N>>,
 }
 
 /// A text that is not a valid potential or kinetic energy, with the place of the fault.
@@ -70,9 +74,16 @@ impl<N: Number> FormulaPotential<N> {
     /// A text that is not a valid formula, unknown or repeated names, functions that are not smooth.
     pub fn new(formula: &str, coordinates: &[&str], parameters: &[(&str, N)]) -> Result<Self, FormulaError> {
         let derived = derive(Role::Potential, formula, coordinates, parameters)?;
-        let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
-        let interpreter = Interpreter::new(&derived.programs, parameters, 0);
-        Ok(FormulaPotential { dimension: coordinates.len(), interpreter })
+        let parameters: Vec<N> = parameters.iter().map(|(_, value)| value.clone()).collect();
+        let interpreter = Interpreter::new(&derived.programs, parameters.clone(), 0);
+        Ok(FormulaPotential { dimension: coordinates.len(), interpreter, parameters, derived, second: OnceLock::new() })
+    }
+
+    fn second(&self) -> &Interpreter<N> {
+        self.second.get_or_init(|| {
+            let second = self.derived.second(|graph, node| graph.hessian_product(node, self.dimension));
+            Interpreter::new(second, self.parameters.clone(), self.dimension)
+        })
     }
 }
 
@@ -95,7 +106,8 @@ fn derive<N>(
         let mut graph = Graph::new();
         let node = graph.build(&expression, variables, parameters).map_err(FormulaError::Meaning)?;
         let quadratic = role == Role::Kinetic && graph.is_quadratic(node, variables.len());
-        Ok(Derived { programs: graph.potential(node, variables.len()), quadratic })
+        let programs = graph.potential(node, variables.len());
+        Ok(Derived { programs, quadratic, graph, node, second: OnceLock::new() })
     })
 }
 
@@ -139,6 +151,35 @@ impl<N: Number> Potential<N> for FormulaPotential<N> {
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
         let outputs = self.interpreter.gradient_and_rate(q, scratch);
         gradient.swap_with_slice(&mut outputs[..self.dimension]);
+        std::mem::swap(rate, &mut outputs[self.dimension]);
+    }
+
+    fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
+        Some(self)
+    }
+}
+
+impl<N: Number> HessianProduct<N> for FormulaPotential<N> {
+    fn hessian_scratch(&self) -> usize {
+        self.second().registers()
+    }
+
+    fn prepare_hessian(&self, scratch: &mut [N], context: &N::Context) {
+        self.second().prepare(scratch, context);
+    }
+
+    fn hessian_product(&self, q: &[N], v: &[N], product: &mut [N], scratch: &mut [N]) {
+        let second = self.second();
+        second.properties(scratch).iter_mut().zip(v).for_each(|(place, v)| place.assign(v));
+        let outputs = second.gradient(q, scratch);
+        product.swap_with_slice(&mut outputs[..self.dimension]);
+    }
+
+    fn hessian_product_and_rate(&self, q: &[N], v: &[N], product: &mut [N], rate: &mut N, scratch: &mut [N]) {
+        let second = self.second();
+        second.properties(scratch).iter_mut().zip(v).for_each(|(place, v)| place.assign(v));
+        let outputs = second.gradient_and_rate(q, scratch);
+        product.swap_with_slice(&mut outputs[..self.dimension]);
         std::mem::swap(rate, &mut outputs[self.dimension]);
     }
 }

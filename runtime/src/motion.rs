@@ -1,6 +1,8 @@
 //! The system of a potential and a kinetic energy, with its state.
 
+mod curved;
 mod flows;
+mod kept;
 
 use thiserror::Error;
 
@@ -14,7 +16,8 @@ use crate::potential::Potential;
 use crate::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
 use crate::system::{Increments, OwnedIncrements, Remainders, System};
 
-use flows::{Flows, Kept, Moving};
+use flows::{Flows, Moving};
+use kept::Kept;
 
 /// A system H = T(p) + U(q) and its state.
 ///
@@ -53,7 +56,7 @@ where
         kinetic.prepare(&mut kinetic_scratch, &context);
         let moving =
             Moving { summation: Plain, gradient: p.clone(), rate: zero, kept: Kept::Nothing, evaluations: 0, q, p };
-        let flows = Flows { potential, kinetic, keeps_rate: false, scratch, kinetic_scratch };
+        let flows = Flows { potential, kinetic, keeps_rate: false, scratch, kinetic_scratch, curved: None };
         Ok(Motion { flows, moving, increments })
     }
 
@@ -186,6 +189,7 @@ where
     /// Changes the potential, which keeps its dimension; the kept gradient is dropped.
     pub fn change_potential(&mut self, change: impl FnOnce(&mut P)) {
         change(&mut self.flows.potential);
+        self.flows.curved = None;
         self.moving.kept = Kept::Nothing;
         let context = self.context();
         self.flows.scratch.resize(self.flows.potential.scratch(), N::zero(&context));
@@ -195,6 +199,11 @@ where
     /// The number of evaluations of the gradient U_q; those of T_p in drifts are not counted.
     pub fn evaluations(&self) -> u64 {
         self.moving.evaluations
+    }
+
+    /// The number of Hessian–vector products U_qq M⁻¹U_q computed for gradient kicks, since the potential was changed last.
+    pub fn hessian_products(&self) -> u64 {
+        self.flows.curved.as_ref().map_or(0, |curved| curved.evaluations)
     }
 
     /// The context of the numbers.
@@ -245,6 +254,19 @@ where
                 }
             },
         );
+    }
+
+    /// [`System::gradient_kick_augmented`], likewise.
+    #[inline(always)]
+    fn gradient_kick_augmented_here(&mut self, weight: &N) {
+        let Motion { flows, moving, increments } = self;
+        let curved = flows.gradient_kick(moving, weight, true);
+        increments.beta.add_product(weight, &curved.rate);
+        if N::KEEPS_INCREMENTS {
+            for (increment, force) in increments.p.as_mut().iter_mut().zip(&curved.force) {
+                increment.subtract_product(weight, force);
+            }
+        }
     }
 
     /// [`System::drift_augmented`], likewise.
@@ -400,6 +422,20 @@ where
         self.flows.drift(&mut self.moving, weight);
     }
 
+    fn has_gradient_kicks(&self) -> bool {
+        self.flows.potential.hessian().is_some()
+    }
+
+    #[inline]
+    fn gradient_kick(&mut self, weight: &N) {
+        self.flows.gradient_kick(&mut self.moving, weight, self.flows.keeps_rate);
+    }
+
+    #[inline]
+    fn gradient_kick_augmented(&mut self, weight: &N) {
+        self.gradient_kick_augmented_here(weight);
+    }
+
     fn advance(motions: &mut [Self], maps: Maps<'_, N>, count: u64) {
         N::in_widest_instructions(
             #[inline(always)]
@@ -417,6 +453,11 @@ where
                                 MapKind::Drift => {
                                     for Motion { flows, moving, .. } in &mut *many {
                                         flows.drift(moving, weight);
+                                    }
+                                }
+                                MapKind::GradientKick => {
+                                    for Motion { flows, moving, .. } in &mut *many {
+                                        flows.gradient_kick(moving, weight, flows.keeps_rate);
                                     }
                                 }
                             }
@@ -437,6 +478,7 @@ where
                         match kind {
                             MapKind::Kick => motion.kick_augmented_here(weight),
                             MapKind::Drift => motion.drift_augmented_here(weight),
+                            MapKind::GradientKick => motion.gradient_kick_augmented_here(weight),
                         }
                     }
                 }

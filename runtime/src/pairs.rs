@@ -2,17 +2,18 @@
 
 mod blocks;
 mod chain;
+mod hessian;
 mod pair;
 #[cfg(test)]
 mod tests;
 
-pub use pair::{BLOCK, Ends, Pair, PairPotential};
+pub use pair::{BLOCK, Ends, Pair, PairCurvature, PairPotential};
 pub use shadowstep_symbolic::Separation;
 
 use thiserror::Error;
 
 use crate::number::Number;
-use crate::potential::Potential;
+use crate::potential::{HessianProduct, Potential};
 use blocks::Blocks;
 use chain::Chain;
 
@@ -402,6 +403,10 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
             #[inline(always)]
             || self.sum_gradient_and_rate(q, gradient, rate, scratch),
         );
+    }
+
+    fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
+        self.pair.curved().map(|_| self as &dyn HessianProduct<N>)
     }
 }
 

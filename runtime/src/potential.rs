@@ -1,9 +1,11 @@
 //! Potentials U(q).
 
 mod from_fn;
+mod hessian;
 mod widest;
 
 pub use from_fn::{FromFn, from_fn};
+pub use hessian::HessianProduct;
 pub use widest::Widest;
 
 use crate::number::Number;
@@ -130,6 +132,11 @@ pub trait Potential<N: Number> {
             rate.add_product(q, gradient);
         }
     }
+
+    /// Its Hessian–vector product, which gradient kicks need; the default has none.
+    fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
+        None
+    }
 }
 
 impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
@@ -153,5 +160,8 @@ impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
     }
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
         (**self).gradient_and_rate(q, gradient, rate, scratch);
+    }
+    fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
+        (**self).hessian()
     }
 }

@@ -20,12 +20,17 @@ pub trait Scheme {
     /// Name and proved properties.
     fn summary(&self) -> Summary<'_>;
 
-    /// The distinct weights a_s, then b_s, each made a number by `scaled`.
+    /// The distinct weights a_s, then b_s, then those c_s of gradient kicks, each made a number by `scaled`.
     fn weights<N: Number>(&self, scaled: impl FnMut(&Rational) -> N) -> Self::Array<N>;
 
     /// How many of the weights are of kicks, and the maps of a step in their order: each with the place of its weight among those of
     /// its kind.
     fn maps(&self) -> (usize, &[(MapKind, usize)]);
+
+    /// How many of the weights, the last ones, are of gradient kicks: their steps take 2h³ c.
+    fn gradient_kicks(&self) -> usize {
+        0
+    }
 
     /// One step: t → t + h.
     fn step<S: System>(&self, weights: &StepWeights<Self::Array<S::Number>>, system: &mut S)
@@ -82,7 +87,7 @@ impl<S: Scheme> ValidFor<NoClass> for S {}
 pub struct Summary<'a> {
     /// The table's name.
     pub name: &'a str,
-    /// Order for every T(p).
+    /// Order for every T(p); 0 for a scheme with gradient kicks, which are for quadratic T only.
     pub order: u32,
     /// Order for quadratic T.
     pub order_quadratic: u32,
@@ -100,21 +105,36 @@ pub struct StepWeights<A> {
 }
 
 impl<A> StepWeights<A> {
-    /// h·w of each weight w of a scheme, an exact product rounded once.
-    pub(crate) fn of<N: Number, S: Scheme<Array<N> = A>>(scheme: &S, h: &Rational, context: &N::Context) -> Self {
-        StepWeights {
-            forward: scheme.weights(|weight| N::from_rational(&(h * weight), context)),
-            back: scheme.weights(|weight| N::from_rational(&-(h * weight), context)),
-        }
+    /// h·w of each weight w of a scheme, 2h³·w of those of gradient kicks: an exact product rounded once.
+    pub(crate) fn of<N: Number, S: Scheme<Array<N> = A>>(scheme: &S, h: &Rational, context: &N::Context) -> Self
+    where
+        A: AsRef<[N]>,
+    {
+        let mut count = 0;
+        scheme.weights(|_| {
+            count += 1;
+            N::zero(context)
+        });
+        let linear = count - scheme.gradient_kicks();
+        let times = |h: Rational| {
+            let twice_cube = h.pow(MapKind::GradientKick.power() as i32) * Rational::from_integer(2.into());
+            let mut index = 0;
+            scheme.weights(|weight| {
+                let factor = if index < linear { &h } else { &twice_cube };
+                index += 1;
+                N::from_rational(&(factor * weight), context)
+            })
+        };
+        StepWeights { forward: times(h.clone()), back: times(-h) }
     }
 
-    /// h·w
+    /// h·w, 2h³·w of gradient kicks
     #[inline]
     pub fn forward(&self) -> &A {
         &self.forward
     }
 
-    /// −h·w
+    /// Their negatives
     #[inline]
     pub fn back(&self) -> &A {
         &self.back

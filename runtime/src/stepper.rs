@@ -7,7 +7,8 @@ use crate::scheme::{Scheme, StepWeights, ValidFor};
 use crate::step_size::{StepSize, StepSizeError};
 use crate::system::System;
 
-/// A scheme, its step size h and its weights h·a_s and h·b_s, each an exact product rounded once to the number type.
+/// A scheme, its step size h and its weights h·a_s, h·b_s and 2h³·c_s of gradient kicks, each an exact product rounded once to the number
+/// type.
 ///
 /// Loops, runs and the [monitor](crate::shadow::ShadowEnergy) take a stepper, so that the scheme and the step size of the
 /// weights are always those of the steps.
@@ -78,14 +79,19 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         self.h.exact()
     }
 
-    /// h·a_s and h·b_s, the distinct ones in the order of the plan, kicks first.
+    /// h·a_s, h·b_s and 2h³·c_s of gradient kicks, the distinct ones in the order of the plan.
     pub fn weights(&self) -> &[N] {
         self.weights.forward().as_ref()
     }
 
-    /// The weights of the inverse step, −h·a_s and −h·b_s.
+    /// The weights of the inverse step, the negatives of these.
     pub fn weights_back(&self) -> &[N] {
         self.weights.back().as_ref()
+    }
+
+    /// The maps of a step with their weights.
+    fn maps(&self) -> Maps<'_, N> {
+        Maps::new(self.weights(), self.scheme.maps(), self.scheme.gradient_kicks())
     }
 
     /// One step: t → t + h.
@@ -107,7 +113,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     where
         S: ValidFor<M::Class>,
     {
-        M::advance(systems, Maps::new(self.weights(), self.scheme.maps()), count);
+        M::advance(systems, self.maps(), count);
     }
 
     /// One step of each of several systems with its [increments](System::increments) of q, p and β, with the bits that
@@ -116,7 +122,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     where
         S: ValidFor<M::Class>,
     {
-        M::advance_augmented(systems, Maps::new(self.weights(), self.scheme.maps()));
+        M::advance_augmented(systems, self.maps());
     }
 
     /// One step, with its [increments](System::increments) of q, p and β.

@@ -63,6 +63,31 @@ pub trait System {
     /// The drift with the same bits of q and p, and its part of the [increments](System::increments).
     fn drift_augmented(&mut self, weight: &Self::Number);
 
+    /// Whether there are [gradient kicks](System::gradient_kick). By default there are none.
+    fn has_gradient_kicks(&self) -> bool {
+        false
+    }
+
+    /// The gradient kick p ← p + weight·U_qq M⁻¹U_q of B = U(q) and A = ½pᵀM⁻¹p; its weight is 2h³ c.
+    ///
+    /// It is the flow of h³ c [B,[A,B]]: of the Hamiltonian −½U_qᵀM⁻¹U_q for the time `weight`.
+    ///
+    /// # Panics
+    /// By default, as where [`has_gradient_kicks`](System::has_gradient_kicks) is false.
+    fn gradient_kick(&mut self, weight: &Self::Number) {
+        let _ = weight;
+        panic!("this system has no gradient kicks, which the scheme needs: see `System::gradient_kick`");
+    }
+
+    /// The gradient kick with the same bits of p, and its part of the [increments](System::increments): it adds
+    /// −weight·vᵀ∂(qᵀU_q − 2U)/∂q with v = M⁻¹U_q to β.
+    ///
+    /// # Panics
+    /// As [`gradient_kick`](System::gradient_kick).
+    fn gradient_kick_augmented(&mut self, weight: &Self::Number) {
+        self.gradient_kick(weight);
+    }
+
     /// `count` steps of several systems, with the bits that their kicks and drifts have one by one: what
     /// [`Stepper::steps`](crate::Stepper::steps) does. [`Motion`](crate::Motion) does it in the widest instructions.
     fn advance(systems: &mut [Self], maps: Maps<'_, Self::Number>, count: u64)
@@ -74,6 +99,7 @@ pub trait System {
                 match kind {
                     MapKind::Kick => systems.iter_mut().for_each(|system| system.kick(weight)),
                     MapKind::Drift => systems.iter_mut().for_each(|system| system.drift(weight)),
+                    MapKind::GradientKick => systems.iter_mut().for_each(|system| system.gradient_kick(weight)),
                 }
             }
         }
@@ -92,6 +118,7 @@ pub trait System {
                 match kind {
                     MapKind::Kick => system.kick_augmented(weight),
                     MapKind::Drift => system.drift_augmented(weight),
+                    MapKind::GradientKick => system.gradient_kick_augmented(weight),
                 }
             }
         }

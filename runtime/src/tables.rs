@@ -117,7 +117,7 @@ impl QuadraticOnly {
     fn of(proved: &Proved) -> Self {
         QuadraticOnly {
             name: proved.scheme.table.name.value.clone(),
-            order: proved.proof.general.order,
+            order: proved.order_for_every_kinetic().map_or(0, |order| order.order),
             order_quadratic: proved.proof.quadratic.order,
         }
     }
@@ -143,13 +143,16 @@ impl<Class> TableScheme<Class> {
         augmented: bool,
         system: &mut M,
     ) {
-        let (kicks, drifts) = weights.split_at(self.plan().kicks.len());
+        let (kicks, others) = weights.split_at(self.plan().kicks.len());
+        let (drifts, gradient_kicks) = others.split_at(self.plan().drifts.len());
         for &(kind, index) in maps {
             match (kind, augmented) {
                 (MapKind::Kick, false) => system.kick(&kicks[index]),
                 (MapKind::Kick, true) => system.kick_augmented(&kicks[index]),
                 (MapKind::Drift, false) => system.drift(&drifts[index]),
                 (MapKind::Drift, true) => system.drift_augmented(&drifts[index]),
+                (MapKind::GradientKick, false) => system.gradient_kick(&gradient_kicks[index]),
+                (MapKind::GradientKick, true) => system.gradient_kick_augmented(&gradient_kicks[index]),
             }
         }
     }
@@ -162,7 +165,7 @@ impl<Class> Scheme for TableScheme<Class> {
         let Proved { scheme, proof, plan, .. } = &*self.proved;
         Summary {
             name: &scheme.table.name.value,
-            order: proof.general.order,
+            order: self.proved.order_for_every_kinetic().map_or(0, |order| order.order),
             order_quadratic: proof.quadratic.order,
             symmetric: proof.symmetric,
             evaluations: plan.evaluations,
@@ -170,11 +173,15 @@ impl<Class> Scheme for TableScheme<Class> {
     }
 
     fn weights<N: Number>(&self, scaled: impl FnMut(&Rational) -> N) -> Vec<N> {
-        self.plan().kicks.iter().chain(&self.plan().drifts).map(scaled).collect()
+        self.plan().weights().into_iter().map(|(_, weight)| weight).map(scaled).collect()
     }
 
     fn maps(&self) -> (usize, &[(MapKind, usize)]) {
         (self.plan().kicks.len(), &self.plan().maps)
+    }
+
+    fn gradient_kicks(&self) -> usize {
+        self.plan().gradient_kicks.len()
     }
 
     fn step<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)

@@ -18,9 +18,9 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
     let plan = &proved.plan;
     let docs = documentation(proved);
     let watched = watch(files);
-    let count = Literal::usize_unsuffixed(plan.kicks.len() + plan.drifts.len());
+    let count = Literal::usize_unsuffixed(plan.weights().len());
     let names = weight_names(plan);
-    let weights: Vec<_> = plan.kicks.iter().chain(&plan.drifts).map(to_text).collect();
+    let weights: Vec<_> = plan.weights().into_iter().map(|(_, weight)| to_text(weight)).collect();
     let summary = summary(proved);
     let forth: Vec<_> = plan.maps.clone();
     let back: Vec<_> = plan.maps.iter().rev().copied().collect();
@@ -31,6 +31,14 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
     let kicks = Literal::usize_unsuffixed(plan.kicks.len());
     let kinds = plan.maps.iter().map(|(kind, _)| format_ident!("{kind:?}"));
     let places = plan.maps.iter().map(|(_, place)| Literal::usize_unsuffixed(*place));
+    let gradient_kicks = (!plan.gradient_kicks.is_empty()).then(|| {
+        let count = Literal::usize_unsuffixed(plan.gradient_kicks.len());
+        quote! {
+            fn gradient_kicks(&self) -> usize {
+                #count
+            }
+        }
+    });
     let valid_for_general = proved.holds_for_every_kinetic().then(|| {
         quote! { impl ::shadowstep::ValidFor<::shadowstep::kinetic::General> for #ident {} }
     });
@@ -58,6 +66,8 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
             fn maps(&self) -> (usize, &[(::shadowstep::scheme::MapKind, usize)]) {
                 (#kicks, &[#((::shadowstep::scheme::MapKind::#kinds, #places)),*])
             }
+
+            #gradient_kicks
 
             #step
             #step_augmented
@@ -124,8 +134,8 @@ fn watch(files: &[PathBuf]) -> TokenStream {
 
 fn summary(proved: &Proved) -> TokenStream {
     let name = &proved.scheme.table.name.value;
-    let [order, order_quadratic] =
-        [&proved.proof.general, &proved.proof.quadratic].map(|o| Literal::u32_unsuffixed(o.order));
+    let order = Literal::u32_unsuffixed(proved.order_for_every_kinetic().map_or(0, |order| order.order));
+    let order_quadratic = Literal::u32_unsuffixed(proved.proof.quadratic.order);
     let symmetric = proved.proof.symmetric;
     let evaluations = Literal::usize_unsuffixed(proved.plan.evaluations);
     quote! {
@@ -139,14 +149,18 @@ fn summary(proved: &Proved) -> TokenStream {
     }
 }
 
-/// `kick_1, kick_2, …, drift_1, …`
+/// `kick_1, kick_2, …, drift_1, …, gradient_kick_1, …`
 fn weight_names(plan: &Plan) -> Vec<Ident> {
-    let kicks = (0..plan.kicks.len()).map(|i| weight_name((MapKind::Kick, i)));
-    kicks.chain((0..plan.drifts.len()).map(|i| weight_name((MapKind::Drift, i)))).collect()
+    let kinds = [
+        (MapKind::Kick, plan.kicks.len()),
+        (MapKind::Drift, plan.drifts.len()),
+        (MapKind::GradientKick, plan.gradient_kicks.len()),
+    ];
+    kinds.into_iter().flat_map(|(kind, count)| (0..count).map(move |i| weight_name((kind, i)))).collect()
 }
 
 fn weight_name((kind, index): (MapKind, usize)) -> Ident {
-    format_ident!("{kind}_{}", index + 1, kind = kind.to_string())
+    format_ident!("{kind}_{}", index + 1, kind = kind.to_string().replace(' ', "_"))
 }
 
 fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)], augmented: bool) -> TokenStream {
@@ -159,6 +173,8 @@ fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)],
             (MapKind::Kick, true) => quote! { system.kick_augmented(#weight); },
             (MapKind::Drift, false) => quote! { system.drift(#weight); },
             (MapKind::Drift, true) => quote! { system.drift_augmented(#weight); },
+            (MapKind::GradientKick, false) => quote! { system.gradient_kick(#weight); },
+            (MapKind::GradientKick, true) => quote! { system.gradient_kick_augmented(#weight); },
         }
     });
     let begin = augmented.then(|| quote! { system.clear_increments(); });
@@ -190,6 +206,13 @@ fn documentation(proved: &Proved) -> Vec<String> {
     let title = table.title.as_deref().unwrap_or("A splitting scheme");
     let cost = plan.cost();
     let kept = if plan.keeps_gradient() { " (the gradient of the last kick serves the next step)" } else { "" };
+    let [gradient_kicks, products_of_hessian] = match plan.count(MapKind::GradientKick) {
+        0 => [String::new(), String::new()],
+        count => [
+            format!(", {}", counted(count, "gradient kick")),
+            format!(" and {}", counted(plan.hessian_products, "Hessian–vector product")),
+        ],
+    };
     let kinetic = match table.kinetic {
         Kinetic::Any => "every kinetic energy T(p)",
         Kinetic::Quadratic => "quadratic kinetic energy",
@@ -199,27 +222,34 @@ fn documentation(proved: &Proved) -> Vec<String> {
         String::new(),
         format!(" {title}: `{}`, meant for {kinetic}.", table.name.value),
         String::new(),
+        proved_orders(proved),
         format!(
-            " - Order {} for every T(p), order {} for quadratic T: proved.{}",
-            order(&proved.proof.general),
-            order(&proved.proof.quadratic),
-            if proved.holds_for_every_kinetic() { "" } else { " A T(p) that is not quadratic is refused." }
-        ),
-        format!(
-            " - {}: {} and {}, {}.",
-            counted(proved.scheme.kick.len(), "stage"),
+            " - {}: {}{gradient_kicks} and {}, {}.",
+            counted(proved.scheme.stages.kick.len(), "stage"),
             counted(plan.count(MapKind::Kick), "kick"),
             counted(plan.count(MapKind::Drift), "drift"),
             if proved.proof.symmetric { "symmetric" } else { "not symmetric" }
         ),
         format!(
-            " - A step costs {}{kept}, and {products} multiplications and {products} additions per dimension with unit masses; β adds {beta} of both.",
+            " - A step costs {}{kept}{products_of_hessian}, and {products} multiplications and {products} additions per dimension with unit masses; β adds {beta} of both.",
             counted(plan.evaluations, "gradient"),
             products = cost.products_per_dimension,
             beta = cost.products_for_beta
         ),
         format!(" - Reference: {}{doi}.", table.reference.as_deref().unwrap_or("none")),
     ]
+}
+
+fn proved_orders(proved: &Proved) -> String {
+    let quadratic = order(&proved.proof.quadratic);
+    match proved.order_for_every_kinetic() {
+        Some(every) => {
+            let refused =
+                if proved.holds_for_every_kinetic() { "" } else { " A T(p) that is not quadratic is refused." };
+            format!(" - Order {} for every T(p), order {quadratic} for quadratic T: proved.{refused}", order(every))
+        }
+        None => format!(" - Order {quadratic} for quadratic T: proved. A T(p) that is not quadratic is refused."),
+    }
 }
 
 fn counted(count: usize, noun: &str) -> String {
@@ -241,8 +271,7 @@ mod tests {
     #[test]
     fn generated_code_of_every_kind_of_table() {
         // kick first and drift first, compositions and stages, exact and rounded, palindromes and others
-        let kinds =
-            "{blanes-moan-srkn6b,mclachlan-atela5,pefrl,ruth3,saba2,stormer-verlet,suzuki4,symplectic-euler,yoshida4}";
+        let kinds = "{blanes-moan-srkn6b,chin-4a,mclachlan-atela5,pefrl,ruth3,saba2,stormer-verlet,suzuki4,symplectic-euler,yoshida4}";
         insta::glob!("../../schemes/tables", &format!("{kinds}.toml"), |path| {
             let name = path.file_stem().unwrap().to_str().unwrap();
             let proved = read(&shipped(name).unwrap(), &|base, _| shipped(base)).unwrap();

@@ -31,7 +31,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
         arguments: quote! { let [#(#arguments),*] = #p else { ::core::unreachable!("as many as momenta") }; },
     };
     let (drift, drift_augmented) = drifts(&methods, arguments.len(), derived.quadratic);
-    let prepare = methods.prepare();
+    let prepare = methods.prepare("prepare");
     let energy_body = methods.energy(&energy);
     // behind what the programs use: T_p, and pᵀT_p − 2T where it is not 0
     let scratch_size = size(methods.scratch() + arguments.len() + usize::from(!derived.quadratic));

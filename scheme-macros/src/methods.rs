@@ -1,7 +1,7 @@
 //! The programs of an energy → the code that computes it and its derivatives, inside the methods of a trait.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 use shadowstep_symbolic::{Place, PotentialPrograms, Program};
 
 use crate::program::{Names, numbered, own, size, statement};
@@ -20,9 +20,10 @@ impl Methods<'_> {
         self.programs.kept() + self.programs.scratch()
     }
 
-    /// The method `prepare`, which computes what each program keeps, one after the other from the beginning of the
+    /// The method `prepare`, or another name for it, which computes what each program keeps, one after the other from the beginning of the
     /// scratch space; nothing, where nothing is kept.
-    pub(crate) fn prepare(&self) -> Option<TokenStream> {
+    pub(crate) fn prepare(&self, name: &str) -> Option<TokenStream> {
+        let name = format_ident!("{name}");
         let PotentialPrograms { energy, gradient_and_rate, .. } = self.programs;
         let mut before = 0;
         let mut parts = Vec::new();
@@ -32,7 +33,7 @@ impl Methods<'_> {
         }
         (!parts.is_empty()).then(|| {
             quote! {
-                fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+                fn #name(&self, scratch: &mut [N], context: &N::Context) {
                     #({ #parts })*
                 }
             }

@@ -15,8 +15,9 @@ use crate::program::{numbered, own, size};
 pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     let separation = separation(definition)?;
     let properties = properties(definition)?;
-    let programs = programs(definition, separation)?;
+    let (programs, second) = programs(definition, separation)?;
     let (structure, this) = definition.structure(&documentation(definition, separation, &programs), &properties);
+    let curvature = curvature(definition, &this, &second);
     let generics = if definition.parameters().is_empty() && properties.is_empty() {
         quote! {}
     } else {
@@ -33,7 +34,8 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
         arguments: values_in_lane(definition, [&i, &xs, &lane]),
     };
     let property_blocks = property_blocks(definition, &j);
-    let prepare = methods.prepare().unwrap_or_else(|| quote! { fn prepare(&self, _: &mut [N], _: &N::Context) {} });
+    let prepare =
+        methods.prepare("prepare").unwrap_or_else(|| quote! { fn prepare(&self, _: &mut [N], _: &N::Context) {} });
     let energy_body = methods.energy(&energy);
     let slope_body = methods.gradient(&[quote! { #slope }]);
     let rate_body = methods.gradient_and_rate(&[quote! { #slope }, quote! { #rate }]);
@@ -99,8 +101,52 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #property_blocks
                 #rates_body
             }
+            fn curved(&self) -> ::core::option::Option<&dyn ::shadowstep::pairs::PairCurvature<N>> {
+                ::core::option::Option::Some(self)
+            }
         }
+
+        #curvature
     })
+}
+
+/// The implementation of the second derivatives.
+fn curvature(definition: &Definition, this: &TokenStream, programs: &PotentialPrograms) -> TokenStream {
+    let x = &definition.arguments[0];
+    let [i, j, slope, curvature, rate, scratch] = ["i", "j", "slope", "curvature", "rate", "scratch"].map(own);
+    let methods = Methods { programs, names: definition.names(), arguments: property_values(definition, [&i, &j]) };
+    let prepare = methods.prepare("prepare_curvature");
+    let outputs = [quote! { #slope }, quote! { #curvature }, quote! { #rate }];
+    let (body, rate_body) = (methods.gradient(&outputs[..2]), methods.gradient_and_rate(&outputs));
+    let scratch_size = size(methods.scratch());
+    quote! {
+        #[allow(unused_variables, clippy::all)]
+        impl<N: ::shadowstep::Number> ::shadowstep::pairs::PairCurvature<N> for #this {
+            fn curvature_scratch(&self) -> usize { #scratch_size }
+            #prepare
+            fn curvature(
+                &self,
+                #i: usize,
+                #j: usize,
+                #x: &N,
+                #slope: &mut N,
+                #curvature: &mut N,
+                #scratch: &mut [N],
+            ) {
+                #body
+            }
+            fn curvature_and_rate(
+                &self,
+                #i: usize,
+                #j: usize,
+                #x: &N,
+                [#slope, #curvature, #rate]: [&mut N; 3],
+                #scratch: &mut [N],
+            ) {
+                #rate_body
+            }
+        }
+    }
 }
 
 /// A property as the formula names it, `m_i` or `m_j`, with the list that it is from, and whether it is that of the body i.
@@ -181,11 +227,12 @@ fn properties(definition: &Definition) -> syn::Result<Vec<Ident>> {
     Ok(found)
 }
 
-fn programs(definition: &Definition, separation: Separation) -> syn::Result<PotentialPrograms> {
+/// The programs of the pair's energy and those of its second derivatives.
+fn programs(definition: &Definition, separation: Separation) -> syn::Result<(PotentialPrograms, PotentialPrograms)> {
     let (mut graph, energy) = definition.graph(|graph, expression| {
         graph.build_pair(expression, separation.name(), &texts(&definition.properties), &definition.parameters())
     })?;
-    Ok(graph.pair(energy, separation))
+    Ok((graph.pair(energy, separation), graph.pair_curvature(energy, separation)))
 }
 
 fn documentation(definition: &Definition, separation: Separation, programs: &PotentialPrograms) -> Vec<String> {

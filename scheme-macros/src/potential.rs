@@ -7,7 +7,7 @@ use shadowstep_symbolic::PotentialPrograms;
 use crate::definition::Definition;
 use crate::methods::Methods;
 use crate::pair;
-use crate::program::{numbered, own, size};
+use crate::program::{Names, numbered, own, size};
 
 /// The struct and its implementation.
 ///
@@ -20,8 +20,8 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     if definition.pair.is_some() {
         return pair::emit(definition);
     }
-    let programs = programs(definition)?;
-    let (structure, this) = definition.structure(&documentation(definition, &programs), &[]);
+    let (programs, second) = programs(definition)?;
+    let (structure, this) = definition.structure(&documentation(definition, &programs, &second), &[]);
     let arguments = &definition.arguments;
     // hygienic names, different from those of the coordinates
     let [q, energy, gradient, rate, scratch] = ["q", "energy", "gradient", "rate", "scratch"].map(own);
@@ -32,12 +32,13 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     };
     let parts: Vec<_> = (0..arguments.len()).map(|i| numbered("gradient", i)).collect();
     let with_rate: Vec<_> = parts.iter().cloned().chain([quote! { #rate }]).collect();
-    let prepare = methods.prepare();
+    let prepare = methods.prepare("prepare");
     let energy_body = methods.energy(&energy);
     let gradient_body = methods.gradient(&parts);
     let rate_body = methods.gradient_and_rate(&with_rate);
     let components = quote! { let [#(#parts),*] = #gradient else { ::core::unreachable!("as many as coordinates") }; };
     let (dimension, scratch_size) = (size(arguments.len()), size(methods.scratch()));
+    let hessian_product = hessian_product(definition, &this, &second);
     Ok(quote! {
         #structure
 
@@ -65,25 +66,86 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #components
                 #rate_body
             }
+            fn hessian(&self) -> ::core::option::Option<&dyn ::shadowstep::potential::HessianProduct<N>> {
+                ::core::option::Option::Some(self)
+            }
         }
+
+        #hessian_product
     })
 }
 
-fn programs(definition: &Definition) -> syn::Result<PotentialPrograms> {
+/// The implementation of the Hessian–vector product.
+fn hessian_product(definition: &Definition, this: &TokenStream, programs: &PotentialPrograms) -> TokenStream {
+    let arguments = &definition.arguments;
+    let [q, v, product, rate, scratch] = ["q", "v", "product", "rate", "scratch"].map(own);
+    let direction: Vec<_> = (0..arguments.len()).map(|i| numbered("direction", i)).collect();
+    let methods = Methods {
+        programs,
+        names: Names { properties: direction.clone(), ..definition.names() },
+        arguments: quote! {
+            let [#(#arguments),*] = #q else { ::core::unreachable!("as many as coordinates") };
+            let [#(#direction),*] = #v else { ::core::unreachable!("as many as coordinates") };
+        },
+    };
+    let parts: Vec<_> = (0..arguments.len()).map(|i| numbered("product", i)).collect();
+    let with_rate: Vec<_> = parts.iter().cloned().chain([quote! { #rate }]).collect();
+    let components = quote! { let [#(#parts),*] = #product else { ::core::unreachable!("as many as coordinates") }; };
+    let prepare = methods.prepare("prepare_hessian");
+    let (product_body, rate_body) = (methods.gradient(&parts), methods.gradient_and_rate(&with_rate));
+    let scratch_size = size(methods.scratch());
+    quote! {
+        #[allow(unused_variables, clippy::all)]
+        impl<N: ::shadowstep::Number> ::shadowstep::potential::HessianProduct<N> for #this {
+            fn hessian_scratch(&self) -> usize { #scratch_size }
+            #prepare
+            fn hessian_product(&self, #q: &[N], #v: &[N], #product: &mut [N], #scratch: &mut [N]) {
+                N::in_widest_instructions(
+                    #[inline(always)]
+                    || {
+                        #components
+                        #product_body
+                    },
+                );
+            }
+            fn hessian_product_and_rate(
+                &self,
+                #q: &[N],
+                #v: &[N],
+                #product: &mut [N],
+                #rate: &mut N,
+                #scratch: &mut [N],
+            ) {
+                N::in_widest_instructions(
+                    #[inline(always)]
+                    || {
+                        #components
+                        #rate_body
+                    },
+                );
+            }
+        }
+    }
+}
+
+/// The programs of U and those of its second derivatives.
+fn programs(definition: &Definition) -> syn::Result<(PotentialPrograms, PotentialPrograms)> {
     if let Some(property) = definition.properties.first() {
         return Err(syn::Error::new(property.span(), "properties of bodies are for pairs: `pair U(r2; m_i, m_j) = …`"));
     }
     let (mut graph, energy) = definition.graph_of_arguments("a potential has at least one coordinate: `U(q) = …`")?;
-    Ok(graph.potential(energy, definition.arguments.len()))
+    let coordinates = definition.arguments.len();
+    Ok((graph.potential(energy, coordinates), graph.hessian_product(energy, coordinates)))
 }
 
-fn documentation(definition: &Definition, programs: &PotentialPrograms) -> Vec<String> {
+fn documentation(definition: &Definition, programs: &PotentialPrograms, second: &PotentialPrograms) -> Vec<String> {
     vec![
         String::new(),
         definition.equation(),
         String::new(),
         format!(" - The gradient costs {}.", programs.gradient.cost()),
         format!(" - The gradient with qᵀU_q − 2U costs {}.", programs.gradient_and_rate.cost()),
+        format!(" - The Hessian–vector product U_qq v costs {}.", second.gradient.cost()),
     ]
 }
 

@@ -25,6 +25,11 @@ pub trait Arithmetic {
     /// a/n
     fn divide(&self, a: &Self::Value, n: u32) -> Self::Value;
 
+    /// A whole number, which is exact.
+    fn integer(&self, n: i32) -> Self::Value {
+        self.weight(&Rational::from_integer(n.into()))
+    }
+
     /// a·b
     fn product(&self, a: &Self::Value, b: &Self::Value) -> Self::Value {
         let mut product = self.zero();
@@ -158,6 +163,9 @@ impl Arithmetic for FixedPoint {
     fn weight(&self, weight: &Rational) -> Fixed {
         Fixed::within(&((weight.numer() << self.bits()) / weight.denom()), 1.0)
     }
+    fn integer(&self, n: i32) -> Fixed {
+        Fixed::within(&(BigInt::from(n) << self.bits()), 0.0)
+    }
     fn add_product(&self, target: &mut Fixed, a: &Fixed, b: &Fixed) {
         target.units.add_product(&a.units, &b.units, self.limbs);
         // |ab − a'b'| ≤ |a|·δb + |b'|·δa, and the product drops less than a unit, but for what `bound` adds
@@ -193,6 +201,10 @@ impl Arithmetic for Sensitivity {
         let value = weight.to_f64().unwrap_or(f64::MAX).abs();
         // a weight of exactly 0 is not rounded
         Sensitive { value, slope: if weight.is_zero() { 0.0 } else { value.max(1.0) } }
+    }
+    /// Its size: the bound is of sums without signs.
+    fn integer(&self, n: i32) -> Sensitive {
+        Sensitive { value: f64::from(n).abs(), slope: 0.0 }
     }
     fn add_product(&self, target: &mut Sensitive, a: &Sensitive, b: &Sensitive) {
         target.value += a.value * b.value;

@@ -181,10 +181,14 @@ pub(crate) fn values_at<A: Arithmetic>(
 mod tests {
     use super::*;
     use crate::arithmetic::ExactArithmetic;
-    use crate::map::merged;
+    use crate::map::Stages;
 
     fn rationals(fractions: &[(i64, i64)]) -> Vec<Rational> {
         fractions.iter().map(|&(n, d)| Rational::new(n.into(), d.into())).collect()
+    }
+
+    fn merged(kick: &[Rational], drift: &[Rational]) -> Vec<Map> {
+        Stages { kick: kick.to_vec(), gradient_kick: Vec::new(), drift: drift.to_vec() }.maps()
     }
 
     #[test]

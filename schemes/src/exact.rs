@@ -15,7 +15,7 @@ use shadowstep_symbolic::{Budget, Exact, Rational, evaluate, evaluate_within, pa
 use crate::document::Placed;
 use crate::document::{Fault, Source};
 use crate::library::Library;
-use crate::map::{merged, stages_of};
+use crate::map::Stages;
 use crate::parse;
 use crate::scheme::{ExactScheme, Held};
 use crate::shipped::shipped_hint;
@@ -54,31 +54,34 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
     cells.free();
     let weights = match &table.weights {
         None => None,
-        Some(Weights::Stages { kick, drift }) => {
-            let (kick, drift) = (cells.weights(&kick.value), cells.weights(&drift.value));
-            Some((kick, drift, held(&table, cells.rounded), None))
+        Some(Weights::Stages { kick, gradient_kick, drift }) => {
+            let stages = Stages {
+                kick: cells.weights(&kick.value),
+                gradient_kick: gradient_kick.as_ref().map_or_else(Vec::new, |list| cells.weights(&list.value)),
+                drift: cells.weights(&drift.value),
+            };
+            Some((stages, held(&table, cells.rounded), None))
         }
         Some(Weights::Composition { base, gamma }) => {
             let gamma = cells.weights(&gamma.value);
             let (base, base_faults) = base_scheme(&table, base, library, above);
             cells.faults.extend(base_faults);
-            let size = base.as_ref().map_or(0, |base| gamma.len() * base.kick.len());
+            let size = base.as_ref().map_or(0, |base| gamma.len() * base.stages.kick.len());
             if size > MOST_UNMERGED {
                 cells.faults.push(too_long(&table, size));
             }
             base.filter(|_| size <= MOST_UNMERGED).map(|base| {
-                let maps = merged(&scaled(&gamma, &base.kick), &scaled(&gamma, &base.drift));
-                let (kick, drift) = stages_of(&maps);
-                (kick, drift, held(&table, cells.rounded).weaker(base.held), Some(Box::new(base)))
+                let stages = Stages::of(&base.stages.repeated(&gamma).maps());
+                (stages, held(&table, cells.rounded).weaker(base.held), Some(Box::new(base)))
             })
         }
     };
-    if let Some((kick, ..)) = weights.as_ref().filter(|(kick, ..)| kick.len() > MOST_STAGES) {
-        cells.faults.push(too_long(&table, kick.len()));
+    if let Some((stages, ..)) = weights.as_ref().filter(|(stages, ..)| stages.kick.len() > MOST_STAGES) {
+        cells.faults.push(too_long(&table, stages.kick.len()));
     }
-    if let Some((kick, drift, Held::Exactly, _)) = &weights
+    if let Some((Stages { kick, gradient_kick, drift }, Held::Exactly, _)) = &weights
         && cells.faults.is_empty()
-        && !have_short_denominator(kick.iter().chain(drift))
+        && !have_short_denominator(kick.iter().chain(gradient_kick).chain(drift))
     {
         let digits = LONGEST_DENOMINATOR * 3 / 10;
         let message = format!("the common denominator of the weights has more than {digits} digits");
@@ -87,8 +90,7 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
     }
     let good = cells.faults.is_empty();
     faults.extend(cells.faults);
-    let scheme =
-        weights.filter(|_| good).map(|(kick, drift, held, base)| ExactScheme { table, kick, drift, held, base });
+    let scheme = weights.filter(|_| good).map(|(stages, held, base)| ExactScheme { table, stages, held, base });
     (scheme, faults)
 }
 
@@ -139,11 +141,6 @@ fn base_scheme(
         return fault(format!("this composition is cyclic: {} → {}", chain.join(" → "), found.path), help.into());
     }
     scheme_within(&found, library, &chain)
-}
-
-/// γ_1·w_1, …, γ_1·w_S, γ_2·w_1, …
-fn scaled(gamma: &[Rational], weights: &[Rational]) -> Vec<Rational> {
-    gamma.iter().flat_map(|g| weights.iter().map(move |w| g * w)).collect()
 }
 
 /// Evaluates cells in the order of the text, collecting faults.

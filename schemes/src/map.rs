@@ -1,4 +1,4 @@
-//! Kicks and drifts: the maps that a step is made of, and the stages of a table.
+//! Kicks, drifts and force-gradient kicks: the maps that a step is made of, and the stages of a table.
 
 use std::fmt;
 
@@ -14,22 +14,41 @@ pub enum First {
     Drift,
 }
 
-/// A kick or a drift.
+/// A kick, a drift or a force-gradient kick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum MapKind {
     /// p −= h w U_q(q)
     Kick,
     /// q += h w M⁻¹p
     Drift,
+    /// p += h³ w ∇(U_qᵀM⁻¹U_q) = 2h³ w U_qq M⁻¹U_q, for quadratic T only.
+    ///
+    /// It is exp(h³ w [K,[D,K]]) of the Lie derivatives K of the kick and D of the drift, in a product in which the map that acts first
+    /// stands first. It commutes with kicks, and is not a letter of words: its exponent is a sum of them.
+    GradientKick,
 }
 
 impl MapKind {
-    /// The other one.
+    /// The other one of kick and drift; a gradient kick has none, and stays.
     pub fn other(self) -> MapKind {
         match self {
             MapKind::Kick => MapKind::Drift,
             MapKind::Drift => MapKind::Kick,
+            MapKind::GradientKick => MapKind::GradientKick,
         }
+    }
+
+    /// The power of h that its weight is multiplied by.
+    pub fn power(self) -> u32 {
+        match self {
+            MapKind::Kick | MapKind::Drift => 1,
+            MapKind::GradientKick => 3,
+        }
+    }
+
+    /// Whether maps of both kinds commute.
+    pub(crate) fn commutes_with(self, other: MapKind) -> bool {
+        (self == MapKind::Drift) == (other == MapKind::Drift)
     }
 }
 
@@ -38,6 +57,7 @@ impl fmt::Display for MapKind {
         f.write_str(match self {
             MapKind::Kick => "kick",
             MapKind::Drift => "drift",
+            MapKind::GradientKick => "gradient kick",
         })
     }
 }
@@ -45,43 +65,91 @@ impl fmt::Display for MapKind {
 /// One map of a step with its weight.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Map {
-    /// Kick or drift.
+    /// Kick, drift or gradient kick.
     pub kind: MapKind,
-    /// The weight a_s or b_s.
+    /// The weight a_s, b_s or c_s.
     pub weight: Rational,
 }
 
-/// Stages → maps, zero weights left out and neighbours of one kind merged.
-pub fn merged(kick: &[Rational], drift: &[Rational]) -> Vec<Map> {
-    let mut maps: Vec<Map> = Vec::new();
-    for (a, b) in kick.iter().zip(drift) {
-        for (kind, weight) in [(MapKind::Kick, a), (MapKind::Drift, b)] {
-            append(&mut maps, kind, weight);
-        }
-    }
-    maps
+/// The weights of the stages s = 1..S, as many of each kind.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Stages {
+    /// a_s of the kicks.
+    pub kick: Vec<Rational>,
+    /// c_s of the gradient kicks, which act with the kicks; empty, where there are none.
+    pub gradient_kick: Vec<Rational>,
+    /// b_s of the drifts.
+    pub drift: Vec<Rational>,
 }
 
-/// Maps → stages: a_s and b_s, 0 where a stage has no kick or no drift.
-pub fn stages_of(maps: &[Map]) -> (Vec<Rational>, Vec<Rational>) {
-    let (mut kick, mut drift) = (Vec::new(), Vec::new());
-    for map in maps {
-        if map.kind == MapKind::Kick || kick.is_empty() {
-            kick.push(Rational::zero());
-            drift.push(Rational::zero());
+impl Stages {
+    /// The maps in the order in which they act: zero weights left out, neighbours of one kind merged.
+    pub fn maps(&self) -> Vec<Map> {
+        let mut maps: Vec<Map> = Vec::new();
+        for (s, (a, b)) in self.kick.iter().zip(&self.drift).enumerate() {
+            append(&mut maps, MapKind::Kick, a);
+            self.gradient_kick.get(s).into_iter().for_each(|c| append(&mut maps, MapKind::GradientKick, c));
+            append(&mut maps, MapKind::Drift, b);
         }
-        let weights = if map.kind == MapKind::Kick { &mut kick } else { &mut drift };
-        *weights.last_mut().expect("a stage has begun") = map.weight.clone();
+        maps
     }
-    (kick, drift)
+
+    /// The stages of maps: 0 where a stage has no kick or no drift.
+    pub fn of(maps: &[Map]) -> Stages {
+        let has_gradient_kicks = maps.iter().any(|map| map.kind == MapKind::GradientKick);
+        let mut stages = Stages::default();
+        let mut drifts = true;
+        for map in maps {
+            if drifts {
+                stages.kick.push(Rational::zero());
+                stages.gradient_kick.extend(has_gradient_kicks.then(Rational::zero));
+                stages.drift.push(Rational::zero());
+            }
+            drifts = map.kind == MapKind::Drift;
+            let weights = match map.kind {
+                MapKind::Kick => &mut stages.kick,
+                MapKind::GradientKick => &mut stages.gradient_kick,
+                MapKind::Drift => &mut stages.drift,
+            };
+            *weights.last_mut().expect("a stage has begun") = map.weight.clone();
+        }
+        stages
+    }
+
+    /// Those of a step γ_1 h, a step γ_2 h, ….
+    pub fn repeated(&self, gamma: &[Rational]) -> Stages {
+        let scaled = |weights: &[Rational], power: u32| {
+            gamma.iter().flat_map(|g| weights.iter().map(move |w| g.pow(power as i32) * w)).collect()
+        };
+        Stages {
+            kick: scaled(&self.kick, MapKind::Kick.power()),
+            gradient_kick: scaled(&self.gradient_kick, MapKind::GradientKick.power()),
+            drift: scaled(&self.drift, MapKind::Drift.power()),
+        }
+    }
 }
 
+/// Maps in the opposite order, in the order of [`Stages::maps`]: kicks before the gradient kicks with which they commute.
+pub fn reversed(maps: &[Map]) -> Vec<Map> {
+    let mut reversed = Vec::new();
+    maps.iter().rev().for_each(|map| append(&mut reversed, map.kind, &map.weight));
+    reversed
+}
+
+/// Adds a map after others; of those since the last drift, which commute with it, one of its kind takes it in.
 fn append(maps: &mut Vec<Map>, kind: MapKind, weight: &Rational) {
-    match maps.last_mut() {
-        Some(last) if last.kind == kind => last.weight += weight,
-        _ => maps.push(Map { kind, weight: weight.clone() }),
+    if weight.is_zero() {
+        return;
     }
-    if maps.last().is_some_and(|last| last.weight.is_zero()) {
-        maps.pop();
+    let run = maps.iter().rposition(|map| !map.kind.commutes_with(kind)).map_or(0, |before| before + 1);
+    match maps[run..].iter().position(|map| map.kind == kind) {
+        Some(place) => {
+            maps[run + place].weight += weight;
+            if maps[run + place].weight.is_zero() {
+                maps.remove(run + place);
+            }
+        }
+        None if kind == MapKind::Kick => maps.insert(run, Map { kind, weight: weight.clone() }),
+        None => maps.push(Map { kind, weight: weight.clone() }),
     }
 }

@@ -9,6 +9,9 @@
 //! Dropping the words that have more kicks than drifts + 1 would not do: the Lie brackets which vanish generate an
 //! ideal, and from five letters on its members lie among words that stay. The trees are the functionals that do not
 //! see that ideal. Some of them are redundant for a symplectic scheme; that costs time, not truth.
+//!
+//! A gradient kick p += 2c U_qq M⁻¹U_q is, with K = −U_q, 2c times the derivative of K in the direction of D[K], at the q that it finds: a
+//! tree K[…] may be placed at it whole with one of its children D[K[…]], to which 2c belongs.
 
 use shadowstep_symbolic::Rational;
 
@@ -42,8 +45,14 @@ pub fn tree_conditions<A: Arithmetic>(
     let mut conditions = vec![(condition("D", 1, 1), bare_value)];
 
     let mut before: Vec<Vec<A::Value>> = Vec::new();
+    // of each tree the products over the children of its root
+    let mut at_roots: Vec<Vec<A::Value>> = Vec::new();
     for (i, tree) in trees.iter().enumerate() {
-        let at_kicks = product_of_children(tree, &bare_before, &before, maps, arithmetic);
+        let mut at_kicks = product_of_children(tree, &bare_before, &before, maps, arithmetic);
+        at_roots.push(at_kicks.clone());
+        for r in (0..maps.len()).filter(|&r| maps[r].0 == MapKind::GradientKick) {
+            at_kicks[r] = with_one_child_inside(tree, r, (&bare_before, &before), &at_roots, arithmetic);
+        }
         let (kicked_before, value) = sums(MapKind::Kick, &at_kicks, maps, arithmetic);
         let name = name(&trees, i);
         conditions.push((condition(&name, tree.size, tree.density), value));
@@ -66,7 +75,28 @@ fn condition(name: &str, size: u32, density: u64) -> Condition {
     }
 }
 
-/// Σ w_r·v_r over the maps r of one kind before each map, and over all of them.
+/// What a gradient kick r adds to a tree, but for c: twice the sum over the children D[K[…]] at the same map, each with the product of
+/// its own children and the others.
+fn with_one_child_inside<A: Arithmetic>(
+    tree: &KickTree,
+    r: usize,
+    (bare, before): (&[A::Value], &[Vec<A::Value>]),
+    at_roots: &[Vec<A::Value>],
+    arithmetic: &A,
+) -> A::Value {
+    let mut sum = arithmetic.zero();
+    for (i, inside) in tree.children.iter().enumerate() {
+        let Some(inside) = inside else { continue };
+        let others = tree.children.iter().enumerate().filter(|(j, _)| *j != i);
+        let product = others.fold(at_roots[*inside][r].clone(), |product, (_, child)| {
+            arithmetic.product(&product, &child.map_or(bare, |kick| &before[kick])[r])
+        });
+        arithmetic.add_product(&mut sum, &arithmetic.one(), &product);
+    }
+    arithmetic.product(&sum, &arithmetic.integer(2))
+}
+
+/// Σ w_r·v_r over the maps r of one kind before each map, and over all of them; kicks include gradient kicks.
 fn sums<A: Arithmetic>(
     kind: MapKind,
     values: &[A::Value],
@@ -79,7 +109,7 @@ fn sums<A: Arithmetic>(
         .zip(values)
         .map(|((map, weight), value)| {
             let before = sum.clone();
-            if *map == kind {
+            if (*map == MapKind::Drift) == (kind == MapKind::Drift) {
                 arithmetic.add_product(&mut sum, weight, value);
             }
             before
@@ -98,7 +128,7 @@ fn product_of_children<A: Arithmetic>(
     let mut factors = tree.children.iter().map(|child| child.map_or(bare, |kick| &before[kick]));
     let mut product = factors.next().map_or_else(|| vec![arithmetic.one(); maps.len()], <[A::Value]>::to_vec);
     for factor in factors {
-        for r in (0..maps.len()).filter(|&r| maps[r].0 == MapKind::Kick) {
+        for r in (0..maps.len()).filter(|&r| maps[r].0 != MapKind::Drift) {
             product[r] = arithmetic.product(&product[r], &factor[r]);
         }
     }
@@ -175,7 +205,8 @@ mod tests {
         let rational = |n: i64, d: i64| Rational::new(n.into(), d.into());
         let a = [rational(1, 3), rational(-2, 5), rational(7, 11), rational(3, 2)];
         let b = [rational(5, 7), rational(1, 9), rational(-3, 4), rational(2, 13)];
-        let values = conditions(&crate::map::merged(&a, &b), 4, &ExactArithmetic);
+        let stages = crate::map::Stages { kick: a.to_vec(), gradient_kick: Vec::new(), drift: b.to_vec() };
+        let values = conditions(&stages.maps(), 4, &ExactArithmetic);
         let value = |name: &str| {
             &values.iter().find(|(c, _)| c.functional == Functional::Named(format!("the tree {name}"))).unwrap().1
         };

@@ -5,6 +5,8 @@
 //! agree up to order n if and only if the coefficients of the Lyndon words of at most n letters agree (the Lyndon
 //! words generate the shuffle algebra: Radford 1979; for splitting schemes Murua & Sanz-Serna, Phil. Trans. R. Soc.
 //! A 357 (1999) 957). The coefficient of a word of n letters in the exact flow is 1/n!.
+//!
+//! A gradient kick is exp(h³ c C) with C = [K,[D,K]] = 2KDK − DKK − KKD: a sum of words of three letters in place of a letter.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -89,6 +91,7 @@ pub fn letter(kind: MapKind) -> char {
     match kind {
         MapKind::Kick => 'K',
         MapKind::Drift => 'D',
+        MapKind::GradientKick => unreachable!("it is no letter"),
     }
 }
 
@@ -148,6 +151,10 @@ fn coefficients<A: Arithmetic>(maps: &[(MapKind, A::Value)], prefixes: &[Prefix]
     let longest_run = longest_run(prefixes);
     let mut values = vec![arithmetic.zero(); prefixes.len()];
     for (kind, weight) in maps {
+        if *kind == MapKind::GradientKick {
+            multiply_by_gradient_kick(&mut values, prefixes, weight, arithmetic);
+            continue;
+        }
         let powers = divided_powers(weight, longest_run, arithmetic);
         // children before parents: what is still to be read is not yet changed
         for index in (0..prefixes.len()).rev().filter(|&i| prefixes[i].last == *kind) {
@@ -165,6 +172,44 @@ fn coefficients<A: Arithmetic>(maps: &[(MapKind, A::Value)], prefixes: &[Prefix]
         }
     }
     values
+}
+
+/// The coefficients of a product with exp(c C) at its end: a word ends in k words of C, to which c^k/k! belongs.
+fn multiply_by_gradient_kick<A: Arithmetic>(
+    values: &mut [A::Value],
+    prefixes: &[Prefix],
+    weight: &A::Value,
+    arithmetic: &A,
+) {
+    // children before parents: what is still to be read is not yet changed
+    for index in (0..prefixes.len()).rev() {
+        let (mut value, mut end) = (values[index].clone(), Some(index));
+        let (mut factor, mut k) = (arithmetic.one(), 0);
+        while let Some((coefficient, before)) = end.and_then(|end| last_word_of_gradient(prefixes, end)) {
+            k += 1;
+            factor = arithmetic.divide(&arithmetic.product(&factor, weight), k);
+            factor = arithmetic.product(&factor, &arithmetic.integer(coefficient));
+            match before {
+                Some(i) => arithmetic.add_product(&mut value, &factor, &values[i]),
+                None => arithmetic.add_product(&mut value, &factor, &arithmetic.one()),
+            }
+            end = before;
+        }
+        values[index] = value;
+    }
+}
+
+/// The coefficient in C = 2KDK − DKK − KKD of the last three letters of a word, and the word before them; `None` where C has no such word.
+fn last_word_of_gradient(prefixes: &[Prefix], end: usize) -> Option<(i32, Option<usize>)> {
+    let last = &prefixes[end];
+    let middle = &prefixes[last.parent?];
+    let first = &prefixes[middle.parent?];
+    let coefficient = match [first.last, middle.last, last.last] {
+        [MapKind::Kick, MapKind::Drift, MapKind::Kick] => 2,
+        [MapKind::Drift, MapKind::Kick, MapKind::Kick] | [MapKind::Kick, MapKind::Kick, MapKind::Drift] => -1,
+        _ => return None,
+    };
+    Some((coefficient, first.parent))
 }
 
 /// The most letters of one kind that stand together.
@@ -212,7 +257,7 @@ mod tests {
     }
 
     use crate::arithmetic::{ExactArithmetic, FixedPoint};
-    use crate::map::merged;
+    use crate::map::{Map, Stages};
 
     fn rationals(fractions: &[(i64, i64)]) -> Vec<Rational> {
         fractions.iter().map(|&(n, d)| Rational::new(n.into(), d.into())).collect()
@@ -221,6 +266,10 @@ mod tests {
     /// Weights of no scheme in particular.
     fn any_weights() -> (Vec<Rational>, Vec<Rational>) {
         (rationals(&[(1, 3), (-2, 5), (7, 11), (3, 2)]), rationals(&[(5, 7), (1, 9), (-3, 4), (2, 13)]))
+    }
+
+    fn merged(kick: &[Rational], drift: &[Rational]) -> Vec<Map> {
+        Stages { kick: kick.to_vec(), gradient_kick: Vec::new(), drift: drift.to_vec() }.maps()
     }
 
     #[test]

@@ -27,7 +27,11 @@ const TABLE: [Key; 15] = [
     Key::new("stages", "{ kick = [\"1/2\", \"1/2\"], drift = [1, 0] }"),
 ];
 
-const STAGES: [Key; 2] = [Key::new("kick", "[\"1/2\", \"1/2\"]"), Key::new("drift", "[1, 0]")];
+const STAGES: [Key; 3] = [
+    Key::new("kick", "[\"1/2\", \"1/2\"]"),
+    Key::new("gradient_kick", "[0, \"1/72\", 0]"),
+    Key::new("drift", "[1, 0]"),
+];
 
 const COMPOSITION: [Key; 2] =
     [Key::new("base", "\"stormer-verlet\""), Key::new("gamma", "[\"g1\", \"1 - 2*g1\", \"g1\"]")];
@@ -66,13 +70,15 @@ fn read(reader: &mut Reader<'_>, document: &DeTable<'_>) -> Table {
     let constants = constants(reader, root);
     let free = free(reader, root, &constants);
     let weights = weights(reader, root, document);
+    let kinetic = kinetic.unwrap_or(Kinetic::Quadratic);
+    let kinetic = refuse_beside_gradient_kicks(reader, root, weights.as_ref(), kinetic);
     Table {
         source: reader.source.clone(),
         name: name.unwrap_or(Placed { value: "unnamed".to_owned(), at: 0..0 }),
         title: title.map(|t| t.value),
         aliases,
         order: order.unwrap_or(Placed { value: 1, at: 0..0 }),
-        kinetic: kinetic.unwrap_or(Kinetic::Quadratic),
+        kinetic,
         near_integrable,
         symmetric,
         digits,
@@ -226,16 +232,45 @@ fn weights(reader: &mut Reader<'_>, root: &Section<'_, '_>, document: &DeTable<'
 
 fn stages(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<Weights> {
     let kick = reader.required(section, "kick").and_then(|v| cells(reader, v));
+    let gradient_kick = section.get("gradient_kick").map(|v| cells(reader, v));
     let drift = reader.required(section, "drift").and_then(|v| cells(reader, v));
     let (kick, drift) = (kick?, drift?);
-    if kick.value.len() == drift.value.len() {
-        return Some(Weights::Stages { kick, drift });
+    // without its gradient kicks it would be another scheme
+    let gradient_kick = match gradient_kick {
+        Some(cells) => Some(cells?),
+        None => None,
+    };
+    let stages = kick.value.len();
+    let others = [("drift", Some(&drift)), ("gradient_kick", gradient_kick.as_ref())];
+    for (name, cells) in others {
+        let Some(cells) = cells.filter(|cells| cells.value.len() != stages) else { continue };
+        let found = format!("{stages} for the kicks, {} for {name}", cells.value.len());
+        let message = format!("kick and {name} must have as many weights as there are stages");
+        let hint = "each stage is a kick and then a drift; write 0 where there is none";
+        let fault = reader.source.fault(&cells.at, message).values(found, "the same number of both");
+        reader.faults.push(fault.hint(hint));
+        return None;
     }
-    let found = format!("{} for the kicks, {} for the drifts", kick.value.len(), drift.value.len());
-    let fault = reader.source.fault(&drift.at, "kick and drift must have as many weights as there are stages");
-    let hint = "each stage is a kick and then a drift; write 0 where there is none";
-    reader.faults.push(fault.values(found, "the same number of both").hint(hint));
-    None
+    Some(Weights::Stages { kick, gradient_kick, drift })
+}
+
+/// Refuses claims that a scheme with gradient kicks cannot make: these are p += 2h³ c U_qq M⁻¹U_q. Returns the kinetic energies that it is for.
+fn refuse_beside_gradient_kicks(
+    reader: &mut Reader<'_>,
+    root: &Section<'_, '_>,
+    weights: Option<&Weights>,
+    kinetic: Kinetic,
+) -> Kinetic {
+    let Some(Weights::Stages { gradient_kick: Some(_), .. }) = weights else { return kinetic };
+    if let Some(value) = root.get("kinetic").filter(|_| kinetic == Kinetic::Any) {
+        let hint = "they contain M⁻¹ of T = ½pᵀM⁻¹p: write `kinetic = \"quadratic\"`";
+        reader.fault(&value.span(), "gradient kicks are for quadratic T only", hint);
+    }
+    if let Some(value) = root.get("near_integrable") {
+        let hint = "leave `near_integrable` out";
+        reader.fault(&value.span(), "near-integrable orders are not proved of gradient kicks", hint);
+    }
+    Kinetic::Quadratic
 }
 
 fn cells(reader: &mut Reader<'_>, value: &Value<'_>) -> Option<Placed<Vec<Cell>>> {

@@ -10,6 +10,7 @@ use crate::plan::Plan;
 use crate::proof::{Finding, Order, Proof, findings, prove};
 use crate::scheme::ExactScheme;
 use crate::shipped;
+use crate::table::Table;
 use crate::wording::worded;
 
 /// A scheme and what was proved of it.
@@ -31,9 +32,15 @@ impl Proved {
         self.proof.for_kinetic(self.scheme.table.kinetic)
     }
 
-    /// Whether the order claimed holds for every T(p), whatever kinetic energies the table is meant for.
+    /// Whether the order claimed holds for every T(p), whatever kinetic energies the table is meant for. Of gradient kicks it does not:
+    /// they contain M⁻¹.
     pub fn holds_for_every_kinetic(&self) -> bool {
-        self.proof.general.order >= self.scheme.table.order.value
+        self.order_for_every_kinetic().is_some_and(|order| order.order >= self.scheme.table.order.value)
+    }
+
+    /// The order for every T(p); `None` with gradient kicks, which there are for quadratic T only.
+    pub fn order_for_every_kinetic(&self) -> Option<&Order> {
+        (!self.scheme.has_gradient_kicks()).then_some(&self.proof.general)
     }
 }
 
@@ -54,7 +61,14 @@ pub fn read_first(source: &Source, library: Library<'_>, first: Option<First>) -
     // text → cells with their places → exact weights
     let (scheme, mut faults) = exact::scheme(source, library);
     let Some(mut scheme) = scheme else { return Err(Faults::of(faults).expect("what is not a scheme has a fault")) };
-    if let Some(first) = first {
+    if let Some(first) = first.filter(|first| *first != scheme.first()) {
+        if scheme.has_gradient_kicks() {
+            let Table { source, name, .. } = &scheme.table;
+            let fault = source
+                .fault(&name.at, "the roles of kick and drift cannot be exchanged in a scheme with gradient kicks");
+            faults.push(fault.hint("a drift has no counterpart of them: leave `first` out"));
+            return Err(Faults::of(faults).expect("there is a fault"));
+        }
         scheme = scheme.starting_with(first);
     }
     // weights → order conditions → what is true → the claims that differ from it

@@ -16,13 +16,18 @@ pub struct Plan {
     pub kicks: Vec<Rational>,
     /// Distinct weights of the drifts, in the order of their first use.
     pub drifts: Vec<Rational>,
-    /// What is done: the kind of the map and the index of its weight in `kicks` or `drifts`.
+    /// Distinct weights of the gradient kicks, in the order of their first use.
+    pub gradient_kicks: Vec<Rational>,
+    /// What is done: the kind of the map and the index of its weight among those of its kind.
     pub maps: Vec<(MapKind, usize)>,
     /// Evaluations of the gradient per step, the first step of a run not counted.
     pub evaluations: usize,
+    /// Hessian–vector products U_qq M⁻¹U_q per step, one for each gradient kick, the first step of a run not counted.
+    pub hessian_products: usize,
 }
 
-/// Operations of one step in d dimensions with unit masses, beside the evaluations of the gradient.
+/// Operations of one step in d dimensions with unit masses, beside the evaluations of the gradient and Hessian–vector products, which include
+/// M⁻¹U_q.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StepCost {
     /// Multiplications per dimension, and as many additions.
@@ -34,11 +39,19 @@ pub struct StepCost {
 impl Plan {
     /// The plan of a scheme's step.
     pub fn of(scheme: &ExactScheme) -> Plan {
-        let mut plan = Plan { kicks: Vec::new(), drifts: Vec::new(), maps: Vec::new(), evaluations: 0 };
+        let mut plan = Plan {
+            kicks: Vec::new(),
+            drifts: Vec::new(),
+            gradient_kicks: Vec::new(),
+            maps: Vec::new(),
+            evaluations: 0,
+            hessian_products: 0,
+        };
         for map in scheme.maps() {
             let weights = match map.kind {
                 MapKind::Kick => &mut plan.kicks,
                 MapKind::Drift => &mut plan.drifts,
+                MapKind::GradientKick => &mut plan.gradient_kicks,
             };
             let known = weights.iter().position(|w| *w == map.weight);
             let index = known.unwrap_or_else(|| {
@@ -47,8 +60,37 @@ impl Plan {
             });
             plan.maps.push((map.kind, index));
         }
-        plan.evaluations = plan.count(MapKind::Kick) - usize::from(plan.keeps_gradient());
+        plan.evaluations = plan.evaluated(|_| true);
+        plan.hessian_products = plan.evaluated(|kind| kind == MapKind::GradientKick);
         plan
+    }
+
+    /// How many of the runs of kicks and gradient kicks between drifts have a map for which something is evaluated, which a run
+    /// at the end of a step leaves to one at the beginning of the next.
+    fn evaluated(&self, needs: impl Fn(MapKind) -> bool) -> usize {
+        let runs: Vec<_> = self.maps.split(|(kind, _)| *kind == MapKind::Drift).collect();
+        let needing = |run: &&[(MapKind, usize)]| run.iter().any(|(kind, _)| needs(*kind));
+        let kept = match &runs[..] {
+            [first, .., last] => needing(first) && needing(last),
+            _ => false,
+        };
+        runs.iter().filter(|run| needing(run)).count() - usize::from(kept)
+    }
+
+    /// The distinct weights of all maps with their kinds: of kicks, drifts, gradient kicks.
+    pub fn weights(&self) -> Vec<(MapKind, &Rational)> {
+        let lists = [
+            (MapKind::Kick, &self.kicks),
+            (MapKind::Drift, &self.drifts),
+            (MapKind::GradientKick, &self.gradient_kicks),
+        ];
+        lists.into_iter().flat_map(|(kind, weights)| weights.iter().map(move |weight| (kind, weight))).collect()
+    }
+
+    /// The evaluations of a step, Hessian–vector products counted like those of the gradient. It is the degree in (hω)² of the harmonic
+    /// oscillator's trace.
+    pub fn degree(&self) -> usize {
+        self.evaluations + self.hessian_products
     }
 
     /// How many maps of a kind a step has.
@@ -58,12 +100,15 @@ impl Plan {
 
     /// Whether the gradient of the last kick serves the next step's first.
     pub fn keeps_gradient(&self) -> bool {
-        let is_kick = |map: Option<&(MapKind, usize)>| matches!(map, Some((MapKind::Kick, _)));
+        let is_kick = |map: Option<&(MapKind, usize)>| map.is_some_and(|(kind, _)| *kind != MapKind::Drift);
         self.maps.len() > 1 && is_kick(self.maps.first()) && is_kick(self.maps.last())
     }
 
     /// Operations beside the gradient.
     pub fn cost(&self) -> StepCost {
-        StepCost { products_per_dimension: self.maps.len(), products_for_beta: self.count(MapKind::Kick) }
+        StepCost {
+            products_per_dimension: self.maps.len(),
+            products_for_beta: self.maps.len() - self.count(MapKind::Drift),
+        }
     }
 }

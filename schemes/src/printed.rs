@@ -112,9 +112,10 @@ impl Printed {
         let mut maps: Vec<(MapKind, Sloped)> = Vec::new();
         for (kind, mut weight) in weights {
             weight.slopes.resize(count, 0.0);
-            match maps.last_mut() {
-                Some((last, sum)) if *last == kind => sum.add(&weight, 1.0),
-                _ => maps.push((kind, weight)),
+            let run = maps.iter().rposition(|(last, _)| !last.commutes_with(kind)).map_or(0, |before| before + 1);
+            match maps[run..].iter_mut().find(|(last, _)| *last == kind) {
+                Some((_, sum)) => sum.add(&weight, 1.0),
+                None => maps.push((kind, weight)),
             }
         }
         let written = scheme.maps();
@@ -153,15 +154,26 @@ impl Sloped {
 fn weights(scheme: &ExactScheme, decimals: &mut Vec<Decimal>) -> Option<Vec<(MapKind, Sloped)>> {
     let mut cells = Cells::of(&scheme.table, decimals);
     let mut weights = match scheme.table.weights.as_ref()? {
-        Weights::Stages { kick, drift } => {
-            let (kick, drift) = (cells.list("kick", &kick.value)?, cells.list("drift", &drift.value)?);
-            let stages = kick.into_iter().zip(drift);
-            stages.flat_map(|(kick, drift)| [(MapKind::Kick, kick), (MapKind::Drift, drift)]).collect::<Vec<_>>()
+        Weights::Stages { kick, gradient_kick, drift } => {
+            let (kicks, drifts) = (cells.list("kick", &kick.value)?, cells.list("drift", &drift.value)?);
+            let gradient_kicks = match gradient_kick {
+                Some(list) => cells.list("gradient_kick", &list.value)?,
+                None => vec![Sloped::constant(0.0); kicks.len()],
+            };
+            let stages = kicks.into_iter().zip(gradient_kicks).zip(drifts);
+            let maps = |((kick, gradient_kick), drift)| {
+                [(MapKind::Kick, kick), (MapKind::GradientKick, gradient_kick), (MapKind::Drift, drift)]
+            };
+            stages.flat_map(maps).collect::<Vec<_>>()
         }
         Weights::Composition { gamma, .. } => {
             let gamma = cells.list("gamma", &gamma.value)?;
             let base = weights(scheme.base.as_deref()?, decimals)?;
-            let step = |gamma: &Sloped| base.iter().map(|(kind, weight)| (*kind, gamma.product(weight))).collect();
+            let scaled = |gamma: &Sloped, kind: MapKind, weight: &Sloped| {
+                (0..kind.power()).fold(weight.clone(), |weight, _| gamma.product(&weight))
+            };
+            let step =
+                |gamma: &Sloped| base.iter().map(|(kind, weight)| (*kind, scaled(gamma, *kind, weight))).collect();
             gamma.iter().flat_map(|gamma| -> Vec<_> { step(gamma) }).collect()
         }
     };

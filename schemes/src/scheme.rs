@@ -1,8 +1,8 @@
 //! Weights a_s, b_s → the sequence of kicks and drifts.
 
-use shadowstep_symbolic::Rational;
+use num_traits::Zero;
 
-use crate::map::{First, Map, MapKind, merged, stages_of};
+use crate::map::{First, Map, MapKind, Stages, reversed};
 use crate::table::Table;
 
 /// How far the weights of a table are to be trusted.
@@ -29,10 +29,8 @@ impl Held {
 pub struct ExactScheme {
     /// The table, for names, claims and places.
     pub table: Table,
-    /// a_s, s = 1..S (Moan & Niesen, eq. 1: in each stage the kick comes before the drift).
-    pub kick: Vec<Rational>,
-    /// b_s, s = 1..S.
-    pub drift: Vec<Rational>,
+    /// a_s, c_s and b_s, s = 1..S (Moan & Niesen, eq. 1: in each stage the kick comes before the drift).
+    pub stages: Stages,
     /// What is known of the weights' digits.
     pub held: Held,
     /// The base of a composition.
@@ -42,7 +40,12 @@ pub struct ExactScheme {
 impl ExactScheme {
     /// The maps of a step in the order in which they act: zero weights left out, neighbours of one kind merged.
     pub fn maps(&self) -> Vec<Map> {
-        merged(&self.kick, &self.drift)
+        self.stages.maps()
+    }
+
+    /// Whether some of them are gradient kicks, which need a quadratic T.
+    pub fn has_gradient_kicks(&self) -> bool {
+        self.stages.gradient_kick.iter().any(|c| !c.is_zero())
     }
 
     /// The same weights with the roles of kick and drift exchanged, where `first` asks for it.
@@ -54,7 +57,7 @@ impl ExactScheme {
         }
         let mut maps = self.maps();
         maps.iter_mut().for_each(|map| map.kind = map.kind.other());
-        (self.kick, self.drift) = stages_of(&maps);
+        self.stages = Stages::of(&maps);
         if let Some(claim) = &mut self.table.near_integrable {
             claim.dominant = claim.dominant.other();
         }
@@ -72,6 +75,6 @@ impl ExactScheme {
     /// Whether the maps read the same from both ends, so that the step is its own adjoint.
     pub fn is_symmetric(&self) -> bool {
         let maps = self.maps();
-        maps.iter().eq(maps.iter().rev())
+        maps == reversed(&maps)
     }
 }

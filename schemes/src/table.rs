@@ -47,10 +47,12 @@ pub struct Table {
 /// The weights as written.
 #[derive(Clone, Debug)]
 pub enum Weights {
-    /// a_s and b_s of the stages s = 1..S.
+    /// a_s, c_s and b_s of the stages s = 1..S.
     Stages {
         /// Kicks a_s.
         kick: Placed<Vec<Cell>>,
+        /// Gradient kicks c_s.
+        gradient_kick: Option<Placed<Vec<Cell>>>,
         /// Drifts b_s.
         drift: Placed<Vec<Cell>>,
     },

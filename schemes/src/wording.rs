@@ -69,6 +69,7 @@ fn wrong_sum(table: &Table, kind: MapKind, found: &Rational, needed: &Rational) 
         (Some(Weights::Stages { kick, .. }), MapKind::Kick) => &kick.at,
         (Some(Weights::Stages { drift, .. }), MapKind::Drift) => &drift.at,
         (Some(Weights::Composition { gamma, .. }), _) => &gamma.at,
+        (Some(Weights::Stages { .. }), MapKind::GradientKick) => unreachable!("no sum of gradient kicks is needed"),
         (None, _) => unreachable!("a scheme has weights"),
     };
     let message = format!("the {kind}s do not sum to 1, so not even order 1 holds");

@@ -22,12 +22,19 @@ impl LinearStep {
         let [one, zero] = [Rational::one(), Rational::zero()].map(|value| Digits::from_rational(&value, &()));
         let mut matrix = LinearStep { a: one, b: zero, c: zero, d: one };
         for map in scheme.proved().scheme.maps() {
-            let weight = Digits::from_rational(&(h * &map.weight), &());
+            let weight = Digits::from_rational(&(h.pow(map.kind.power() as i32) * &map.weight), &());
             let LinearStep { a, b, c, d } = &mut matrix;
             match map.kind {
                 MapKind::Kick => {
                     c.subtract_product(&weight, a);
                     d.subtract_product(&weight, b);
+                }
+                MapKind::GradientKick => {
+                    // twice
+                    for _ in 0..2 {
+                        c.add_product(&weight, a);
+                        d.add_product(&weight, b);
+                    }
                 }
                 MapKind::Drift => {
                     a.add_product(&weight, c);

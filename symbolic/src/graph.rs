@@ -61,6 +61,8 @@ pub(crate) enum Derivation {
     Along(usize),
     /// Σ q_i ∂/∂q_i over all coordinates: k times a function that is homogeneous of degree k
     Radial,
+    /// Σ v_i ∂/∂q_i over all coordinates, where v_i is the property with the index of q_i
+    Directional,
 }
 
 /// Formulas without repetitions, simplified as they are made.

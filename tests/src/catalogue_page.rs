@@ -36,6 +36,10 @@ Everything on this page is computed from the tables: the orders are proved, none
 - *first*: each scheme is listed in the roles of its publication. `first = \"drift\"` or `\"kick\"` exchanges the roles of kick and drift,
   so that every table for every T(p) has its twin, as velocity and position Verlet are; it is proved anew.
 - *forces*: evaluations of U_q a step, the first kick taking over what the last one of the step before evaluated.
+- *gradient kicks*: a stage with a weight c_s has also p += 2h³ c_s U_qq M⁻¹U_q, the flow of h³ c_s [B,[A,B]] for T = ½pᵀM⁻¹p and
+  B = U(q). *forces* 2 + 1 means 2 evaluations of U_q and 1 Hessian–vector product U_qq M⁻¹U_q a step, which in the effective error
+  and the stability per force is counted as a force; [the formula of β](gradient-kicks.md) is on a page of its own. There is no order for
+  every T(p).
 - *operations*: products and additions a step and dimension besides these, one for each kick and each drift.
 - *effective error*: forces · ‖E‖^{1/order}, where h^{order+1} E is the leading error of the step's logarithm in
   right-nested brackets of kick and drift and ‖E‖ the Euclidean norm. At equal cost the smaller one is more accurate, if
@@ -55,8 +59,9 @@ pub fn catalogue_page() -> String {
             (name, proved, Analysis::of(proved))
         })
         .collect();
-    schemes.sort_by_key(|(_, proved, analysis)| {
-        (proved.proof.general.order, proved.proof.quadratic.order, analysis.evaluations)
+    schemes.sort_by_key(|(_, proved, _)| {
+        let order = proved.order_for_every_kinetic().unwrap_or(&proved.proof.quadratic).order;
+        (order, proved.proof.quadratic.order, proved.plan.degree())
     });
     let mut page = HEAD.to_owned();
     page += "| name | order | quadratic T | A + εB | forces | operations | symmetric | effective error | for quadratic T | stable to hω | per force |\n";
@@ -78,16 +83,22 @@ fn row(name: &str, proved: &Proved, analysis: &Analysis) -> String {
     let limit: f64 = stability(analysis).limit.parse().expect("it is a number");
     let cells = [
         format!("[{name}](#{name})"),
-        proved.proof.general.order.to_string(),
+        proved.order_for_every_kinetic().map_or_else(|| "–".to_owned(), |order| order.order.to_string()),
         proved.proof.quadratic.order.to_string(),
         near_integrable(proved),
-        analysis.evaluations.to_string(),
+        match analysis.hessian_products {
+            0 => analysis.evaluations.to_string(),
+            products => format!("{} + {products}", analysis.evaluations),
+        },
         proved.plan.cost().products_per_dimension.to_string(),
         if proved.proof.symmetric { "yes" } else { "no" }.to_owned(),
-        format!("{:.4}", analysis.effective_error(Kinetic::Any)),
+        match analysis.hessian_products {
+            0 => format!("{:.4}", analysis.effective_error(Kinetic::Any)),
+            _ => "–".to_owned(),
+        },
         format!("{:.4}", analysis.effective_error(Kinetic::Quadratic)),
         format!("{limit:.5}"),
-        format!("{:.3}", limit / analysis.evaluations as f64),
+        format!("{:.3}", limit / proved.plan.degree() as f64),
     ];
     format!("| {} |\n", cells.join(" | "))
 }
@@ -112,10 +123,20 @@ fn section(proved: &Proved, analysis: &Analysis) -> String {
     let meant = if table.kinetic == Kinetic::Quadratic { "; meant for quadratic T" } else { "" };
     let first = if proved.scheme.first() == First::Kick { "kick" } else { "drift" };
     let symmetric = if proof.symmetric { "symmetric" } else { "not symmetric" };
+    let products = match analysis.hessian_products {
+        0 => String::new(),
+        1 => ", 1 Hessian–vector product".to_owned(),
+        count => format!(", {count} Hessian–vector products"),
+    };
     let lines = [
-        format!("order {} for every T(p), {} for quadratic T{near}{meant}", proof.general.order, proof.quadratic.order),
+        match proved.order_for_every_kinetic() {
+            Some(order) => {
+                format!("order {} for every T(p), {} for quadratic T{near}{meant}", order.order, proof.quadratic.order)
+            }
+            None => format!("order {} for quadratic T, for which it is meant", proof.quadratic.order),
+        },
         format!(
-            "{} of U_q and {} products and additions per dimension a step, {} more for the modified energy; \
+            "{} of U_q{products} and {} products and additions per dimension a step, {} more for the modified energy; \
              {symmetric}, begins with a {first}; {}",
             if analysis.evaluations == 1 {
                 "1 evaluation".to_owned()
@@ -126,11 +147,14 @@ fn section(proved: &Proved, analysis: &Analysis) -> String {
             cost.products_for_beta,
             held(proved.scheme.held)
         ),
-        format!(
-            "effective error {:.4} for every T(p), {:.4} for quadratic T",
-            analysis.effective_error(Kinetic::Any),
-            analysis.effective_error(Kinetic::Quadratic)
-        ),
+        match analysis.hessian_products {
+            0 => format!(
+                "effective error {:.4} for every T(p), {:.4} for quadratic T",
+                analysis.effective_error(Kinetic::Any),
+                analysis.effective_error(Kinetic::Quadratic)
+            ),
+            _ => format!("effective error {:.4} for quadratic T", analysis.effective_error(Kinetic::Quadratic)),
+        },
         format!(
             "harmonic oscillator: {}; phase error {:.4e} (hω)^{}",
             stable(stability(analysis)),
@@ -170,7 +194,11 @@ fn reference(table: &Table) -> String {
 fn weights(table: &Table) -> String {
     let cells = |cells: &[Cell]| cells.iter().map(cell).collect::<Vec<_>>().join(", ");
     let mut text = match table.weights.as_ref().expect("it was proved") {
-        Weights::Stages { kick, drift } => format!("a = {}\nb = {}\n", cells(&kick.value), cells(&drift.value)),
+        Weights::Stages { kick, gradient_kick, drift } => {
+            let gradient_kick = gradient_kick.as_ref().map(|list| format!("c = {}\n", cells(&list.value)));
+            let gradient_kick = gradient_kick.unwrap_or_default();
+            format!("a = {}\n{gradient_kick}b = {}\n", cells(&kick.value), cells(&drift.value))
+        }
         Weights::Composition { base, gamma } => format!("γ = {}, of {}\n", cells(&gamma.value), base.value),
     };
     for (name, value) in &table.constants {

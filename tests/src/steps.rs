@@ -59,6 +59,15 @@ impl<N: Number, C> System for Any<'_, N, C> {
     fn drift_augmented(&mut self, weight: &N) {
         self.0.drift_augmented(weight);
     }
+    fn has_gradient_kicks(&self) -> bool {
+        self.0.has_gradient_kicks()
+    }
+    fn gradient_kick(&mut self, weight: &N) {
+        self.0.gradient_kick(weight);
+    }
+    fn gradient_kick_augmented(&mut self, weight: &N) {
+        self.0.gradient_kick_augmented(weight);
+    }
     fn clear_increments(&mut self) {
         self.0.clear_increments();
     }

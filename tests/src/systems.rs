@@ -1,6 +1,7 @@
 //! Systems on which every scheme is checked, as one type: problem and masses are chosen at run time.
 
 use shadowstep::kinetic::Quadratic;
+use shadowstep::potential::HessianProduct;
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum, Scattering};
 use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Number, Ordered, Potential, UnitMasses};
 
@@ -58,6 +59,9 @@ impl<N: Number + 'static> Potential<N> for Problem {
     }
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
         self.potential().gradient_and_rate(q, gradient, rate, scratch);
+    }
+    fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
+        self.potential().hessian()
     }
 }
 

@@ -167,14 +167,14 @@ fn what_to_take_instead() {
 // What the tables should have been
 
 fn weights(proved: &Proved) -> impl Iterator<Item = &Rational> {
-    proved.scheme.kick.iter().chain(&proved.scheme.drift)
+    proved.scheme.stages.kick.iter().chain(&proved.scheme.stages.drift)
 }
 
 /// The largest distance between the weights of a table and of a shipped scheme.
 #[track_caller]
 fn distance(table: &str, name: &str) -> f64 {
     let (mine, shipped) = (judge(table).unwrap_or_else(|faults| panic!("{faults}")), shipped_proved(name).unwrap());
-    assert_eq!(mine.scheme.kick.len(), shipped.scheme.kick.len());
+    assert_eq!(mine.scheme.stages.kick.len(), shipped.scheme.stages.kick.len());
     weights(&mine).zip(weights(shipped)).map(|(a, b)| (a - b).abs().to_f64().unwrap()).fold(0.0, f64::max)
 }
 
@@ -442,7 +442,7 @@ fn one_name_two_schemes() {
 
     assert!(distance(&claimed.replace("digits = 20", "digits = 17"), "suzuki-umeno8") < 1e-17);
     let magnitudes = |name: &str| {
-        let mut all: Vec<_> = shipped_proved(name).unwrap().scheme.drift.iter().map(Signed::abs).collect();
+        let mut all: Vec<_> = shipped_proved(name).unwrap().scheme.stages.drift.iter().map(Signed::abs).collect();
         all.sort();
         all
     };
@@ -529,7 +529,7 @@ fn a_kernel_without_its_processor() {
     assert!(proved.notes.is_empty(), "{:?}", proved.notes);
     says(&format!(
         "one table of {} stages, the same claims are proved: order 4, near-integrable orders (7,6,4), to {} digits",
-        proved.scheme.kick.len(),
+        proved.scheme.stages.kick.len(),
         proved.order().digits.unwrap()
     ));
 }

@@ -4,6 +4,7 @@
 use num_traits::{One, Signed};
 use rug::Float;
 use shadowstep::number::counting::{Counting, Operations, count};
+use shadowstep::potential::HessianProduct;
 use shadowstep::problems::{HenonHeiles, Kepler};
 use shadowstep::{Motion, Number, Ordered, Potential, Rational, Scheme, Stepper, UnitMasses};
 use shadowstep_schemes::scheme::Held;
@@ -247,6 +248,19 @@ impl<N: Number> Potential<N> for Free {
         self.gradient(q, gradient, scratch);
         rate.assign_zero();
     }
+    fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
+        Some(self)
+    }
+}
+
+impl<N: Number> HessianProduct<N> for Free {
+    fn hessian_product(&self, _: &[N], _: &[N], product: &mut [N], _: &mut [N]) {
+        product.iter_mut().for_each(N::assign_zero);
+    }
+    fn hessian_product_and_rate(&self, _: &[N], _: &[N], product: &mut [N], rate: &mut N, _: &mut [N]) {
+        product.iter_mut().for_each(N::assign_zero);
+        rate.assign_zero();
+    }
 }
 
 /// What the documentation of the generated struct states, counted by numbers that count.
@@ -267,13 +281,22 @@ fn a_step_costs_what_its_documentation_says() {
                 let stepper = Stepper::new(*scheme, STEP).unwrap();
                 let products =
                     |n: usize| Operations { additions: n as u64, multiplications: n as u64, ..Operations::default() };
-                let plain = products(cost.products_per_dimension * dimension);
-                let augmented = products(cost.products_per_dimension * dimension + cost.products_for_beta);
-                for _ in 0..2 {
-                    assert_eq!(count(|| stepper.step(&mut motion)).1, plain, "{name}");
-                    assert_eq!(count(|| stepper.step_augmented(&mut motion)).1, augmented, "{name}");
-                    assert_eq!(count(|| stepper.step_back(&mut motion)).1, plain, "{name}");
-                    assert_eq!(count(|| stepper.step_back_augmented(&mut motion)).1, augmented, "{name}");
+                let plain = cost.products_per_dimension * dimension;
+                let augmented = plain + cost.products_for_beta;
+                type Counted = Counting<f64>;
+                type OneStep<S> = fn(&Stepper<S, Counted>, &mut Motion<Counted, Vec<Counted>, Free, UnitMasses>);
+                let steps: [(usize, OneStep<S>); 4] = [
+                    (plain, |s, m| s.step(m)),
+                    (augmented, |s, m| s.step_augmented(m)),
+                    (plain, |s, m| s.step_back(m)),
+                    (augmented, |s, m| s.step_back_augmented(m)),
+                ];
+                for (expected, step) in steps.into_iter().cycle().take(8) {
+                    let before = motion.hessian_products();
+                    let counted = count(|| step(&stepper, &mut motion)).1;
+                    // each Hessian–vector product has M⁻¹U_q
+                    let velocities = (motion.hessian_products() - before) as usize * dimension;
+                    assert_eq!(counted, products(expected + velocities), "{name}");
                 }
             }
         }
@@ -308,7 +331,7 @@ fn weights_sum_to_one() {
             // some ten weights of size 1, each rounded by at most a unit of the last digit
             Held::Digits(digits) => rational(&format!("1e{}", 2 - i64::from(digits))),
         };
-        let table = &scheme.twin.proved().scheme;
+        let table = &scheme.twin.proved().scheme.stages;
         for weights in [&table.kick, &table.drift] {
             let sum: Rational = weights.iter().sum();
             assert!((&sum - Rational::one()).abs() <= tolerance, "{}: {sum}", scheme.name);

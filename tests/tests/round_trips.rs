@@ -57,7 +57,7 @@ proptest! {
         let (scheme, faults) = exact::scheme(&Source { path: "mine.toml".to_owned(), text }, &|_, _| None);
         prop_assert!(faults.is_empty(), "{:?}", faults);
         let scheme = scheme.unwrap();
-        prop_assert_eq!((scheme.kick, scheme.drift), (kick, drift));
+        prop_assert_eq!((scheme.stages.kick, scheme.stages.drift), (kick, drift));
     }
 
     #[test]

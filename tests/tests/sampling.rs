@@ -18,6 +18,7 @@ fn largest_rho(proved: &Proved) -> f64 {
                 match kind {
                     MapKind::Kick => *p -= weight * h_omega * *q,
                     MapKind::Drift => *q += weight * h_omega * *p,
+                    MapKind::GradientKick => *p += 2.0 * weight * h_omega.powi(3) * *q,
                 }
             }
         }
@@ -73,7 +74,7 @@ fn printed_decimals_are_what_the_formulas_give() {
         ("bcss4", true, 1, "0.26854879116123010582"),
     ] {
         let scheme = &shipped_proved(name).unwrap().scheme;
-        let weight = if is_kick { &scheme.kick[at] } else { &scheme.drift[at] };
+        let weight = if is_kick { &scheme.stages.kick[at] } else { &scheme.stages.drift[at] };
         let off = weight - &rational(printed);
         let off: f64 = to_significant(&off, 3).parse().unwrap();
         let unit = 10_f64.powi(-(printed.len() as i32 - 2));

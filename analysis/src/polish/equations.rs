@@ -125,15 +125,21 @@ fn maps(model: &Model, weights: &[Vec<Dual>], arithmetic: Duals) -> Vec<(MapKind
     };
     match &model.base {
         None => {
-            for (kick, drift) in weights[0].iter().zip(&weights[1]) {
+            for (s, (kick, drift)) in weights[0].iter().zip(&weights[1]).enumerate() {
                 append(MapKind::Kick, kick.clone());
+                if let Some(gradient_kicks) = weights.get(2) {
+                    append(MapKind::GradientKick, gradient_kicks[s].clone());
+                }
                 append(MapKind::Drift, drift.clone());
             }
         }
         Some(base) => {
             let base = order::weighed(&base.maps(), &arithmetic);
             for step in &weights[0] {
-                base.iter().for_each(|(kind, weight)| append(*kind, arithmetic.product(step, weight)));
+                for (kind, weight) in &base {
+                    let scaled = (0..kind.power()).fold(weight.clone(), |weight, _| arithmetic.product(step, &weight));
+                    append(*kind, scaled);
+                }
             }
         }
     }

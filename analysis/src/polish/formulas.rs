@@ -60,7 +60,10 @@ pub(super) fn cells_with_decimals(table: &Table) -> Vec<String> {
 /// The cells of the weights, with their places such as `kick[2]`.
 fn weights(table: &Table) -> Vec<(String, &Cell)> {
     let lists = match &table.weights {
-        Some(Weights::Stages { kick, drift }) => vec![("kick", kick), ("drift", drift)],
+        Some(Weights::Stages { kick, gradient_kick, drift }) => {
+            let gradient_kick = gradient_kick.as_ref().map(|cells| ("gradient_kick", cells));
+            [Some(("kick", kick)), Some(("drift", drift)), gradient_kick].into_iter().flatten().collect()
+        }
         Some(Weights::Composition { gamma, .. }) => vec![("gamma", gamma)],
         None => Vec::new(),
     };

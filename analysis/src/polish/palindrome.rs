@@ -37,9 +37,18 @@ impl Model {
         let digits = shadowstep_schemes::exact::DIGITS;
         let values = self.weights(&self.printed(), digits).expect("the cells have been evaluated");
         let stages = self.lists[0].len();
-        let all = (0..stages).flat_map(|stage| (0..self.lists.len()).map(move |list| (list, stage)));
-        let places: Vec<_> = all.filter(|&(list, stage)| !values[list][stage].is_zero()).collect();
-        let pairs: Vec<_> = (0..places.len() / 2).map(|i| (places[i], places[places.len() - 1 - i])).collect();
+        // gradient kicks act with the kicks, and mirror each other by themselves between the drifts
+        let sequences: &[&[usize]] = match self.lists.len() {
+            1 => &[&[0]],
+            2 => &[&[0, 1]],
+            _ => &[&[0, 1], &[2, 1]],
+        };
+        let pairs = sequences.iter().flat_map(|lists| {
+            let all = (0..stages).flat_map(|stage| lists.iter().map(move |list| (*list, stage)));
+            let places: Vec<_> = all.filter(|&(list, stage)| !values[list][stage].is_zero()).collect();
+            (0..places.len() / 2).map(move |i| (places[i], places[places.len() - 1 - i]))
+        });
+        let pairs: Vec<_> = pairs.collect();
         for &((list, stage), (other_list, other)) in &pairs {
             let (a, b) = (&values[list][stage], &values[other_list][other]);
             let unit = self.unit((list, stage)).max(self.unit((other_list, other)));

@@ -67,6 +67,7 @@ pub(super) fn verlet_steps(scheme: &ExactScheme, model: &Model) -> Option<String
     let gamma_are = match maps[1].kind {
         MapKind::Drift => "drifts",
         MapKind::Kick => "kicks",
+        MapKind::GradientKick => return None,
     };
     maps.iter().step_by(2).enumerate().all(is_half_of_neighbours).then(|| {
         format!(

@@ -71,7 +71,7 @@ pub(super) struct Model {
     pub(super) symmetric: bool,
     /// The base of a composition.
     pub(super) base: Option<ExactScheme>,
-    /// Lists of weights: kicks and drifts, or γ's.
+    /// Lists of weights: kicks, drifts and gradient kicks, or γ's.
     pub(super) lists: Vec<Vec<Cell>>,
     pub(super) constants: Vec<(String, Cell)>,
     /// Other names of unknowns, such as `kick[6]`.
@@ -105,7 +105,10 @@ impl Model {
             model.constants.push((name.value.clone(), cell));
         }
         let lists = match table.weights.as_ref().expect("what has a scheme has weights") {
-            Weights::Stages { kick, drift } => vec![("kick", kick), ("drift", drift)],
+            Weights::Stages { kick, gradient_kick, drift } => {
+                let gradient_kick = gradient_kick.as_ref().map(|cells| ("gradient_kick", cells));
+                [Some(("kick", kick)), Some(("drift", drift)), gradient_kick].into_iter().flatten().collect()
+            }
             Weights::Composition { gamma, .. } => vec![("gamma", gamma)],
         };
         for (list, cells) in &lists {
@@ -142,9 +145,9 @@ impl Model {
         self.unknowns.iter().map(|u| u.decimal.value.clone()).collect()
     }
 
-    /// How many lists of weights there are, each with the sum 1.
+    /// How many lists of weights there are with the sum 1: those of gradient kicks have none.
     pub(super) fn lists_of_weights(&self) -> usize {
-        self.lists.len()
+        self.lists.len().min(2)
     }
 
     /// The lists of weights at values of the unknowns; closed forms to `digits` digits.

@@ -75,10 +75,24 @@ impl Problem {
             match map.kind {
                 MapKind::Kick => p += h * &map.weight * value(&self.force, &q, &p),
                 MapKind::Drift => q += h * &map.weight * value(&self.velocity, &q, &p),
+                // 2 f f′ for T = p²/2
+                MapKind::GradientKick => {
+                    let product = self.slope(&q) * value(&self.force, &q, &p);
+                    p -= h.pow(3) * &map.weight * product * rational(2, 1);
+                }
             }
             (q, p) = (round_significant(&q, 120), round_significant(&p, 120));
         }
         q
+    }
+
+    /// f′(q) of the force f.
+    fn slope(&self, q: &Rational) -> Rational {
+        self.force
+            .iter()
+            .filter(|((i, _), _)| *i > 0)
+            .map(|(&(i, _), c)| c * q.pow(i as i32 - 1) * rational(i.into(), 1))
+            .sum()
     }
 
     /// Where the flow goes, by Taylor's series up to h^terms.

@@ -24,6 +24,7 @@ fn trace(maps: &[(MapKind, f64)], x: f64) -> (f64, f64) {
             match kind {
                 MapKind::Kick => *p -= weight * x * *q,
                 MapKind::Drift => *q += weight * *p,
+                MapKind::GradientKick => *p += 2.0 * weight * x * x * *q,
             }
             largest = largest.max(q.abs()).max(p.abs());
         }
@@ -44,6 +45,7 @@ fn precise_trace(proved: &Proved, x: &Rational) -> Rational {
             match map.kind {
                 MapKind::Kick => *p -= (((&weight * &x) >> 500_u32) * &*q) >> 500_u32,
                 MapKind::Drift => *q += (&weight * &*p) >> 500_u32,
+                MapKind::GradientKick => *p += (((&weight * &x * 2) >> 500_u32) * ((&x * &*q) >> 500_u32)) >> 500_u32,
             }
         }
     }

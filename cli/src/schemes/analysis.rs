@@ -78,17 +78,24 @@ impl Sizes {
 
 /// The analysis as text, each fact with its name.
 pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {
-    let (phase, end) = (analysis.phase, 2 * analysis.evaluations);
+    let has_gradient_kicks = analysis.hessian_products > 0;
+    let (phase, end) = (analysis.phase, 2 * (analysis.evaluations + analysis.hessian_products));
     let mut facts = vec![
         (
             "effective error",
-            format!(
-                "{:.4} for every T(p), {:.4} for quadratic T",
-                analysis.effective_error(Kinetic::Any),
-                analysis.effective_error(Kinetic::Quadratic)
-            ),
+            match has_gradient_kicks {
+                true => format!(
+                    "{:.4} for quadratic T, a Hessian–vector product counted as a force",
+                    analysis.effective_error(Kinetic::Quadratic)
+                ),
+                false => format!(
+                    "{:.4} for every T(p), {:.4} for quadratic T",
+                    analysis.effective_error(Kinetic::Any),
+                    analysis.effective_error(Kinetic::Quadratic)
+                ),
+            },
         ),
-        ("leading error", error_text(&analysis.general)),
+        ("leading error", if has_gradient_kicks { String::new() } else { error_text(&analysis.general) }),
         ("quadratic T", error_text(&analysis.quadratic)),
         (
             "where",
@@ -105,7 +112,11 @@ pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {
     }));
     facts.push(("phase error", format!("{:.4e} (hω)^{}, relative", phase.coefficient, phase.power)));
     facts.push(("kicks", sizes_text(&analysis.kicks)));
+    if has_gradient_kicks {
+        facts.push(("gradient kicks", sizes_text(&analysis.gradient_kicks)));
+    }
     facts.push(("drifts", sizes_text(&analysis.drifts)));
+    facts.retain(|(_, fact)| !fact.is_empty());
     facts.into_iter().map(|(what, fact)| (what.to_owned(), fact)).collect()
 }
 

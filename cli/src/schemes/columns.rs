@@ -21,20 +21,25 @@ const fn text(header: &'static str, cell: fn(&Record) -> String) -> Column {
     Column { header, is_number: false, cell }
 }
 
-const FORCES: Column = number("forces\na step", |record| record.evaluations.to_string());
-const ERROR: Column = number("eff.\nerror", |record| format!("{:.4}", record.effective_error));
+const FORCES: Column = number("forces\na step", |record| match record.hessian_products {
+    0 => record.evaluations.to_string(),
+    products => format!("{}+{products}", record.evaluations),
+});
+const ERROR: Column =
+    number("eff.\nerror", |record| record.effective_error.map_or_else(none, |error| format!("{error:.4}")));
 const ERROR_QUADRATIC: Column = number("eff.\nerror", |record| format!("{:.4}", record.effective_error_quadratic));
 const PER_FORCE: Column = number("stable\na force", |record| {
     record.stability_limit_per_force.map_or_else(|| "–".to_owned(), |limit| format!("{limit:.3}"))
 });
 const SYMMETRIC: Column = text("sym-\nmetric", |record| if record.symmetric { "yes" } else { "no" }.to_owned());
+const ORDER: Column = number("order", |record| record.order.map_or_else(none, |order| order.to_string()));
 const NAME: Column = text("name", |record| record.name.clone());
 
 /// What a person chooses by, for the kinetic energy that was requested.
 pub(super) fn to_choose_by(kinetic: Option<Kinetic>) -> Vec<Column> {
     let order = match kinetic {
         None => number("order", both_orders),
-        Some(Kinetic::Any) => number("order", |record| record.order.to_string()),
+        Some(Kinetic::Any) => ORDER,
         Some(Kinetic::Quadratic) => number("order", |record| record.order_quadratic.to_string()),
     };
     let error = if kinetic == Some(Kinetic::Quadratic) { ERROR_QUADRATIC } else { ERROR };
@@ -44,7 +49,7 @@ pub(super) fn to_choose_by(kinetic: Option<Kinetic>) -> Vec<Column> {
 /// Everything that fits a line.
 pub(super) fn all() -> Vec<Column> {
     vec![
-        number("order", |record| record.order.to_string()),
+        ORDER,
         number("order\nquadratic", |record| record.order_quadratic.to_string()),
         number("A + εB", |record| near_integrable_text(&record.near_integrable)),
         number("stages", |record| record.stages.to_string()),
@@ -74,7 +79,8 @@ pub(super) fn table_of(columns: &[Column], records: &[Record]) -> String {
 /// What the columns mean.
 pub(super) fn legend(is_wide: bool, kinetic: Option<Kinetic>) -> String {
     let error = "effective error: forces · ‖leading error‖^(1/order), which compares schemes of one order";
-    let stable = "stable a force: the stability limit hω of the harmonic oscillator, by the forces of a step";
+    let stable = "stable a force: the stability limit hω of the harmonic oscillator, by the forces of a step; forces 2+1: 2 forces and 1 \
+                  Hessian–vector product of a gradient kick, which is counted as a force";
     if is_wide {
         return format!(
             "{error}; {stable}; products per dimension: what a step takes beside its forces with unit masses, and as many \
@@ -91,9 +97,15 @@ pub(super) fn legend(is_wide: bool, kinetic: Option<Kinetic>) -> String {
 
 fn both_orders(record: &Record) -> String {
     match (record.order, record.order_quadratic) {
-        (any, quadratic) if any == quadratic => any.to_string(),
-        (any, quadratic) => format!("{any} ({quadratic})"),
+        (Some(any), quadratic) if any == quadratic => any.to_string(),
+        (Some(any), quadratic) => format!("{any} ({quadratic})"),
+        (None, quadratic) => format!("({quadratic})"),
     }
+}
+
+/// In place of a number that there is not.
+fn none() -> String {
+    "–".to_owned()
 }
 
 /// What a scheme is for.

@@ -76,7 +76,8 @@ enum SortKey {
 /// The shipped schemes that are asked for, and custom tables among them.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let custom = arguments.tables.iter().map(|word| table_of(word)).collect::<Result<Vec<_>, _>>()?;
-    let of_order = |scheme: &TableScheme| arguments.order.is_none_or(|order| order == order_for(scheme, arguments));
+    let of_order =
+        |scheme: &TableScheme| arguments.order.is_none_or(|order| Some(order) == order_for(scheme, arguments));
     let all: Vec<_> = shipped_names().into_par_iter().filter_map(|name| Some((name, shipped(name)?))).collect();
     let moves = |scheme: &TableScheme| {
         arguments.kinetic != Some(KineticChoice::Any) || scheme.proved().holds_for_every_kinetic()
@@ -116,7 +117,7 @@ fn table_of(word: &str) -> Result<NamedScheme, Error> {
 }
 
 fn note_orders(all: &[(&str, TableScheme)], order: u32, arguments: &Arguments) {
-    let mut orders: Vec<u32> = all.iter().map(|(_, scheme)| order_for(scheme, arguments)).collect();
+    let mut orders: Vec<u32> = all.iter().filter_map(|(_, scheme)| order_for(scheme, arguments)).collect();
     orders.sort_unstable();
     orders.dedup();
     let orders = orders.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
@@ -124,9 +125,10 @@ fn note_orders(all: &[(&str, TableScheme)], order: u32, arguments: &Arguments) {
     report::note(format_args!("no shipped scheme has order {order} {class}; there are the orders {orders}"));
 }
 
-fn order_for(scheme: &TableScheme, arguments: &Arguments) -> u32 {
-    let kinetic = if for_quadratic(arguments) { Kinetic::Quadratic } else { Kinetic::Any };
-    scheme.proved().proof.for_kinetic(kinetic).order
+fn order_for(scheme: &TableScheme, arguments: &Arguments) -> Option<u32> {
+    let proved = scheme.proved();
+    let order = if for_quadratic(arguments) { Some(&proved.proof.quadratic) } else { proved.order_for_every_kinetic() };
+    order.map(|order| order.order)
 }
 
 fn for_quadratic(arguments: &Arguments) -> bool {
@@ -145,20 +147,20 @@ fn sort(records: &mut [Record], arguments: &Arguments) {
         return;
     }
     records.sort_by_key(|record| {
-        let orders = (record.order, record.order_quadratic);
-        (if quadratic { (orders.1, orders.0) } else { orders }, record.evaluations)
+        let orders = (record.order.unwrap_or(record.order_quadratic), record.order_quadratic);
+        (if quadratic { (orders.1, orders.0) } else { orders }, record.evaluations + record.hessian_products)
     });
     match arguments.sort {
         SortKey::EffectiveError => {
-            let error = |r: &Record| if quadratic { r.effective_error_quadratic } else { r.effective_error };
-            let order = |r: &Record| if quadratic { r.order_quadratic } else { r.order };
-            records.sort_by(|a, b| order(a).cmp(&order(b)).then(error(a).total_cmp(&error(b))));
+            let own = |r: &Record| r.effective_error.filter(|_| !quadratic).unwrap_or(r.effective_error_quadratic);
+            let order = |r: &Record| r.order.filter(|_| !quadratic).unwrap_or(r.order_quadratic);
+            records.sort_by(|a, b| order(a).cmp(&order(b)).then(own(a).total_cmp(&own(b))));
         }
         SortKey::Stability => {
             let limit = |record: &Record| record.limit().unwrap_or(0.0);
             records.sort_by(|a, b| limit(b).total_cmp(&limit(a)));
         }
-        SortKey::Evaluations => records.sort_by_key(|record| record.evaluations),
+        SortKey::Evaluations => records.sort_by_key(|record| record.evaluations + record.hessian_products),
         SortKey::Order | SortKey::Name => {}
     }
 }

@@ -32,7 +32,7 @@ const ROUNDING: f64 = 1e-15;
 pub(super) fn picture(name: &str, proved: &Proved, analysis: &Analysis) -> Result<String, Error> {
     let weight = |weight: &Rational| weight.to_f64().unwrap_or(f64::NAN);
     let oscillator = Oscillator::of(&proved.scheme.maps(), weight);
-    let gaps = Gaps::of(analysis.stability.as_ref(), 2 * analysis.evaluations);
+    let gaps = Gaps::of(analysis.stability.as_ref(), 2 * (analysis.evaluations + analysis.hessian_products));
     let charts =
         [stages(name, proved), trace(name, &oscillator, &gaps), phase(name, &oscillator, &gaps, analysis.phase)];
     stacked(&format!("{name}: stages, stability and phase of a step"), &charts)

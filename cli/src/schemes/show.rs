@@ -12,10 +12,11 @@ use shadowstep_analysis::Analysis;
 use shadowstep_analysis::stability::MOST_MAPS;
 use shadowstep_analysis::trace::Trace;
 use shadowstep_schemes::claims::HIGHEST_ORDER;
+use shadowstep_schemes::map::Stages;
 use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{ExactScheme, First, Kinetic, Proved, to_significant, to_text};
+use shadowstep_schemes::{ExactScheme, First, Kinetic, Plan, Proved, to_significant, to_text};
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
@@ -49,6 +50,9 @@ pub(crate) struct Arguments {
 /// Digits of a weight that a person reads.
 const SHOWN: usize = 30;
 
+/// In place of an order for every T(p).
+const NO_GENERAL: &str = "none: gradient kicks contain M⁻¹ of a quadratic T";
+
 /// The column of the facts.
 const MARGIN: usize = 17;
 
@@ -60,7 +64,8 @@ struct Record {
     name: String,
     aliases: Vec<String>,
     title: Option<String>,
-    order: u32,
+    /// For every T(p), as the three after it; `None` with gradient kicks, which there are for quadratic T only.
+    order: Option<u32>,
     order_digits: Option<u32>,
     fails: Option<Failed>,
     order_quadratic: u32,
@@ -72,6 +77,8 @@ struct Record {
     free: Vec<String>,
     digits: Option<u32>,
     evaluations: usize,
+    /// One for each gradient kick.
+    hessian_products: usize,
     products_per_dimension: usize,
     products_for_beta: usize,
     /// Rows of the table of weights, those with a 0 included.
@@ -91,6 +98,8 @@ struct Record {
     kick_sizes: Sizes,
     drift_sizes: Sizes,
     kick: Vec<String>,
+    /// Empty where there are none.
+    gradient_kick: Vec<String>,
     drift: Vec<String>,
     maps: Vec<Map>,
     reference: Option<String>,
@@ -145,7 +154,7 @@ fn draw(path: &Path, force: bool, scheme: &TableScheme, analysis: &Analysis) -> 
 fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
     let proved = scheme.proved();
     let (proof, weights, table) = (&proved.proof, &proved.scheme, &proved.scheme.table);
-    let fractions = |weights: &[Rational]| weights.iter().map(Rational::to_string).collect();
+    let fractions = |weights: &[Rational]| weights.iter().map(Rational::to_string).collect::<Vec<_>>();
     let maps = weights.maps().into_iter();
     // the value of a condition of rounded weights is known to this number of digits only
     let exact = |value: &Rational| match weights.held {
@@ -153,13 +162,14 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         _ => to_text(value),
     };
     let cost = scheme.plan().cost();
+    let general = proved.order_for_every_kinetic();
     Record {
         name: table.name.value.clone(),
         aliases: aliases(table),
         title: table.title.clone(),
-        order: proof.general.order,
-        order_digits: proof.general.digits,
-        fails: failed(&proof.general, exact),
+        order: general.map(|order| order.order),
+        order_digits: general.and_then(|order| order.digits),
+        fails: general.and_then(|order| failed(order, exact)),
         order_quadratic: proof.quadratic.order,
         order_quadratic_digits: proof.quadratic.digits,
         fails_quadratic: failed(&proof.quadratic, exact),
@@ -168,9 +178,10 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         free: table.free.iter().map(|name| name.value.clone()).collect(),
         digits: digits(weights.held),
         evaluations: scheme.plan().evaluations,
+        hessian_products: scheme.plan().hessian_products,
         products_per_dimension: cost.products_per_dimension,
         products_for_beta: cost.products_for_beta,
-        stages: weights.kick.len(),
+        stages: weights.stages.kick.len(),
         symmetric: proof.symmetric,
         first: first(weights.first()),
         kinetic: kinetic(table.kinetic),
@@ -184,8 +195,9 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         phase_error: Phase::of(analysis.phase),
         unstable_gaps: analysis.stability.as_ref().map(|stability| stability.gaps.iter().map(Gap::of).collect()),
         stability_limit: analysis.stability.as_ref().map(|stability| stability.limit.clone()),
-        kick: fractions(&weights.kick),
-        drift: fractions(&weights.drift),
+        kick: fractions(&weights.stages.kick),
+        gradient_kick: fractions(&weights.stages.gradient_kick),
+        drift: fractions(&weights.stages.drift),
         maps: maps.map(|map| Map { map: map.kind.to_string(), weight: to_text(&map.weight) }).collect(),
         reference: table.reference.clone(),
         doi: table.doi.clone(),
@@ -248,7 +260,7 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
     let cost = plan.cost();
     let mut facts = vec![
         ("also named".to_owned(), aliases(table).join(", ")),
-        ("every T(p)".to_owned(), order_text(&proof.general)),
+        ("every T(p)".to_owned(), proved.order_for_every_kinetic().map_or_else(|| NO_GENERAL.to_owned(), order_text)),
         ("quadratic T".to_owned(), order_text(&proof.quadratic)),
         ("H = A + εB".to_owned(), near_integrable_fact(proved)),
         ("meant for".to_owned(), meant_for(table.kinetic).to_owned()),
@@ -257,8 +269,9 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
         (
             "a step".to_owned(),
             format!(
-                "{} force evaluations, {} kicks and drifts; it begins with a {}",
+                "{} force evaluations{}, {} kicks and drifts; it begins with a {}",
                 plan.evaluations,
+                hessian_products(plan),
                 proved.scheme.maps().len(),
                 first(proved.scheme.first())
             ),
@@ -274,6 +287,15 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
     ];
     facts.retain(|(_, fact)| !fact.is_empty());
     facts
+}
+
+/// The Hessian–vector products U_qq M⁻¹U_q of a step, if there are any: their cost is stated apart.
+fn hessian_products(plan: &Plan) -> String {
+    match plan.hessian_products {
+        0 => String::new(),
+        1 => " and 1 Hessian–vector product".to_owned(),
+        count => format!(" and {count} Hessian–vector products"),
+    }
 }
 
 fn source(table: &Table) -> [(String, String); 2] {
@@ -324,7 +346,13 @@ fn maps_text(scheme: &TableScheme) -> String {
 
 fn weights_table(scheme: &TableScheme) -> String {
     let weights = &scheme.proved().scheme;
-    let rows = weights.kick.iter().zip(&weights.drift).enumerate();
-    let rows = rows.map(|(i, (kick, drift))| [(i + 1).to_string(), shortened(kick, SHOWN), shortened(drift, SHOWN)]);
-    table(["s", "kick a_s", "drift b_s"], rows.collect(), 0..1)
+    let Stages { kick, gradient_kick, drift } = &weights.stages;
+    let columns = [("kick a_s", kick), ("gradient kick c_s", gradient_kick), ("drift b_s", drift)];
+    let columns: Vec<_> = columns.into_iter().filter(|(_, weights)| !weights.is_empty()).collect();
+    let row = |s: usize| {
+        let weights = columns.iter().map(|(_, weights)| shortened(&weights[s], SHOWN));
+        std::iter::once((s + 1).to_string()).chain(weights).collect::<Vec<_>>()
+    };
+    let header = std::iter::once("s").chain(columns.iter().map(|(name, _)| *name));
+    table(header, (0..kick.len()).map(row).collect(), 0..1)
 }

@@ -1,9 +1,9 @@
 //! The programs of the newest formulas: runs of one formula with other parameters derive them once.
 
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use shadowstep_symbolic::{PotentialPrograms, Separation};
+use shadowstep_symbolic::{Graph, Node, PotentialPrograms, Separation};
 
 /// How many are kept.
 const KEPT: usize = 32;
@@ -35,6 +35,17 @@ pub(super) struct Derived {
     pub(super) programs: PotentialPrograms,
     /// Whether it is a kinetic energy that is a quadratic form.
     pub(super) quadratic: bool,
+    pub(super) graph: Graph,
+    pub(super) node: Node,
+    /// The programs of second derivatives, derived when they are asked for.
+    pub(super) second: OnceLock<PotentialPrograms>,
+}
+
+impl Derived {
+    /// The programs of second derivatives, which `derive` makes at the first call.
+    pub(super) fn second(&self, derive: impl FnOnce(&mut Graph, Node) -> PotentialPrograms) -> &PotentialPrograms {
+        self.second.get_or_init(|| derive(&mut self.graph.clone(), self.node))
+    }
 }
 
 static NEWEST: Mutex<VecDeque<(Text, Arc<Derived>)>> = Mutex::new(VecDeque::new());

@@ -5,10 +5,11 @@ use shadowstep_symbolic::{Graph, Separation, parse};
 use super::newest::{Derived, Role, Text, derived};
 use super::{FormulaError, refuse_repeated};
 use std::slice::from_ref;
+use std::sync::{Arc, OnceLock};
 
 use crate::interpreter::Interpreter;
 use crate::number::Number;
-use crate::pairs::{Pair, PairPotential};
+use crate::pairs::{Pair, PairCurvature, PairPotential};
 
 /// The energy of a pair of bodies whose operations are carried out one by one from a list: the twin of a `pair` formula
 /// in [`crate::potential!`], with the same bits.
@@ -29,6 +30,10 @@ pub struct FormulaPair<N> {
     properties: Vec<Vec<N>>,
     /// The properties in the order in which the formula has them: of i, then of j.
     interpreter: Interpreter<N>,
+    parameters: Vec<N>,
+    derived: Arc<Derived>,
+    /// Of the second derivatives, made when gradient kicks ask for them.
+    second: OnceLock<Interpreter<N>>,
 }
 
 impl<N: Number> FormulaPair<N> {
@@ -56,23 +61,38 @@ impl<N: Number> FormulaPair<N> {
             refuse_repeated([separation.name().to_owned()].iter().chain(variables).chain(parameters))?;
             let mut graph = Graph::new();
             let energy = graph.build_pair(&expression, separation.name(), variables, parameters);
-            let programs = graph.pair(energy.map_err(FormulaError::Meaning)?, separation);
-            Ok(Derived { programs, quadratic: false })
+            let node = energy.map_err(FormulaError::Meaning)?;
+            let programs = graph.pair(node, separation);
+            Ok(Derived { programs, quadratic: false, graph, node, second: OnceLock::new() })
         })?;
-        let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
+        let parameters: Vec<N> = parameters.iter().map(|(_, value)| value.clone()).collect();
         Ok(FormulaPair {
             separation,
             properties: properties.iter().map(|(_, values)| values.clone()).collect(),
-            interpreter: Interpreter::new(&derived.programs, parameters, names),
+            interpreter: Interpreter::new(&derived.programs, parameters.clone(), names),
+            parameters,
+            derived,
+            second: OnceLock::new(),
         })
     }
 
     /// Puts the properties of i and j where the programs find them.
     fn place_properties(&self, i: usize, j: usize, scratch: &mut [N]) {
+        self.place(i, j, self.interpreter.properties(scratch));
+    }
+
+    fn place(&self, i: usize, j: usize, places: &mut [N]) {
         let of = |body: usize| self.properties.iter().map(move |values| &values[body]);
-        for (place, property) in self.interpreter.properties(scratch).iter_mut().zip(of(i).chain(of(j))) {
+        for (place, property) in places.iter_mut().zip(of(i).chain(of(j))) {
             place.assign(property);
         }
+    }
+
+    fn second(&self) -> &Interpreter<N> {
+        self.second.get_or_init(|| {
+            let second = self.derived.second(|graph, node| graph.pair_curvature(node, self.separation));
+            Interpreter::new(second, self.parameters.clone(), 2 * self.properties.len())
+        })
     }
 }
 
@@ -110,5 +130,34 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
         let outputs = self.interpreter.gradient_and_rate(from_ref(x), scratch);
         std::mem::swap(slope, &mut outputs[0]);
         std::mem::swap(rate, &mut outputs[1]);
+    }
+
+    fn curved(&self) -> Option<&dyn PairCurvature<N>> {
+        Some(self)
+    }
+}
+
+impl<N: Number> PairCurvature<N> for FormulaPair<N> {
+    fn curvature_scratch(&self) -> usize {
+        self.second().registers()
+    }
+
+    fn prepare_curvature(&self, scratch: &mut [N], context: &N::Context) {
+        self.second().prepare(scratch, context);
+    }
+
+    fn curvature(&self, i: usize, j: usize, x: &N, slope: &mut N, curvature: &mut N, scratch: &mut [N]) {
+        let second = self.second();
+        self.place(i, j, second.properties(scratch));
+        let outputs = second.gradient(from_ref(x), scratch);
+        std::mem::swap(slope, &mut outputs[0]);
+        std::mem::swap(curvature, &mut outputs[1]);
+    }
+
+    fn curvature_and_rate(&self, i: usize, j: usize, x: &N, results: [&mut N; 3], scratch: &mut [N]) {
+        let second = self.second();
+        self.place(i, j, second.properties(scratch));
+        let outputs = second.gradient_and_rate(from_ref(x), scratch);
+        results.into_iter().zip(outputs).for_each(|(result, output)| std::mem::swap(result, output));
     }
 }

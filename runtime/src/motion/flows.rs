@@ -1,19 +1,13 @@
 //! The flows of T(p) and U(q), and what they change.
 
+use super::curved::Curved;
+use super::kept::Kept;
 use crate::kinetic::Kinetic;
 use crate::maps::{MapKind, Maps};
 use crate::number::Number;
 use crate::partial_sums::{LONG, add_sum};
 use crate::potential::Potential;
 use crate::summation::Summation;
-
-/// What is kept at the present q.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kept {
-    Nothing,
-    Gradient,
-    GradientAndRate,
-}
 
 /// What flows change: the state with the remainders of its sums, and what is kept at its q.
 #[derive(Clone, Debug)]
@@ -39,6 +33,8 @@ pub(super) struct Flows<N, P, K> {
     pub(super) scratch: Vec<N>,
     /// The kinetic energy's, likewise.
     pub(super) kinetic_scratch: Vec<N>,
+    /// Of gradient kicks, once there was one; what it keeps belongs to the q of the last evaluation of the gradient.
+    pub(super) curved: Option<Box<Curved<N>>>,
 }
 
 impl<N, V, S> Moving<N, V, S>
@@ -75,6 +71,9 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
             Kept::Gradient
         };
         moving.evaluations += 1;
+        if let Some(curved) = &mut self.curved {
+            curved.kept = Kept::Nothing;
+        }
     }
 
     #[inline(always)]
@@ -88,6 +87,32 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
             self.evaluate(moving, with_rate);
         }
         moving.kick_with_kept_gradient(weight);
+    }
+
+    /// A gradient kick, with its rate where that is wanted; the force is kept as the gradient is.
+    #[inline]
+    pub(super) fn gradient_kick<V, S>(
+        &mut self,
+        moving: &mut Moving<N, V, S>,
+        weight: &N,
+        with_rate: bool,
+    ) -> &Curved<N>
+    where
+        V: AsRef<[N]> + AsMut<[N]>,
+        S: Summation<N>,
+    {
+        moving.settle();
+        if moving.kept == Kept::Nothing {
+            self.evaluate(moving, with_rate);
+        }
+        let Flows { potential, kinetic, kinetic_scratch, curved, .. } = self;
+        let curved = curved.get_or_insert_with(|| Box::new(Curved::new(potential, &weight.context())));
+        if curved.kept == Kept::Nothing || with_rate && curved.kept == Kept::Gradient {
+            let at = (moving.q.as_ref(), moving.gradient.as_ref());
+            curved.evaluate((potential, kinetic), at, with_rate, kinetic_scratch);
+        }
+        moving.summation.kick(weight, &curved.force, moving.p.as_mut());
+        curved
     }
 
     #[inline(always)]
@@ -159,6 +184,9 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
                 match kind {
                     MapKind::Kick => self.kick(moving, weight, RATE),
                     MapKind::Drift => self.drift(moving, weight),
+                    MapKind::GradientKick => {
+                        self.gradient_kick(moving, weight, RATE);
+                    }
                 }
             }
         }

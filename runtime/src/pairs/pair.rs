@@ -33,6 +33,11 @@ pub trait PairPotential<N: Number>: Pair {
     /// The slope, and rate ← d u'(d) − 2u or 2r²u'(r²) − 2u: what the pair adds to qᵀU_q − 2U
     fn slope_and_rate(&self, i: usize, j: usize, x: &N, slope: &mut N, rate: &mut N, scratch: &mut [N]);
 
+    /// Its second derivatives, which gradient kicks need; the default has none.
+    fn curved(&self) -> Option<&dyn PairCurvature<N>> {
+        None
+    }
+
     /// The slopes of the body i with the bodies j, j + 1, …, one x for each.
     #[inline(always)]
     fn slopes(&self, i: usize, j: usize, x: &[N; BLOCK], slopes: &mut [N; BLOCK], scratch: &mut [N]) {
@@ -56,6 +61,26 @@ pub trait PairPotential<N: Number>: Pair {
             self.slope_and_rate(i, j + l, &x[l], &mut slopes[l], &mut rates[l], scratch);
         }
     }
+}
+
+/// The second derivatives of a pair's energy u. [`crate::potential!`] implements it for a `pair` formula.
+pub trait PairCurvature<N: Number> {
+    /// How many numbers of scratch space there must be for every call.
+    fn curvature_scratch(&self) -> usize {
+        0
+    }
+
+    /// Puts into the scratch space what every call finds there: what depends on parameters only.
+    fn prepare_curvature(&self, scratch: &mut [N], context: &N::Context) {
+        let _ = (scratch, context);
+    }
+
+    /// slope as [`PairPotential::slope`], curvature ← u″(d) or 4u″(r²): of a vector with the difference w = v_j − v_i the pair adds
+    /// curvature·w, or slope·w + curvature·(dᵀw) d with d = q_j − q_i, to the Hessian–vector product of the body j.
+    fn curvature(&self, i: usize, j: usize, x: &N, slope: &mut N, curvature: &mut N, scratch: &mut [N]);
+
+    /// The same, and rate ← the derivative of the pair's rate: it adds rate·w, or rate·dᵀw, to vᵀ∂(qᵀU_q − 2U)/∂q.
+    fn curvature_and_rate(&self, i: usize, j: usize, x: &N, results: [&mut N; 3], scratch: &mut [N]);
 }
 
 /// What is at the ends of a chain.

@@ -1,6 +1,6 @@
 //! A potential whose calls choose the vector instructions.
 
-use super::Potential;
+use super::{HessianProduct, Potential};
 use crate::number::Number;
 
 /// A potential behind a `dyn`, for [lanes](crate::number::Lanes): each call is compiled for the [widest
@@ -58,5 +58,9 @@ impl<N: Number, P: Potential<N>> Potential<N> for Widest<P> {
             #[inline(always)]
             || self.0.gradient_and_rate(q, gradient, rate, scratch),
         );
+    }
+
+    fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
+        self.0.hessian()
     }
 }

@@ -20,7 +20,7 @@ impl Graph {
     pub(crate) fn derived(&mut self, node: Node, derivation: Derivation) -> Node {
         let unknown = self.below_unless(&[node], |part| self.derivatives.contains_key(&(part, derivation)));
         let degrees = match derivation {
-            Derivation::Along(_) => Default::default(),
+            Derivation::Along(_) | Derivation::Directional => Default::default(),
             Derivation::Radial => self.degrees(node),
         };
         for part in unknown {
@@ -41,6 +41,7 @@ impl Graph {
                 Derivation::Along(other) if *index == other => self.number(Rational::one()),
                 Derivation::Along(_) => self.number(Rational::zero()),
                 Derivation::Radial => node,
+                Derivation::Directional => self.property(*index),
             },
             Form::Sum { terms, .. } => {
                 let known = &self.derivatives;

@@ -47,6 +47,49 @@ impl Graph {
     }
 }
 
+impl Graph {
+    /// The programs of the potential's derivative vᵀU_q in the direction of v, whose components are the properties 0, 1, …, for a graph
+    /// without others.
+    ///
+    /// - `energy` computes nothing;
+    /// - `gradient` has the Hessian–vector product U_qq v: one derivative of U_q, so that its cost grows as that of U_q;
+    /// - `gradient_and_rate` has after it vᵀ∂(qᵀU_q − 2U)/∂q = qᵀU_qq v − vᵀU_q, derived from the simplified rate.
+    pub fn hessian_product(&mut self, energy: Node, coordinates: usize) -> PotentialPrograms {
+        let directional = |graph: &mut Graph, node| graph.derived(node, Derivation::Directional);
+        let gradient: Vec<Node> = (0..coordinates).map(|i| self.derivative(energy, i)).collect();
+        let mut outputs: Vec<Node> = gradient.into_iter().map(|of_axis| directional(self, of_axis)).collect();
+        let rate = self.rate(energy);
+        outputs.push(directional(self, rate));
+        self.second_derivatives(&outputs)
+    }
+
+    /// The programs of a pair's second derivatives, in place of those of [`Graph::hessian_product`].
+    ///
+    /// `gradient` has the slope s of [`Graph::pair`] and a curvature t, `gradient_and_rate` after them a slope r of the rate. For u(r²), with
+    /// the difference d of the positions and that of a vector v, w = v_j − v_i, the pair adds s w + t (dᵀw) d to the product U_qq v of the
+    /// body j, and r dᵀw to vᵀ∂(qᵀU_q − 2U)/∂q: t = 4u″(r²), r = 2∂(2r²u′ − 2u)/∂(r²). For u(d) it adds t w and r w: t = u″(d),
+    /// r = ∂(d u′ − 2u)/∂d.
+    pub fn pair_curvature(&mut self, energy: Node, separation: Separation) -> PotentialPrograms {
+        let degree = Rational::from_integer(separation.degree().into());
+        let derivative = self.derivative(energy, 0);
+        let slope = self.scaled(derivative, &degree);
+        let second = self.derivative(slope, 0);
+        let curvature = self.scaled(second, &degree);
+        let radial = self.derived(energy, Derivation::Radial);
+        let rate = self.sum(&[(radial, degree.clone()), (energy, -(Rational::one() + Rational::one()))]);
+        let of_rate = self.derivative(rate, 0);
+        let of_rate = self.scaled(of_rate, &degree);
+        self.second_derivatives(&[slope, curvature, of_rate])
+    }
+
+    /// Programs whose last output is that of the rate.
+    fn second_derivatives(&mut self, outputs: &[Node]) -> PotentialPrograms {
+        let gradient_and_rate = self.program(outputs);
+        let gradient = gradient_and_rate.without_last_output();
+        PotentialPrograms { energy: Program::default(), gradient, gradient_and_rate }
+    }
+}
+
 impl PotentialPrograms {
     /// The number of kept constants: those of the energy, then those of the gradient.
     pub fn kept(&self) -> usize {

@@ -1,0 +1,260 @@
+//! Protects force-gradient kicks: their sign and factor, the refusal of wrong ones, Hessian–vector products, β.
+
+use rug::Float;
+use shadowstep::formula::{FormulaPair, FormulaPotential};
+use shadowstep::pairs::{Ends, Pairs, Separation};
+use shadowstep::potential::{HessianProduct, from_fn};
+use shadowstep::problems::{Kepler, PROBLEMS};
+use shadowstep::run::energy_drift;
+use shadowstep::shadow::Bilinear;
+use shadowstep::tables::shipped;
+use shadowstep::{Motion, Number, Ordered, Potential, Stepper, System, UnitMasses, potential};
+use shadowstep_tests::refusals::{assert_refused, judge};
+use shadowstep_tests::{log10_largest_distance, numbers, precision, rational, same_bits};
+
+const DIGITS: u32 = 90;
+
+/// Chin's 4A with c in place of 1/72.
+fn with_gradient(c: &str) -> String {
+    format!(
+        r#"name = "mine"
+order = 4
+kinetic = "quadratic"
+symmetric = true
+reference = "S. A. Chin, Phys. Lett. A 226 (1997) 344"
+
+[stages]
+kick          = ["1/6", "2/3", "1/6"]
+gradient_kick = [0, "{c}", 0]
+drift         = ["1/2", "1/2", 0]
+"#
+    )
+}
+
+#[test]
+fn a_wrong_factor_is_refused_by_the_condition_that_fails() {
+    assert_eq!(judge(&with_gradient("1/72")).unwrap().proof.quadratic.order, 4);
+    assert_refused(
+        &with_gradient("1/36"),
+        r#"
+mine.toml:2:9: order 4 is claimed, order 2 holds for quadratic T: the condition of the tree K[D[K]] fails
+  2 | order = 4
+    |         ^
+  found 7/36, needed 1/6
+"#,
+    );
+    assert_refused(
+        &with_gradient("-1/72"),
+        r#"
+mine.toml:2:9: order 4 is claimed, order 2 holds for quadratic T: the condition of the tree K[D[K]] fails
+  2 | order = 4
+    |         ^
+  found 1/9, needed 1/6
+"#,
+    );
+}
+
+#[test]
+fn claims_that_gradient_kicks_cannot_make_are_refused() {
+    assert_refused(
+        &with_gradient("1/72").replace("\"quadratic\"", "\"any\""),
+        r#"
+mine.toml:3:11: gradient kicks are for quadratic T only
+  3 | kinetic = "any"
+    |           ^^^^^
+  hint: they contain M⁻¹ of T = ½pᵀM⁻¹p: write `kinetic = "quadratic"`
+"#,
+    );
+    let near = with_gradient("1/72").replace("symmetric", "near_integrable = [4, 2]\nsymmetric");
+    let message = judge(&near).unwrap_err().to_string();
+    assert!(message.contains("mine.toml:4:19: near-integrable orders are not proved of gradient kicks"), "{message}");
+    let lengths = judge(&with_gradient("1/72\", \"0")).unwrap_err().to_string();
+    assert!(lengths.contains("kick and gradient_kick must have as many weights as there are stages"), "{lengths}");
+    let table = shipped("chin-4a").unwrap();
+    assert_eq!(table.for_every_kinetic().unwrap_err().order, 0);
+}
+
+/// A composition scales gradient kicks with γ³: a triple jump of a scheme of order 4 has order 6.
+#[test]
+fn a_composition_of_gradient_kicks() {
+    let table = r#"name = "mine"
+order = 6
+kinetic = "quadratic"
+symmetric = true
+reference = "none"
+
+[constants]
+g = "1/(2 - 2^(1/5))"
+
+[composition]
+base = "chin-4a"
+gamma = ["g", "1 - 2*g", "g"]
+"#;
+    let proved = judge(table).unwrap();
+    assert_eq!(proved.proof.quadratic.order, 6);
+    assert_eq!((proved.plan.evaluations, proved.plan.hessian_products), (6, 3));
+}
+
+/// U_qq v and vᵀ∂(qᵀU_q − 2U)/∂q against central differences.
+fn assert_second_derivatives(potential: &dyn Potential<Float>, q: &[Float], what: &str) {
+    let context = precision(DIGITS);
+    let zeros = |n: usize| vec![Float::new(context.in_bits()); n];
+    let v: Vec<_> = (0..q.len()).map(|i| Float::with_val(context.in_bits(), 3 * i as i32 % 7 - 2) / 3).collect();
+    let hessian = potential.hessian().unwrap_or_else(|| panic!("{what} has second derivatives"));
+    let mut scratch = zeros(hessian.hessian_scratch());
+    hessian.prepare_hessian(&mut scratch, &context);
+    let (mut plain, mut product, mut rate) = (zeros(q.len()), zeros(q.len()), zeros(1).remove(0));
+    hessian.hessian_product(q, &v, &mut plain, &mut scratch);
+    hessian.hessian_product_and_rate(q, &v, &mut product, &mut rate, &mut scratch);
+    assert!(same_bits(&plain, &product), "{what}");
+
+    let mut space = zeros(potential.scratch());
+    potential.prepare(&mut space, &context);
+    let shift = Float::with_val(context.in_bits(), 1) >> 100;
+    let mut at = |sign: i32| {
+        let moved: Vec<_> = q.iter().zip(&v).map(|(q, v)| q.clone() + v.clone() * &shift * sign).collect();
+        let (mut gradient, mut rate) = (zeros(q.len()), zeros(1).remove(0));
+        potential.gradient_and_rate(&moved, &mut gradient, &mut rate, &mut space);
+        gradient.push(rate);
+        gradient
+    };
+    let (ahead, behind) = (at(1), at(-1));
+    let expected: Vec<_> = ahead.into_iter().zip(behind).map(|(a, b)| (a - b) / &shift / 2).collect();
+    product.push(rate);
+    let size = expected.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max);
+    let off = log10_largest_distance(&product, &expected);
+    assert!(off < size - 50.0, "{what}: 10^{off} of 10^{size}");
+}
+
+#[test]
+fn second_derivatives_are_those_of_the_gradient() {
+    let context = precision(DIGITS);
+    for problem in PROBLEMS {
+        let setup = problem.setup(&[], DIGITS).unwrap();
+        let potential = setup.potential::<Float>(&context);
+        // FPUT's chains begin at rest with some springs at 0
+        let q: Vec<_> = setup
+            .values
+            .q::<Float>(&context)
+            .into_iter()
+            .enumerate()
+            .map(|(i, q)| q * (1.0 + 1e-3 * i as f64) + 0.01 * i as f64)
+            .collect();
+        assert_second_derivatives(&*potential, &q, problem.name());
+    }
+}
+
+potential! {
+    /// Everything that a formula may have.
+    pub struct Mixed { a, b }
+    U(x, y) = a*exp(-x^2)*cos(y) + atan(b*x*y) + sqrt(1 + x^2 + y^4) - log(2 + tanh(x)) + cbrt(3 + x*y)
+}
+
+potential! {
+    /// A spring in d.
+    pub struct Spring { k }
+    pair U(d) = k*d^2/2 + d^3/3 + exp(-d)
+}
+
+potential! {
+    /// Masses that attract each other.
+    pub struct Gravity { g }
+    pair U(r2; m_i, m_j) = -g*m_i*m_j/sqrt(r2)
+}
+
+#[test]
+fn formulas_have_the_second_derivatives_of_compiled_ones_bit_for_bit() {
+    const TEXT: &str = "a*exp(-x^2)*cos(y) + atan(b*x*y) + sqrt(1 + x^2 + y^4) - log(2 + tanh(x)) + cbrt(3 + x*y)";
+    let context = precision(DIGITS);
+    let number = |text: &str| Float::from_rational(&rational(text), &context);
+    let compiled = Mixed { a: number("0.7"), b: number("1.3") };
+    let parameters = [("a", number("0.7")), ("b", number("1.3"))];
+    let read = FormulaPotential::new(TEXT, &["x", "y"], &parameters).unwrap();
+    let (q, v) = (numbers::<Float>(&["0.3", "-1.2"], &context), numbers::<Float>(&["0.9", "0.4"], &context));
+    assert_second_derivatives(&compiled, &q, "compiled");
+    assert_eq!(products(&compiled, &q, &v), products(&read, &q, &v));
+
+    let masses = numbers::<Float>(&["1", "2", "0.5"], &context);
+    let pair = Pairs::<_, 2>::all(3, Gravity { g: number("1.1"), m: masses.clone() }).unwrap();
+    let formula =
+        FormulaPair::new("-g*m_i*m_j/sqrt(r2)", Separation::SquaredDistance, &[("m", masses)], &[("g", number("1.1"))]);
+    let read = Pairs::<_, 2>::all(3, formula.unwrap()).unwrap();
+    let q = numbers::<Float>(&["0.1", "0.2", "1.3", "-0.4", "-0.8", "0.9"], &context);
+    let v = numbers::<Float>(&["1", "-0.5", "0.3", "0.2", "0.7", "-0.1"], &context);
+    assert_second_derivatives(&pair, &q, "pairs");
+    assert_eq!(products(&pair, &q, &v), products(&read, &q, &v));
+    for ends in [Ends::Free, Ends::Fixed, Ends::Periodic] {
+        let chain = Pairs::<_, 1>::neighbours(6, Spring { k: number("1.7") }, ends).unwrap();
+        assert_second_derivatives(&chain, &q, "a chain");
+    }
+}
+
+/// U_qq v and its rate.
+fn products(potential: &dyn Potential<Float>, q: &[Float], v: &[Float]) -> (Vec<Float>, Float) {
+    let context = precision(DIGITS);
+    let hessian: &dyn HessianProduct<Float> = potential.hessian().unwrap();
+    let mut scratch = vec![Float::new(context.in_bits()); hessian.hessian_scratch()];
+    hessian.prepare_hessian(&mut scratch, &context);
+    let (mut product, mut rate) = (vec![Float::new(context.in_bits()); q.len()], Float::new(context.in_bits()));
+    hessian.hessian_product_and_rate(q, v, &mut product, &mut rate, &mut scratch);
+    (product, rate)
+}
+
+/// H̄ of E_k converges with k on a nonlinear problem, which it would not with a wrong rate of β.
+#[test]
+fn the_modified_energy_of_gradient_kicks_converges() {
+    let context = precision(DIGITS);
+    let motion = || {
+        let [q, p] = [["0.1", "-0.1"], ["0.2", "0.15"]].map(|texts| numbers::<Float>(&texts, &context));
+        Motion::new(shadowstep::problems::HenonHeiles, UnitMasses, q, p).unwrap()
+    };
+    for name in ["chin-4a", "chin-4b", "omelyan-4mn2f2gv"] {
+        let stepper = Stepper::with_context(shipped(name).unwrap(), "1/4", &context).unwrap();
+        let mut energies = motion();
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        let start = energies.energy();
+        for _ in 0..200 {
+            stepper.step(&mut energies);
+            let off = (energies.energy() - &start).to_f64();
+            (least, most) = (least.min(off), most.max(off));
+        }
+        let drift = |k| energy_drift(&stepper, motion(), 200, &Bilinear::new(k)).unwrap().drift.log10_abs();
+        let [eight, sixteen, thirty_two] = [8, 16, 32].map(drift);
+        println!(
+            "{name}: H varies by {:e}, E_8 by 10^{eight:.2}, E_16 by 10^{sixteen:.2}, E_32 by 10^{thirty_two:.2}",
+            most - least
+        );
+        assert!((most - least).log10() > -9.0 && eight < -12.0, "{name}");
+        assert!(
+            sixteen < eight - 5.0 && thirty_two < sixteen - 5.0,
+            "{name}: 10^{eight}, 10^{sixteen}, 10^{thirty_two}"
+        );
+    }
+}
+
+#[test]
+fn hessian_products_are_counted_and_kept() {
+    let mut motion = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]).unwrap();
+    let stepper = Stepper::new(shipped("chin-4a").unwrap(), "1/20").unwrap();
+    (0..10).for_each(|_| stepper.step(&mut motion));
+    assert_eq!((motion.evaluations(), motion.hessian_products()), (21, 10));
+    // several steps at once have the same bits
+    let mut together = [Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]).unwrap()];
+    stepper.steps(&mut together, 10);
+    assert!(same_bits(together[0].q(), motion.q()) && same_bits(together[0].p(), motion.p()));
+}
+
+#[test]
+fn a_potential_without_second_derivatives_says_so() {
+    let spring = from_fn(1, |q, gradient| {
+        gradient[0] = q[0];
+        q[0] * q[0] / 2.0
+    });
+    let motion = Motion::new(spring, UnitMasses, [1.0], [0.0]).unwrap();
+    assert!(!motion.has_gradient_kicks());
+    let stepper = Stepper::new(shipped("chin-4a").unwrap(), "1/20").unwrap();
+    let step = std::panic::AssertUnwindSafe(|| stepper.step(&mut motion.clone()));
+    let panic = std::panic::catch_unwind(step).unwrap_err();
+    let message = panic.downcast_ref::<&str>().copied().or(panic.downcast_ref::<String>().map(String::as_str));
+    assert!(message.unwrap().contains("write it as a formula, or implement `Potential::hessian`"), "{message:?}");
+}
