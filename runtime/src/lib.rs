@@ -67,6 +67,7 @@
 //! | [`ensemble`] | many trajectories at once, in lanes and on all cores |
 //! | [`run`] | trajectories with the states that an estimator needs on both sides, and the energy drift |
 //! | [`wisdom_holman`] | planets: H = A + B with Kepler orbits as A |
+//! | [`linear_part`] | oscillations solved exactly: H = A + B with a quadratic form as A |
 //! | [`kepler_drift`] | the exact flow of Kepler's problem, in every number type |
 //! | `exact_flow` | states of the exact flow of a few problems, to see an estimator's own error |
 
@@ -81,6 +82,7 @@ pub mod instructions;
 mod interpreter;
 pub mod kepler_drift;
 pub mod kinetic;
+pub mod linear_part;
 mod maps;
 pub mod motion;
 pub mod number;

@@ -356,6 +356,9 @@ pub enum MotionError {
     /// The numbers have different precisions.
     #[error("the numbers of q and p must have the same precision")]
     Precision,
+    /// The numbers have more digits than the flow of a linear part is computed to.
+    #[error("a linear part needs numbers of at most 288 digits")]
+    Digits,
     /// A mass is not valid.
     #[error(transparent)]
     Masses(#[from] MassError),

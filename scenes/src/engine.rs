@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use shadowstep::number::Rounded;
 use shadowstep::run::{RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::EstimatorSettings;
 use shadowstep::{MotionError, Ordered, Remainders, Scheme, Stepper, System, ValidFor};
@@ -38,7 +39,7 @@ pub enum Outcome {
 pub(crate) type Ended = (Outcome, Option<Summary>);
 
 /// Runs the scene, from a checkpoint if there is one, until it is complete or the observer stops it.
-pub(crate) fn follow<N: Ordered + 'static>(
+pub(crate) fn follow<N: Rounded + 'static>(
     scene: &Scene,
     context: &N::Context,
     rows: &mut Rows<'_>,

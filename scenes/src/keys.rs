@@ -139,10 +139,11 @@ pub const KEYS: [Key; 57] = [
     key(
         "problem",
         "parts",
-        "How H is split into a part for drifts and one for kicks, for [[body]] or a shipped problem of bodies: \"kinetic-potential\", \
-         T(p) and U(q); \"wisdom-holman\", the Kepler orbits of the planets in Jacobi coordinates and their interactions, for \
+        "How H is split into a part for drifts and one for kicks: \"kinetic-potential\", T(p) and U(q); of [[body]] or a shipped \
+         problem of bodies \"wisdom-holman\", the Kepler orbits of the planets in Jacobi coordinates and their interactions, for \
          schemes such as abah864; or \"wisdom-holman-heliocentric\", the same in democratic heliocentric coordinates, for \
-         schemes for every T(p). States are written in inertial coordinates.",
+         schemes for every T(p), with states written in inertial coordinates; \"linear\", for any U that has second derivatives at q = 0, \
+         T(p) + qᵀKq/2 with K = U_qq(0) and what is left of U: the oscillations are solved exactly.",
         "\"wisdom-holman\"",
         Some("\"kinetic-potential\""),
     ),

@@ -143,6 +143,20 @@ pub fn check_general(named: &NamedScheme) -> Result<(), (String, String)> {
     Err((error.to_string(), format!("use a scheme such as {name}, which has order {order} for every T(p)")))
 }
 
+/// Whether a scheme can advance a system whose parts are not T(p) and U(q).
+///
+/// # Errors
+/// Gradient kicks, which these have not: a message and a hint.
+pub fn check_parts(named: &NamedScheme) -> Result<(), (String, String)> {
+    match named.scheme.gradient_kicks() {
+        0 => Ok(()),
+        _ => {
+            let message = format!("{} has gradient kicks, which are for T(p) and U(q) as parts", named.name);
+            Err((message, "use a scheme such as abah864, or parts = \"kinetic-potential\"".to_owned()))
+        }
+    }
+}
+
 /// The text of the table that a word means: a shipped one, or a file.
 ///
 /// # Errors

@@ -11,7 +11,7 @@ use shadowstep::{StepSize, Stepper};
 use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme};
 use crate::run::Run;
-use crate::scene::System;
+use crate::scene::{Parts, System};
 
 /// A scheme, or the exact flow, on which an estimator shows its own error.
 #[derive(Debug)]
@@ -59,6 +59,9 @@ impl Propagator {
         let named = library::scheme(word)?;
         if system.has_general_kinetic() {
             library::check_general(&named).map_err(|(message, hint)| Error::usage(message, hint))?;
+        }
+        if !matches!(system.parts, Parts::KineticAndPotential) {
+            library::check_parts(&named).map_err(|(message, hint)| Error::usage(message, hint))?;
         }
         Ok(Propagator::Scheme(Box::new(named)))
     }

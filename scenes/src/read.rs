@@ -32,7 +32,7 @@ use crate::keys::{self, ENSEMBLE, SECTIONS};
 use crate::library::Schemes;
 use crate::note::Note;
 use crate::read::reader::Reader;
-use crate::scene::{Outputs, Scene, System};
+use crate::scene::{Outputs, Parts, Scene, System};
 
 /// The most bytes of a scene, which may have the initial values of many bodies.
 const LARGEST_SCENE: u64 = 16 << 20;
@@ -152,8 +152,11 @@ fn parts(
     reader.arithmetic = arithmetic.unwrap_or(Arithmetic::Double);
     let bodies = planets::given(reader, root);
     let system = problem::system(reader, &problem, &initial, &bodies);
-    let general = system.as_ref().is_some_and(System::has_general_kinetic);
-    let steps = run::Steps::read(reader, &run, general, schemes);
+    let kind = system.as_ref().map_or_else(Default::default, |system| run::Kind {
+        general: system.has_general_kinetic(),
+        other_parts: !matches!(system.parts, Parts::KineticAndPotential),
+    });
+    let steps = run::Steps::read(reader, &run, kind, schemes);
     let output = output::read(reader, &output, system.as_ref());
     arithmetic?;
     Some((system?, steps?, output?))

@@ -1,6 +1,7 @@
 //! The content of a scene: plain data, all of it exact.
 
 mod format;
+mod linear;
 mod output;
 mod pairs;
 mod parameters;
@@ -9,6 +10,7 @@ mod system;
 
 pub(crate) use format::COLUMNS;
 pub use format::Format;
+pub(crate) use linear::{LINEAR, MOST_COORDINATES, stiffness};
 pub use output::{CheckpointInterval, Outputs};
 pub use pairs::PairEnergy;
 pub(crate) use parts::OfPlanets;

@@ -1,8 +1,11 @@
-//! A system at a state with its stepper: the one place that dispatches on the class of its kinetic energy.
+//! A system at a state with its stepper: the one place that dispatches on its parts and the class of its kinetic energy.
 
+use shadowstep::linear_part::LinearPart;
+use shadowstep::number::Rounded;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, MotionError, Number, Rational, Scheme, Stepper, System, ValidFor};
 
+use crate::boxed::Boxed;
 use crate::scene::{self, ClassifiedKinetic, Parts};
 
 /// The steps that are made.
@@ -36,7 +39,7 @@ impl scene::System {
     ///
     /// # Panics
     /// If the step size is 0 or the scheme is not valid for T(p), which reading a system and its scheme excludes.
-    pub fn with<N: Number + 'static, W: Work<N>>(
+    pub fn with<N: Rounded + 'static, W: Work<N>>(
         &self,
         Steps { scheme, h, compensated }: Steps<'_>,
         (q, p): (Vec<N>, Vec<N>),
@@ -48,6 +51,10 @@ impl scene::System {
             return Ok(work.with(&stepper(scheme.clone(), h, context), system));
         }
         let (potential, scheme) = (self.potential(context), scheme.clone());
+        if let Parts::Linear(stiffness) = &self.parts {
+            let system = LinearPart::new(potential, &self.exact_masses(), stiffness, &q, &p)?;
+            return Ok(work.with(&stepper(scheme, h, context), Boxed::Quadratic(Box::new(system))));
+        }
         Ok(match self.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {
                 let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(compensated);

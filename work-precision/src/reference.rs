@@ -262,7 +262,7 @@ fn first_steps(problem: Problem<'_>, samples: u64) -> u64 {
     samples * per_sample.max(1)
 }
 
-fn positions<N: Ordered + 'static>(
+fn positions<N: Rounded + 'static>(
     problem: Problem<'_>,
     named: &NamedScheme,
     (steps, samples): (u64, u64),

@@ -1,6 +1,6 @@
 //! What a computation costs: a number that counts its operations.
 
-use super::{Number, Ordered};
+use super::{Number, Ordered, Precision, Reference, Rounded};
 use crate::Rational;
 use std::cell::Cell;
 use std::fmt;
@@ -164,6 +164,16 @@ impl<N: Number> Number for Counting<N> {
 
     fn is_finite(&self) -> bool {
         self.0.is_finite()
+    }
+}
+
+impl<N: Rounded> Rounded for Counting<N> {
+    fn precision(context: &N::Context) -> Precision {
+        N::precision(context)
+    }
+
+    fn assign_rounded(&mut self, a: &impl Reference) {
+        self.0.assign_rounded(a);
     }
 }
 

@@ -16,7 +16,7 @@ use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use super::units;
-use crate::scene::{Canonical, KineticEnergy, PairEnergy, Parts, Planets, PotentialEnergy, System};
+use crate::scene::{Canonical, KineticEnergy, LINEAR, PairEnergy, Parts, Planets, PotentialEnergy, System};
 use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The name of the section.
@@ -182,10 +182,18 @@ pub(super) fn system(
     placing.into_system(reader, parts, parameters, &names, &given.problem)
 }
 
-/// What [problem] says of bodies.
+/// The value of the key `parts`.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum GivenParts {
+    KineticAndPotential,
+    Linear,
+    Planets(Canonical),
+}
+
+/// What [problem] says of bodies and parts.
 pub(super) struct Settings {
-    /// Coordinates of the steps, or none for T(p) and U(q).
-    pub(super) parts: Option<Option<Canonical>>,
+    /// The parts that the steps have.
+    pub(super) parts: Option<GivenParts>,
     /// The constant in these units.
     units: Option<Option<Rational>>,
     centre: Option<Centre>,
@@ -194,11 +202,14 @@ pub(super) struct Settings {
 
 impl Settings {
     pub(super) fn read(reader: &mut Reader<'_>, problem: &Section<'_, '_>) -> Settings {
-        let [first, second] = Canonical::NAMES.map(|(name, canonical)| (name, Some(canonical)));
-        let parts = [first, second, ("kinetic-potential", None)];
+        let [first, second] = Canonical::NAMES.map(|(name, canonical)| (name, GivenParts::Planets(canonical)));
+        let parts =
+            [first, second, (LINEAR, GivenParts::Linear), ("kinetic-potential", GivenParts::KineticAndPotential)];
         let centres = [("heliocentric", Centre::Body), ("jacobi", Centre::Inner)];
         Settings {
-            parts: problem.get("parts").map_or(Some(None), |value| reader.word(value, &parts)),
+            parts: problem
+                .get("parts")
+                .map_or(Some(GivenParts::KineticAndPotential), |value| reader.word(value, &parts)),
             units: problem.get("units").map(|value| units::constant(reader, value)),
             centre: problem.get("elements").map_or(Some(Centre::Body), |value| reader.word(value, &centres)),
             barycentric: problem
@@ -345,7 +356,7 @@ impl Placing {
     fn into_system(
         self,
         reader: &mut Reader<'_>,
-        parts: Option<Canonical>,
+        parts: GivenParts,
         parameters: Vec<(String, Exact)>,
         names: &[String],
         at: &Range<usize>,
@@ -378,8 +389,8 @@ impl Placing {
             potential: PotentialEnergy::Pairs(pairs),
             kinetic: KineticEnergy::Masses((!unit).then_some(of_coordinates)),
             parts: match parts {
-                None => Parts::KineticAndPotential,
-                Some(coordinates) => Parts::WisdomHolman(Planets { coordinates, bodies, dimensions }),
+                GivenParts::Planets(coordinates) => Parts::WisdomHolman(Planets { coordinates, bodies, dimensions }),
+                GivenParts::KineticAndPotential | GivenParts::Linear => Parts::KineticAndPotential,
             },
             parameters,
             coordinates,
@@ -462,6 +473,19 @@ mod tests {
         let text = "[problem]\nname = \"kepler\"\nparts = \"wisdom-holman\"\n[run]\nscheme = \"abah864\"\nstep = 1\nsteps = 9\n[output]\nenergy = true";
         let faults = read(text).unwrap_err();
         assert_eq!(faults, ["3:9: only bodies that attract each other have these parts"]);
+    }
+
+    #[test]
+    fn schemes_that_planets_do_not_have_are_refused() {
+        for (parts, scheme, fault) in [
+            ("wisdom-holman", "chin-4a", "has gradient kicks"),
+            ("wisdom-holman-heliocentric", "blanes-moan-srkn11b", "quadratic"),
+        ] {
+            let text = scene(&format!("parts = \"{parts}\"\nparameters = {{ g = 1 }}"), "a = 4");
+            assert!(read(&text).map(drop).is_ok(), "{parts}");
+            let faults = read(&text.replace("abah864", scheme)).map(drop).unwrap_err();
+            assert!(faults.len() == 1 && faults[0].contains(fault), "{faults:?}");
+        }
     }
 
     #[test]

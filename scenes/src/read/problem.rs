@@ -1,13 +1,16 @@
 //! [problem]: the system, given in one of four ways, each with its file.
 
+use std::ops::Range;
+
+use shadowstep::number::AnyLimbs;
 use shadowstep::pairs::Separation;
 
 use super::given::Given;
 use super::pair::PairFormula;
-use super::planets::{self, GivenBody, Settings};
+use super::planets::{self, GivenBody, GivenParts, Settings};
 use super::reader::Reader;
 use super::{formula, pair, shipped};
-use crate::scene::{Canonical, Parts, Planets, PotentialEnergy, System};
+use crate::scene::{KineticEnergy, MOST_COORDINATES, Parts, Planets, PotentialEnergy, System, stiffness};
 use shadowstep_schemes::document::Section;
 
 /// The keys of which exactly one gives the potential.
@@ -27,7 +30,7 @@ pub(super) fn system(
     let given = Given::read(reader, problem, initial, ways.is_empty() || ways.contains(&"pair"));
     let settings = Settings::read(reader, problem);
     if !ways.is_empty() || bodies.is_empty() {
-        refuse_keys_of_bodies(reader, &given, ways == ["name"] || ways.is_empty());
+        refuse_keys_of_bodies(reader, &given);
     }
     match ways[..] {
         [] if !bodies.is_empty() => planets::system(reader, &given, problem, (&settings, bodies)),
@@ -41,7 +44,8 @@ pub(super) fn system(
         }
         ["potential"] => {
             given.needs(reader, problem, "coordinates");
-            formula::system(reader, &given, &potential?)
+            let system = formula::system(reader, &given, &potential?)?;
+            in_parts(reader, &given, system, settings.parts?)
         }
         ["pair"] => {
             given.needs(reader, problem, "bodies");
@@ -49,7 +53,8 @@ pub(super) fn system(
             if pair.as_ref().is_some_and(|pair| pair.separation == Separation::SquaredDistance) {
                 given.needs(reader, problem, "dimensions");
             }
-            pair::system(reader, &given, pair)
+            let system = pair::system(reader, &given, pair)?;
+            in_parts(reader, &given, system, settings.parts?)
         }
         [] => {
             reader.toml.missing(problem, &WAYS);
@@ -63,25 +68,58 @@ pub(super) fn system(
     }
 }
 
-/// A shipped problem in the parts that its steps have.
-fn in_parts(reader: &mut Reader<'_>, given: &Given, system: System, parts: Option<Canonical>) -> Option<System> {
-    let Some(coordinates) = parts else { return Some(system) };
-    let bodies = match &system.potential {
-        PotentialEnergy::Shipped(setup) => setup.bodies(),
-        _ => None,
+/// The system in the parts that its steps have.
+fn in_parts(reader: &mut Reader<'_>, given: &Given, system: System, parts: GivenParts) -> Option<System> {
+    let at = given.place("parts").unwrap_or(&given.problem);
+    let parts = match (parts, &system.potential) {
+        (GivenParts::KineticAndPotential, _) => return Some(system),
+        (GivenParts::Linear, _) => linear(reader, at, &system)?,
+        (GivenParts::Planets(coordinates), PotentialEnergy::Shipped(setup)) if setup.bodies().is_some() => {
+            let (bodies, dimensions) = setup.bodies()?;
+            Parts::WisdomHolman(Planets { coordinates, bodies, dimensions })
+        }
+        (GivenParts::Planets(_), _) => {
+            let help =
+                "remove `parts`, give the bodies in sections [[body]], or use a problem such as outer-solar-system";
+            return reader.toml.wrong(at, "only bodies that attract each other have these parts", help);
+        }
     };
-    let Some((bodies, dimensions)) = bodies else {
-        let help = "remove `parts`, or use a problem such as outer-solar-system";
-        return reader.toml.wrong(given.place("parts")?, "only bodies that attract each other have these parts", help);
-    };
-    Some(System { parts: Parts::WisdomHolman(Planets { coordinates, bodies, dimensions }), ..system })
+    Some(System { parts, ..system })
 }
 
+/// T(p) + ½qᵀKq and the rest of U.
+fn linear(reader: &mut Reader<'_>, at: &Range<usize>, system: &System) -> Option<Parts> {
+    let coordinates = system.q.len();
+    let refused = match () {
+        () if coordinates > MOST_COORDINATES => {
+            Some(format!("a linear part has at most {MOST_COORDINATES} coordinates, not {coordinates}"))
+        }
+        () if matches!(system.kinetic, KineticEnergy::Formula(_)) => {
+            Some("a linear part requires T by masses, not by a formula".to_owned())
+        }
+        () if reader.arithmetic.is_compensated() => Some("a linear part has no compensated sums".to_owned()),
+        () if reader.arithmetic.digits() > MOST_DIGITS => {
+            Some(format!("a linear part is computed to {MOST_DIGITS} digits"))
+        }
+        () => None,
+    };
+    if let Some(message) = refused {
+        return reader.toml.wrong(at, message, "remove `parts`, or change that");
+    }
+    match stiffness(|count| system.potential::<AnyLimbs>(count)) {
+        Some(stiffness) => Some(Parts::Linear(stiffness)),
+        None => {
+            reader.toml.wrong(at, "U has no second derivatives at q = 0", "remove `parts`: U is not linear anywhere")
+        }
+    }
+}
+
+/// The most digits of a run with a linear part, whose flow is computed in more.
+const MOST_DIGITS: u32 = 288;
+
 /// Refuses what only bodies can have.
-fn refuse_keys_of_bodies(reader: &mut Reader<'_>, given: &Given, shipped: bool) {
-    let keys: &[&str] =
-        if shipped { &["units", "elements", "barycentric"] } else { &["parts", "units", "elements", "barycentric"] };
-    given.refuse(reader, keys, |key| {
+fn refuse_keys_of_bodies(reader: &mut Reader<'_>, given: &Given) {
+    given.refuse(reader, &["units", "elements", "barycentric"], |key| {
         (format!("{key} requires bodies"), format!("remove `{key}`, or give the bodies in sections [[body]]"))
     });
 }

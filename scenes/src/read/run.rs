@@ -29,6 +29,15 @@ pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Opti
     }
 }
 
+/// What a system asks of its scheme.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Kind {
+    /// An order for every T(p).
+    pub(super) general: bool,
+    /// Kicks and drifts only, as the parts are not T(p) and U(q).
+    pub(super) other_parts: bool,
+}
+
 /// The section [run].
 pub(super) struct Steps {
     pub(super) scheme: NamedScheme,
@@ -38,17 +47,12 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// For a general T(p), or for a quadratic one.
-    pub(super) fn read(
-        reader: &mut Reader<'_>,
-        run: &Section<'_, '_>,
-        general: bool,
-        schemes: &Schemes,
-    ) -> Option<Steps> {
+    /// For a system of this kind.
+    pub(super) fn read(reader: &mut Reader<'_>, run: &Section<'_, '_>, kind: Kind, schemes: &Schemes) -> Option<Steps> {
         let first = run.get("first").map(|value| reader.word(value, &[("kick", First::Kick), ("drift", First::Drift)]));
         let scheme = match run.get("scheme") {
             Some(value) => {
-                reader.toml.text(value).and_then(|text| scheme(reader, &text, first.flatten(), general, schemes))
+                reader.toml.text(value).and_then(|text| scheme(reader, &text, first.flatten(), kind, schemes))
             }
             None => {
                 reader.toml.missing(run, &["scheme"]);
@@ -68,7 +72,7 @@ fn scheme(
     reader: &mut Reader<'_>,
     word: &Text,
     first: Option<First>,
-    general: bool,
+    kind: Kind,
     schemes: &Schemes,
 ) -> Option<NamedScheme> {
     let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
@@ -80,7 +84,9 @@ fn scheme(
             return None;
         }
     };
-    if general && let Err((message, hint)) = library::check_general(&named) {
+    let valid = if kind.general { library::check_general(&named) } else { Ok(()) };
+    let valid = valid.and_then(|()| if kind.other_parts { library::check_parts(&named) } else { Ok(()) });
+    if let Err((message, hint)) = valid {
         return reader.toml.wrong(&word.at, message, hint);
     }
     reader.notes.extend(named.note());

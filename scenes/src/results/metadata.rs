@@ -13,7 +13,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use crate::arithmetic::Arithmetic;
 use crate::library;
-use crate::scene::{KineticEnergy, PairEnergy, Parts, PotentialEnergy, Scene, System};
+use crate::scene::{KineticEnergy, LINEAR, PairEnergy, Parts, PotentialEnergy, Scene, System};
 
 /// Names and values in the order in which they are written.
 pub(crate) struct Metadata(Vec<(&'static str, Value)>);
@@ -83,6 +83,7 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
     };
     let parts = match &system.parts {
         Parts::KineticAndPotential => None,
+        Parts::Linear(_) => Some(("parts", json!(LINEAR))),
         Parts::WisdomHolman(planets) => Some(("parts", json!(planets.coordinates.name()))),
     };
     named

@@ -1,7 +1,7 @@
 //! How H is split into a part for the drifts and one for the kicks.
 
 use shadowstep::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
-use shadowstep::{MotionError, Number, System as _};
+use shadowstep::{MotionError, Number, Rational, System as _};
 
 use crate::boxed::Boxed;
 
@@ -12,6 +12,8 @@ pub enum Parts {
     KineticAndPotential,
     /// The Kepler orbits of planets, and their interactions.
     WisdomHolman(Planets),
+    /// T(p) + ½qᵀKq with this K, row by row, and what is left of U.
+    Linear(Vec<Vec<Rational>>),
 }
 
 /// A planetary system of point masses, the central body first.
@@ -35,7 +37,7 @@ pub enum Canonical {
 }
 
 impl Canonical {
-    /// The values of the key `parts`.
+    /// Its values of the key `parts`.
     pub(crate) const NAMES: [(&'static str, Canonical); 2] =
         [("wisdom-holman", Canonical::Jacobi), ("wisdom-holman-heliocentric", Canonical::DemocraticHeliocentric)];
 

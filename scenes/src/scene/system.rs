@@ -67,7 +67,7 @@ impl System {
         let numbers = |values: &[Exact]| values.iter().map(|v| N::from_rational(&v.value, context)).collect();
         let (q, p): (Vec<N>, Vec<N>) = (numbers(&self.q), numbers(&self.p));
         match &self.parts {
-            Parts::KineticAndPotential => (q, p),
+            Parts::KineticAndPotential | Parts::Linear(_) => (q, p),
             Parts::WisdomHolman(planets) => planets.canonical((&q, &p), context),
         }
     }
@@ -75,7 +75,7 @@ impl System {
     /// Converts states from the coordinates of the steps to those that are shown, where these differ.
     pub fn shown<N: Number + 'static>(&self, context: &N::Context) -> Option<Shown<N>> {
         match &self.parts {
-            Parts::KineticAndPotential => None,
+            Parts::KineticAndPotential | Parts::Linear(_) => None,
             Parts::WisdomHolman(planets) => Some(planets.shown(context)),
         }
     }
@@ -108,6 +108,14 @@ impl System {
                     Err(general) => ClassifiedKinetic::General(Box::new(general)),
                 }
             }
+        }
+    }
+
+    /// The masses of the coordinates; of a system whose T is given by them.
+    pub(crate) fn exact_masses(&self) -> Vec<Rational> {
+        match &self.kinetic {
+            KineticEnergy::Masses(Some(masses)) => masses.iter().map(|mass| mass.value.clone()).collect(),
+            _ => vec![Rational::from_integer(1.into()); self.q.len()],
         }
     }
 

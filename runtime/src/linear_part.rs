@@ -1,0 +1,217 @@
+//! Oscillations solved exactly: H = A + B with A = ½pᵀM⁻¹p + ½qᵀKq, and B = U(q) − ½qᵀKq.
+//!
+//! With T(p) and U(q) as parts a step must resolve the fastest oscillation: hω has a limit, and there are resonances at hω = mπ below it. Here the drift is
+//! the exact flow of all oscillations, of any frequency, and a kick is by what is left of the force. K may be any symmetric matrix, as B is the rest of
+//! U; mostly it is U_qq at the equilibrium. The flow of a quadratic form adds nothing to β; a kick adds qᵀB_q − 2B = qᵀU_q − 2U times its
+//! weight: that of U itself, as of ½qᵀKq it is 0.
+//!
+//! Source: Deuflhard, Z. Angew. Math. Phys. 30 (1979) 177; Hairer, Lubich & Wanner, Geometric Numerical Integration, chapter XIII, where this is the
+//! method without filters: its own resonances are at h(ω_i ± ω_j ± …) = 2πm.
+
+mod rotation;
+
+use crate::Rational;
+use crate::kinetic::{DiagonalMasses, Kinetic, Quadratic};
+use crate::motion::MotionError;
+use crate::number::Rounded;
+use crate::potential::Potential;
+use crate::system::{Increments, OwnedIncrements, System};
+use rotation::{Rotations, precision};
+
+/// A system with a linear part that drifts solve exactly, at a state.
+///
+/// ```
+/// use shadowstep::linear_part::LinearPart;
+/// use shadowstep::problems::HenonHeiles;
+/// use shadowstep::{Stepper, System, exact, tables};
+///
+/// // two oscillators with ω = 1, and x²y − y³/3
+/// let [zero, one] = ["0", "1"].map(|text| exact(text).unwrap());
+/// let stiffness = [vec![one.clone(), zero.clone()], vec![zero, one.clone()]];
+/// let mut system = LinearPart::new(HenonHeiles, &[one.clone(), one], &stiffness, &[0.1, 0.0], &[0.0, 0.1])?;
+/// let before = system.energy();
+/// let stepper = Stepper::new(tables::shipped("stormer-verlet").unwrap(), "3")?; // hω = 3, above the limit of T(p) and U(q)
+/// for _ in 0..1000 {
+///     stepper.step(&mut system);
+/// }
+/// assert!((system.energy() / before - 1.0).abs() < 0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct LinearPart<N, P> {
+    potential: P,
+    scratch: Vec<N>,
+    stiffness: Vec<Vec<N>>,
+    kinetic: DiagonalMasses<N>,
+    rotations: Rotations<N>,
+    q: Vec<N>,
+    p: Vec<N>,
+    /// B_q and qᵀB_q − 2B
+    gradient: Vec<N>,
+    rate: N,
+    kept: bool,
+    increments: OwnedIncrements<N>,
+    scratch_of_kinetic: Vec<N>,
+    evaluations: u64,
+}
+
+impl<N: Rounded, P: Potential<N>> LinearPart<N, P> {
+    /// The system at q, p, with the masses of the coordinates and K, row by row; the flow is computed in more digits than the numbers have, and rounded
+    /// once.
+    ///
+    /// # Errors
+    /// q, p, the masses, K and the potential that do not have the same dimension, at least 1; masses that are not positive; numbers of more than
+    /// 288 digits.
+    pub fn new(
+        potential: P,
+        masses: &[Rational],
+        stiffness: &[Vec<Rational>],
+        q: &[N],
+        p: &[N],
+    ) -> Result<Self, MotionError> {
+        let coordinates = q.len();
+        let dimension = potential.dimension();
+        if coordinates == 0 {
+            return Err(MotionError::NoCoordinates);
+        }
+        if p.len() != coordinates {
+            return Err(MotionError::Momenta { coordinates, momenta: p.len() });
+        }
+        if dimension != coordinates {
+            return Err(MotionError::Potential { coordinates, dimension });
+        }
+        let rows = stiffness.iter().map(Vec::len).chain([masses.len(), stiffness.len()]);
+        if let Some(dimension) = rows.into_iter().find(|found| *found != coordinates) {
+            return Err(MotionError::Kinetic { coordinates, dimension });
+        }
+        let context = q[0].context();
+        if precision::<N>(&context).is_none() {
+            return Err(MotionError::Digits);
+        }
+        let kinetic = DiagonalMasses::new(masses, &context)?;
+        let of_kinetic = Kinetic::<N>::scratch(&kinetic);
+        let zero = N::zero(&context);
+        let mut scratch = vec![zero.clone(); potential.scratch()];
+        potential.prepare(&mut scratch, &context);
+        Ok(LinearPart {
+            potential,
+            scratch,
+            rotations: Rotations::new(masses, stiffness, &context),
+            kinetic,
+            stiffness: stiffness
+                .iter()
+                .map(|row| row.iter().map(|k| N::from_rational(k, &context)).collect())
+                .collect(),
+            q: q.to_vec(),
+            p: p.to_vec(),
+            gradient: vec![zero.clone(); coordinates],
+            rate: zero.clone(),
+            kept: false,
+            increments: OwnedIncrements::zero(coordinates, &context),
+            scratch_of_kinetic: vec![zero; of_kinetic],
+            evaluations: 0,
+        })
+    }
+
+    /// B_q = U_q − Kq and the rate of β, which is that of U.
+    fn evaluate(&mut self) {
+        if self.kept {
+            return;
+        }
+        let LinearPart { potential, scratch, stiffness, q, gradient, rate, .. } = self;
+        potential.update(q);
+        potential.gradient_and_rate(q, gradient, rate, scratch);
+        for (gradient, row) in gradient.iter_mut().zip(stiffness) {
+            row.iter().zip(&*q).for_each(|(k, q)| gradient.subtract_product(k, q));
+        }
+        self.kept = true;
+        self.evaluations += 1;
+    }
+
+    fn kick_by(&mut self, weight: &N, augmented: bool) {
+        self.evaluate();
+        for (p, gradient) in self.p.iter_mut().zip(&self.gradient) {
+            p.subtract_product(weight, gradient);
+        }
+        if augmented {
+            self.increments.beta.add_product(weight, &self.rate);
+            for (increment, gradient) in self.increments.p.iter_mut().zip(&self.gradient) {
+                increment.subtract_product(weight, gradient);
+            }
+        }
+    }
+
+    fn drift_by(&mut self, weight: &N, augmented: bool) {
+        let (to_q, to_p) = self.rotations.increments(weight, &self.q, &self.p);
+        self.q.iter_mut().zip(to_q).for_each(|(q, by)| q.add(by));
+        self.p.iter_mut().zip(to_p).for_each(|(p, by)| p.add(by));
+        if augmented {
+            self.increments.q.iter_mut().zip(to_q).for_each(|(sum, by)| sum.add(by));
+            self.increments.p.iter_mut().zip(to_p).for_each(|(sum, by)| sum.add(by));
+        }
+        self.kept = false;
+    }
+}
+
+impl<N: Rounded, P: Potential<N>> System for LinearPart<N, P> {
+    type Number = N;
+    /// A = ½pᵀM⁻¹p + f(q), and B depends on q only.
+    type Class = Quadratic;
+
+    fn q(&self) -> &[N] {
+        &self.q
+    }
+
+    fn p(&self) -> &[N] {
+        &self.p
+    }
+
+    fn increments(&self) -> Increments<'_, N> {
+        self.increments.view()
+    }
+
+    fn set_state(&mut self, q: &[N], p: &[N]) {
+        self.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
+        self.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        self.kept = false;
+    }
+
+    fn kick(&mut self, weight: &N) {
+        self.kick_by(weight, false);
+    }
+
+    fn kick_augmented(&mut self, weight: &N) {
+        self.kick_by(weight, true);
+    }
+
+    fn drift(&mut self, weight: &N) {
+        self.drift_by(weight, false);
+    }
+
+    fn drift_augmented(&mut self, weight: &N) {
+        self.drift_by(weight, true);
+    }
+
+    fn clear_increments(&mut self) {
+        self.increments.assign_zero();
+    }
+
+    fn assign_energies(&mut self, energy: &mut N, kinetic: &mut N) {
+        self.potential.update(&self.q);
+        self.potential.energy(&self.q, energy, &mut self.scratch);
+        Kinetic::energy(&self.kinetic, &self.p, kinetic, &mut self.scratch_of_kinetic);
+        energy.add(kinetic);
+    }
+
+    fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic: &mut N) {
+        self.potential.update(q);
+        self.potential.energy(q, energy, &mut self.scratch);
+        Kinetic::energy(&self.kinetic, p, kinetic, &mut self.scratch_of_kinetic);
+        energy.add(kinetic);
+        self.kept = false;
+    }
+
+    fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+}
