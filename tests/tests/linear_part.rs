@@ -9,7 +9,7 @@ use shadowstep::number::{Limbs, Number};
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, StiffFput};
 use shadowstep::run::energy_drift;
 use shadowstep::shadow::{Bilinear, Criterion, ShadowEnergy, Verdict};
-use shadowstep::{Motion, Rational, System, UnitMasses};
+use shadowstep::{Motion, Rational, Scheme, System, UnitMasses};
 use shadowstep_tests::reference::Separable;
 use shadowstep_tests::shipped::all;
 use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, rational, same_bits, stepper};
@@ -67,6 +67,9 @@ fn the_orders_are_those_proved() {
     let schemes: Vec<_> =
         (0..=7_u32).map(|k| all::<Float>(&rational(&format!("1/{}", 1_u64 << k)), &context)).collect();
     for (index, scheme) in schemes[0].iter().enumerate() {
+        if scheme.twin.gradient_kicks() > 0 {
+            continue; // the system has none
+        }
         let proved = scheme.summary.order_quadratic;
         let k = scheme.halvings(proved, DIGITS).min(7);
         let error = |k: u32| {

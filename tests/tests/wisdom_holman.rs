@@ -10,7 +10,7 @@ use shadowstep::run::energy_drift;
 use shadowstep::shadow::{Bilinear, ShadowEnergy};
 use shadowstep::tables::{self, TableScheme};
 use shadowstep::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
-use shadowstep::{Rational, Stepper, System, ValidFor};
+use shadowstep::{Rational, Scheme, Stepper, System, ValidFor};
 use shadowstep_schemes::{First, shipped_names, shipped_proved};
 use shadowstep_tests::reference::Separable;
 use shadowstep_tests::shipped::{Shipped, all, all_for_every_kinetic};
@@ -133,6 +133,7 @@ fn measured<C, K>(
     exact: &[Vec<Float>],
 ) -> Vec<(String, f64, f64)>
 where
+    TableScheme<K>: Scheme,
     C: PlanetaryCoordinates<Float, 2, Class = K> + 'static,
 {
     let error = |scheme: usize, k: u32| {
@@ -146,7 +147,8 @@ where
         let k = scheme.halvings(proved, DIGITS).min(exact.len() as u32 - 1);
         (scheme.name.clone(), f64::from(proved), error(index, k - 1) - error(index, k) - 1.0)
     };
-    schemes[0].iter().enumerate().map(order).collect()
+    // planets have no gradient kicks
+    schemes[0].iter().enumerate().filter(|(_, scheme)| scheme.twin.gradient_kicks() == 0).map(order).collect()
 }
 
 #[test]
