@@ -15,6 +15,7 @@ use num_traits::{Signed, Zero};
 use shadowstep_symbolic::Rational;
 
 use crate::error::LeadingError;
+use crate::sampling::SamplingError;
 use crate::stability::Stability;
 use crate::trace::PhaseError;
 use shadowstep_schemes::Proved;
@@ -37,6 +38,8 @@ pub struct Analysis {
     pub stability: Option<Stability>,
     /// How far the harmonic oscillator's phase is off.
     pub phase: PhaseError,
+    /// The largest expected error of the energy of the harmonic oscillator, of a symmetric scheme whose stability is known.
+    pub sampling: Option<SamplingError>,
     /// The sizes of the kicks' weights.
     pub kicks: Sizes,
     /// The sizes of the drifts' weights.
@@ -61,12 +64,14 @@ impl Analysis {
     pub fn of(proved: &Proved) -> Analysis {
         let (maps, proof) = (proved.scheme.maps(), &proved.proof);
         let [general, quadratic] = LeadingError::of(proved);
+        let stability = Stability::of_scheme(proved);
         Analysis {
             evaluations: proved.plan.evaluations,
             hessian_products: proved.plan.hessian_products,
             general,
             quadratic,
-            stability: Stability::of_scheme(proved),
+            sampling: SamplingError::of(proved, stability.as_ref()),
+            stability,
             phase: PhaseError::of(&maps, proved.scheme.held, proof.quadratic.order),
             kicks: Sizes::of(&maps, MapKind::Kick),
             drifts: Sizes::of(&maps, MapKind::Drift),

@@ -6,6 +6,7 @@
 //! | [`error`](mod@error), [`bracket`] | the leading error: the terms of lowest order in the logarithm of a step |
 //! | [`trace`] | the trace of a step of the harmonic oscillator, and the leading error of its phase |
 //! | [`oscillator`] | trace and phase of a step of the harmonic oscillator at a given hω, in f64 |
+//! | [`sampling`] | the largest expected error of the energy of the harmonic oscillator, which schemes for Hamiltonian Monte Carlo minimise |
 //! | `period` | the part that a step repeats: it is stable where the step is |
 //! | `powers` | double roots of the trace ∓ 2 that the repetitions within a step explain |
 //! | [`stability`], `roots`, `squarefree` | where the harmonic oscillator is stable: roots of integer polynomials |
@@ -25,6 +26,7 @@ pub mod polish;
 mod powers;
 mod prime;
 mod roots;
+pub mod sampling;
 mod squarefree;
 pub mod stability;
 pub mod trace;

@@ -88,6 +88,10 @@ fn request(message: impl Into<String>, hint: impl Into<String>) -> NotPolished {
 pub fn polish(source: &Source, library: Library<'_>, wanted: &Request<'_>) -> Result<Polished, NotPolished> {
     let (scheme, base) = readable(source, library)?;
     let table = &scheme.table;
+    if table.processor.is_some() {
+        let hint = "the conditions of the kernel alone do not determine them: polish a table of the kernel without [processor]";
+        return Err(request(format!("{} has a processor, whose weights are not polished", source.path), hint));
+    }
     let model = Model::of(table, base)?;
     if model.unknowns.is_empty() {
         return Err(request(

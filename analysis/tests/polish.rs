@@ -87,7 +87,9 @@ fn published_digits_become_those_of_the_shipped_tables() {
     let requests: Table = fs::read_to_string(format!("{FOLDER}/requests.toml")).unwrap().parse().unwrap();
     let decimal = |name: &&str| {
         let printed = |held| matches!(held, Held::Digits(digits) if digits < 300);
-        printed(shipped_proved(name).unwrap().scheme.held)
+        let scheme = &shipped_proved(name).unwrap().scheme;
+        // those of processors are not polished by this
+        printed(scheme.held) && scheme.processor.is_none()
     };
     let mut names: BTreeSet<_> = shipped_names().into_iter().filter(decimal).map(str::to_owned).collect();
     names.extend(requests.keys().cloned());

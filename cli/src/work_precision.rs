@@ -104,9 +104,12 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
 const ALL: &str = "all";
 const NEAR_INTEGRABLE: &str = "near-integrable";
 
-/// Whether a shipped table has orders for A + εB.
+/// Whether a shipped table has orders for A + εB, of a processed scheme effective ones.
 fn is_near_integrable(name: &str) -> bool {
-    shadowstep_schemes::shipped_proved(name).is_some_and(|proved| !proved.proof.near_integrable.is_empty())
+    shadowstep_schemes::shipped_proved(name).is_some_and(|proved| {
+        let effective = proved.proof.effective.iter().flat_map(|effective| &effective.near_integrable);
+        proved.proof.near_integrable.iter().chain(effective).next().is_some()
+    })
 }
 
 /// The schemes, each once, that are valid for the system and have the digits of the runs.

@@ -32,6 +32,13 @@ pub trait Scheme {
         0
     }
 
+    /// The kicks and drifts of the post-map χ⁻¹ of a processed scheme χ⁻¹ ∘ kernelⁿ ∘ χ, in the order in which they act, with their exact
+    /// weights. The pre-map χ is its exact inverse, and the steps are those of the kernel: see
+    /// [`Stepper::preprocess`](crate::Stepper::preprocess). Other schemes have none.
+    fn processor(&self) -> Vec<(MapKind, Rational)> {
+        Vec::new()
+    }
+
     /// One step: t → t + h.
     fn step<S: System>(&self, weights: &StepWeights<Self::Array<S::Number>>, system: &mut S)
     where
@@ -95,6 +102,14 @@ pub struct Summary<'a> {
     pub symmetric: bool,
     /// Evaluations of the gradient U_q per step.
     pub evaluations: usize,
+}
+
+/// The post-map of generated code, from decimals or fractions.
+///
+/// # Panics
+/// If a text is not an exact number; generated texts are.
+pub fn exact_maps<const K: usize>(maps: [(MapKind, &str); K]) -> Vec<(MapKind, Rational)> {
+    maps.into_iter().map(|(kind, text)| (kind, from_text(text).expect("generated weights are exact numbers"))).collect()
 }
 
 /// The weights of a scheme times h, and their negatives for the inverse step. Only a [`Stepper`](crate::Stepper) makes them.

@@ -3,6 +3,7 @@
 use crate::Rational;
 use crate::maps::Maps;
 use crate::number::Number;
+use crate::processor::{Kept, Processor};
 use crate::scheme::{Scheme, StepWeights, ValidFor};
 use crate::step_size::{StepSize, StepSizeError};
 use crate::system::System;
@@ -30,11 +31,36 @@ use crate::system::System;
 /// assert!((motion.q()[0] - 0.4).abs() < 1e-10);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+///
+/// # Processed schemes
+///
+/// A processed scheme is χ⁻¹ ∘ kernelⁿ ∘ χ. The steps are those of its kernel: [`preprocess`](Stepper::preprocess) once before the
+/// first of them, and read a state through [`at_output`](Stepper::at_output), as often as one is wanted. For other schemes both do
+/// nothing, so that a loop may always have them.
+///
+/// ```
+/// use shadowstep::{Motion, Stepper, UnitMasses, potential, tables::shipped};
+///
+/// // a harmonic oscillator and a perturbation: not what the scheme is for, since its drifts are not those of the oscillator
+/// potential! { #[derive(Clone)] pub struct Weak; U(q) = cos(q)/1000 }
+///
+/// let error = |name| {
+///     let stepper = Stepper::new(shipped(name).unwrap(), "1/2").unwrap();
+///     let mut motion = Motion::new(Weak, UnitMasses, [0.0], [1.0]).unwrap();
+///     let before = motion.energy();
+///     stepper.preprocess(&mut motion);
+///     (0..5).for_each(|_| stepper.step(&mut motion));
+///     stepper.at_output(&mut motion, |motion| (motion.energy() - before).abs())
+/// };
+/// // H = A + εB with A = p²/2: the leapfrog has the error O(εh²), a corrector of order 7 has O(εh⁸ + ε²h²)
+/// assert!(error("wisdom-corrector-7") < error("stormer-verlet") / 100.0);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Stepper<S: Scheme, N: Number> {
     scheme: S,
     h: StepSize,
     weights: StepWeights<S::Array<N>>,
+    processor: Processor<N>,
 }
 
 impl<S: Scheme, N: Number> Stepper<S, N> {
@@ -61,7 +87,8 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         StepSizeError: From<H::Error>,
     {
         let h = h.try_into()?;
-        Ok(Stepper { weights: StepWeights::of(&scheme, h.exact(), context), scheme, h })
+        let processor = Processor::of(&scheme, h.exact(), context);
+        Ok(Stepper { weights: StepWeights::of(&scheme, h.exact(), context), processor, scheme, h })
     }
 
     /// The scheme.
@@ -101,6 +128,47 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         S: ValidFor<M::Class>,
     {
         self.scheme.step(&self.weights, system);
+    }
+
+    /// Whether the scheme is a processed one, whose steps are those of its kernel.
+    pub fn is_processed(&self) -> bool {
+        !self.processor.is_identity()
+    }
+
+    /// The pre-map χ of a processed scheme, which takes an initial state to that at which the kernel begins; nothing for other schemes.
+    pub fn preprocess<M: System<Number = N>>(&self, system: &mut M) {
+        self.processor.preprocess(system);
+    }
+
+    /// The post-map χ⁻¹ of a processed scheme, which takes a state of the kernel to one of the trajectory; nothing for other schemes.
+    pub fn postprocess<M: System<Number = N>>(&self, system: &mut M) {
+        self.processor.postprocess(system);
+    }
+
+    /// Reads the system at the state of the trajectory that belongs to the present one of the kernel: through the post-map, after which the
+    /// system has its state back, to the last bit. For other schemes it is at its own state.
+    pub fn at_output<M: System<Number = N>, R>(&self, system: &mut M, read: impl FnOnce(&mut M) -> R) -> R {
+        if !self.is_processed() {
+            return read(system);
+        }
+        let kept = Kept::of(system);
+        self.postprocess(system);
+        let found = read(system);
+        kept.restore(system);
+        found
+    }
+
+    /// The state of the trajectory that belongs to a state q, p of the kernel, which the system need not be at: q and p become it.
+    pub fn postprocess_state<M: System<Number = N>>(&self, system: &mut M, q: &mut [N], p: &mut [N]) {
+        if !self.is_processed() {
+            return;
+        }
+        let kept = Kept::of(system);
+        system.set_state(q, p);
+        self.postprocess(system);
+        q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
+        p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
+        kept.restore(system);
     }
 
     /// `count` steps of each of several systems, with the bits that [`Stepper::step`] gives.

@@ -184,6 +184,11 @@ impl<Class> Scheme for TableScheme<Class> {
         self.plan().gradient_kicks.len()
     }
 
+    fn processor(&self) -> Vec<(MapKind, Rational)> {
+        let maps = self.proved.scheme.processor.iter().flat_map(|processor| &processor.post);
+        maps.map(|map| (map.kind, map.weight.clone())).collect()
+    }
+
     fn step<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
     where
         Self: ValidFor<M::Class>,

@@ -14,7 +14,7 @@ use crate::results::{Checkpoint, ModifiedEnergy, Row, Rows, SavedState};
 use crate::run::Run;
 use crate::scene::{CheckpointInterval, Scene, Shown};
 use crate::snapshots::{Snapshot, Snapshots};
-use crate::start::{Steps, Work};
+use crate::start::{Begin, Steps, Work};
 use crate::summary::Summary;
 use crate::watch::{Energies, Watch};
 
@@ -65,7 +65,9 @@ pub(crate) fn follow<N: Rounded + 'static>(
         shown: scene.system.shown(context),
     };
     let compensated = scene.arithmetic.is_compensated();
-    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated };
+    // the states of checkpoints are those of the steps
+    let begin = if saved.is_some() { Begin::Step } else { Begin::InitialState };
+    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated, begin };
     scene.system.with(steps, state, context, recorder).map_err(|error| inconsistent(&error))?
 }
 
@@ -126,13 +128,8 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         if !self.observer.summarises() {
             return Ok(None);
         }
-        let initial = match self.from {
-            None => system.energy(),
-            Some(_) => {
-                let (q, p) = self.scene.system.start(self.context);
-                system.energy_at(&q, &p)
-            }
-        };
+        let (q, p) = self.scene.system.start(self.context);
+        let initial = system.energy_at(&q, &p);
         let first = (self.from.unwrap_or(0), initial);
         let watch = Watch::begin(stepper, system, self.run, first, Energies::Windows, true);
         let watch = watch.map_err(|error| self.failed(&error))?;
@@ -162,14 +159,22 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
             if let Some(watch) = watch.as_mut().filter(|_| n > from) {
                 watch.include(n, system);
             }
-            let energy = self.is_due(self.scene.output.energy, n).then(|| system.energy());
-            self.row(n, system.q(), system.p(), energy.as_ref(), None)?;
+            let [energy, state] =
+                [self.scene.output.energy, self.scene.output.trajectory].map(|every| self.is_due(every, n));
+            if energy || state {
+                stepper.at_output(system, |system| {
+                    let energy = energy.then(|| system.energy());
+                    self.row(n, system.q(), system.p(), energy.as_ref(), None)
+                })?;
+            } else {
+                self.observer.progress(n);
+            }
             if self.ends(n, || Some(Snapshot::of(n, system)))? {
                 return Ok((Outcome::Stopped { n }, None));
             }
         }
         let system = trajectory.system();
-        let energy = system.energy();
+        let energy = stepper.at_output(system, M::energy);
         Ok((self.complete(&energy, system.evaluations())?, self.summary(watch, &energy)))
     }
 
@@ -210,8 +215,14 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         {
             q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
             p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
+            let last = n.unsigned_abs() == steps;
+            let [due, state] =
+                [self.scene.output.energy, self.scene.output.trajectory].map(|every| self.is_due(every, n));
             let modified = self.is_due(every, n).then(|| ModifiedEnergy::of(&found));
-            let energy = self.is_due(self.scene.output.energy, n).then(|| shadow.system().energy_at(&q, &p));
+            if due || state || last {
+                stepper.postprocess_state(shadow.system(), &mut q, &mut p);
+            }
+            let energy = due.then(|| shadow.system().energy_at(&q, &p));
             self.row(n, &q, &p, energy.as_ref(), modified)?;
             if self.ends(n, || snapshots.for_those_after(n).cloned())? {
                 return Ok((Outcome::Stopped { n }, None));

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::propagator::{Propagator, exact_flow};
 use crate::run::Run;
 use crate::scene::System;
-use crate::start::{Steps, Work};
+use crate::start::{Begin, Steps, Work};
 use crate::summary::{EnergySummary, Summary};
 use crate::watch::{Energies, Watch};
 
@@ -59,8 +59,9 @@ impl Estimates<'_> {
         let Estimates { system, propagator, run, settings, .. } = self;
         match propagator {
             Propagator::Scheme(named) => {
-                let work = Following { estimates: self, take };
-                let steps = Steps { scheme: &named.scheme, h: run.h, compensated: self.compensated };
+                let work = Following { estimates: self, take, context };
+                let (compensated, begin) = (self.compensated, Begin::InitialState);
+                let steps = Steps { scheme: &named.scheme, h: run.h, compensated, begin };
                 let found = system.with(steps, system.start(context), context, work);
                 found.map_err(|error: MotionError| Error::usage(error.to_string(), "check the initial state"))?
             }
@@ -77,12 +78,13 @@ impl Estimates<'_> {
 }
 
 /// A run of a scheme, in any class of kinetic energies.
-struct Following<'a, F> {
+struct Following<'a, N: Ordered, F> {
     estimates: Estimates<'a>,
     take: F,
+    context: &'a N::Context,
 }
 
-impl<N, F> Work<N> for Following<'_, F>
+impl<N, F> Work<N> for Following<'_, N, F>
 where
     N: Ordered + 'static,
     F: FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
@@ -96,7 +98,8 @@ where
     {
         let Estimates { system: described, run, settings, summarised, .. } = self.estimates;
         let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
-        let initial = system.energy();
+        let (q, p) = described.start(self.context);
+        let initial = system.energy_at(&q, &p);
         let watch = Watch::begin(stepper, &mut system, run, (0, initial), Energies::All, summarised);
         let mut watch = watch.map_err(failed)?.with_planets_of(described);
         let mut evaluations = Evaluations::default();

@@ -49,7 +49,7 @@ impl<const W: usize> Together<W> {
     ///
     /// # Panics
     /// If the step size is 0 or the scheme is not valid for T(p), which reading a scene excludes.
-    pub fn with<T: Work<Lanes<W>>>(self, Steps { scheme, h, compensated }: Steps<'_>, work: T) -> T::Output {
+    pub fn with<T: Work<Lanes<W>>>(self, Steps { scheme, h, compensated, .. }: Steps<'_>, work: T) -> T::Output {
         const VALID: &str = "the scheme and the step size were read with the scene";
         if matches!(self.kinetic, ClassifiedKinetic::Quadratic(_)) {
             return work.with(&Stepper::new(scheme.clone(), h.clone()).expect(VALID), self.quadratic(compensated));

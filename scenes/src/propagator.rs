@@ -98,8 +98,9 @@ impl Propagator {
         match self {
             Propagator::Scheme(named) => {
                 let stepper = stepper(named, run, context);
-                let mut shadow =
-                    ShadowRun::new(&stepper, motion(setup, context), run.steps, settings).map_err(failed)?;
+                let mut motion = motion(setup, context);
+                stepper.preprocess(&mut motion);
+                let mut shadow = ShadowRun::new(&stepper, motion, run.steps, settings).map_err(failed)?;
                 let mut found = shadow.drift_with_progress(progress).map_err(failed)?;
                 found.evaluations = shadow.system().evaluations();
                 Ok(found)
@@ -126,7 +127,9 @@ impl Propagator {
         match self {
             Propagator::Scheme(named) => {
                 let stepper = stepper(named, run, context);
-                let shadow = ShadowRun::new(&stepper, motion(setup, context), run.steps, settings).map_err(failed)?;
+                let mut motion = motion(setup, context);
+                stepper.preprocess(&mut motion);
+                let shadow = ShadowRun::new(&stepper, motion, run.steps, settings).map_err(failed)?;
                 take_all(shadow, run, take)
             }
             Propagator::ExactFlow => take_all(exact_flow(setup, run, settings, context)?, run, take),

@@ -17,6 +17,17 @@ pub struct Steps<'a> {
     pub h: &'a Rational,
     /// Whether q and p are sums with remainders.
     pub compensated: bool,
+    /// At which state they begin.
+    pub begin: Begin,
+}
+
+/// The state at which steps begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Begin {
+    /// The initial state: a processed scheme begins with its pre-map.
+    InitialState,
+    /// A state that the steps of the scheme have made; of a processed scheme, those of the kernel.
+    Step,
 }
 
 /// What is done with a system at a state and a stepper, whatever the class of its kinetic energy.
@@ -24,7 +35,7 @@ pub trait Work<N: Number> {
     /// Its result.
     type Output;
 
-    /// Does it.
+    /// Does it. For a processed scheme the system is at a state of its kernel: see [`Stepper::at_output`].
     fn with<S, M>(self, stepper: &Stepper<S, N>, system: M) -> Self::Output
     where
         S: Scheme + Clone + ValidFor<M::Class> + 'static,
@@ -41,32 +52,45 @@ impl scene::System {
     /// If the step size is 0 or the scheme is not valid for T(p), which reading a system and its scheme excludes.
     pub fn with<N: Rounded + 'static, W: Work<N>>(
         &self,
-        Steps { scheme, h, compensated }: Steps<'_>,
+        Steps { scheme, h, compensated, begin: at }: Steps<'_>,
         (q, p): (Vec<N>, Vec<N>),
         context: &N::Context,
         work: W,
     ) -> Result<W::Output, MotionError> {
         if let Parts::WisdomHolman(planets) = &self.parts {
             let system = planets.system((&q, &p), compensated, context)?;
-            return Ok(work.with(&stepper(scheme.clone(), h, context), system));
+            return Ok(begin(&stepper(scheme.clone(), h, context), system, at, work));
         }
         let (potential, scheme) = (self.potential(context), scheme.clone());
         if let Parts::Linear(stiffness) = &self.parts {
             let system = LinearPart::new(potential, &self.exact_masses(), stiffness, &q, &p)?;
-            return Ok(work.with(&stepper(scheme, h, context), Boxed::Quadratic(Box::new(system))));
+            return Ok(begin(&stepper(scheme, h, context), Boxed::Quadratic(Box::new(system)), at, work));
         }
         Ok(match self.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {
                 let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(compensated);
-                work.with(&stepper(scheme, h, context), motion)
+                begin(&stepper(scheme, h, context), motion, at, work)
             }
             ClassifiedKinetic::General(kinetic) => {
                 let scheme = scheme.for_every_kinetic().expect("the scheme was read for this T");
                 let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(compensated);
-                work.with(&stepper(scheme, h, context), motion)
+                begin(&stepper(scheme, h, context), motion, at, work)
             }
         })
     }
+}
+
+fn begin<N, S, M, W>(stepper: &Stepper<S, N>, mut system: M, at: Begin, work: W) -> W::Output
+where
+    N: Number,
+    S: Scheme + Clone + ValidFor<M::Class> + 'static,
+    M: System<Number = N> + 'static,
+    W: Work<N>,
+{
+    if at == Begin::InitialState {
+        stepper.preprocess(&mut system);
+    }
+    work.with(stepper, system)
 }
 
 fn stepper<S: Scheme, N: Number>(scheme: S, h: &Rational, context: &N::Context) -> Stepper<S, N> {

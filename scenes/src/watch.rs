@@ -42,6 +42,7 @@ pub enum Energies {
 pub struct Watch<S: Scheme, N: Ordered> {
     energies: Energies,
     energy: EnergyError<N>,
+    stepper: Stepper<S, N>,
     /// What a summary needs besides H; `None` where there is none.
     observed: Option<Observed<S, N>>,
     /// The n of the first state and of the last one so far.
@@ -82,7 +83,7 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
                 every,
             });
         }
-        Ok(Watch { energies, energy: EnergyError::new(initial), observed, from, n: from })
+        Ok(Watch { energies, energy: EnergyError::new(initial), stepper: stepper.clone(), observed, from, n: from })
     }
 
     /// Follows the planets of a system that has some, too.
@@ -99,13 +100,14 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
         self.observed.as_ref().is_some_and(|observed| observed.monitor.needs_increments())
     }
 
-    /// Takes the state n, which a step has made: the one after the last one that it took.
+    /// Takes the state n, which a step has made: the one after the last one that it took. Of a processed scheme, the monitor and encounters
+    /// follow the kernel; H is that of the trajectory.
     pub fn include<M: System<Number = N>>(&mut self, n: i64, system: &mut M) {
         self.n = n;
         if self.energies == Energies::All {
             let mut energy = N::zero(&system.context());
             let mut kinetic = energy.clone();
-            system.assign_energies(&mut energy, &mut kinetic);
+            self.stepper.at_output(system, |system| system.assign_energies(&mut energy, &mut kinetic));
             self.energy.include(n, &energy);
             self.energy.include_kinetic(&kinetic);
         }
@@ -118,7 +120,11 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
         if let Ok(Some(sample)) = monitor.observe(system)
             && self.energies == Energies::Windows
         {
-            self.energy.include(self.from + i64::try_from(sample.n).unwrap_or(i64::MAX), sample.energy);
+            if self.stepper.is_processed() {
+                self.energy.include(n, &self.stepper.at_output(system, M::energy));
+            } else {
+                self.energy.include(self.from + i64::try_from(sample.n).unwrap_or(i64::MAX), sample.energy);
+            }
         }
     }
 

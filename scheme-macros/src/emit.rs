@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::proof::Order;
-use shadowstep_schemes::{Kinetic, MapKind, Plan, Proved, to_text};
+use shadowstep_schemes::{Kinetic, Map, MapKind, Plan, Proved, to_text};
 use syn::{Ident, ItemStruct, LitStr};
 
 /// The most kicks and drifts of a step that is inlined wherever it is called: 7 are those of Yoshida's scheme of order 4.
@@ -39,6 +39,7 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
             }
         }
     });
+    let processor = processor(proved);
     let valid_for_general = proved.holds_for_every_kinetic().then(|| {
         quote! { impl ::shadowstep::ValidFor<::shadowstep::kinetic::General> for #ident {} }
     });
@@ -68,6 +69,7 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
             }
 
             #gradient_kicks
+            #processor
 
             #step
             #step_augmented
@@ -149,6 +151,18 @@ fn summary(proved: &Proved) -> TokenStream {
     }
 }
 
+/// The post-map of a processed scheme.
+fn processor(proved: &Proved) -> Option<TokenStream> {
+    let processor = proved.scheme.processor.as_ref()?;
+    let kinds = processor.post.iter().map(|Map { kind, .. }| format_ident!("{kind:?}"));
+    let weights = processor.post.iter().map(|map| to_text(&map.weight));
+    Some(quote! {
+        fn processor(&self) -> ::std::vec::Vec<(::shadowstep::scheme::MapKind, ::shadowstep::Rational)> {
+            ::shadowstep::scheme::exact_maps([#((::shadowstep::scheme::MapKind::#kinds, #weights)),*])
+        }
+    })
+}
+
 /// `kick_1, kick_2, …, drift_1, …, gradient_kick_1, …`
 fn weight_names(plan: &Plan) -> Vec<Ident> {
     let kinds = [
@@ -218,7 +232,7 @@ fn documentation(proved: &Proved) -> Vec<String> {
         Kinetic::Quadratic => "quadratic kinetic energy",
     };
     let doi = table.doi.as_ref().map_or(String::new(), |doi| format!(", <https://doi.org/{doi}>"));
-    vec![
+    let mut lines = vec![
         String::new(),
         format!(" {title}: `{}`, meant for {kinetic}.", table.name.value),
         String::new(),
@@ -237,7 +251,24 @@ fn documentation(proved: &Proved) -> Vec<String> {
             beta = cost.products_for_beta
         ),
         format!(" - Reference: {}{doi}.", table.reference.as_deref().unwrap_or("none")),
-    ]
+    ];
+    if let (Some(processor), Some(effective)) = (&proved.scheme.processor, &proved.proof.effective) {
+        let processed = format!(
+            " - Processed: these are the orders of its kernel. With its processor the effective order is {} for every T(p), {} for \
+             quadratic T{}: proved. An output costs {}.",
+            order(&effective.general),
+            order(&effective.quadratic),
+            near_integrable(&effective.near_integrable),
+            counted(processor.evaluations(), "gradient")
+        );
+        lines.insert(lines.len() - 1, processed);
+    }
+    lines
+}
+
+fn near_integrable(orders: &[Order]) -> String {
+    let orders: Vec<_> = orders.iter().map(|order| order.order.to_string()).collect();
+    if orders.is_empty() { String::new() } else { format!(", ({}) for A + εB", orders.join(",")) }
 }
 
 fn proved_orders(proved: &Proved) -> String {
@@ -270,8 +301,8 @@ mod tests {
 
     #[test]
     fn generated_code_of_every_kind_of_table() {
-        // kick first and drift first, compositions and stages, exact and rounded, palindromes and others
-        let kinds = "{blanes-moan-srkn6b,chin-4a,mclachlan-atela5,pefrl,ruth3,saba2,stormer-verlet,suzuki4,symplectic-euler,yoshida4}";
+        // kick first and drift first, compositions and stages, exact and rounded, palindromes and others, gradient kicks, processed
+        let kinds = "{blanes-moan-srkn6b,chin-4a,mclachlan-atela5,pefrl,ruth3,saba2,stormer-verlet,suzuki4,symplectic-euler,wisdom-corrector-5,yoshida4}";
         insta::glob!("../../schemes/tables", &format!("{kinds}.toml"), |path| {
             let name = path.file_stem().unwrap().to_str().unwrap();
             let proved = read(&shipped(name).unwrap(), &|base, _| shipped(base)).unwrap();

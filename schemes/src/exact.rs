@@ -17,7 +17,7 @@ use crate::document::{Fault, Source};
 use crate::library::Library;
 use crate::map::Stages;
 use crate::parse;
-use crate::scheme::{ExactScheme, Held};
+use crate::scheme::{ExactProcessor, ExactScheme, Held};
 use crate::shipped::shipped_hint;
 use crate::table::{Cell, MOST_STAGES, Table, Weights};
 
@@ -76,12 +76,13 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
             })
         }
     };
+    let processor = weights.as_ref().and_then(|(_, held, base)| cells.processor(*held, base.as_deref()));
     if let Some((stages, ..)) = weights.as_ref().filter(|(stages, ..)| stages.kick.len() > MOST_STAGES) {
         cells.faults.push(too_long(&table, stages.kick.len()));
     }
     if let Some((Stages { kick, gradient_kick, drift }, Held::Exactly, _)) = &weights
         && cells.faults.is_empty()
-        && !have_short_denominator(kick.iter().chain(gradient_kick).chain(drift))
+        && !have_short_denominator(kick.iter().chain(gradient_kick).chain(drift).chain(weights_of(processor.as_ref())))
     {
         let digits = LONGEST_DENOMINATOR * 3 / 10;
         let message = format!("the common denominator of the weights has more than {digits} digits");
@@ -90,8 +91,13 @@ fn scheme_within(source: &Source, library: Library<'_>, above: &[String]) -> (Op
     }
     let good = cells.faults.is_empty();
     faults.extend(cells.faults);
-    let scheme = weights.filter(|_| good).map(|(stages, held, base)| ExactScheme { table, stages, held, base });
+    let scheme =
+        weights.filter(|_| good).map(|(stages, held, base)| ExactScheme { table, stages, held, base, processor });
     (scheme, faults)
+}
+
+fn weights_of(processor: Option<&ExactProcessor>) -> impl Iterator<Item = &Rational> {
+    processor.into_iter().flat_map(|processor| &processor.post).map(|map| &map.weight)
 }
 
 fn have_short_denominator<'a>(mut weights: impl Iterator<Item = &'a Rational>) -> bool {
@@ -204,6 +210,36 @@ impl Cells<'_> {
             value
         };
         cells.iter().map(weight).collect()
+    }
+
+    /// The processor of a kernel whose weights are held so.
+    fn processor(&mut self, held: Held, base: Option<&ExactScheme>) -> Option<ExactProcessor> {
+        let table = self.table;
+        let post = match table.processor.as_ref()?.post.as_ref()? {
+            Weights::Stages { kick, drift, .. } => {
+                let (kick, drift) = (self.weights(&kick.value), self.weights(&drift.value));
+                Stages { kick, gradient_kick: Vec::new(), drift }.maps()
+            }
+            Weights::Composition { gamma, .. } => {
+                let base = base?;
+                if base.has_gradient_kicks() {
+                    let fault =
+                        table.source.fault(&gamma.at, "a processor cannot have gradient kicks, which its base has");
+                    self.faults.push(fault.hint("write a kernel of a base without them"));
+                    return None;
+                }
+                let size = gamma.value.len() * base.stages.kick.len();
+                if size > MOST_UNMERGED {
+                    self.faults.push(too_long(table, size));
+                    return None;
+                }
+                base.stages.repeated(&self.weights(&gamma.value)).maps()
+            }
+        };
+        if post.len() > 2 * MOST_STAGES {
+            self.faults.push(too_long(table, post.len() / 2));
+        }
+        Some(ExactProcessor { post, held: self::held(table, self.rounded).weaker(held) })
     }
 
     fn cell(&mut self, cell: &Cell) -> Option<Exact> {

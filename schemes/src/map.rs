@@ -136,6 +136,18 @@ pub fn reversed(maps: &[Map]) -> Vec<Map> {
     reversed
 }
 
+/// Maps one after the other, neighbours of one kind merged.
+pub fn joined<'a>(maps: impl IntoIterator<Item = &'a Map>) -> Vec<Map> {
+    let mut joined = Vec::new();
+    maps.into_iter().for_each(|map| append(&mut joined, map.kind, &map.weight));
+    joined
+}
+
+/// The maps that undo these.
+pub fn inverse(maps: &[Map]) -> Vec<Map> {
+    maps.iter().rev().map(|map| Map { kind: map.kind, weight: -&map.weight }).collect()
+}
+
 /// Adds a map after others; of those since the last drift, which commute with it, one of its kind takes it in.
 fn append(maps: &mut Vec<Map>, kind: MapKind, weight: &Rational) {
     if weight.is_zero() {

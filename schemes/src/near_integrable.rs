@@ -10,7 +10,7 @@
 use std::fmt;
 
 use crate::arithmetic::Arithmetic;
-use crate::claims::NearIntegrable;
+use crate::claims::{HIGHEST_LINEAR_ORDER, HIGHEST_NEAR_INTEGRABLE_ORDER, NearIntegrable};
 use crate::document::Placed;
 use crate::map::{Map, MapKind};
 use crate::order::{Condition, Word, lyndon_words, weighed, word_conditions};
@@ -24,6 +24,18 @@ pub struct Power {
     pub count: usize,
     /// Whether words with more B's belong to it too.
     pub or_more: bool,
+}
+
+impl Power {
+    /// Whether it is ε alone, without higher powers.
+    fn is_linear(self) -> bool {
+        self.count == 1 && !self.or_more
+    }
+
+    /// The highest order that can be claimed and proved.
+    pub fn highest_order(self) -> u32 {
+        if self.is_linear() { HIGHEST_LINEAR_ORDER } else { HIGHEST_NEAR_INTEGRABLE_ORDER }
+    }
 }
 
 /// Displayed as `ε`, `ε^2`, `ε^3 and higher powers`.
@@ -48,6 +60,9 @@ impl NearIntegrable {
 /// The words whose conditions belong to a power of ε, up to an order: the sum of the dominant maps, a word without any B,
 /// belongs to every power.
 pub fn words(power: Power, order: u32) -> Vec<Word> {
+    if power.is_linear() {
+        return words_with_one(power.perturbation, order as usize);
+    }
     let mut words = lyndon_words(order as usize);
     words.retain(|word| {
         let count = word.iter().filter(|kind| **kind == power.perturbation).count();
@@ -56,7 +71,36 @@ pub fn words(power: Power, order: u32) -> Vec<Word> {
     words
 }
 
+/// The Lyndon words with one B at most: A alone, and of each length the one whose B stands first or last, as the letters are ordered.
+fn words_with_one(perturbation: MapKind, longest: usize) -> Vec<Word> {
+    let dominant = perturbation.other();
+    let word = |length: usize| {
+        let mut word = vec![dominant; length];
+        let end = if perturbation < dominant { 0 } else { length - 1 };
+        word[end] = perturbation;
+        word
+    };
+    std::iter::once(vec![dominant]).chain((1..=longest).map(word)).collect()
+}
+
 /// The conditions of a power of ε, up to an order, and their values for a sequence of maps.
 pub fn conditions<A: Arithmetic>(maps: &[Map], power: Power, order: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
     word_conditions(&words(power, order), &weighed(maps, arithmetic), arithmetic)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_with_one_perturbation_are_those_of_all_words() {
+        for perturbation in [MapKind::Kick, MapKind::Drift] {
+            let mut all = lyndon_words(9);
+            all.retain(|word| word.iter().filter(|kind| **kind == perturbation).count() <= 1);
+            let mut found = words(Power { perturbation, count: 1, or_more: false }, 9);
+            all.sort();
+            found.sort();
+            assert_eq!(found, all);
+        }
+    }
 }

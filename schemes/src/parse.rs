@@ -3,13 +3,13 @@
 use shadowstep_symbolic::nearest;
 use toml::de::{DeTable, DeValue};
 
-use crate::claims::{HIGHEST_NEAR_INTEGRABLE_ORDER, HIGHEST_ORDER, Kinetic, NearIntegrable};
+use crate::claims::{HIGHEST_LINEAR_ORDER, HIGHEST_NEAR_INTEGRABLE_ORDER, HIGHEST_ORDER, Kinetic, NearIntegrable};
 use crate::document::{Fault, Key, Keys, Placed, Reader, Section, Source, Text, Value, document};
 use crate::map::MapKind;
 use crate::spelling::spelling;
-use crate::table::{Cell, MOST_STAGES, Table, Weights};
+use crate::table::{Cell, MOST_STAGES, Processor, Table, Weights};
 
-const TABLE: [Key; 15] = [
+const TABLE: [Key; 16] = [
     Key::new("name", "\"yoshida4\""),
     Key::new("title", "\"Yoshida's triple jump of order 4\""),
     Key::new("aliases", "[\"Forest-Ruth\"]"),
@@ -25,6 +25,18 @@ const TABLE: [Key; 15] = [
     Key::new("free", "[\"g1\"]"),
     Key::new("composition", "{ base = \"stormer-verlet\", gamma = [\"g1\", \"1 - 2*g1\", \"g1\"] }"),
     Key::new("stages", "{ kick = [\"1/2\", \"1/2\"], drift = [1, 0] }"),
+    Key::new("processor", "{ order = 4, kick = [\"1/24\", \"-1/24\"], drift = [\"1/2\", \"-1/2\"] }"),
+];
+
+const PROCESSOR: [Key; 7] = [
+    Key::new("order", "4"),
+    Key::new("near_integrable", "[4, 2]"),
+    Key::new("dominant", "\"drift\""),
+    Key::new("kick", "[\"1/24\", \"-1/24\"]"),
+    Key::new("drift", "[\"1/2\", \"-1/2\"]"),
+    Key::new("gamma", "[\"g1\", \"-g1\"]"),
+    // refused: gradient kicks are for kernels
+    Key::new("gradient_kick", "[]"),
 ];
 
 const STAGES: [Key; 3] = [
@@ -72,6 +84,7 @@ fn read(reader: &mut Reader<'_>, document: &DeTable<'_>) -> Table {
     let weights = weights(reader, root, document);
     let kinetic = kinetic.unwrap_or(Kinetic::Quadratic);
     let kinetic = refuse_beside_gradient_kicks(reader, root, weights.as_ref(), kinetic);
+    let processor = root.get("processor").and_then(|_| processor(reader, document, weights.as_ref()));
     Table {
         source: reader.source.clone(),
         name: name.unwrap_or(Placed { value: "unnamed".to_owned(), at: 0..0 }),
@@ -87,6 +100,7 @@ fn read(reader: &mut Reader<'_>, document: &DeTable<'_>) -> Table {
         constants,
         free,
         weights,
+        processor,
     }
 }
 
@@ -148,7 +162,12 @@ fn near_integrable(reader: &mut Reader<'_>, root: &Section<'_, '_>) -> Option<Ne
     if !reader.has_at_most(value, HIGHEST_NEAR_INTEGRABLE_ORDER as usize, "orders") {
         return None;
     }
-    let order = |reader: &mut Reader<'_>, v: &Value<'_>| reader.whole(v, 1..=HIGHEST_NEAR_INTEGRABLE_ORDER, "an order");
+    // of the powers of ε, the first one alone has its own words, unless it stands for all
+    let several = matches!(value.get_ref(), DeValue::Array(orders) if orders.len() > 1);
+    let mut highest = if several { HIGHEST_LINEAR_ORDER } else { HIGHEST_NEAR_INTEGRABLE_ORDER };
+    let order = |reader: &mut Reader<'_>, v: &Value<'_>| {
+        reader.whole(v, 1..=std::mem::replace(&mut highest, HIGHEST_NEAR_INTEGRABLE_ORDER), "an order")
+    };
     let orders = reader.readable_members(value, "a list of orders, such as [8, 2]", order);
     for pair in orders.windows(2).filter(|pair| pair[0].value < pair[1].value) {
         let message =
@@ -227,6 +246,41 @@ fn weights(reader: &mut Reader<'_>, root: &Section<'_, '_>, document: &DeTable<'
             let hint = "add [stages] with kick and drift, or [composition] with base and gamma";
             reader.wrong(&(0..0), "the weights are missing", hint)
         }
+    }
+}
+
+/// The processor of a kernel with these weights: like them, it has stages, or is a composition of the same base.
+fn processor(reader: &mut Reader<'_>, document: &DeTable<'_>, kernel: Option<&Weights>) -> Option<Processor> {
+    let section = reader.section(document, "processor", Keys::new("[processor]", PROCESSOR));
+    let order = reader.required(&section, "order").and_then(|v| reader.whole(v, 1..=HIGHEST_ORDER, "an order"));
+    let near_integrable = near_integrable(reader, &section);
+    let post = match kernel {
+        Some(Weights::Composition { base, .. }) => {
+            refuse_weights(
+                reader,
+                &section,
+                &["kick", "gradient_kick", "drift"],
+                "the kernel is a composition: write `gamma`",
+            );
+            let gamma = reader.required(&section, "gamma").and_then(|v| cells(reader, v));
+            gamma.map(|gamma| Weights::Composition { base: base.clone(), gamma })
+        }
+        _ => {
+            refuse_weights(
+                reader,
+                &section,
+                &["gamma", "gradient_kick"],
+                "the kernel has stages: write `kick` and `drift`",
+            );
+            stages(reader, &section)
+        }
+    };
+    Some(Processor { order: order?, near_integrable, post })
+}
+
+fn refuse_weights(reader: &mut Reader<'_>, section: &Section<'_, '_>, keys: &[&str], hint: &str) {
+    for (key, value) in keys.iter().filter_map(|key| Some((key, section.get(key)?))) {
+        reader.fault(&value.span(), format!("`{key}` is not for this processor"), hint);
     }
 }
 

@@ -7,11 +7,12 @@
 
 use shadowstep_symbolic::Rational;
 
-use crate::claims::{HIGHEST_NEAR_INTEGRABLE_ORDER, HIGHEST_ORDER, Kinetic};
+use crate::claims::{HIGHEST_ORDER, Kinetic, NearIntegrable};
 use crate::conditions::{Evaluated, Family, evaluated};
 use crate::digits::digits_of;
 use crate::document::Placed;
-use crate::map::MapKind;
+use crate::map::{Map, MapKind};
+use crate::near_integrable::Power;
 use crate::order::{Condition, Functional};
 use crate::rounding::{Linearised, Unexplained};
 use crate::scheme::{ExactScheme, Held};
@@ -46,6 +47,29 @@ pub struct Proof {
     pub near_integrable: Vec<Order>,
     /// The step is a palindrome, exactly.
     pub symmetric: bool,
+    /// The effective orders of a processed scheme; the others are those of its kernel.
+    pub effective: Option<Effective>,
+}
+
+/// The effective orders of a processed scheme: those of χ⁻¹ ∘ kernel ∘ χ, so of χ⁻¹ ∘ kernelⁿ ∘ χ after any number n of steps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Effective {
+    /// For every T(p).
+    pub general: Order,
+    /// For T = ½pᵀM⁻¹p.
+    pub quadratic: Order,
+    /// For the terms of ε, ε², … that the processor claims.
+    pub near_integrable: Vec<Order>,
+}
+
+impl Effective {
+    /// The order for a class of kinetic energies.
+    pub fn for_kinetic(&self, kinetic: Kinetic) -> &Order {
+        match kinetic {
+            Kinetic::Any => &self.general,
+            Kinetic::Quadratic => &self.quadratic,
+        }
+    }
 }
 
 impl Proof {
@@ -60,31 +84,49 @@ impl Proof {
 
 /// Proves the orders of a scheme, whatever its table claims.
 pub fn prove(scheme: &ExactScheme) -> Proof {
-    let for_kinetic =
-        |kinetic| highest_order(scheme, Family::Kinetic(kinetic), scheme.table.order.value, HIGHEST_ORDER);
-    let powers = scheme.table.near_integrable.iter().flat_map(|claim| claim.powers());
-    let for_power = |(claim, power): (&Placed<u32>, _)| {
-        highest_order(scheme, Family::Power(power), claim.value, HIGHEST_NEAR_INTEGRABLE_ORDER)
-    };
+    let table = &scheme.table;
+    let [general, quadratic] = kinetic_orders(&scheme.maps(), scheme.held, table.order.value);
     Proof {
-        general: for_kinetic(Kinetic::Any),
-        quadratic: for_kinetic(Kinetic::Quadratic),
-        near_integrable: powers.map(for_power).collect(),
+        general,
+        quadratic,
+        near_integrable: near_integrable_orders(&scheme.maps(), scheme.held, table.near_integrable.as_ref()),
         symmetric: scheme.is_symmetric(),
+        effective: effective(scheme),
     }
+}
+
+fn effective(scheme: &ExactScheme) -> Option<Effective> {
+    let (claim, processor) = (scheme.table.processor.as_ref()?, scheme.processor.as_ref()?);
+    let maps = scheme.processed_maps()?;
+    let [general, quadratic] = kinetic_orders(&maps, processor.held, claim.order.value);
+    let near_integrable = near_integrable_orders(&maps, processor.held, claim.near_integrable.as_ref());
+    Some(Effective { general, quadratic, near_integrable })
+}
+
+/// For every T(p), and for quadratic T.
+fn kinetic_orders(maps: &[Map], held: Held, claimed: u32) -> [Order; 2] {
+    let for_kinetic = |kinetic| highest_order(maps, held, Family::Kinetic(kinetic), claimed, HIGHEST_ORDER);
+    [Kinetic::Any, Kinetic::Quadratic].map(for_kinetic)
+}
+
+fn near_integrable_orders(maps: &[Map], held: Held, claim: Option<&NearIntegrable>) -> Vec<Order> {
+    let for_power = |(claim, power): (&Placed<u32>, Power)| {
+        highest_order(maps, held, Family::Power(power), claim.value, power.highest_order())
+    };
+    claim.into_iter().flat_map(NearIntegrable::powers).map(for_power).collect()
 }
 
 /// The highest order that holds. Most schemes fail at the order above the claimed one, so that is tried first.
-fn highest_order(scheme: &ExactScheme, family: Family, claimed: u32, highest: u32) -> Order {
-    let first_try = order_up_to(scheme, family, (claimed + 1).min(highest));
+fn highest_order(maps: &[Map], held: Held, family: Family, claimed: u32, highest: u32) -> Order {
+    let first_try = order_up_to(maps, held, family, (claimed + 1).min(highest));
     match first_try.failed {
         Some(_) => first_try,
-        None => order_up_to(scheme, family, highest),
+        None => order_up_to(maps, held, family, highest),
     }
 }
 
-fn order_up_to(scheme: &ExactScheme, family: Family, highest: u32) -> Order {
-    let mut conditions = evaluated(&scheme.maps(), scheme.held, family, highest);
+fn order_up_to(maps: &[Map], held: Held, family: Family, highest: u32) -> Order {
+    let mut conditions = evaluated(maps, held, family, highest);
     let failed = conditions.iter().position(|c| !c.holds());
     let order = failed.map_or(highest, |first| conditions[first].condition.order - 1);
     let holding = conditions.iter().filter(|c| c.condition.order <= order);
@@ -94,15 +136,24 @@ fn order_up_to(scheme: &ExactScheme, family: Family, highest: u32) -> Order {
     Order { order, digits, failed: failed.map(|c| (c.condition, c.found.reduced())), undecided }
 }
 
+/// What an order is claimed of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Of {
+    /// The step as it stands: of a processed scheme, the kernel.
+    Step,
+    /// The processed step.
+    ProcessedStep,
+}
+
 /// A claim that differs from what is true.
 #[derive(Debug)]
 pub(crate) enum Finding<'a> {
     /// The weights of the maps of one kind do not sum to 1.
     Sum { kind: MapKind, found: Rational, needed: Rational },
     /// The order that holds, in `proved`, is lower than the claimed one.
-    LowerOrder { family: Family, claimed: &'a Placed<u32>, proved: &'a Order },
+    LowerOrder { of: Of, family: Family, claimed: &'a Placed<u32>, proved: &'a Order },
     /// A higher order holds than the claimed one.
-    HigherOrder { family: Family, claimed: &'a Placed<u32>, holds: u32 },
+    HigherOrder { of: Of, family: Family, claimed: &'a Placed<u32>, holds: u32 },
     /// The step is not the palindrome that it is claimed to be.
     NotSymmetric { claim: &'a Placed<bool> },
     /// The step is a palindrome, and is claimed not to be.
@@ -124,7 +175,11 @@ impl Finding<'_> {
 /// The claims of the scheme's table that differ from the proof.
 pub(crate) fn findings<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Finding<'a>> {
     let mut findings = order_finding(scheme, proof);
-    findings.extend(near_integrable_findings(scheme, proof));
+    if proof.general.order > 0 {
+        let claim = scheme.table.near_integrable.as_ref();
+        findings.extend(near_integrable_findings(Of::Step, claim, &proof.near_integrable));
+        findings.extend(effective_findings(scheme, proof));
+    }
     findings.extend(scheme.table.symmetric.as_ref().filter(|claim| claim.value != proof.symmetric).map(|claim| {
         match claim.value {
             true => Finding::NotSymmetric { claim },
@@ -140,10 +195,10 @@ fn order_finding<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Finding<'
     let (kinetic, claimed) = (scheme.table.kinetic, &scheme.table.order);
     let (family, proved) = (Family::Kinetic(kinetic), proof.for_kinetic(kinetic));
     match proved.order {
-        holds if holds > claimed.value => vec![Finding::HigherOrder { family, claimed, holds }],
+        holds if holds > claimed.value => vec![Finding::HigherOrder { of: Of::Step, family, claimed, holds }],
         holds if holds == claimed.value => Vec::new(),
         0 if !(proved.undecided && scheme.table.digits.is_some()) => sum_findings(scheme),
-        _ => vec![Finding::LowerOrder { family, claimed, proved }],
+        _ => vec![Finding::LowerOrder { of: Of::Step, family, claimed, proved }],
     }
 }
 
@@ -159,19 +214,32 @@ fn sum_findings(scheme: &ExactScheme) -> Vec<Finding<'_>> {
     sums.into_iter().filter(|sum| !sum.is_met()).map(finding).collect()
 }
 
-fn near_integrable_findings<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Finding<'a>> {
-    let claim = scheme.table.near_integrable.as_ref().filter(|_| proof.general.order > 0);
+/// The claims of the processor.
+fn effective_findings<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Finding<'a>> {
+    let (Some(processor), Some(effective)) = (&scheme.table.processor, &proof.effective) else { return Vec::new() };
+    let (of, claimed, kinetic) = (Of::ProcessedStep, &processor.order, scheme.table.kinetic);
+    let (family, proved) = (Family::Kinetic(kinetic), effective.for_kinetic(kinetic));
+    let mut findings = match proved.order {
+        holds if holds > claimed.value => vec![Finding::HigherOrder { of, family, claimed, holds }],
+        holds if holds == claimed.value => Vec::new(),
+        _ => vec![Finding::LowerOrder { of, family, claimed, proved }],
+    };
+    findings.extend(near_integrable_findings(of, processor.near_integrable.as_ref(), &effective.near_integrable));
+    findings
+}
+
+fn near_integrable_findings<'a>(of: Of, claim: Option<&'a NearIntegrable>, proved: &'a [Order]) -> Vec<Finding<'a>> {
     let mut findings = Vec::new();
     // an order cannot be claimed higher than those of lower powers of ε
     let mut least = u32::MAX;
-    for ((claimed, power), proved) in claim.into_iter().flat_map(|claim| claim.powers()).zip(&proof.near_integrable) {
+    for ((claimed, power), proved) in claim.into_iter().flat_map(NearIntegrable::powers).zip(proved) {
         let family = Family::Power(power);
         least = least.min(proved.order);
         if least > claimed.value {
-            findings.push(Finding::HigherOrder { family, claimed, holds: least });
+            findings.push(Finding::HigherOrder { of, family, claimed, holds: least });
         }
         if proved.order < claimed.value {
-            findings.push(Finding::LowerOrder { family, claimed, proved });
+            findings.push(Finding::LowerOrder { of, family, claimed, proved });
         }
     }
     findings
@@ -189,6 +257,24 @@ fn digits_finding<'a>(scheme: &'a ExactScheme, proof: &Proof, refused: bool) -> 
             let claimed = scheme.table.digits.as_ref()?;
             let hold = proof.for_kinetic(scheme.table.kinetic).digits?;
             (hold + MOST_DIGITS_LOST < claimed.value).then_some(Finding::FewerDigits { claimed, hold })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::shipped_proved;
+
+    #[test]
+    fn processed_schemes_have_the_effective_orders_that_they_claim_and_no_higher_ones() {
+        for corrector in [3, 5, 7, 11, 17] {
+            let proof = &shipped_proved(&format!("wisdom-corrector-{corrector}")).unwrap().proof;
+            let effective = proof.effective.as_ref().unwrap();
+            let orders: Vec<_> = effective.near_integrable.iter().map(|order| order.order).collect();
+            assert_eq!((proof.general.order, effective.general.order), (2, 2));
+            assert_eq!(orders, [corrector + 1, 2]);
+            let (failed, _) = effective.near_integrable[0].failed.as_ref().unwrap();
+            assert_eq!(failed.order, corrector + 2);
         }
     }
 }

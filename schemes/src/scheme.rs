@@ -2,7 +2,7 @@
 
 use num_traits::Zero;
 
-use crate::map::{First, Map, MapKind, Stages, reversed};
+use crate::map::{First, Map, MapKind, Stages, inverse, joined, reversed};
 use crate::table::Table;
 
 /// How far the weights of a table are to be trusted.
@@ -35,6 +35,29 @@ pub struct ExactScheme {
     pub held: Held,
     /// The base of a composition.
     pub base: Option<Box<ExactScheme>>,
+    /// The processor, if it is a processed scheme; the weights are those of its kernel.
+    pub processor: Option<ExactProcessor>,
+}
+
+/// The post-map χ⁻¹ of a processed scheme χ⁻¹ ∘ kernelⁿ ∘ χ; the pre-map χ is its exact inverse.
+#[derive(Clone, Debug)]
+pub struct ExactProcessor {
+    /// The maps of χ⁻¹ in the order in which they act, with weights in units of the step size.
+    pub post: Vec<Map>,
+    /// What is known of the digits of the processed step's weights.
+    pub held: Held,
+}
+
+impl ExactProcessor {
+    /// The maps of χ in the order in which they act.
+    pub fn pre(&self) -> Vec<Map> {
+        inverse(&self.post)
+    }
+
+    /// Evaluations of the gradient for an output: one for each kick of the post-map.
+    pub fn evaluations(&self) -> usize {
+        self.post.iter().filter(|map| map.kind == MapKind::Kick).count()
+    }
 }
 
 impl ExactScheme {
@@ -48,6 +71,12 @@ impl ExactScheme {
         self.stages.gradient_kick.iter().any(|c| !c.is_zero())
     }
 
+    /// The maps of a processed step, of the pre-map, the kernel and the post-map; `None` for a scheme without a processor.
+    pub fn processed_maps(&self) -> Option<Vec<Map>> {
+        let processor = self.processor.as_ref()?;
+        Some(joined(processor.pre().iter().chain(&self.maps()).chain(&processor.post)))
+    }
+
     /// The same weights with the roles of kick and drift exchanged, where `first` asks for it.
     ///
     /// The order for quadratic T may be another one then: prove it again.
@@ -58,7 +87,11 @@ impl ExactScheme {
         let mut maps = self.maps();
         maps.iter_mut().for_each(|map| map.kind = map.kind.other());
         self.stages = Stages::of(&maps);
-        if let Some(claim) = &mut self.table.near_integrable {
+        if let Some(processor) = &mut self.processor {
+            processor.post.iter_mut().for_each(|map| map.kind = map.kind.other());
+        }
+        let of_processor = self.table.processor.as_mut().and_then(|processor| processor.near_integrable.as_mut());
+        for claim in self.table.near_integrable.iter_mut().chain(of_processor) {
             claim.dominant = claim.dominant.other();
         }
         self

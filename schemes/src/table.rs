@@ -42,6 +42,19 @@ pub struct Table {
     pub free: Vec<Placed<String>>,
     /// The weights; `None` where they cannot be read.
     pub weights: Option<Weights>,
+    /// The processor of a processed scheme, whose kernel are the weights.
+    pub processor: Option<Processor>,
+}
+
+/// The processor of a table: its post-map χ⁻¹, and what is claimed of the processed step χ⁻¹ ∘ kernel ∘ χ.
+#[derive(Clone, Debug)]
+pub struct Processor {
+    /// The effective order claimed for the kinetic energy of the table.
+    pub order: Placed<u32>,
+    /// The effective orders claimed for H = A + εB.
+    pub near_integrable: Option<NearIntegrable>,
+    /// The weights of the post-map; a composition is of the base of the kernel. `None` where they cannot be read.
+    pub post: Option<Weights>,
 }
 
 /// The weights as written.

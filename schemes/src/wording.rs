@@ -12,7 +12,7 @@ use crate::digits::digits_of;
 use crate::document::{Fault, Placed};
 use crate::map::MapKind;
 use crate::order::Condition;
-use crate::proof::{Finding, Order, Proof};
+use crate::proof::{Finding, Of, Order, Proof};
 use crate::rounding::{Off, Unexplained};
 use crate::scheme::ExactScheme;
 use crate::table::{Table, Weights};
@@ -25,9 +25,11 @@ pub(crate) fn worded(finding: &Finding<'_>, scheme: &ExactScheme, proof: &Proof)
     let table = &scheme.table;
     match finding {
         Finding::Sum { kind, found, needed } => wrong_sum(table, *kind, found, needed),
-        Finding::LowerOrder { family, claimed, proved } => lower_order(table, proof, *family, claimed, proved),
-        Finding::HigherOrder { family, claimed, holds } => {
-            let message = format!("order {} is claimed, order {holds} holds {family}", claimed.value);
+        Finding::LowerOrder { of, family, claimed, proved } => {
+            lower_order(table, proof, (*of, *family), claimed, proved)
+        }
+        Finding::HigherOrder { of, family, claimed, holds } => {
+            let message = format!("{of} {} is claimed, {of} {holds} holds {family}", claimed.value);
             let hint = match family {
                 Family::Kinetic(_) => format!("write `order = {holds}`"),
                 Family::Power(_) => format!("write {holds}"),
@@ -64,6 +66,16 @@ impl fmt::Display for Family {
     }
 }
 
+/// What is claimed, and holds.
+impl fmt::Display for Of {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Of::Step => "order",
+            Of::ProcessedStep => "effective order",
+        })
+    }
+}
+
 fn wrong_sum(table: &Table, kind: MapKind, found: &Rational, needed: &Rational) -> Fault {
     let at = match (&table.weights, kind) {
         (Some(Weights::Stages { kick, .. }), MapKind::Kick) => &kick.at,
@@ -77,31 +89,42 @@ fn wrong_sum(table: &Table, kind: MapKind, found: &Rational, needed: &Rational) 
     with_rounding_hint(fault, table, &(found - needed))
 }
 
-fn lower_order(table: &Table, proof: &Proof, family: Family, claimed: &Placed<u32>, proved: &Order) -> Fault {
+fn lower_order(
+    table: &Table,
+    proof: &Proof,
+    (of, family): (Of, Family),
+    claimed: &Placed<u32>,
+    proved: &Order,
+) -> Fault {
     let (failed, found) = proved.failed.as_ref().expect("a higher order would hold");
     if let Some(digits) = table.digits.as_ref().filter(|_| proved.undecided) {
         let message =
-            format!("{} digits are too few to decide whether order {} holds {family}", digits.value, failed.order);
+            format!("{} digits are too few to decide whether {of} {} holds {family}", digits.value, failed.order);
         return table.source.fault(&digits.at, message).hint("take the weights from a source with more digits");
     }
-    let fault = failed_condition(table, family, claimed, proved.order, failed, found);
+    let fault = failed_condition(table, (of, family), claimed, proved.order, failed, found);
+    let quadratic = match (of, &proof.effective) {
+        (Of::ProcessedStep, Some(effective)) => effective.quadratic.order,
+        _ => proof.quadratic.order,
+    };
     match family {
-        Family::Kinetic(Kinetic::Any) if proof.quadratic.order >= claimed.value => fault
-            .hint(format!("order {} holds for quadratic T: write `kinetic = \"quadratic\"`", proof.quadratic.order)),
+        Family::Kinetic(Kinetic::Any) if quadratic >= claimed.value => {
+            fault.hint(format!("{of} {quadratic} holds for quadratic T: write `kinetic = \"quadratic\"`"))
+        }
         _ => with_rounding_hint(fault, table, &(found - &failed.needed)),
     }
 }
 
 fn failed_condition(
     table: &Table,
-    family: Family,
+    (of, family): (Of, Family),
     claimed: &Placed<u32>,
     holds: u32,
     failed: &Condition,
     found: &Rational,
 ) -> Fault {
     let message = format!(
-        "order {} is claimed, order {holds} holds {family}: the condition of {} fails",
+        "{of} {} is claimed, {of} {holds} holds {family}: the condition of {} fails",
         claimed.value, failed.functional
     );
     table.source.fault(&claimed.at, message).values(beside(found, &failed.needed), short(&failed.needed))

@@ -13,7 +13,7 @@ use shadowstep::run::Trajectory;
 use shadowstep::tables::Source;
 use shadowstep::{Ordered, Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::Scene;
-use shadowstep_scenes::start::{Steps, Work};
+use shadowstep_scenes::start::{Begin, Steps, Work};
 use shadowstep_sweeps::{Collected, Manifest, Plan, TableFormat, collect, compute};
 
 /// A run of about 1 ms.
@@ -104,7 +104,7 @@ fn follow(scene: &Scene) {
             black_box(trajectory.system().q());
         }
     }
-    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated: false };
+    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated: false, begin: Begin::InitialState };
     scene.system.with(steps, scene.system.start::<f64>(&()), &(), Alone).expect("the dimensions agree");
 }
 

@@ -9,7 +9,7 @@ use shadowstep::shadow::EstimatorSettings;
 use shadowstep::{Ordered, Scheme, Stepper, ValidFor};
 use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::run::Run;
-use shadowstep_scenes::start::{Steps, Work};
+use shadowstep_scenes::start::{Begin, Steps, Work};
 use shadowstep_scenes::watch::{Energies, Watch};
 use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, Shown, Summary};
 use shadowstep_symbolic::decimal::to_text;
@@ -103,7 +103,7 @@ impl Computation for Measuring<'_> {
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         let scene = self.scene;
         let compensated = scene.arithmetic.is_compensated();
-        let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated };
+        let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated, begin: Begin::InitialState };
         let work = InNumbers::<N> { scene, keep: self.keep, stops: self.stops, context };
         let found = scene.system.with(steps, scene.system.start(context), context, work);
         found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))?
@@ -218,6 +218,7 @@ where
 /// What is kept, as far as the states have come.
 struct Following<'a, S: Scheme, N: Ordered> {
     run: Run<'a>,
+    stepper: Stepper<S, N>,
     keep: &'a Keep,
     watch: Option<Watch<S, N>>,
     /// The conditions, each with the n of the first state that meets it.
@@ -250,7 +251,8 @@ impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
         let watch = match energies || summarised {
             false => None,
             true => {
-                let initial = system.energy();
+                let (q, p) = scene.system.start(context);
+                let initial = system.energy_at(&q, &p);
                 let energies = if energies { Energies::All } else { Energies::Windows };
                 Some(Watch::begin(stepper, system, scene.as_run(), (0, initial), energies, summarised)?)
             }
@@ -264,6 +266,7 @@ impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
         let last = i64::try_from(scene.steps).unwrap_or(i64::MAX);
         Ok(Following {
             run: scene.as_run(),
+            stepper: stepper.clone(),
             keep,
             watch,
             tests: tests.collect(),
@@ -293,25 +296,30 @@ impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
         if let Some(watch) = self.watch.as_mut().filter(|_| n > 0) {
             watch.include(n, system);
         }
+        if self.tests.is_empty() && n != self.last {
+            return;
+        }
         let run = self.run;
-        for (test, met) in &mut self.tests {
-            if met.is_none() && test.is_met(system, || run.time(n)) {
-                *met = Some(n);
+        self.stepper.at_output(system, |system| {
+            for (test, met) in &mut self.tests {
+                if met.is_none() && test.is_met(system, || run.time(n)) {
+                    *met = Some(n);
+                }
             }
-        }
-        if self.keep.stop.iter().any(|&place| self.tests[place].1.is_some()) {
-            self.last = n;
-        }
-        if n == self.last {
-            let text = |number: &N| number.is_finite().then(|| number.to_text());
-            let expressions = self.at_end.iter_mut().map(|end| text(end.value(system, || run.time(n)))).collect();
-            let (q, p) = match &mut self.shown {
-                Some(shown) => shown.of_state(system.q(), system.p()),
-                None => (system.q(), system.p()),
-            };
-            let state = if self.keep.state { q.iter().chain(p).map(text).collect() } else { Vec::new() };
-            self.end = Some(End { expressions, state, has_energy: system.energy().is_finite() });
-        }
+            if self.keep.stop.iter().any(|&place| self.tests[place].1.is_some()) {
+                self.last = n;
+            }
+            if n == self.last {
+                let text = |number: &N| number.is_finite().then(|| number.to_text());
+                let expressions = self.at_end.iter_mut().map(|end| text(end.value(system, || run.time(n)))).collect();
+                let (q, p) = match &mut self.shown {
+                    Some(shown) => shown.of_state(system.q(), system.p()),
+                    None => (system.q(), system.p()),
+                };
+                let state = if self.keep.state { q.iter().chain(p).map(text).collect() } else { Vec::new() };
+                self.end = Some(End { expressions, state, has_energy: system.energy().is_finite() });
+            }
+        });
     }
 
     /// The values of all columns.

@@ -12,7 +12,7 @@ use shadowstep::{Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::Scene;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::lanes::Together;
-use shadowstep_scenes::start::{Steps, Work};
+use shadowstep_scenes::start::{Begin, Steps, Work};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::expression::{Evaluator, Test};
@@ -38,9 +38,12 @@ pub(crate) fn allows(keep: &Keep) -> bool {
 
 /// Whether a run can be computed together with others like it.
 ///
-/// exp, log, sin, … of lanes are not those of the platform, which a run has alone.
+/// exp, log, sin, … of lanes are not those of the platform, which a run has alone; nor have lanes the maps of processed schemes.
 pub(crate) fn suits(scene: &Scene, keep: &Keep) -> bool {
-    sums(scene).is_some() && scene.steps <= MOST_STEPS && !has_elementary_functions(scene, keep)
+    sums(scene).is_some()
+        && scene.scheme.scheme.processor().is_empty()
+        && scene.steps <= MOST_STEPS
+        && !has_elementary_functions(scene, keep)
 }
 
 /// Whether two runs can be computed together, as far as their numbers and steps are concerned.
@@ -69,7 +72,12 @@ pub(crate) fn measure(scenes: &[&Scene], keep: &Keep, stops: &AtomicBool) -> Vec
 }
 
 fn steps(scene: &Scene) -> Steps<'_> {
-    Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated: scene.arithmetic.is_compensated() }
+    Steps {
+        scheme: &scene.scheme.scheme,
+        h: &scene.h,
+        compensated: scene.arithmetic.is_compensated(),
+        begin: Begin::InitialState,
+    }
 }
 
 /// Counted in a step, an energy and all formulas.

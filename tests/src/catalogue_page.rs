@@ -31,8 +31,12 @@ Everything on this page is computed from the tables: the orders are proved, none
   They pay only if the drift solves A exactly and εB is small, as where drifts are Kepler motions and kicks the attractions of
   planets: a `System` of your own. With H = T + U nothing is small, and such a scheme gains nothing over its order for T + U.
   The drifts move by A. Blank where the table claims none.
+- *processed*: the steps are those of the kernel, whose orders these are; the effective orders are those of the trajectory, which is read
+  through the post-map: see [processed schemes](processed-schemes.md).
 - *sampling*: `bcss2`, `bcss3`, `bcss4` and `predescu3` have order 2 and a small error of the energy in the mean over states in
-  equilibrium, as Hamiltonian Monte Carlo needs.
+  equilibrium, as Hamiltonian Monte Carlo needs. The *expected energy error* below is the largest ρ(h) of the harmonic oscillator over
+  0 < hω < forces, where ρ(h) sin²(Lφ) is the mean of H − H(0) after L steps that turn by φ, in units of the temperature; the first three
+  minimise it.
 - *first*: each scheme is listed in the roles of its publication. `first = \"drift\"` or `\"kick\"` exchanges the roles of kick and drift,
   so that every table for every T(p) has its twin, as velocity and position Verlet are; it is proved anew.
 - *forces*: evaluations of U_q a step, the first kick taking over what the last one of the step before evaluated.
@@ -85,7 +89,7 @@ fn row(name: &str, proved: &Proved, analysis: &Analysis) -> String {
         format!("[{name}](#{name})"),
         proved.order_for_every_kinetic().map_or_else(|| "–".to_owned(), |order| order.order.to_string()),
         proved.proof.quadratic.order.to_string(),
-        near_integrable(proved),
+        processed_or_near_integrable(proved),
         match analysis.hessian_products {
             0 => analysis.evaluations.to_string(),
             products => format!("{} + {products}", analysis.evaluations),
@@ -106,6 +110,30 @@ fn row(name: &str, proved: &Proved, analysis: &Analysis) -> String {
 fn near_integrable(proved: &Proved) -> String {
     let orders: Vec<_> = proved.proof.near_integrable.iter().map(|order| order.order.to_string()).collect();
     if orders.is_empty() { String::new() } else { format!("({})", orders.join(",")) }
+}
+
+fn processed_or_near_integrable(proved: &Proved) -> String {
+    let Some(effective) = &proved.proof.effective else { return near_integrable(proved) };
+    let orders: Vec<_> = effective.near_integrable.iter().map(|order| order.order.to_string()).collect();
+    match orders.is_empty() {
+        true => format!("processed: order {}", effective.general.order),
+        false => format!("processed: ({})", orders.join(",")),
+    }
+}
+
+/// What is proved of a processed step, and what an output costs.
+fn processed(proved: &Proved) -> Option<String> {
+    let (processor, effective) = (proved.scheme.processor.as_ref()?, proved.proof.effective.as_ref()?);
+    let orders: Vec<_> = effective.near_integrable.iter().map(|order| order.order.to_string()).collect();
+    let near = if orders.is_empty() { String::new() } else { format!(", ({}) for A + εB", orders.join(",")) };
+    Some(format!(
+        "processed: effective order {} for every T(p), {} for quadratic T{near}; {} evaluations of U_q and {} kicks and drifts for an output, \
+         and as many once at the beginning",
+        effective.general.order,
+        effective.quadratic.order,
+        processor.evaluations(),
+        processor.post.len()
+    ))
 }
 
 fn section(proved: &Proved, analysis: &Analysis) -> String {
@@ -161,10 +189,20 @@ fn section(proved: &Proved, analysis: &Analysis) -> String {
             analysis.phase.coefficient,
             analysis.phase.power
         ),
+        sampling(analysis),
         reference(table),
     ];
-    lines.iter().for_each(|line| text += &format!("- {line}\n"));
+    let lines: Vec<_> = lines.into_iter().filter(|line| !line.is_empty()).collect();
+    let lines = lines[..1].iter().cloned().chain(processed(proved)).chain(lines[1..].iter().cloned());
+    lines.for_each(|line| text += &format!("- {line}\n"));
     text
+}
+
+fn sampling(analysis: &Analysis) -> String {
+    let largest = analysis.sampling.and_then(|sampling| Some((sampling.range, sampling.largest?)));
+    largest.map_or_else(String::new, |(range, largest)| {
+        format!("expected energy error {largest:.3e} over 0 < hω < {range}")
+    })
 }
 
 fn held(held: Held) -> String {
@@ -201,6 +239,13 @@ fn weights(table: &Table) -> String {
         }
         Weights::Composition { base, gamma } => format!("γ = {}, of {}\n", cells(&gamma.value), base.value),
     };
+    match table.processor.as_ref().and_then(|processor| processor.post.as_ref()) {
+        Some(Weights::Stages { kick, drift, .. }) => {
+            text += &format!("post-map: a = {}\n          b = {}\n", cells(&kick.value), cells(&drift.value));
+        }
+        Some(Weights::Composition { gamma, .. }) => text += &format!("post-map: γ = {}\n", cells(&gamma.value)),
+        None => {}
+    }
     for (name, value) in &table.constants {
         let free = table.free.iter().any(|free| free.value == name.value);
         text += &format!("{} = {}{}\n", name.value, cell(value), if free { "  (free parameter)" } else { "" });

@@ -2,11 +2,13 @@
 
 use std::time::{Duration, Instant};
 
+use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::{First, Proved, read, read_first, shipped, shipped_names};
 
 /// From the publications, except for the order for every T(p) of schemes for quadratic T, where they say nothing.
 /// Columns: name; order for every T(p) and for quadratic T; evaluations per step, and Hessian–vector products of gradient kicks; palindrome;
-/// first map; near-integrable orders.
+/// first map; near-integrable orders; of a processed scheme, whose other columns are those of its kernel, the effective orders for every T(p), for
+/// quadratic T and the near-integrable ones.
 const CATALOGUE: &str = "
 aba104                    4  4   7  yes  drift  10,4
 aba1064                   4  4   8  yes  drift  10,6,4
@@ -15,6 +17,11 @@ abah1064                  4  4   9  yes  drift  10,6,4
 abah844                   4  4   6  yes  drift  8,4
 abah864                   4  4   8  yes  drift  8,6,4
 bce-rkn8-17               4  8  17  yes  drift  -
+bcm10-23                  4  4  23  yes  kick   -       10 10 -
+bcm6-11                   4  4  11  yes  kick   -       6 6 -
+bcm6-13                   4  4  13  yes  kick   -       6 6 -
+bcm8-13                   4  4  13  yes  kick   -       8 8 -
+bcr764                    2  2   3  yes  drift  -       4 4 7,6,4
 bcss2                     2  2   2  yes  kick   -
 bcss3                     2  2   3  yes  kick   -
 bcss4                     2  2   4  yes  kick   -
@@ -23,6 +30,7 @@ blanes-moan-s6            4  4   6  yes  kick   -
 blanes-moan-srkn11b       4  6  11  yes  kick   -
 blanes-moan-srkn14a       4  6  14  yes  drift  -
 blanes-moan-srkn6b        4  4   6  yes  kick   -
+blanes6-7                 4  4   7  yes  kick   -       6 6 -
 calvo-sanzserna4          3  4   4  no   kick   -
 chin-4a                   -  4   2+1  yes  kick   -
 chin-4b                   -  4   2+2  yes  drift  -
@@ -82,6 +90,11 @@ takahashi-imada           -  2   1+1  yes  drift  -
 triplejump6               6  6   9  yes  kick   -
 triplejump8               8  8  27  yes  kick   -
 vefrl                     4  4   4  yes  kick   -
+wisdom-corrector-3        2  2   1  yes  drift  -       2 2 4,2
+wisdom-corrector-5        2  2   1  yes  drift  -       2 2 6,2
+wisdom-corrector-7        2  2   1  yes  drift  -       2 2 8,2
+wisdom-corrector-11       2  2   1  yes  drift  -       2 2 12,2
+wisdom-corrector-17       2  2   1  yes  drift  -       2 2 18,2
 yoshida4                  4  4   3  yes  kick   -
 yoshida6-a                6  6   7  yes  kick   -
 yoshida6-b                6  6   7  yes  kick   -
@@ -100,8 +113,11 @@ fn proved(name: &str) -> Proved {
 /// A line as in [`CATALOGUE`], from the proof.
 fn line(name: &str, scheme: &Proved) -> String {
     let proof = &scheme.proof;
-    let near: Vec<_> = proof.near_integrable.iter().map(|order| order.order.to_string()).collect();
-    let cells = [
+    let near = |orders: &[Order]| match orders {
+        [] => "-".to_owned(),
+        orders => orders.iter().map(|order| order.order.to_string()).collect::<Vec<_>>().join(","),
+    };
+    let mut cells = vec![
         name.to_owned(),
         scheme.order_for_every_kinetic().map_or_else(|| "-".to_owned(), |order| order.order.to_string()),
         proof.quadratic.order.to_string(),
@@ -111,8 +127,12 @@ fn line(name: &str, scheme: &Proved) -> String {
         },
         if proof.symmetric { "yes" } else { "no" }.to_owned(),
         if scheme.scheme.first() == First::Kick { "kick" } else { "drift" }.to_owned(),
-        if near.is_empty() { "-".to_owned() } else { near.join(",") },
+        near(&proof.near_integrable),
     ];
+    if let Some(effective) = &proof.effective {
+        let [general, quadratic] = [&effective.general, &effective.quadratic].map(|order| order.order.to_string());
+        cells.extend([general, quadratic, near(&effective.near_integrable)]);
+    }
     cells.join(" ")
 }
 

@@ -3,7 +3,8 @@
 use shadowstep::{Ordered, Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::start::Work;
 
-/// Makes all steps; calls with the number of each sample and the system there, as long as that returns true.
+/// Makes all steps; calls with the number of each sample and the system there, as long as that returns true. A processed scheme has made its
+/// pre-map before.
 pub(crate) fn at_samples<S, M>(
     stepper: &Stepper<S, M::Number>,
     system: &mut M,
@@ -15,7 +16,7 @@ pub(crate) fn at_samples<S, M>(
 {
     for sample in 0..samples {
         (0..steps / samples).for_each(|_| stepper.step(system));
-        if !take(sample as usize, system) {
+        if !stepper.at_output(system, |system| take(sample as usize, system)) {
             return;
         }
     }

@@ -5,7 +5,7 @@ use shadowstep::{Number, Rational};
 use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, fingerprint};
-use shadowstep_scenes::start::Steps;
+use shadowstep_scenes::start::{Begin, Steps};
 use shadowstep_symbolic::decimal::to_text;
 
 /// Errors along a run are taken at so many times at most.
@@ -35,7 +35,8 @@ impl Problem<'_> {
 
     /// The steps of a scheme.
     pub(crate) fn steps<'a>(&self, named: &'a NamedScheme, h: &'a Rational) -> Steps<'a> {
-        Steps { scheme: &named.scheme, h, compensated: self.arithmetic.is_compensated() }
+        let compensated = self.arithmetic.is_compensated();
+        Steps { scheme: &named.scheme, h, compensated, begin: Begin::InitialState }
     }
 
     /// Whether the runs go forward in time.

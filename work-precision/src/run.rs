@@ -1,6 +1,7 @@
 //! One run: the errors of its positions and of H, and its modified energy.
 
 use serde::{Deserialize, Serialize};
+use shadowstep::scheme::MapKind;
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::{Ordered, Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::start::Work;
@@ -91,22 +92,24 @@ impl<N: Ordered> Work<N> for Measuring<'_> {
         M: System<Number = N> + 'static,
     {
         let Measuring { steps, reference } = self;
-        let evaluations = steps * stepper.scheme().summary().evaluations as u64;
+        let of_output = stepper.scheme().processor().iter().filter(|(kind, _)| *kind == MapKind::Kick).count() as u64;
+        // with a pre-map at the beginning and a post-map at the end
+        let evaluations = steps * stepper.scheme().summary().evaluations as u64 + 2 * of_output;
         let failed =
             |sample: usize| Measurement::failed(steps, evaluations, sample as f64 / reference.samples() as f64);
         let monitor = ShadowEnergy::new(stepper.clone(), &mut system, &Bilinear::with_error(MONITOR_ORDER));
         let Ok(monitor) = monitor else { return failed(0) };
         let mut monitor = monitor.every((steps / WINDOWS).max(1));
-        let mut energy = EnergyError::new(system.energy());
+        let mut energy = EnergyError::new(stepper.at_output(&mut system, M::energy));
         let (mut position, mut largest_position) = (PositionError::None, PositionError::None);
         let mut in_first_half = (PositionError::None, Size::ZERO);
         for (sample, expected) in reference.in_two_parts::<N>(&system.context()).iter().enumerate() {
             for _ in 0..steps / reference.samples() {
                 // what is not finite stays so, and is seen at the sample
                 let _ = monitor.step(&mut system);
-                energy.include(&system.energy());
+                energy.include(&stepper.at_output(&mut system, M::energy));
             }
-            let distance = distance(system.q(), expected);
+            let distance = stepper.at_output(&mut system, |system| distance(system.q(), expected));
             if !distance.is_finite() || !energy.last.is_finite() {
                 return failed(sample);
             }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use shadowstep_analysis::bracket::Bracket;
 use shadowstep_analysis::error::LeadingError;
+use shadowstep_analysis::sampling::SamplingError;
 use shadowstep_analysis::{self as analysis, Analysis, stability, trace};
 use shadowstep_schemes::{Kinetic, to_text};
 
@@ -111,6 +112,7 @@ pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {
         None => ("unstable", format!("hω from {} to {end} at least", gap.from)),
     }));
     facts.push(("phase error", format!("{:.4e} (hω)^{}, relative", phase.coefficient, phase.power)));
+    facts.extend(analysis.sampling.map(|error| ("sampling", sampling_text(error))));
     facts.push(("kicks", sizes_text(&analysis.kicks)));
     if has_gradient_kicks {
         facts.push(("gradient kicks", sizes_text(&analysis.gradient_kicks)));
@@ -118,6 +120,17 @@ pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {
     facts.push(("drifts", sizes_text(&analysis.drifts)));
     facts.retain(|(_, fact)| !fact.is_empty());
     facts.into_iter().map(|(what, fact)| (what.to_owned(), fact)).collect()
+}
+
+/// What schemes for Hamiltonian Monte Carlo minimise.
+fn sampling_text(error: SamplingError) -> String {
+    let range = error.range;
+    match error.largest {
+        Some(largest) => format!(
+            "expected energy error of the oscillator at most {largest:.3e} over 0 < hω < {range}, the forces of a step"
+        ),
+        None => format!("the oscillator is unstable within 0 < hω < {range}, the forces of a step"),
+    }
 }
 
 fn sizes_text(sizes: &analysis::Sizes) -> String {

@@ -110,6 +110,10 @@ fn none() -> String {
 
 /// What a scheme is for.
 fn meant_for(record: &Record) -> String {
+    if let Some(order) = record.effective_order {
+        let near = near_integrable_text(&record.effective_near_integrable);
+        return if near.is_empty() { format!("processed: {order}") } else { format!("A+εB {near}, processed") };
+    }
     match &record.near_integrable[..] {
         [] if record.moves_any => "every T(p)".to_owned(),
         [] => "quadratic T".to_owned(),

@@ -27,6 +27,11 @@ pub(super) fn near_integrable(proof: &Proof) -> Vec<u32> {
     proof.near_integrable.iter().map(|order| order.order).collect()
 }
 
+/// The effective orders of a processed scheme for H = A + εB; of another scheme none.
+pub(super) fn effective_near_integrable(proof: &Proof) -> Vec<u32> {
+    proof.effective.iter().flat_map(|effective| &effective.near_integrable).map(|order| order.order).collect()
+}
+
 /// As papers write them: (8,6,4).
 pub(super) fn near_integrable_text(orders: &[u32]) -> String {
     if orders.is_empty() {

@@ -5,7 +5,7 @@ use shadowstep::tables::TableScheme;
 use shadowstep_analysis::error::LeadingError;
 use shadowstep_analysis::stability::Stability;
 
-use crate::schemes::facts::{aliases, digits, kinetic, near_integrable};
+use crate::schemes::facts::{aliases, digits, effective_near_integrable, kinetic, near_integrable};
 
 #[derive(Serialize)]
 pub(super) struct Record {
@@ -16,6 +16,10 @@ pub(super) struct Record {
     pub(super) order: Option<u32>,
     pub(super) order_quadratic: u32,
     pub(super) near_integrable: Vec<u32>,
+    /// The effective orders of a processed scheme, for every T(p), quadratic T and A + εB; the others are those of its kernel.
+    pub(super) effective_order: Option<u32>,
+    effective_order_quadratic: Option<u32>,
+    pub(super) effective_near_integrable: Vec<u32>,
     /// Rows of the table of weights, those with a 0 included.
     pub(super) stages: usize,
     pub(super) evaluations: usize,
@@ -53,6 +57,9 @@ impl Record {
             order,
             order_quadratic: proved.proof.quadratic.order,
             near_integrable: near_integrable(&proved.proof),
+            effective_order: proved.proof.effective.as_ref().map(|effective| effective.general.order),
+            effective_order_quadratic: proved.proof.effective.as_ref().map(|effective| effective.quadratic.order),
+            effective_near_integrable: effective_near_integrable(&proved.proof),
             stages: proved.scheme.stages.kick.len(),
             evaluations,
             hessian_products: proved.plan.hessian_products,

@@ -24,7 +24,9 @@ use crate::readable::{shortened, table, wrapped};
 use crate::report::{self, Status};
 use crate::schemes::analysis;
 use crate::schemes::analysis::{ErrorRecord, Gap, Phase, Sizes};
-use crate::schemes::facts::{aliases, digits, kinetic, near_integrable, near_integrable_text};
+use crate::schemes::facts::{
+    aliases, digits, effective_near_integrable, kinetic, near_integrable, near_integrable_text,
+};
 use crate::schemes::plot;
 use shadowstep_scenes::library;
 use shadowstep_scenes::readable::digits as in_digits;
@@ -94,6 +96,8 @@ struct Record {
     stability_limit: Option<String>,
     unstable_gaps: Option<Vec<Gap>>,
     phase_error: Phase,
+    /// The largest expected error of the energy over 0 < hω < evaluations; `None` where it is not known, or not bounded.
+    sampling_error: Option<f64>,
     trace: Option<Vec<String>>,
     kick_sizes: Sizes,
     drift_sizes: Sizes,
@@ -106,6 +110,23 @@ struct Record {
     doi: Option<String>,
     table_hash: String,
     notes: Vec<String>,
+    /// `None` for a scheme that is not processed.
+    processor: Option<Processor>,
+}
+
+/// The post-map of a processed scheme, and what is proved of the processed step.
+#[derive(Serialize)]
+struct Processor {
+    order: u32,
+    order_digits: Option<u32>,
+    fails: Option<Failed>,
+    order_quadratic: u32,
+    order_quadratic_digits: Option<u32>,
+    fails_quadratic: Option<Failed>,
+    near_integrable: Vec<u32>,
+    /// Evaluations of the forces for an output, and for the pre-map.
+    evaluations: usize,
+    post: Vec<Map>,
 }
 
 /// The first condition of the order that fails.
@@ -193,6 +214,7 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         kick_sizes: Sizes::of(&analysis.kicks),
         drift_sizes: Sizes::of(&analysis.drifts),
         phase_error: Phase::of(analysis.phase),
+        sampling_error: analysis.sampling.and_then(|sampling| sampling.largest),
         unstable_gaps: analysis.stability.as_ref().map(|stability| stability.gaps.iter().map(Gap::of).collect()),
         stability_limit: analysis.stability.as_ref().map(|stability| stability.limit.clone()),
         kick: fractions(&weights.stages.kick),
@@ -203,7 +225,24 @@ fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
         doi: table.doi.clone(),
         table_hash: Sha256::digest(&table.source.text).iter().map(|byte| format!("{byte:02x}")).collect(),
         notes: proved.notes.iter().map(ToString::to_string).collect(),
+        processor: processor(proved, exact),
     }
+}
+
+fn processor(proved: &Proved, text: impl Fn(&Rational) -> String) -> Option<Processor> {
+    let (processor, effective) = (proved.scheme.processor.as_ref()?, proved.proof.effective.as_ref()?);
+    let post = processor.post.iter().map(|map| Map { map: map.kind.to_string(), weight: to_text(&map.weight) });
+    Some(Processor {
+        order: effective.general.order,
+        order_digits: effective.general.digits,
+        fails: failed(&effective.general, &text),
+        order_quadratic: effective.quadratic.order,
+        order_quadratic_digits: effective.quadratic.digits,
+        fails_quadratic: failed(&effective.quadratic, &text),
+        near_integrable: effective_near_integrable(&proved.proof),
+        evaluations: processor.evaluations(),
+        post: post.collect(),
+    })
 }
 
 /// The coefficients of the trace polynomial: exact where the weights are, which else are hundreds of digits long; 30
@@ -285,6 +324,7 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
         ),
         ("maps".to_owned(), maps_text(scheme)),
     ];
+    facts.extend(processor_facts(proved));
     facts.retain(|(_, fact)| !fact.is_empty());
     facts
 }
@@ -296,6 +336,29 @@ fn hessian_products(plan: &Plan) -> String {
         1 => " and 1 Hessian–vector product".to_owned(),
         count => format!(" and {count} Hessian–vector products"),
     }
+}
+
+/// What is proved of a processed scheme: the other orders are those of its kernel.
+fn processor_facts(proved: &Proved) -> Vec<(String, String)> {
+    let (Some(processor), Some(effective)) = (&proved.scheme.processor, &proved.proof.effective) else {
+        return Vec::new();
+    };
+    let near = match effective_near_integrable(&proved.proof) {
+        orders if orders.is_empty() => String::new(),
+        orders => format!("orders {} in the powers of ε", near_integrable_text(&orders)),
+    };
+    let cost = format!(
+        "{} force evaluations, {} kicks and drifts for an output, and as many once at the beginning; the orders above and \
+         the cost of a step are those of the kernel",
+        processor.evaluations(),
+        processor.post.len()
+    );
+    vec![
+        ("processor".to_owned(), cost),
+        ("effective".to_owned(), format!("for every T(p), {}", order_text(&effective.general))),
+        ("quadratic T".to_owned(), format!("effective {}", order_text(&effective.quadratic))),
+        ("A + εB".to_owned(), near.replacen("orders", "effective orders", 1)),
+    ]
 }
 
 fn source(table: &Table) -> [(String, String); 2] {

@@ -13,6 +13,7 @@ mod output_files;
 mod plot;
 mod polish;
 mod problems;
+mod processed;
 mod program;
 mod scene_faults;
 mod scene_kinetic;

@@ -154,6 +154,11 @@ pub struct ShadowEnergy<S: Scheme, N: Ordered, E> {
     not_finite: Option<u64>,
 }
 
+/// The post-map of a processed scheme evaluates the forces too, between two steps of the kernel.
+fn most_stages<S: Scheme, N: Ordered>(stepper: &Stepper<S, N>) -> u64 {
+    if stepper.is_processed() { stepper.scheme().summary().evaluations as u64 } else { u64::MAX }
+}
+
 #[derive(Clone, Debug)]
 struct Newest<N> {
     n: u64,
@@ -205,7 +210,8 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
             statistics: Statistics::new(&energy),
             blocks: Blocks::new(&energy),
             newest: Newest { n: 0, modified: Estimated::zero(&context), has_error: false, order: 0, energy, kinetic },
-            recent: Recent::new(states, stepper.step_size(), dimension, &context)?,
+            recent: Recent::new(states, stepper.step_size(), dimension, &context)?
+                .with_most_stages(most_stages(&stepper)),
             fastest: Fastest::new(dimension, &context),
             unknown: N::zero(&context),
             method: N::zero(&context),

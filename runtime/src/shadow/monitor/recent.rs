@@ -26,6 +26,8 @@ pub(super) struct Recent<N> {
     newest: usize,
     /// Evaluations of the gradient up to the state before the newest, and up to the newest.
     evaluations: [u64; 2],
+    /// The most of them that are counted as stages of a step.
+    most_stages: u64,
     /// Whether round-off is that of the increments.
     compensated: bool,
     /// (c ε/h)²
@@ -76,6 +78,7 @@ impl<N: Ordered> Recent<N> {
             states: vec![zero(); KEPT * 3 * dimension],
             newest: 0,
             evaluations: [0; 2],
+            most_stages: u64::MAX,
             compensated: false,
             factor,
             kicks: zero(),
@@ -96,6 +99,11 @@ impl<N: Ordered> Recent<N> {
             y: zero(),
             z: zero(),
         })
+    }
+
+    /// A step has at most so many stages, whatever is evaluated between steps.
+    pub(super) fn with_most_stages(self, most_stages: u64) -> Self {
+        Recent { most_stages, ..self }
     }
 
     /// Takes the next state of a window, to which an augmented step may have led.
@@ -169,7 +177,7 @@ impl<N: Ordered> Recent<N> {
             z.assign_zero();
             add_squares_of_increments(z, [before.q, s0.q, s1.q], [before.p, s0.p, s1.p], [x, y]);
         }
-        let stages = self.evaluations[1].saturating_sub(self.evaluations[0]).max(1);
+        let stages = self.evaluations[1].saturating_sub(self.evaluations[0]).min(self.most_stages).max(1);
         z.multiply_integer(i32::try_from(stages).unwrap_or(i32::MAX));
         self.square_kick.assign_product(z, &self.factor);
         self.kicks.add(&self.square_kick);

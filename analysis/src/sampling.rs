@@ -1,0 +1,125 @@
+//! The measure of integrators for Hamiltonian Monte Carlo: the largest expected error of the energy of a harmonic oscillator.
+//!
+//! Let H = (p² + q²)/2 with q and p from the equilibrium at temperature 1, and the matrix of a symmetric step of size h be [[A, B], [C, A]].
+//! After L steps that turn by φ each, the mean of the error of the energy is ρ(h) sin²(Lφ) (Blanes, Casas and Sanz-Serna, SIAM J. Sci. Comput.
+//! 36 (2014) A1556), with
+//!
+//! ρ(h) = (B + C)²/(2(1 − A²)) = (B + C)²/(−2BC).
+//!
+//! Their schemes minimise its maximum over 0 < h < h̄, where h̄ is the number of evaluations of the forces: a step of Störmer–Verlet per
+//! unit of time costs as much. Of independent oscillators with frequencies ω, hω stands for h.
+
+use num_traits::ToPrimitive;
+use shadowstep_schemes::Proved;
+use shadowstep_schemes::map::MapKind;
+
+use crate::stability::Stability;
+
+/// The largest ρ(h) over 0 < h < h̄.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SamplingError {
+    /// h̄, the number of evaluations a step.
+    pub range: f64,
+    /// The maximum of ρ; `None` where a step in the range is unstable.
+    pub largest: Option<f64>,
+}
+
+/// Points at which ρ is computed, before the largest is refined.
+const POINTS: u32 = 4000;
+
+/// Each refinement divides the distance to the maximum by about 1.6.
+const REFINEMENTS: u32 = 40;
+
+impl SamplingError {
+    /// That of a symmetric scheme; `None` for other ones, which are not reversible in time. Of a processed scheme it is that of the kernel.
+    pub fn of(proved: &Proved, stability: Option<&Stability>) -> Option<SamplingError> {
+        if !proved.proof.symmetric {
+            return None;
+        }
+        let range = proved.plan.evaluations as f64;
+        let limit: f64 = stability?.limit.parse().ok()?;
+        let step = Step::of(proved);
+        Some(SamplingError { range, largest: (limit >= range).then(|| largest(&step, range)) })
+    }
+}
+
+/// The maximum: the largest of many points, and a golden-section search around it.
+fn largest(step: &Step, range: f64) -> f64 {
+    let width = range / f64::from(POINTS);
+    let at = |n: u32| f64::from(n) * width;
+    let best = (1..=POINTS).max_by(|a, b| step.rho(at(*a)).total_cmp(&step.rho(at(*b)))).expect("there are points");
+    let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+    let (mut from, mut to) = (at(best - 1), at(best + 1).min(range));
+    for _ in 0..REFINEMENTS {
+        let (left, right) = (to - golden * (to - from), from + golden * (to - from));
+        if step.rho(left) < step.rho(right) { from = left } else { to = right }
+    }
+    step.rho((from + to) / 2.0).max(step.rho(at(best)))
+}
+
+/// The maps of a step, with weights in f64.
+struct Step(Vec<(MapKind, f64)>);
+
+impl Step {
+    fn of(proved: &Proved) -> Step {
+        let weight = |weight: &shadowstep_symbolic::Rational| weight.to_f64().unwrap_or(f64::NAN);
+        Step(proved.scheme.maps().iter().map(|map| (map.kind, weight(&map.weight))).collect())
+    }
+
+    /// ρ(h); 0 where the step is a turn by a multiple of π, which has B = C = 0.
+    fn rho(&self, h: f64) -> f64 {
+        // where the step takes (q, p) = (1, 0) and (0, 1)
+        let mut columns = [[1.0, 0.0], [0.0, 1.0]];
+        for (kind, weight) in &self.0 {
+            for [q, p] in &mut columns {
+                match kind {
+                    MapKind::Kick => *p -= weight * h * *q,
+                    MapKind::Drift => *q += weight * h * *p,
+                    // U_qq M⁻¹U_q = q
+                    MapKind::GradientKick => *p += 2.0 * weight * h.powi(3) * *q,
+                }
+            }
+        }
+        let ([_, c], [b, _]) = (columns[0], columns[1]);
+        if b * c == 0.0 { 0.0 } else { (b + c) * (b + c) / (-2.0 * b * c) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use shadowstep_schemes::{Source, read, shipped, shipped_proved};
+
+    use super::*;
+
+    fn found(proved: &Proved) -> f64 {
+        SamplingError::of(proved, Stability::of_scheme(proved).as_ref()).unwrap().largest.unwrap()
+    }
+
+    /// A = 1 − h²/2, B = h, C = −h + h³/4: ρ(h) = h⁴/(32 − 8h²).
+    #[test]
+    fn that_of_the_leapfrog_is_known() {
+        let verlet = shipped_proved("stormer-verlet").unwrap();
+        assert!((found(verlet) - 1.0 / 24.0).abs() < 1e-12, "{}", found(verlet));
+        for h in [0.1_f64, 0.7, 1.5] {
+            let known = h.powi(4) / (32.0 - 8.0 * h * h);
+            assert!((Step::of(verlet).rho(h) / known - 1.0).abs() < 1e-9);
+        }
+    }
+
+    /// The values were computed from the matrices of the steps in another program.
+    #[test]
+    fn the_free_parameter_of_the_schemes_for_sampling_is_where_it_is_least() {
+        for (name, known, parameter) in [("bcss2", 3.98951e-4, "0.211781"), ("bcss3", 7.41913e-5, "0.11888010966548")] {
+            let least = found(shipped_proved(name).unwrap());
+            assert!((least / known - 1.0).abs() < 1e-5, "{name}: {least}");
+            for by in [-3e-4, 3e-4] {
+                let Source { path, text } = shipped(name).unwrap();
+                let moved = parameter.parse::<f64>().unwrap() + by;
+                let source =
+                    Source { path, text: text.replace(&format!("\"{parameter}\""), &format!("\"{moved:.12}\"")) };
+                let other = read(&source, &|base, _| shipped(base)).unwrap();
+                assert!(found(&other) > 1.001 * least, "{name}, {moved}: {} and {least}", found(&other));
+            }
+        }
+    }
+}
