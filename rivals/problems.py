@@ -48,11 +48,6 @@ PROBLEMS = [
         "The Sun, Jupiter, Saturn, Uranus, Neptune and Pluto for 200 000 days, 46 periods of Jupiter, in astronomical units.",
     ),
     Problem(
-        "outer-3652500", "The Sun and the outer planets, 10 000 years", "outer-solar-system", 3652500.0, 100, (1e4, 4e6, 2.0), 182_600, True,
-        "The same for 3 652 500 days, 843 periods of Jupiter. The error of the position is mostly one of longitude, times the distance from the Sun.",
-        decades=(2, 10), rounds=3,
-    ),
-    Problem(
         "outer-10000000", "The Sun and the outer planets, 10⁷ days", "outer-solar-system", 1e7, 100, (3e4, 1.6e7, 2.0), None, True,
         "The same for 10⁷ days, 2300 periods of Jupiter. Only the error of H is compared; "
         "the times are medians of three rounds.",

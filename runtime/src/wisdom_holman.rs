@@ -178,9 +178,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
     fn kick_by(&mut self, weight: &N, augmented: bool) {
         self.jump(weight, augmented);
         self.evaluate(augmented);
-        for (number, (p, gradient)) in self.p.iter_mut().zip(&self.gradient).enumerate() {
-            self.sums[1].subtract_product(number, p, weight, gradient);
-        }
+        self.sums[1].kick(&mut self.p, weight, &self.gradient);
         if augmented {
             self.increments.beta.add_product(weight, &self.rate);
             for (increment, gradient) in self.increments.p.iter_mut().zip(&self.gradient) {

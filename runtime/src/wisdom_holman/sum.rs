@@ -42,11 +42,16 @@ impl<N: Number> Sum<N> {
         add_with_remainder(x, remainder, &self.y, &mut self.sum);
     }
 
-    /// x ← x − a b
-    pub(super) fn subtract_product(&mut self, number: usize, x: &mut N, a: &N, b: &N) {
-        let Some(remainder) = self.remainders.get_mut(number) else { return x.subtract_product(a, b) };
-        self.y.assign(remainder);
-        self.y.subtract_product(a, b);
-        add_with_remainder(x, remainder, &self.y, &mut self.sum);
+    /// p ← p − weight gradient, of all coordinates
+    pub(super) fn kick(&mut self, p: &mut [N], weight: &N, gradient: &[N]) {
+        // one loop with both cases is slower: the compiler makes it one of masked vectors
+        if self.remainders.is_empty() {
+            return p.iter_mut().zip(gradient).for_each(|(p, gradient)| p.subtract_product(weight, gradient));
+        }
+        for ((p, remainder), gradient) in p.iter_mut().zip(&mut self.remainders).zip(gradient) {
+            self.y.assign(remainder);
+            self.y.subtract_product(weight, gradient);
+            add_with_remainder(p, remainder, &self.y, &mut self.sum);
+        }
     }
 }

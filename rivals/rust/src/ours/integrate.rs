@@ -203,7 +203,7 @@ impl WithScheme for RunPlanets<'_> {
         let stepper = Stepper::new(scheme, step_size(request.until, request.steps())).expect("a step size");
         let mut answer = Answer::default();
         for _ in 0..request.samples {
-            answer.time(|| stepper.steps(std::slice::from_mut(&mut system), request.steps() / request.samples));
+            answer.time(|| stepper.merged_steps(std::slice::from_mut(&mut system), request.steps() / request.samples));
             let (q, p) = system.inertial();
             answer.state(q.into_iter().chain(p));
         }
