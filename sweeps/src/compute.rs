@@ -56,7 +56,8 @@ pub fn compute(
         due.work(&state);
     };
     thread::scope(|scope| {
-        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        let spawn = |_| thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
+        let workers: Vec<_> = (0..threads).map(|worker| spawn(worker).expect("a thread can be made")).collect();
         attend(&working, &state, &stops, all, observer);
         workers.into_iter().for_each(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
     });
@@ -70,6 +71,9 @@ pub fn compute(
         None => Ok(state.computed),
     }
 }
+
+/// Bytes of a thread's stack: without optimisation a run of long numbers has many copies of them there, more than the usual 2 MiB.
+const STACK: usize = 16 << 20;
 
 /// At its end a thread is counted off before the waiting thread wakes, be it by a panic.
 struct Ends<'a> {

@@ -80,7 +80,7 @@ pub(super) fn table_of(columns: &[Column], records: &[Record]) -> String {
 pub(super) fn legend(is_wide: bool, kinetic: Option<Kinetic>) -> String {
     let error = "effective error: forces · ‖leading error‖^(1/order), which compares schemes of one order";
     let stable = "stable a force: the stability limit hω of the harmonic oscillator, by the forces of a step; forces 2+1: 2 forces and 1 \
-                  Hessian–vector product of a gradient kick, which is counted as a force";
+                  Hessian–vector product of a gradient kick, which is counted as a force; for proc.: the orders of a scheme with its processor";
     if is_wide {
         return format!(
             "{error}; {stable}; products per dimension: what a step takes beside its forces with unit masses, and as many \
@@ -112,7 +112,7 @@ fn none() -> String {
 fn meant_for(record: &Record) -> String {
     if let Some(order) = record.effective_order {
         let near = near_integrable_text(&record.effective_near_integrable);
-        return if near.is_empty() { format!("processed: {order}") } else { format!("A+εB {near}, processed") };
+        return if near.is_empty() { format!("proc. {order}") } else { format!("proc. {near}") };
     }
     match &record.near_integrable[..] {
         [] if record.moves_any => "every T(p)".to_owned(),

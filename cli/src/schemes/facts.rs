@@ -43,8 +43,8 @@ pub(super) fn near_integrable_text(orders: &[u32]) -> String {
 /// What the orders of a near-integrable scheme are worth, and what they need.
 pub(super) const NEAR_INTEGRABLE: &str = "\
 A + εB: orders such as (8,4) mean errors of ε h^8 and ε² h^4. They pay only if the drift solves A exactly and εB is small, as where \
-drifts are Kepler motions and kicks the attractions of planets: a `System` of your own in Rust. With H = T + U, as in `run`, \
-`drift` and `trace`, nothing is small, and they gain nothing.";
+drifts are Kepler orbits and kicks the attractions of planets: scenes with parts = \"wisdom-holman\". With T and U as parts nothing is \
+small, and they gain nothing.";
 
 /// As tables write it.
 pub(super) fn kinetic(kinetic: Kinetic) -> &'static str {
