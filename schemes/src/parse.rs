@@ -298,7 +298,7 @@ fn stages(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<Weights>
     let others = [("drift", Some(&drift)), ("gradient_kick", gradient_kick.as_ref())];
     for (name, cells) in others {
         let Some(cells) = cells.filter(|cells| cells.value.len() != stages) else { continue };
-        let found = format!("{stages} for the kicks, {} for {name}", cells.value.len());
+        let found = format!("{stages} for the kicks, {} for the {}s", cells.value.len(), name.replace('_', " "));
         let message = format!("kick and {name} must have as many weights as there are stages");
         let hint = "each stage is a kick and then a drift; write 0 where there is none";
         let fault = reader.source.fault(&cells.at, message).values(found, "the same number of both");

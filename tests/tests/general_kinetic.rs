@@ -117,7 +117,8 @@ fn schemes_for_quadratic_kinetic_energies_lose_their_order() {
     let context = precision(DIGITS);
     let schemes = [9, 10].map(|k| all::<Float>(&halved(k), &context));
     let losing: Vec<_> = (0..schemes[0].len())
-        .filter(|&i| schemes[0][i].summary.order < schemes[0][i].summary.order_quadratic)
+        // with gradient kicks they have none to lose
+        .filter(|&i| (1..schemes[0][i].summary.order_quadratic).contains(&schemes[0][i].summary.order))
         .collect();
     assert!(!losing.is_empty());
     for (problem, i) in Problem::ALL.into_iter().flat_map(|problem| losing.iter().map(move |&i| (problem, i))) {

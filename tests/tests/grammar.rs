@@ -72,7 +72,7 @@ mine.toml:14:9: this list is empty
 mine.toml:15:1: unknown key `weights`
   15 | weights = [1]
      | ^^^^^^^
-  hint: the keys of [stages] are kick, drift
+  hint: the keys of [stages] are kick, gradient_kick, drift
 "#,
     );
 }
