@@ -80,7 +80,7 @@ impl Posed {
         };
         let until = match (&arguments.until, &scene) {
             (Some(text), _) => quantity::number("--until", text)?,
-            (None, Some(scene)) => &scene.h * Rational::from_integer(scene.steps.into()),
+            (None, Some(scene)) => &scene.h * Rational::from_integer(scene.steps().into()),
             (None, None) => return Err(Error::usage("--until is missing", "give the end of the runs: --until 100")),
         };
         if until == Rational::from_integer(0.into()) {

@@ -53,11 +53,13 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     }
     let scene = Scene::read(source)?;
     scene.notes.iter().for_each(report::note);
+    // before signals are handled: counting steps to a physical time makes them
+    let steps = scene.steps();
     let interrupt = Interrupt::listen(&scene.source.path, again(&scene));
     let plot = scene.output.plot.as_ref();
     let files = plot.map(|plot| PlotFiles::of_scene(&scene, plot, arguments.force)).transpose()?;
     let begin = Instant::now();
-    let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), scene.steps);
+    let progress = Progress::new(scene.output.file.is_some(), scene.as_run().name(), steps);
     let mut terminal = Terminal { progress, interrupt, summarises: !arguments.no_summary, summary: None };
     let options = FileOptions { restart: arguments.restart, force: arguments.force };
     let outcome = match scene.output.file {
@@ -76,7 +78,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     match outcome {
         Outcome::Complete { force_evaluations } => {
             if io::stderr().is_terminal() {
-                let (steps, seconds) = (scene.steps, begin.elapsed().as_secs_f64());
+                let seconds = begin.elapsed().as_secs_f64();
                 report::note(format_args!(
                     "{steps} steps, {force_evaluations} force evaluations, {seconds:.3} seconds"
                 ));

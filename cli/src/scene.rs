@@ -4,7 +4,7 @@ use std::io::Write;
 
 use clap::Args;
 use shadowstep::problems::{PROBLEMS, problem};
-use shadowstep_scenes::{Error, PLANETARY_SCENES, planetary_scene};
+use shadowstep_scenes::{ENCOUNTER_SCENES, Error, PLANETARY_SCENES, ShippedScene, shipped_scene};
 
 use crate::output::Output;
 use crate::quantity::problem_error;
@@ -15,11 +15,11 @@ const EXAMPLE: &str = "\
 Example:
   shadowstep scene kepler > scene.toml";
 
-/// Writes the scene of a problem or planetary system, lists all, or explains the keys of scenes.
+/// Writes the scene of a problem, a planetary system or close encounters, lists all, or explains the keys of scenes.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
-    /// The problem or planetary system, such as kepler or eight-planets
+    /// The problem or shipped scene, such as kepler, eight-planets or pythagorean-70
     name: Option<String>,
     /// Explains every key of a scene
     #[arg(long, conflicts_with = "name")]
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let text = match &arguments.name {
         _ if arguments.explain => shadowstep_scenes::explain(),
-        Some(name) => match planetary_scene(name) {
+        Some(name) => match shipped_scene(name) {
             Some(scene) => scene.text.to_owned(),
             None => shadowstep_scenes::template(problem(name).map_err(problem_error)?.description()),
         },
@@ -46,11 +46,13 @@ fn list() -> String {
     let line = |name: &str, title: &str| format!("  {name:<20}  {title}\n");
     let problems = PROBLEMS.iter().map(|problem| problem.description());
     let names: String = problems.map(|problem| line(problem.name, problem.title)).collect();
-    let planets: String = PLANETARY_SCENES.iter().map(|scene| line(scene.name, scene.title)).collect();
+    let shipped =
+        |scenes: &[ShippedScene]| scenes.iter().map(|scene| line(scene.name, scene.title)).collect::<String>();
+    let (planets, encounters) = (shipped(&PLANETARY_SCENES), shipped(&ENCOUNTER_SCENES));
     let how = "`shadowstep scene kepler > scene.toml` writes one, `shadowstep run scene.toml` runs it, and \
                `shadowstep scene --explain` explains all keys.";
     format!(
-        "There is a scene for each of these problems:\n{names}and of planetary systems:\n{planets}{}",
+        "There is a scene for each of these problems:\n{names}of planetary systems:\n{planets}and of close encounters:\n{encounters}{}",
         wrapped(how, "")
     )
 }

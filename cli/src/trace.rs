@@ -138,7 +138,10 @@ impl Computation for Following<'_, '_> {
             if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
                 return Err(run.not_finite(&format!("the energy at n = {n}")));
             }
-            let t = N::from_rational(&run.time_of_value(n, &selection.estimator), context);
+            let t = match system.time_of(found.q) {
+                Some(t) => t.clone(),
+                None => N::from_rational(&run.time_of_value(n, &selection.estimator), context),
+            };
             let (q, p) = match &mut shown {
                 Some(shown) => shown.of_state(found.q, found.p),
                 None => (found.q, found.p),

@@ -83,6 +83,12 @@ pub trait Kinetic<N: Number> {
 
     /// energy ← T(p)
     fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]);
+
+    /// energy, which is T(p), ← an energy of the size of those exchanged in the motion, with which the monitor compares the error of H.
+    /// By default it is T itself.
+    fn exchanged_energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
+        let _ = (p, energy, scratch);
+    }
 }
 
 impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
@@ -104,6 +110,9 @@ impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
     }
     fn energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
         (**self).energy(p, energy, scratch);
+    }
+    fn exchanged_energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
+        (**self).exchanged_energy(p, energy, scratch);
     }
 }
 

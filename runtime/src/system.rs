@@ -70,7 +70,7 @@ pub trait System {
 
     /// The gradient kick p ← p + weight·U_qq M⁻¹U_q of B = U(q) and A = ½pᵀM⁻¹p; its weight is 2h³ c.
     ///
-    /// It is the flow of h³ c [B,[A,B]]: of the Hamiltonian −½U_qᵀM⁻¹U_q for the time `weight`.
+    /// It is the flow of h³ c `[B,[A,B]]`: of the Hamiltonian −½U_qᵀM⁻¹U_q for the time `weight`.
     ///
     /// # Panics
     /// By default, as where [`has_gradient_kicks`](System::has_gradient_kicks) is false.

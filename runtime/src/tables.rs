@@ -4,8 +4,8 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 
 pub use shadowstep_schemes::shipped as shipped_source;
-pub use shadowstep_schemes::{Fault, Faults, Proved, Source, shipped_names};
-use shadowstep_schemes::{First, MapKind, Plan};
+pub use shadowstep_schemes::{Fault, Faults, First, Proved, Source, shipped_names};
+use shadowstep_schemes::{MapKind, Plan};
 use thiserror::Error;
 
 use crate::Rational;

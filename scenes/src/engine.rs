@@ -10,9 +10,10 @@ use shadowstep::{MotionError, Ordered, Remainders, Scheme, Stepper, System, Vali
 use crate::error::Error;
 use crate::note::Note;
 use crate::observer::Observer;
+use crate::physical_end::last_step;
 use crate::results::{Checkpoint, ModifiedEnergy, Row, Rows, SavedState};
 use crate::run::Run;
-use crate::scene::{CheckpointInterval, Scene, Shown};
+use crate::scene::{CheckpointInterval, EnergyAt, Scene, Shown};
 use crate::snapshots::{Snapshot, Snapshots};
 use crate::start::{Begin, Steps, Work};
 use crate::summary::Summary;
@@ -63,6 +64,7 @@ pub(crate) fn follow<N: Rounded + 'static>(
         from: saved.map(|saved| saved.n),
         remainders,
         shown: scene.system.shown(context),
+        energy_of: scene.system.transformed_time().map(|_| scene.system.energy(context)),
     };
     let compensated = scene.arithmetic.is_compensated();
     // the states of checkpoints are those of the steps
@@ -100,6 +102,8 @@ struct Recorder<'a, 'r, N: Ordered> {
     remainders: Remainders<N>,
     /// Converts states for rows, where these have other coordinates than the steps.
     shown: Option<Shown<N>>,
+    /// H for rows, where the steps conserve another function.
+    energy_of: Option<EnergyAt<N>>,
 }
 
 impl<N: Ordered + 'static> Work<N> for Recorder<'_, '_, N> {
@@ -133,13 +137,20 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         let first = (self.from.unwrap_or(0), initial);
         let watch = Watch::begin(stepper, system, self.run, first, Energies::Windows, true);
         let watch = watch.map_err(|error| self.failed(&error))?;
-        Ok(Some(watch.with_planets_of(&self.scene.system)))
+        Ok(Some(watch.of_system(&self.scene.system)))
     }
 
     /// The error of the run, with the scene's names of coordinates and momenta.
     fn failed(&self, error: &RunError) -> Error {
         let system = &self.scene.system;
-        self.run.failed_naming(error, &system.coordinates, &system.momenta)
+        let failed = self.run.failed_naming(error, &system.coordinates, &system.momenta);
+        match (failed, system.transformed_time()) {
+            (Error::Run { message, .. }, Some(_)) if matches!(error, RunError::NotFinite { .. }) => Error::run(
+                format!("{message}; time is transformed, which requires U < 0 and T + p_t > 0"),
+                "remove [time] if U changes its sign on the orbit; otherwise try a smaller step size",
+            ),
+            (failed, _) => failed,
+        }
     }
 
     /// Without states beyond both ends; with increments only where a summary needs them.
@@ -163,7 +174,7 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
                 [self.scene.output.energy, self.scene.output.trajectory].map(|every| self.is_due(every, n));
             if energy || state {
                 stepper.at_output(system, |system| {
-                    let energy = energy.then(|| system.energy());
+                    let energy = energy.then(|| self.energy(system));
                     self.row(n, system.q(), system.p(), energy.as_ref(), None)
                 })?;
             } else {
@@ -175,7 +186,10 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         }
         let system = trajectory.system();
         let energy = stepper.at_output(system, M::energy);
-        Ok((self.complete(&energy, system.evaluations())?, self.summary(watch, &energy)))
+        let ended = (self.complete(&energy, system.evaluations())?, self.summary(watch, &energy));
+        let (q, p) = (system.q().to_vec(), system.p().to_vec());
+        self.end_at_time(stepper, system, (&q, &p))?;
+        Ok(ended)
     }
 
     /// With increments and an estimate at each state; resumed after the state `from`.
@@ -222,14 +236,48 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
             if due || state || last {
                 stepper.postprocess_state(shadow.system(), &mut q, &mut p);
             }
-            let energy = due.then(|| shadow.system().energy_at(&q, &p));
+            let energy = due.then(|| self.energy_at(shadow.system(), (&q, &p)));
             self.row(n, &q, &p, energy.as_ref(), modified)?;
             if self.ends(n, || snapshots.for_those_after(n).cloned())? {
                 return Ok((Outcome::Stopped { n }, None));
             }
         }
         let energy = shadow.system().energy_at(&q, &p);
-        Ok((self.complete(&energy, shadow.system().evaluations())?, self.summary(watch, &energy)))
+        let ended = (self.complete(&energy, shadow.system().evaluations())?, self.summary(watch, &energy));
+        self.end_at_time(stepper, shadow.system(), (&q, &p))?;
+        Ok(ended)
+    }
+
+    /// H of a state for a row.
+    fn energy_at<M: System<Number = N>>(&mut self, system: &mut M, (q, p): (&[N], &[N])) -> N {
+        match &mut self.energy_of {
+            Some(energy_of) => energy_of(q, p),
+            None => system.energy_at(q, p),
+        }
+    }
+
+    /// H of the present state for a row.
+    fn energy<M: System<Number = N>>(&mut self, system: &mut M) -> N {
+        match &mut self.energy_of {
+            Some(energy_of) => energy_of(system.q(), system.p()),
+            None => system.energy(),
+        }
+    }
+
+    /// Where time is transformed and the run ends at a physical time, makes the last step to it from a state, and its row.
+    fn end_at_time<S, M>(&mut self, stepper: &Stepper<S, N>, system: &mut M, state: (&[N], &[N])) -> Result<(), Error>
+    where
+        S: Scheme + Clone + ValidFor<M::Class>,
+        M: System<Number = N>,
+    {
+        let scene = self.scene;
+        let Some(until) = scene.physical_end() else { return Ok(()) };
+        if !last_step(stepper, system, state, (self.run, until))? {
+            return Ok(());
+        }
+        let n = i64::try_from(self.run.steps).unwrap_or(i64::MAX - 1) + 1;
+        let energy = scene.output.energy.is_some().then(|| self.energy(system));
+        self.write(n, (system.q(), system.p()), (energy.as_ref(), None), scene.output.trajectory.is_some())
     }
 
     fn complete(&self, energy: &N, force_evaluations: u64) -> Result<Outcome, Error> {
@@ -275,13 +323,27 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         if energy.is_none() && modified.is_none() && !state_is_due {
             return Ok(());
         }
+        self.write(n, (q, p), (energy, modified), state_is_due)
+    }
+
+    /// Writes a row.
+    fn write(
+        &mut self,
+        n: i64,
+        (q, p): (&[N], &[N]),
+        (energy, modified): (Option<&N>, Option<ModifiedEnergy>),
+        with_state: bool,
+    ) -> Result<(), Error> {
+        let t = match self.scene.system.time_of(q) {
+            Some(t) => t.to_text(),
+            None => N::from_rational(&self.run.time(n), self.context).to_text(),
+        };
         let (q, p) = match &mut self.shown {
-            Some(shown) if state_is_due => shown.of_state(q, p),
+            Some(shown) if with_state => shown.of_state(q, p),
             _ => (q, p),
         };
-        let texts = |numbers: &[N]| state_is_due.then(|| numbers.iter().map(N::to_text).collect());
+        let texts = |numbers: &[N]| with_state.then(|| numbers.iter().map(N::to_text).collect());
         let (q, p) = (texts(q), texts(p));
-        let t = N::from_rational(&self.run.time(n), self.context).to_text();
         let energy = energy.map(N::to_text);
         self.rows.row(&Row { n, t, energy, modified_energy: modified, q, p })
     }

@@ -119,7 +119,7 @@ impl Ensemble {
 
     fn trajectories(&self) -> ensemble::Ensemble {
         let Observed { every, modified_energy } = self.observed;
-        let (trajectories, steps) = (self.columns.trajectories(), self.first.steps);
+        let (trajectories, steps) = (self.columns.trajectories(), self.first.steps());
         ensemble::Ensemble { trajectories, steps, every, modified_energy, threads: None }
     }
 
@@ -144,7 +144,7 @@ impl Ensemble {
     }
 
     fn refuse_other_steps(&self, scene: &Scene, t: usize) -> Result<(), Error> {
-        let steps = |scene: &Scene| (scene.h.clone(), scene.steps, scene.scheme.name.clone());
+        let steps = |scene: &Scene| (scene.h.clone(), scene.steps(), scene.scheme.name.clone());
         if steps(scene) == steps(&self.first) {
             return Ok(());
         }

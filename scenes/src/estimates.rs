@@ -101,7 +101,7 @@ where
         let (q, p) = described.start(self.context);
         let initial = system.energy_at(&q, &p);
         let watch = Watch::begin(stepper, &mut system, run, (0, initial), Energies::All, summarised);
-        let mut watch = watch.map_err(failed)?.with_planets_of(described);
+        let mut watch = watch.map_err(failed)?.of_system(described);
         let mut evaluations = Evaluations::default();
         let mut shadow = ShadowRun::new(stepper, system, run.steps, settings).map_err(failed)?;
         let last = i64::try_from(run.steps).unwrap_or(i64::MAX);

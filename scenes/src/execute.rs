@@ -55,9 +55,10 @@ impl Scene {
     ) -> Result<Outcome, Error> {
         let mut rows = Rows { target, format: self.output.format, columns: columns(self) };
         match checkpoint {
-            Some(checkpoint) => observer.note(&Note::Resumed { n: checkpoint.n, steps: self.steps }),
+            Some(checkpoint) => observer.note(&Note::Resumed { n: checkpoint.n, steps: self.steps() }),
             None => {
-                let early = Note::of_end(&self.h, self.steps, &self.until);
+                let plain = self.until.as_ref().filter(|_| self.physical_end().is_none());
+                let early = plain.and_then(|until| Note::of_end(&self.h, self.steps(), until));
                 early.iter().chain(self.instability(observer).iter()).for_each(|note| observer.note(note));
                 rows.head(&Metadata::of(self))?;
             }
@@ -201,6 +202,19 @@ mod tests {
                     assert!(!stops.is_empty());
                     assert_eq!(bytes, whole, "{output}: {stops:?}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn so_has_a_file_in_transformed_time() {
+        let system = format!("{KEPLER}\n[time]\ntransform = \"logarithmic\"");
+        for output in ["trajectory = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"] {
+            let (whole, _) = with_stops(&system, output, 1000);
+            for each in [5, 8, 13] {
+                let (bytes, stops) = with_stops(&system, output, each);
+                assert!(!stops.is_empty());
+                assert_eq!(bytes, whole, "{output}: {stops:?}");
             }
         }
     }

@@ -25,7 +25,7 @@ pub struct Key {
 }
 
 /// All sections, in the order of the explanation.
-pub const SECTIONS: [Section; 10] = [
+pub const SECTIONS: [Section; 11] = [
     section(
         "problem",
         "[problem]",
@@ -39,6 +39,13 @@ pub const SECTIONS: [Section; 10] = [
          A planet has either q and v, in an inertial frame, or orbital elements, with angles in degrees.",
     ),
     section("initial", "[initial]", "The state at t = 0."),
+    section(
+        "time",
+        "[time]",
+        "Transforms time, so that steps become short in close encounters: the steps have equal lengths in a fictitious time s, and t is a \
+         coordinate. It requires U < 0 on the whole orbit, and a scheme for every T(p); `first = \"drift\"` is best. The modified \
+         energy is that of H' = f(T + p_t) - f(-U), which is 0; `energy` is H.",
+    ),
     section("run", "[run]", "The scheme, its steps, and the number type."),
     section("output", "[output]", "What is written, and where. Nothing else is computed."),
     section("output.energy", "[output.energy]", "A table in place of `energy = true`."),
@@ -48,7 +55,7 @@ pub const SECTIONS: [Section; 10] = [
 ];
 
 /// All keys, section by section.
-pub const KEYS: [Key; 57] = [
+pub const KEYS: [Key; 59] = [
     key(
         "problem",
         "name",
@@ -219,6 +226,22 @@ pub const KEYS: [Key; 57] = [
         Some("none; momenta are given instead"),
     ),
     key(
+        "time",
+        "transform",
+        "\"logarithmic\": f = ln, dt/ds = 1/(-U); on an ellipse with the semi-major axis a about a mass M, s is m sqrt(G M a) times the \
+         eccentric anomaly. Or \"power\": f(x) = x^exponent/exponent, dt/ds = (-U)^(exponent - 1).",
+        "\"logarithmic\"",
+        None,
+    ),
+    key(
+        "time",
+        "exponent",
+        "For \"power\": not 0, a fraction with a numerator and denominator of at most 32. With -1/2 steps are proportional to the time \
+         of free fall near a centre.",
+        "\"-1/2\"",
+        Some("none; required for \"power\""),
+    ),
+    key(
         "run",
         "scheme",
         "A shipped scheme, or the file of a table; its path is relative to the scene's folder. `shadowstep schemes` lists \
@@ -227,11 +250,18 @@ pub const KEYS: [Key; 57] = [
         None,
     ),
     key("run", "first", "What a step begins with: \"kick\" or \"drift\".", "\"drift\"", Some("that of the table")),
-    key("run", "step", "The step size h, nonzero; negative to go back in time.", "\"1/20\"", None),
+    key(
+        "run",
+        "step",
+        "The step size h, nonzero; negative to go back in time. With [time] it is a step of s.",
+        "\"1/20\"",
+        None,
+    ),
     key(
         "run",
         "until",
-        "The time at which the run ends. If it is not a multiple of h, the run ends at the last multiple before it.",
+        "The time at which the run ends. If it is not a multiple of h, the run ends at the last multiple before it. With [time] it is a \
+         physical time, and the run ends there by a last step of the exact remainder: a row more, which is always written.",
         "100",
         Some("none; `steps` are given instead"),
     ),

@@ -157,6 +157,18 @@ pub fn check_parts(named: &NamedScheme) -> Result<(), (String, String)> {
     }
 }
 
+/// Whether a scheme can advance a system in transformed time.
+///
+/// # Errors
+/// A processor, as the last step to a physical time is one of the kernel: a message and a hint.
+pub fn check_transformed_time(named: &NamedScheme) -> Result<(), (String, String)> {
+    if named.scheme.processor().is_empty() {
+        return Ok(());
+    }
+    let message = format!("{} is a processed scheme, which transformed time does not have", named.name);
+    Err((message, "use a composition of the leapfrog, such as sofroniou-spaletta6-13".to_owned()))
+}
+
 /// The text of the table that a word means: a shipped one, or a file.
 ///
 /// # Errors

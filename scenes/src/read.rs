@@ -16,10 +16,12 @@ mod problem;
 mod reader;
 mod run;
 mod shipped;
+mod time;
 mod units;
 
 use std::io::ErrorKind;
 use std::path::Path;
+use std::sync::OnceLock;
 
 use shadowstep::tables::{Faults, Source};
 use shadowstep_schemes::document::{document, read_text};
@@ -89,6 +91,7 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) ->
     let Reader { toml, arithmetic, notes, .. } = reader;
     match (Faults::of(toml.faults), parts) {
         (None, Some((system, run::Steps { scheme, h, until, steps }, output))) => {
+            let steps = steps.map_or_else(OnceLock::new, OnceLock::from);
             Ok(Scene { source: source.clone(), arithmetic, system, scheme, h, until, steps, output, notes })
         }
         (Some(faults), _) => Err(faults),
@@ -128,7 +131,9 @@ impl System {
         refuse_unknown_sections(&mut reader, &document, &["problem"], &[]);
         let (problem, initial) = (reader.section(&document, "problem"), reader.section(&document, "initial"));
         let bodies = planets::given(&mut reader, &document);
+        let time = time::section(&mut reader, &document);
         let system = problem::system(&mut reader, &problem, &initial, &bodies);
+        let system = time::transformed(&mut reader, &time, system);
         match (Faults::of(reader.toml.faults), system) {
             (None, Some(system)) => Ok((system, reader.notes)),
             (Some(faults), _) => Err(faults),
@@ -151,9 +156,12 @@ fn parts(
     let arithmetic = run::arithmetic(reader, &run);
     reader.arithmetic = arithmetic.unwrap_or(Arithmetic::Double);
     let bodies = planets::given(reader, root);
+    let time = time::section(reader, root);
     let system = problem::system(reader, &problem, &initial, &bodies);
+    let system = time::transformed(reader, &time, system);
     let kind = system.as_ref().map_or_else(Default::default, |system| run::Kind {
         general: system.has_general_kinetic(),
+        transformed: system.transformed_time().is_some(),
         other_parts: !matches!(system.parts, Parts::KineticAndPotential),
     });
     let steps = run::Steps::read(reader, &run, kind, schemes);

@@ -7,6 +7,7 @@ mod pairs;
 mod parameters;
 mod parts;
 mod system;
+mod time;
 
 pub(crate) use format::COLUMNS;
 pub use format::Format;
@@ -18,6 +19,8 @@ pub use parts::{Canonical, Parts, Planets, Shown};
 pub(crate) use system::{ClassifiedKinetic, formula_kinetic, formula_potential};
 pub use system::{EnergyAt, KineticEnergy, PotentialEnergy, System};
 
+use std::sync::OnceLock;
+
 use shadowstep::Rational;
 use shadowstep::tables::Source;
 
@@ -25,7 +28,9 @@ use crate::arithmetic::Arithmetic;
 use crate::estimator::order_setting;
 use crate::library::NamedScheme;
 use crate::note::Note;
+use crate::physical_end::count_steps;
 use crate::run::{OrderSetting, Run};
+use crate::start::{Begin, Steps};
 
 /// A scene: the system, the scheme with its steps, and the output.
 #[derive(Debug)]
@@ -40,10 +45,10 @@ pub struct Scene {
     pub scheme: NamedScheme,
     /// The step size h.
     pub h: Rational,
-    /// The time at which the run ends, at the latest.
-    pub until: Rational,
-    /// The number of steps.
-    pub steps: u64,
+    /// The time at which the run ends, at the latest; `None` where time is transformed and the number of steps is given.
+    pub until: Option<Rational>,
+    /// The number of steps, where it is known.
+    pub(crate) steps: OnceLock<u64>,
     /// What is written, and where.
     pub output: Outputs,
     /// What the user should know of this scene.
@@ -51,10 +56,24 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The number of steps. Of a run in transformed time that ends at a physical time, the first call makes them all to count them;
+    /// another step of the exact remainder then ends the run.
+    pub fn steps(&self) -> u64 {
+        let compensated = self.arithmetic.is_compensated();
+        let steps = Steps { scheme: &self.scheme.scheme, h: &self.h, compensated, begin: Begin::InitialState };
+        let count = |until| count_steps(&self.system, self.arithmetic, steps, until);
+        *self.steps.get_or_init(|| self.until.as_ref().map_or(0, count))
+    }
+
+    /// The physical time of the last step, where time is transformed and the run ends there.
+    pub(crate) fn physical_end(&self) -> Option<&Rational> {
+        self.until.as_ref().filter(|_| self.system.transformed_time().is_some())
+    }
+
     /// The steps of the run, with the order of the estimator as the scene sets it.
     pub fn as_run(&self) -> Run<'_> {
         let setting = self.output.modified_energy.as_ref().and_then(|(settings, _)| order_setting(settings));
         let order = setting.map(|(name, value)| OrderSetting { name, value });
-        Run { propagator: &self.scheme.name, h: &self.h, steps: self.steps, order }
+        Run { propagator: &self.scheme.name, h: &self.h, steps: self.steps(), order }
     }
 }

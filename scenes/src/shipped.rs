@@ -1,4 +1,4 @@
-//! Shipped scenes of planetary systems: each a file in `scenes/planets/`.
+//! Shipped scenes: each a file in `scenes/planets/` or `scenes/close-encounters/`.
 
 /// A shipped scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,21 @@ pub const PLANETARY_SCENES: [ShippedScene; 4] = [
     },
 ];
 
-/// The shipped scene of a planetary system with this name.
-pub fn planetary_scene(name: &str) -> Option<&'static ShippedScene> {
-    PLANETARY_SCENES.iter().find(|scene| scene.name.eq_ignore_ascii_case(name))
+/// All shipped scenes of close encounters, in transformed time.
+pub const ENCOUNTER_SCENES: [ShippedScene; 2] = [
+    ShippedScene {
+        name: "eccentric-kepler",
+        title: "Kepler's problem with e = 0.999, in logarithmic time",
+        text: include_str!("../close-encounters/eccentric-kepler.toml"),
+    },
+    ShippedScene {
+        name: "pythagorean-70",
+        title: "The Pythagorean problem until t = 70, in logarithmic time",
+        text: include_str!("../close-encounters/pythagorean-70.toml"),
+    },
+];
+
+/// The shipped scene with this name.
+pub fn shipped_scene(name: &str) -> Option<&'static ShippedScene> {
+    PLANETARY_SCENES.iter().chain(&ENCOUNTER_SCENES).find(|scene| scene.name.eq_ignore_ascii_case(name))
 }

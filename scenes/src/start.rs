@@ -57,8 +57,14 @@ impl scene::System {
         context: &N::Context,
         work: W,
     ) -> Result<W::Output, MotionError> {
-        if let Parts::WisdomHolman(planets) = &self.parts {
-            let system = planets.system((&q, &p), compensated, context)?;
+        let other = match &self.parts {
+            Parts::KineticAndPotential | Parts::Linear(_) => None,
+            Parts::WisdomHolman(planets) => Some(planets.system((&q, &p), compensated, context)?),
+            Parts::TransformedTime(time) => {
+                Some(self.in_transformed_time(*time, (q.clone(), p.clone()), compensated, context)?)
+            }
+        };
+        if let Some(system) = other {
             return Ok(begin(&stepper(scheme.clone(), h, context), system, at, work));
         }
         let (potential, scheme) = (self.potential(context), scheme.clone());

@@ -19,6 +19,8 @@ pub struct Summary {
     /// The scheme and the step size.
     pub(crate) run: String,
     pub(crate) h: Rational,
+    /// Whether the steps are in a fictitious time s.
+    pub(crate) transformed: bool,
     /// The first state and the last one; the first one is not 0 if the run was resumed.
     pub(crate) from: i64,
     pub(crate) to: i64,
@@ -111,7 +113,7 @@ impl Summary {
     pub fn encounters_text(&self, shown: usize) -> String {
         let lasts = |encounter: &Encounter| {
             let steps = if encounter.steps == 1 { "1 step".to_owned() } else { format!("{} steps", encounter.steps) };
-            format!("{steps} per passage at t = {}", self.time(encounter.n))
+            format!("{steps} per passage at {}", self.time(encounter.n))
         };
         let closest = self.closest.iter().take(shown).map(lasts).collect::<Vec<_>>().join(", ");
         match self.encounters {
@@ -129,22 +131,26 @@ impl Summary {
     fn interactions_text(&self, interactions: &Interactions) -> String {
         let Interactions { epsilon, of, closest } = interactions;
         let closest = closest.as_ref().map_or(String::new(), |Approach { n, bodies: [i, j], hill_radii }| {
-            format!("; closest approach {hill_radii:.3} Hill radii, {i} and {j} at t = {}", self.time(*n))
+            format!("; closest approach {hill_radii:.3} Hill radii, {i} and {j} at {}", self.time(*n))
         });
         format!("interactions at most {epsilon:.1e} of the Kepler force ({of}){closest}")
     }
 
+    /// The time of the steps with its letter.
     fn time(&self, n: i64) -> String {
-        to_significant(&(&self.h * Rational::from_integer(n.into())), 6)
+        let letter = if self.transformed { 's' } else { 't' };
+        let time = to_significant(&(&self.h * Rational::from_integer(n.into())), 6);
+        format!("{letter} = {time}")
     }
 
     fn energy_text(&self) -> String {
         let EnergySummary { largest, largest_relative, last, last_relative, at, states, .. } = &self.energy;
         let part = |relative: &Option<String>, absolute: &str| match relative {
             Some(relative) => format!("{} of |H(0)|", short(relative)),
+            None if self.transformed => short(absolute.trim_start_matches('-')),
             None => format!("{} (H(0) is 0)", short(absolute.trim_start_matches('-'))),
         };
-        let largest = format!("at most {} (t = {})", part(largest_relative, largest), self.time(*at));
+        let largest = format!("at most {} ({})", part(largest_relative, largest), self.time(*at));
         let last = format!("{} at the end", part(last_relative, last));
         let all = u64::try_from(self.to - self.from + 1).is_ok_and(|all| *states >= all);
         let sampled = if all { String::new() } else { format!("; at {states} states") };
@@ -183,7 +189,7 @@ impl fmt::Display for Summary {
         write!(f, "{}, {} steps{since}", self.run, self.to - self.from)?;
         let planets = self.interactions.as_ref().map(|interactions| ("planets", self.interactions_text(interactions)));
         let facts = [
-            ("error of H", self.energy_text()),
+            (if self.transformed { "error of H'" } else { "error of H" }, self.energy_text()),
             ("modified energy", self.modified_energy_text()),
             ("close encounters", self.encounters_text(SHOWN)),
         ];

@@ -43,6 +43,8 @@ pub struct Watch<S: Scheme, N: Ordered> {
     energies: Energies,
     energy: EnergyError<N>,
     stepper: Stepper<S, N>,
+    /// Whether H is that of transformed time, which is 0 but for round-off.
+    transformed: bool,
     /// What a summary needs besides H; `None` where there is none.
     observed: Option<Observed<S, N>>,
     /// The n of the first state and of the last one so far.
@@ -83,12 +85,21 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
                 every,
             });
         }
-        Ok(Watch { energies, energy: EnergyError::new(initial), stepper: stepper.clone(), observed, from, n: from })
+        Ok(Watch {
+            energies,
+            energy: EnergyError::new(initial),
+            stepper: stepper.clone(),
+            transformed: false,
+            observed,
+            from,
+            n: from,
+        })
     }
 
-    /// Follows the planets of a system that has some, too.
+    /// Follows the planets of a system that has some, too; in transformed time H is H'.
     #[must_use]
-    pub fn with_planets_of(mut self, system: &scene::System) -> Self {
+    pub fn of_system(mut self, system: &scene::System) -> Self {
+        self.transformed = system.transformed_time().is_some();
         if let Some(observed) = &mut self.observed {
             observed.approaches = Approaches::of(system);
         }
@@ -136,7 +147,8 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
     /// The error of H.
     pub fn energy(&self) -> EnergySummary {
         let energy = &self.energy;
-        let relative = |difference: &N| energy.relative(difference).map(|part| part.to_text());
+        let whole = |difference: &N| energy.relative(difference).filter(|_| !self.transformed);
+        let relative = |difference: &N| whole(difference).map(|part| part.to_text());
         EnergySummary {
             initial: energy.initial.to_text(),
             largest: energy.largest.to_text(),
@@ -152,7 +164,7 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
     pub fn summary(self, run: Run<'_>) -> Option<Summary> {
         let energy = self.energy();
         let of_kinetic = self.energy.of_kinetic();
-        let Watch { observed, from, n, .. } = self;
+        let Watch { observed, from, n, transformed, .. } = self;
         let Observed { monitor, encounters, approaches, .. } = observed?;
         let report = monitor.report();
         let (verdict, reason) = conclusion(&report, of_kinetic);
@@ -170,6 +182,7 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
         Some(Summary {
             run: run.name(),
             h: run.h.clone(),
+            transformed,
             from,
             to: n,
             energy,

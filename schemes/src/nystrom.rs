@@ -10,7 +10,7 @@
 //! ideal, and from five letters on its members lie among words that stay. The trees are the functionals that do not
 //! see that ideal. Some of them are redundant for a symplectic scheme; that costs time, not truth.
 //!
-//! A gradient kick p += 2c U_qq M⁻¹U_q is, with K = −U_q, 2c times the derivative of K in the direction of D[K], at the q that it finds: a
+//! A gradient kick p += 2c U_qq M⁻¹U_q is, with K = −U_q, 2c times the derivative of K in the direction of `D[K]`, at the q that it finds: a
 //! tree K[…] may be placed at it whole with one of its children D[K[…]], to which 2c belongs.
 
 use shadowstep_symbolic::Rational;

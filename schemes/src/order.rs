@@ -6,7 +6,7 @@
 //! words generate the shuffle algebra: Radford 1979; for splitting schemes Murua & Sanz-Serna, Phil. Trans. R. Soc.
 //! A 357 (1999) 957). The coefficient of a word of n letters in the exact flow is 1/n!.
 //!
-//! A gradient kick is exp(h³ c C) with C = [K,[D,K]] = 2KDK − DKK − KKD: a sum of words of three letters in place of a letter.
+//! A gradient kick is exp(h³ c C) with `C = [K,[D,K]]` = 2KDK − DKK − KKD: a sum of words of three letters in place of a letter.
 
 use std::collections::HashMap;
 use std::fmt;

@@ -37,7 +37,7 @@ pub struct Order {
 /// What is true of a scheme.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proof {
-    /// For every T(p). With gradient kicks: for all A and B, where a gradient kick is the flow of [B,[A,B]], which for A = T(p) is so
+    /// For every T(p). With gradient kicks: for all A and B, where a gradient kick is the flow of `[B,[A,B]]`, which for A = T(p) is so
     /// for quadratic T only; see [`Proved::order_for_every_kinetic`](crate::Proved::order_for_every_kinetic).
     pub general: Order,
     /// For T = ½pᵀM⁻¹p.

@@ -55,12 +55,19 @@ pub fn compute(
         let _end = Ends { working: &working, attendant: &attendant };
         due.work(&state);
     };
-    thread::scope(|scope| {
-        let spawn = |_| thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
-        let workers: Vec<_> = (0..threads).map(|worker| spawn(worker).expect("a thread can be made")).collect();
+    let made = thread::scope(|scope| {
+        // where memory is limited there are fewer threads
+        let spawn = |_| thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work).ok();
+        let workers: Vec<_> = (0..threads).map_while(spawn).collect();
+        (workers.len()..threads).for_each(|_| drop(Ends { working: &working, attendant: &attendant }));
         attend(&working, &state, &stops, all, observer);
+        let made = workers.len();
         workers.into_iter().for_each(|worker| worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        made
     });
+    if made == 0 {
+        return Err(Error::run("no thread can be started", "allow the process more memory"));
+    }
     let state = state.into_inner().unwrap_or_else(PoisonError::into_inner);
     match state.error {
         Some(error) => Err(error),
@@ -73,7 +80,7 @@ pub fn compute(
 }
 
 /// Bytes of a thread's stack: without optimisation a run of long numbers has many copies of them there, more than the usual 2 MiB.
-const STACK: usize = 16 << 20;
+const STACK: usize = 4 << 20;
 
 /// At its end a thread is counted off before the waiting thread wakes, be it by a panic.
 struct Ends<'a> {

@@ -263,7 +263,7 @@ impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
             .iter()
             .map(|(_, condition)| (Test::new(condition, &scene.system, context).expect(CHECKED), None));
         let at_end = keep.at_end.iter().map(|(_, text)| Evaluator::new(text, &scene.system, context).expect(CHECKED));
-        let last = i64::try_from(scene.steps).unwrap_or(i64::MAX);
+        let last = i64::try_from(scene.steps()).unwrap_or(i64::MAX);
         Ok(Following {
             run: scene.as_run(),
             stepper: stepper.clone(),

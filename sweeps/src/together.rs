@@ -42,13 +42,13 @@ pub(crate) fn allows(keep: &Keep) -> bool {
 pub(crate) fn suits(scene: &Scene, keep: &Keep) -> bool {
     sums(scene).is_some()
         && scene.scheme.scheme.processor().is_empty()
-        && scene.steps <= MOST_STEPS
+        && scene.steps() <= MOST_STEPS
         && !has_elementary_functions(scene, keep)
 }
 
 /// Whether two runs can be computed together, as far as their numbers and steps are concerned.
 pub(crate) fn are_alike(a: &Scene, b: &Scene) -> bool {
-    let steps = |scene: &Scene| (sums(scene), scene.steps, scene.scheme.scheme.maps().1.to_vec());
+    let steps = |scene: &Scene| (sums(scene), scene.steps(), scene.scheme.scheme.maps().1.to_vec());
     steps(a) == steps(b) && a.h == b.h && a.scheme.name == b.scheme.name
 }
 
@@ -123,7 +123,7 @@ impl Work<Lanes<LANES>> for InLanes<'_> {
     {
         let mut following = Following::begin(self.scenes, self.keep, &mut system);
         let at_once = if following.follows_all() { 1 } else { STEPS_AT_ONCE };
-        let (mut n, last) = (0, self.scenes[0].steps);
+        let (mut n, last) = (0, self.scenes[0].steps());
         following.include(n, &mut system);
         while n < last && following.goes_on() {
             let count = at_once.min(last - n);
@@ -202,7 +202,7 @@ impl<'a> Following<'a> {
         {
             energies.include(&system.energy(), &mut self.active);
         }
-        let mut ends = [n == self.scene.steps; LANES];
+        let mut ends = [n == self.scene.steps(); LANES];
         let run = self.scene.as_run();
         for (place, (test, met)) in self.tests.iter_mut().enumerate() {
             let stops = self.keep.stop.contains(&place);

@@ -45,7 +45,7 @@ impl Computation for Reading<'_> {
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         let Reading { plots, scene, path, name } = self;
-        let mut run = plots.run::<N>(name, scene.steps);
+        let mut run = plots.run::<N>(name, scene.steps());
         let damaged = |n: u64| {
             let message = format!("{}: the row after n = {n} cannot be read, so there is no plot", path.display());
             Error::usage(message, "--restart runs the scene again")

@@ -140,6 +140,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
     pub(super) fn add_kinetic_energy(&mut self, (q, p): (&[N], &[N]), energy: &mut N, kinetic_energy: &mut N) {
         self.kinetic.energy(p, kinetic_energy, &mut self.kinetic_scratch);
         energy.add(kinetic_energy);
+        self.kinetic.exchanged_energy(p, kinetic_energy, &mut self.kinetic_scratch);
         if N::KEEPS_INCREMENTS && q.len() >= LONG {
             let zero = N::zero(&energy.context());
             let mut overflows = zero.clone();

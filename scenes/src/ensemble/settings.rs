@@ -62,6 +62,10 @@ fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
         let at = place(reader.source, "output", key);
         reader.fault(&at, format!("an ensemble has no `{key}`"), format!("remove `{key}`: {why}"));
     }
+    if scene.system.transformed_time().is_some() {
+        let at = place(reader.source, "time", "transform");
+        reader.fault(&at, "an ensemble has no transformed time: its steps end at different times", "remove [time]");
+    }
     let Some((file, at)) = &output.file else { return };
     if output.format == Format::JsonLines {
         reader.fault(at, "an ensemble is written as CSV", "name a file such as \"out.csv\"");
@@ -74,7 +78,7 @@ fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
 fn observed(reader: &mut Reader<'_>, scene: &Scene) -> Option<Observed> {
     let output = &scene.output;
     let Some((estimator, every)) = &output.modified_energy else {
-        return Some(Observed { every: output.energy.unwrap_or(scene.steps).max(1), modified_energy: None });
+        return Some(Observed { every: output.energy.unwrap_or_else(|| scene.steps()).max(1), modified_energy: None });
     };
     let at = place(reader.source, "output", "modified_energy");
     if output.energy.is_some_and(|energy| energy != *every) {

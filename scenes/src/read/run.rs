@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use num_traits::{Signed, Zero};
 use shadowstep::Rational;
 use shadowstep_schemes::First;
 use shadowstep_symbolic::decimal::to_text;
@@ -34,6 +35,8 @@ pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Opti
 pub(super) struct Kind {
     /// An order for every T(p).
     pub(super) general: bool,
+    /// Steps in a fictitious time.
+    pub(super) transformed: bool,
     /// Kicks and drifts only, as the parts are not T(p) and U(q).
     pub(super) other_parts: bool,
 }
@@ -42,8 +45,10 @@ pub(super) struct Kind {
 pub(super) struct Steps {
     pub(super) scheme: NamedScheme,
     pub(super) h: Rational,
-    pub(super) until: Rational,
-    pub(super) steps: u64,
+    /// As in [`Scene`](crate::scene::Scene).
+    pub(super) until: Option<Rational>,
+    /// `None` where only the steps themselves have their times.
+    pub(super) steps: Option<u64>,
 }
 
 impl Steps {
@@ -59,7 +64,7 @@ impl Steps {
                 None
             }
         };
-        let times = times(reader, run);
+        let times = times(reader, run, kind.transformed);
         if matches!(first, Some(None)) {
             return None;
         }
@@ -86,6 +91,7 @@ fn scheme(
     };
     let valid = if kind.general { library::check_general(&named) } else { Ok(()) };
     let valid = valid.and_then(|()| if kind.other_parts { library::check_parts(&named) } else { Ok(()) });
+    let valid = valid.and_then(|()| if kind.transformed { library::check_transformed_time(&named) } else { Ok(()) });
     if let Err((message, hint)) = valid {
         return reader.toml.wrong(&word.at, message, hint);
     }
@@ -103,7 +109,10 @@ fn scheme(
 }
 
 /// h, the end and the number of steps.
-fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<(Rational, Rational, u64)> {
+type Times = (Rational, Option<Rational>, Option<u64>);
+
+/// h, the end and the number of steps; in transformed time h is a fictitious time and the end a physical one.
+fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>, transformed: bool) -> Option<Times> {
     let value = |reader: &mut Reader<'_>, key| {
         let text = run.get(key).and_then(|value| reader.number(value))?;
         let exact = reader.evaluate(&text)?;
@@ -127,12 +136,16 @@ fn times(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Option<(Rational, Ra
         // of these, only a step size of 0 is an error
         return match steps::count((&h, &step.value), (&h, &step.value), "") {
             Err(none) => reader.toml.wrong(&step.at, none.message, none.hint),
-            Ok(_) => Some((h.clone(), h * Rational::from_integer(steps.into()), steps)),
+            Ok(_) if transformed => Some((h, None, Some(steps))),
+            Ok(_) => Some((h.clone(), Some(h * Rational::from_integer(steps.into())), Some(steps))),
         };
     }
     let (end, until) = until?;
-    match steps::count((&h, &step.value), (&until, &to_text(&until)), "") {
-        Ok(count) => Some((h, until, count)),
+    // the sign of the end, and that of h
+    let compared = if transformed && !until.is_zero() { &h.abs() * until.signum() } else { until.clone() };
+    match steps::count((&h, &step.value), (&compared, &to_text(&until)), "") {
+        Ok(_) if transformed => Some((h, Some(until), None)),
+        Ok(count) => Some((h, Some(until), Some(count))),
         Err(none) => {
             let at = if none.wrong == WrongValue::Step { &step.at } else { &end.at };
             reader.toml.wrong(at, none.message, none.hint)

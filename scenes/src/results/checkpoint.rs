@@ -33,14 +33,14 @@ pub(crate) struct Identity {
 
 impl Identity {
     pub(crate) fn of(scene: &Scene) -> Identity {
-        let dimension = scene.system.coordinates.len();
+        let dimension = scene.system.dimension();
         Identity {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             platform: platform(),
             scene_sha256: sha256(&scene.source.text),
             tables_sha256: table_hashes(scene),
             functions_sha256: functions(scene).map(str::to_owned),
-            steps: scene.steps,
+            steps: scene.steps(),
             dimension,
             remainders: if scene.arithmetic.is_compensated() { dimension } else { 0 },
         }

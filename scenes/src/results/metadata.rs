@@ -45,11 +45,9 @@ impl Metadata {
         // the same digits may be MPFR's, with other last places
         all.extend(scene.arithmetic.limbs().map(|limbs| ("limbs", json!(limbs))));
         all.extend(system(&scene.system, scene.arithmetic));
-        all.extend([
-            ("step", json!(to_text(&scene.h))),
-            ("until", json!(to_text(&scene.until))),
-            ("steps", json!(scene.steps)),
-        ]);
+        all.push(("step", json!(to_text(&scene.h))));
+        all.extend(scene.until.iter().map(|until| ("until", json!(to_text(until)))));
+        all.push(("steps", json!(scene.steps())));
         all.extend(
             scene.output.modified_energy.iter().map(|(chosen, _)| ("modified_energy_by", json!(chosen.to_string()))),
         );
@@ -85,6 +83,7 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
         Parts::KineticAndPotential => None,
         Parts::Linear(_) => Some(("parts", json!(LINEAR))),
         Parts::WisdomHolman(planets) => Some(("parts", json!(planets.coordinates.name()))),
+        Parts::TransformedTime(time) => Some(("time", json!(time.to_string()))),
     };
     named
         .into_iter()

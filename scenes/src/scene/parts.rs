@@ -1,5 +1,6 @@
 //! How H is split into a part for the drifts and one for the kicks.
 
+use shadowstep::transformed_time::TimeTransformation;
 use shadowstep::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{MotionError, Number, Rational, System as _};
 
@@ -14,6 +15,8 @@ pub enum Parts {
     WisdomHolman(Planets),
     /// T(p) + ½qᵀKq with this K, row by row, and what is left of U.
     Linear(Vec<Vec<Rational>>),
+    /// f(T + p_t) and −f(−U): the steps are in a fictitious time.
+    TransformedTime(TimeTransformation),
 }
 
 /// A planetary system of point masses, the central body first.
@@ -63,12 +66,27 @@ pub struct Shown<N> {
 impl<N: Number + 'static> Shown<N> {
     fn of<C: PlanetaryCoordinates<N, D> + 'static, const D: usize>(planets: &Planets, context: &N::Context) -> Self {
         let mut coordinates = C::new(&planets.bodies, context);
-        let zeros = || vec![N::zero(context); planets.bodies.count() * D];
-        Shown {
-            convert: Box::new(move |state, shown| coordinates.assign_inertial(state, shown)),
-            q: zeros(),
-            p: zeros(),
-        }
+        let dimension = planets.bodies.count() * D;
+        Shown::by(dimension, context, move |state, shown| coordinates.assign_inertial(state, shown))
+    }
+
+    /// The conversion into states of this dimension.
+    pub(super) fn by(
+        dimension: usize,
+        context: &N::Context,
+        convert: impl FnMut((&[N], &[N]), (&mut [N], &mut [N])) + 'static,
+    ) -> Self {
+        let zeros = || vec![N::zero(context); dimension];
+        Shown { convert: Box::new(convert), q: zeros(), p: zeros() }
+    }
+
+    /// The first `dimension` coordinates and their momenta: without t and p_t.
+    pub(super) fn without_time(dimension: usize, context: &N::Context) -> Self {
+        let assign = |own: &[N], shown: &mut [N]| shown.iter_mut().zip(own).for_each(|(shown, own)| shown.assign(own));
+        Shown::by(dimension, context, move |(q, p), shown| {
+            assign(q, shown.0);
+            assign(p, shown.1);
+        })
     }
 
     /// The positions and momenta that are shown of a state.

@@ -69,6 +69,7 @@ impl System {
         match &self.parts {
             Parts::KineticAndPotential | Parts::Linear(_) => (q, p),
             Parts::WisdomHolman(planets) => planets.canonical((&q, &p), context),
+            Parts::TransformedTime(_) => self.with_time((q, p), context),
         }
     }
 
@@ -77,6 +78,7 @@ impl System {
         match &self.parts {
             Parts::KineticAndPotential | Parts::Linear(_) => None,
             Parts::WisdomHolman(planets) => Some(planets.shown(context)),
+            Parts::TransformedTime(_) => Some(Shown::without_time(self.q.len(), context)),
         }
     }
 
@@ -119,17 +121,31 @@ impl System {
         }
     }
 
-    /// H of any state, in the coordinates of the steps.
+    /// H of any state, in the coordinates of the steps; where time is transformed, of its q and p.
     ///
     /// # Panics
     /// If q, p and U have different dimensions, which reading a system excludes.
     pub fn energy<N: Number + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
-        const READ: &str = "the dimensions were read with the system";
-        let (q, p) = self.start(context);
-        if let Parts::WisdomHolman(planets) = &self.parts {
-            let mut system = planets.system((&q, &p), false, context).expect(READ);
-            return Box::new(move |q, p| system.energy_at(q, p));
+        match &self.parts {
+            Parts::KineticAndPotential | Parts::Linear(_) => self.plain_energy(context),
+            Parts::WisdomHolman(planets) => {
+                let (q, p) = self.start(context);
+                let mut system =
+                    planets.system((&q, &p), false, context).expect("the dimensions were read with the system");
+                Box::new(move |q, p| system.energy_at(q, p))
+            }
+            Parts::TransformedTime(_) => {
+                let (mut energy, dimension) = (self.plain_energy(context), self.q.len());
+                Box::new(move |q, p| energy(&q[..dimension], &p[..dimension]))
+            }
         }
+    }
+
+    /// T(p) + U(q)
+    pub(super) fn plain_energy<N: Number + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
+        const READ: &str = "the dimensions were read with the system";
+        let zeros = || vec![N::zero(context); self.q.len()];
+        let (q, p) = (zeros(), zeros());
         let potential = self.potential(context);
         match self.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {
@@ -167,12 +183,13 @@ impl System {
 
     /// Whether schemes for quadratic T only do not move it.
     pub fn has_general_kinetic(&self) -> bool {
-        if let Parts::WisdomHolman(planets) = &self.parts {
-            return planets.coordinates == Canonical::DemocraticHeliocentric;
-        }
-        match &self.kinetic {
-            KineticEnergy::Masses(_) => false,
-            KineticEnergy::Formula(_) => matches!(self.kinetic::<f64>(&()), ClassifiedKinetic::General(_)),
+        match (&self.parts, &self.kinetic) {
+            (Parts::WisdomHolman(planets), _) => planets.coordinates == Canonical::DemocraticHeliocentric,
+            (Parts::TransformedTime(_), _) => true,
+            (Parts::KineticAndPotential | Parts::Linear(_), KineticEnergy::Masses(_)) => false,
+            (Parts::KineticAndPotential | Parts::Linear(_), KineticEnergy::Formula(_)) => {
+                matches!(self.kinetic::<f64>(&()), ClassifiedKinetic::General(_))
+            }
         }
     }
 }
