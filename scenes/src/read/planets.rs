@@ -161,6 +161,14 @@ pub(super) fn system(
         return reader.toml.wrong(at, "a planetary system has a central body and at least one planet", "add [[body]]");
     }
     let (g, centre, parts) = (constant?, settings.centre?, settings.parts?);
+    if parts == GivenParts::Linear {
+        let at = given.place("parts").unwrap_or(&given.problem);
+        return reader.toml.wrong(
+            at,
+            "the attraction between bodies has no linear part",
+            "write parts = \"wisdom-holman\"",
+        );
+    }
     let dimensions = bodies.iter().find_map(|body| body.q.as_ref()).map_or(3, |q| q.value.len());
     let masses = masses(reader, bodies)?;
     let mut placing = Placing { g: g.clone(), dimensions, centre, masses, states: Vec::new() };
@@ -464,6 +472,11 @@ mod tests {
             (G, "a = 4\nq = [1, 0]\nv = [0, 0]", "9:1: this body has q and v and orbital elements"),
             ("parts = \"wisdom\"\nparameters = { g = 1 }", "a = 4", "2:9: `wisdom` is not known here"),
             ("parts = \"wisdom-holman\"", "a = 4", "1:1: the gravitational constant is missing"),
+            (
+                "parts = \"linear\"\nparameters = { g = 1 }",
+                "a = 4",
+                "2:9: the attraction between bodies has no linear part",
+            ),
             ("name = \"kepler\"", "a = 4", "2:8: name and [[body]] are both given"),
         ] {
             let faults = read(&scene(problem, second)).unwrap_err();
