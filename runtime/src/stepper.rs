@@ -184,10 +184,12 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         M::advance(systems, self.maps(), count);
     }
 
-    /// `count` steps of each of several systems, where the last drift of a step and the first of the next are made as one.
+    /// `count` steps of each of several systems, where the last map of a step and the first of the next are made as one: two drifts, or two
+    /// kicks.
     ///
-    /// Of a scheme with drifts at both ends, such as those for planets, this is a drift less a step, and the round-off is another one than that of
-    /// [`Stepper::steps`]. With kicks at both ends the gradient of the last serves the first anyway, and the steps are the same.
+    /// This is a map less a step, and the round-off is another one than that of [`Stepper::steps`]. Of two kicks only the weights are added, as the
+    /// gradient of the last serves the first anyway; two drifts are a flow less, such as a Kepler orbit. Where a step begins and ends with
+    /// different maps, or with a gradient kick, these are its steps.
     ///
     /// ```
     /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, tables::shipped};
@@ -205,30 +207,33 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         S: ValidFor<M::Class>,
     {
         let (kicks, maps) = self.scheme.maps();
-        let [(MapKind::Drift, first), middle @ .., (MapKind::Drift, last)] = maps else {
-            return self.steps(systems, count);
-        };
-        if count < 2 {
+        let &[(kind, first), ref middle @ .., (closing, last)] = maps else { return self.steps(systems, count) };
+        if kind != closing || kind == MapKind::GradientKick || count < 2 {
             return self.steps(systems, count);
         }
-        let gradient_kicks = self.scheme.gradient_kicks();
         let mut exact = Vec::new();
         let zero = N::zero(&systems.first().map_or_else(|| self.weights()[0].context(), System::context));
         self.scheme.weights(|weight| {
             exact.push(weight.clone());
             zero.clone()
         });
-        let merged = self.h() * (&exact[kicks + first] + &exact[kicks + last]);
-        let drifts = exact.len() - kicks - gradient_kicks;
+        // the merged weight becomes the last of its kind
+        let gradient_kicks = self.scheme.gradient_kicks();
+        let (before, end) = match kind {
+            MapKind::Kick => (0, kicks),
+            _ => (kicks, exact.len() - gradient_kicks),
+        };
+        let merged = self.h() * (&exact[before + first] + &exact[before + last]);
         let mut weights = self.weights().to_vec();
-        weights.insert(kicks + drifts, N::from_rational(&merged, &zero.context()));
+        weights.insert(end, N::from_rational(&merged, &zero.context()));
+        let kicks = if kind == MapKind::Kick { kicks + 1 } else { kicks };
         let mut advance = |maps: &[(MapKind, usize)], count| {
             M::advance(systems, Maps::new(&weights, (kicks, maps), gradient_kicks), count);
         };
-        let ending = |drift| middle.iter().copied().chain([(MapKind::Drift, drift)]).collect::<Vec<_>>();
-        advance(&[(MapKind::Drift, *first)], 1);
-        advance(&ending(drifts), count - 1);
-        advance(&ending(*last), 1);
+        let ending = |index| middle.iter().copied().chain([(kind, index)]).collect::<Vec<_>>();
+        advance(&[(kind, first)], 1);
+        advance(&ending(end - before), count - 1);
+        advance(&ending(last), 1);
     }
 
     /// One step of each of several systems with its [increments](System::increments) of q, p and β, with the bits that

@@ -101,7 +101,7 @@ impl<const D: usize> Setting<'_, D> {
         ("C by gcc", Box::new(run))
     }
 
-    fn ours<'a, N, S, P, K>(&self, names: [&'static str; 2], of: S, potential: P, masses: K) -> [Contestant<'a>; 2]
+    fn ours<'a, N, S, P, K>(&self, names: [&'static str; 3], of: S, potential: P, masses: K) -> [Contestant<'a>; 3]
     where
         N: Ordered + Number<Context = ()> + Copy + 'a,
         S: Scheme + Copy + 'a,
@@ -113,6 +113,7 @@ impl<const D: usize> Setting<'_, D> {
         let stepper = Stepper::<S, N>::new(of, self.h).expect("h is not 0");
         self.check(of, &stepper, one.clone());
         let (same, mut all) = (stepper.clone(), one.clone());
+        let (merging, mut merged) = (stepper.clone(), one.clone());
         let step = move |repetitions| {
             for _ in 0..repetitions {
                 stepper.step(&mut one);
@@ -123,7 +124,11 @@ impl<const D: usize> Setting<'_, D> {
             same.steps(std::slice::from_mut(&mut all), repetitions.into());
             black_box(all.q());
         };
-        [(names[0], Box::new(step)), (names[1], Box::new(steps))]
+        let merged = move |repetitions: u32| {
+            merging.merged_steps(std::slice::from_mut(&mut merged), repetitions.into());
+            black_box(merged.q());
+        };
+        [(names[0], Box::new(step)), (names[1], Box::new(steps)), (names[2], Box::new(merged))]
     }
 }
 
@@ -132,8 +137,8 @@ where
     S: Scheme + Copy + 'a,
     P: Potential<f64> + Potential<Fused> + Copy + 'a,
 {
-    let plain = setting.ours::<f64, _, _, _>(["f64, step", "f64, steps"], of, potential, UnitMasses);
-    let fused = setting.ours::<Fused, _, _, _>(["Fused, step", "Fused, steps"], of, potential, UnitMasses);
+    let plain = setting.ours::<f64, _, _, _>(["f64, step", "f64, steps", "f64, merged"], of, potential, UnitMasses);
+    let fused = setting.ours::<Fused, _, _, _>(["Fused, step", "Fused, steps", "Fused, merged"], of, potential, UnitMasses);
     plain.into_iter().chain(fused).collect()
 }
 
@@ -170,9 +175,9 @@ fn planets() {
     let plain_masses = DiagonalMasses::from_numbers(&masses).expect("positive masses");
     let fused_masses = DiagonalMasses::from_numbers(&masses.map(Fused)).expect("positive masses");
     let mut contestants = vec![setting.by_gcc(StormerVerlet)];
-    contestants.extend(setting.ours::<f64, _, _, _>(["f64, step", "f64, steps"], StormerVerlet, plain, plain_masses));
+    contestants.extend(setting.ours::<f64, _, _, _>(["f64, step", "f64, steps", "f64, merged"], StormerVerlet, plain, plain_masses));
     contestants.extend(setting.ours::<Fused, _, _, _>(
-        ["Fused, step", "Fused, steps"],
+        ["Fused, step", "Fused, steps", "Fused, merged"],
         StormerVerlet,
         fused,
         fused_masses,
