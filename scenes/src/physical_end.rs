@@ -4,18 +4,33 @@ use shadowstep::number::Rounded;
 use shadowstep::transformed_time::step_to_time;
 use shadowstep::{Number, Ordered, Rational, Scheme, Stepper, System, ValidFor};
 
-use crate::arithmetic::{Arithmetic, Computation};
+use crate::arithmetic::Computation;
 use crate::error::Error;
 use crate::run::Run;
 use crate::scene;
-use crate::start::{Steps, Work};
+use crate::start::{Begin, Steps, Work};
 use crate::steps::MOST_STEPS;
 
-/// The number of steps that end at or before `until`. They are made once, in the numbers of the run: a step has no known time before.
-///
-/// A step whose state is not finite counts, so that the run finds it.
-pub(crate) fn count_steps(system: &scene::System, arithmetic: Arithmetic, steps: Steps<'_>, until: &Rational) -> u64 {
-    arithmetic.compute(Counting { system, steps, until })
+impl scene::Scene {
+    /// The number of steps. Of a run in transformed time that ends at a physical time, the first call makes them all to count them;
+    /// another step of the exact remainder then ends the run.
+    pub fn steps(&self) -> u64 {
+        *self.steps.get_or_init(|| self.until.as_ref().map_or(0, |until| self.count_steps(until)))
+    }
+
+    /// The physical time of the last step, where time is transformed and the run ends there.
+    pub(crate) fn physical_end(&self) -> Option<&Rational> {
+        self.until.as_ref().filter(|_| self.system.transformed_time().is_some())
+    }
+
+    /// The number of steps that end at or before `until`. They are made once, in the numbers of the run: a step has no known time before.
+    ///
+    /// A step whose state is not finite counts, so that the run finds it.
+    fn count_steps(&self, until: &Rational) -> u64 {
+        let compensated = self.arithmetic.is_compensated();
+        let steps = Steps { scheme: &self.scheme.scheme, h: &self.h, compensated, begin: Begin::InitialState };
+        self.arithmetic.compute(Counting { system: &self.system, steps, until })
+    }
 }
 
 struct Counting<'a> {

@@ -28,9 +28,7 @@ use crate::arithmetic::Arithmetic;
 use crate::estimator::order_setting;
 use crate::library::NamedScheme;
 use crate::note::Note;
-use crate::physical_end::count_steps;
 use crate::run::{OrderSetting, Run};
-use crate::start::{Begin, Steps};
 
 /// A scene: the system, the scheme with its steps, and the output.
 #[derive(Debug)]
@@ -56,20 +54,6 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The number of steps. Of a run in transformed time that ends at a physical time, the first call makes them all to count them;
-    /// another step of the exact remainder then ends the run.
-    pub fn steps(&self) -> u64 {
-        let compensated = self.arithmetic.is_compensated();
-        let steps = Steps { scheme: &self.scheme.scheme, h: &self.h, compensated, begin: Begin::InitialState };
-        let count = |until| count_steps(&self.system, self.arithmetic, steps, until);
-        *self.steps.get_or_init(|| self.until.as_ref().map_or(0, count))
-    }
-
-    /// The physical time of the last step, where time is transformed and the run ends there.
-    pub(crate) fn physical_end(&self) -> Option<&Rational> {
-        self.until.as_ref().filter(|_| self.system.transformed_time().is_some())
-    }
-
     /// The steps of the run, with the order of the estimator as the scene sets it.
     pub fn as_run(&self) -> Run<'_> {
         let setting = self.output.modified_energy.as_ref().and_then(|(settings, _)| order_setting(settings));
