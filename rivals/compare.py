@@ -9,6 +9,13 @@ from problems import PROBLEMS
 
 RESULTS = HERE / "results"
 OURS = RIVALS[0].name
+
+
+def is_ours(name):
+    """Shadowstep, also with other parts or in another time."""
+    return name.split(",")[0] == OURS
+
+
 # Times whose ratio is less are not told apart.
 TIE = 1.1
 
@@ -116,8 +123,9 @@ def reasons_of(rivals, fastest):
 
 def lag(group, names):
     """How far behind Shadowstep is, or how far behind the next one is if Shadowstep is among the fastest."""
-    if OURS not in names:
-        ratios = [times[OURS][0] / min(times[name][0] for name in names) for _, times, _ in group]
+    if not any(map(is_ours, names)):
+        of_ours = [min(seconds for name, (seconds, _) in times.items() if is_ours(name)) for _, times, _ in group]
+        ratios = [seconds / min(times[name][0] for name in names) for seconds, (_, times, _) in zip(of_ours, group)]
         if min(ratios) == inf:
             return f"; {OURS} does not reach it"
         reached = [ratio for ratio in ratios if ratio < inf]

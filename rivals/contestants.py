@@ -87,7 +87,7 @@ FUSED = [
 
 KEPLER_SPLIT = (
     "WHFast, SABA and EOS split off the Kepler orbits around the Sun, so that only the small attractions of the planets are left to "
-    "the splitting; Shadowstep splits T and U"
+    "the splitting"
 )
 
 
@@ -113,6 +113,7 @@ RIVALS = [
         [Method(f"lanes/{scheme.name}", scheme.forces) for scheme in SCHEMES if scheme.forces >= 5],
         ("kepler", "henon-heiles", "outer-solar-system"),
         many=True,
+        too_slow_for=("outer-10000000",),
     ),
     Rival(
         "Shadowstep, planets",
@@ -131,6 +132,24 @@ RIVALS = [
             )
         ],
         PLANETS,
+    ),
+    Rival(
+        "Shadowstep, logarithmic time",
+        "the same in logarithmic time (logarithmic/…), with fused products and compensated sums as well (logarithmic-compensated/…), with drifts "
+        "first; the last step ends at the physical time",
+        "its steps become short at the pericentre, and keep the orbit: only the time along it has an error",
+        [BUILD / "cargo" / "release" / "ours"],
+        [
+            Method(f"{kind}/{name}", drifts)
+            for kind in ("logarithmic", "logarithmic-compensated")
+            for name, drifts in (
+                ("suzuki4", 5),
+                ("sofroniou-spaletta6-13", 13),
+                ("sofroniou-spaletta8-21", 21),
+                ("sofroniou-spaletta10-35", 35),
+            )
+        ],
+        ("kepler",),
     ),
     Rival(
         "C by hand",

@@ -4,19 +4,21 @@ use shadowstep::number::{Float, Fused, Lanes, Number, Ordered, Precision};
 use shadowstep::pairs::{Ends, Pairs};
 use shadowstep::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
 use shadowstep::problems::{CubicSpring, Gravity, HenonHeiles, Kepler, LennardJones};
+use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential, step_to_time};
 use shadowstep::{
-    DiagonalMasses, Kinetic, Motion, Potential, Rational, Scheme, Stepper, System, UnitMasses, exact,
-    kinetic::Quadratic,
+    DiagonalMasses, Kinetic, Motion, Potential, Rational, Scheme, Stepper, System, UnitMasses, ValidFor, exact,
+    kinetic::{General, Quadratic},
 };
 
 use crate::initial::Initial;
 use crate::problems::exact_text;
 use crate::protocol::{Answer, Request};
-use crate::schemes::{WithScheme, with_scheme};
+use crate::schemes::{WithGeneralScheme, WithScheme, with_drift_first, with_scheme};
 
 /// Does what a request asks for. `kepler-120` is Kepler's problem at 120 digits; `fused/SCHEME` computes with fused products, and
 /// `fused-compensated/SCHEME` with compensated sums as well; `lanes/SCHEME` with many trajectories at once; `wisdom-holman/SCHEME` with the
-/// Kepler orbits of the planets and their interactions as parts.
+/// Kepler orbits of the planets and their interactions as parts; `logarithmic/SCHEME` in logarithmic time, `logarithmic-compensated/SCHEME` with
+/// fused products and compensated sums as well.
 pub fn answer(request: &Request) -> Answer {
     let name = request.problem.strip_suffix("-120").unwrap_or(&request.problem);
     let initial = Initial::of(name);
@@ -30,6 +32,8 @@ pub fn answer(request: &Request) -> Answer {
         (problem, "fused-compensated") => asked.small(problem, Fused, true),
         (problem, "lanes") => asked.ensemble(problem),
         ("outer-solar-system", "wisdom-holman") => asked.planets(),
+        ("kepler", "logarithmic") => asked.logarithmic::<f64>(|x| x, false),
+        ("kepler", "logarithmic-compensated") => asked.logarithmic(Fused, true),
         (_, other) => panic!("no numbers {other}"),
     }
 }
@@ -120,6 +124,22 @@ impl Asked<'_> {
         with_scheme(self.scheme, RunPlanets { request: self.request, system })
     }
 
+    /// Kepler's problem in logarithmic time; the answers are at physical times.
+    fn logarithmic<N: Ordered<Context = ()>>(&self, number: fn(f64) -> N, compensated: bool) -> Answer {
+        let Initial { q, p, .. } = self.initial;
+        let time = TimeTransformation::Logarithmic;
+        let energy = (p[0] * p[0] + p[1] * p[1]) / 2.0 - 1.0 / q[0].hypot(q[1]);
+        let (potential, kinetic) = (TransformedPotential::new(time, Kepler), TransformedKinetic::new(time, UnitMasses));
+        let (q, p) = ([q[0], q[1], 0.0].map(number), [p[0], p[1], -energy].map(number));
+        let motion = Motion::new(potential, kinetic, q, p).expect("the dimensions agree");
+        let request = self.request;
+        if compensated {
+            with_drift_first(self.scheme, RunLogarithmic { request, number, system: motion.compensated() })
+        } else {
+            with_drift_first(self.scheme, RunLogarithmic { request, number, system: motion })
+        }
+    }
+
     fn argon(&self) -> Answer {
         let Initial { parameters, masses, q, p } = self.initial;
         let pair = LennardJones { epsilon: parameters[0], sigma: parameters[1] };
@@ -206,6 +226,37 @@ impl WithScheme for RunPlanets<'_> {
             answer.time(|| stepper.merged_steps(std::slice::from_mut(&mut system), request.steps() / request.samples));
             let (q, p) = system.inertial();
             answer.state(q.into_iter().chain(p));
+        }
+        answer
+    }
+}
+
+/// Steps of s whose mean is a step of the physical time, as the semi-major axis is 1; a sample is one step of the exact remainder away from them.
+struct RunLogarithmic<'a, N, M> {
+    request: &'a Request,
+    number: fn(f64) -> N,
+    system: M,
+}
+
+impl<N: Ordered<Context = ()>, M: System<Number = N, Class = General> + Clone> WithGeneralScheme for RunLogarithmic<'_, N, M> {
+    type Result = Answer;
+
+    fn with<S: Scheme + ValidFor<General> + Clone>(self, scheme: S) -> Answer {
+        let RunLogarithmic { request, number, mut system } = self;
+        let stepper = Stepper::with_context(scheme, step_size(request.until, request.steps()), &()).expect("a step size");
+        let mut answer = Answer::default();
+        for sample in 1..=request.samples {
+            let until = number(request.until * sample as f64 / request.samples as f64);
+            let at_sample = answer.time(|| {
+                while system.q()[2] < until {
+                    stepper.step(&mut system);
+                }
+                stepper.step_back(&mut system);
+                let mut at_sample = system.clone();
+                step_to_time(&stepper, &mut at_sample, &until);
+                at_sample
+            });
+            answer.state(at_sample.q()[..2].iter().chain(&at_sample.p()[..2]).map(Ordered::to_f64));
         }
         answer
     }

@@ -1,6 +1,7 @@
 //! The schemes that take part, compiled from their tables.
 
-use shadowstep::Scheme;
+use shadowstep::kinetic::General;
+use shadowstep::{Scheme, ValidFor};
 
 /// What is done with a scheme once its type is known.
 pub trait WithScheme {
@@ -47,4 +48,36 @@ schemes! {
     Abah1064: "abah1064" = "abah1064.toml",
     Aba1064: "aba1064" = "aba1064.toml",
     SofroniouSpaletta10: "sofroniou-spaletta10-35" = "sofroniou-spaletta10-35.toml",
+}
+
+/// What is done with a scheme for every T(p).
+pub trait WithGeneralScheme {
+    type Result;
+
+    fn with<S: Scheme + ValidFor<General> + Clone>(self, scheme: S) -> Self::Result;
+}
+
+macro_rules! drift_first {
+    ($($Name:ident: $name:literal = $table:literal,)+) => {
+        $(
+            #[shadowstep::splitting_scheme($table, first = "drift")]
+            #[derive(Clone)]
+            struct $Name;
+        )+
+
+        /// Calls with the scheme of this name, which begins with a drift.
+        pub fn with_drift_first<W: WithGeneralScheme>(name: &str, work: W) -> W::Result {
+            match name {
+                $($name => work.with($Name),)+
+                _ => panic!("no scheme {name} takes part in transformed time"),
+            }
+        }
+    };
+}
+
+drift_first! {
+    Suzuki4First: "suzuki4" = "suzuki4.toml",
+    SofroniouSpaletta6First: "sofroniou-spaletta6-13" = "sofroniou-spaletta6-13.toml",
+    SofroniouSpaletta8First: "sofroniou-spaletta8-21" = "sofroniou-spaletta8-21.toml",
+    SofroniouSpaletta10First: "sofroniou-spaletta10-35" = "sofroniou-spaletta10-35.toml",
 }
