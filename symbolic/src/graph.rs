@@ -6,10 +6,13 @@
 pub(crate) mod build;
 mod degree;
 mod derivative;
+mod expand;
+pub(crate) mod flow;
 pub(crate) mod pair;
 mod quadratic;
 mod rate;
 pub(crate) mod simplify;
+mod substitute;
 
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;

@@ -63,6 +63,8 @@
 //! | `graph/build` | syntax tree → nodes |
 //! | `graph/pair` | formulas of a pair of bodies |
 //! | `graph/degree`, `graph/derivative`, `graph/rate`, `graph/quadratic` | homogeneity, ∂/∂q, qᵀU_q − 2U, quadratic forms |
+//! | `graph/expand`, `graph/substitute` | sums multiplied out; formulas with parts replaced |
+//! | `graph/flow` | Hamiltonians whose flow has a formula |
 //! | `program` | **formulas → straight-line programs** |
 //! | `program/instruction`, `program/operations` | one operation in place, numbers of operations |
 //! | `program/lower/…` | nodes → operations, with common parts shared → places and instructions |
@@ -78,6 +80,7 @@ mod text;
 use std::collections::BTreeMap;
 
 pub use evaluation::{budget::Budget, evaluate, evaluate_within, value::Exact};
+pub use graph::flow::{ExplicitFlow, NoFlow};
 pub use graph::pair::{Separation, is_symmetric};
 pub use graph::{Form, Graph, Node};
 pub use number::fraction::Fraction;

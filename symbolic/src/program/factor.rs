@@ -66,7 +66,7 @@ fn improvement(
             Change::TakeOut { sum, base, exponent } => (sum, factored(graph, sum, base, &exponent)),
             Change::MultiplyIn { product, sum } => (product, distributed(graph, product, sum)),
         };
-        let changed = rebuilt(graph, outputs, old, new);
+        let changed = graph.replaced(outputs, HashMap::from([(old, new)]));
         let candidate = lower::program(graph, &changed);
         if cost(&candidate) < cost(program) {
             return Some((changed, candidate));
@@ -193,32 +193,4 @@ fn factored(graph: &mut Graph, sum: Node, base: Node, exponent: &Rational) -> No
     let product = graph.product(&[(inside, Rational::one()), (base, exponent.clone())]);
     rest.push((product, Rational::one()));
     graph.sum(&rest)
-}
-
-/// The outputs with one node below them replaced.
-fn rebuilt(graph: &mut Graph, outputs: &[Node], old: Node, new: Node) -> Vec<Node> {
-    let mut changed = HashMap::from([(old, new)]);
-    for node in graph.below(outputs) {
-        if node != old && graph.children(node).any(|child| changed.contains_key(&child)) {
-            let replaced = with_children(graph, node, &changed);
-            changed.insert(node, replaced);
-        }
-    }
-    outputs.iter().map(|output| *changed.get(output).unwrap_or(output)).collect()
-}
-
-fn with_children(graph: &mut Graph, node: Node, changed: &HashMap<Node, Node>) -> Node {
-    let replace = |part: Node| *changed.get(&part).unwrap_or(&part);
-    let parts =
-        |parts: &[(Node, Rational)]| parts.iter().map(|(part, x)| (replace(*part), x.clone())).collect::<Vec<_>>();
-    match &*graph.shared_form(node) {
-        Form::Number(_) | Form::Coordinate(_) | Form::Parameter(_) | Form::Property(_) => node,
-        Form::Sum { constant, terms } => {
-            let mut terms = parts(terms);
-            terms.push((graph.number(constant.clone()), Rational::one()));
-            graph.sum(&terms)
-        }
-        Form::Product(factors) => graph.product(&parts(factors)),
-        Form::Call(function, argument) => graph.call(*function, replace(*argument)),
-    }
 }
