@@ -112,7 +112,7 @@ fn derive<N>(
 }
 
 /// Refuses names that are there twice, or mean something else.
-fn refuse_repeated<'a>(names: impl Iterator<Item = &'a String>) -> Result<(), FormulaError> {
+pub(crate) fn refuse_repeated<'a>(names: impl Iterator<Item = &'a String>) -> Result<(), FormulaError> {
     let mut seen = Vec::new();
     for name in names {
         if name == "pi" {

@@ -69,6 +69,7 @@
 //! | [`run`] | trajectories with the states that an estimator needs on both sides, and the energy drift |
 //! | [`wisdom_holman`] | planets: H = A + B with Kepler orbits as A |
 //! | [`linear_part`] | oscillations solved exactly: H = A + B with a quadratic form as A |
+//! | [`many_parts`] | H = H_1 + … + H_n of parts whose flows have formulas |
 //! | [`kepler_drift`] | the exact flow of Kepler's problem, in every number type |
 //! | `exact_flow` | states of the exact flow of a few problems, to see an estimator's own error |
 
@@ -84,7 +85,9 @@ mod interpreter;
 pub mod kepler_drift;
 pub mod kinetic;
 pub mod linear_part;
+pub mod many_parts;
 mod maps;
+mod matrix;
 pub mod motion;
 pub mod number;
 pub mod pairs;

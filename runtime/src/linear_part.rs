@@ -12,11 +12,12 @@ mod rotation;
 
 use crate::Rational;
 use crate::kinetic::{DiagonalMasses, Kinetic, Quadratic};
+use crate::matrix::precision;
 use crate::motion::MotionError;
 use crate::number::Rounded;
 use crate::potential::Potential;
 use crate::system::{Increments, OwnedIncrements, System};
-use rotation::{Rotations, precision};
+use rotation::Rotations;
 
 /// A system with a linear part that drifts solve exactly, at a state.
 ///

@@ -4,7 +4,7 @@ use shadowstep_symbolic::decimal::from_text;
 
 use crate::Rational;
 use crate::kinetic::Quadratic;
-pub use crate::maps::{MapKind, Maps};
+pub use crate::maps::{MapKind, Maps, PartOrder};
 use crate::number::Number;
 use crate::system::System;
 
@@ -20,12 +20,18 @@ pub trait Scheme {
     /// Name and proved properties.
     fn summary(&self) -> Summary<'_>;
 
-    /// The distinct weights a_s, then b_s, then those c_s of gradient kicks, each made a number by `scaled`.
+    /// The distinct weights a_s, then b_s, then those of [middle parts](Scheme::middle), then c_s of gradient kicks, each made a number by `scaled`.
     fn weights<N: Number>(&self, scaled: impl FnMut(&Rational) -> N) -> Self::Array<N>;
 
     /// How many of the weights are of kicks, and the maps of a step in their order: each with the place of its weight among those of
     /// its kind.
     fn maps(&self) -> (usize, &[(MapKind, usize)]);
+
+    /// Of H of [three parts and more](crate::many_parts): how many of the weights, those after the drifts', are of the middle parts, and between
+    /// each map and the next the place of the weight among them. Other schemes have none.
+    fn middle(&self) -> (usize, &[usize]) {
+        (0, &[])
+    }
 
     /// How many of the weights, the last ones, are of gradient kicks: their steps take 2h³ c.
     fn gradient_kicks(&self) -> usize {
@@ -60,8 +66,8 @@ pub trait Scheme {
         Self: ValidFor<S::Class>;
 }
 
-/// Schemes whose claimed order is proved for a class of kinetic energies: [`Quadratic`] or
-/// [`General`](crate::kinetic::General).
+/// Schemes whose claimed order is proved for a class of systems: of [`Quadratic`] or [`General`](crate::kinetic::General) kinetic energies, or of
+/// [`ManyParts`](crate::many_parts::ManyParts).
 ///
 /// Every scheme is valid for quadratic T. [`crate::splitting_scheme`] implements it for every T(p) where that is proved of the
 /// table; for a table read at run time, [`crate::tables::TableScheme::for_every_kinetic`] checks it. Code that advances a system of
@@ -75,8 +81,9 @@ pub trait Scheme {
 /// }
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "the order of `{Self}` is known to hold for quadratic T only, but this T(p) is of the class `{Class}`",
-    note = "use a scheme whose table states `kinetic = \"any\"`, such as `yoshida4.toml`",
+    message = "the order of `{Self}` is not known to hold for systems of the class `{Class}`",
+    note = "`General`, every T(p), takes a scheme whose table states `kinetic = \"any\"`, such as `yoshida4.toml`",
+    note = "`ManyParts`, three parts and more, takes a scheme with `parts = 3`, or a table by `for_many_parts`",
     note = "a table read at run time is checked by `for_every_kinetic`; in generic code write `S: Scheme + ValidFor<M::Class>`"
 )]
 pub trait ValidFor<Class> {}

@@ -106,7 +106,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         self.h.exact()
     }
 
-    /// h·a_s, h·b_s and 2h³·c_s of gradient kicks, the distinct ones in the order of the plan.
+    /// h·a_s, h·b_s, those of middle parts and 2h³·c_s of gradient kicks, the distinct ones in the order of the plan.
     pub fn weights(&self) -> &[N] {
         self.weights.forward().as_ref()
     }
@@ -118,7 +118,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
 
     /// The maps of a step with their weights.
     fn maps(&self) -> Maps<'_, N> {
-        Maps::new(self.weights(), self.scheme.maps(), self.scheme.gradient_kicks())
+        Maps::new(self.weights(), self.scheme.maps(), self.scheme.middle(), self.scheme.gradient_kicks())
     }
 
     /// One step: t → t + h.
@@ -189,7 +189,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     ///
     /// This is a map less a step, and the round-off is another one than that of [`Stepper::steps`]. Of two kicks only the weights are added, as the
     /// gradient of the last serves the first anyway; two drifts are a flow less, such as a Kepler orbit. Where a step begins and ends with
-    /// different maps, or with a gradient kick, these are its steps.
+    /// different maps, or with a gradient kick, and for three parts and more, these are its steps.
     ///
     /// ```
     /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, tables::shipped};
@@ -208,7 +208,8 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     {
         let (kicks, maps) = self.scheme.maps();
         let &[(kind, first), ref middle @ .., (closing, last)] = maps else { return self.steps(systems, count) };
-        if kind != closing || kind == MapKind::GradientKick || count < 2 {
+        let of_two_parts = self.scheme.middle().1.is_empty();
+        if kind != closing || kind == MapKind::GradientKick || !of_two_parts || count < 2 {
             return self.steps(systems, count);
         }
         let mut exact = Vec::new();
@@ -228,7 +229,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         weights.insert(end, N::from_rational(&merged, &zero.context()));
         let kicks = if kind == MapKind::Kick { kicks + 1 } else { kicks };
         let mut advance = |maps: &[(MapKind, usize)], count| {
-            M::advance(systems, Maps::new(&weights, (kicks, maps), gradient_kicks), count);
+            M::advance(systems, Maps::new(&weights, (kicks, maps), (0, &[]), gradient_kicks), count);
         };
         let ending = |index| middle.iter().copied().chain([(kind, index)]).collect::<Vec<_>>();
         advance(&[(kind, first)], 1);

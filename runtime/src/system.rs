@@ -1,7 +1,7 @@
 //! What a splitting scheme advances: a system with its state, its kicks and its drifts.
 
 use crate::coordinates::Coordinates;
-use crate::maps::{MapKind, Maps};
+use crate::maps::{MapKind, Maps, PartOrder};
 use crate::number::Number;
 
 /// A Hamiltonian system H = A + B with its state q, p and β, where the flows of A (*drifts*) and of B (*kicks*) are known.
@@ -16,7 +16,7 @@ pub trait System {
     /// The type of its numbers.
     type Number: Number;
 
-    /// What is known of A and B: [`Quadratic`](crate::kinetic::Quadratic) if A = ½pᵀM⁻¹p + f(q) and B = U(q), else
+    /// What is known of A and B: [`ManyParts`](crate::many_parts::ManyParts) if H has three parts and more, [`Quadratic`](crate::kinetic::Quadratic) if A = ½pᵀM⁻¹p + f(q) and B = U(q), else
     /// [`General`](crate::kinetic::General). Schemes whose order holds for quadratic T only do not advance the latter. (Their order holds with any f, as
     /// the brackets that vanish do so by their degree in p.)
     type Class;
@@ -88,6 +88,24 @@ pub trait System {
         self.gradient_kick(weight);
     }
 
+    /// The flows of the middle parts H_2, …, H_(n−1) of H = H_1 + … + H_n for the time `weight`, one after the other; kicks are then the flow of
+    /// H_1, and drifts that of H_n. See [`many_parts`](crate::many_parts).
+    ///
+    /// # Panics
+    /// By default, as H has two parts.
+    fn middle_parts(&mut self, weight: &Self::Number, order: PartOrder) {
+        let _ = (weight, order);
+        panic!("this system has two parts, and the scheme is for three and more: see `System::middle_parts`");
+    }
+
+    /// The same with the same bits of q and p, and its part of the [increments](System::increments).
+    ///
+    /// # Panics
+    /// As [`middle_parts`](System::middle_parts).
+    fn middle_parts_augmented(&mut self, weight: &Self::Number, order: PartOrder) {
+        self.middle_parts(weight, order);
+    }
+
     /// `count` steps of several systems, with the bits that their kicks and drifts have one by one: what
     /// [`Stepper::steps`](crate::Stepper::steps) does. [`Motion`](crate::Motion) does it in the widest instructions.
     fn advance(systems: &mut [Self], maps: Maps<'_, Self::Number>, count: u64)
@@ -95,11 +113,14 @@ pub trait System {
         Self: Sized,
     {
         for _ in 0..count {
-            for (kind, weight) in maps.iter() {
+            for (index, (kind, weight)) in maps.iter().enumerate() {
                 match kind {
                     MapKind::Kick => systems.iter_mut().for_each(|system| system.kick(weight)),
                     MapKind::Drift => systems.iter_mut().for_each(|system| system.drift(weight)),
                     MapKind::GradientKick => systems.iter_mut().for_each(|system| system.gradient_kick(weight)),
+                }
+                if let Some(weight) = maps.middle_after(index) {
+                    systems.iter_mut().for_each(|system| system.middle_parts(weight, PartOrder::after(kind)));
                 }
             }
         }
@@ -114,11 +135,14 @@ pub trait System {
     {
         for system in systems {
             system.clear_increments();
-            for (kind, weight) in maps.iter() {
+            for (index, (kind, weight)) in maps.iter().enumerate() {
                 match kind {
                     MapKind::Kick => system.kick_augmented(weight),
                     MapKind::Drift => system.drift_augmented(weight),
                     MapKind::GradientKick => system.gradient_kick_augmented(weight),
+                }
+                if let Some(weight) = maps.middle_after(index) {
+                    system.middle_parts_augmented(weight, PartOrder::after(kind));
                 }
             }
         }

@@ -4,12 +4,14 @@ use std::marker::PhantomData;
 use std::sync::Arc;
 
 pub use shadowstep_schemes::shipped as shipped_source;
-pub use shadowstep_schemes::{Fault, Faults, First, Proved, Source, shipped_names};
+pub use shadowstep_schemes::{Fault, Faults, First, NotForManyParts, Proved, Source, shipped_names};
 use shadowstep_schemes::{MapKind, Plan};
 use thiserror::Error;
 
 use crate::Rational;
 use crate::kinetic::{General, Quadratic};
+use crate::many_parts::ManyParts;
+use crate::maps::PartOrder;
 use crate::number::Number;
 use crate::scheme::{Scheme, StepWeights, Summary, ValidFor};
 use crate::system::System;
@@ -111,6 +113,15 @@ impl TableScheme {
         }
         Err(QuadraticOnly::of(self.proved()))
     }
+
+    /// The scheme for systems of [three parts and more](crate::many_parts). The words on three letters are looked at with each call, which for
+    /// order 10 takes a moment.
+    ///
+    /// # Errors
+    /// A scheme with gradient kicks, with a processor, or whose order is for quadratic T only.
+    pub fn for_many_parts(self) -> Result<TableScheme<ManyParts>, NotForManyParts> {
+        Ok(TableScheme { proved: Arc::new(self.proved().for_many_parts()?), class: PhantomData })
+    }
 }
 
 impl QuadraticOnly {
@@ -124,6 +135,15 @@ impl QuadraticOnly {
 }
 
 impl ValidFor<General> for TableScheme<General> {}
+
+impl ValidFor<ManyParts> for TableScheme<ManyParts> {}
+
+/// Among the schemes for two parts, where the class of the system is known to be checked elsewhere: steps of a system of two parts panic.
+impl From<TableScheme<ManyParts>> for TableScheme {
+    fn from(scheme: TableScheme<ManyParts>) -> Self {
+        TableScheme { proved: scheme.proved, class: PhantomData }
+    }
+}
 
 impl<Class> TableScheme<Class> {
     /// The exact scheme with its proof.
@@ -140,11 +160,13 @@ impl<Class> TableScheme<Class> {
         &self,
         weights: &[M::Number],
         maps: impl Iterator<Item = &'a (MapKind, usize)>,
+        mut middle: impl Iterator<Item = &'a usize>,
         augmented: bool,
         system: &mut M,
     ) {
         let (kicks, others) = weights.split_at(self.plan().kicks.len());
-        let (drifts, gradient_kicks) = others.split_at(self.plan().drifts.len());
+        let (drifts, others) = others.split_at(self.plan().drifts.len());
+        let (middle_weights, gradient_kicks) = others.split_at(self.plan().middle_weights.len());
         for &(kind, index) in maps {
             match (kind, augmented) {
                 (MapKind::Kick, false) => system.kick(&kicks[index]),
@@ -153,6 +175,11 @@ impl<Class> TableScheme<Class> {
                 (MapKind::Drift, true) => system.drift_augmented(&drifts[index]),
                 (MapKind::GradientKick, false) => system.gradient_kick(&gradient_kicks[index]),
                 (MapKind::GradientKick, true) => system.gradient_kick_augmented(&gradient_kicks[index]),
+            }
+            match (middle.next(), augmented) {
+                (None, _) => {}
+                (Some(&index), false) => system.middle_parts(&middle_weights[index], PartOrder::after(kind)),
+                (Some(&index), true) => system.middle_parts_augmented(&middle_weights[index], PartOrder::after(kind)),
             }
         }
     }
@@ -163,21 +190,26 @@ impl<Class> Scheme for TableScheme<Class> {
 
     fn summary(&self) -> Summary<'_> {
         let Proved { scheme, proof, plan, .. } = &*self.proved;
+        let order = self.proved.order_for_every_kinetic().map_or(0, |order| order.order);
         Summary {
             name: &scheme.table.name.value,
-            order: self.proved.order_for_every_kinetic().map_or(0, |order| order.order),
-            order_quadratic: proof.quadratic.order,
+            order,
+            order_quadratic: if proof.many_parts.is_some() { order } else { proof.quadratic.order },
             symmetric: proof.symmetric,
             evaluations: plan.evaluations,
         }
     }
 
     fn weights<N: Number>(&self, scaled: impl FnMut(&Rational) -> N) -> Vec<N> {
-        self.plan().weights().into_iter().map(|(_, weight)| weight).map(scaled).collect()
+        self.plan().weights().map(scaled).collect()
     }
 
     fn maps(&self) -> (usize, &[(MapKind, usize)]) {
         (self.plan().kicks.len(), &self.plan().maps)
+    }
+
+    fn middle(&self) -> (usize, &[usize]) {
+        (self.plan().middle_weights.len(), &self.plan().middle)
     }
 
     fn gradient_kicks(&self) -> usize {
@@ -193,7 +225,7 @@ impl<Class> Scheme for TableScheme<Class> {
     where
         Self: ValidFor<M::Class>,
     {
-        self.run(weights.forward(), self.plan().maps.iter(), false, system);
+        self.run(weights.forward(), self.plan().maps.iter(), self.plan().middle.iter(), false, system);
     }
 
     fn step_augmented<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
@@ -201,14 +233,14 @@ impl<Class> Scheme for TableScheme<Class> {
         Self: ValidFor<M::Class>,
     {
         system.clear_increments();
-        self.run(weights.forward(), self.plan().maps.iter(), true, system);
+        self.run(weights.forward(), self.plan().maps.iter(), self.plan().middle.iter(), true, system);
     }
 
     fn step_back<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
     where
         Self: ValidFor<M::Class>,
     {
-        self.run(weights.back(), self.plan().maps.iter().rev(), false, system);
+        self.run(weights.back(), self.plan().maps.iter().rev(), self.plan().middle.iter().rev(), false, system);
     }
 
     fn step_back_augmented<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
@@ -216,6 +248,6 @@ impl<Class> Scheme for TableScheme<Class> {
         Self: ValidFor<M::Class>,
     {
         system.clear_increments();
-        self.run(weights.back(), self.plan().maps.iter().rev(), true, system);
+        self.run(weights.back(), self.plan().maps.iter().rev(), self.plan().middle.iter().rev(), true, system);
     }
 }

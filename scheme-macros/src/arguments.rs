@@ -1,13 +1,17 @@
-//! What the user writes: `("table.toml", first = "drift")` above a unit struct.
+//! What the user writes: `("table.toml", first = "drift", parts = 3)` above a unit struct.
 
 use shadowstep_schemes::First;
 use syn::parse::{Parse, ParseStream};
-use syn::{Fields, Ident, ItemStruct, LitStr, Token};
+use syn::{Fields, Ident, ItemStruct, LitInt, LitStr, Token};
 
-/// The table and the optional choice of the first map.
+/// The arguments that may follow the table.
+const KNOWN: &str = "`first = \"kick\"`, `first = \"drift\"` and `parts = 3`";
+
+/// The table, the optional choice of the first map, and whether H has three parts or more.
 pub(crate) struct Arguments {
     pub(crate) table: LitStr,
     pub(crate) first: Option<First>,
+    pub(crate) many_parts: bool,
 }
 
 impl Parse for Arguments {
@@ -15,33 +19,47 @@ impl Parse for Arguments {
         if !input.peek(LitStr) {
             return Err(input.error("name a table in quotes: #[splitting_scheme(\"yoshida4.toml\")]"));
         }
-        let table = input.parse()?;
-        let mut first = None;
-        if input.parse::<Option<Token![,]>>()?.is_some() && !input.is_empty() {
-            first = Some(parse_first(input)?);
-            input.parse::<Option<Token![,]>>()?;
+        let mut arguments = Arguments { table: input.parse()?, first: None, many_parts: false };
+        let mut seen: Vec<Ident> = Vec::new();
+        while input.parse::<Option<Token![,]>>()?.is_some() && !input.is_empty() {
+            let key: Ident = input.parse()?;
+            if seen.contains(&key) {
+                return Err(syn::Error::new(key.span(), format!("`{key}` is there twice")));
+            }
+            input.parse::<Token![=]>()?;
+            match key.to_string().as_str() {
+                "first" => arguments.first = Some(first(&input.parse()?)?),
+                "parts" => arguments.many_parts = many_parts(&input.parse()?)?,
+                _ => {
+                    let message = format!("unknown argument `{key}`: {KNOWN} are known");
+                    return Err(syn::Error::new(key.span(), message));
+                }
+            }
+            seen.push(key);
         }
         if !input.is_empty() {
-            return Err(input.error("only `first = \"kick\"` or `first = \"drift\"` may follow the table"));
+            return Err(input.error(format!("only {KNOWN} may follow the table")));
         }
-        Ok(Arguments { table, first })
+        Ok(arguments)
     }
 }
 
-fn parse_first(input: ParseStream<'_>) -> syn::Result<First> {
-    let key: Ident = input.parse()?;
-    if key != "first" {
-        let message = format!("unknown argument `{key}`: only `first = \"kick\"` or `first = \"drift\"` is known");
-        return Err(syn::Error::new(key.span(), message));
-    }
-    input.parse::<Token![=]>()?;
-    let value: LitStr = input.parse()?;
+fn first(value: &LitStr) -> syn::Result<First> {
     match value.value().as_str() {
         "kick" => Ok(First::Kick),
         "drift" => Ok(First::Drift),
         other => {
             Err(syn::Error::new(value.span(), format!("a step begins with \"kick\" or \"drift\", not \"{other}\"")))
         }
+    }
+}
+
+/// Whether a number of parts is three or more, for which steps are the same.
+fn many_parts(value: &LitInt) -> syn::Result<bool> {
+    match value.base10_parse::<u32>() {
+        Ok(2) => Ok(false),
+        Ok(3..) => Ok(true),
+        _ => Err(syn::Error::new(value.span(), "H has two parts at least")),
     }
 }
 

@@ -18,12 +18,12 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
     let plan = &proved.plan;
     let docs = documentation(proved);
     let watched = watch(files);
-    let count = Literal::usize_unsuffixed(plan.weights().len());
+    let count = Literal::usize_unsuffixed(plan.weights().count());
     let names = weight_names(plan);
-    let weights: Vec<_> = plan.weights().into_iter().map(|(_, weight)| to_text(weight)).collect();
+    let weights: Vec<_> = plan.weights().map(to_text).collect();
     let summary = summary(proved);
-    let forth: Vec<_> = plan.maps.clone();
-    let back: Vec<_> = plan.maps.iter().rev().copied().collect();
+    let forth = Sequence { maps: plan.maps.clone(), middle: plan.middle.clone() };
+    let back = forth.reversed();
     let step = step("step", "forward", &names, &forth, false);
     let step_augmented = self::step("step_augmented", "forward", &names, &forth, true);
     let step_back = self::step("step_back", "back", &names, &back, false);
@@ -31,6 +31,15 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
     let kicks = Literal::usize_unsuffixed(plan.kicks.len());
     let kinds = plan.maps.iter().map(|(kind, _)| format_ident!("{kind:?}"));
     let places = plan.maps.iter().map(|(_, place)| Literal::usize_unsuffixed(*place));
+    let middle = (!plan.middle.is_empty()).then(|| {
+        let count = Literal::usize_unsuffixed(plan.middle_weights.len());
+        let places = plan.middle.iter().map(|place| Literal::usize_unsuffixed(*place));
+        quote! {
+            fn middle(&self) -> (usize, &[usize]) {
+                (#count, &[#(#places),*])
+            }
+        }
+    });
     let gradient_kicks = (!plan.gradient_kicks.is_empty()).then(|| {
         let count = Literal::usize_unsuffixed(plan.gradient_kicks.len());
         quote! {
@@ -40,9 +49,12 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
         }
     });
     let processor = processor(proved);
-    let valid_for_general = proved.holds_for_every_kinetic().then(|| {
-        quote! { impl ::shadowstep::ValidFor<::shadowstep::kinetic::General> for #ident {} }
-    });
+    let valid_for_other = match &proved.proof.many_parts {
+        Some(_) => Some(quote! { impl ::shadowstep::ValidFor<::shadowstep::many_parts::ManyParts> for #ident {} }),
+        None => proved.holds_for_every_kinetic().then(|| {
+            quote! { impl ::shadowstep::ValidFor<::shadowstep::kinetic::General> for #ident {} }
+        }),
+    };
     quote! {
         #(#attrs)*
         #(#[doc = #docs])*
@@ -68,6 +80,7 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
                 (#kicks, &[#((::shadowstep::scheme::MapKind::#kinds, #places)),*])
             }
 
+            #middle
             #gradient_kicks
             #processor
 
@@ -77,7 +90,7 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
             #step_back_augmented
         }
 
-        #valid_for_general
+        #valid_for_other
     }
 }
 
@@ -125,6 +138,7 @@ pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &
         }
 
         impl ::shadowstep::ValidFor<::shadowstep::kinetic::General> for #ident {}
+        impl ::shadowstep::ValidFor<::shadowstep::many_parts::ManyParts> for #ident {}
     }
 }
 
@@ -136,8 +150,10 @@ fn watch(files: &[PathBuf]) -> TokenStream {
 
 fn summary(proved: &Proved) -> TokenStream {
     let name = &proved.scheme.table.name.value;
-    let order = Literal::u32_unsuffixed(proved.order_for_every_kinetic().map_or(0, |order| order.order));
-    let order_quadratic = Literal::u32_unsuffixed(proved.proof.quadratic.order);
+    let of_two = proved.order_for_every_kinetic().map_or(0, |order| order.order);
+    let order = Literal::u32_unsuffixed(of_two);
+    let of_quadratic = if proved.proof.many_parts.is_some() { of_two } else { proved.proof.quadratic.order };
+    let order_quadratic = Literal::u32_unsuffixed(of_quadratic);
     let symmetric = proved.proof.symmetric;
     let evaluations = Literal::usize_unsuffixed(proved.plan.evaluations);
     quote! {
@@ -163,37 +179,70 @@ fn processor(proved: &Proved) -> Option<TokenStream> {
     })
 }
 
-/// `kick_1, kick_2, …, drift_1, …, gradient_kick_1, …`
+/// `kick_1, kick_2, …, drift_1, …, middle_1, …, gradient_kick_1, …`
 fn weight_names(plan: &Plan) -> Vec<Ident> {
-    let kinds = [
-        (MapKind::Kick, plan.kicks.len()),
-        (MapKind::Drift, plan.drifts.len()),
-        (MapKind::GradientKick, plan.gradient_kicks.len()),
-    ];
-    kinds.into_iter().flat_map(|(kind, count)| (0..count).map(move |i| weight_name((kind, i)))).collect()
+    let of_kind = |kind, count| (0..count).map(move |i| weight_name((kind, i)));
+    of_kind(MapKind::Kick, plan.kicks.len())
+        .chain(of_kind(MapKind::Drift, plan.drifts.len()))
+        .chain((0..plan.middle_weights.len()).map(middle_name))
+        .chain(of_kind(MapKind::GradientKick, plan.gradient_kicks.len()))
+        .collect()
 }
 
 fn weight_name((kind, index): (MapKind, usize)) -> Ident {
     format_ident!("{kind}_{}", index + 1, kind = kind.to_string().replace(' ', "_"))
 }
 
-fn step(name: &str, direction: &str, names: &[Ident], maps: &[(MapKind, usize)], augmented: bool) -> TokenStream {
+fn middle_name(index: usize) -> Ident {
+    format_ident!("middle_{}", index + 1)
+}
+
+/// The maps of a step, and the places of the weights of the middle parts between them.
+struct Sequence {
+    maps: Vec<(MapKind, usize)>,
+    middle: Vec<usize>,
+}
+
+impl Sequence {
+    fn reversed(&self) -> Sequence {
+        Sequence {
+            maps: self.maps.iter().rev().copied().collect(),
+            middle: self.middle.iter().rev().copied().collect(),
+        }
+    }
+}
+
+/// The middle parts after a map.
+fn middle_parts((kind, place): (MapKind, usize), augmented: bool) -> TokenStream {
+    let weight = middle_name(place);
+    let order = if kind == MapKind::Drift { quote!(Descending) } else { quote!(Ascending) };
+    let order = quote! { ::shadowstep::scheme::PartOrder::#order };
+    match augmented {
+        false => quote! { system.middle_parts(#weight, #order); },
+        true => quote! { system.middle_parts_augmented(#weight, #order); },
+    }
+}
+
+fn step(name: &str, direction: &str, names: &[Ident], sequence: &Sequence, augmented: bool) -> TokenStream {
+    let Sequence { maps, middle } = sequence;
     let (name, direction) = (format_ident!("{name}"), format_ident!("{direction}"));
     let count = Literal::usize_unsuffixed(names.len());
-    let statements = maps.iter().map(|&map| {
+    let statements = maps.iter().enumerate().map(|(index, &map)| {
         let weight = weight_name(map);
-        match (map.0, augmented) {
+        let own = match (map.0, augmented) {
             (MapKind::Kick, false) => quote! { system.kick(#weight); },
             (MapKind::Kick, true) => quote! { system.kick_augmented(#weight); },
             (MapKind::Drift, false) => quote! { system.drift(#weight); },
             (MapKind::Drift, true) => quote! { system.drift_augmented(#weight); },
             (MapKind::GradientKick, false) => quote! { system.gradient_kick(#weight); },
             (MapKind::GradientKick, true) => quote! { system.gradient_kick_augmented(#weight); },
-        }
+        };
+        let next = middle.get(index).map(|&place| middle_parts((map.0, place), augmented));
+        quote! { #own #next }
     });
     let begin = augmented.then(|| quote! { system.clear_increments(); });
     // inlined into a loop, a short step can hold its state in registers
-    let inline = if maps.len() <= MOST_INLINED {
+    let inline = if maps.len() + middle.len() <= MOST_INLINED {
         quote! { #[inline(always)] }
     } else {
         quote! { #[inline] }
@@ -227,14 +276,27 @@ fn documentation(proved: &Proved) -> Vec<String> {
             format!(" and {}", counted(plan.hessian_products, "Hessian–vector product")),
         ],
     };
-    let kinetic = match table.kinetic {
-        Kinetic::Any => "every kinetic energy T(p)",
-        Kinetic::Quadratic => "quadratic kinetic energy",
+    let meant_for = match (&proved.proof.many_parts, table.kinetic) {
+        (Some(_), _) => "H of three parts and more",
+        (None, Kinetic::Any) => "every kinetic energy T(p)",
+        (None, Kinetic::Quadratic) => "quadratic kinetic energy",
     };
     let doi = table.doi.as_ref().map_or(String::new(), |doi| format!(", <https://doi.org/{doi}>"));
+    let costs = match plan.middle.len() {
+        0 => format!(
+            " - A step costs {}{kept}{products_of_hessian}, and {products} multiplications and {products} additions per dimension with unit masses; β adds {beta} of both.",
+            counted(plan.evaluations, "gradient"),
+            products = cost.products_per_dimension,
+            beta = cost.products_for_beta
+        ),
+        between => format!(
+            " - H_1 flows where a scheme for two parts has kicks, H_n where it has drifts, and {} H_2 … H_(n−1), in both orders by turns.",
+            if between == 1 { "once".to_owned() } else { format!("{between} times") }
+        ),
+    };
     let mut lines = vec![
         String::new(),
-        format!(" {title}: `{}`, meant for {kinetic}.", table.name.value),
+        format!(" {title}: `{}`, meant for {meant_for}.", table.name.value),
         String::new(),
         proved_orders(proved),
         format!(
@@ -244,12 +306,7 @@ fn documentation(proved: &Proved) -> Vec<String> {
             counted(plan.count(MapKind::Drift), "drift"),
             if proved.proof.symmetric { "symmetric" } else { "not symmetric" }
         ),
-        format!(
-            " - A step costs {}{kept}{products_of_hessian}, and {products} multiplications and {products} additions per dimension with unit masses; β adds {beta} of both.",
-            counted(plan.evaluations, "gradient"),
-            products = cost.products_per_dimension,
-            beta = cost.products_for_beta
-        ),
+        costs,
         format!(" - Reference: {}{doi}.", table.reference.as_deref().unwrap_or("none")),
     ];
     if let (Some(processor), Some(effective)) = (&proved.scheme.processor, &proved.proof.effective) {
@@ -272,6 +329,9 @@ fn near_integrable(orders: &[Order]) -> String {
 }
 
 fn proved_orders(proved: &Proved) -> String {
+    if let Some(many_parts) = &proved.proof.many_parts {
+        return format!(" - Order {} for H of three parts and more: proved.", order(many_parts));
+    }
     let quadratic = order(&proved.proof.quadratic);
     match proved.order_for_every_kinetic() {
         Some(every) => {
@@ -298,6 +358,13 @@ fn order(order: &Order) -> String {
 #[cfg(test)]
 mod tests {
     use shadowstep_schemes::{read, shipped};
+
+    #[test]
+    fn generated_code_for_many_parts() {
+        let proved = read(&shipped("yoshida4").unwrap(), &|base, _| shipped(base)).unwrap().for_many_parts().unwrap();
+        let code = super::scheme(&syn::parse_quote! { pub struct Yoshida4; }, &proved, &[]);
+        insta::assert_snapshot!(prettyplease::unparse(&syn::parse2(code).expect("generated code is Rust")));
+    }
 
     #[test]
     fn generated_code_of_every_kind_of_table() {

@@ -42,6 +42,9 @@ use locate::Locator;
 /// assert_eq!(DriftFirst.summary().evaluations, 3);
 /// ```
 ///
+/// With `parts = 3` the steps are for H = H_1 + … + H_n of three parts and more, whatever their number
+/// (`shadowstep::many_parts`).
+///
 /// The table is looked for beside the source file, then in the crate's root, then among the shipped ones. Its claims
 /// are proved; a claim that does not hold is a compile error that names the condition which fails. The struct gets
 /// `shadowstep::Scheme`: `step`, `step_augmented` (carries β), `step_back` and `step_back_augmented`, written out map
@@ -62,7 +65,8 @@ pub fn splitting_scheme(arguments: TokenStream, item: TokenStream) -> TokenStrea
 fn prove(arguments: &Arguments, locator: &Locator) -> Result<Proved, String> {
     let source = locator.find(&arguments.table.value())?;
     let library = |name: &str, from: &_| locator.base(name, from);
-    read_first(&source, &library, arguments.first).map_err(|faults| faults.to_string())
+    let proved = read_first(&source, &library, arguments.first).map_err(|faults| faults.to_string())?;
+    if arguments.many_parts { proved.for_many_parts().map_err(|refused| refused.to_string()) } else { Ok(proved) }
 }
 
 /// A potential from its formula: the gradient and qᵀU_q − 2U are derived, for every type of numbers.

@@ -11,6 +11,7 @@ use crate::map::{Map, MapKind};
 use crate::near_integrable::{self, Power};
 use crate::nystrom::tree_conditions;
 use crate::order::{Condition, lyndon_words, weighed, word_conditions};
+use crate::part_words::{self, part_maps};
 use crate::scheme::Held;
 
 /// Bits beyond those of the exact values, for the growth of the error.
@@ -76,20 +77,71 @@ impl Evaluated {
     }
 }
 
+/// A step with the conditions that it is to meet.
+trait Step {
+    /// The weights of its maps.
+    fn weights(&self) -> impl Iterator<Item = &Rational>;
+
+    /// The conditions up to an order, low orders first, with their values.
+    fn values<A: Arithmetic>(&self, highest: u32, arithmetic: &A) -> Vec<(Condition, A::Value)>;
+}
+
+/// Kicks and drifts, and the conditions of a family.
+struct OfFamily<'a>(&'a [Map], Family);
+
+impl Step for OfFamily<'_> {
+    fn weights(&self) -> impl Iterator<Item = &Rational> {
+        self.0.iter().map(|map| &map.weight)
+    }
+
+    fn values<A: Arithmetic>(&self, highest: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
+        values_at(&weighed(self.0, arithmetic), self.1, highest, arithmetic)
+    }
+}
+
+/// Kicks, drifts and the weights of the middle parts between them, and the conditions of so many parts.
+struct OfParts<'a>((&'a [Map], &'a [Rational]), usize);
+
+impl Step for OfParts<'_> {
+    fn weights(&self) -> impl Iterator<Item = &Rational> {
+        self.0.0.iter().map(|map| &map.weight).chain(self.0.1)
+    }
+
+    fn values<A: Arithmetic>(&self, highest: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
+        let OfParts((maps, middle), parts) = *self;
+        let middle = middle.iter().map(|weight| arithmetic.weight(weight)).collect();
+        part_words::conditions(&part_maps(weighed(maps, arithmetic), middle), parts, highest, arithmetic)
+    }
+}
+
 /// The conditions of a family up to an order, low orders first, with their values for weights held to some digits.
 pub(crate) fn evaluated(maps: &[Map], held: Held, family: Family, highest: u32) -> Vec<Evaluated> {
+    evaluated_of(&OfFamily(maps, family), held, highest)
+}
+
+/// The conditions of a step of so many parts with the weights of their middle maps, likewise.
+pub(crate) fn evaluated_of_parts(
+    step: (&[Map], &[Rational]),
+    held: Held,
+    parts: usize,
+    highest: u32,
+) -> Vec<Evaluated> {
+    evaluated_of(&OfParts(step, parts), held, highest)
+}
+
+fn evaluated_of(step: &impl Step, held: Held, highest: u32) -> Vec<Evaluated> {
     match held {
-        Held::Exactly => evaluated_exactly(maps, family, highest),
-        Held::Digits(digits) => evaluated_within(maps, digits, family, highest),
+        Held::Exactly => evaluated_exactly(step, highest),
+        Held::Digits(digits) => evaluated_within(step, digits, highest),
     }
 }
 
 /// Where the weights are exact, so are the values: a value of degree n is a multiple of 1/(Dⁿ n!), D the common denominator
 /// of the weights, and in fixed point with enough bits it is the only multiple within the bound of the error.
-fn evaluated_exactly(maps: &[Map], family: Family, highest: u32) -> Vec<Evaluated> {
-    let denominator = maps.iter().fold(BigInt::one(), |lcm, map| lcm.lcm(map.weight.denom()));
+fn evaluated_exactly(step: &impl Step, highest: u32) -> Vec<Evaluated> {
+    let denominator = step.weights().fold(BigInt::one(), |lcm, weight| lcm.lcm(weight.denom()));
     let grid = |n: u32| denominator.pow(n) * factorial(n);
-    let order = worth_exactness(maps, family, highest, |order| grid(order).bits());
+    let order = worth_exactness(step, highest, |order| grid(order).bits());
     let grids: Vec<_> = (0..=order).map(grid).collect();
     let mut bits = grids[order as usize].bits() as u32 + 2 * MARGIN_BITS;
     loop {
@@ -100,7 +152,7 @@ fn evaluated_exactly(maps: &[Map], family: Family, highest: u32) -> Vec<Evaluate
             let zero = || Fraction::from(Rational::zero());
             Some(Evaluated { found: Fraction::new(found, grid.clone()), condition, error: zero(), tolerance: zero() })
         };
-        let values = values(maps, family, order, &arithmetic).into_iter();
+        let values = step.values(order, &arithmetic).into_iter();
         match values.map(exact).collect() {
             Some(evaluated) => return evaluated,
             None => bits += bits / 2,
@@ -112,16 +164,16 @@ fn factorial(n: u32) -> BigInt {
     (1..=n).map(BigInt::from).product()
 }
 
-fn evaluated_within(maps: &[Map], digits: u32, family: Family, highest: u32) -> Vec<Evaluated> {
+fn evaluated_within(step: &impl Step, digits: u32, highest: u32) -> Vec<Evaluated> {
     let unit = BigInt::from(10).pow(digits - 1);
     let tolerance = |(_, sensitive): (_, Sensitive)| {
         let slope = Rational::from_f64(sensitive.slope).unwrap_or_else(Rational::zero);
         Fraction::new(slope.numer().clone(), slope.denom() * &unit)
     };
-    let tolerances: Vec<_> = values(maps, family, highest, &Sensitivity).into_iter().map(tolerance).collect();
+    let tolerances: Vec<_> = step.values(highest, &Sensitivity).into_iter().map(tolerance).collect();
     let mut arithmetic = FixedPoint::new(digits);
     loop {
-        let values = values(maps, family, highest, &arithmetic).into_iter();
+        let values = step.values(highest, &arithmetic).into_iter();
         let evaluated: Vec<_> = values
             .zip(&tolerances)
             .map(|((condition, value), tolerance)| {
@@ -141,7 +193,7 @@ fn evaluated_within(maps: &[Map], digits: u32, family: Family, highest: u32) -> 
 ///
 /// The bits are doubled as long as exact arithmetic to that order takes more: weights of 250 digits, rounded but taken as exact, may
 /// have order 8 to 60 digits, and at 260 it is order 3 that fails.
-fn worth_exactness(maps: &[Map], family: Family, highest: u32, exact_bits: impl Fn(u32) -> u64) -> u32 {
+fn worth_exactness(step: &impl Step, highest: u32, exact_bits: impl Fn(u32) -> u64) -> u32 {
     let (mut order, mut arithmetic) = (highest, FixedPoint::new(60));
     loop {
         let fails = |(condition, value): &(Condition, _)| {
@@ -150,7 +202,7 @@ fn worth_exactness(maps: &[Map], family: Family, highest: u32, exact_bits: impl 
                 Evaluated { condition: condition.clone(), found, error: Rational::zero().into(), tolerance: error };
             !evaluated.is_met()
         };
-        order = values(maps, family, order, &arithmetic).iter().find(|c| fails(c)).map_or(order, |(c, _)| c.order);
+        order = step.values(order, &arithmetic).iter().find(|c| fails(c)).map_or(order, |(c, _)| c.order);
         if 2 * u64::from(arithmetic.bits()) >= exact_bits(order) {
             return order;
         }
@@ -158,12 +210,7 @@ fn worth_exactness(maps: &[Map], family: Family, highest: u32, exact_bits: impl 
     }
 }
 
-/// The conditions of a family up to an order, low orders first, with their values.
-fn values<A: Arithmetic>(maps: &[Map], family: Family, highest: u32, arithmetic: &A) -> Vec<(Condition, A::Value)> {
-    values_at(&weighed(maps, arithmetic), family, highest, arithmetic)
-}
-
-/// The same for maps whose weights are values already.
+/// The conditions of a family up to an order, low orders first, with their values for maps whose weights are values already.
 pub(crate) fn values_at<A: Arithmetic>(
     maps: &[(MapKind, A::Value)],
     family: Family,
@@ -199,9 +246,9 @@ mod tests {
         for (maps, orders) in [(ruth, 4), (any, 1)] {
             for kinetic in [Kinetic::Any, Kinetic::Quadratic] {
                 let family = Family::Kinetic(kinetic);
-                let found = evaluated_exactly(&maps, family, 10);
+                let found = evaluated_exactly(&OfFamily(&maps, family), 10);
                 assert_eq!(found.iter().map(|c| c.condition.order).max(), Some(orders), "up to the first that fails");
-                let exact = values(&maps, family, orders, &ExactArithmetic);
+                let exact = OfFamily(&maps, family).values(orders, &ExactArithmetic);
                 assert_eq!(found.len(), exact.len());
                 for (found, (condition, value)) in found.iter().zip(exact) {
                     assert!(found.found == value, "{}", condition.functional);
@@ -217,7 +264,7 @@ mod tests {
         for (name, highest) in [("hairer10-33", 10), ("yoshida8-a", 9)] {
             let maps = crate::shipped_proved(name).unwrap().scheme.maps();
             for kinetic in [Kinetic::Any, Kinetic::Quadratic] {
-                let found = evaluated_exactly(&maps, Family::Kinetic(kinetic), highest);
+                let found = evaluated_exactly(&OfFamily(&maps, Family::Kinetic(kinetic)), highest);
                 // a palindrome has order 2; order 3 holds to 250 digits, which is not exactly
                 assert_eq!(found.iter().map(|c| c.condition.order).max(), Some(3), "{name}");
                 let failing = found.iter().find(|c| !c.holds()).expect("a condition fails");
@@ -231,7 +278,7 @@ mod tests {
         // 1000 steps of order 1, weights of 30 digits: as many as they have is what the conditions hold to
         let thousandth = || rationals(&[(1, 1000)]).into_iter().cycle().take(1000).collect::<Vec<_>>();
         let maps = merged(&thousandth(), &thousandth());
-        let found = evaluated_within(&maps, 30, Family::Kinetic(Kinetic::Any), 10);
+        let found = evaluated_within(&OfFamily(&maps, Family::Kinetic(Kinetic::Any)), 30, 10);
         assert!(found.iter().all(Evaluated::is_resolved));
     }
 }

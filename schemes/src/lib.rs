@@ -12,6 +12,7 @@
 //! | [`arithmetic`], `conditions`, `digits` | the values of the conditions, exactly or with bounds, and how exactly they must be met |
 //! | [`decimal`], `printed`, `rounding`, `least_change` | printed decimals → whether their rounding explains how far the conditions are off |
 //! | [`proof`] | conditions → what is true of the scheme → the claims that differ from it |
+//! | [`many_parts`], `part_words` | scheme for two parts → steps for three and more, and their order conditions |
 //! | `wording` | such a claim → a sentence with its place |
 //! | [`plan`] | scheme → the plan of a step: maps, shared constants, cost |
 //! | `pipeline` | the text of a table → [`Proved`]: scheme, proof and plan, or all faults |
@@ -33,11 +34,13 @@ pub mod document;
 pub mod exact;
 mod least_change;
 pub mod library;
+pub mod many_parts;
 pub mod map;
 pub mod near_integrable;
 pub mod nystrom;
 pub mod order;
 pub mod parse;
+mod part_words;
 mod pipeline;
 pub mod plan;
 mod printed;
@@ -51,6 +54,7 @@ mod wording;
 
 pub use claims::Kinetic;
 pub use document::{Fault, Faults, Source};
+pub use many_parts::NotForManyParts;
 pub use map::{First, Map, MapKind};
 pub use pipeline::{Proved, read, read_first, shipped_proved};
 pub use plan::{Plan, StepCost};

@@ -225,7 +225,7 @@ fn longest_run(prefixes: &[Prefix]) -> usize {
 }
 
 /// w, w²/2!, w³/3!, …
-fn divided_powers<A: Arithmetic>(weight: &A::Value, count: usize, arithmetic: &A) -> Vec<A::Value> {
+pub(crate) fn divided_powers<A: Arithmetic>(weight: &A::Value, count: usize, arithmetic: &A) -> Vec<A::Value> {
     let mut powers = vec![weight.clone()];
     for r in 2..=count as u32 {
         let last = powers.last().expect("the first power is there");

@@ -16,10 +16,15 @@ pub struct Plan {
     pub kicks: Vec<Rational>,
     /// Distinct weights of the drifts, in the order of their first use.
     pub drifts: Vec<Rational>,
+    /// Distinct weights of the middle parts of H = H_1 + … + H_n, in the order of their first use; none for two parts.
+    pub middle_weights: Vec<Rational>,
     /// Distinct weights of the gradient kicks, in the order of their first use.
     pub gradient_kicks: Vec<Rational>,
     /// What is done: the kind of the map and the index of its weight among those of its kind.
     pub maps: Vec<(MapKind, usize)>,
+    /// Of [many parts](crate::many_parts): between each map and the next the index of the weight of the middle parts, which flow from H_2 to H_(n−1)
+    /// after a kick, and from H_(n−1) to H_2 after a drift.
+    pub middle: Vec<usize>,
     /// Evaluations of the gradient per step, the first step of a run not counted.
     pub evaluations: usize,
     /// Hessian–vector products U_qq M⁻¹U_q per step, one for each gradient kick, the first step of a run not counted.
@@ -42,8 +47,10 @@ impl Plan {
         let mut plan = Plan {
             kicks: Vec::new(),
             drifts: Vec::new(),
+            middle_weights: Vec::new(),
             gradient_kicks: Vec::new(),
             maps: Vec::new(),
+            middle: Vec::new(),
             evaluations: 0,
             hessian_products: 0,
         };
@@ -53,15 +60,17 @@ impl Plan {
                 MapKind::Drift => &mut plan.drifts,
                 MapKind::GradientKick => &mut plan.gradient_kicks,
             };
-            let known = weights.iter().position(|w| *w == map.weight);
-            let index = known.unwrap_or_else(|| {
-                weights.push(map.weight);
-                weights.len() - 1
-            });
-            plan.maps.push((map.kind, index));
+            plan.maps.push((map.kind, index_of(map.weight, weights)));
         }
         plan.evaluations = plan.evaluated(|_| true);
         plan.hessian_products = plan.evaluated(|kind| kind == MapKind::GradientKick);
+        plan
+    }
+
+    /// The plan of its step for three parts and more, with the weights of the middle parts between each map and the next.
+    pub(crate) fn of_many_parts(scheme: &ExactScheme, middle: Vec<Rational>) -> Plan {
+        let mut plan = Plan::of(scheme);
+        plan.middle = middle.into_iter().map(|weight| index_of(weight, &mut plan.middle_weights)).collect();
         plan
     }
 
@@ -77,14 +86,9 @@ impl Plan {
         runs.iter().filter(|run| needing(run)).count() - usize::from(kept)
     }
 
-    /// The distinct weights of all maps with their kinds: of kicks, drifts, gradient kicks.
-    pub fn weights(&self) -> Vec<(MapKind, &Rational)> {
-        let lists = [
-            (MapKind::Kick, &self.kicks),
-            (MapKind::Drift, &self.drifts),
-            (MapKind::GradientKick, &self.gradient_kicks),
-        ];
-        lists.into_iter().flat_map(|(kind, weights)| weights.iter().map(move |weight| (kind, weight))).collect()
+    /// All distinct weights: of kicks, drifts, middle parts, gradient kicks.
+    pub fn weights(&self) -> impl Iterator<Item = &Rational> {
+        self.kicks.iter().chain(&self.drifts).chain(&self.middle_weights).chain(&self.gradient_kicks)
     }
 
     /// The evaluations of a step, Hessian–vector products counted like those of the gradient. It is the degree in (hω)² of the harmonic
@@ -111,4 +115,13 @@ impl Plan {
             products_for_beta: self.maps.len() - self.count(MapKind::Drift),
         }
     }
+}
+
+/// The index of a weight among others, to which it is added if it is a new one.
+fn index_of(weight: Rational, weights: &mut Vec<Rational>) -> usize {
+    let known = weights.iter().position(|known| *known == weight);
+    known.unwrap_or_else(|| {
+        weights.push(weight);
+        weights.len() - 1
+    })
 }

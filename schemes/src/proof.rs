@@ -8,7 +8,7 @@
 use shadowstep_symbolic::Rational;
 
 use crate::claims::{HIGHEST_ORDER, Kinetic, NearIntegrable};
-use crate::conditions::{Evaluated, Family, evaluated};
+use crate::conditions::{Evaluated, Family, evaluated, evaluated_of_parts};
 use crate::digits::digits_of;
 use crate::document::Placed;
 use crate::map::{Map, MapKind};
@@ -49,6 +49,8 @@ pub struct Proof {
     pub symmetric: bool,
     /// The effective orders of a processed scheme; the others are those of its kernel.
     pub effective: Option<Effective>,
+    /// For H of three parts and more, by the words on three letters; only [where it is asked for](crate::many_parts).
+    pub many_parts: Option<Order>,
 }
 
 /// The effective orders of a processed scheme: those of χ⁻¹ ∘ kernel ∘ χ, so of χ⁻¹ ∘ kernelⁿ ∘ χ after any number n of steps.
@@ -92,6 +94,7 @@ pub fn prove(scheme: &ExactScheme) -> Proof {
         near_integrable: near_integrable_orders(&scheme.maps(), scheme.held, table.near_integrable.as_ref()),
         symmetric: scheme.is_symmetric(),
         effective: effective(scheme),
+        many_parts: None,
     }
 }
 
@@ -126,7 +129,16 @@ fn highest_order(maps: &[Map], held: Held, family: Family, claimed: u32, highest
 }
 
 fn order_up_to(maps: &[Map], held: Held, family: Family, highest: u32) -> Order {
-    let mut conditions = evaluated(maps, held, family, highest);
+    order_by(evaluated(maps, held, family, highest), highest)
+}
+
+/// The order of a step of so many parts, with the weights of their middle maps.
+pub(crate) fn order_of_parts(step: (&[Map], &[Rational]), held: Held, parts: usize, highest: u32) -> Order {
+    order_by(evaluated_of_parts(step, held, parts, highest), highest)
+}
+
+/// The order that conditions up to the highest one prove.
+fn order_by(mut conditions: Vec<Evaluated>, highest: u32) -> Order {
     let failed = conditions.iter().position(|c| !c.holds());
     let order = failed.map_or(highest, |first| conditions[first].condition.order - 1);
     let holding = conditions.iter().filter(|c| c.condition.order <= order);

@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use shadowstep::kinetic::Quadratic;
+use shadowstep::scheme::PartOrder;
 use shadowstep::{Increments, Number, Rational, Remainders, Scheme, Stepper, System, ValidFor};
 
 /// A step of any system of one class.
@@ -67,6 +68,12 @@ impl<N: Number, C> System for Any<'_, N, C> {
     }
     fn gradient_kick_augmented(&mut self, weight: &N) {
         self.0.gradient_kick_augmented(weight);
+    }
+    fn middle_parts(&mut self, weight: &N, order: PartOrder) {
+        self.0.middle_parts(weight, order);
+    }
+    fn middle_parts_augmented(&mut self, weight: &N, order: PartOrder) {
+        self.0.middle_parts_augmented(weight, order);
     }
     fn clear_increments(&mut self) {
         self.0.clear_increments();

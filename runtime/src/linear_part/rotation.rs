@@ -6,9 +6,8 @@
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::Rational;
+use crate::matrix::{MOST_KEPT, MOST_TERMS, Matrix, add, add_to_diagonal, precision, product, round, scale};
 use crate::number::{AnyLimbs, LimbCount, Number, Ordered, Rounded};
-
-type Matrix<N> = Vec<Vec<N>>;
 
 /// The flows over the times that have occurred: a scheme has a few.
 #[derive(Clone, Debug)]
@@ -29,17 +28,6 @@ struct Flow<N> {
     of_p: Matrix<N>,
     /// −K S
     of_q: Matrix<N>,
-}
-
-/// So many flows are kept; a caller with more times than that has others.
-const MOST_KEPT: usize = 256;
-
-/// Bits beyond those of the run: doubling t k times may lose 2k of them.
-const GUARD_BITS: u32 = 128;
-
-/// The numbers in which flows are computed; `None` if the run has more digits than they.
-pub(super) fn precision<N: Rounded>(context: &N::Context) -> Option<LimbCount> {
-    LimbCount::of_bits(N::precision(context).in_bits() + GUARD_BITS)
 }
 
 impl<N: Rounded> Rotations<N> {
@@ -121,24 +109,12 @@ impl<N: Rounded> Flow<N> {
     }
 }
 
-fn round<N: Rounded>(matrix: &Matrix<AnyLimbs>, zero: &N) -> Matrix<N> {
-    let rounded = |value: &AnyLimbs| {
-        let mut number = zero.clone();
-        number.assign_rounded(value);
-        number
-    };
-    matrix.iter().map(|row| row.iter().map(rounded).collect()).collect()
-}
-
 /// How often t is halved, so that t²|W| is below 1/16 in a norm.
 fn doublings(frequencies: &Matrix<AnyLimbs>, time: &AnyLimbs) -> u32 {
     let norm = frequencies.iter().map(|row| row.iter().map(|w| w.to_f64().abs()).sum::<f64>()).fold(0.0, f64::max);
     let size = time.to_f64().abs() * norm.sqrt();
     if size.is_finite() { (size.max(0.25) * 4.0).log2().ceil() as u32 } else { 0 }
 }
-
-/// With terms that fall by 16 and more, fewer make the digits of 17 limbs.
-const MOST_TERMS: i32 = 300;
 
 /// C − 1 = Σ (−t²W)ᵏ/(2k)! and S = t Σ (−t²W)ᵏ/(2k + 1)!
 fn series(frequencies: &Matrix<AnyLimbs>, time: &AnyLimbs, count: LimbCount) -> (Matrix<AnyLimbs>, Matrix<AnyLimbs>) {
@@ -171,26 +147,4 @@ fn series(frequencies: &Matrix<AnyLimbs>, time: &AnyLimbs, count: LimbCount) -> 
     }
     sine.iter_mut().flatten().for_each(|s| s.multiply(time));
     (versine, sine)
-}
-
-fn product(a: &Matrix<AnyLimbs>, b: &Matrix<AnyLimbs>, count: LimbCount) -> Matrix<AnyLimbs> {
-    let entry = |row: &[AnyLimbs], column: usize| {
-        let mut sum = AnyLimbs::zero(count);
-        row.iter().zip(b).for_each(|(a, b)| sum.add_product(a, &b[column]));
-        sum
-    };
-    a.iter().map(|row| (0..b.len()).map(|column| entry(row, column)).collect()).collect()
-}
-
-fn add(a: &mut Matrix<AnyLimbs>, b: &Matrix<AnyLimbs>) {
-    a.iter_mut().flatten().zip(b.iter().flatten()).for_each(|(a, b)| a.add(b));
-}
-
-fn scale(a: &mut Matrix<AnyLimbs>, by: i32) {
-    a.iter_mut().flatten().for_each(|x| x.multiply_integer(by));
-}
-
-fn add_to_diagonal(a: &mut Matrix<AnyLimbs>, number: u32, count: LimbCount) {
-    let by = AnyLimbs::from_rational(&Rational::from_integer(number.into()), &count);
-    a.iter_mut().enumerate().for_each(|(i, row)| row[i].add(&by));
 }

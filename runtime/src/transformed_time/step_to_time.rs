@@ -98,7 +98,11 @@ impl<S: Scheme, N: Ordered> Search<'_, S, N> {
             weight.multiply(part);
         }
         system.set_state(&self.start.0, &self.start.1);
-        M::advance(std::slice::from_mut(system), Maps::new(&self.weights, scheme.maps(), scheme.gradient_kicks()), 1);
+        M::advance(
+            std::slice::from_mut(system),
+            Maps::new(&self.weights, scheme.maps(), scheme.middle(), scheme.gradient_kicks()),
+            1,
+        );
         let missed = self.missed(system);
         if !missed.is_finite() {
             system.set_state(&self.start.0, &self.start.1);
