@@ -4,7 +4,7 @@ use std::io::Write;
 
 use clap::Args;
 use shadowstep::problems::{PROBLEMS, problem};
-use shadowstep_scenes::{ENCOUNTER_SCENES, Error, PLANETARY_SCENES, ShippedScene, shipped_scene};
+use shadowstep_scenes::{ENCOUNTER_SCENES, Error, MANY_PARTS_SCENES, PLANETARY_SCENES, ShippedScene, shipped_scene};
 
 use crate::output::Output;
 use crate::quantity::problem_error;
@@ -15,7 +15,7 @@ const EXAMPLE: &str = "\
 Example:
   shadowstep scene kepler > scene.toml";
 
-/// Writes the scene of a problem, a planetary system or close encounters, lists all, or explains the keys of scenes.
+/// Writes the scene of a problem, or a shipped one, lists all, or explains the keys of scenes.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
@@ -49,10 +49,12 @@ fn list() -> String {
     let shipped =
         |scenes: &[ShippedScene]| scenes.iter().map(|scene| line(scene.name, scene.title)).collect::<String>();
     let (planets, encounters) = (shipped(&PLANETARY_SCENES), shipped(&ENCOUNTER_SCENES));
+    let many_parts = shipped(&MANY_PARTS_SCENES);
     let how = "`shadowstep scene kepler > scene.toml` writes one, `shadowstep run scene.toml` runs it, and \
                `shadowstep scene --explain` explains all keys.";
     format!(
-        "There is a scene for each of these problems:\n{names}of planetary systems:\n{planets}and of close encounters:\n{encounters}{}",
+        "There is a scene for each of these problems:\n{names}of planetary systems:\n{planets}of close encounters:\n{encounters}\
+         and of three parts:\n{many_parts}{}",
         wrapped(how, "")
     )
 }

@@ -1,6 +1,8 @@
 //! A system of any kind as one type, so that what is done with it is compiled once.
 
 use shadowstep::kinetic::{General, Quadratic};
+use shadowstep::many_parts::ManyParts;
+use shadowstep::scheme::PartOrder;
 use shadowstep::{Increments, Number, Remainders, System};
 
 /// A system with flows of its own.
@@ -11,6 +13,8 @@ pub(crate) enum Boxed<N> {
     Quadratic(Box<dyn System<Number = N, Class = Quadratic>>),
     /// A system for schemes for every T(p), or every H = A + B.
     General(Box<dyn System<Number = N, Class = General>>),
+    /// A system of three parts and more.
+    ManyParts(Box<dyn System<Number = N, Class = ManyParts>>),
 }
 
 /// Calls a method of the system inside.
@@ -19,6 +23,7 @@ macro_rules! of {
         match $system {
             Boxed::Quadratic($inner) => $call,
             Boxed::General($inner) => $call,
+            Boxed::ManyParts($inner) => $call,
         }
     };
 }
@@ -59,6 +64,12 @@ impl<N: Number> System for Boxed<N> {
     }
     fn drift_augmented(&mut self, weight: &N) {
         of!(self, system => system.drift_augmented(weight));
+    }
+    fn middle_parts(&mut self, weight: &N, order: PartOrder) {
+        of!(self, system => system.middle_parts(weight, order));
+    }
+    fn middle_parts_augmented(&mut self, weight: &N, order: PartOrder) {
+        of!(self, system => system.middle_parts_augmented(weight, order));
     }
     fn clear_increments(&mut self) {
         of!(self, system => system.clear_increments());

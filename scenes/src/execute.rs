@@ -187,14 +187,16 @@ mod tests {
     }
 
     #[test]
-    fn so_has_a_file_of_pairs_of_a_general_kinetic_energy_or_of_planets() {
+    fn so_has_a_file_of_other_systems() {
         let pairs = "[problem]\npair = \"-m_i*m_j/sqrt(r2)\"\ndimensions = 2\nbodies = { m = [1, 2, \"sqrt(3)\"] }\n\
                      masses = \"m\"\n[initial]\nq = [0, 0, 1, 0, 0, 2]\nv = [0, \"1/3\", 1, 0, 0, 0]";
         let kinetic = "[problem]\npotential = \"q^2/2\"\ncoordinates = [\"q\"]\nkinetic = \"sqrt(1 + pq^2)\"\n\
                        [initial]\nq = [1]\np = [\"1/3\"]";
         let planets = "[problem]\nparts = \"wisdom-holman-heliocentric\"\nparameters = { g = 1 }\nbarycentric = true\n\
                        [[body]]\nmass = 1\n[[body]]\nmass = 0.01\na = 1\ne = 0.3\n[[body]]\nmass = 0.01\na = 2\nM = 80";
-        for system in [pairs, kinetic, planets] {
+        let many_parts = "[problem]\nparts = [\"(q1^2 + p1^2)^2 + q2^2 + p2^2\", \"-p1*p2\", \"-q1*q2\"]\n\
+                          coordinates = [\"q1\", \"q2\"]\nmomenta = [\"p1\", \"p2\"]\n[initial]\nq = [1, 0]\np = [0, \"1/3\"]";
+        for system in [pairs, kinetic, planets, many_parts] {
             for output in ["trajectory = true", "modified_energy = { max_order = 6 }\nenergy = { every = 3 }"] {
                 let (whole, _) = with_stops(system, output, 1000);
                 for each in [5, 8, 13] {

@@ -150,7 +150,9 @@ pub const KEYS: [Key; 59] = [
          problem of bodies \"wisdom-holman\", the Kepler orbits of the planets in Jacobi coordinates and their interactions, for \
          schemes such as abah864; or \"wisdom-holman-heliocentric\", the same in democratic heliocentric coordinates, for \
          schemes for every T(p), with states written in inertial coordinates; \"linear\", for any U that has second derivatives at q = 0, \
-         T(p) + qᵀKq/2 with K = U_qq(0) and what is left of U: the oscillations are solved exactly.",
+         T(p) + qᵀKq/2 with K = U_qq(0) and what is left of U: the oscillations are solved exactly. Or, in place of a name, a potential or a \
+         pair, a list of formulas in the coordinates, momenta and parameters, whose sum is H and each of which has a known flow: \
+         [\"(px^2 + py^2)/2\", \"y*px - x*py\", \"cos(x) + cos(y)\"].",
         "\"wisdom-holman\"",
         Some("\"kinetic-potential\""),
     ),

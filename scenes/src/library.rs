@@ -109,7 +109,11 @@ pub fn scheme_from(word: &str, folder: &Path, first: Option<First>) -> Result<Na
 
 /// Schemes that have been read: each is read and proved once.
 #[derive(Debug, Default)]
-pub struct Schemes(Mutex<Vec<(Wanted, NamedScheme)>>);
+pub struct Schemes {
+    read: Mutex<Vec<(Wanted, NamedScheme)>>,
+    /// Those for many parts, by the identities of those for two.
+    for_many_parts: Mutex<Vec<(String, NamedScheme)>>,
+}
 
 /// A word, the folder for its file, and the map that steps begin with.
 type Wanted = (String, PathBuf, Option<First>);
@@ -120,13 +124,28 @@ impl Schemes {
     /// # Errors
     /// As [`scheme`].
     pub fn scheme_from(&self, word: &str, folder: &Path, first: Option<First>) -> Result<NamedScheme, LibraryError> {
-        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = || self.read.lock().unwrap_or_else(PoisonError::into_inner);
         let is = |wanted: &Wanted| wanted.0 == word && wanted.1 == folder && wanted.2 == first;
         if let Some((_, scheme)) = known().iter().find(|(wanted, _)| is(wanted)) {
             return Ok(scheme.clone());
         }
         let scheme = scheme_from(word, folder, first)?;
         known().push(((word.to_owned(), folder.to_owned(), first), scheme.clone()));
+        Ok(scheme)
+    }
+
+    /// As [`for_many_parts`].
+    ///
+    /// # Errors
+    /// As [`for_many_parts`].
+    pub fn for_many_parts(&self, named: &NamedScheme) -> Result<NamedScheme, (String, String)> {
+        let known = || self.for_many_parts.lock().unwrap_or_else(PoisonError::into_inner);
+        let identity = named.identity();
+        if let Some((_, scheme)) = known().iter().find(|(known, _)| *known == identity) {
+            return Ok(scheme.clone());
+        }
+        let scheme = for_many_parts(named)?;
+        known().push((identity, scheme.clone()));
         Ok(scheme)
     }
 }
@@ -153,6 +172,19 @@ pub fn check_parts(named: &NamedScheme) -> Result<(), (String, String)> {
         _ => {
             let message = format!("{} has gradient kicks, which are for T(p) and U(q) as parts", named.name);
             Err((message, "use a scheme such as abah864, or parts = \"kinetic-potential\"".to_owned()))
+        }
+    }
+}
+
+/// The scheme with steps for H of three parts and more.
+///
+/// # Errors
+/// A scheme for two parts only: a message and a hint.
+pub fn for_many_parts(named: &NamedScheme) -> Result<NamedScheme, (String, String)> {
+    match named.scheme.clone().for_many_parts() {
+        Ok(scheme) => Ok(NamedScheme { name: named.name.clone(), scheme: scheme.into() }),
+        Err(error) => {
+            Err((error.to_string(), "use a composition of the leapfrog, such as suzuki4 or blanes-moan-s6".to_owned()))
         }
     }
 }

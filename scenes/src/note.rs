@@ -37,6 +37,13 @@ pub enum Note {
         /// The name.
         scheme: String,
     },
+    /// A near-integrable scheme is used for three parts or more.
+    NearIntegrable {
+        /// The scheme's name.
+        scheme: String,
+        /// Its order there.
+        order: u32,
+    },
     /// Steps of this size are beyond the stability limit of the scheme.
     Unstable {
         /// The scheme's name.
@@ -113,6 +120,12 @@ impl fmt::Display for Note {
             }
             Note::NameOfShipped { path, scheme } => {
                 write!(f, "the table in {path} is named {scheme} like a shipped scheme, and has other weights")
+            }
+            Note::NearIntegrable { scheme, order } => {
+                write!(
+                    f,
+                    "the near-integrable orders of {scheme} are for two parts; for more it has order {order} in h"
+                )
             }
             Note::Unstable { scheme, limit, h_omega, omega, quadratic } => {
                 let digits = |limit: &String| from_text(limit).map(|limit| format!("{} ", to_significant(&limit, 6)));

@@ -57,6 +57,10 @@ impl Propagator {
             };
         }
         let named = library::scheme(word)?;
+        if matches!(system.parts, Parts::Formulas(_)) {
+            let named = library::for_many_parts(&named).map_err(|(message, hint)| Error::usage(message, hint))?;
+            return Ok(Propagator::Scheme(Box::new(named)));
+        }
         if system.has_general_kinetic() {
             library::check_general(&named).map_err(|(message, hint)| Error::usage(message, hint))?;
         }

@@ -6,6 +6,7 @@ mod formula;
 mod given;
 mod initial;
 mod kinetic;
+mod many_parts;
 mod names;
 mod numbers;
 mod output;
@@ -162,7 +163,8 @@ fn parts(
     let kind = system.as_ref().map_or_else(Default::default, |system| run::Kind {
         general: system.has_general_kinetic(),
         transformed: system.transformed_time().is_some(),
-        other_parts: !matches!(system.parts, Parts::KineticAndPotential),
+        other_parts: !matches!(system.parts, Parts::KineticAndPotential | Parts::Formulas(_)),
+        many_parts: matches!(system.parts, Parts::Formulas(_)),
     });
     let steps = run::Steps::read(reader, &run, kind, schemes);
     let output = output::read(reader, &output, system.as_ref());
@@ -189,8 +191,10 @@ fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>, required
     }
     // a shipped problem has an initial state
     let problem = root.get("problem").and_then(|problem| problem.get_ref().as_table());
-    let own = problem.and_then(|problem| problem.get("potential").or(problem.get("pair")));
-    let needed = required.iter().copied().chain(own.map(|_| "initial"));
+    let formulas = |problem: &toml::de::DeTable<'_>| problem.get("parts").is_some_and(many_parts::is_list);
+    let has_own = problem
+        .is_some_and(|problem| ["potential", "pair"].iter().any(|key| problem.contains_key(*key)) || formulas(problem));
+    let needed = required.iter().copied().chain(has_own.then_some("initial"));
     for name in needed {
         let misspelt = |word: &str| !names.contains(&word) && nearest(word, names.iter().copied()) == Some(name);
         if root.get(name).is_none() && !root.keys().any(|word| misspelt(word.get_ref())) {

@@ -1,6 +1,7 @@
 //! The content of a scene: plain data, all of it exact.
 
 mod format;
+mod formulas;
 mod linear;
 mod output;
 mod pairs;

@@ -1,4 +1,4 @@
-//! Shipped scenes: each a file in `scenes/planets/` or `scenes/close-encounters/`.
+//! Shipped scenes: each a file in `scenes/planets/`, `scenes/close-encounters/` or `scenes/many-parts/`.
 
 /// A shipped scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +49,25 @@ pub const ENCOUNTER_SCENES: [ShippedScene; 2] = [
     },
 ];
 
+/// All shipped scenes of three parts.
+pub const MANY_PARTS_SCENES: [ShippedScene; 2] = [
+    ShippedScene {
+        name: "disordered-chain",
+        title: "A wave packet in the disordered nonlinear Schrödinger chain",
+        text: include_str!("../many-parts/disordered-chain.toml"),
+    },
+    ShippedScene {
+        name: "arenstorf",
+        title: "Arenstorf's orbit in the frame of the Earth and the Moon: three bodies, one without mass",
+        text: include_str!("../many-parts/arenstorf.toml"),
+    },
+];
+
 /// The shipped scene with this name.
 pub fn shipped_scene(name: &str) -> Option<&'static ShippedScene> {
-    PLANETARY_SCENES.iter().chain(&ENCOUNTER_SCENES).find(|scene| scene.name.eq_ignore_ascii_case(name))
+    PLANETARY_SCENES
+        .iter()
+        .chain(&ENCOUNTER_SCENES)
+        .chain(&MANY_PARTS_SCENES)
+        .find(|scene| scene.name.eq_ignore_ascii_case(name))
 }

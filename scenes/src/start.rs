@@ -59,13 +59,18 @@ impl scene::System {
     ) -> Result<W::Output, MotionError> {
         let other = match &self.parts {
             Parts::KineticAndPotential | Parts::Linear(_) => None,
+            Parts::Formulas(formulas) => Some(self.in_formulas(formulas, (&q, &p), context)?),
             Parts::WisdomHolman(planets) => Some(planets.system((&q, &p), compensated, context)?),
             Parts::TransformedTime(time) => {
                 Some(self.in_transformed_time(*time, (q.clone(), p.clone()), compensated, context)?)
             }
         };
         if let Some(system) = other {
-            return Ok(begin(&stepper(scheme.clone(), h, context), system, at, work));
+            let scheme = match &self.parts {
+                Parts::Formulas(_) => in_many_parts(scheme),
+                _ => scheme.clone(),
+            };
+            return Ok(begin(&stepper(scheme, h, context), system, at, work));
         }
         let (potential, scheme) = (self.potential(context), scheme.clone());
         if let Parts::Linear(stiffness) = &self.parts {
@@ -83,6 +88,14 @@ impl scene::System {
                 begin(&stepper(scheme, h, context), motion, at, work)
             }
         })
+    }
+}
+
+/// The scheme with the steps of many parts, which it has already where the scene was read with it.
+fn in_many_parts(scheme: &TableScheme) -> TableScheme {
+    match scheme.proved().proof.many_parts {
+        Some(_) => scheme.clone(),
+        None => scheme.clone().for_many_parts().expect("the scheme is valid for many parts").into(),
     }
 }
 

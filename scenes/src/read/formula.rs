@@ -52,7 +52,7 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -
 }
 
 /// The names of the coordinates and of their momenta, each different from all other names.
-fn names(reader: &mut Reader<'_>, given: &Given, list: &Placed<Vec<Text>>) -> (Vec<String>, Vec<String>) {
+pub(super) fn names(reader: &mut Reader<'_>, given: &Given, list: &Placed<Vec<Text>>) -> (Vec<String>, Vec<String>) {
     let mut taken: Vec<(String, String)> =
         COLUMNS.iter().map(|name| ((*name).to_owned(), "of a column of the output".to_owned())).collect();
     taken.extend(reader.names.iter().map(|(name, _)| (name.clone(), "of an axis".to_owned())));

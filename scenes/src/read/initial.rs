@@ -45,12 +45,12 @@ impl State {
         }
     }
 
-    /// Refuses velocities: T(p) is not given by masses.
-    pub(super) fn refuse_velocities(&self, reader: &mut Reader<'_>) {
+    /// Refuses velocities: T(p) is not given by masses, but by this key, or is not given.
+    pub(super) fn refuse_velocities(&self, reader: &mut Reader<'_>, given: &str) {
         if let Some(at) = &self.velocities {
             reader.toml.fault(
                 at,
-                "velocities `v` require masses, but T is given by `kinetic`",
+                format!("velocities `v` require masses, but {given}"),
                 "give the momenta `p` instead of `v`",
             );
         }

@@ -24,7 +24,7 @@ pub(super) fn by_formula(
         let help = "keep one of the two; with `kinetic`, write the masses as numbers or parameters in its formula";
         ("masses and kinetic are both given".to_owned(), help.to_owned())
     });
-    given.state.refuse_velocities(reader);
+    given.state.refuse_velocities(reader, "T is given by `kinetic`");
     let text = given.kinetic.as_ref()?;
     if let Err(error) = formula_kinetic::<f64>(&text.value, momenta, parameters, &()) {
         let known = momenta.iter().take(3).map(String::as_str).collect::<Vec<_>>().join(", ");

@@ -12,6 +12,7 @@ use toml::de::{DeTable, DeValue};
 use super::elements::{Elements, Vector};
 use super::given::Given;
 use super::kinetic;
+use super::many_parts;
 use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
@@ -217,6 +218,7 @@ impl Settings {
         Settings {
             parts: problem
                 .get("parts")
+                .filter(|value| !many_parts::is_list(value))
                 .map_or(Some(GivenParts::KineticAndPotential), |value| reader.word(value, &parts)),
             units: problem.get("units").map(|value| units::constant(reader, value)),
             centre: problem.get("elements").map_or(Some(Centre::Body), |value| reader.word(value, &centres)),

@@ -1,4 +1,4 @@
-//! [problem]: the system, given in one of four ways, each with its file.
+//! [problem]: the system, given in one of five ways, each with its file.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use super::given::Given;
 use super::pair::PairFormula;
 use super::planets::{self, GivenBody, GivenParts, Settings};
 use super::reader::Reader;
-use super::{formula, pair, shipped};
+use super::{formula, many_parts, pair, shipped};
 use crate::scene::{KineticEnergy, MOST_COORDINATES, Parts, Planets, PotentialEnergy, System, stiffness};
 use shadowstep_schemes::document::Section;
 
@@ -31,6 +31,15 @@ pub(super) fn system(
     let settings = Settings::read(reader, problem);
     if !ways.is_empty() || bodies.is_empty() {
         refuse_keys_of_bodies(reader, &given);
+    }
+    if let Some(value) = problem.get("parts").filter(|value| many_parts::is_list(value)) {
+        let other = ways.first().copied().or((!bodies.is_empty()).then_some("[[body]]"));
+        if let Some(other) = other {
+            let help = "keep one of the two: the formulas of the parts are all of H";
+            return reader.toml.wrong(&value.span(), format!("{other} and formulas of parts are both given"), help);
+        }
+        given.needs(reader, problem, "coordinates");
+        return many_parts::system(reader, &given, value);
     }
     match ways[..] {
         [] if !bodies.is_empty() => planets::system(reader, &given, problem, (&settings, bodies)),

@@ -11,6 +11,7 @@ use toml::de::DeValue;
 use super::reader::Reader;
 use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS, OTHER_SCHEME};
 use crate::library::{self, LibraryError, NamedScheme, Schemes};
+use crate::note::Note;
 use crate::steps::{self, MOST_STEPS, WrongValue};
 use shadowstep_schemes::document::{Section, Text};
 
@@ -39,6 +40,8 @@ pub(super) struct Kind {
     pub(super) transformed: bool,
     /// Kicks and drifts only, as the parts are not T(p) and U(q).
     pub(super) other_parts: bool,
+    /// Steps for three parts and more.
+    pub(super) many_parts: bool,
 }
 
 /// The section [run].
@@ -89,13 +92,18 @@ fn scheme(
             return None;
         }
     };
-    let valid = if kind.general { library::check_general(&named) } else { Ok(()) };
+    let valid = if kind.general && !kind.many_parts { library::check_general(&named) } else { Ok(()) };
     let valid = valid.and_then(|()| if kind.other_parts { library::check_parts(&named) } else { Ok(()) });
     let valid = valid.and_then(|()| if kind.transformed { library::check_transformed_time(&named) } else { Ok(()) });
-    if let Err((message, hint)) = valid {
-        return reader.toml.wrong(&word.at, message, hint);
-    }
+    let in_parts =
+        valid.and_then(|()| if kind.many_parts { schemes.for_many_parts(&named).map(Some) } else { Ok(None) });
+    let in_parts = match in_parts {
+        Ok(in_parts) => in_parts,
+        Err((message, hint)) => return reader.toml.wrong(&word.at, message, hint),
+    };
     reader.notes.extend(named.note());
+    reader.notes.extend(in_parts.as_ref().and_then(near_integrable));
+    let named = in_parts.unwrap_or(named);
     match reader.arithmetic.suits(&named) {
         Ok(note) => {
             reader.notes.extend(note);
@@ -106,6 +114,13 @@ fn scheme(
             reader.toml.wrong(&word.at, error.to_string(), help)
         }
     }
+}
+
+/// A note on a near-integrable scheme, whose claim is for two parts.
+fn near_integrable(named: &NamedScheme) -> Option<Note> {
+    let proved = named.scheme.proved();
+    proved.scheme.table.near_integrable.as_ref()?;
+    Some(Note::NearIntegrable { scheme: named.name.clone(), order: proved.proof.many_parts.as_ref()?.order })
 }
 
 /// h, the end and the number of steps.

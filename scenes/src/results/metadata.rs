@@ -72,6 +72,7 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
         }
         PotentialEnergy::Formula(formula) => vec![("potential", json!(formula))],
         PotentialEnergy::Pairs(pairs) => pair_energy(pairs, texts),
+        PotentialEnergy::OfParts => vec![("momenta", json!(system.momenta))],
     };
     let parameters: serde_json::Map<_, _> =
         system.parameters.iter().map(|(name, value)| (name.clone(), json!(arithmetic.text(value)))).collect();
@@ -84,6 +85,7 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
         Parts::Linear(_) => Some(("parts", json!(LINEAR))),
         Parts::WisdomHolman(planets) => Some(("parts", json!(planets.coordinates.name()))),
         Parts::TransformedTime(time) => Some(("time", json!(time.to_string()))),
+        Parts::Formulas(formulas) => Some(("parts", json!(formulas))),
     };
     named
         .into_iter()

@@ -1,4 +1,4 @@
-//! How H is split into a part for the drifts and one for the kicks.
+//! How H is split into parts.
 
 use shadowstep::transformed_time::TimeTransformation;
 use shadowstep::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
@@ -6,7 +6,7 @@ use shadowstep::{MotionError, Number, Rational, System as _};
 
 use crate::boxed::Boxed;
 
-/// The two parts of H whose flows are exact.
+/// The parts of H, whose flows are exact.
 #[derive(Clone, Debug)]
 pub enum Parts {
     /// T(p) and U(q).
@@ -17,6 +17,8 @@ pub enum Parts {
     Linear(Vec<Vec<Rational>>),
     /// f(T + p_t) and −f(−U): the steps are in a fictitious time.
     TransformedTime(TimeTransformation),
+    /// H is the sum of these formulas.
+    Formulas(Vec<String>),
 }
 
 /// A planetary system of point masses, the central body first.

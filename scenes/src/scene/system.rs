@@ -2,6 +2,7 @@
 
 use shadowstep::formula::{FormulaError, FormulaKinetic, FormulaPotential};
 use shadowstep::kinetic::{General, Quadratic};
+use shadowstep::number::Rounded;
 use shadowstep::problems::Setup;
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, System as _, UnitMasses};
 use shadowstep_symbolic::Exact;
@@ -41,6 +42,8 @@ pub enum PotentialEnergy {
     Formula(String),
     /// A sum over pairs of bodies.
     Pairs(PairEnergy),
+    /// None: H is given by the formulas of its parts.
+    OfParts,
 }
 
 /// T(p)
@@ -67,7 +70,7 @@ impl System {
         let numbers = |values: &[Exact]| values.iter().map(|v| N::from_rational(&v.value, context)).collect();
         let (q, p): (Vec<N>, Vec<N>) = (numbers(&self.q), numbers(&self.p));
         match &self.parts {
-            Parts::KineticAndPotential | Parts::Linear(_) => (q, p),
+            Parts::KineticAndPotential | Parts::Linear(_) | Parts::Formulas(_) => (q, p),
             Parts::WisdomHolman(planets) => planets.canonical((&q, &p), context),
             Parts::TransformedTime(_) => self.with_time((q, p), context),
         }
@@ -76,7 +79,7 @@ impl System {
     /// Converts states from the coordinates of the steps to those that are shown, where these differ.
     pub fn shown<N: Number + 'static>(&self, context: &N::Context) -> Option<Shown<N>> {
         match &self.parts {
-            Parts::KineticAndPotential | Parts::Linear(_) => None,
+            Parts::KineticAndPotential | Parts::Linear(_) | Parts::Formulas(_) => None,
             Parts::WisdomHolman(planets) => Some(planets.shown(context)),
             Parts::TransformedTime(_) => Some(Shown::without_time(self.q.len(), context)),
         }
@@ -91,6 +94,7 @@ impl System {
                 Box::new(potential.expect("the formula was read with the scene"))
             }
             PotentialEnergy::Pairs(pairs) => pairs.potential(&self.parameters, context),
+            PotentialEnergy::OfParts => unreachable!("H is not T(p) + U(q)"),
         }
     }
 
@@ -125,13 +129,19 @@ impl System {
     ///
     /// # Panics
     /// If q, p and U have different dimensions, which reading a system excludes.
-    pub fn energy<N: Number + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
+    pub fn energy<N: Rounded + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
         match &self.parts {
             Parts::KineticAndPotential | Parts::Linear(_) => self.plain_energy(context),
             Parts::WisdomHolman(planets) => {
                 let (q, p) = self.start(context);
                 let mut system =
                     planets.system((&q, &p), false, context).expect("the dimensions were read with the system");
+                Box::new(move |q, p| system.energy_at(q, p))
+            }
+            Parts::Formulas(formulas) => {
+                let (q, p) = self.start(context);
+                let mut system =
+                    self.in_formulas(formulas, (&q, &p), context).expect("the dimensions were read with the system");
                 Box::new(move |q, p| system.energy_at(q, p))
             }
             Parts::TransformedTime(_) => {
@@ -185,7 +195,7 @@ impl System {
     pub fn has_general_kinetic(&self) -> bool {
         match (&self.parts, &self.kinetic) {
             (Parts::WisdomHolman(planets), _) => planets.coordinates == Canonical::DemocraticHeliocentric,
-            (Parts::TransformedTime(_), _) => true,
+            (Parts::TransformedTime(_) | Parts::Formulas(_), _) => true,
             (Parts::KineticAndPotential | Parts::Linear(_), KineticEnergy::Masses(_)) => false,
             (Parts::KineticAndPotential | Parts::Linear(_), KineticEnergy::Formula(_)) => {
                 matches!(self.kinetic::<f64>(&()), ClassifiedKinetic::General(_))
@@ -214,6 +224,6 @@ pub(crate) fn formula_kinetic<N: Number>(
     FormulaKinetic::new(formula, &borrowed(momenta), &rounded(parameters, context))
 }
 
-fn borrowed(names: &[String]) -> Vec<&str> {
+pub(super) fn borrowed(names: &[String]) -> Vec<&str> {
     names.iter().map(String::as_str).collect()
 }

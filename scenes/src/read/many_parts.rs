@@ -1,0 +1,191 @@
+//! `parts = ["…", "…", "…"]`: H as a sum of parts by their formulas.
+
+use shadowstep::Rational;
+use shadowstep::many_parts::{FormulaPart, PartError};
+use shadowstep_schemes::document::{Text, Value};
+use shadowstep_symbolic::Exact;
+use toml::de::DeValue;
+
+use super::formula::names;
+use super::given::Given;
+use super::numbers::Numbers;
+use super::reader::Reader;
+use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System};
+
+/// The most digits of a run with a quadratic form as a part, whose flow is computed in more.
+const MOST_DIGITS: u32 = 288;
+
+/// What a part may be.
+const KNOWN: &str = "a part is a function of variables none of which is the momentum of another, such as T(p), U(q) or x*py, a quadratic \
+                     form, f((q^2 + p^2)/2) or f(q*p) of one pair, p^2/(2*m) - k/r, or a sum of these in different coordinates";
+
+/// Whether the value of `parts` is a list of formulas.
+pub(super) fn is_list(value: &Value<'_>) -> bool {
+    matches!(value.get_ref(), DeValue::Array(_))
+}
+
+/// The system of these parts.
+pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) -> Option<System> {
+    given.refuse(reader, &["bodies", "dimensions", "neighbours"], |key| {
+        (format!("{key} requires `pair`"), format!("remove `{key}`"))
+    });
+    given.refuse(reader, &["masses", "kinetic"], |key| {
+        (format!("{key} has no meaning beside formulas of parts"), "write T(p) as one of the parts".to_owned())
+    });
+    given.state.refuse_velocities(reader, "H is given by formulas of its parts");
+    let formulas =
+        reader.toml.list(value, "a list of formulas: [\"p^2/2\", \"-cos(q)\"]", |reader, value| reader.text(value));
+    let parameters = given.own_parameters(reader);
+    let list = given.coordinates.as_ref()?;
+    let before = reader.toml.faults.len();
+    let (coordinates, momenta) = names(reader, given, list);
+    let formulas = formulas?;
+    if formulas.value.len() < 2 {
+        let message = format!("H needs two parts at least, not {}", formulas.value.len());
+        return reader.toml.wrong(&formulas.at, message, "add the other parts of H to the list");
+    }
+    if reader.arithmetic.is_compensated() {
+        return reader.toml.wrong(
+            &formulas.at,
+            "formulas of parts have no compensated sums",
+            "use digits = \"double\"",
+        );
+    }
+    if reader.toml.faults.len() == before {
+        for formula in &formulas.value {
+            check(reader, formula, (&coordinates, &momenta), &parameters);
+        }
+    }
+    if let Some(initial) = &given.initial {
+        given.state.all_there(reader, initial);
+    }
+    let values = |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values(reader, coordinates.len());
+    let (q, p) = given.state.values(reader, values, None);
+    Some(System {
+        potential: PotentialEnergy::OfParts,
+        kinetic: KineticEnergy::Masses(None),
+        parts: Parts::Formulas(formulas.value.into_iter().map(|formula| formula.value).collect()),
+        parameters,
+        coordinates,
+        momenta,
+        q: q?,
+        p: p?,
+    })
+}
+
+/// Refuses a part whose flow is not known.
+fn check(
+    reader: &mut Reader<'_>,
+    formula: &Text,
+    (coordinates, momenta): (&[String], &[String]),
+    parameters: &[(String, Exact)],
+) {
+    fn borrowed(names: &[String]) -> Vec<&str> {
+        names.iter().map(String::as_str).collect()
+    }
+    let exact: Vec<(&str, Rational)> =
+        parameters.iter().map(|(name, value)| (name.as_str(), value.value.clone())).collect();
+    let part = FormulaPart::<f64>::new(&formula.value, (&borrowed(coordinates), &borrowed(momenta)), &exact, &());
+    match part {
+        Ok(part) if part.has_quadratic_form() && reader.arithmetic.digits() > MOST_DIGITS => {
+            let message = PartError::Digits.to_string();
+            reader.toml.fault(&formula.at, message, format!("write digits = {MOST_DIGITS}, or less"));
+        }
+        Ok(_) => reader.refuse_constants(
+            formula,
+            [coordinates, momenta].into_iter().flatten().chain(parameters.iter().map(|(name, _)| name)),
+        ),
+        Err(error @ PartError::Formula(_)) => {
+            let help = "a part is a smooth formula in the coordinates, their momenta and the parameters";
+            reader.toml.fault(&formula.place(&error.range()), error.to_string(), help);
+        }
+        Err(error) => reader.toml.fault(&formula.at, error.to_string(), KNOWN),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::{Parts, Scene};
+    use crate::shipped::MANY_PARTS_SCENES;
+    use shadowstep::tables::{Faults, Source};
+
+    const RUN: &str = "[run]\nscheme = \"yoshida4\"\nstep = 1\nsteps = 1\ndigits = 30\n[output]\nenergy = true";
+
+    fn read(text: &str) -> Result<Scene, Faults> {
+        Scene::read(Source { path: "test.toml".to_owned(), text: text.to_owned() })
+    }
+
+    /// The faults of a system, each as `line:column: sentence`.
+    fn faults(problem: &str, run: &str) -> Vec<String> {
+        let text = format!("[problem]\n{problem}\n[initial]\nq = [1, 0]\np = [0, 1]\n{run}");
+        match read(&text) {
+            Err(Faults(faults)) => {
+                faults.iter().map(|fault| format!("{}:{}: {}", fault.line, fault.column, fault.message)).collect()
+            }
+            Ok(_) => Vec::new(),
+        }
+    }
+
+    #[test]
+    fn the_shipped_scenes_are_of_three_parts() {
+        for shipped in &MANY_PARTS_SCENES {
+            let scene = read(shipped.text).unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
+            let Parts::Formulas(formulas) = &scene.system.parts else { panic!("{}", shipped.name) };
+            assert_eq!(formulas.len(), 3);
+            assert!(scene.scheme.scheme.proved().proof.many_parts.is_some());
+        }
+    }
+
+    #[test]
+    fn faults_have_their_places() {
+        let coordinates = "coordinates = [\"x\", \"y\"]";
+        let good = format!("parts = [\"px^2/2\", \"x*py\", \"cos(x - y)\"]\n{coordinates}");
+        let quadratic = good.replace("cos(x - y)", "x*px");
+        let with = |scheme: &str| RUN.replace("yoshida4", scheme);
+        let digits = |digits: &str| RUN.replace("30", digits);
+        let found: Vec<_> = [
+            (good.clone(), RUN.to_owned()),
+            (format!("parts = [\"px^2/2 + x^4\", \"py^2\"]\n{coordinates}"), RUN.to_owned()),
+            (format!("parts = [\"px^2/2\", \"x + z\"]\n{coordinates}"), RUN.to_owned()),
+            (format!("parts = [\"px^2/2\"]\n{coordinates}"), RUN.to_owned()),
+            (format!("{good}\nmasses = [1, 2]"), RUN.to_owned()),
+            (format!("{good}\npotential = \"x\""), RUN.to_owned()),
+            ("parts = [\"px^2/2\", \"x\"]".to_owned(), RUN.to_owned()),
+            (good.clone(), with("wisdom-corrector-5")),
+            (good.clone(), with("mclachlan-atela5")),
+            (good.clone(), with("chin-4a")),
+            (good, digits("\"compensated\"")),
+            (quadratic, digits("300")),
+        ]
+        .iter()
+        .map(|(problem, run)| faults(problem, run).join("; "))
+        .collect();
+        assert_eq!(
+            found,
+            [
+                "",
+                "2:10: the flow of this part has no formula: it couples x and px",
+                "2:25: unknown name `z`; did you mean `x`? known names: x, y, px, py",
+                "2:9: H needs two parts at least, not 1",
+                "4:10: masses has no meaning beside formulas of parts",
+                "2:9: potential and formulas of parts are both given",
+                "1:1: the key `coordinates` is missing",
+                "8:10: wisdom-corrector-5 is a processed scheme, whose effective order is proved for two parts only",
+                "8:10: mclachlan-atela5 has order 5 for T(p) and U(q) with quadratic T only, for three parts and more order 3",
+                "8:10: chin-4a has gradient kicks, which are for T(p) and U(q) only",
+                "2:9: formulas of parts have no compensated sums",
+                "2:28: the flow of a quadratic form is computed to at most 288 digits",
+            ]
+        );
+    }
+
+    #[test]
+    fn near_integrable_claims_are_of_two_parts() {
+        let text = format!(
+            "[problem]\nparts = [\"p^2/2\", \"q^4\", \"cos(q)\"]\ncoordinates = [\"q\"]\nmomenta = [\"p\"]\n[initial]\nq = [1]\np = [0]\n{}",
+            RUN.replace("yoshida4", "saba2")
+        );
+        let notes: Vec<_> = read(&text).unwrap().notes.iter().map(ToString::to_string).collect();
+        assert_eq!(notes, ["the near-integrable orders of saba2 are for two parts; for more it has order 2 in h"]);
+    }
+}
