@@ -165,6 +165,13 @@ impl<N: Number> DiagonalMasses<N> {
         };
         Ok(DiagonalMasses { inverse: masses.iter().enumerate().map(inverse).collect::<Result<_, _>>()? })
     }
+
+    /// velocity ← M⁻¹p
+    pub(crate) fn assign_velocity(&self, p: &[N], velocity: &mut [N]) {
+        for ((velocity, p), inverse) in velocity.iter_mut().zip(p).zip(&self.inverse) {
+            velocity.assign_product(inverse, p);
+        }
+    }
 }
 
 impl<N: Ordered> DiagonalMasses<N> {

@@ -77,12 +77,15 @@
 extern crate self as shadowstep;
 
 mod coordinates;
+pub mod displaced;
 pub mod ensemble;
 pub mod exact_flow;
 pub mod formula;
+mod gradient_kicks;
 pub mod instructions;
 mod interpreter;
 pub mod kepler_drift;
+mod kept;
 pub mod kinetic;
 pub mod linear_part;
 pub mod many_parts;

@@ -11,10 +11,13 @@
 mod rotation;
 
 use crate::Rational;
+use crate::displaced::Displacements;
+use crate::gradient_kicks::{Curvature, GradientKicks, Place};
+use crate::kept::Kept;
 use crate::kinetic::{DiagonalMasses, Kinetic, Quadratic};
 use crate::matrix::precision;
 use crate::motion::MotionError;
-use crate::number::Rounded;
+use crate::number::{Number, Rounded};
 use crate::potential::Potential;
 use crate::system::{Increments, OwnedIncrements, System};
 use rotation::Rotations;
@@ -51,6 +54,8 @@ pub struct LinearPart<N, P> {
     gradient: Vec<N>,
     rate: N,
     kept: bool,
+    /// Once there was a gradient kick, with the potential's scratch space; what it keeps belongs to the q of the last evaluation.
+    gradient_kicks: Option<Box<(GradientKicks<N>, Vec<N>)>>,
     increments: OwnedIncrements<N>,
     scratch_of_kinetic: Vec<N>,
     evaluations: u64,
@@ -108,10 +113,20 @@ impl<N: Rounded, P: Potential<N>> LinearPart<N, P> {
             gradient: vec![zero.clone(); coordinates],
             rate: zero.clone(),
             kept: false,
+            gradient_kicks: None,
             increments: OwnedIncrements::zero(coordinates, &context),
             scratch_of_kinetic: vec![zero; of_kinetic],
             evaluations: 0,
         })
+    }
+
+    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see [`Displacements`].
+    #[must_use]
+    pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
+        let (dimension, context) = (self.q.len(), self.context());
+        let kicks = GradientKicks::new(dimension, Some(displacements), &context);
+        self.gradient_kicks = Some(Box::new((kicks, Vec::new())));
+        self
     }
 
     /// B_q = U_q − Kq and the rate of β, which is that of U.
@@ -127,6 +142,29 @@ impl<N: Rounded, P: Potential<N>> LinearPart<N, P> {
         }
         self.kept = true;
         self.evaluations += 1;
+        if let Some(curved) = &mut self.gradient_kicks {
+            curved.0.kept = Kept::Nothing;
+        }
+    }
+
+    /// The gradient kick p ← p + weight·B_qq M⁻¹B_q: ½qᵀKq as a part of A commutes with B.
+    fn gradient_kick_by(&mut self, weight: &N, augmented: bool) {
+        self.evaluate();
+        let LinearPart { potential, scratch, stiffness, kinetic, q, p, gradient, rate, .. } = self;
+        let curved = self.gradient_kicks.get_or_insert_with(|| Box::new(room(potential, &weight.context())));
+        let (kicks, hessian_scratch) = &mut **curved;
+        let before = kicks.evaluations;
+        let rest = &mut Rest { potential, scratch, stiffness, kinetic, hessian_scratch };
+        kicks.evaluate(rest, Place { q, gradient, rate }, weight, augmented);
+        if kicks.is_displaced() {
+            self.evaluations += kicks.evaluations - before;
+        }
+        for (p, force) in p.iter_mut().zip(&kicks.force) {
+            p.subtract_product(weight, force);
+        }
+        if augmented {
+            kicks.add_increments(weight, &mut self.increments);
+        }
     }
 
     fn kick_by(&mut self, weight: &N, augmented: bool) {
@@ -151,6 +189,59 @@ impl<N: Rounded, P: Potential<N>> LinearPart<N, P> {
             self.increments.p.iter_mut().zip(to_p).for_each(|(sum, by)| sum.add(by));
         }
         self.kept = false;
+    }
+}
+
+/// Room for gradient kicks, and the scratch space of the potential for them.
+fn room<N: Number, P: Potential<N>>(potential: &P, context: &N::Context) -> (GradientKicks<N>, Vec<N>) {
+    let hessian = potential.hessian().expect(
+        "gradient kicks need the Hessian–vector product of the potential: write it as a formula, or implement `Potential::hessian`",
+    );
+    let mut scratch = vec![N::zero(context); hessian.hessian_scratch()];
+    hessian.prepare_hessian(&mut scratch, context);
+    (GradientKicks::new(potential.dimension(), None, context), scratch)
+}
+
+/// The derivatives of B = U(q) − ½qᵀKq.
+struct Rest<'a, N, P> {
+    potential: &'a mut P,
+    scratch: &'a mut [N],
+    stiffness: &'a [Vec<N>],
+    kinetic: &'a DiagonalMasses<N>,
+    hessian_scratch: &'a mut [N],
+}
+
+impl<N: Number, P: Potential<N>> Rest<'_, N, P> {
+    /// x ← x − Kv
+    fn subtract_linear_part(&self, v: &[N], x: &mut [N]) {
+        for (x, row) in x.iter_mut().zip(self.stiffness) {
+            row.iter().zip(v).for_each(|(k, v)| x.subtract_product(k, v));
+        }
+    }
+}
+
+impl<N: Number, P: Potential<N>> Curvature<N> for Rest<'_, N, P> {
+    fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
+        self.kinetic.assign_velocity(gradient, velocity);
+    }
+
+    /// The rate is that of U: the quadratic form adds nothing.
+    fn hessian_product(&mut self, at: Place<'_, N>, v: &[N], product: &mut [N], rate: Option<&mut N>) {
+        let hessian = self.potential.hessian().expect("it was there before");
+        match rate {
+            Some(rate) => hessian.hessian_product_and_rate(at.q, v, product, rate, self.hessian_scratch),
+            None => hessian.hessian_product(at.q, v, product, self.hessian_scratch),
+        }
+        self.subtract_linear_part(v, product);
+    }
+
+    fn gradient(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>) {
+        self.potential.update(q);
+        match rate {
+            Some(rate) => self.potential.gradient_and_rate(q, gradient, rate, self.scratch),
+            None => self.potential.gradient(q, gradient, self.scratch),
+        }
+        self.subtract_linear_part(q, gradient);
     }
 }
 
@@ -191,6 +282,19 @@ impl<N: Rounded, P: Potential<N>> System for LinearPart<N, P> {
 
     fn drift_augmented(&mut self, weight: &N) {
         self.drift_by(weight, true);
+    }
+
+    fn has_gradient_kicks(&self) -> bool {
+        let is_displaced = self.gradient_kicks.as_ref().is_some_and(|curved| curved.0.is_displaced());
+        is_displaced || self.potential.hessian().is_some()
+    }
+
+    fn gradient_kick(&mut self, weight: &N) {
+        self.gradient_kick_by(weight, false);
+    }
+
+    fn gradient_kick_augmented(&mut self, weight: &N) {
+        self.gradient_kick_by(weight, true);
     }
 
     fn clear_increments(&mut self) {

@@ -2,12 +2,13 @@
 
 mod curved;
 mod flows;
-mod kept;
 
 use thiserror::Error;
 
 use crate::coordinates::Coordinates;
+use crate::displaced::Displacements;
 use crate::instructions;
+use crate::kept::Kept;
 use crate::kinetic::{Kinetic, MassError};
 use crate::maps::{MapKind, Maps};
 use crate::number::Number;
@@ -16,8 +17,8 @@ use crate::potential::Potential;
 use crate::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
 use crate::system::{Increments, OwnedIncrements, Remainders, System};
 
+use curved::Curved;
 use flows::{Flows, Moving};
-use kept::Kept;
 
 /// A system H = T(p) + U(q) and its state.
 ///
@@ -93,6 +94,30 @@ where
     pub fn compensated_if(self, compensated: bool) -> Motion<N, V, P, K, Option<Compensated<N, V>>> {
         let summation = compensated.then(|| Compensated::of(&self.moving.q, &self.context()));
         self.with(summation)
+    }
+
+    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see [`Displacements`]. They take a force in place of a
+    /// Hessian–vector product, which the potential then need not have, and are not exactly symplectic.
+    ///
+    /// ```
+    /// use shadowstep::{Motion, Stepper, UnitMasses, potential::from_fn, tables::shipped};
+    ///
+    /// let stepper = Stepper::new(shipped("chin-4a").unwrap(), "1/20")?;
+    /// let pendulum = from_fn(1, |q, gradient| {
+    ///     gradient[0] = q[0].sin();
+    ///     -q[0].cos()
+    /// });
+    /// let mut motion = Motion::new(pendulum, UnitMasses, [0.0], [1.5])?.displaced(stepper.displacements()?);
+    /// let start = motion.energy();
+    /// (0..1000).for_each(|_| stepper.step(&mut motion));
+    /// assert!((motion.energy() - start).abs() < 1e-7);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
+        let curved = Curved::displaced(displacements, self.q().len(), &self.context());
+        self.flows.curved = Some(Box::new(curved));
+        self
     }
 
     fn with<S>(self, summation: S) -> Motion<N, V, P, K, S> {
@@ -189,21 +214,23 @@ where
     /// Changes the potential, which keeps its dimension; the kept gradient is dropped.
     pub fn change_potential(&mut self, change: impl FnOnce(&mut P)) {
         change(&mut self.flows.potential);
-        self.flows.curved = None;
+        // the scratch space for second derivatives is of the potential as it was
+        self.flows.curved = self.flows.curved.take().filter(|curved| curved.kicks.is_displaced());
         self.moving.kept = Kept::Nothing;
         let context = self.context();
         self.flows.scratch.resize(self.flows.potential.scratch(), N::zero(&context));
         self.flows.potential.prepare(&mut self.flows.scratch, &context);
     }
 
-    /// The number of evaluations of the gradient U_q; those of T_p in drifts are not counted.
+    /// The number of evaluations of the gradient U_q, those at displaced positions included; those of T_p in drifts are not counted.
     pub fn evaluations(&self) -> u64 {
         self.moving.evaluations
     }
 
     /// The number of Hessian–vector products U_qq M⁻¹U_q computed for gradient kicks, since the potential was changed last.
     pub fn hessian_products(&self) -> u64 {
-        self.flows.curved.as_ref().map_or(0, |curved| curved.evaluations)
+        let products = self.flows.curved.as_ref().filter(|curved| !curved.kicks.is_displaced());
+        products.map_or(0, |curved| curved.kicks.evaluations)
     }
 
     /// The context of the numbers.
@@ -260,13 +287,7 @@ where
     #[inline(always)]
     fn gradient_kick_augmented_here(&mut self, weight: &N) {
         let Motion { flows, moving, increments } = self;
-        let curved = flows.gradient_kick(moving, weight, true);
-        increments.beta.add_product(weight, &curved.rate);
-        if N::KEEPS_INCREMENTS {
-            for (increment, force) in increments.p.as_mut().iter_mut().zip(&curved.force) {
-                increment.subtract_product(weight, force);
-            }
-        }
+        flows.gradient_kick(moving, weight, true).add_increments(weight, increments);
     }
 
     /// [`System::drift_augmented`], likewise.
@@ -426,7 +447,8 @@ where
     }
 
     fn has_gradient_kicks(&self) -> bool {
-        self.flows.potential.hessian().is_some()
+        let is_displaced = self.flows.curved.as_ref().is_some_and(|curved| curved.kicks.is_displaced());
+        is_displaced || self.flows.potential.hessian().is_some()
     }
 
     #[inline]

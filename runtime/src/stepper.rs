@@ -1,8 +1,9 @@
 //! A scheme with a step size: the object that makes steps.
 
 use crate::Rational;
+use crate::displaced::{DisplacementError, Displacements, Weights};
 use crate::maps::{MapKind, Maps};
-use crate::number::Number;
+use crate::number::{Number, Ordered};
 use crate::processor::{Kept, Processor};
 use crate::scheme::{Scheme, StepWeights, ValidFor};
 use crate::step_size::{StepSize, StepSizeError};
@@ -116,6 +117,33 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         self.weights.back().as_ref()
     }
 
+    /// The exact weights a_s, b_s and c_s, the distinct ones in the order of the plan.
+    fn exact_weights(&self, context: &N::Context) -> Vec<Rational> {
+        let mut exact = Vec::new();
+        self.scheme.weights(|weight| {
+            exact.push(weight.clone());
+            N::zero(context)
+        });
+        exact
+    }
+
+    /// How far the gradient kicks of its steps displace positions, for a system that makes them by displaced forces in place of second derivatives: see
+    /// [`Displacements`].
+    ///
+    /// # Errors
+    /// A scheme without gradient kicks; a gradient kick without a kick at the same q; gradient kicks of equal weight with kicks of different weights.
+    pub fn displacements(&self) -> Result<Displacements<N>, DisplacementError>
+    where
+        N: Ordered,
+    {
+        let (kicks, maps) = self.scheme.maps();
+        let exact = self.exact_weights(&self.weights()[0].context());
+        let first = exact.len() - self.scheme.gradient_kicks();
+        let (linear, gradient_kicks) = exact.split_at(first);
+        let scheme = Weights { scheme: self.scheme.summary().name, kicks: &linear[..kicks], gradient_kicks, maps };
+        Displacements::of(&scheme, self.h(), &self.weights()[first..])
+    }
+
     /// The maps of a step with their weights.
     fn maps(&self) -> Maps<'_, N> {
         Maps::new(self.weights(), self.scheme.maps(), self.scheme.middle(), self.scheme.gradient_kicks())
@@ -212,12 +240,8 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         if kind != closing || kind == MapKind::GradientKick || !of_two_parts || count < 2 {
             return self.steps(systems, count);
         }
-        let mut exact = Vec::new();
-        let zero = N::zero(&systems.first().map_or_else(|| self.weights()[0].context(), System::context));
-        self.scheme.weights(|weight| {
-            exact.push(weight.clone());
-            zero.clone()
-        });
+        let context = systems.first().map_or_else(|| self.weights()[0].context(), System::context);
+        let exact = self.exact_weights(&context);
         // the merged weight becomes the last of its kind
         let gradient_kicks = self.scheme.gradient_kicks();
         let (before, end) = match kind {
@@ -226,7 +250,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         };
         let merged = self.h() * (&exact[before + first] + &exact[before + last]);
         let mut weights = self.weights().to_vec();
-        weights.insert(end, N::from_rational(&merged, &zero.context()));
+        weights.insert(end, N::from_rational(&merged, &context));
         let kicks = if kind == MapKind::Kick { kicks + 1 } else { kicks };
         let mut advance = |maps: &[(MapKind, usize)], count| {
             M::advance(systems, Maps::new(&weights, (kicks, maps), (0, &[]), gradient_kicks), count);

@@ -7,6 +7,9 @@
 //! Along an exact flow of A the modified energy's β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt (Moan & Niesen, eq. 2). A quadratic form adds
 //! nothing; of p²/2m − κ/r the integrand is 3κ/r, and ∫dt/r is the universal anomaly s, which the [Kepler drift](crate::kepler_drift)
 //! has found anyway: **β += 3κ s**. B is homogeneous of degree −1, so that a kick adds −3B times its weight.
+//!
+//! In Jacobi coordinates B depends on Q only, and of A only T = Σ P²/2m′ does not commute with it. So `[B,[A,B]]` is `[B,[T,B]]`, and a gradient kick
+//! is the flow of −½B_QᵀM′⁻¹B_Q as for H = T + U. With v = M′⁻¹B_Q its rate of β is −vᵀ∂(−3B)/∂Q = 3vᵀB_Q.
 
 mod bodies;
 mod heliocentric;
@@ -20,6 +23,9 @@ pub use heliocentric::DemocraticHeliocentric;
 pub use jacobi::Jacobi;
 pub use orbits::Orbits;
 
+use crate::displaced::Displacements;
+use crate::gradient_kicks::{Curvature, GradientKicks, Place};
+use crate::kept::Kept;
 use crate::number::Number;
 use crate::system::{Increments, OwnedIncrements, Remainders, System};
 use sum::Sum;
@@ -31,6 +37,9 @@ use sum::Sum;
 pub trait PlanetaryCoordinates<N: Number, const D: usize> {
     /// [`Quadratic`](crate::kinetic::Quadratic) where the kick depends on Q only, else [`General`](crate::kinetic::General).
     type Class;
+
+    /// Whether the kick depends on Q only, so that `[B,[A,B]]` has a flow of its own: gradient kicks.
+    const HAS_GRADIENT_KICKS: bool;
 
     /// The coordinates for bodies of these masses.
     fn new(bodies: &Bodies, context: &N::Context) -> Self;
@@ -46,6 +55,9 @@ pub trait PlanetaryCoordinates<N: Number, const D: usize> {
 
     /// gradient ← ∂B/∂Q and, if asked for, rate ← QᵀB_Q − 2B = −3B, of the part of B that depends on Q.
     fn gradient_and_rate(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>);
+
+    /// product ← B_QQ v, of the part of B that depends on Q.
+    fn hessian_product(&mut self, q: &[N], v: &[N], product: &mut [N]);
 
     /// The velocity with which the part of B that depends on P moves all planets; there is none by default.
     fn jump(&mut self, p: &[N]) -> Option<&[N; D]> {
@@ -90,19 +102,13 @@ pub struct WisdomHolman<N: Number, C, const D: usize> {
     /// −3B
     rate: N,
     kept: Kept,
+    /// Once there was a gradient kick; what it keeps belongs to the Q of the last evaluation.
+    gradient_kicks: Option<Box<GradientKicks<N>>>,
     increments: OwnedIncrements<N>,
     orbits: orbits::Advance<N, D>,
     /// Of q and of p.
     sums: [Sum<N>; 2],
     evaluations: u64,
-}
-
-/// What is known of B at the present Q.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kept {
-    Nothing,
-    Gradient,
-    GradientAndRate,
 }
 
 impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C, D> {
@@ -125,6 +131,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
             gradient: zeros(),
             rate: N::zero(context),
             kept: Kept::Nothing,
+            gradient_kicks: None,
             increments: OwnedIncrements::zero(dimension, context),
             orbits: orbits::Advance::new(context),
             sums: [Sum::plain(context), Sum::plain(context)],
@@ -140,6 +147,14 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
     pub fn compensated(mut self) -> Self {
         let dimension = self.q.len();
         self.sums.iter_mut().for_each(|sum| sum.compensate(dimension));
+        self
+    }
+
+    /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see [`Displacements`].
+    #[must_use]
+    pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
+        let (dimension, context) = (self.q.len(), self.context());
+        self.gradient_kicks = Some(Box::new(GradientKicks::new(dimension, Some(displacements), &context)));
         self
     }
 
@@ -164,14 +179,37 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
 
     /// Evaluates the gradient at the present Q, unless it is known.
     fn evaluate(&mut self, with_rate: bool) {
-        let wanted = if with_rate { Kept::GradientAndRate } else { Kept::Gradient };
-        if self.kept == Kept::GradientAndRate || self.kept == wanted {
+        if self.kept.suffices(with_rate) {
             return;
         }
         let rate = with_rate.then_some(&mut self.rate);
         self.coordinates.gradient_and_rate(&self.q, &mut self.gradient, rate);
-        self.kept = wanted;
+        self.kept = if with_rate { Kept::GradientAndRate } else { Kept::Gradient };
         self.evaluations += 1;
+        if let Some(kicks) = &mut self.gradient_kicks {
+            kicks.kept = Kept::Nothing;
+        }
+    }
+
+    /// The gradient kick p ← p + weight·B_QQ M′⁻¹B_Q.
+    fn gradient_kick_by(&mut self, weight: &N, augmented: bool) {
+        assert!(
+            C::HAS_GRADIENT_KICKS,
+            "B depends on P in these coordinates: there are gradient kicks in Jacobi coordinates only"
+        );
+        self.evaluate(augmented);
+        let WisdomHolman { coordinates, q, p, gradient, rate, gradient_kicks, sums, increments, .. } = self;
+        let kicks =
+            gradient_kicks.get_or_insert_with(|| Box::new(GradientKicks::new(q.len(), None, &weight.context())));
+        let before = kicks.evaluations;
+        kicks.evaluate(&mut Interacting::<C, D>(coordinates), Place { q, gradient, rate }, weight, augmented);
+        if kicks.is_displaced() {
+            self.evaluations += kicks.evaluations - before;
+        }
+        sums[1].kick(p, weight, &kicks.force);
+        if augmented {
+            kicks.add_increments(weight, increments);
+        }
     }
 
     /// The jump and the kick by the gradient at the place where it ends: the two commute.
@@ -204,6 +242,34 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
         let WisdomHolman { coordinates, q, p, sums, increments, orbits, .. } = self;
         orbits.advance(coordinates.orbits(), weight, (q, p), sums, augmented.then_some(increments));
         self.kept = Kept::Nothing;
+    }
+}
+
+/// The second derivatives of B.
+struct Interacting<'a, C, const D: usize>(&'a mut C);
+
+impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> Curvature<N> for Interacting<'_, C, D> {
+    fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
+        // B does not depend on the centre of mass
+        let (centre, planets) = velocity.split_at_mut(D);
+        centre.iter_mut().for_each(N::assign_zero);
+        let orbits = &self.0.orbits().planets;
+        for ((velocity, gradient), orbit) in planets.chunks_mut(D).zip(gradient[D..].chunks(D)).zip(orbits) {
+            velocity.iter_mut().zip(gradient).for_each(|(v, gradient)| v.assign_quotient(gradient, &orbit.mass));
+        }
+    }
+
+    fn hessian_product(&mut self, at: Place<'_, N>, v: &[N], product: &mut [N], rate: Option<&mut N>) {
+        self.0.hessian_product(at.q, v, product);
+        let Some(rate) = rate else { return };
+        // QᵀB_Q − 2B = −3B
+        rate.assign_zero();
+        v.iter().zip(at.gradient).for_each(|(v, gradient)| rate.add_product(v, gradient));
+        rate.multiply_integer(-3);
+    }
+
+    fn gradient(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>) {
+        self.0.gradient_and_rate(q, gradient, rate);
     }
 }
 
@@ -259,6 +325,18 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for Wisdom
 
     fn drift_augmented(&mut self, weight: &N) {
         self.drift_by(weight, true);
+    }
+
+    fn has_gradient_kicks(&self) -> bool {
+        C::HAS_GRADIENT_KICKS
+    }
+
+    fn gradient_kick(&mut self, weight: &N) {
+        self.gradient_kick_by(weight, false);
+    }
+
+    fn gradient_kick_augmented(&mut self, weight: &N) {
+        self.gradient_kick_by(weight, true);
     }
 
     fn clear_increments(&mut self) {

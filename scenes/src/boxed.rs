@@ -71,6 +71,15 @@ impl<N: Number> System for Boxed<N> {
     fn middle_parts_augmented(&mut self, weight: &N, order: PartOrder) {
         of!(self, system => system.middle_parts_augmented(weight, order));
     }
+    fn has_gradient_kicks(&self) -> bool {
+        of!(self, system => system.has_gradient_kicks())
+    }
+    fn gradient_kick(&mut self, weight: &N) {
+        of!(self, system => system.gradient_kick(weight));
+    }
+    fn gradient_kick_augmented(&mut self, weight: &N) {
+        of!(self, system => system.gradient_kick_augmented(weight));
+    }
     fn clear_increments(&mut self) {
         of!(self, system => system.clear_increments());
     }

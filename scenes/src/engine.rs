@@ -69,7 +69,8 @@ pub(crate) fn follow<N: Rounded + 'static>(
     let compensated = scene.arithmetic.is_compensated();
     // the states of checkpoints are those of the steps
     let begin = if saved.is_some() { Begin::Step } else { Begin::InitialState };
-    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated, begin };
+    let displaced = scene.displaced;
+    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated, displaced, begin };
     scene.system.with(steps, state, context, recorder).map_err(|error| inconsistent(&error))?
 }
 

@@ -82,6 +82,10 @@ impl Ensemble {
             let message = format!("{} is a processed scheme, and ensembles have none of these", first.scheme.name);
             return Err(Error::usage(message, "use another scheme, or a sweep"));
         }
+        if first.displaced {
+            let message = "ensembles have no gradient kicks by displaced forces";
+            return Err(Error::usage(message, "leave `gradient_kicks` out, or use a sweep"));
+        }
         let observed = settings(family.source(), &first)?;
         Ok(Ensemble { family, columns, first, observed })
     }

@@ -61,7 +61,7 @@ impl Estimates<'_> {
             Propagator::Scheme(named) => {
                 let work = Following { estimates: self, take, context };
                 let (compensated, begin) = (self.compensated, Begin::InitialState);
-                let steps = Steps { scheme: &named.scheme, h: run.h, compensated, begin };
+                let steps = Steps { scheme: &named.scheme, h: run.h, compensated, displaced: false, begin };
                 let found = system.with(steps, system.start(context), context, work);
                 found.map_err(|error: MotionError| Error::usage(error.to_string(), "check the initial state"))?
             }

@@ -55,7 +55,7 @@ pub const SECTIONS: [Section; 11] = [
 ];
 
 /// All keys, section by section.
-pub const KEYS: [Key; 59] = [
+pub const KEYS: [Key; 60] = [
     key(
         "problem",
         "name",
@@ -250,6 +250,14 @@ pub const KEYS: [Key; 59] = [
          the shipped schemes.",
         "\"yoshida4\"",
         None,
+    ),
+    key(
+        "run",
+        "gradient_kicks",
+        "How gradient kicks are made: \"exact\", from second derivatives, or \"displaced\", by a force at displaced positions, which is not \
+         exactly symplectic.",
+        "\"displaced\"",
+        Some("\"exact\""),
     ),
     key("run", "first", "What a step begins with: \"kick\" or \"drift\".", "\"drift\"", Some("that of the table")),
     key(

@@ -162,17 +162,23 @@ pub fn check_general(named: &NamedScheme) -> Result<(), (String, String)> {
     Err((error.to_string(), format!("use a scheme such as {name}, which has order {order} for every T(p)")))
 }
 
-/// Whether a scheme can advance a system whose parts are not T(p) and U(q).
+/// Why a system has no gradient kicks, and what would be right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoGradientKicks {
+    /// What follows "the scheme has gradient kicks".
+    pub reason: &'static str,
+    /// What would be right.
+    pub hint: &'static str,
+}
+
+/// Whether a scheme can advance a system that perhaps has no gradient kicks.
 ///
 /// # Errors
-/// Gradient kicks, which these have not: a message and a hint.
-pub fn check_parts(named: &NamedScheme) -> Result<(), (String, String)> {
-    match named.scheme.gradient_kicks() {
-        0 => Ok(()),
-        _ => {
-            let message = format!("{} has gradient kicks, which are for T(p) and U(q) as parts", named.name);
-            Err((message, "use a scheme such as abah864, or parts = \"kinetic-potential\"".to_owned()))
-        }
+/// A scheme with gradient kicks for such a system: a message and a hint.
+pub fn check_gradient_kicks(named: &NamedScheme, none: Option<NoGradientKicks>) -> Result<(), (String, String)> {
+    match none.filter(|_| named.scheme.gradient_kicks() > 0) {
+        None => Ok(()),
+        Some(none) => Err((format!("{} has gradient kicks, {}", named.name, none.reason), none.hint.to_owned())),
     }
 }
 

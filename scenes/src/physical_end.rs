@@ -28,7 +28,8 @@ impl scene::Scene {
     /// A step whose state is not finite counts, so that the run finds it.
     fn count_steps(&self, until: &Rational) -> u64 {
         let compensated = self.arithmetic.is_compensated();
-        let steps = Steps { scheme: &self.scheme.scheme, h: &self.h, compensated, begin: Begin::InitialState };
+        let (displaced, begin) = (self.displaced, Begin::InitialState);
+        let steps = Steps { scheme: &self.scheme.scheme, h: &self.h, compensated, displaced, begin };
         self.arithmetic.compute(Counting { system: &self.system, steps, until })
     }
 }

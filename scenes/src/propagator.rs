@@ -57,15 +57,14 @@ impl Propagator {
             };
         }
         let named = library::scheme(word)?;
+        let usage = |(message, hint)| Error::usage(message, hint);
         if matches!(system.parts, Parts::Formulas(_)) {
-            let named = library::for_many_parts(&named).map_err(|(message, hint)| Error::usage(message, hint))?;
+            let named = library::for_many_parts(&named).map_err(usage)?;
             return Ok(Propagator::Scheme(Box::new(named)));
         }
+        library::check_gradient_kicks(&named, system.no_gradient_kicks()).map_err(usage)?;
         if system.has_general_kinetic() {
-            library::check_general(&named).map_err(|(message, hint)| Error::usage(message, hint))?;
-        }
-        if !matches!(system.parts, Parts::KineticAndPotential) {
-            library::check_parts(&named).map_err(|(message, hint)| Error::usage(message, hint))?;
+            library::check_general(&named).map_err(usage)?;
         }
         Ok(Propagator::Scheme(Box::new(named)))
     }

@@ -91,9 +91,9 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) ->
     let parts = parts(&mut reader, document, names.others, names.schemes);
     let Reader { toml, arithmetic, notes, .. } = reader;
     match (Faults::of(toml.faults), parts) {
-        (None, Some((system, run::Steps { scheme, h, until, steps }, output))) => {
+        (None, Some((system, run::Steps { scheme, displaced, h, until, steps }, output))) => {
             let steps = steps.map_or_else(OnceLock::new, OnceLock::from);
-            Ok(Scene { source: source.clone(), arithmetic, system, scheme, h, until, steps, output, notes })
+            Ok(Scene { source: source.clone(), arithmetic, system, scheme, displaced, h, until, steps, output, notes })
         }
         (Some(faults), _) => Err(faults),
         (None, None) => unreachable!("what cannot be read is a fault"),
@@ -163,7 +163,7 @@ fn parts(
     let kind = system.as_ref().map_or_else(Default::default, |system| run::Kind {
         general: system.has_general_kinetic(),
         transformed: system.transformed_time().is_some(),
-        other_parts: !matches!(system.parts, Parts::KineticAndPotential | Parts::Formulas(_)),
+        no_gradient_kicks: system.no_gradient_kicks(),
         many_parts: matches!(system.parts, Parts::Formulas(_)),
     });
     let steps = run::Steps::read(reader, &run, kind, schemes);

@@ -42,6 +42,8 @@ pub struct Scene {
     pub system: System,
     /// The scheme.
     pub scheme: NamedScheme,
+    /// Whether gradient kicks are by displaced forces: see [`shadowstep::displaced`].
+    pub displaced: bool,
     /// The step size h.
     pub h: Rational,
     /// The time at which the run ends, at the latest; `None` where time is transformed and the number of steps is given.

@@ -17,6 +17,8 @@ pub struct Steps<'a> {
     pub h: &'a Rational,
     /// Whether q and p are sums with remainders.
     pub compensated: bool,
+    /// Whether gradient kicks are by displaced forces, which the scheme must allow: see [`shadowstep::displaced`].
+    pub displaced: bool,
     /// At which state they begin.
     pub begin: Begin,
 }
@@ -49,18 +51,22 @@ impl scene::System {
     /// A state of another dimension.
     ///
     /// # Panics
-    /// If the step size is 0 or the scheme is not valid for T(p), which reading a system and its scheme excludes.
+    /// If the step size is 0, the scheme is not valid for T(p) or has gradient kicks that cannot be displaced as wanted, which reading a system and its scheme excludes.
     pub fn with<N: Rounded + 'static, W: Work<N>>(
         &self,
-        Steps { scheme, h, compensated, begin: at }: Steps<'_>,
+        Steps { scheme, h, compensated, displaced, begin: at }: Steps<'_>,
         (q, p): (Vec<N>, Vec<N>),
         context: &N::Context,
         work: W,
     ) -> Result<W::Output, MotionError> {
+        let displacements = || {
+            let stepper = displaced.then(|| stepper(scheme.clone(), h, context));
+            stepper.map(|stepper| stepper.displacements().expect("the scheme was read for displaced forces"))
+        };
         let other = match &self.parts {
             Parts::KineticAndPotential | Parts::Linear(_) => None,
             Parts::Formulas(formulas) => Some(self.in_formulas(formulas, (&q, &p), context)?),
-            Parts::WisdomHolman(planets) => Some(planets.system((&q, &p), compensated, context)?),
+            Parts::WisdomHolman(planets) => Some(planets.system((&q, &p), compensated, displacements(), context)?),
             Parts::TransformedTime(time) => {
                 Some(self.in_transformed_time(*time, (q.clone(), p.clone()), compensated, context)?)
             }
@@ -72,14 +78,21 @@ impl scene::System {
             };
             return Ok(begin(&stepper(scheme, h, context), system, at, work));
         }
-        let (potential, scheme) = (self.potential(context), scheme.clone());
+        let (potential, displacements, scheme) = (self.potential(context), displacements(), scheme.clone());
         if let Parts::Linear(stiffness) = &self.parts {
-            let system = LinearPart::new(potential, &self.exact_masses(), stiffness, &q, &p)?;
+            let mut system = LinearPart::new(potential, &self.exact_masses(), stiffness, &q, &p)?;
+            if let Some(displacements) = displacements {
+                system = system.displaced(displacements);
+            }
             return Ok(begin(&stepper(scheme, h, context), Boxed::Quadratic(Box::new(system)), at, work));
         }
         Ok(match self.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {
-                let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(compensated);
+                let mut motion = Motion::new(potential, kinetic, q, p)?;
+                if let Some(displacements) = displacements {
+                    motion = motion.displaced(displacements);
+                }
+                let motion = motion.compensated_if(compensated);
                 begin(&stepper(scheme, h, context), motion, at, work)
             }
             ClassifiedKinetic::General(kinetic) => {

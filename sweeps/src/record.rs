@@ -102,8 +102,9 @@ impl Computation for Measuring<'_> {
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         let scene = self.scene;
-        let compensated = scene.arithmetic.is_compensated();
-        let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated, begin: Begin::InitialState };
+        let (compensated, displaced) = (scene.arithmetic.is_compensated(), scene.displaced);
+        let begin = Begin::InitialState;
+        let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated, displaced, begin };
         let work = InNumbers::<N> { scene, keep: self.keep, stops: self.stops, context };
         let found = scene.system.with(steps, scene.system.start(context), context, work);
         found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))?

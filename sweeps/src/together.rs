@@ -38,10 +38,11 @@ pub(crate) fn allows(keep: &Keep) -> bool {
 
 /// Whether a run can be computed together with others like it.
 ///
-/// exp, log, sin, … of lanes are not those of the platform, which a run has alone; nor have lanes the maps of processed schemes.
+/// exp, log, sin, … of lanes are not those of the platform, which a run has alone; nor have lanes the maps of processed schemes and displaced forces.
 pub(crate) fn suits(scene: &Scene, keep: &Keep) -> bool {
     sums(scene).is_some()
         && scene.scheme.scheme.processor().is_empty()
+        && !scene.displaced
         && scene.steps() <= MOST_STEPS
         && !has_elementary_functions(scene, keep)
 }
@@ -76,6 +77,7 @@ fn steps(scene: &Scene) -> Steps<'_> {
         scheme: &scene.scheme.scheme,
         h: &scene.h,
         compensated: scene.arithmetic.is_compensated(),
+        displaced: false,
         begin: Begin::InitialState,
     }
 }

@@ -67,9 +67,6 @@ fn the_orders_are_those_proved() {
     let schemes: Vec<_> =
         (0..=7_u32).map(|k| all::<Float>(&rational(&format!("1/{}", 1_u64 << k)), &context)).collect();
     for (index, scheme) in schemes[0].iter().enumerate() {
-        if scheme.twin.gradient_kicks() > 0 {
-            continue; // the system has none
-        }
         let proved = scheme.summary.order_quadratic;
         let k = scheme.halvings(proved, DIGITS).min(7);
         let error = |k: u32| {

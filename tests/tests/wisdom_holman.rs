@@ -147,8 +147,7 @@ where
         let k = scheme.halvings(proved, DIGITS).min(exact.len() as u32 - 1);
         (scheme.name.clone(), f64::from(proved), error(index, k - 1) - error(index, k) - 1.0)
     };
-    // planets have no gradient kicks
-    schemes[0].iter().enumerate().filter(|(_, scheme)| scheme.twin.gradient_kicks() == 0).map(order).collect()
+    schemes[0].iter().enumerate().map(order).collect()
 }
 
 #[test]

@@ -36,7 +36,7 @@ impl Problem<'_> {
     /// The steps of a scheme.
     pub(crate) fn steps<'a>(&self, named: &'a NamedScheme, h: &'a Rational) -> Steps<'a> {
         let compensated = self.arithmetic.is_compensated();
-        Steps { scheme: &named.scheme, h, compensated, begin: Begin::InitialState }
+        Steps { scheme: &named.scheme, h, compensated, displaced: false, begin: Begin::InitialState }
     }
 
     /// Whether the runs go forward in time.

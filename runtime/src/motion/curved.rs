@@ -1,28 +1,30 @@
 //! What gradient kicks need beside the gradient.
 
-use super::kept::Kept;
+use crate::displaced::Displacements;
+use crate::gradient_kicks::{Curvature, GradientKicks, Place};
 use crate::kinetic::Kinetic;
 use crate::number::Number;
 use crate::potential::Potential;
 
-/// The force of gradient kicks, allocated when the first of them is made.
+/// The force of gradient kicks with its scratch space, allocated when the first of them is made.
 #[derive(Clone, Debug)]
 pub(super) struct Curved<N> {
-    /// −U_qq M⁻¹U_q: a gradient kick subtracts weight times it from p, as a kick the gradient.
-    pub(super) force: Vec<N>,
-    /// −vᵀ∂(qᵀU_q − 2U)/∂q with v = M⁻¹U_q: it adds weight times it to β.
-    pub(super) rate: N,
-    pub(super) kept: Kept,
-    /// The Hessian–vector products computed so far.
-    pub(super) evaluations: u64,
-    velocity: Vec<N>,
+    pub(super) kicks: GradientKicks<N>,
     one: N,
     /// The potential's, for Hessian–vector products.
     scratch: Vec<N>,
 }
 
+/// U(q) and T(p) with their scratch space.
+pub(super) struct Parts<'a, N, P, K> {
+    pub(super) potential: &'a mut P,
+    pub(super) kinetic: &'a K,
+    pub(super) scratch: &'a mut [N],
+    pub(super) kinetic_scratch: &'a mut [N],
+}
+
 impl<N: Number> Curved<N> {
-    /// Room for a potential's.
+    /// Room for the second derivatives of a potential.
     ///
     /// # Panics
     /// If the potential has no Hessian–vector product.
@@ -30,36 +32,61 @@ impl<N: Number> Curved<N> {
         let hessian = potential.hessian().expect(
             "gradient kicks need the Hessian–vector product of the potential: write it as a formula, or implement `Potential::hessian`",
         );
-        let zeros = |count: usize| vec![N::zero(context); count];
-        let mut scratch = zeros(hessian.hessian_scratch());
+        let mut scratch = vec![N::zero(context); hessian.hessian_scratch()];
         hessian.prepare_hessian(&mut scratch, context);
-        let (force, velocity) = (zeros(potential.dimension()), zeros(potential.dimension()));
-        let one = N::from_rational(&crate::Rational::from_integer(1.into()), context);
-        Curved { force, velocity, rate: N::zero(context), kept: Kept::Nothing, evaluations: 0, one, scratch }
+        Curved { scratch, ..Curved::with(None, potential.dimension(), context) }
     }
 
-    /// Computes the force, and the rate where it is wanted, from the gradient at q.
-    pub(super) fn evaluate(
+    /// Room for displaced forces.
+    pub(super) fn displaced(displacements: Displacements<N>, dimension: usize, context: &N::Context) -> Self {
+        Curved::with(Some(displacements), dimension, context)
+    }
+
+    fn with(displacements: Option<Displacements<N>>, dimension: usize, context: &N::Context) -> Self {
+        let one = N::from_rational(&crate::Rational::from_integer(1.into()), context);
+        Curved { kicks: GradientKicks::new(dimension, displacements, context), one, scratch: Vec::new() }
+    }
+
+    /// Computes the force for a gradient kick of this weight, and the rate where it is wanted, unless they are known.
+    pub(super) fn evaluate<P: Potential<N>, K: Kinetic<N>>(
         &mut self,
-        (potential, kinetic): (&impl Potential<N>, &impl Kinetic<N>),
-        (q, gradient): (&[N], &[N]),
+        parts: Parts<'_, N, P, K>,
+        at: Place<'_, N>,
+        weight: &N,
         with_rate: bool,
-        kinetic_scratch: &mut [N],
     ) {
-        let hessian = potential.hessian().expect("it was there before");
-        let Curved { force, rate, velocity, one, scratch, .. } = self;
+        let Curved { kicks, one, scratch } = self;
+        kicks.evaluate(&mut Curving { parts, one, hessian_scratch: scratch }, at, weight, with_rate);
+    }
+}
+
+struct Curving<'a, N, P, K> {
+    parts: Parts<'a, N, P, K>,
+    one: &'a N,
+    hessian_scratch: &'a mut [N],
+}
+
+impl<N: Number, P: Potential<N>, K: Kinetic<N>> Curvature<N> for Curving<'_, N, P, K> {
+    fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
         // the drift of a quadratic T moves by M⁻¹ times a vector
         velocity.iter_mut().for_each(N::assign_zero);
-        kinetic.drift(one, gradient, velocity, kinetic_scratch);
-        if with_rate {
-            hessian.hessian_product_and_rate(q, velocity, force, rate, scratch);
-            rate.negate();
-            self.kept = Kept::GradientAndRate;
-        } else {
-            hessian.hessian_product(q, velocity, force, scratch);
-            self.kept = Kept::Gradient;
+        self.parts.kinetic.drift(self.one, gradient, velocity, self.parts.kinetic_scratch);
+    }
+
+    fn hessian_product(&mut self, at: Place<'_, N>, v: &[N], product: &mut [N], rate: Option<&mut N>) {
+        let hessian = self.parts.potential.hessian().expect("it was there before");
+        match rate {
+            Some(rate) => hessian.hessian_product_and_rate(at.q, v, product, rate, self.hessian_scratch),
+            None => hessian.hessian_product(at.q, v, product, self.hessian_scratch),
         }
-        force.iter_mut().for_each(N::negate);
-        self.evaluations += 1;
+    }
+
+    fn gradient(&mut self, q: &[N], gradient: &mut [N], rate: Option<&mut N>) {
+        let Parts { potential, scratch, .. } = &mut self.parts;
+        potential.update(q);
+        match rate {
+            Some(rate) => potential.gradient_and_rate(q, gradient, rate, scratch),
+            None => potential.gradient(q, gradient, scratch),
+        }
     }
 }

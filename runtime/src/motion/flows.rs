@@ -1,7 +1,8 @@
 //! The flows of T(p) and U(q), and what they change.
 
-use super::curved::Curved;
-use super::kept::Kept;
+use super::curved::{Curved, Parts};
+use crate::gradient_kicks::{GradientKicks, Place};
+use crate::kept::Kept;
 use crate::kinetic::Kinetic;
 use crate::maps::{MapKind, Maps};
 use crate::number::Number;
@@ -72,7 +73,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
         };
         moving.evaluations += 1;
         if let Some(curved) = &mut self.curved {
-            curved.kept = Kept::Nothing;
+            curved.kicks.kept = Kept::Nothing;
         }
     }
 
@@ -96,23 +97,26 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
         moving: &mut Moving<N, V, S>,
         weight: &N,
         with_rate: bool,
-    ) -> &Curved<N>
+    ) -> &GradientKicks<N>
     where
         V: AsRef<[N]> + AsMut<[N]>,
         S: Summation<N>,
     {
         moving.settle();
-        if moving.kept == Kept::Nothing {
+        let is_displaced = self.curved.as_ref().is_some_and(|curved| curved.kicks.is_displaced());
+        if moving.kept == Kept::Nothing || is_displaced && !moving.kept.suffices(with_rate) {
             self.evaluate(moving, with_rate);
         }
-        let Flows { potential, kinetic, kinetic_scratch, curved, .. } = self;
+        let Flows { potential, kinetic, scratch, kinetic_scratch, curved, .. } = self;
         let curved = curved.get_or_insert_with(|| Box::new(Curved::new(potential, &weight.context())));
-        if curved.kept == Kept::Nothing || with_rate && curved.kept == Kept::Gradient {
-            let at = (moving.q.as_ref(), moving.gradient.as_ref());
-            curved.evaluate((potential, kinetic), at, with_rate, kinetic_scratch);
+        let at = Place { q: moving.q.as_ref(), gradient: moving.gradient.as_ref(), rate: &moving.rate };
+        let before = curved.kicks.evaluations;
+        curved.evaluate(Parts { potential, kinetic, scratch, kinetic_scratch }, at, weight, with_rate);
+        if is_displaced {
+            moving.evaluations += curved.kicks.evaluations - before;
         }
-        moving.summation.kick(weight, &curved.force, moving.p.as_mut());
-        curved
+        moving.summation.kick(weight, &curved.kicks.force, moving.p.as_mut());
+        &curved.kicks
     }
 
     #[inline(always)]

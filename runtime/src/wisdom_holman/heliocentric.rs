@@ -36,6 +36,8 @@ pub struct DemocraticHeliocentric<N, const D: usize> {
 impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHeliocentric<N, D> {
     type Class = General;
 
+    const HAS_GRADIENT_KICKS: bool = false;
+
     fn new(bodies: &Bodies, context: &N::Context) -> Self {
         let number = |value: &Rational| N::from_rational(value, context);
         let (central, planets) = bodies.masses.split_first().expect("two bodies or more");
@@ -97,6 +99,12 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for DemocraticHelioce
         let (centre, planets) = gradient.split_at_mut(D);
         centre.iter_mut().for_each(N::assign_zero);
         self.interactions.assign_gradient(&q[D..], planets, rate);
+    }
+
+    fn hessian_product(&mut self, q: &[N], v: &[N], product: &mut [N]) {
+        let (centre, planets) = product.split_at_mut(D);
+        centre.iter_mut().for_each(N::assign_zero);
+        self.interactions.assign_hessian_product(&q[D..], &v[D..], planets);
     }
 
     fn jump(&mut self, p: &[N]) -> Option<&[N; D]> {

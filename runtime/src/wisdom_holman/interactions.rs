@@ -1,8 +1,8 @@
 //! Sums of Newton's potential over chosen pairs of bodies, from the formula of the pair.
 
 use crate::number::Number;
-use crate::pairs::{PairPotential, Pairs};
-use crate::potential::Potential;
+use crate::pairs::{PairCurvature, PairPotential, Pairs};
+use crate::potential::{HessianProduct, Potential};
 use crate::problems::Gravity;
 
 use super::bodies::Bodies;
@@ -15,9 +15,17 @@ pub(super) struct Interactions<N, const D: usize> {
     /// The same formula, for pairs of masses one by one.
     single: Gravity<N>,
     single_scratch: Vec<N>,
+    /// Those of second derivatives, of all planets and of pairs of masses.
+    hessian_scratch: Vec<N>,
+    curvature_scratch: Vec<N>,
     squared: N,
     slope: N,
     part: N,
+}
+
+/// The formula of Newton's potential has second derivatives.
+fn curved<N: Number>(pair: &Gravity<N>) -> &dyn PairCurvature<N> {
+    pair.curved().expect("they are derived with the formula")
 }
 
 impl<N: Number, const D: usize> Interactions<N, D> {
@@ -33,8 +41,22 @@ impl<N: Number, const D: usize> Interactions<N, D> {
         planets.prepare(&mut scratch, context);
         let mut single_scratch = zeros(single.scratch());
         single.prepare(&mut single_scratch, context);
-        let zero = || N::zero(context);
-        Interactions { planets, scratch, single, single_scratch, squared: zero(), slope: zero(), part: zero() }
+        let mut hessian_scratch = zeros(HessianProduct::<N>::hessian_scratch(&planets));
+        planets.prepare_hessian(&mut hessian_scratch, context);
+        let mut curvature_scratch = zeros(curved(&single).curvature_scratch());
+        curved(&single).prepare_curvature(&mut curvature_scratch, context);
+        let [squared, slope, part] = std::array::from_fn(|_| N::zero(context));
+        Interactions {
+            planets,
+            scratch,
+            single,
+            single_scratch,
+            hessian_scratch,
+            curvature_scratch,
+            squared,
+            slope,
+            part,
+        }
     }
 
     /// gradient ← U_x of the attraction between the planets and, if asked for, rate ← −3U
@@ -43,6 +65,46 @@ impl<N: Number, const D: usize> Interactions<N, D> {
             None => self.planets.gradient(x, gradient, &mut self.scratch),
             Some(rate) => self.planets.gradient_and_rate(x, gradient, rate, &mut self.scratch),
         }
+    }
+
+    /// product ← U_xx v of the attraction between the planets
+    pub(super) fn assign_hessian_product(&mut self, x: &[N], v: &[N], product: &mut [N]) {
+        self.planets.hessian_product(x, v, product, &mut self.hessian_scratch);
+    }
+
+    /// Adds u_xx v of the attraction between two masses at the distance |x| to a product.
+    pub(super) fn add_single_product(&mut self, (i, j): (usize, usize), x: &[N; D], v: &[N; D], product: &mut [N; D]) {
+        self.assign_single_curvature((i, j), x, v);
+        for (sum, (x, v)) in product.iter_mut().zip(x.iter().zip(v)) {
+            sum.add_product(&self.slope, v);
+            sum.add_product(&self.part, x);
+        }
+    }
+
+    /// Subtracts the same.
+    pub(super) fn subtract_single_product(
+        &mut self,
+        (i, j): (usize, usize),
+        x: &[N; D],
+        v: &[N; D],
+        product: &mut [N; D],
+    ) {
+        self.assign_single_curvature((i, j), x, v);
+        for (sum, (x, v)) in product.iter_mut().zip(x.iter().zip(v)) {
+            sum.subtract_product(&self.slope, v);
+            sum.subtract_product(&self.part, x);
+        }
+    }
+
+    /// slope and part, with which u_xx v = slope v + part x.
+    fn assign_single_curvature(&mut self, (i, j): (usize, usize), x: &[N; D], v: &[N; D]) {
+        let Interactions { single, curvature_scratch, squared, slope, part, .. } = self;
+        squared.assign_zero();
+        x.iter().for_each(|x| squared.add_product(x, x));
+        curved(single).curvature(i, j, squared, slope, part, curvature_scratch);
+        squared.assign_zero();
+        x.iter().zip(v).for_each(|(x, v)| squared.add_product(x, v));
+        part.multiply(squared);
     }
 
     /// energy ← U of the attraction between the planets

@@ -28,12 +28,16 @@ pub struct Jacobi<N, const D: usize> {
     /// Positions of the planets relative to the central body, and their gradient.
     relative: Vec<N>,
     slopes: Vec<N>,
+    /// A direction in these coordinates, where second derivatives are wanted.
+    direction: Vec<N>,
     /// A running sum.
     sum: [N; D],
 }
 
 impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
     type Class = Quadratic;
+
+    const HAS_GRADIENT_KICKS: bool = true;
 
     fn new(bodies: &Bodies, context: &N::Context) -> Self {
         let number = |value: &Rational| N::from_rational(value, context);
@@ -55,6 +59,7 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
             interactions: Interactions::new(bodies, inner, context),
             relative: zeros(),
             slopes: zeros(),
+            direction: zeros(),
             sum: std::array::from_fn(|_| N::zero(context)),
         }
     }
@@ -99,8 +104,8 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
     }
 
     fn gradient_and_rate(&mut self, q: &[N], gradient: &mut [N], mut rate: Option<&mut N>) {
-        self.assign_relative(q);
         let Jacobi { shares, interactions, relative, slopes, sum, .. } = self;
+        assign_relative(shares, q, relative, sum);
         interactions.assign_gradient(relative, slopes, rate.as_deref_mut());
         let bodies = shares.len() + 1;
         let ((relative, _), (slopes, _)) = (relative.as_chunks::<D>(), slopes.as_chunks_mut::<D>());
@@ -112,21 +117,39 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
             if i > 1 {
                 interactions.add_single((0, i), &relative[i - 1], &mut slopes[i - 1], rate.as_deref_mut());
             }
-            // x_k = Q_k + Σ_{j<k} m_j/η_j Q_j
-            for ((gradient, slope), sum) in gradient[i].iter_mut().zip(&slopes[i - 1]).zip(&mut *sum) {
-                gradient.assign(slope);
-                gradient.add_product(&shares[i - 1][0], sum);
-                sum.add(slope);
-            }
+            gather(&shares[i - 1][0], &slopes[i - 1], sum, &mut gradient[i]);
             if i > 1 {
                 interactions.subtract_single((i, bodies + i - 1), &q[i], &mut gradient[i], rate.as_deref_mut());
             }
         }
     }
 
+    /// By the chain rule: as the gradient, with second derivatives in the direction that v has in heliocentric positions.
+    fn hessian_product(&mut self, q: &[N], v: &[N], product: &mut [N]) {
+        let Jacobi { shares, interactions, relative, slopes, direction, sum, .. } = self;
+        assign_relative(shares, q, relative, sum);
+        assign_relative(shares, v, direction, sum);
+        interactions.assign_hessian_product(relative, direction, slopes);
+        let bodies = shares.len() + 1;
+        let ((relative, _), (direction, _)) = (relative.as_chunks::<D>(), direction.as_chunks::<D>());
+        let ((slopes, _), (product, _)) = (slopes.as_chunks_mut::<D>(), product.as_chunks_mut::<D>());
+        let ((q, _), (v, _)) = (q.as_chunks::<D>(), v.as_chunks::<D>());
+        product[0].iter_mut().for_each(N::assign_zero);
+        sum.iter_mut().for_each(N::assign_zero);
+        for i in (1..bodies).rev() {
+            if i > 1 {
+                interactions.add_single_product((0, i), &relative[i - 1], &direction[i - 1], &mut slopes[i - 1]);
+            }
+            gather(&shares[i - 1][0], &slopes[i - 1], sum, &mut product[i]);
+            if i > 1 {
+                interactions.subtract_single_product((i, bodies + i - 1), &q[i], &v[i], &mut product[i]);
+            }
+        }
+    }
+
     fn assign_interaction_energy(&mut self, (q, _): (&[N], &[N]), energy: &mut N) {
-        self.assign_relative(q);
-        let Jacobi { shares, interactions, relative, .. } = self;
+        let Jacobi { shares, interactions, relative, sum, .. } = self;
+        assign_relative(shares, q, relative, sum);
         interactions.assign_energy(relative, energy);
         let bodies = shares.len() + 1;
         let ((relative, _), (q, _)) = (relative.as_chunks::<D>(), q.as_chunks::<D>());
@@ -137,17 +160,24 @@ impl<N: Number, const D: usize> PlanetaryCoordinates<N, D> for Jacobi<N, D> {
     }
 }
 
-impl<N: Number, const D: usize> Jacobi<N, D> {
-    /// relative ← q_i − q_0 = Q_i + Σ_{j<i} m_j/η_j Q_j
-    fn assign_relative(&mut self, q: &[N]) {
-        let Jacobi { shares, relative, sum, .. } = self;
-        sum.iter_mut().for_each(N::assign_zero);
-        let planets = q.as_chunks::<D>().0[1..].iter().zip(relative.as_chunks_mut::<D>().0);
-        for ([own, _], (q, relative)) in shares.iter().zip(planets) {
-            for ((relative, q), sum) in relative.iter_mut().zip(q).zip(&mut *sum) {
-                relative.assign_sum(q, sum);
-                sum.add_product(own, q);
-            }
+/// relative ← q_i − q_0 = Q_i + Σ_{j<i} m_j/η_j Q_j
+fn assign_relative<N: Number, const D: usize>(shares: &[[N; 2]], q: &[N], relative: &mut [N], sum: &mut [N; D]) {
+    sum.iter_mut().for_each(N::assign_zero);
+    let planets = q.as_chunks::<D>().0[1..].iter().zip(relative.as_chunks_mut::<D>().0);
+    for ([own, _], (q, relative)) in shares.iter().zip(planets) {
+        for ((relative, q), sum) in relative.iter_mut().zip(q).zip(&mut *sum) {
+            relative.assign_sum(q, sum);
+            sum.add_product(own, q);
         }
+    }
+}
+
+/// The derivative by Q_i from that by x_i = Q_i + Σ_{j<i} m_j/η_j Q_j, from the last planet to the first; `sum` is that by all x_k, k > i.
+#[inline(always)]
+fn gather<N: Number, const D: usize>(share: &N, slope: &[N; D], sum: &mut [N; D], gradient: &mut [N; D]) {
+    for ((gradient, slope), sum) in gradient.iter_mut().zip(slope).zip(sum) {
+        gradient.assign(slope);
+        gradient.add_product(share, sum);
+        sum.add(slope);
     }
 }

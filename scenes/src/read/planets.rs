@@ -493,7 +493,7 @@ mod tests {
     #[test]
     fn schemes_that_planets_do_not_have_are_refused() {
         for (parts, scheme, fault) in [
-            ("wisdom-holman", "chin-4a", "has gradient kicks"),
+            ("wisdom-holman-heliocentric", "chin-4a", "chin-4a has gradient kicks, but in heliocentric coordinates"),
             ("wisdom-holman-heliocentric", "blanes-moan-srkn11b", "quadratic"),
         ] {
             let text = scene(&format!("parts = \"{parts}\"\nparameters = {{ g = 1 }}"), "a = 4");
@@ -501,6 +501,24 @@ mod tests {
             let faults = read(&text.replace("abah864", scheme)).map(drop).unwrap_err();
             assert!(faults.len() == 1 && faults[0].contains(fault), "{faults:?}");
         }
+    }
+
+    #[test]
+    fn gradient_kicks_are_exact_or_by_displaced_forces() {
+        let text = scene("parts = \"wisdom-holman\"\nparameters = { g = 1 }", "a = 4").replace("abah864", "chin-4a");
+        let displaced = text.replace("[run]", "[run]\ngradient_kicks = \"displaced\"");
+        let rows = [&text, &displaced].map(|text| {
+            let mut rows = Vec::new();
+            read(text).unwrap().run_into(&mut rows, &mut ()).unwrap();
+            String::from_utf8(rows).unwrap()
+        });
+        let without_head = |text: &String| text.lines().filter(|line| !line.starts_with('#')).collect::<String>();
+        assert_ne!(without_head(&rows[0]), without_head(&rows[1]));
+        assert!(rows[1].contains("gradient_kicks: displaced") && !rows[0].contains("gradient_kicks"));
+        let faults = read(&displaced.replace("chin-4a", "abah864")).map(drop).unwrap_err();
+        assert!(faults.len() == 1 && faults[0].contains("abah864 has no gradient kicks"), "{faults:?}");
+        let faults = read(&displaced.replace("\"displaced\"", "\"lazy\"")).map(drop).unwrap_err();
+        assert!(faults.len() == 1 && faults[0].contains("`lazy` is not known here"), "{faults:?}");
     }
 
     #[test]

@@ -1,16 +1,17 @@
 //! [run]: the scheme, its steps and the digits.
 
+use std::ops::Range;
 use std::path::Path;
 
 use num_traits::{Signed, Zero};
-use shadowstep::Rational;
+use shadowstep::{Rational, Stepper};
 use shadowstep_schemes::First;
 use shadowstep_symbolic::decimal::to_text;
 use toml::de::DeValue;
 
 use super::reader::Reader;
 use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS, OTHER_SCHEME};
-use crate::library::{self, LibraryError, NamedScheme, Schemes};
+use crate::library::{self, LibraryError, NamedScheme, NoGradientKicks, Schemes};
 use crate::note::Note;
 use crate::steps::{self, MOST_STEPS, WrongValue};
 use shadowstep_schemes::document::{Section, Text};
@@ -38,8 +39,8 @@ pub(super) struct Kind {
     pub(super) general: bool,
     /// Steps in a fictitious time.
     pub(super) transformed: bool,
-    /// Kicks and drifts only, as the parts are not T(p) and U(q).
-    pub(super) other_parts: bool,
+    /// A scheme without gradient kicks, for this reason.
+    pub(super) no_gradient_kicks: Option<NoGradientKicks>,
     /// Steps for three parts and more.
     pub(super) many_parts: bool,
 }
@@ -47,6 +48,8 @@ pub(super) struct Kind {
 /// The section [run].
 pub(super) struct Steps {
     pub(super) scheme: NamedScheme,
+    /// As in [`Scene`](crate::scene::Scene).
+    pub(super) displaced: bool,
     pub(super) h: Rational,
     /// As in [`Scene`](crate::scene::Scene).
     pub(super) until: Option<Rational>,
@@ -67,12 +70,21 @@ impl Steps {
                 None
             }
         };
+        let displaced = match run.get("gradient_kicks") {
+            None => Some(None),
+            Some(value) => {
+                reader.word(value, &[("exact", false), ("displaced", true)]).map(|wanted| Some((value.span(), wanted)))
+            }
+        };
         let times = times(reader, run, kind.transformed);
         if matches!(first, Some(None)) {
             return None;
         }
         let (h, until, steps) = times?;
-        Some(Steps { scheme: scheme?, h, until, steps })
+        let scheme = scheme?;
+        let displaced =
+            displaced?.map_or(Some(false), |(at, wanted)| displaced_forces(reader, &at, wanted, &scheme))?;
+        Some(Steps { scheme, displaced, h, until, steps })
     }
 }
 
@@ -92,8 +104,9 @@ fn scheme(
             return None;
         }
     };
-    let valid = if kind.general && !kind.many_parts { library::check_general(&named) } else { Ok(()) };
-    let valid = valid.and_then(|()| if kind.other_parts { library::check_parts(&named) } else { Ok(()) });
+    let valid = library::check_gradient_kicks(&named, kind.no_gradient_kicks);
+    let general = kind.general && !kind.many_parts;
+    let valid = valid.and_then(|()| if general { library::check_general(&named) } else { Ok(()) });
     let valid = valid.and_then(|()| if kind.transformed { library::check_transformed_time(&named) } else { Ok(()) });
     let in_parts =
         valid.and_then(|()| if kind.many_parts { schemes.for_many_parts(&named).map(Some) } else { Ok(None) });
@@ -121,6 +134,19 @@ fn near_integrable(named: &NamedScheme) -> Option<Note> {
     let proved = named.scheme.proved();
     proved.scheme.table.near_integrable.as_ref()?;
     Some(Note::NearIntegrable { scheme: named.name.clone(), order: proved.proof.many_parts.as_ref()?.order })
+}
+
+/// Whether gradient kicks are by displaced forces, which the scheme must allow.
+fn displaced_forces(reader: &mut Reader<'_>, at: &Range<usize>, wanted: bool, named: &NamedScheme) -> Option<bool> {
+    // with any step size
+    let stepper = Stepper::<_, f64>::new(named.scheme.clone(), "1").expect("it is not 0");
+    match stepper.displacements() {
+        Err(error) if wanted => {
+            let hint = "leave `gradient_kicks` out, or use a scheme such as chin-4a";
+            reader.toml.wrong(at, error.to_string(), hint)
+        }
+        _ => Some(wanted),
+    }
 }
 
 /// h, the end and the number of steps.

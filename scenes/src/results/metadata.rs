@@ -42,6 +42,7 @@ impl Metadata {
             ("scheme_order", json!(order.order)),
             ("digits", json!(scene.arithmetic.label())),
         ]);
+        all.extend(scene.displaced.then(|| ("gradient_kicks", json!("displaced"))));
         // the same digits may be MPFR's, with other last places
         all.extend(scene.arithmetic.limbs().map(|limbs| ("limbs", json!(limbs))));
         all.extend(system(&scene.system, scene.arithmetic));

@@ -1,5 +1,6 @@
 //! How H is split into parts.
 
+use shadowstep::displaced::Displacements;
 use shadowstep::transformed_time::TimeTransformation;
 use shadowstep::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{MotionError, Number, Rational, System as _};
@@ -138,6 +139,7 @@ impl Planets {
         &self,
         (q, p): (&[N], &[N]),
         compensated: bool,
+        displacements: Option<Displacements<N>>,
         context: &N::Context,
     ) -> Result<Boxed<N>, MotionError> {
         let (coordinates, dimension) = (q.len(), self.bodies.count() * self.dimensions);
@@ -149,10 +151,12 @@ impl Planets {
         }
         let mut system = match (self.coordinates, self.dimensions) {
             (Canonical::Jacobi, 2) => {
-                Boxed::Quadratic(Box::new(self.at_rest::<N, Jacobi<N, 2>, 2>(compensated, context)))
+                let system = self.at_rest::<N, Jacobi<N, 2>, 2>(compensated, context);
+                Boxed::Quadratic(Box::new(by_forces(system, displacements)))
             }
             (Canonical::Jacobi, _) => {
-                Boxed::Quadratic(Box::new(self.at_rest::<N, Jacobi<N, 3>, 3>(compensated, context)))
+                let system = self.at_rest::<N, Jacobi<N, 3>, 3>(compensated, context);
+                Boxed::Quadratic(Box::new(by_forces(system, displacements)))
             }
             (Canonical::DemocraticHeliocentric, 2) => {
                 Boxed::General(Box::new(self.at_rest::<N, DemocraticHeliocentric<N, 2>, 2>(compensated, context)))
@@ -204,5 +208,16 @@ impl Planets {
         context: &N::Context,
     ) {
         C::new(&self.bodies, context).assign_from_inertial(inertial, own);
+    }
+}
+
+/// With gradient kicks by displaced forces, if these are given.
+fn by_forces<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize>(
+    system: WisdomHolman<N, C, D>,
+    displacements: Option<Displacements<N>>,
+) -> WisdomHolman<N, C, D> {
+    match displacements {
+        Some(displacements) => system.displaced(displacements),
+        None => system,
     }
 }

@@ -8,6 +8,7 @@ use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, S
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_text;
 
+use crate::library::NoGradientKicks;
 use crate::scene::pairs::PairEnergy;
 use crate::scene::parameters::rounded;
 use crate::scene::parts::{Canonical, Parts, Shown};
@@ -135,7 +136,7 @@ impl System {
             Parts::WisdomHolman(planets) => {
                 let (q, p) = self.start(context);
                 let mut system =
-                    planets.system((&q, &p), false, context).expect("the dimensions were read with the system");
+                    planets.system((&q, &p), false, None, context).expect("the dimensions were read with the system");
                 Box::new(move |q, p| system.energy_at(q, p))
             }
             Parts::Formulas(formulas) => {
@@ -189,6 +190,22 @@ impl System {
         let kinetic = KineticEnergy::Masses(values.masses().map(<[_]>::to_vec));
         let (potential, parts) = (PotentialEnergy::Shipped(setup), Parts::KineticAndPotential);
         System { potential, kinetic, parts, parameters, coordinates, momenta, q, p }
+    }
+
+    /// Why it has no gradient kicks; `None` where it has them, or T is not quadratic.
+    pub fn no_gradient_kicks(&self) -> Option<NoGradientKicks> {
+        match &self.parts {
+            Parts::KineticAndPotential | Parts::Linear(_) | Parts::Formulas(_) => None,
+            Parts::WisdomHolman(planets) if planets.coordinates == Canonical::Jacobi => None,
+            Parts::WisdomHolman(_) => Some(NoGradientKicks {
+                reason: "but in heliocentric coordinates the kicks depend on the momenta, so that [B,[A,B]] is no kick",
+                hint: "write parts = \"wisdom-holman\" for Jacobi coordinates, or use a scheme such as abah864",
+            }),
+            Parts::TransformedTime(_) => Some(NoGradientKicks {
+                reason: "but in transformed time no part of H is a quadratic form of the momenta",
+                hint: "use a composition of the leapfrog, such as sofroniou-spaletta6-13",
+            }),
+        }
     }
 
     /// Whether schemes for quadratic T only do not move it.

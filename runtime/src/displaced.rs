@@ -1,0 +1,108 @@
+//! Gradient kicks by a force at displaced positions, in place of second derivatives.
+
+use thiserror::Error;
+
+use crate::Rational;
+use crate::maps::MapKind;
+use crate::number::{Number, Ordered};
+
+/// How far the gradient kicks of a stepper displace the positions at which the force is evaluated once more.
+///
+/// A kick of weight a with a gradient kick of weight c becomes
+///
+/// p −= h a U_q(q′), q′ = q − δ M⁻¹U_q(q), δ = 2h²c/a,
+///
+/// which agrees with the exact one, p −= h a (U_q − δ U_qq M⁻¹U_q), but for h a δ². It takes a force in place of a Hessian–vector product, and
+/// **is not exactly symplectic**: U_q(q′) as a function of q has a curl of order δ², but for one degree of freedom. So the modified energy drifts.
+///
+/// In the run of steps, the gradient kick adds h a (U_q(q) − U_q(q′)) to the kick. To β the two add h a times the rate qᵀU_q − 2U at q′: it is that of the
+/// potential W = U(q′) + (δ/2) U_q(q)ᵀM⁻¹U_q(q′), with U_q(q′) in the place of W_q, from which it differs by order δ².
+///
+/// [`Stepper::displacements`](crate::Stepper::displacements) computes them; a system takes them where it is made, as
+/// [`Motion::displaced`](crate::Motion::displaced).
+///
+/// Sources: Wisdom, Holman & Touma, Fields Inst. Commun. 10 (1996) 217; Yin & Mawhinney, arXiv:1111.5059; Rein, Tamayo & Brown, Mon. Not. R.
+/// Astron. Soc. 489 (2019) 4632, whose "lazy implementer's kernel" it is.
+#[derive(Clone, Debug)]
+pub struct Displacements<N> {
+    /// Weights 2h³c and δ.
+    known: Vec<(N, N)>,
+    is_equal: fn(&N, &N) -> bool,
+}
+
+/// A scheme whose gradient kicks no displaced forces can replace.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum DisplacementError {
+    /// There is no gradient kick.
+    #[error("{scheme} has no gradient kicks that displaced forces could replace")]
+    NoGradientKicks {
+        /// The scheme's name.
+        scheme: String,
+    },
+    /// A gradient kick stands alone.
+    #[error("{scheme} has a gradient kick without a kick at the same q, whose force could be displaced")]
+    NoKick {
+        /// The scheme's name.
+        scheme: String,
+    },
+    /// The weight of a gradient kick does not tell which kick it belongs to.
+    #[error(
+        "{scheme} has gradient kicks of equal weight with kicks of different weights: forces cannot be displaced for both"
+    )]
+    Ambiguous {
+        /// The scheme's name.
+        scheme: String,
+    },
+}
+
+/// The weights of a scheme, exact, and its maps in their order.
+pub(crate) struct Weights<'a> {
+    pub(crate) scheme: &'a str,
+    pub(crate) kicks: &'a [Rational],
+    pub(crate) gradient_kicks: &'a [Rational],
+    pub(crate) maps: &'a [(MapKind, usize)],
+}
+
+impl<N: Ordered> Displacements<N> {
+    /// Those of a scheme with the step size h; `weights` are the numbers 2h³c.
+    pub(crate) fn of(scheme: &Weights<'_>, h: &Rational, weights: &[N]) -> Result<Self, DisplacementError> {
+        let name = || scheme.scheme.to_owned();
+        let mut found: Vec<Option<Rational>> = vec![None; weights.len()];
+        for stage in scheme.maps.split(|(kind, _)| *kind == MapKind::Drift) {
+            let Some((_, gradient)) = stage.iter().find(|(kind, _)| *kind == MapKind::GradientKick) else { continue };
+            let kick = stage.iter().find(|(kind, _)| *kind == MapKind::Kick);
+            let (_, kick) = kick.ok_or_else(|| DisplacementError::NoKick { scheme: name() })?;
+            let ratio = &scheme.gradient_kicks[*gradient] / &scheme.kicks[*kick];
+            match &found[*gradient] {
+                Some(known) if *known != ratio => return Err(DisplacementError::Ambiguous { scheme: name() }),
+                _ => found[*gradient] = Some(ratio),
+            }
+        }
+        let twice_square = h * h * Rational::from_integer(2.into());
+        let displacement = |(weight, ratio): (&N, Rational)| {
+            (weight.clone(), N::from_rational(&(ratio * &twice_square), &weight.context()))
+        };
+        let known: Vec<_> = weights.iter().zip(found.into_iter().flatten()).map(displacement).collect();
+        match known.is_empty() {
+            true => Err(DisplacementError::NoGradientKicks { scheme: name() }),
+            false => Ok(Displacements { known, is_equal: |a, b| a == b }),
+        }
+    }
+}
+
+impl<N: Number> Displacements<N> {
+    /// The place of a gradient kick's weight, or of its negative for a step back, and δ.
+    ///
+    /// # Panics
+    /// If the stepper with these displacements has no such weight.
+    pub(crate) fn of_weight(&self, weight: &N) -> (usize, &N) {
+        let mut negative = weight.clone();
+        negative.negate();
+        let is = |(known, _): &(N, N)| (self.is_equal)(known, weight) || (self.is_equal)(known, &negative);
+        let place = self.known.iter().position(is);
+        let place = place.expect(
+            "the displacements of gradient kicks belong to another stepper: make the system with those of this one",
+        );
+        (place, &self.known[place].1)
+    }
+}
