@@ -1,13 +1,20 @@
-//! Whether the gradient and the rate of a potential belong to its energy.
+//! Whether the gradient and the rate of a potential belong to its energy, and its Hessian–vector product to both.
 
+mod checked;
+mod comparison;
 mod derivative;
+mod hessian;
+
+pub use self::comparison::{Agreement, Comparison};
+pub use self::hessian::HessianCheck;
 
 use std::fmt;
 
+use self::checked::Checked;
+use self::comparison::add_absolute_product;
 use self::derivative::{Derivative, directional_derivative};
-use crate::Rational;
 use crate::motion::MotionError;
-use crate::number::{Ordered, epsilon};
+use crate::number::Ordered;
 use crate::potential::Potential;
 
 /// Compares the gradient and the rate of a potential with its energy at states of your choice.
@@ -16,6 +23,8 @@ use crate::potential::Potential;
 ///   three directions in which all coordinates change; where one differs, a coordinate is found by bisection.
 /// - The gradient that comes with the rate with the gradient alone.
 /// - The rate with qᵀU_q − 2U.
+/// - Where there is a Hessian–vector product U_qq v, it and its rate with the derivatives of the gradient and of the rate along v, in two
+///   directions.
 ///
 /// A comparison costs some 120 evaluations of the energy at a state, whatever the dimension, and 80 log₂ d more to find a coordinate.
 /// States in which forces act, and no symmetry makes them vanish, say most. Where forces are not smooth, as at a cutoff, the
@@ -57,6 +66,9 @@ where
         worst.gradient.keep_worse(check.gradient);
         worst.gradient_with_rate.keep_worse(check.gradient_with_rate);
         worst.rate.keep_worse(check.rate);
+        if let (Some(worst), Some(check)) = (&mut worst.hessian, check.hessian) {
+            worst.keep_worse(check);
+        }
     }
     Ok(worst)
 }
@@ -70,98 +82,20 @@ pub struct PotentialCheck<N> {
     pub gradient_with_rate: Comparison<N>,
     /// The rate and qᵀU_q − 2U.
     pub rate: Comparison<N>,
+    /// The Hessian–vector product, where the potential has one.
+    pub hessian: Option<HessianCheck<N>>,
 }
 
-impl<N> PotentialCheck<N> {
+impl<N: Ordered> PotentialCheck<N> {
     /// Whether everything agrees.
     pub fn agrees(&self) -> bool {
         let all = [&self.gradient, &self.gradient_with_rate, &self.rate];
-        all.into_iter().all(|comparison| comparison.agreement == Agreement::Agrees)
+        let of_hessian = self.hessian.iter().flat_map(HessianCheck::all);
+        all.into_iter().chain(of_hessian).all(|comparison| comparison.agreement == Agreement::Agrees)
     }
 }
 
-/// The result of a comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Agreement {
-    /// The difference is within the uncertainty, and that is small.
-    Agrees,
-    /// The uncertainty is too large, or the difference is a few times that.
-    Undecided,
-    /// The difference is more than a hundred times the uncertainty.
-    Differs,
-}
-
-/// A comparison at a state.
-#[derive(Clone, Debug)]
-pub struct Comparison<N> {
-    /// Its result.
-    pub agreement: Agreement,
-    /// The number of the state, from 0.
-    pub state: usize,
-    /// The coordinate, from 0; `None` where all were compared at once.
-    pub coordinate: Option<usize>,
-    /// What the potential gives.
-    pub found: N,
-    /// What it should be.
-    pub expected: N,
-    /// How well that is known.
-    pub uncertainty: N,
-}
-
-/// A difference of up to this many times its uncertainty agrees.
-const AGREES: i32 = 10;
-/// A difference of more than this many times its uncertainty differs.
-const DIFFERS: i32 = 100;
-/// A comparison is undecided if its uncertainty is more than one part in this many of the sizes of its terms.
-const LARGEST_UNCERTAINTY: i32 = 1000;
-/// Sums of n terms are known to this many times √n roundings.
-const ROUNDINGS: i32 = 100;
-
-impl<N: Ordered> Comparison<N> {
-    /// `size` is the sum of the absolute values of all terms.
-    fn new(state: usize, coordinate: Option<usize>, (found, expected): (N, N), uncertainty: N, size: &N) -> Self {
-        let mut off = found.clone();
-        off.subtract(&expected);
-        off.make_absolute();
-        let times = |number: &N, factor: i32| {
-            let mut product = number.clone();
-            product.multiply_integer(factor);
-            product
-        };
-        let is_known = times(&uncertainty, LARGEST_UNCERTAINTY) <= *size || uncertainty == N::zero(&size.context());
-        let agreement = match () {
-            // false for NaN
-            () if off > times(&uncertainty, DIFFERS) => Agreement::Differs,
-            () if is_known && off <= times(&uncertainty, AGREES) => Agreement::Agrees,
-            () => Agreement::Undecided,
-        };
-        Comparison { agreement, state, coordinate, found, expected, uncertainty }
-    }
-
-    fn keep_worse(&mut self, other: Self) {
-        if other.agreement > self.agreement {
-            *self = other;
-        }
-    }
-}
-
-/// A potential at a state.
-struct Checked<'a, N, P: ?Sized> {
-    potential: &'a mut P,
-    q: &'a [N],
-    state: usize,
-    scratch: Vec<N>,
-    epsilon: N,
-}
-
-impl<'a, N: Ordered, P: Potential<N> + ?Sized> Checked<'a, N, P> {
-    fn new(potential: &'a mut P, q: &'a [N], state: usize) -> Self {
-        let context = q[0].context();
-        let mut scratch = vec![N::zero(&context); potential.scratch()];
-        potential.prepare(&mut scratch, &context);
-        Checked { potential, q, state, scratch, epsilon: epsilon(&context) }
-    }
-
+impl<N: Ordered, P: Potential<N> + ?Sized> Checked<'_, N, P> {
     fn check(&mut self) -> PotentialCheck<N> {
         let zero = N::zero(&self.q[0].context());
         let (mut gradient, mut with_rate) = (vec![zero.clone(); self.q.len()], vec![zero.clone(); self.q.len()]);
@@ -172,17 +106,10 @@ impl<'a, N: Ordered, P: Potential<N> + ?Sized> Checked<'a, N, P> {
         self.potential.gradient_and_rate(self.q, &mut with_rate, &mut rate, &mut self.scratch);
         PotentialCheck {
             gradient: self.check_gradient(&gradient),
-            gradient_with_rate: self.check_gradient_with_rate(&with_rate, &gradient),
+            gradient_with_rate: self.check_alike(&with_rate, &gradient),
             rate: self.check_rate(rate, &energy, &gradient),
+            hessian: self.check_hessian(),
         }
-    }
-
-    /// 100 √n roundings of `size`
-    fn rounding(&self, size: &N, terms: usize) -> N {
-        let mut rounding = size.clone();
-        rounding.multiply(&self.epsilon);
-        rounding.multiply_integer(ROUNDINGS * (terms as f64).sqrt().ceil() as i32);
-        rounding
     }
 
     fn check_rate(&self, rate: N, energy: &N, gradient: &[N]) -> Comparison<N> {
@@ -196,28 +123,6 @@ impl<'a, N: Ordered, P: Potential<N> + ?Sized> Checked<'a, N, P> {
         }
         let uncertainty = self.rounding(&size, self.q.len());
         Comparison::new(self.state, None, (rate, expected), uncertainty, &size)
-    }
-
-    /// Of the coordinate where they differ most.
-    fn check_gradient_with_rate(&self, with_rate: &[N], gradient: &[N]) -> Comparison<N> {
-        let mut size = N::zero(&self.epsilon.context());
-        let (mut worst, mut most) = (0, size.clone());
-        for (i, (a, b)) in with_rate.iter().zip(gradient).enumerate() {
-            let mut off = a.clone();
-            off.subtract(b);
-            off.make_absolute();
-            if off > most || !off.is_finite() {
-                (worst, most) = (i, off);
-            }
-            let mut own = b.clone();
-            own.make_absolute();
-            if own > size {
-                size = own;
-            }
-        }
-        let uncertainty = self.rounding(&size, gradient.len());
-        let values = (with_rate[worst].clone(), gradient[worst].clone());
-        Comparison::new(self.state, Some(worst), values, uncertainty, &size)
     }
 
     fn check_gradient(&mut self, gradient: &[N]) -> Comparison<N> {
@@ -292,75 +197,26 @@ impl<'a, N: Ordered, P: Potential<N> + ?Sized> Checked<'a, N, P> {
         uncertainty.add(&error);
         Comparison::new(self.state, None, (found, value), uncertainty, &size)
     }
-
-    /// A sixteenth of the root mean square of q in each coordinate, or of 1, with signs that look random.
-    fn direction(&self, seed: u64) -> Vec<N> {
-        let mut length = N::zero(&self.epsilon.context());
-        self.q.iter().for_each(|q| length.add_product(q, q));
-        length.divide_integer(i32::try_from(self.q.len()).unwrap_or(i32::MAX));
-        let mut sixteenth = length.clone();
-        sixteenth.assign_sqrt(&length);
-        if sixteenth == N::zero(&sixteenth.context()) {
-            sixteenth = N::from_rational(&Rational::from_integer(1.into()), &sixteenth.context());
-        }
-        sixteenth.divide_integer(16);
-        let mut state = seed;
-        let mut signed = |_: &N| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            // 5 to 12 eighths: no two coordinates that cancel for all directions
-            let eighths = 5 + (state >> 33) as i32 % 8;
-            let mut value = sixteenth.clone();
-            value.multiply_integer(if state >> 63 == 0 { eighths } else { -eighths });
-            value.divide_integer(8);
-            value
-        };
-        self.q.iter().map(&mut signed).collect()
-    }
-}
-
-/// sum ← sum + |a b|
-fn add_absolute_product<N: Ordered>(sum: &mut N, a: &N, b: &N) {
-    let mut product = a.clone();
-    product.multiply(b);
-    product.make_absolute();
-    sum.add(&product);
 }
 
 impl<N: Ordered> fmt::Display for PotentialCheck<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let PotentialCheck { gradient, gradient_with_rate, rate } = self;
+        let PotentialCheck { gradient, gradient_with_rate, rate, hessian } = self;
         writeln!(f, "the gradient {}", gradient.sentence("the derivative of the energy"))?;
         writeln!(f, "the gradient beside the rate {}", gradient_with_rate.sentence("the gradient alone"))?;
-        write!(f, "the rate {}", rate.sentence("qᵀU_q − 2U"))
-    }
-}
-
-impl<N: Ordered> Comparison<N> {
-    fn sentence(&self, of: &str) -> String {
-        let Comparison { agreement, state, coordinate, found, expected, uncertainty } = self;
-        let [found_short, expected_short] = [found, expected].map(|x| format!("{:.6e}", x.to_f64()));
-        let known = format!("{expected_short} ± {:.1e}", uncertainty.to_f64());
-        let place = match coordinate {
-            Some(coordinate) => format!("in coordinate {coordinate} of state {state}"),
-            None => format!("at state {state}"),
-        };
-        let verb = match agreement {
-            Agreement::Agrees => return format!("agrees with {of} to {:.1e} {place}", uncertainty.to_f64()),
-            Agreement::Undecided => "can not be decided:",
-            Agreement::Differs => "differs:",
-        };
-        let mut ratio = found.clone();
-        ratio.divide(expected);
-        let percent = 100.0 * (ratio.to_f64() - 1.0);
-        let size = if percent.is_finite() { format!(", {percent:+.2e} %") } else { String::new() };
-        format!("{verb} {place} it is {found_short}, and {of} is {known}{size}")
+        write!(f, "the rate {}", rate.sentence("qᵀU_q − 2U"))?;
+        let Some(HessianCheck { product, product_with_rate, rate }) = hessian else { return Ok(()) };
+        let product = product.sentence("the derivative of the gradient");
+        writeln!(f, "\nthe Hessian–vector product {product}")?;
+        writeln!(f, "the product beside its rate {}", product_with_rate.sentence("the product alone"))?;
+        write!(f, "its rate {}", rate.sentence("the derivative of the rate"))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::potential::from_fn;
+    use crate::potential::{HessianProduct, from_fn};
     use crate::problems::{HenonHeiles, Kepler};
 
     fn check<P: Potential<f64>>(mut potential: P, q: &[f64]) -> PotentialCheck<f64> {
@@ -464,5 +320,67 @@ mod tests {
         assert!(check(Ring { virial: true }, &near).agrees() && check(Ring { virial: false }, &images).agrees());
         let wrong = check(Ring { virial: true }, &images);
         assert_eq!([wrong.gradient.agreement, wrong.rate.agreement], [Agreement::Agrees, Agreement::Differs]);
+    }
+
+    /// U = x³y, with factors of its Hessian–vector product and of the rate.
+    struct Wrong {
+        product: f64,
+        rate: f64,
+    }
+
+    impl Potential<f64> for Wrong {
+        fn dimension(&self) -> usize {
+            2
+        }
+        fn energy(&self, q: &[f64], energy: &mut f64, _: &mut [f64]) {
+            *energy = q[0].powi(3) * q[1];
+        }
+        fn gradient(&self, q: &[f64], gradient: &mut [f64], _: &mut [f64]) {
+            gradient.copy_from_slice(&[3.0 * q[0].powi(2) * q[1], q[0].powi(3)]);
+        }
+        fn hessian(&self) -> Option<&dyn HessianProduct<f64>> {
+            Some(self)
+        }
+    }
+
+    impl HessianProduct<f64> for Wrong {
+        fn hessian_product(&self, q: &[f64], v: &[f64], product: &mut [f64], _: &mut [f64]) {
+            let mixed = 3.0 * q[0] * q[0];
+            product[0] = 6.0 * q[0] * q[1] * v[0] + self.product * mixed * v[1];
+            product[1] = mixed * v[0];
+        }
+        fn hessian_product_and_rate(&self, q: &[f64], v: &[f64], product: &mut [f64], rate: &mut f64, _: &mut [f64]) {
+            self.hessian_product(q, v, product, &mut []);
+            *rate = self.rate * 2.0 * (3.0 * q[0] * q[0] * q[1] * v[0] + q[0].powi(3) * v[1]);
+        }
+    }
+
+    fn agreements(product: f64, rate: f64) -> [Agreement; 2] {
+        let check = check_potential(&mut Wrong { product, rate }, &[[0.7, -1.1]]).unwrap();
+        let hessian = check.hessian.unwrap();
+        [hessian.product.agreement, hessian.rate.agreement]
+    }
+
+    #[test]
+    fn a_wrong_product_or_rate_is_found() {
+        use Agreement::{Agrees, Differs};
+        assert_eq!(agreements(1.0, 1.0), [Agrees, Agrees]);
+        // an entry that is wrong on one side of the diagonal only
+        assert_eq!(agreements(1.001, 1.0), [Differs, Agrees]);
+        assert_eq!(agreements(1.0, 1.001), [Agrees, Differs]);
+        let check = check_potential(&mut Wrong { product: 2.0, rate: 1.0 }, &[[0.7, -1.1]]).unwrap();
+        assert!(!check.agrees() && check.to_string().contains("the Hessian–vector product differs"), "{check}");
+    }
+
+    #[test]
+    fn derived_products_agree_and_others_are_not_compared() {
+        let kepler = check_potential(&mut Kepler, &[[0.4, 0.1]]).unwrap();
+        assert!(kepler.agrees() && kepler.hessian.is_some(), "{kepler}");
+        assert!(check_potential(&mut HenonHeiles, &[[0.1, -0.3]]).unwrap().agrees());
+        let mut spring = from_fn(1, |q, gradient| {
+            gradient[0] = q[0];
+            q[0] * q[0] / 2.0
+        });
+        assert!(check_potential(&mut spring, &[[0.4]]).unwrap().hessian.is_none());
     }
 }

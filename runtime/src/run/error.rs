@@ -4,10 +4,11 @@ use std::fmt;
 
 use thiserror::Error;
 
-use crate::number::Ordered;
+use crate::number::{Number, Ordered};
 use crate::scheme::Scheme;
 use crate::shadow::EstimatorError;
 use crate::stepper::Stepper;
+use crate::system::System;
 
 /// A run that cannot begin or cannot continue.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -39,6 +40,15 @@ pub enum RunError {
     /// The weights of the stepper have another precision than the numbers of the system.
     #[error("the weights of the stepper have another precision than the system: make both with the same context")]
     Precision,
+    /// The scheme has gradient kicks, and the system has none.
+    #[error(
+        "{scheme} has gradient kicks, which this system has not: its potential needs a Hessian–vector product (write it as a formula, or implement \
+         `Potential::hessian`), or displaced forces in its place (`Stepper::displacements`)"
+    )]
+    NoGradientKicks {
+        /// The scheme's name.
+        scheme: String,
+    },
     /// The settings of the estimator are not valid.
     #[error(transparent)]
     Estimator(#[from] EstimatorError),
@@ -94,13 +104,19 @@ impl fmt::Display for NotFinite {
     }
 }
 
-/// Refuses a stepper whose weights have another precision than the system.
-pub(crate) fn check_precision<S: Scheme, N: Ordered>(
-    stepper: &Stepper<S, N>,
-    context: &N::Context,
+/// Refuses a stepper whose weights have another precision than the system, or that makes gradient kicks, which the system has not.
+pub(crate) fn check_stepper<S: Scheme, M: System<Number: Ordered>>(
+    stepper: &Stepper<S, M::Number>,
+    system: &M,
 ) -> Result<(), RunError> {
-    let same = stepper.weights().iter().all(|weight| weight.context() == *context);
-    if same { Ok(()) } else { Err(RunError::Precision) }
+    let context = system.context();
+    if !stepper.weights().iter().all(|weight| weight.context() == context) {
+        return Err(RunError::Precision);
+    }
+    if stepper.scheme().gradient_kicks() > 0 && !system.has_gradient_kicks() {
+        return Err(RunError::NoGradientKicks { scheme: stepper.scheme().summary().name.to_owned() });
+    }
+    Ok(())
 }
 
 /// Refuses a value that is not finite. States may be finite where their products overflow.

@@ -1,7 +1,7 @@
 //! The states of a trajectory in the order of time, with those that an estimator needs on both sides.
 
 use crate::number::Ordered;
-use crate::run::error::{RunError, check_energy, check_precision};
+use crate::run::error::{RunError, check_energy, check_stepper};
 use crate::run::state::{State, States, last};
 use crate::scheme::{Scheme, ValidFor};
 use crate::stepper::Stepper;
@@ -40,7 +40,7 @@ impl<'s, S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<
     /// Begins at the system's present state.
     ///
     /// # Errors
-    /// An initial energy, or a state before 0, that is not finite; a stepper whose weights have another precision than the system.
+    /// An initial energy, or a state before 0, that is not finite; a stepper whose weights have another precision than the system, or with gradient kicks that it has not.
     pub fn new(stepper: &'s Stepper<S, M::Number>, system: M, steps: u64, reach: usize) -> Result<Self, RunError> {
         let mut trajectory = Self::after(stepper, system, 0)?;
         trajectory.extend(steps, reach);
@@ -53,7 +53,7 @@ impl<'s, S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<
     /// They have the bits of the states with increments, and the bits of a trajectory from 0 where `from` is one of its states.
     ///
     /// # Errors
-    /// An energy at `from` that is not finite; a stepper whose weights have another precision than the system.
+    /// An energy at `from` that is not finite; a stepper whose weights have another precision than the system, or with gradient kicks that it has not.
     pub fn plain(stepper: &'s Stepper<S, M::Number>, system: M, from: i64, steps: u64) -> Result<Self, RunError> {
         let mut trajectory = Self::after(stepper, system, from)?;
         trajectory.extend(steps, 0);
@@ -66,7 +66,7 @@ impl<'s, S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<
     /// The states after `from`, with increments, up to a last one that [`extend`](Self::extend) sets; the system is at the state
     /// `from`.
     pub(super) fn after(stepper: &'s Stepper<S, M::Number>, mut system: M, from: i64) -> Result<Self, RunError> {
-        check_precision(stepper, &system.context())?;
+        check_stepper(stepper, &system)?;
         check_energy(&system.energy(), system.q(), from)?;
         Ok(Trajectory { stepper, system, augmented: true, before: Vec::new(), present: None, n: from, last: from })
     }

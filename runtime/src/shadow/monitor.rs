@@ -45,7 +45,7 @@ use self::recent::Recent;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
 use crate::number::Ordered;
-use crate::run::{Quantity, RunError, State, check_energy, check_precision, check_value};
+use crate::run::{Quantity, RunError, State, check_energy, check_stepper, check_value};
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
 use crate::stepper::Stepper;
@@ -195,7 +195,7 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
         settings: &impl BuildEstimator<N, Estimator = E>,
     ) -> Result<Self, RunError> {
         let (dimension, context) = (system.q().len(), system.context());
-        check_precision(&stepper, &context)?;
+        check_stepper(&stepper, system)?;
         let estimator = settings.build(stepper.step_size(), dimension, &context)?;
         let states = estimator.states();
         let [mut energy, mut kinetic] = [N::zero(&context), N::zero(&context)];
