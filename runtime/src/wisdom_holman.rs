@@ -16,6 +16,7 @@ mod heliocentric;
 mod interactions;
 mod jacobi;
 mod orbits;
+pub mod secular;
 mod sum;
 
 pub use bodies::{Bodies, BodiesError};

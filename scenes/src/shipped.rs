@@ -12,7 +12,7 @@ pub struct ShippedScene {
 }
 
 /// All shipped scenes of planetary systems; those of shipped problems are [written](crate::template) as templates.
-pub const PLANETARY_SCENES: [ShippedScene; 4] = [
+pub const PLANETARY_SCENES: [ShippedScene; 5] = [
     ShippedScene {
         name: "outer-planets",
         title: "The Sun and the outer planets, on Kepler orbits that interact",
@@ -22,6 +22,11 @@ pub const PLANETARY_SCENES: [ShippedScene; 4] = [
         name: "eight-planets",
         title: "The Sun and the eight planets, by orbital elements",
         text: include_str!("../planets/eight-planets.toml"),
+    },
+    ShippedScene {
+        name: "sun-jupiter-saturn",
+        title: "The Sun, Jupiter and Saturn: a kernel with a gradient kick, for the pericentres",
+        text: include_str!("../planets/sun-jupiter-saturn.toml"),
     },
     ShippedScene {
         name: "resonance",

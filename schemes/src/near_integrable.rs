@@ -5,7 +5,8 @@
 //! (1995) 258; Blanes et al., Appl. Numer. Math. 68 (2013) 58). That is the case if and only if the conditions of the
 //! Lyndon words with one B hold up to order p, of those with two up to q, and so on: the shuffle products by which the
 //! Lyndon words generate the others keep the number of B's, and their factors have fewer B's and fewer letters, for which
-//! no lower orders are claimed. A may be any Hamiltonian, not just a kinetic energy.
+//! no lower orders are claimed. A may be any Hamiltonian, not just a kinetic energy; with
+//! gradient kicks, any for which `[B,[A,B]]` has a flow of its own. These count as the words of `[B,[A,B]]`, of ε².
 
 use std::fmt;
 

@@ -320,10 +320,6 @@ fn refuse_beside_gradient_kicks(
         let hint = "they contain M⁻¹ of T = ½pᵀM⁻¹p: write `kinetic = \"quadratic\"`";
         reader.fault(&value.span(), "gradient kicks are for quadratic T only", hint);
     }
-    if let Some(value) = root.get("near_integrable") {
-        let hint = "leave `near_integrable` out";
-        reader.fault(&value.span(), "near-integrable orders are not proved of gradient kicks", hint);
-    }
     Kinetic::Quadratic
 }
 

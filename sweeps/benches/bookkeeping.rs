@@ -104,7 +104,8 @@ fn follow(scene: &Scene) {
             black_box(trajectory.system().q());
         }
     }
-    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated: false, begin: Begin::InitialState };
+    let begin = Begin::InitialState;
+    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated: false, displaced: false, begin };
     scene.system.with(steps, scene.system.start::<f64>(&()), &(), Alone).expect("the dimensions agree");
 }
 

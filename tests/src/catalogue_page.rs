@@ -126,10 +126,13 @@ fn processed(proved: &Proved) -> Option<String> {
     let (processor, effective) = (proved.scheme.processor.as_ref()?, proved.proof.effective.as_ref()?);
     let orders: Vec<_> = effective.near_integrable.iter().map(|order| order.order.to_string()).collect();
     let near = if orders.is_empty() { String::new() } else { format!(", ({}) for A + εB", orders.join(",")) };
+    let general = match proved.scheme.has_gradient_kicks() {
+        true => String::new(),
+        false => format!("{} for every T(p), ", effective.general.order),
+    };
     Some(format!(
-        "processed: effective order {} for every T(p), {} for quadratic T{near}; {} evaluations of U_q and {} kicks and drifts for an output, \
+        "processed: effective order {general}{} for quadratic T{near}; {} evaluations of U_q and {} kicks and drifts for an output, \
          and as many once at the beginning",
-        effective.general.order,
         effective.quadratic.order,
         processor.evaluations(),
         processor.post.len()

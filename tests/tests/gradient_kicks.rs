@@ -5,8 +5,8 @@ use shadowstep::formula::{FormulaPair, FormulaPotential};
 use shadowstep::pairs::{Ends, Pairs, Separation};
 use shadowstep::potential::{HessianProduct, from_fn};
 use shadowstep::problems::{Kepler, PROBLEMS};
-use shadowstep::run::energy_drift;
-use shadowstep::shadow::Bilinear;
+use shadowstep::run::{RunError, energy_drift};
+use shadowstep::shadow::{Bilinear, ShadowEnergy};
 use shadowstep::tables::shipped;
 use shadowstep::{Motion, Number, Ordered, Potential, Stepper, System, UnitMasses, potential};
 use shadowstep_tests::refusals::{assert_refused, judge};
@@ -65,13 +65,29 @@ mine.toml:3:11: gradient kicks are for quadratic T only
   hint: they contain M⁻¹ of T = ½pᵀM⁻¹p: write `kinetic = "quadratic"`
 "#,
     );
-    let near = with_gradient("1/72").replace("symmetric", "near_integrable = [4, 2]\nsymmetric");
-    let message = judge(&near).unwrap_err().to_string();
-    assert!(message.contains("mine.toml:4:19: near-integrable orders are not proved of gradient kicks"), "{message}");
     let lengths = judge(&with_gradient("1/72\", \"0")).unwrap_err().to_string();
     assert!(lengths.contains("kick and gradient_kick must have as many weights as there are stages"), "{lengths}");
     let table = shipped("chin-4a").unwrap();
     assert_eq!(table.for_every_kinetic().unwrap_err().order, 0);
+}
+
+/// Near-integrable orders of the leapfrog with [B,[A,B]] and a corrector: (8,4,3) for a weight of 1/24, where [A,[A,B]] is taken out by the corrector. A weight
+/// of 1/12, which takes [B,[A,B]] out of the kernel alone, leaves it to the processed scheme.
+#[test]
+fn near_integrable_orders_are_proved_with_gradient_kicks() {
+    let table = shadowstep_schemes::shipped("wisdom-kernel-7").unwrap().text;
+    let effective = judge(&table).unwrap().proof.effective.unwrap();
+    let orders: Vec<_> = effective.near_integrable.iter().map(|order| order.order).collect();
+    assert_eq!((orders, effective.quadratic.order), (vec![8, 4, 3], 4));
+    let failing = "effective order 2 holds for the terms of ε^2: the condition of the word KKD fails";
+    for (from, to, failing) in [
+        ("\"1/24\"", "\"1/12\"", failing),
+        ("\"1/24\"", "\"-1/24\"", failing),
+        ("[8, 4, 3]", "[8, 6, 3]", "effective order 6 is claimed, effective order 4 holds for the terms of ε^2"),
+    ] {
+        let message = judge(&table.replace(from, to)).unwrap_err().to_string();
+        assert!(message.contains(failing), "{from} → {to}: {message}");
+    }
 }
 
 /// A composition scales gradient kicks with γ³: a triple jump of a scheme of order 4 has order 6.
@@ -253,6 +269,12 @@ fn a_potential_without_second_derivatives_says_so() {
     let motion = Motion::new(spring, UnitMasses, [1.0], [0.0]).unwrap();
     assert!(!motion.has_gradient_kicks());
     let stepper = Stepper::new(shipped("chin-4a").unwrap(), "1/20").unwrap();
+    // runs and the monitor refuse it, a step alone panics
+    let expected = RunError::NoGradientKicks { scheme: "chin-4a".to_owned() };
+    let drift = energy_drift(&stepper, motion.clone(), 10, &Bilinear::new(2)).unwrap_err();
+    let monitor = ShadowEnergy::new(stepper.clone(), &mut motion.clone(), &Bilinear::with_error(8)).unwrap_err();
+    assert_eq!([&drift, &monitor], [&expected; 2]);
+    assert!(drift.to_string().starts_with("chin-4a has gradient kicks, which this system has not"), "{drift}");
     let step = std::panic::AssertUnwindSafe(|| stepper.step(&mut motion.clone()));
     let panic = std::panic::catch_unwind(step).unwrap_err();
     let message = panic.downcast_ref::<&str>().copied().or(panic.downcast_ref::<String>().map(String::as_str));

@@ -34,7 +34,7 @@ fn oscillators<N: Rounded>(context: &N::Context) -> LinearPart<N, HenonHeiles> {
 
 /// B_q and the rate qᵀB_q − 2B at q, from a kick of weight 1.
 fn gradient_and_rate(system: &mut impl System<Number = Float>, q: &[Float]) -> (Vec<Float>, Float) {
-    let (zeros, one) = (vec![q[0].clone() * 0; q.len()], Float::with_val(q[0].prec(), 1));
+    let (zeros, one) = (vec![Float::new(q[0].prec()); q.len()], Float::with_val(q[0].prec(), 1));
     system.set_state(q, &zeros);
     system.clear_increments();
     system.kick_augmented(&one);

@@ -9,7 +9,7 @@ use shadowstep::number::{Limbs, Number};
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, StiffFput};
 use shadowstep::run::energy_drift;
 use shadowstep::shadow::{Bilinear, Criterion, ShadowEnergy, Verdict};
-use shadowstep::{Motion, Rational, Scheme, System, UnitMasses};
+use shadowstep::{Motion, Rational, System, UnitMasses};
 use shadowstep_tests::reference::Separable;
 use shadowstep_tests::shipped::all;
 use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, rational, same_bits, stepper};

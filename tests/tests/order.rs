@@ -109,7 +109,9 @@ fn near_error(scheme: &Proved, k: u32, times: i32) -> State {
         match map.kind {
             MapKind::Kick => p -= q.clone().sin() * weight * &epsilon,
             MapKind::Drift => q += weight * &p,
-            MapKind::GradientKick => unreachable!("near-integrable orders are not claimed of gradient kicks"),
+            MapKind::GradientKick => {
+                unreachable!("no shipped table claims near-integrable orders of a kernel with them")
+            }
         }
     }
     let system = Separable { velocity: &|p| p.to_vec(), gradient: &|q| vec![q[0].clone().sin() * &epsilon] };

@@ -135,7 +135,11 @@ fn error(name: &str, k: u32, epsilon: &str, times: i32) -> State {
         match map.kind {
             MapKind::Kick => p -= q.clone().sin() * (weight * &h) * &epsilon,
             MapKind::Drift => q += weight * &h * &p,
-            MapKind::GradientKick => unreachable!("{name} has none"),
+            // 2h³ w εU'εU''
+            MapKind::GradientKick => {
+                let (sin, cos) = q.clone().sin_cos(Float::new(bits));
+                p += sin * cos * epsilon.clone().square() * h.clone().square() * &h * weight * 2;
+            }
         }
     }
     let system = Separable { velocity: &|p| p.to_vec(), gradient: &|q| vec![q[0].clone().sin() * &epsilon] };

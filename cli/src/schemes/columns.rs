@@ -110,7 +110,7 @@ fn none() -> String {
 
 /// What a scheme is for.
 fn meant_for(record: &Record) -> String {
-    if let Some(order) = record.effective_order {
+    if let Some(order) = record.effective_order.or(record.effective_order_quadratic) {
         let near = near_integrable_text(&record.effective_near_integrable);
         return if near.is_empty() { format!("proc. {order}") } else { format!("proc. {near}") };
     }

@@ -18,7 +18,7 @@ pub(super) struct Record {
     pub(super) near_integrable: Vec<u32>,
     /// The effective orders of a processed scheme, for every T(p), quadratic T and A + εB; the others are those of its kernel.
     pub(super) effective_order: Option<u32>,
-    effective_order_quadratic: Option<u32>,
+    pub(super) effective_order_quadratic: Option<u32>,
     pub(super) effective_near_integrable: Vec<u32>,
     /// Rows of the table of weights, those with a 0 included.
     pub(super) stages: usize,
@@ -57,7 +57,7 @@ impl Record {
             order,
             order_quadratic: proved.proof.quadratic.order,
             near_integrable: near_integrable(&proved.proof),
-            effective_order: proved.proof.effective.as_ref().map(|effective| effective.general.order),
+            effective_order: order.and(proved.proof.effective.as_ref()).map(|effective| effective.general.order),
             effective_order_quadratic: proved.proof.effective.as_ref().map(|effective| effective.quadratic.order),
             effective_near_integrable: effective_near_integrable(&proved.proof),
             stages: proved.scheme.stages.kick.len(),

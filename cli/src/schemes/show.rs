@@ -353,9 +353,13 @@ fn processor_facts(proved: &Proved) -> Vec<(String, String)> {
         processor.evaluations(),
         processor.post.len()
     );
+    let general = match proved.scheme.has_gradient_kicks() {
+        true => NO_GENERAL.to_owned(),
+        false => order_text(&effective.general),
+    };
     vec![
         ("processor".to_owned(), cost),
-        ("effective".to_owned(), format!("for every T(p), {}", order_text(&effective.general))),
+        ("effective".to_owned(), format!("for every T(p), {general}")),
         ("quadratic T".to_owned(), format!("effective {}", order_text(&effective.quadratic))),
         ("A + εB".to_owned(), near.replacen("orders", "effective orders", 1)),
     ]

@@ -1,0 +1,151 @@
+//! Correctors lower the error of the energy, and leave secular frequencies as wrong as before (Rein, Brown & Tamayo, Mon. Not. R. Astron. Soc. 490
+//! (2019) 5122): the Sun, Jupiter and Saturn by Wisdom–Holman maps of equal step size.
+//!
+//! ```sh
+//! cargo run --release -p shadowstep --example secular-frequencies -- 400 10000000    # the step in days and the time in years
+//! ```
+//!
+//! For each map: the variation of H at outputs and of E_8, the mean of E_8 − H, as parts of |H|, and the frequencies g_5 of Jupiter's pericentre and g_6 of
+//! Saturn's with their errors.
+
+use std::error::Error;
+
+use shadowstep::number::{Limbs, Number, Ordered};
+use shadowstep::run::ShadowRun;
+use shadowstep::shadow::Bilinear;
+use shadowstep::tables::{self, First, Source, TableScheme};
+use shadowstep::wisdom_holman::secular::{Frequency, eccentricities, main_frequency};
+use shadowstep::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
+use shadowstep::{Rational, Stepper, System, exact};
+
+type Planets<N> = WisdomHolman<N, Jacobi<N, 3>, 3>;
+
+/// A map, and the planets before its first step.
+type Begun<N> = (Stepper<TableScheme, N>, Planets<N>);
+
+/// The initial state of Hairer, Lubich & Wanner, Geometric Numerical Integration, table I.2.2: astronomical units, days, solar masses.
+const MASSES: [&str; 3] = ["1.00000597682", "0.000954786104043", "0.000285583733151"];
+const POSITIONS: [&str; 9] =
+    ["0", "0", "0", "-3.5023653", "-3.8169847", "-1.5507963", "9.0755314", "-3.0458353", "-1.6483708"];
+const VELOCITIES: [&str; 9] =
+    ["0", "0", "0", "0.00565429", "-0.00412490", "-0.00190589", "0.00168318", "0.00483525", "0.00192462"];
+
+const YEAR: f64 = 365.25;
+
+/// Steps at which energies are compared.
+const STEPS_OF_ENERGIES: u64 = 3000;
+
+/// A map with a name for the table.
+struct Map {
+    name: &'static str,
+    scheme: &'static str,
+    displaced: bool,
+}
+
+const MAPS: [Map; 4] = [
+    Map { name: "plain (`stormer-verlet`, drifts first)", scheme: "stormer-verlet", displaced: false },
+    Map { name: "corrected (`wisdom-corrector-17`)", scheme: "wisdom-corrector-17", displaced: false },
+    Map { name: "kernel (`wisdom-kernel-17`)", scheme: "wisdom-kernel-17", displaced: false },
+    Map { name: "kernel, displaced forces", scheme: "wisdom-kernel-17", displaced: true },
+];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut words = std::env::args().skip(1);
+    let mut number = |default: &str| words.next().unwrap_or(default.to_owned()).parse::<u64>();
+    let (days, years) = (number("400")?, number("10000000")?);
+    // of order (10, 6, 4) for A + εB
+    let reference = Map { name: "", scheme: "aba1064", displaced: false };
+    let exact = frequencies(&reference, days / 4, years)?;
+    println!("h = {days} days, {years} years; g_5 and g_6 by aba1064 at h/4: {}\n", texts(&exact).join(", "));
+    println!(
+        "| map | H | E_8 | mean of E_8 − H | error of g_5 | error of g_6 |\n| --- | --- | --- | --- | --- | --- |"
+    );
+    for map in &MAPS {
+        let [of_h, of_modified, mean] = energies(map, days)?;
+        let found = frequencies(map, days, years)?;
+        let errors = found.iter().zip(&exact).map(|(found, exact)| {
+            format!("{:+.1e} ± {:.0e}", found.omega / exact.omega - 1.0, found.uncertainty / exact.omega.abs())
+        });
+        let errors = errors.collect::<Vec<_>>().join(" | ");
+        println!("| {} | {of_h:.1e} | {of_modified:.1e} | {mean:+.1e} | {errors} |", map.name);
+    }
+    Ok(())
+}
+
+/// In arcseconds a year.
+fn texts(frequencies: &[Frequency]) -> Vec<String> {
+    let arcseconds = |radians: f64| radians.to_degrees() * 3600.0 * YEAR;
+    let text = |found: &Frequency| format!("{:.7} ± {:.0e}″/a", arcseconds(found.omega), arcseconds(found.uncertainty));
+    frequencies.iter().map(text).collect()
+}
+
+fn scheme(name: &str) -> Result<TableScheme, Box<dyn Error>> {
+    let source: Source = tables::shipped_source(name).ok_or("it is not shipped")?;
+    let first = (name == "stormer-verlet").then_some(First::Drift);
+    Ok(tables::read(&source, &|base, _| tables::shipped_source(base), first)?)
+}
+
+/// The stepper of a map, and the planets before its first step.
+fn begin<N: Ordered + Number<Context = ()>>(map: &Map, days: u64) -> Result<Begun<N>, Box<dyn Error>> {
+    let masses: Vec<Rational> = MASSES.iter().map(|mass| exact(mass)).collect::<Result<_, _>>()?;
+    let bodies = Bodies::new(exact("2.95912208286e-4")?, masses)?;
+    let number = |(axis, text): (usize, &&str), mass: bool| {
+        let value = exact(text)?;
+        let factor = if mass { exact(MASSES[axis / 3])? } else { exact("1")? };
+        Ok::<_, Box<dyn Error>>(N::from_rational(&(value * factor), &()))
+    };
+    let q = POSITIONS.iter().enumerate().map(|text| number(text, false)).collect::<Result<Vec<_>, _>>()?;
+    let p = VELOCITIES.iter().enumerate().map(|text| number(text, true)).collect::<Result<Vec<_>, _>>()?;
+    let stepper = Stepper::new(scheme(map.scheme)?, Rational::from_integer(days.into()))?;
+    let mut planets = Planets::new(&bodies, (&q, &p), &())?;
+    if map.displaced {
+        planets = planets.displaced(stepper.displacements()?);
+    }
+    stepper.preprocess(&mut planets);
+    Ok((stepper, planets))
+}
+
+/// max − min of H at outputs and of E_8, and the mean of E_8 − H, as parts of |H|.
+fn energies(map: &Map, days: u64) -> Result<[f64; 3], Box<dyn Error>> {
+    let (stepper, planets) = begin::<Limbs<3>>(map, days)?;
+    let mut run = ShadowRun::new(&stepper, planets, STEPS_OF_ENERGIES, &Bilinear::new(8))?;
+    let start = run.system().energy();
+    let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+    let (mut sum, mut count) = (0.0, 0.0);
+    while let Some((_, found)) = run.advance()? {
+        let (mut q, mut p, modified) = (found.q.to_vec(), found.p.to_vec(), *found.value);
+        stepper.postprocess_state(run.system(), &mut q, &mut p);
+        let energies = [run.system().energy_at(&q, &p), modified].map(|mut energy| {
+            energy.subtract(&start);
+            energy.to_f64()
+        });
+        for (range, energy) in ranges.iter_mut().zip(energies) {
+            *range = [range[0].min(energy), range[1].max(energy)];
+        }
+        sum += energies[1] - energies[0];
+        count += 1.0;
+    }
+    let [of_h, of_modified] = ranges.map(|[least, most]| most - least);
+    Ok([of_h, of_modified, sum / count].map(|energy| energy / start.to_f64().abs()))
+}
+
+/// g_5 and g_6, from means over a thousand years.
+fn frequencies(map: &Map, days: u64, years: u64) -> Result<Vec<Frequency>, Box<dyn Error>> {
+    let (stepper, mut planets) = begin::<f64>(map, days)?;
+    let steps = (1000.0 * YEAR / days as f64).round() as u64;
+    let samples = (years as f64 * YEAR / (days * steps) as f64) as usize;
+    let mut means = [Vec::with_capacity(samples), Vec::with_capacity(samples)];
+    for _ in 0..samples {
+        let mut sums = [[0.0; 2]; 2];
+        for _ in 0..steps {
+            stepper.step(&mut planets);
+            for (sum, e) in sums.iter_mut().zip(eccentricities(&planets)) {
+                *sum = [sum[0] + e[0], sum[1] + e[1]];
+            }
+        }
+        means.iter_mut().zip(sums).for_each(|(means, sum)| means.push(sum.map(|sum| sum / steps as f64)));
+    }
+    // at most 100 arcseconds a year
+    let largest = (100.0_f64 / 3600.0).to_radians() / YEAR;
+    Ok(means.iter().map(|means| main_frequency(means, (days * steps) as f64, largest)).collect())
+}
