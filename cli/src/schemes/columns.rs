@@ -112,7 +112,7 @@ fn none() -> String {
 fn meant_for(record: &Record) -> String {
     if let Some(order) = record.effective_order.or(record.effective_order_quadratic) {
         let near = near_integrable_text(&record.effective_near_integrable);
-        return if near.is_empty() { format!("proc. {order}") } else { format!("proc. {near}") };
+        return if near.is_empty() { format!("proc. {order}") } else { format!("proc.{near}") };
     }
     match &record.near_integrable[..] {
         [] if record.moves_any => "every T(p)".to_owned(),
