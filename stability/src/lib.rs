@@ -23,16 +23,18 @@
 //! | [`Suite`], [`files`] | what is examined; the page, the charts and the table that are written |
 //! | `cases` | the list of all cases, and one file for each |
 //! | `case`, `finding` | what a case is; what it has shown |
-//! | `linear_step` | a step of the oscillator as a matrix |
-//! | `watched`, `long_run` | a run with a monitor; long runs of shipped problems |
+//! | `linear_step`, `growth` | a step of the oscillator as a matrix; how fast a linear system grows |
+//! | `watched`, `long_run`, `scene_run` | a run with a monitor; long runs of shipped problems; a run of a scene with its summary |
 
 mod case;
 mod cases;
 mod examination;
 pub mod files;
 mod finding;
+mod growth;
 mod linear_step;
 mod long_run;
+mod scene_run;
 mod suite;
 mod watched;
 

@@ -2,10 +2,11 @@
 
 use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
+use shadowstep::kinetic::Quadratic;
 use shadowstep::number::Rounded;
 use shadowstep::problems::HarmonicOscillator;
 use shadowstep::tables::TableScheme;
-use shadowstep::{Motion, Number, Ordered, Rational, Stepper, System, UnitMasses, exact};
+use shadowstep::{Motion, Number, Rational, Stepper, System, UnitMasses, exact};
 use shadowstep_analysis::stability::Stability;
 use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
@@ -14,6 +15,7 @@ use shadowstep_scenes::library::NamedScheme;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;
+use crate::growth::{TOLERANCE as GROWTH_TOLERANCE, growth, steps_to_see};
 use crate::linear_step::LinearStep;
 use crate::suite::Suite;
 
@@ -42,10 +44,6 @@ pub(super) struct Point {
 
 /// From well inside to just beyond the limit, as parts of it.
 const PARTS: [&str; 8] = ["1/2", "9/10", "99/100", "999/1000", "1001/1000", "101/100", "11/10", "6/5"];
-/// Growth is measured when the growing part is e^25 times as large as the other.
-const SEPARATED: f64 = 25.0;
-/// Three digits of the growth rate.
-const GROWTH_TOLERANCE: f64 = 5e-4;
 /// Where a step is stable, its matrix differs from a rotation by a factor of 1/√(1 − (tr/2)²), 22 at a thousandth inside a simple limit, and
 /// round-off of 1e5 steps grows to 1e-9 or so.
 const BOUND_TOLERANCE: f64 = 1e-6;
@@ -142,9 +140,9 @@ fn point<N: Rounded>(scheme: &TableScheme, h: &Rational, steps: u64, context: &N
     let h_omega = <f64 as Number>::from_rational(h, &());
     let predicted = matrix.growth();
     if predicted > 0.0 {
-        let count = (SEPARATED / predicted).ceil();
-        let too_slow = 2.0 * count > steps as f64;
-        let found = if too_slow { 0.0 } else { growth(&stepper, &mut motion, count as u64) };
+        let count = steps_to_see(predicted);
+        let too_slow = 2 * count > steps;
+        let found = if too_slow { 0.0 } else { growth(&stepper, &mut motion, (predicted, count)) };
         Point { h_omega, predicted, found, too_slow }
     } else {
         let found = largest(&stepper, &mut motion, steps / 10) / matrix.largest() - 1.0;
@@ -152,45 +150,8 @@ fn point<N: Rounded>(scheme: &TableScheme, h: &Rational, steps: u64, context: &N
     }
 }
 
-/// The growth of log|(q, p)| per step, from `count` steps on to twice as many.
-fn growth<N: Rounded, M: System<Number = N, Class = shadowstep::kinetic::Quadratic>>(
-    stepper: &Stepper<TableScheme, N>,
-    system: &mut M,
-    count: u64,
-) -> f64 {
-    let mut grown = 0.0;
-    let mut at_count = 0.0;
-    for n in 1..=2 * count {
-        stepper.step(system);
-        let size = size(system);
-        // the step is linear, so that a state that is divided by its size goes on in the same direction
-        if size > 1e30 || n == count || n == 2 * count {
-            grown += size.ln();
-            scale_down(system, size);
-        }
-        if n == count {
-            at_count = grown;
-        }
-    }
-    (grown - at_count) / count as f64
-}
-
-fn size<M: System<Number: Ordered>>(system: &M) -> f64 {
-    system.q()[0].to_f64().hypot(system.p()[0].to_f64())
-}
-
-fn scale_down<M: System>(system: &mut M, size: f64) {
-    let context = system.context();
-    let size = Rational::from_float(size).expect("it is finite");
-    let divisor = M::Number::from_rational(&size, &context);
-    let [mut q, mut p] = [system.q()[0].clone(), system.p()[0].clone()];
-    q.divide(&divisor);
-    p.divide(&divisor);
-    system.set_state(&[q], &[p]);
-}
-
 /// The largest |q| of a run.
-fn largest<N: Rounded, M: System<Number = N, Class = shadowstep::kinetic::Quadratic>>(
+fn largest<N: Rounded, M: System<Number = N, Class = Quadratic>>(
     stepper: &Stepper<TableScheme, N>,
     system: &mut M,
     steps: u64,
@@ -257,6 +218,23 @@ mod tests {
         let point = point_of(&verlet.scheme, "2.1");
         assert!((point.found - expected).abs() < 1e-9, "{} {expected}", point.found);
         assert!(point_of(&verlet.scheme, "1.9").found.abs() < 1e-2);
+    }
+
+    /// Takahashi and Imada's kicks are by 1 − h²/12 of the force, so that the trace is 2 − h² + h⁴/12, at least −1, and 2 again at h² = 12.
+    #[test]
+    fn gradient_kicks_are_a_part_of_the_trace() {
+        let scheme = scheme("takahashi-imada").unwrap();
+        let cosine = |h: &str| LinearStep::of(&scheme.scheme, &exact(h).unwrap()).cosine();
+        for h in [0.5_f64, 2.0, 3.0] {
+            let expected = 1.0 - h * h / 2.0 + h.powi(4) / 24.0;
+            assert!((cosine(&h.to_string()) - expected).abs() < 1e-14, "{h}");
+        }
+        let stability = Stability::of_scheme(scheme.scheme.proved()).unwrap();
+        assert_eq!(stability.limit, "3.46410161513775458705489268301");
+        // cosh λ = 1 − h²/2 + h⁴/24
+        let expected = 2.0 * ((3.5_f64.powi(4) / 24.0 - 3.5 * 3.5 / 2.0) / 2.0).sqrt().asinh();
+        let found = point_of(&scheme.scheme, "3.5").found;
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
     }
 
     fn point_of(scheme: &TableScheme, h: &str) -> Point {

@@ -1,18 +1,15 @@
 //! Three bodies whose encounters no fixed step resolves.
 
-use std::io;
-
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use shadowstep::Scheme;
 use shadowstep::number::Rounded;
-use shadowstep::tables::Source;
 use shadowstep_report::chart::{Axis, Chart, Curve};
 use shadowstep_report::verdict::Verdict;
-use shadowstep_scenes::arithmetic::DigitsLabel;
-use shadowstep_scenes::{Error, Observer, Scene, Summary};
+use shadowstep_scenes::Error;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;
+use crate::scene_run::{Ended, Said, digits, run_scene};
 use crate::suite::{Examined, Suite};
 
 /// The case.
@@ -25,15 +22,6 @@ pub(super) struct Trial {
     inverse: u64,
 }
 
-/// What the run said at its end.
-#[derive(Serialize, Deserialize)]
-pub(super) enum Said {
-    /// What its summary says.
-    Summary { energy: f64, verdict: String, fine: bool, encounters: u64, closest: String },
-    /// How it failed.
-    Failed(String),
-}
-
 const UNTIL: u64 = 10;
 const SCHEMES: [&str; 3] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b"];
 /// An energy that has changed by this part is lost.
@@ -44,7 +32,7 @@ impl Case for Pythagorean {
     const TITLE: &'static str = "The Pythagorean problem of three bodies";
     const THEORY: &'static str = "Bodies of masses 3, 4, 5 fall from rest into close encounters, which no fixed step of practical size resolves: the \
         energy is lost in one of them. A run as users make it says so at its end, and names the encounter.";
-    const REVISION: u32 = 1;
+    const REVISION: u32 = 2;
 
     type Trial = Trial;
     type Measured = Said;
@@ -70,25 +58,16 @@ impl Case for Pythagorean {
     ) -> Result<Said, Error> {
         let scheme = suite.scheme(&trial.scheme);
         let evaluations = scheme.scheme.summary().evaluations as u64;
-        let digits = match suite.arithmetic.label() {
-            DigitsLabel::Name(name) => format!("\"{name}\""),
-            DigitsLabel::Digits(digits) => digits.to_string(),
-        };
         let text = format!(
             "problem.name = \"pythagorean\"\n\
-             run = {{ scheme = \"{}\", step = \"{evaluations}/{}\", steps = {}, digits = {digits} }}\n\
+             run = {{ scheme = \"{}\", step = \"{evaluations}/{}\", steps = {}, digits = {} }}\n\
              output.energy = {{ every = 1000 }}\n",
             scheme.name,
             trial.inverse,
-            UNTIL * trial.inverse / evaluations
+            UNTIL * trial.inverse / evaluations,
+            digits(suite.arithmetic)
         );
-        let scene = Scene::read(Source { path: "pythagorean.toml".to_owned(), text })?;
-        let mut summarised = Summarised { continues, summary: None };
-        match scene.run_into(&mut io::sink(), &mut summarised) {
-            Ok(_) => Ok(summarised.summary.expect("a complete run has a summary")),
-            Err(Error::Run { message, .. }) => Ok(Said::Failed(message)),
-            Err(error) => Err(error),
-        }
+        run_scene(text, continues)
     }
 
     fn judge(suite: &Suite, measured: &[(Trial, Said)]) -> Finding {
@@ -97,7 +76,7 @@ impl Case for Pythagorean {
             let evaluations = suite.scheme(&trial.scheme).scheme.summary().evaluations;
             let (what, verdict) = match said {
                 Said::Failed(message) => (message.clone(), Verdict::Agrees),
-                Said::Summary { energy, verdict, fine, encounters, closest } => {
+                Said::Ended(Ended { energy, verdict, fine, encounters, closest, .. }) => {
                     let lost = *energy > LOST;
                     let named = *encounters > 0;
                     let what = format!("energy off by {energy:.1e} of it; {verdict}; close encounters {closest}");
@@ -112,7 +91,7 @@ impl Case for Pythagorean {
         }
         let curve = |(i, all): (usize, &[(Trial, Said)])| {
             let point = |(trial, said): &(Trial, Said)| match said {
-                Said::Summary { energy, .. } => Some(((trial.inverse as f64).log10(), energy.log10())),
+                Said::Ended(Ended { energy, .. }) => Some(((trial.inverse as f64).log10(), energy.log10())),
                 Said::Failed(_) => None,
             };
             Curve::marked(suite.scheme(&all[0].0.scheme).name.clone(), all.iter().filter_map(point).collect(), i)
@@ -122,32 +101,5 @@ impl Case for Pythagorean {
         let chart = Chart::new("The energy after the encounters", x, y, by_scheme.enumerate().map(curve).collect());
         finding.chart(chart, "An error of 1 is the whole energy.");
         finding
-    }
-}
-
-/// Keeps the summary of a run.
-struct Summarised<'a> {
-    continues: Continues<'a>,
-    summary: Option<Said>,
-}
-
-impl Observer for Summarised<'_> {
-    fn summarises(&self) -> bool {
-        true
-    }
-
-    fn summary(&mut self, summary: &Summary) {
-        let relative = summary.energy().largest_relative.as_ref().and_then(|text| text.parse::<f64>().ok());
-        self.summary = Some(Said::Summary {
-            energy: relative.unwrap_or(f64::MAX).min(f64::MAX),
-            verdict: summary.verdict().to_owned(),
-            fine: summary.is_fine(),
-            encounters: summary.encounters(),
-            closest: summary.encounters_text(1),
-        });
-    }
-
-    fn stops(&mut self) -> bool {
-        !(self.continues)(0.5)
     }
 }

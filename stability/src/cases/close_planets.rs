@@ -1,0 +1,131 @@
+//! Two planets on circular orbits near each other: Hill's stability, close approaches, and what a run says of them.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+use shadowstep::Scheme;
+use shadowstep::number::Rounded;
+use shadowstep_report::chart::{Axis, Chart, Curve, Mark};
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::scene_run::{Said, digits, run_scene};
+use crate::suite::Suite;
+
+/// The case.
+pub(super) struct ClosePlanets;
+
+/// Two planets on circles whose radii differ by so many mutual Hill radii.
+#[derive(Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    /// In tenths of a Hill radius.
+    separation: u32,
+    periods: u32,
+}
+
+/// The mass of each planet as a part of the star's.
+const MASS: f64 = 1e-5;
+const SEPARATIONS: [u32; 10] = [20, 24, 28, 30, 32, 36, 40, 50, 60, 80];
+/// 2√3 mutual Hill radii.
+const STABLE: f64 = 3.464;
+/// Up to here the planets are surely in the chaotic zone.
+const CHAOTIC: f64 = 2.4;
+/// Planets that are nearer than a Hill radius have a close encounter.
+const ENCOUNTER: f64 = 1.0;
+/// Steps of so many kicks a period of the inner planet.
+const KICKS: f64 = 30.0;
+/// An error of H that is lost in an encounter, as a part of H: it oscillates by 1e-6 without.
+const LOST: f64 = 1e-4;
+const SCHEMES: [&str; 3] = ["stormer-verlet", "saba4", "abah864"];
+
+impl Case for ClosePlanets {
+    const NAME: &'static str = "close-planets";
+    const TITLE: &'static str = "Two planets 2 to 8 Hill radii from each other";
+    const THEORY: &'static str = "Planets on circular orbits whose radii differ by more than 2√3 mutual Hill radii are Hill stable: they never have a close \
+        encounter (Gladman, Icarus 106 (1993) 247), so the interactions stay small, the error of H is bounded and the step is fine. Below 2.4 they are in the \
+        chaotic zone and come within a Hill radius of each other, where the kicks are no longer the smaller part. A run names the closest approach, and an energy \
+        that is lost there is not called fine.";
+    const REVISION: u32 = 1;
+
+    type Trial = Trial;
+    type Measured = Said;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let periods = suite.thorough(5000, 400);
+        let schemes = suite.schemes_or(&SCHEMES).into_iter();
+        let schemes = schemes.filter(|examined| !examined.scheme.scheme.proved().scheme.has_gradient_kicks());
+        let of = |scheme: &crate::suite::Examined| {
+            let scheme = scheme.identity.clone();
+            SEPARATIONS.map(move |separation| Trial { scheme: scheme.clone(), separation, periods })
+        };
+        schemes.flat_map(of).collect()
+    }
+
+    fn seconds(_: &Suite, trial: &Trial) -> f64 {
+        f64::from(trial.periods) * KICKS * 500e-9
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        _: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Said, Error> {
+        let named = suite.scheme(&trial.scheme);
+        let h = format!("{:.6e}", TAU / KICKS * named.scheme.summary().evaluations as f64);
+        let steps = (f64::from(trial.periods) * TAU / h.parse::<f64>().expect("it is a number")) as u64;
+        // (a + 1)/2 mutual Hill radii, Δ times, are a − 1
+        let radius = (2.0 * MASS / 3.0).cbrt() * f64::from(trial.separation) / 10.0 / 2.0;
+        let text = format!(
+            "[problem]\nparts = \"wisdom-holman\"\nparameters = {{ g = 1 }}\n\
+             [[body]]\nname = \"star\"\nmass = 1\n\
+             [[body]]\nname = \"inner\"\nmass = {MASS:e}\na = 1\n\
+             [[body]]\nname = \"outer\"\nmass = {MASS:e}\na = {:.6}\nM = 180\n\
+             [run]\nscheme = \"{}\"\nstep = {h}\nsteps = {steps}\ndigits = {}\n[output]\nenergy = {{ every = 1000 }}\n",
+            (1.0 + radius) / (1.0 - radius),
+            named.name,
+            digits(suite.arithmetic)
+        );
+        run_scene(text, continues)
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Said)]) -> Finding {
+        let (mut finding, mut curves) = (Finding::default(), Vec::new());
+        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
+            let name = &suite.scheme(&all[0].0.scheme).name;
+            let (mut parts, mut verdicts, mut points) = (Vec::new(), Vec::new(), Vec::new());
+            for (trial, said) in all {
+                let separation = f64::from(trial.separation) / 10.0;
+                let (described, verdict, closest) = outcome(said, separation);
+                parts.push(format!("Δ = {separation:.1}: {described}"));
+                verdicts.push(verdict);
+                points.extend(closest.map(|closest| (separation, closest.log10())));
+            }
+            finding.row(name, parts.join("; "), Verdict::of_all(verdicts));
+            curves.push(Curve::marked(name.clone(), points, curves.len()));
+        }
+        let (x, y) =
+            (Axis::linear("difference of the radii in Hill radii"), Axis::log10("closest approach in Hill radii"));
+        let mut chart = Chart::new("How close two planets come", x, y, curves);
+        chart.marks.push(Mark::at(STABLE, "2√3"));
+        finding.chart(chart, "On the right of the line no encounter is possible.");
+        finding
+    }
+}
+
+/// What a run says, whether it is as predicted, and the closest approach.
+fn outcome(said: &Said, separation: f64) -> (String, Verdict, Option<f64>) {
+    let Said::Ended(ended) = said else {
+        return ("fails".to_owned(), Verdict::from(separation < STABLE), None);
+    };
+    let (closest, lost) = (ended.hill_radii.unwrap_or(f64::MAX), ended.energy > LOST);
+    let parts = [format!("{closest:.2} Hill radii"), format!("{:.0e}", ended.energy), ended.word().to_owned()];
+    let verdict = match separation > STABLE {
+        true => closest > ENCOUNTER && !lost && !ended.is_reported(),
+        false => !(lost && ended.fine) && (separation > CHAOTIC || closest < ENCOUNTER),
+    };
+    (parts.join(", "), Verdict::from(verdict), Some(closest))
+}

@@ -1,0 +1,360 @@
+//! Oscillators that drifts solve exactly, with a quadratic perturbation in the kicks: where its resonances are, and how fast states grow there.
+
+use std::f64::consts::{PI, TAU};
+
+use num_traits::FromPrimitive;
+use serde::{Deserialize, Serialize};
+use shadowstep::formula::FormulaPotential;
+use shadowstep::linear_part::LinearPart;
+use shadowstep::number::Rounded;
+use shadowstep::tables::TableScheme;
+use shadowstep::{Number, Rational, Stepper};
+use shadowstep_report::chart::{Axis, Chart, Curve};
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+use shadowstep_schemes::MapKind;
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::growth::{TOLERANCE, growth, size, steps_to_see};
+use crate::suite::{Examined, Suite};
+
+/// The case.
+pub(super) struct LinearPartCase;
+
+/// A scheme at a step size.
+#[derive(Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    at: At,
+    /// Exact.
+    h: f64,
+    /// The most steps.
+    steps: u64,
+}
+
+/// Where the step size is.
+#[derive(Clone, Copy, PartialEq, Serialize)]
+enum At {
+    /// On no resonance, beyond the limit of T(p) and U(q) for most schemes.
+    Beyond,
+    /// 2ω₁h = 2π
+    First,
+    /// 2ω₂h = 2π
+    Second,
+    /// (ω₁ + ω₂)h = 2π
+    Sum,
+    /// (ω₂ − ω₁)h = 2π
+    Difference,
+}
+
+/// What the steps have shown.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Found {
+    /// log of the largest modulus of an eigenvalue of a step.
+    predicted: f64,
+    /// How fast log|(q, p)| grows a step; or, where no growth is predicted, log of the largest |(q, p)| in the second half of the steps beside that of the first.
+    found: f64,
+    /// The growth is too slow to be seen in so many steps.
+    too_slow: bool,
+}
+
+const OMEGAS: [f64; 2] = [1.0, 1.6];
+/// B = δ(q₁ + q₂)²/2
+const DELTA: f64 = 0.01;
+/// A growth below this is round-off of the eigenvalues.
+const NO_GROWTH: f64 = 1e-6;
+/// A state that does not grow: its largest size in the halves of a run differs by beats only.
+const SAME: f64 = 0.02;
+const SCHEMES: [&str; 6] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "saba4", "abah864", "kahan-li8"];
+
+impl At {
+    const ALL: [At; 5] = [At::Beyond, At::First, At::Second, At::Sum, At::Difference];
+
+    /// The step size at which the resonance is without B.
+    fn step_size(self) -> f64 {
+        let [first, second] = OMEGAS;
+        match self {
+            At::Beyond => 2.8,
+            At::First => PI / first,
+            At::Second => PI / second,
+            At::Sum => TAU / (first + second),
+            At::Difference => TAU / (second - first),
+        }
+    }
+
+    fn named(self) -> &'static str {
+        match self {
+            At::Beyond => "hω₂ = 4.5",
+            At::First => "2ω₁",
+            At::Second => "2ω₂",
+            At::Sum => "ω₁ + ω₂",
+            At::Difference => "ω₂ − ω₁",
+        }
+    }
+}
+
+impl Case for LinearPartCase {
+    const NAME: &'static str = "linear-part";
+    const TITLE: &'static str = "Oscillations solved exactly, with a perturbation in the kicks";
+    const THEORY: &'static str = "H = A + B with two oscillators, ω₁ = 1 and ω₂ = 1.6, as A, which drifts solve, and B = δ(q₁ + q₂)²/2, δ = 0.01, in the \
+        kicks. There is no limit of hω. A step is a symplectic matrix; its eigenvalues leave the unit circle in narrow bands about 2ω_i h = 2πm and \
+        (ω₁ + ω₂)h = 2πm, and |(q, p)| grows like exp(λn) there, with the largest log of their moduli as λ. Of Störmer–Verlet λ is nearly hδ/2ω_i or \
+        hδ/2√(ω₁ω₂); kicks at several places within a step act against each other there. At (ω₂ − ω₁)h = 2πm both have the same sign, and nothing grows.";
+    const REVISION: u32 = 1;
+
+    type Trial = Trial;
+    type Measured = Found;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let steps = suite.thorough(400_000, 20_000);
+        let trials = |examined: &&Examined| {
+            let scheme = &examined.scheme.scheme;
+            let trial = |at: At| Trial { scheme: examined.identity.clone(), at, h: strongest(scheme, at), steps };
+            At::ALL.map(trial)
+        };
+        // gradient kicks are for T(p) and U(q)
+        let schemes = suite.schemes_or(&SCHEMES).into_iter();
+        schemes
+            .filter(|examined| !examined.scheme.scheme.proved().scheme.has_gradient_kicks())
+            .collect::<Vec<_>>()
+            .iter()
+            .flat_map(trials)
+            .collect()
+    }
+
+    fn seconds(suite: &Suite, trial: &Trial) -> f64 {
+        trial.steps as f64 * suite.scheme(&trial.scheme).scheme.proved().plan.evaluations as f64 * 60e-9
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        context: &N::Context,
+        _: Continues<'_>,
+    ) -> Result<Found, Error> {
+        let scheme = &suite.scheme(&trial.scheme).scheme;
+        let predicted = Matrix::of_step(scheme, trial.h).growth();
+        let h = rational(trial.h);
+        let stepper = Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
+        let mut system = system::<N>(context);
+        if predicted > 0.0 {
+            let count = steps_to_see(predicted);
+            let too_slow = 2 * count > trial.steps;
+            let found = if too_slow { 0.0 } else { growth(&stepper, &mut system, (predicted, count)) };
+            return Ok(Found { predicted, found, too_slow });
+        }
+        let mut half = || {
+            (0..trial.steps / 20).fold(0.0, |largest: f64, _| {
+                stepper.step(&mut system);
+                largest.max(size(&system))
+            })
+        };
+        let (first, second) = (half(), half());
+        Ok(Found { predicted, found: (second / first).ln(), too_slow: false })
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Found)]) -> Finding {
+        let (mut finding, mut curves) = (Finding::default(), Vec::new());
+        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
+            let named = suite.scheme(&all[0].0.scheme);
+            let parts: Vec<_> = all.iter().map(|(trial, found)| found.described(trial.at)).collect();
+            let verdict = Verdict::of_all(all.iter().map(|(trial, found)| found.verdict(trial.at)));
+            finding.row(&named.name, parts.join("; "), verdict);
+            curves.push(Curve::line(named.name.clone(), scan(&named.scheme), curves.len()));
+        }
+        let (x, y) = (Axis::linear("h"), Axis::log10("growth per step, from the eigenvalues"));
+        finding.chart(
+            Chart::new("Where a step with an exact linear part is unstable", x, y, curves),
+            "The bands are at 2ω₂h = 2π, (ω₁ + ω₂)h = 2π and 2ω₁h = 2π; schemes without a mark have none at these step sizes.",
+        );
+        finding
+    }
+}
+
+impl Found {
+    fn described(&self, at: At) -> String {
+        let at = at.named();
+        match self {
+            Found { predicted, .. } if *predicted == 0.0 => format!("{at}: bounded"),
+            Found { too_slow: true, predicted, .. } => format!("{at}: {predicted:.1e} a step, too slow to be seen"),
+            Found { predicted, found, .. } => {
+                format!("{at}: {predicted:.2e} a step, off by {:.0e} of it", (found / predicted - 1.0).abs())
+            }
+        }
+    }
+
+    fn verdict(&self, at: At) -> Verdict {
+        match self {
+            // the oscillators of a difference do not grow, nor does a step off the resonances
+            Found { predicted, .. } if *predicted > 0.0 && matches!(at, At::Difference | At::Beyond) => {
+                Verdict::Differs
+            }
+            Found { predicted, found, .. } if *predicted == 0.0 => Verdict::from(*found <= SAME),
+            // the others of the row decide
+            Found { too_slow: true, .. } => Verdict::Agrees,
+            Found { predicted, found, .. } => Verdict::from((found / predicted - 1.0).abs() <= TOLERANCE),
+        }
+    }
+}
+
+fn rational(x: f64) -> Rational {
+    Rational::from_f64(x).expect("it is finite")
+}
+
+/// The two oscillators at q = (1, 1/2), p = 0, with B in the kicks.
+fn system<N: Rounded>(context: &N::Context) -> LinearPart<N, FormulaPotential<N>> {
+    let number = |x: f64| N::from_rational(&rational(x), context);
+    let [first, second] = OMEGAS.map(|omega| &rational(omega) * rational(omega));
+    let squares = [&first, &second].map(|square| N::from_rational(square, context));
+    let [a, b] = squares;
+    let parameters = [("a", a), ("b", b), ("delta", number(DELTA))];
+    let formula = "(a*x^2 + b*y^2 + delta*(x + y)^2)/2";
+    let potential = FormulaPotential::new(formula, &["x", "y"], &parameters).expect("it is a formula");
+    let zero = rational(0.0);
+    let stiffness = [vec![first, zero.clone()], vec![zero, second]];
+    let masses = [rational(1.0), rational(1.0)];
+    let (q, p) = ([number(1.0), number(0.5)], [number(0.0), number(0.0)]);
+    LinearPart::new(potential, &masses, &stiffness, &q, &p).expect("two coordinates")
+}
+
+/// The step size near a resonance at which states grow fastest; at one without growth, the resonance itself.
+fn strongest(scheme: &TableScheme, at: At) -> f64 {
+    let h = at.step_size();
+    if at == At::Beyond {
+        return h;
+    }
+    let growth = |h: f64| Matrix::of_step(scheme, h).growth();
+    // B shifts the frequencies by δ/2ω
+    let near = |width: f64, about: f64| {
+        let sizes = (-200..=200).map(|i| about * (1.0 + width * f64::from(i) / 200.0));
+        sizes.max_by(|a, b| growth(*a).total_cmp(&growth(*b))).expect("there are some")
+    };
+    let coarse = near(WINDOW, h);
+    if growth(coarse) > 0.0 { near(WINDOW / 100.0, coarse) } else { h }
+}
+
+/// About a resonance.
+const WINDOW: f64 = 0.015;
+
+/// The growth at step sizes from well below the resonances to above.
+fn scan(scheme: &TableScheme) -> Vec<(f64, f64)> {
+    let sizes = (0..4000).map(|i| 1.8 + f64::from(i) * (3.3 - 1.8) / 4000.0);
+    sizes
+        .map(|h| (h, Matrix::of_step(scheme, h).growth()))
+        .map(|(h, growth)| (h, if growth > 0.0 { growth.log10() } else { f64::NAN }))
+        .collect()
+}
+
+/// A step as a matrix of q₁, q₂, p₁, p₂.
+struct Matrix([[f64; 4]; 4]);
+
+impl Matrix {
+    fn of_step(scheme: &TableScheme, h: f64) -> Matrix {
+        let mut step = Matrix::identity();
+        for map in scheme.proved().scheme.maps() {
+            let weight = h * <f64 as Number>::from_rational(&map.weight, &());
+            let map = match map.kind {
+                MapKind::Drift => Matrix::drift(weight),
+                MapKind::Kick => Matrix::kick(weight),
+                MapKind::GradientKick => unreachable!("schemes with gradient kicks are left out"),
+            };
+            step = map.after(&step);
+        }
+        step
+    }
+
+    fn identity() -> Matrix {
+        Matrix(std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j)))))
+    }
+
+    fn drift(t: f64) -> Matrix {
+        let mut drift = Matrix::identity();
+        for (i, omega) in OMEGAS.into_iter().enumerate() {
+            let (sin, cos) = (omega * t).sin_cos();
+            (drift.0[i][i], drift.0[i][i + 2]) = (cos, sin / omega);
+            (drift.0[i + 2][i], drift.0[i + 2][i + 2]) = (-omega * sin, cos);
+        }
+        drift
+    }
+
+    fn kick(weight: f64) -> Matrix {
+        let mut kick = Matrix::identity();
+        for i in 2..4 {
+            (kick.0[i][0], kick.0[i][1]) = (-weight * DELTA, -weight * DELTA);
+        }
+        kick
+    }
+
+    fn after(&self, first: &Matrix) -> Matrix {
+        let entry = |i: usize, j: usize| (0..4).map(|k| self.0[i][k] * first.0[k][j]).sum();
+        Matrix(std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))))
+    }
+
+    fn trace(&self) -> f64 {
+        (0..4).map(|i| self.0[i][i]).sum()
+    }
+
+    /// log of the largest modulus of an eigenvalue μ, 0 if all are on the unit circle.
+    ///
+    /// With μ also 1/μ is one. z = μ + 1/μ has z² − tr M z + (tr² M − tr M²)/2 − 2 = 0, and log|μ| = arcosh((|z/2 − 1| + |z/2 + 1|)/2).
+    fn growth(&self) -> f64 {
+        let (trace, trace_of_square) = (self.trace(), self.after(self).trace());
+        let discriminant = trace * trace - 2.0 * (trace * trace - trace_of_square) + 8.0;
+        let root = discriminant.abs().sqrt();
+        let roots = match discriminant >= 0.0 {
+            true => [((trace + root) / 4.0, 0.0), ((trace - root) / 4.0, 0.0)],
+            false => [(trace / 4.0, root / 4.0); 2],
+        };
+        let growth = |(re, im): (f64, f64)| ((re - 1.0).hypot(im) + (re + 1.0).hypot(im)).max(2.0) / 2.0;
+        let growth = roots.map(growth).into_iter().fold(1.0, f64::max).acosh();
+        if growth > NO_GROWTH { growth } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shadowstep::System;
+    use shadowstep_scenes::library::scheme;
+
+    #[test]
+    fn the_matrix_is_that_of_a_step() {
+        for name in ["stormer-verlet", "abah864"] {
+            let scheme = scheme(name).unwrap().scheme;
+            let mut system = system::<f64>(&());
+            let before: Vec<_> = system.q().iter().chain(system.p()).copied().collect();
+            Stepper::new(scheme.clone(), 2.3).unwrap().step(&mut system);
+            let matrix = Matrix::of_step(&scheme, 2.3);
+            let after = matrix.0.map(|row| row.iter().zip(&before).map(|(a, x)| a * x).sum::<f64>());
+            for (found, expected) in system.q().iter().chain(system.p()).zip(after) {
+                assert!((found - expected).abs() < 1e-14, "{name}: {found} {expected}");
+            }
+        }
+    }
+
+    /// Of Störmer–Verlet, in first order of δ: hδ/2ω at 2ωh = 2π, hδ/2√(ω₁ω₂) at the sum.
+    #[test]
+    fn growth_at_the_resonances_of_verlet() {
+        let verlet = scheme("stormer-verlet").unwrap().scheme;
+        let rate = |at: At, omega: f64| {
+            (Matrix::of_step(&verlet, strongest(&verlet, at)).growth(), at.step_size() * DELTA / 2.0 / omega)
+        };
+        let [first, second] = OMEGAS;
+        for (found, expected) in
+            [rate(At::First, first), rate(At::Second, second), rate(At::Sum, (first * second).sqrt())]
+        {
+            assert!((found / expected - 1.0).abs() < 0.03, "{found} {expected}");
+        }
+        assert_eq!(rate(At::Difference, 1.0).0, 0.0);
+    }
+
+    #[test]
+    fn what_differs_from_the_eigenvalues_differs() {
+        let found = |predicted: f64, found: f64| Found { predicted, found, too_slow: false };
+        assert_eq!(found(1e-2, 1.0001e-2).verdict(At::Sum), Verdict::Agrees);
+        assert_eq!(found(1e-2, 1.01e-2).verdict(At::Sum), Verdict::Differs);
+        assert_eq!(found(0.0, 0.5).verdict(At::Beyond), Verdict::Differs);
+        assert_eq!(found(1e-3, 1e-3).verdict(At::Difference), Verdict::Differs);
+    }
+}

@@ -1,0 +1,321 @@
+//! Close encounters in logarithmic time: Kepler orbits up to e = 1 − 10⁻⁸, of which the steps are known in closed form.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use num_traits::FromPrimitive;
+use serde::{Deserialize, Serialize};
+use shadowstep::kinetic::General;
+use shadowstep::number::Rounded;
+use shadowstep::problems::Kepler;
+use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as Said};
+use shadowstep::tables::{First, TableScheme};
+use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
+use shadowstep::{Motion, Number, Rational, Stepper, UnitMasses};
+use shadowstep_report::chart::{Axis, Chart, Curve};
+use shadowstep_report::verdict::Verdict;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::library::{NamedScheme, scheme_from};
+use shadowstep_schemes::MapKind;
+
+use crate::case::{Case, Continues};
+use crate::finding::Finding;
+use crate::suite::{Examined, Suite};
+
+/// The case.
+pub(super) struct TransformedTime;
+
+/// An orbit with e = 1 − 10^−k from its pericentre.
+#[derive(Serialize)]
+pub(super) struct Trial {
+    scheme: String,
+    k: u32,
+    periods: u32,
+}
+
+/// The largest deviations from the closed form, in units of the round-off that is expected of N leapfrogs.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Orbit {
+    steps: u64,
+    /// |H′| beside ε√N.
+    energy: f64,
+    /// |L/L(0) − 1| beside ε√N/L.
+    angular_momentum: f64,
+    /// The distance from the predicted point of the ellipse, and the error of the predicted time, beside ε N^{3/2}.
+    position: f64,
+    time: f64,
+    /// By how much a period in the physical time differs from 2π, as a part of it.
+    period: f64,
+    /// Whether the monitor calls the step too large.
+    too_large: bool,
+    verdict: String,
+}
+
+/// The round-off of a leapfrog may be so many ε: steps of schemes of high order are long, and some of their leapfrogs longer still.
+const MOST: f64 = 100.0;
+/// A step of so much for each force evaluation.
+const STEP: f64 = 0.05;
+const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "sofroniou-spaletta6-13", "sofroniou-spaletta8-21"];
+
+impl Case for TransformedTime {
+    const NAME: &'static str = "transformed-time";
+    const TITLE: &'static str = "Kepler orbits with e = 0.9 … 1 − 10⁻⁸ in logarithmic time";
+    const THEORY: &'static str = "The leapfrog that begins with a drift, with a step h of logarithmic time, takes a Kepler orbit (a = 1) from the eccentric anomaly E \
+        to E + 2 arctan(h/2) on the same ellipse, whatever e and h, and adds h − e Δ(sin E) to the time (proved with the half-angle formulas). So a \
+        composition of such steps γ_i h is at E = 2n Σ arctan(γ_i h/2) after n steps, at the time nh − e sin E: only the time of a period is off, by the same \
+        part for all e. Round-off makes H′ wander like ε√N over N leapfrogs, the angular momentum L like ε√N/L of it, and the phase like ε N^{3/2}: all \
+        stay below a hundred times that. The monitor never calls the step too large; where a step ends near the pericentre, it may see this round-off \
+        of H′.";
+    const REVISION: u32 = 1;
+
+    type Trial = Trial;
+    type Measured = Orbit;
+
+    fn trials(suite: &Suite) -> Vec<Trial> {
+        let periods = suite.thorough(1000, 10);
+        let compositions =
+            suite.schemes_or(&SCHEMES).into_iter().filter(|scheme| gammas(&scheme.scheme.scheme).is_some());
+        let of = |examined: &Examined| {
+            let identity = examined.identity.clone();
+            (1..=8).map(move |k| Trial { scheme: identity.clone(), k, periods })
+        };
+        compositions.flat_map(of).collect()
+    }
+
+    fn seconds(_: &Suite, trial: &Trial) -> f64 {
+        f64::from(trial.periods) * TAU / STEP * 80e-9
+    }
+
+    fn measure<N: Rounded + 'static>(
+        suite: &Suite,
+        trial: &Trial,
+        context: &N::Context,
+        continues: Continues<'_>,
+    ) -> Result<Orbit, Error> {
+        let named = suite.scheme(&trial.scheme);
+        let gammas = gammas(&named.scheme).expect("others are left out");
+        let h = Rational::from_f64(STEP).expect("it is finite") * Rational::from_integer(gammas.len().into());
+        let stepper = Stepper::with_context(drift_first(named)?, &h, context).expect("it is positive");
+        Ok(followed::<N>(&stepper, &gammas, trial, context, continues))
+    }
+
+    fn judge(suite: &Suite, measured: &[(Trial, Orbit)]) -> Finding {
+        let (mut finding, mut curves) = (Finding::default(), Vec::new());
+        for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
+            let name = &suite.scheme(&all[0].0.scheme).name;
+            let largest = |of: fn(&Orbit) -> f64| all.iter().map(|(_, orbit)| of(orbit)).fold(0.0, f64::max);
+            let worst = [
+                largest(|orbit| orbit.energy),
+                largest(|orbit| orbit.angular_momentum),
+                largest(|orbit| orbit.position),
+                largest(|orbit| orbit.time),
+            ];
+            let [energy, momentum, position, time] = worst;
+            finding.row(
+                name,
+                format!(
+                    "8 orbits of {} steps: H′ at most {energy:.1} ε√N, L {momentum:.1} ε√N/L; off the closed form by {position:.1e} ε N^(3/2) in place, \
+                     {time:.1e} ε N^(3/2) in time; a period is off by {:.1e} of it; the monitor: {}",
+                    all[0].1.steps,
+                    all[0].1.period,
+                    verdicts(all)
+                ),
+                Verdict::from(!all.iter().any(|(_, orbit)| orbit.too_large) && worst.into_iter().all(|of| of <= MOST)),
+            );
+            let points = all.iter().map(|(trial, orbit)| (-f64::from(trial.k), orbit.angular_momentum.log10()));
+            curves.push(Curve::marked(name.clone(), points.collect(), curves.len()));
+        }
+        let (x, y) = (Axis::log10("1 − e"), Axis::log10("largest error of L, in ε√N/L"));
+        finding.chart(
+            Chart::new("Round-off of the ellipse as e → 1", x, y, curves),
+            "Steps of logarithmic time do not get worse as the pericentre comes close to the centre.",
+        );
+        finding
+    }
+}
+
+/// What the monitor said of how many orbits.
+fn verdicts(all: &[(Trial, Orbit)]) -> String {
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for (_, orbit) in all {
+        match counts.iter_mut().find(|(verdict, _)| *verdict == orbit.verdict) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((&orbit.verdict, 1)),
+        }
+    }
+    counts.iter().map(|(verdict, count)| format!("{verdict} ({count})")).collect::<Vec<_>>().join(", ")
+}
+
+/// The scheme that begins with a drift.
+fn drift_first(named: &NamedScheme) -> Result<TableScheme<General>, Error> {
+    let named = scheme_from(&named.name, Path::new(""), Some(First::Drift))?;
+    named
+        .scheme
+        .for_every_kinetic()
+        .map_err(|error| Error::usage(error.to_string(), "use a composition of the leapfrog"))
+}
+
+/// The γ_i of a composition of leapfrogs, which are the kicks of a step that begins with a drift; `None` of another scheme.
+fn gammas(scheme: &TableScheme) -> Option<Vec<Rational>> {
+    let proved = scheme.proved();
+    let exact = &proved.scheme;
+    if exact.processor.is_some() || exact.has_gradient_kicks() || !proved.holds_for_every_kinetic() {
+        return None;
+    }
+    let maps = exact.clone().starting_with(First::Drift).maps();
+    let of = |kind: MapKind| -> Vec<Rational> {
+        maps.iter().filter(|map| map.kind == kind).map(|map| map.weight.clone()).collect()
+    };
+    let (kicks, drifts) = (of(MapKind::Kick), of(MapKind::Drift));
+    let zero = Rational::from_integer(0.into());
+    let two = Rational::from_integer(2.into());
+    let neighbours = |i: usize| kicks.get(i).unwrap_or(&zero) + i.checked_sub(1).map_or(&zero, |i| &kicks[i]);
+    let is_composition =
+        drifts.len() == kicks.len() + 1 && drifts.iter().enumerate().all(|(i, drift)| &two * drift == neighbours(i));
+    is_composition.then_some(kicks)
+}
+
+/// Follows an orbit beside its closed form.
+fn followed<N: Rounded + 'static>(
+    stepper: &Stepper<TableScheme<General>, N>,
+    gammas: &[Rational],
+    trial: &Trial,
+    context: &N::Context,
+    continues: Continues<'_>,
+) -> Orbit {
+    let mut ellipse = Ellipse::<N>::new(stepper.h(), gammas, trial.k, context);
+    let time = TimeTransformation::Logarithmic;
+    let (potential, kinetic) = (TransformedPotential::new(time, Kepler), TransformedKinetic::new(time, UnitMasses));
+    let (q, p) = ellipse.pericentre();
+    let mut motion = Motion::new(potential, kinetic, q, p).expect("three coordinates");
+    let h = <f64 as Number>::from_rational(stepper.h(), &());
+    let steps = (f64::from(trial.periods) * TAU / h) as u64;
+    let monitor = ShadowEnergy::new(stepper.clone(), &mut motion, &Bilinear::with_error(8)).expect("it is finite");
+    let mut monitor = monitor.every((steps / 256).max(1));
+    let unit = 2_f64.powi(-(<N as Rounded>::precision(context).in_bits() as i32));
+    let mut worst = [0.0_f64; 4];
+    for n in 1..=steps {
+        let finite = monitor.step(&mut motion).is_ok();
+        let found = ellipse.deviations(n, motion.q(), motion.p());
+        let leapfrogs = n as f64 * gammas.len() as f64;
+        let (wander, phase) = (unit * leapfrogs.sqrt(), unit * leapfrogs.powf(1.5));
+        let allowed = [wander, wander / ellipse.angular_momentum.to_f64(), phase, phase];
+        for (worst, (found, allowed)) in worst.iter_mut().zip(found.into_iter().zip(allowed)) {
+            // what is not a number is the worst; JSON has no infinity
+            *worst = if found.is_nan() { f64::MAX } else { worst.max(found / allowed).min(f64::MAX) };
+        }
+        if !finite || (n % 1024 == 0 && !continues(n as f64 / steps as f64)) {
+            break;
+        }
+    }
+    let verdict = monitor.report().verdict;
+    let [energy, angular_momentum, position, time] = worst;
+    let period = h / ellipse.turn.to_f64() - 1.0;
+    let too_large = matches!(verdict, Said::TooLarge(_) | Said::NearResonance { .. });
+    Orbit { steps, energy, angular_momentum, position, time, period, too_large, verdict: verdict.to_string() }
+}
+
+/// The closed form of the steps on an orbit with a = 1 that begins at its pericentre.
+struct Ellipse<N> {
+    h: N,
+    /// 2 Σ arctan(γ_i h/2), by which a step turns the eccentric anomaly.
+    turn: N,
+    eccentricity: N,
+    /// 1 − e
+    gap: N,
+    /// √(1 − e²)
+    angular_momentum: N,
+}
+
+impl<N: Rounded> Ellipse<N> {
+    fn new(h: &Rational, gammas: &[Rational], k: u32, context: &N::Context) -> Self {
+        let number = |value: &Rational| N::from_rational(value, context);
+        let one = Rational::from_integer(1.into());
+        let gap = Rational::new(1.into(), 10_i64.pow(k).into());
+        let mut turn = N::zero(context);
+        for gamma in gammas {
+            let half = number(&(gamma * h / Rational::from_integer(2.into())));
+            let mut angle = half.clone();
+            angle.assign_atan(&half);
+            turn.add(&angle);
+        }
+        turn.multiply_integer(2);
+        let square = number(&(&gap * (&one + &one - &gap)));
+        let mut angular_momentum = square.clone();
+        angular_momentum.assign_sqrt(&square);
+        Ellipse { h: number(h), turn, eccentricity: number(&(&one - &gap)), gap: number(&gap), angular_momentum }
+    }
+
+    /// x, y, t and p_x, p_y, p_t.
+    fn pericentre(&self) -> ([N; 3], [N; 3]) {
+        let zero = N::zero(&self.gap.context());
+        let mut py = self.angular_momentum.clone();
+        py.divide(&self.gap);
+        let half = N::from_rational(&Rational::new(1.into(), 2.into()), &self.gap.context());
+        ([self.gap.clone(), zero.clone(), zero.clone()], [zero, py, half])
+    }
+
+    /// |H′|, |L/L(0) − 1|, the distance from the predicted place, and the error of the time, after n steps.
+    fn deviations(&mut self, n: u64, q: &[N], p: &[N]) -> [f64; 4] {
+        let context = self.gap.context();
+        let n = N::from_rational(&Rational::from_integer(n.into()), &context);
+        let one = N::from_rational(&Rational::from_integer(1.into()), &context);
+        let zero = N::zero(&context);
+        // (T + p_t) r − 1, which is H′ in first order
+        let (mut square, mut r, mut energy) = (zero.clone(), zero.clone(), zero.clone());
+        q[..2].iter().for_each(|x| square.add_product(x, x));
+        r.assign_sqrt(&square);
+        p[..2].iter().for_each(|p| energy.add_product(p, p));
+        energy.divide_integer(2);
+        energy.add(&p[2]);
+        energy.multiply(&r);
+        energy.subtract(&one);
+        let mut momentum = zero.clone();
+        momentum.add_product(&q[0], &p[1]);
+        momentum.subtract_product(&q[1], &p[0]);
+        momentum.divide(&self.angular_momentum);
+        momentum.subtract(&one);
+        let (mut angle, mut sin, mut cos) = (zero.clone(), zero.clone(), zero.clone());
+        angle.assign_product(&n, &self.turn);
+        N::assign_sin_cos(&mut sin, &mut cos, &angle);
+        let (mut x, mut y, mut t) = (cos, zero.clone(), zero);
+        x.subtract(&self.eccentricity);
+        x.subtract(&q[0]);
+        y.add_product(&self.angular_momentum, &sin);
+        y.subtract(&q[1]);
+        t.add_product(&n, &self.h);
+        t.subtract_product(&self.eccentricity, &sin);
+        t.subtract(&q[2]);
+        [energy.to_f64().abs(), momentum.to_f64().abs(), x.to_f64().hypot(y.to_f64()), t.to_f64().abs()]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shadowstep_scenes::arithmetic::Arithmetic;
+    use shadowstep_scenes::library::scheme;
+
+    #[test]
+    fn compositions_of_the_leapfrog_are_recognised() {
+        let count = |name: &str| gammas(&scheme(name).unwrap().scheme).map(|gammas| gammas.len());
+        assert_eq!((count("stormer-verlet"), count("sofroniou-spaletta8-21")), (Some(1), Some(21)));
+        assert_eq!(
+            (count("blanes-moan-s6"), count("ruth3"), count("bcm6-11"), count("chin-4a")),
+            (None, None, None, None)
+        );
+    }
+
+    #[test]
+    fn the_steps_are_those_of_the_closed_form() {
+        let suite = Suite::new(vec![scheme("yoshida4").unwrap()], Arithmetic::Double, true);
+        let trial = TransformedTime::trials(&suite).pop().unwrap();
+        let orbit = TransformedTime::measure::<f64>(&suite, &trial, &(), &|_| true).unwrap();
+        assert!(!orbit.too_large && orbit.position < MOST && orbit.time < MOST, "{} {}", orbit.position, orbit.time);
+        // another turn is seen
+        let stepper = Stepper::new(drift_first(&suite.schemes_or(&[])[0].scheme).unwrap(), "3/20").unwrap();
+        let wrong =
+            followed::<f64>(&stepper, &gammas(&scheme("suzuki4").unwrap().scheme).unwrap(), &trial, &(), &|_| true);
+        assert!(wrong.position > 1e6, "{}", wrong.position);
+    }
+}
