@@ -28,15 +28,13 @@ const TABLE: [Key; 16] = [
     Key::new("processor", "{ order = 4, kick = [\"1/24\", \"-1/24\"], drift = [\"1/2\", \"-1/2\"] }"),
 ];
 
-const PROCESSOR: [Key; 7] = [
+const PROCESSOR: [Key; 6] = [
     Key::new("order", "4"),
     Key::new("near_integrable", "[4, 2]"),
     Key::new("dominant", "\"drift\""),
     Key::new("kick", "[\"1/24\", \"-1/24\"]"),
     Key::new("drift", "[\"1/2\", \"-1/2\"]"),
     Key::new("gamma", "[\"g1\", \"-g1\"]"),
-    // refused: gradient kicks are for kernels
-    Key::new("gradient_kick", "[]"),
 ];
 
 const STAGES: [Key; 3] = [
@@ -231,7 +229,7 @@ fn weights(reader: &mut Reader<'_>, root: &Section<'_, '_>, document: &DeTable<'
     match (root.get("stages"), root.get("composition")) {
         (Some(_), None) => {
             let section = reader.section(document, "stages", Keys::new("[stages]", STAGES));
-            stages(reader, &section)
+            stages(reader, &section, section.get("gradient_kick"))
         }
         (None, Some(_)) => {
             let section = reader.section(document, "composition", Keys::new("[composition]", COMPOSITION));
@@ -251,28 +249,19 @@ fn weights(reader: &mut Reader<'_>, root: &Section<'_, '_>, document: &DeTable<'
 
 /// The processor of a kernel with these weights: like them, it has stages, or is a composition of the same base.
 fn processor(reader: &mut Reader<'_>, document: &DeTable<'_>, kernel: Option<&Weights>) -> Option<Processor> {
-    let section = reader.section(document, "processor", Keys::new("[processor]", PROCESSOR));
+    let of_kernels = |word: &str| (word == "gradient_kick").then_some("[stages]: only kernels have gradient kicks");
+    let section = reader.section(document, "processor", Keys::new("[processor]", PROCESSOR).with_elsewhere(of_kernels));
     let order = reader.required(&section, "order").and_then(|v| reader.whole(v, 1..=HIGHEST_ORDER, "an order"));
     let near_integrable = near_integrable(reader, &section);
     let post = match kernel {
         Some(Weights::Composition { base, .. }) => {
-            refuse_weights(
-                reader,
-                &section,
-                &["kick", "gradient_kick", "drift"],
-                "the kernel is a composition: write `gamma`",
-            );
+            refuse_weights(reader, &section, &["kick", "drift"], "the kernel is a composition: write `gamma`");
             let gamma = reader.required(&section, "gamma").and_then(|v| cells(reader, v));
             gamma.map(|gamma| Weights::Composition { base: base.clone(), gamma })
         }
         _ => {
-            refuse_weights(
-                reader,
-                &section,
-                &["gamma", "gradient_kick"],
-                "the kernel has stages: write `kick` and `drift`",
-            );
-            stages(reader, &section)
+            refuse_weights(reader, &section, &["gamma"], "the kernel has stages: write `kick` and `drift`");
+            stages(reader, &section, None)
         }
     };
     Some(Processor { order: order?, near_integrable, post })
@@ -284,9 +273,9 @@ fn refuse_weights(reader: &mut Reader<'_>, section: &Section<'_, '_>, keys: &[&s
     }
 }
 
-fn stages(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<Weights> {
+fn stages(reader: &mut Reader<'_>, section: &Section<'_, '_>, gradient_kick: Option<&Value<'_>>) -> Option<Weights> {
     let kick = reader.required(section, "kick").and_then(|v| cells(reader, v));
-    let gradient_kick = section.get("gradient_kick").map(|v| cells(reader, v));
+    let gradient_kick = gradient_kick.map(|v| cells(reader, v));
     let drift = reader.required(section, "drift").and_then(|v| cells(reader, v));
     let (kick, drift) = (kick?, drift?);
     // without its gradient kicks it would be another scheme

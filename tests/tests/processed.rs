@@ -57,6 +57,14 @@ fn claims_of_the_processor_that_cannot_be_read_are_faults_at_their_places() {
     assert!(faults.contains("order"), "{faults}");
     let faults = refused("wisdom-corrector-3", "[processor]", "[processor]\ngamma = [1]");
     assert!(faults.contains("`gamma` is not for this processor"), "{faults}");
+    let faults = refused("wisdom-corrector-3", "[processor]", "[processor]\ngradient_kick = [1]");
+    assert!(faults.contains("unknown key `gradient_kick`"), "{faults}");
+    assert!(faults.contains("`gradient_kick` is a key of [stages]: only kernels have gradient kicks"), "{faults}");
+    let faults = refused("wisdom-corrector-3", "[processor]", "[processor]\nscheme = 1");
+    assert!(
+        faults.contains("the keys of [processor] are order, near_integrable, dominant, kick, drift, gamma"),
+        "{faults}"
+    );
 }
 
 type Comet = Motion<f64, [f64; 2], Kepler, UnitMasses>;
