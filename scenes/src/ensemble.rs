@@ -78,10 +78,6 @@ impl Ensemble {
         let columns = Columns::read(&source)?;
         let family = Family::new(source, &[ENSEMBLE.name]);
         let first = family.scene(&columns.values(0)).map_err(|faults| columns.with_trajectory(faults, 0))?;
-        if !first.scheme.scheme.processor().is_empty() {
-            let message = format!("{} is a processed scheme, and ensembles have none of these", first.scheme.name);
-            return Err(Error::usage(message, "use another scheme, or a sweep"));
-        }
         if first.displaced {
             let message = "ensembles have no gradient kicks by displaced forces";
             return Err(Error::usage(message, "leave `gradient_kicks` out, or use a sweep"));

@@ -11,7 +11,7 @@ type EstimatorOf<const W: usize> = <FixedBilinear as BuildEstimator<Lanes<W>>>::
 /// What became of a trajectory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// Positions at the end.
+    /// Positions at the end; of a processed scheme those of the trajectory, as all that is looked at.
     pub q: Vec<f64>,
     /// Momenta at the end.
     pub p: Vec<f64>,
@@ -35,6 +35,7 @@ where
     M: System<Number = Lanes<W>>,
 {
     let mut seen: Vec<Seen<W>> = systems.iter_mut().map(Seen::new).collect();
+    systems.iter_mut().for_each(|system| stepper.preprocess(system));
     let window = estimator.map_or(0, |estimator| estimator.states() as u64 - 1);
     let mut n = 0;
     // up to here each state goes to the estimator
@@ -56,9 +57,12 @@ where
             n = next;
         }
         if n == next {
-            seen.iter_mut().zip(&mut systems).for_each(|(seen, system)| seen.look(system, n));
+            for (seen, system) in seen.iter_mut().zip(&mut systems) {
+                stepper.at_output(system, |system| seen.look(system, n));
+            }
         }
     }
+    systems.iter_mut().for_each(|system| stepper.postprocess(system));
     seen.iter().zip(&systems).flat_map(|(seen, system)| (0..W).map(|lane| seen.outcome(system, lane))).collect()
 }
 
