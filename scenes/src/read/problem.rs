@@ -117,9 +117,11 @@ fn linear(reader: &mut Reader<'_>, at: &Range<usize>, system: &System) -> Option
     }
     match stiffness(|count| system.potential::<AnyLimbs>(count)) {
         Some(stiffness) => Some(Parts::Linear(stiffness)),
-        None => {
-            reader.toml.wrong(at, "U has no second derivatives at q = 0", "remove `parts`: U is not linear anywhere")
-        }
+        None => reader.toml.wrong(
+            at,
+            "U has no second derivatives at q = 0",
+            "remove `parts`: the force has no linear part",
+        ),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The linear part of a system: U_qq at the origin.
 
+use num_traits::Signed;
 use shadowstep::number::{AnyLimbs, LimbCount};
 use shadowstep::{Number, Potential, Rational, exact};
 use shadowstep_symbolic::decimal::from_text;
@@ -10,13 +11,17 @@ pub(crate) const LINEAR: &str = "linear";
 /// The most coordinates: the flow is computed in time that grows with their third power.
 pub(crate) const MOST_COORDINATES: usize = 100;
 
-/// Differences are of gradients so far apart: their error is of the size of its square, and round-off is less.
-const DISTANCE: &str = "1e-60";
+/// Differences are of gradients so far apart: their error is of the size of its square, and round-off is less. Those of both distances agree,
+/// unless U has no second derivatives there.
+const DISTANCES: [&str; 2] = ["1e-60", "2e-60"];
+
+/// How far they may differ as a part of the largest of them, or at all: a U that is finite has less.
+const AGREE: [&str; 2] = ["1e-50", "1e-25"];
 
 /// Numbers of 327 digits.
 const LIMBS: u32 = 17 * 64;
 
-/// U_qq at q = 0, row by row, exact to some 120 digits; `None` where the gradient has no value there.
+/// U_qq at q = 0, row by row, exact to some 120 digits; `None` where it has no value.
 ///
 /// The steps need no more: half of qᵀKq is added to one part and subtracted from the other with the same K.
 pub(crate) fn stiffness(potential: impl Fn(&LimbCount) -> Box<dyn Potential<AnyLimbs>>) -> Option<Vec<Vec<Rational>>> {
@@ -26,32 +31,64 @@ pub(crate) fn stiffness(potential: impl Fn(&LimbCount) -> Box<dyn Potential<AnyL
     let zero = AnyLimbs::zero(count);
     let mut scratch = vec![zero; potential.scratch()];
     potential.prepare(&mut scratch, &count);
-    let distance = AnyLimbs::from_rational(&exact(DISTANCE).expect("a number"), &count);
-    let mut gradient_at = |coordinate: usize, negative: bool| {
-        let mut q = vec![zero; dimension];
-        q[coordinate].assign(&distance);
-        if negative {
-            q[coordinate].negate();
-        }
-        let mut gradient = q.clone();
-        potential.update(&q);
-        potential.gradient(&q, &mut gradient, &mut scratch);
-        gradient
-    };
-    let column = |coordinate: usize| -> Option<Vec<Rational>> {
-        let (after, before) = (gradient_at(coordinate, false), gradient_at(coordinate, true));
-        let quotient = |(after, before): (AnyLimbs, AnyLimbs)| {
-            let mut quotient = after;
-            quotient.subtract(&before);
-            quotient.divide(&distance);
-            quotient.divide_integer(2);
-            quotient.is_finite().then(|| from_text(&quotient.to_text()).ok()).flatten()
+    let number = |text: &str| exact(text).expect("a number");
+    let mut of_distance = |distance: &str| -> Option<Vec<Vec<Rational>>> {
+        let distance = AnyLimbs::from_rational(&number(distance), &count);
+        let mut gradient_at = |coordinate: usize, negative: bool| {
+            let mut q = vec![zero; dimension];
+            q[coordinate].assign(&distance);
+            if negative {
+                q[coordinate].negate();
+            }
+            let mut gradient = q.clone();
+            potential.update(&q);
+            potential.gradient(&q, &mut gradient, &mut scratch);
+            gradient
         };
-        after.into_iter().zip(before).map(quotient).collect()
+        let column = |coordinate: usize| -> Option<Vec<Rational>> {
+            let (after, before) = (gradient_at(coordinate, false), gradient_at(coordinate, true));
+            let quotient = |(after, before): (AnyLimbs, AnyLimbs)| {
+                let mut quotient = after;
+                quotient.subtract(&before);
+                quotient.divide(&distance);
+                quotient.divide_integer(2);
+                quotient.is_finite().then(|| from_text(&quotient.to_text()).ok()).flatten()
+            };
+            after.into_iter().zip(before).map(quotient).collect()
+        };
+        (0..dimension).map(column).collect()
     };
-    let columns = (0..dimension).map(column).collect::<Option<Vec<_>>>()?;
+    let [columns, others] = [of_distance(DISTANCES[0])?, of_distance(DISTANCES[1])?];
+    let largest = columns.iter().flatten().map(Signed::abs).max()?;
+    let allowed = (largest * number(AGREE[0])).max(number(AGREE[1]));
+    let agree = |(a, b): (&Rational, &Rational)| (a - b).abs() <= allowed;
+    if !columns.iter().flatten().zip(others.iter().flatten()).all(agree) {
+        return None;
+    }
     // symmetric to the last digit
     let two = Rational::from_integer(2.into());
     let mean = |i: usize, j: usize| (&columns[i][j] + &columns[j][i]) / &two;
     Some((0..dimension).map(|i| (0..dimension).map(|j| mean(i, j)).collect()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use shadowstep::problems::problem;
+
+    fn stiffness_of(name: &str) -> Option<Vec<Vec<Rational>>> {
+        let setup = problem(name).unwrap().setup(&[], 140).unwrap();
+        stiffness(|count| setup.potential::<AnyLimbs>(count))
+    }
+
+    #[test]
+    fn oscillators_have_second_derivatives_at_the_origin_and_a_centre_of_attraction_has_none() {
+        let one = |i: usize, j: usize| Rational::from_integer(i64::from(i == j).into());
+        let found = stiffness_of("henon-heiles").unwrap();
+        let small = exact("1e-100").unwrap();
+        for (i, row) in found.iter().enumerate() {
+            assert!(row.iter().enumerate().all(|(j, k)| (k - one(i, j)).abs() < small), "{row:?}");
+        }
+        assert_eq!(stiffness_of("kepler"), None);
+    }
 }
