@@ -18,10 +18,10 @@ pub(crate) struct RunArguments {
     /// error
     #[arg(long = "scheme", value_name = "NAME|FILE,…", required = true, value_delimiter = ',')]
     pub(crate) schemes: Vec<String>,
-    /// Step sizes, exact, such as 1/10,0.05
+    /// Step sizes, exact, such as 1/10,0.05; of a scene with [time], in the fictitious time s
     #[arg(long = "step", value_name = "H,…", required = true, value_delimiter = ',', allow_hyphen_values = true)]
     pub(crate) steps: Vec<String>,
-    /// The time at which runs end, exact, such as 100
+    /// The time at which runs end, exact, such as 100; of a scene with [time], the fictitious time s
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) until: String,
     /// Decimal digits of all numbers, such as 50

@@ -34,11 +34,14 @@ impl<Class> Clone for TableScheme<Class> {
 
 /// A scheme whose claimed order holds for quadratic T only, requested for a general T(p).
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{name} has order {order_quadratic} for quadratic T only, for a general T(p) order {order}")]
+#[error("{name} has {}", match order {
+    0 => "gradient kicks, which are for quadratic T only".to_owned(),
+    order => format!("order {order_quadratic} for quadratic T only, for a general T(p) order {order}"),
+})]
 pub struct QuadraticOnly {
     /// The scheme's name.
     pub name: String,
-    /// The order proved for every T(p), less than the table claims.
+    /// The order proved for every T(p), less than the table claims; 0 of a scheme with gradient kicks.
     pub order: u32,
     /// The order proved for quadratic T.
     pub order_quadratic: u32,

@@ -180,7 +180,15 @@ const SHOWN: usize = 3;
 
 /// Three digits of a number.
 fn short(text: &str) -> String {
-    from_text(text).map_or_else(|_| text.to_owned(), |value| to_significant(&value, 3))
+    // numbers of a run that was lost may be too large to be read: their first digits, not rounded
+    let first_digits = |(digits, exponent): (&str, &str)| {
+        let length = if digits.starts_with('-') { "-1.23" } else { "1.23" }.len();
+        format!("{}e{exponent}", digits.get(..length).unwrap_or(digits))
+    };
+    match from_text(text) {
+        Ok(value) => to_significant(&value, 3),
+        Err(_) => text.split_once('e').map_or_else(|| text.to_owned(), first_digits),
+    }
 }
 
 impl fmt::Display for Summary {
@@ -229,5 +237,18 @@ impl Serialize for Summary {
         object.serialize_field("reason", &self.reason)?;
         object.serialize_field("fine", &self.fine)?;
         object.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn numbers_have_three_digits_of_any_size() {
+        assert_eq!(short("0.000123456"), "1.23e-4");
+        assert_eq!(short("-2.395973213260594620428624132556e10092"), "-2.39e10092");
+        assert_eq!(short("3.3510363341376132e18154"), "3.35e18154");
+        assert_eq!(short("NaN"), "NaN");
     }
 }

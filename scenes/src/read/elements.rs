@@ -61,12 +61,14 @@ impl Elements {
             () if self.e == one => {
                 Some(("a parabola has no semi-major axis".to_owned(), "give q and v of this body instead"))
             }
-            () if self.e < one && !self.a.is_positive() => {
-                Some(("the semi-major axis of an ellipse must be positive".to_owned(), "write a = 5.2"))
-            }
-            () if self.e > one && !self.a.is_negative() => {
-                Some((format!("with e = {e} the orbit is a hyperbola, whose a is negative"), "write a = -5.2"))
-            }
+            () if self.e < one && !self.a.is_positive() => Some((
+                "the semi-major axis of an ellipse must be positive".to_owned(),
+                "change the sign of a, or give an e above 1",
+            )),
+            () if self.e > one && !self.a.is_negative() => Some((
+                format!("with e = {e} the orbit is a hyperbola, whose a is negative"),
+                "change the sign of a, or give an e below 1",
+            )),
             () => None,
         }
     }
