@@ -4,7 +4,9 @@ use std::io::Write;
 
 use clap::Args;
 use shadowstep::problems::{PROBLEMS, problem};
-use shadowstep_scenes::{ENCOUNTER_SCENES, Error, MANY_PARTS_SCENES, PLANETARY_SCENES, ShippedScene, shipped_scene};
+use shadowstep_scenes::{
+    ENCOUNTER_SCENES, Error, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene,
+};
 
 use crate::output::Output;
 use crate::quantity::problem_error;
@@ -49,12 +51,12 @@ fn list() -> String {
     let shipped =
         |scenes: &[ShippedScene]| scenes.iter().map(|scene| line(scene.name, scene.title)).collect::<String>();
     let (planets, encounters) = (shipped(&PLANETARY_SCENES), shipped(&ENCOUNTER_SCENES));
-    let many_parts = shipped(&MANY_PARTS_SCENES);
+    let (many_parts, schemes) = (shipped(&MANY_PARTS_SCENES), shipped(&SCHEME_SCENES));
     let how = "`shadowstep scene kepler > scene.toml` writes one, `shadowstep run scene.toml` runs it, and \
                `shadowstep scene --explain` explains all keys.";
     format!(
         "There is a scene for each of these problems:\n{names}of planetary systems:\n{planets}of close encounters:\n{encounters}\
-         and of three parts:\n{many_parts}{}",
+         of three parts:\n{many_parts}and of schemes with gradient kicks or processors:\n{schemes}{}",
         wrapped(how, "")
     )
 }

@@ -133,7 +133,7 @@ pub use scene::{
     Canonical, CheckpointInterval, EnergyAt, Format, KineticEnergy, Outputs, PairEnergy, Parts, Planets,
     PotentialEnergy, Scene, Shown, System,
 };
-pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, ShippedScene, shipped_scene};
+pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene};
 pub use summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use template::template;
 pub use temporary::{Temporary, remove_temporary_files};

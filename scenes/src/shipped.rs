@@ -1,4 +1,4 @@
-//! Shipped scenes: each a file in `scenes/planets/`, `scenes/close-encounters/` or `scenes/many-parts/`.
+//! Shipped scenes: each a file in `scenes/planets/`, `scenes/close-encounters/`, `scenes/many-parts/` or `scenes/schemes/`.
 
 /// A shipped scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,11 +68,31 @@ pub const MANY_PARTS_SCENES: [ShippedScene; 2] = [
     },
 ];
 
+/// All shipped scenes of schemes with letters or maps of their own: gradient kicks, processors.
+pub const SCHEME_SCENES: [ShippedScene; 3] = [
+    ShippedScene {
+        name: "argon-gradient",
+        title: "Seven argon atoms by force-gradient kicks",
+        text: include_str!("../schemes/argon-gradient.toml"),
+    },
+    ShippedScene {
+        name: "processed-kepler",
+        title: "Kepler's problem by a processed scheme of effective order 8",
+        text: include_str!("../schemes/processed-kepler.toml"),
+    },
+    ShippedScene {
+        name: "corrected-planets",
+        title: "The outer planets with Wisdom's corrector of order 17",
+        text: include_str!("../schemes/corrected-planets.toml"),
+    },
+];
+
 /// The shipped scene with this name.
 pub fn shipped_scene(name: &str) -> Option<&'static ShippedScene> {
     PLANETARY_SCENES
         .iter()
         .chain(&ENCOUNTER_SCENES)
         .chain(&MANY_PARTS_SCENES)
+        .chain(&SCHEME_SCENES)
         .find(|scene| scene.name.eq_ignore_ascii_case(name))
 }

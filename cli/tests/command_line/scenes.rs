@@ -327,6 +327,23 @@ fn every_shipped_problem_has_a_scene_that_runs() {
 }
 
 #[test]
+fn every_shipped_scene_of_a_scheme_runs_with_its_picture() {
+    for scene in &shadowstep_scenes::SCHEME_SCENES {
+        let text = quietly(&format!("scene {}", scene.name));
+        let until = text.lines().find(|line| line.starts_with("until")).unwrap();
+        let folder = folder(&text.replace(until, "steps = 100"));
+        let result = run(folder.path(), "");
+        assert_eq!((result.code, result.err.as_str()), (0, ""), "{text}");
+        let (header, rows) = table(&fs::read_to_string(folder.path().join(format!("{}.csv", scene.name))).unwrap());
+        let [energy, modified] =
+            ["energy", "modified_energy"].map(|name| header.iter().position(|h| h == name).unwrap());
+        assert!(rows.len() > 1 && rows.iter().all(|row| !row[energy].is_empty()), "{rows:?}");
+        assert!(rows.iter().any(|row| !row[modified].is_empty()), "{rows:?}");
+        assert!(folder.path().join(format!("{}.svg", scene.name)).exists(), "{}", scene.name);
+    }
+}
+
+#[test]
 fn the_state_of_a_scene_is_that_of_its_problem() {
     let scene = quietly("scene kepler").replace("until = \"100\"", "until = 1").replace("\"1 min\"", "9");
     let stateless: String = scene
@@ -521,7 +538,8 @@ fn an_ensemble_has_a_row_for_each_trajectory() {
 
 #[test]
 fn an_ensemble_of_a_processed_scheme_is_read_through_the_post_map() {
-    let scene = ENSEMBLE.replace("yoshida4", "bcm6-11").replace("order = 4, every = 10", "order = 4, every = 4");
+    let scene = ENSEMBLE.replace("yoshida4", "bcm6-11").replace("1/20", "1/3");
+    let scene = scene.replace("order = 4, every = 10", "order = 4, every = 4");
     let ensemble = folder(&format!("{scene}[ensemble]\ncolumns = {{ d = [0, \"1/3\"], x0 = [1, 1.5] }}\n"));
     let result = run(ensemble.path(), "");
     assert_eq!(result.code, 0, "{}", result.err);
@@ -534,14 +552,15 @@ fn an_ensemble_of_a_processed_scheme_is_read_through_the_post_map() {
         ));
         assert_eq!(run(own.path(), "").code, 0);
         let text = fs::read_to_string(own.path().join("out.csv")).unwrap();
-        let own: Vec<Vec<String>> = rows(&text).into_iter().skip(1).collect();
+        let own: Vec<_> = text.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit())).collect();
+        let own = rows(&own.join("\n"));
         let last = own.last().unwrap();
         assert_eq!(table[row][3..7], last[last.len() - 4..], "{last:?}");
         let energies: Vec<f64> = own.iter().map(|row| row[2].parse().unwrap()).collect();
         let error = energies.iter().map(|energy| (energy - energies[0]).abs() / energies[0].abs()).fold(0.0, f64::max);
         let found: f64 = table[row][7].parse().unwrap();
         // H of lanes is summed in another order
-        assert!((found - error).abs() < 1e-14 && error > 1e-13, "{found} {error}");
+        assert!((found - error).abs() < 1e-14 && (row == 1 || error > 1e-10), "{found} {error}");
     }
 }
 
