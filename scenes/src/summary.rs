@@ -246,7 +246,6 @@ mod tests {
 
     #[test]
     fn numbers_have_three_digits_of_any_size() {
-        assert_eq!(short("0.000123456"), "1.23e-4");
         assert_eq!(short("-2.395973213260594620428624132556e10092"), "-2.39e10092");
         assert_eq!(short("3.3510363341376132e18154"), "3.35e18154");
         assert_eq!(short("NaN"), "NaN");
