@@ -6,7 +6,7 @@ use shadowstep::pairs::{Ends, Pairs, Separation};
 use shadowstep::potential::{HessianProduct, from_fn};
 use shadowstep::problems::{Kepler, PROBLEMS};
 use shadowstep::run::{RunError, energy_drift};
-use shadowstep::shadow::{Bilinear, ShadowEnergy};
+use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::tables::shipped;
 use shadowstep::{Motion, Number, Ordered, Potential, Stepper, System, UnitMasses, potential};
 use shadowstep_tests::refusals::{assert_refused, judge};
@@ -279,4 +279,26 @@ fn a_potential_without_second_derivatives_says_so() {
     let panic = std::panic::catch_unwind(step).unwrap_err();
     let message = panic.downcast_ref::<&str>().copied().or(panic.downcast_ref::<String>().map(String::as_str));
     assert!(message.unwrap().contains("write it as a formula, or implement `Potential::hessian`"), "{message:?}");
+}
+
+/// The verdict on steps that resolve the pericentre and on some that do not.
+#[test]
+fn the_monitor_judges_gradient_kicks() {
+    let watched = |scheme: &str, h: &str, steps: u64| {
+        let mut motion = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]).unwrap();
+        let stepper = Stepper::new(shipped(scheme).unwrap(), h).unwrap();
+        let monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(8)).unwrap();
+        let mut monitor = monitor.every(20);
+        for _ in 0..steps {
+            monitor.step(&mut motion).unwrap();
+        }
+        monitor.report()
+    };
+    for scheme in ["chin-4c", "omelyan-4mn3f1gp", "takahashi-imada"] {
+        let fine = watched(scheme, "1/40", 10_000);
+        assert!(fine.verdict == Verdict::Fine, "{scheme}: {fine}");
+        assert!(fine.range < fine.energy_error / 20.0, "{scheme}: H̄ {:e}, H {:e}", fine.range, fine.energy_error);
+        let coarse = watched(scheme, "1/3", 3000);
+        assert!(!coarse.verdict.is_fine(), "{scheme}: {coarse}");
+    }
 }
