@@ -96,7 +96,9 @@ wisdom-corrector-7        2  2   1  yes  drift  -       2 2 8,2
 wisdom-corrector-11       2  2   1  yes  drift  -       2 2 12,2
 wisdom-corrector-17       2  2   1  yes  drift  -       2 2 18,2
 wisdom-kernel-3           -  2   1+1  yes  drift  -     3 4 4,4,3
+wisdom-kernel-5           -  2   1+1  yes  drift  -     3 4 6,4,3
 wisdom-kernel-7           -  2   1+1  yes  drift  -     3 4 8,4,3
+wisdom-kernel-11          -  2   1+1  yes  drift  -     3 4 12,4,3
 wisdom-kernel-17          -  2   1+1  yes  drift  -     3 4 18,4,3
 yoshida4                  4  4   3  yes  kick   -
 yoshida6-a                6  6   7  yes  kick   -
