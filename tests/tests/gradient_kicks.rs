@@ -294,11 +294,12 @@ fn the_monitor_judges_gradient_kicks() {
         }
         monitor.report()
     };
-    for scheme in ["chin-4c", "omelyan-4mn3f1gp", "takahashi-imada"] {
+    // with the coarse steps the orbit is lost, sooner or later
+    for (scheme, coarse) in [("chin-4c", "2/3"), ("omelyan-4mn3f1gp", "1/2"), ("takahashi-imada", "1/3")] {
         let fine = watched(scheme, "1/40", 10_000);
         assert!(fine.verdict == Verdict::Fine, "{scheme}: {fine}");
         assert!(fine.range < fine.energy_error / 20.0, "{scheme}: H̄ {:e}, H {:e}", fine.range, fine.energy_error);
-        let coarse = watched(scheme, "1/3", 3000);
+        let coarse = watched(scheme, coarse, 3000);
         assert!(!coarse.verdict.is_fine(), "{scheme}: {coarse}");
     }
 }
