@@ -16,8 +16,10 @@ format:
 lint:
 	cargo clippy --workspace --features mpfr --all-targets --locked -- -D warnings
 
-# all tests and doc tests; and those of the library and the command line without GMP and MPFR
+# all tests and doc tests; and those of the library and the command line without GMP and MPFR. One reads the licences of all dependencies, also of those
+# that other systems need.
 check:
+	cargo fetch --locked
 	cargo test --workspace --features mpfr --locked
 	cargo test -p shadowstep -p shadowstep-scenes -p shadowstep-cli --locked
 
