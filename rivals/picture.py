@@ -10,8 +10,8 @@ from contestants import HERE, RIVALS
 matplotlib.rcParams |= {"svg.hashsalt": "shadowstep", "svg.fonttype": "none", "font.family": "sans-serif", "font.size": 11}
 
 # the colours of Okabe and Ito, which the colour blind can tell apart, and a marker for each rival
-COLOURS = ["#D55E00", "#D55E00", "#000000", "#0072B2", "#009E73", "#56B4E9", "#CC79A7", "#E69F00", "#7F7F7F", "#8B4513", "#5D3A9B", "#0072B2", "#009E73"]
-MARKERS = "oosD^v<>PX*hd"
+COLOURS = ["#D55E00", "#D55E00", "#D55E00", "#D55E00", "#000000", "#0072B2", "#009E73", "#56B4E9", "#CC79A7", "#E69F00", "#7F7F7F", "#8B4513", "#5D3A9B", "#0072B2", "#009E73"]
+MARKERS = "oop8sD^v<>PX*hd"
 
 
 def front(results, rival, error):
