@@ -67,6 +67,7 @@
 //! | [`shadow`] | estimators of the modified energy, and [a monitor](shadow::ShadowEnergy) for loops |
 //! | [`ensemble`] | many trajectories at once, in lanes and on all cores |
 //! | [`run`] | trajectories with the states that an estimator needs on both sides, and the energy drift |
+//! | [`recorded`] | trajectories that other programs have computed: their modified energy |
 //! | [`wisdom_holman`] | planets: H = A + B with Kepler orbits as A |
 //! | [`linear_part`] | oscillations solved exactly: H = A + B with a quadratic form as A |
 //! | [`many_parts`] | H = H_1 + … + H_n of parts whose flows have formulas |
@@ -99,6 +100,7 @@ pub mod potential;
 pub mod potential_check;
 pub mod problems;
 mod processor;
+pub mod recorded;
 pub mod run;
 pub mod scheme;
 pub mod shadow;

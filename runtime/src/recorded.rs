@@ -1,0 +1,51 @@
+//! The modified energy of trajectories that other programs have computed.
+//!
+//! A program that integrates by velocity Verlet follows a modified Hamiltonian as a [`Stepper`](crate::Stepper) does, and what it logs is enough to
+//! estimate its value H̄: q and p at equal distances h in time, U, and the forces. `docs/recorded-trajectories.md` says which integrators of
+//! which programs these are.
+//!
+//! [`Recorded`] estimates along a log of velocity Verlet, [`Repeated`] along states of any scheme, and [`Observer`] state by state, with a
+//! [diagnosis](Diagnosis) of what moves the energy.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | `log` | the states of a log, and what is known of U there |
+//! | `half_steps` | momenta of leapfrog at the times of the positions |
+//! | `unwrap` | positions without jumps between the images of a periodic box |
+//! | `verlet` | what steps added to q, p and β |
+//! | `misfit` | by how much logged states differ from that |
+//! | `source` | the states of a log as a source for estimators |
+//! | `repeated` | states of any scheme, with the steps between them made again |
+//! | `observer`, `value` | follows a trajectory, state by state: the modified energy at each |
+//! | `forces` | whether the forces are smooth along it |
+//! | `changes` | how the modified energy changes from state to state |
+//! | `diagnosis`, `text` | what moves the energy, with the thresholds; as text |
+//! | `error` | what a log cannot be used for |
+
+mod changes;
+mod diagnosis;
+mod error;
+mod forces;
+mod half_steps;
+mod log;
+mod misfit;
+mod observer;
+mod repeated;
+mod source;
+mod text;
+mod unwrap;
+mod value;
+mod verlet;
+
+pub use changes::Jump;
+pub use diagnosis::{Cause, Diagnosis};
+pub use error::RecordedError;
+pub use forces::Smoothness;
+pub use half_steps::integer_momenta;
+pub use log::{Derivatives, Log, Logged};
+pub use misfit::{Differences, Largest};
+pub use observer::Observer;
+pub use repeated::Repeated;
+pub use source::Recorded;
+pub use unwrap::Unwrapping;
+pub use value::Value;

@@ -1,0 +1,216 @@
+//! What moves the energy of a recorded trajectory, with the thresholds.
+
+use super::changes::{Changes, Jump, median};
+use super::forces::{ForceDifferences, Smoothness};
+use super::misfit::Differences;
+use super::value::Value;
+
+/// Estimates that a statement needs.
+const LEAST_ESTIMATES: usize = 32;
+/// Logged states differ from the steps by more than this part of the increments,
+const LARGEST_MISFIT: f64 = 1e-3;
+/// and by more than this part of themselves, a few last places of an `f32`, and are not rounded each by itself.
+const SINGLE: f64 = 2.4e-7;
+const ROUNDED: f64 = -0.3;
+/// H̄ moved if its range is this part of the energy error or more, beyond errors on both sides.
+const MOVED: f64 = 0.1;
+/// H̄ is not known well enough to say that it did not, if its error is this part of the energy error or more.
+const UNKNOWN: f64 = 0.25;
+/// An estimate may be wrong by this many times its error.
+const ERROR_FACTOR: f64 = 3.0;
+/// H̄ moves by more than the forces' differences explain where the excess is above the first, and by much less below the second.
+const EXCESS: [f64; 2] = [8.0, 0.03];
+/// H̄ changes at few states only where the isolation is above this.
+const ISOLATED: f64 = 3.0;
+/// Exponents of forces that are noise, jump, or have a derivative that jumps, are below these.
+const NOISE: f64 = 0.5;
+const JUMPS: f64 = 2.0;
+const KINKS: f64 = 4.0;
+
+/// What moves the energy of a trajectory that another program has computed.
+///
+/// H̄ is constant but for what is not a step of the scheme in a smooth potential, so what it changes by is the size of the cause. The energy error, max − min of
+/// H, contains the part H − H̄ of the method in addition, which oscillates. Printed, it is a few lines with the numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnosis {
+    /// How many states were taken.
+    pub states: u64,
+    /// How many estimates H̄ with errors there are.
+    pub estimates: usize,
+    /// The mean kinetic energy.
+    pub kinetic: f64,
+    /// The energy error: max − min of H.
+    pub energy_error: f64,
+    /// H̄ of the first estimate.
+    pub first: f64,
+    /// The last one less the first.
+    pub change: f64,
+    /// max − min of H̄.
+    pub range: f64,
+    /// That beyond three errors of the estimates on both sides, or 0.
+    pub moved: f64,
+    /// The median of the estimated errors of H̄.
+    pub known_to: f64,
+    /// The time from the first estimate to the last.
+    pub time: f64,
+    /// How smooth the forces are; `None` where no gradients are logged.
+    pub smoothness: Option<Smoothness>,
+    /// The mean square of what H̄ changes by in a step, as a multiple of what errors of the forces would make that are independent from step to step and
+    /// of the size of their differences, h²Σ(σv)²: 1 for noise of the forces.
+    pub excess: Option<f64>,
+    /// The rms of what H̄ changes by from state to state, as a multiple of that of a normal distribution with the same median: 1 for noise, large where H̄
+    /// changes at few states only.
+    pub isolation: f64,
+    /// These states, with the largest change first.
+    pub jumps: Vec<Jump>,
+    /// By how much logged q and p differ from the steps; `None` where no gradients are logged.
+    pub differences: Option<[Differences; 2]>,
+    /// What moves the energy.
+    pub cause: Cause,
+}
+
+/// What moves the modified energy. The first that applies is given:
+///
+/// | cause | if |
+/// | --- | --- |
+/// | not decided: states | there are fewer than 32 estimates with errors |
+/// | other steps | q or p of the states differ from the steps by more than 1e-3 of their increments, rms; and not as numbers that are stored with few digits |
+/// | nothing | H̄ moved by less than a tenth of the energy error, beyond three times its errors, and is known to a quarter of it |
+/// | digits | else, if it is not known to that, and q differs from the steps as numbers that are stored with few digits |
+/// | jumps | the excess is above 8, the isolation above 3 |
+/// | not the gradient | the excess is above 8, the exponent 2 or more |
+/// | energy not smooth | the excess is above 8 |
+/// | noise | the exponent is below 0.5 |
+/// | forces not smooth | the exponent is below 2; or below 4, and the excess above 0.03 |
+/// | time step | the excess is below 0.03 |
+/// | not decided | none of these, or no gradients are logged |
+///
+/// The excess, the isolation and the exponent are those of the [`Diagnosis`]. `docs/recorded-trajectories.md` has what they are in an experiment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cause {
+    /// The states are not those of velocity Verlet with these masses, gradients and step size: a thermostat, a constraint, another integrator.
+    OtherSteps,
+    /// Nothing that is resolved: H̄ is conserved.
+    Nothing,
+    /// The states are stored with too few digits to know H̄.
+    Digits,
+    /// The energy jumps now and then: a list of neighbours that is renewed too late, a state that is changed.
+    Jumps {
+        /// The root mean square of these jumps.
+        size: f64,
+    },
+    /// Smooth forces that are not −U_q of the logged U.
+    NotTheGradient,
+    /// U jumps, all the time: a truncated potential.
+    EnergyNotSmooth {
+        /// What that changes the energy by in a step, rms.
+        size: f64,
+    },
+    /// Errors of the forces that are independent from step to step.
+    Noise {
+        /// Their root mean square for a component.
+        size: f64,
+    },
+    /// The forces, or their derivatives, jump: a cutoff.
+    ForcesNotSmooth,
+    /// The time step: forces are smooth, and the steps do not resolve the motion.
+    TimeStep,
+    /// The states do not tell.
+    Undecided,
+}
+
+/// What a diagnosis is made of.
+pub(super) struct Evidence<'a> {
+    pub(super) h: f64,
+    pub(super) states: u64,
+    pub(super) values: &'a [Value],
+    pub(super) kinetic: f64,
+    pub(super) changes: &'a Changes,
+    pub(super) forces: &'a ForceDifferences,
+    pub(super) differences: Option<[Differences; 2]>,
+}
+
+impl Diagnosis {
+    pub(super) fn of(evidence: Evidence<'_>) -> Diagnosis {
+        let Evidence { h, states, values, kinetic, changes, forces, differences } = evidence;
+        let largest = |of: &dyn Fn(&Value) -> f64| values.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let width = |of: &dyn Fn(&Value) -> f64| largest(of) + largest(&|value| -of(value));
+        let beyond = |sign: f64| largest(&|value| sign * value.modified - ERROR_FACTOR * value.error);
+        let (first, last) = (values.first(), values.last());
+        let modified = |value: Option<&Value>| value.map_or(f64::NAN, |value| value.modified);
+        let smoothness = forces.found();
+        let square = changes.square_in_a_step();
+        let mut diagnosis = Diagnosis {
+            states,
+            estimates: values.len(),
+            kinetic,
+            energy_error: width(&|value| value.energy),
+            first: modified(first),
+            change: modified(last) - modified(first),
+            range: width(&|value| value.modified),
+            moved: (beyond(1.0) + beyond(-1.0)).max(0.0),
+            known_to: median(values.iter().map(|value| value.error).collect()),
+            time: h.abs() * last.zip(first).map_or(0.0, |(last, first)| (last.n - first.n) as f64),
+            smoothness,
+            excess: smoothness.map(|_| square / (h * h * forces.power())),
+            isolation: changes.isolation(),
+            jumps: changes.jumps(),
+            differences,
+            cause: Cause::Undecided,
+        };
+        diagnosis.cause = diagnosis.judge(square.sqrt());
+        diagnosis
+    }
+
+    fn judge(&self, in_a_step: f64) -> Cause {
+        if self.estimates < LEAST_ESTIMATES {
+            return Cause::Undecided;
+        }
+        if self.differences.is_some_and(|differences| differences.iter().any(is_of_other_steps)) {
+            return Cause::OtherSteps;
+        }
+        let is_unknown = self.known_to >= UNKNOWN * self.energy_error;
+        if self.moved < MOVED * self.energy_error {
+            let is_rounded = self.differences.is_some_and(|[of_q, _]| of_q.correlation < ROUNDED);
+            return match (is_unknown, is_rounded) {
+                (false, _) => Cause::Nothing,
+                (true, true) => Cause::Digits,
+                (true, false) => self.of_forces(in_a_step),
+            };
+        }
+        self.of_forces(in_a_step)
+    }
+
+    fn of_forces(&self, in_a_step: f64) -> Cause {
+        let Some((Smoothness { exponent, differences, .. }, excess)) = self.smoothness.zip(self.excess) else {
+            return Cause::Undecided;
+        };
+        let [above, below] = EXCESS;
+        let is_isolated = self.isolation > ISOLATED;
+        if excess > above {
+            let rms = |jumps: &[Jump]| {
+                (jumps.iter().map(|jump| jump.energy * jump.energy).sum::<f64>() / jumps.len() as f64).sqrt()
+            };
+            return if is_isolated {
+                Cause::Jumps { size: rms(&self.jumps) }
+            } else if exponent >= JUMPS {
+                Cause::NotTheGradient
+            } else {
+                Cause::EnergyNotSmooth { size: in_a_step }
+            };
+        }
+        match exponent {
+            _ if excess.is_nan() || exponent.is_nan() => Cause::Undecided,
+            ..NOISE => Cause::Noise { size: differences },
+            ..JUMPS => Cause::ForcesNotSmooth,
+            ..KINKS if excess > below => Cause::ForcesNotSmooth,
+            _ if excess <= below => Cause::TimeStep,
+            _ => Cause::Undecided,
+        }
+    }
+}
+
+fn is_of_other_steps(differences: &Differences) -> bool {
+    let Differences { of_increments, of_numbers, correlation, .. } = *differences;
+    of_increments > LARGEST_MISFIT && of_numbers > SINGLE && correlation > ROUNDED
+}

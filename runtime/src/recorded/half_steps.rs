@@ -1,0 +1,29 @@
+//! Momenta at the times of the positions, from those of leapfrog between them.
+
+use super::error::RecordedError;
+
+/// The momenta p_n = ½(p_{n−1/2} + p_{n+1/2}) of the states n = 0, 1, … from those of leapfrog, which are half a step before and after.
+///
+/// Of leapfrog p_{n+1/2} = p_{n−1/2} − h U_q(q_n), so that p_{n±1/2} = p_n ∓ ½h U_q(q_n) with p_n of velocity Verlet: the two make the same
+/// trajectory, and the mean is its p_n exactly, not an approximation. `half_steps` has a row more than there are states, that before the
+/// first state included; where that is not known, leave the first state out.
+///
+/// ```
+/// use shadowstep::recorded::integer_momenta;
+///
+/// let p = integer_momenta(1, 2, &[1.0, 0.5, -0.5])?;
+/// assert_eq!(p, [0.75, 0.0]);
+/// # Ok::<(), shadowstep::recorded::RecordedError>(())
+/// ```
+///
+/// # Errors
+/// Rows that are not one more than the states.
+pub fn integer_momenta(dimension: usize, states: usize, half_steps: &[f64]) -> Result<Vec<f64>, RecordedError> {
+    let needed = states + 1;
+    if half_steps.len() != needed * dimension {
+        let found = half_steps.len() / dimension.max(1);
+        return Err(RecordedError::HalfSteps { states, needed, found });
+    }
+    // 0.5 x is exact
+    Ok(half_steps.iter().zip(&half_steps[dimension..]).map(|(before, after)| 0.5 * before + 0.5 * after).collect())
+}

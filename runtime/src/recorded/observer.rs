@@ -1,0 +1,154 @@
+//! Follows a trajectory while another program computes it.
+
+use super::changes::{Changes, K};
+use super::diagnosis::{Diagnosis, Evidence};
+use super::error::RecordedError;
+use super::forces::{ForceDifferences, STATES};
+use super::log::{Derivatives, Logged};
+use super::value::Value;
+use super::verlet::VerletSteps;
+use crate::run::{Quantity, check_value};
+use crate::shadow::{Bilinear, BilinearEstimator, BuildEstimator, Estimator};
+use crate::step_size::StepSize;
+
+/// Follows the modified energy H̄ of a trajectory that another program computes by velocity Verlet, or has computed, and says
+/// [what moves the energy](Diagnosis).
+///
+/// It takes states that follow each other by a step, or windows of such states with [gaps](Observer::begin) between them. From the 17th state of a window on
+/// each gives an estimate E_8 with its error, of the state eight before it.
+///
+/// ```
+/// use shadowstep::StepSize;
+/// use shadowstep::recorded::{Cause, Derivatives, Logged, Observer};
+///
+/// // a pendulum by velocity Verlet; the forces have errors of 1e-3 that change from step to step
+/// let h = 0.1;
+/// let mut state = 1_u64;
+/// let mut noise = || {
+///     state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+///     1e-3 * 12_f64.sqrt() * ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
+/// };
+/// let (mut q, mut p) = (1.0_f64, 0.0_f64);
+/// let mut gradient = q.sin() + noise();
+///
+/// let mut observer = Observer::new(&StepSize::try_from(h)?, &[1.0])?;
+/// for _ in 0..4000 {
+///     observer.observe(&Logged { q: &[q], p: &[p], energy: -q.cos(), derivatives: Derivatives::Gradient(&[gradient]) })?;
+///     p -= h / 2.0 * gradient;
+///     q += h * p;
+///     gradient = q.sin() + noise();
+///     p -= h / 2.0 * gradient;
+/// }
+/// let found = observer.diagnosis();
+/// println!("{found}");
+/// assert!(matches!(found.cause, Cause::Noise { size } if (size / 1e-3 - 1.0).abs() < 0.1));
+/// # Ok::<(), shadowstep::recorded::RecordedError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Observer {
+    h: f64,
+    masses: Vec<f64>,
+    steps: VerletSteps,
+    with_error: BilinearEstimator<f64>,
+    estimator: BilinearEstimator<f64>,
+    forces: ForceDifferences,
+    changes: Changes,
+    values: Vec<Value>,
+    /// States of the present window.
+    pushed: usize,
+    states: u64,
+    /// H of the newest states, that of the state n in place n mod their number.
+    energies: [f64; STATES],
+    kinetic: f64,
+}
+
+impl Observer {
+    /// For steps of size h, of coordinates with these masses.
+    ///
+    /// # Errors
+    /// A mass that is not positive and finite; no masses.
+    pub fn new(h: &StepSize, masses: &[f64]) -> Result<Self, RecordedError> {
+        let dimension = masses.len();
+        let steps = VerletSteps::new(h, masses)?;
+        Ok(Observer {
+            h: steps.h(),
+            masses: masses.to_vec(),
+            steps,
+            with_error: Bilinear::with_error(K).build(h, dimension, &())?,
+            estimator: Bilinear::new(K).build(h, dimension, &())?,
+            forces: ForceDifferences::new(dimension),
+            changes: Changes::default(),
+            values: Vec::new(),
+            pushed: 0,
+            states: 0,
+            energies: [0.0; STATES],
+            kinetic: 0.0,
+        })
+    }
+
+    /// The next state does not follow the newest by a step: a new window begins.
+    pub fn begin(&mut self) {
+        self.steps.begin();
+        self.forces.begin();
+        self.pushed = 0;
+    }
+
+    /// How many states a window needs for an estimate with its error.
+    pub fn states(&self) -> usize {
+        STATES
+    }
+
+    /// Takes the next state; gives the estimate that it completes.
+    ///
+    /// # Errors
+    /// A state of another dimension; a number, or a modified energy, that is not finite; gradients where there were none, or the reverse.
+    pub fn observe(&mut self, logged: &Logged<'_>) -> Result<Option<Value>, RecordedError> {
+        self.steps.check(logged)?;
+        self.steps.push(logged)?;
+        self.pushed += 1;
+        let state = self.steps.state();
+        let n = state.n;
+        if let Derivatives::Gradient(gradient) = logged.derivatives {
+            self.forces.push(gradient, logged.p, &self.masses);
+        }
+        let kinetic = logged.p.iter().zip(&self.masses).map(|(p, mass)| p * p / mass).sum::<f64>() / 2.0;
+        check_value(&(kinetic + logged.energy), Quantity::Energy, n)?;
+        self.kinetic += kinetic;
+        self.states += 1;
+        let place = |n: i64| n as usize % STATES;
+        self.energies[place(n)] = kinetic + logged.energy;
+
+        let of_window = |states: usize| self.pushed >= states;
+        if let Some(found) =
+            self.estimator.push(state.q, state.p, state.increments).filter(|_| of_window(K as usize + 1))
+        {
+            check_value(found.value, Quantity::ModifiedEnergy, n)?;
+            self.changes.push(n - i64::from(K) / 2, *found.value);
+        }
+        let found = self.with_error.push(state.q, state.p, state.increments).filter(|_| of_window(STATES));
+        let Some(found) = found else { return Ok(None) };
+        let n = n - (STATES as i64 - 1) / 2;
+        let error = found.error.copied().unwrap_or(f64::NAN);
+        let value = Value { n, modified: *found.value, error, energy: self.energies[place(n)] };
+        self.values.push(value);
+        Ok(Some(value))
+    }
+
+    /// All estimates so far.
+    pub fn values(&self) -> &[Value] {
+        &self.values
+    }
+
+    /// What moves the energy, as far as the states so far tell.
+    pub fn diagnosis(&self) -> Diagnosis {
+        Diagnosis::of(Evidence {
+            h: self.h,
+            states: self.states,
+            values: &self.values,
+            kinetic: self.kinetic / self.states.max(1) as f64,
+            changes: &self.changes,
+            forces: &self.forces,
+            differences: self.steps.differences(),
+        })
+    }
+}

@@ -1,0 +1,125 @@
+//! A diagnosis as text.
+
+use std::fmt;
+
+use super::changes::Jump;
+use super::diagnosis::{Cause, Diagnosis};
+use super::forces::Smoothness;
+
+impl Diagnosis {
+    /// The cause with its size, a sentence.
+    pub fn reason(&self) -> String {
+        let [part, kinetic] = [self.range / self.energy_error, self.range / self.kinetic];
+        let moved = format!(
+            "the modified energy ranges over {:.2e}, {part:.1e} of the energy error and {kinetic:.1e} of T, in {:.4} of time",
+            self.range, self.time
+        );
+        match self.cause {
+            Cause::Undecided => self.why_undecided(),
+            Cause::OtherSteps => self.why_other_steps(),
+            Cause::Nothing => {
+                format!("the modified energy is conserved: it is known to {:.1e}, and {moved}", self.known_to)
+            }
+            Cause::Digits => format!(
+                "the modified energy is known to {:.1e} only, as the states are stored with few digits: q to {:.1e} of itself",
+                self.known_to,
+                self.differences.map_or(f64::NAN, |[of_q, _]| of_q.of_numbers / 2_f64.sqrt())
+            ),
+            Cause::Jumps { size } => {
+                format!("{moved}: it jumps {}, by {size:.2e} rms. {}", self.where_it_jumps(), LATE)
+            }
+            Cause::NotTheGradient => format!("{moved}: the forces are smooth, and are not −U_q of the logged U"),
+            Cause::EnergyNotSmooth { size } => {
+                format!("{moved}: U jumps all the time, by {size:.2e} rms in a step, as where a potential is truncated")
+            }
+            Cause::Noise { size } => format!(
+                "{moved}: the forces have errors that are independent from step to step, of {size:.2e} rms in each component, {:.1e} of the forces",
+                size / self.smoothness.map_or(f64::NAN, |smoothness| smoothness.gradient)
+            ),
+            Cause::ForcesNotSmooth => format!("{moved}: the forces are not smooth, as at a cutoff"),
+            Cause::TimeStep => format!("{moved}: the forces are smooth, and the time step is too large for them"),
+        }
+    }
+
+    fn why_undecided(&self) -> String {
+        if self.smoothness.is_none() {
+            "not decided: no forces are logged, or windows have fewer than 17 states".to_owned()
+        } else {
+            format!(
+                "not decided: {} estimates with errors, which are {:.1e}; more states may decide it",
+                self.estimates, self.known_to
+            )
+        }
+    }
+
+    fn why_other_steps(&self) -> String {
+        let parts = self.differences.map_or([f64::NAN; 2], |differences| differences.map(|of| of.of_increments));
+        let [of_q, of_p] = parts;
+        format!(
+            "the states are not those of velocity Verlet with these masses, forces and step size: the steps differ by {of_q:.1e} (q) and {of_p:.1e} \
+             (p) of themselves, as with a thermostat, a constraint, another integrator or step size, or momenta at half steps"
+        )
+    }
+
+    fn where_it_jumps(&self) -> String {
+        let mut first: Vec<i64> = self.jumps.iter().take(3).map(|Jump { n, .. }| *n).collect();
+        first.sort_unstable();
+        let places: Vec<String> = first.iter().map(i64::to_string).collect();
+        format!("{} times, the most before the states {}", self.jumps.len(), places.join(", "))
+    }
+}
+
+/// What makes such jumps.
+const LATE: &str = "A list of neighbours that is renewed too late does that, or a state that is changed";
+
+impl fmt::Display for Diagnosis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{} ({} states, {} estimates)", self.cause, self.states, self.estimates)?;
+        writeln!(
+            f,
+            "  energy error     {:9.2e}  max − min of H; {:.1e} of T",
+            self.energy_error,
+            self.energy_error / self.kinetic
+        )?;
+        writeln!(
+            f,
+            "  H̄ ranges over    {:9.2e}  {:.2e} beyond its errors; from begin to end {:+.2e}",
+            self.range, self.moved, self.change
+        )?;
+        writeln!(f, "  it is known to   {:9.2e}", self.known_to)?;
+        if let Some(Smoothness { gradient, differences, exponent }) = self.smoothness {
+            writeln!(
+                f,
+                "  forces           {gradient:9.2e}  eighth differences {differences:.2e}, exponent {exponent:.2}"
+            )?;
+        }
+        if let Some(excess) = self.excess {
+            writeln!(f, "  excess           {excess:9.2e}  isolation {:.1}", self.isolation)?;
+        }
+        if let Some([of_q, of_p]) = self.differences {
+            writeln!(
+                f,
+                "  states off steps {:9.2e}  of q, {:.2e} of p, as parts of the steps",
+                of_q.of_increments, of_p.of_increments
+            )?;
+        }
+        write!(f, "  {}", self.reason())
+    }
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Cause::OtherSteps => "other steps",
+            Cause::Nothing => "nothing moves the energy",
+            Cause::Digits => "too few digits",
+            Cause::Jumps { .. } => "jumps",
+            Cause::NotTheGradient => "not the gradient",
+            Cause::EnergyNotSmooth { .. } => "the energy is not smooth",
+            Cause::Noise { .. } => "noise of the forces",
+            Cause::ForcesNotSmooth => "the forces are not smooth",
+            Cause::TimeStep => "the time step",
+            Cause::Undecided => "not decided",
+        })
+    }
+}

@@ -1,0 +1,180 @@
+//! What moves the energy of a fluid of 27 particles: faults that other programs have, each made here.
+
+use shadowstep::recorded::{Cause, Derivatives, Diagnosis, Logged as State, Observer};
+
+use super::*;
+
+/// Steps of velocity Verlet of the fluid with a fault: `evaluate` gives U and writes the gradient of the state n, `after` changes q and p after a
+/// step, and what is logged is rounded by `store`.
+struct Run<E, A> {
+    h: f64,
+    steps: usize,
+    evaluate: E,
+    after: A,
+    store: fn(f64) -> f64,
+}
+
+impl<E: FnMut(usize, &[f64], &mut [f64]) -> f64, A: FnMut(&mut [f64])> Run<E, A> {
+    fn observe(mut self, logged_h: f64) -> Diagnosis {
+        let [mut q, mut p] = fluid().start();
+        let mut gradient = vec![0.0; q.len()];
+        let mut observer = Observer::new(&logged_h.try_into().unwrap(), &vec![1.0; q.len()]).unwrap();
+        let mut energy = (self.evaluate)(0, &q, &mut gradient);
+        for n in 1..=self.steps {
+            let [q_stored, p_stored] = [&q, &p].map(|x| x.iter().map(|x| (self.store)(*x)).collect::<Vec<f64>>());
+            let derivatives = Derivatives::Gradient(&gradient);
+            observer.observe(&State { q: &q_stored, p: &p_stored, energy, derivatives }).unwrap();
+            p.iter_mut().zip(&gradient).for_each(|(p, g)| *p -= self.h / 2.0 * g);
+            q.iter_mut().zip(&p).for_each(|(q, p)| *q += self.h * p);
+            energy = (self.evaluate)(n, &q, &mut gradient);
+            p.iter_mut().zip(&gradient).for_each(|(p, g)| *p -= self.h / 2.0 * g);
+            (self.after)(&mut p);
+        }
+        observer.diagnosis()
+    }
+}
+
+fn of(kind: Cutoff) -> impl FnMut(usize, &[f64], &mut [f64]) -> f64 {
+    let fluid = Fluid { kind, ..fluid() };
+    move |_, q, gradient| {
+        let mut energy = 0.0;
+        fluid.gradient(q, gradient, &mut []);
+        fluid.energy(q, &mut energy, &mut []);
+        energy
+    }
+}
+
+/// 1000 steps with these forces.
+fn with(h: f64, evaluate: impl FnMut(usize, &[f64], &mut [f64]) -> f64) -> Diagnosis {
+    Run { h, steps: 1000, evaluate, after: |_: &mut [f64]| (), store: |x| x }.observe(h)
+}
+
+/// Numbers of variance 1 that look random.
+fn noise() -> impl FnMut() -> f64 {
+    let mut state = 1_u64;
+    let mut next = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    move || (0..12).map(|_| next()).sum()
+}
+
+#[test]
+fn of_smooth_forces_and_resolved_steps_it_is_nothing() {
+    for h in [0.001, 0.002, 0.004] {
+        let found = with(h, of(Cutoff::Smooth));
+        assert_eq!(found.cause, Cause::Nothing, "h = {h}: {found}");
+        let found = with(h, of(Cutoff::ForceShifted));
+        assert_eq!(found.cause, Cause::Nothing, "h = {h}: {found}");
+    }
+}
+
+#[test]
+fn noise_is_found_with_its_size() {
+    for size in [0.01, 0.1, 1.0] {
+        let (mut smooth, mut noise) = (of(Cutoff::Smooth), noise());
+        let found = with(0.002, |n, q, gradient| {
+            let energy = smooth(n, q, gradient);
+            gradient.iter_mut().for_each(|g| *g += size * noise());
+            energy
+        });
+        let holds = matches!(found.cause, Cause::Noise { size: found } if (found / size - 1.0).abs() < 0.05);
+        assert!(holds, "{size}: {found}");
+        // theory: what independent kicks do to the energy
+        assert!((0.5..2.0).contains(&found.excess.unwrap()), "{size}: {found}");
+    }
+}
+
+#[test]
+fn cutoffs_are_found() {
+    let truncated = with(0.002, of(Cutoff::Truncated));
+    assert!(matches!(truncated.cause, Cause::EnergyNotSmooth { .. } | Cause::Jumps { .. }), "{truncated}");
+    let shifted = with(0.002, of(Cutoff::Shifted));
+    assert!((0.5..1.6).contains(&shifted.smoothness.unwrap().exponent), "{shifted}");
+}
+
+/// A list of the pairs within the cutoff that is renewed in so many steps.
+fn late(every: usize) -> impl FnMut(usize, &[f64], &mut [f64]) -> f64 {
+    let fluid = fluid();
+    let mut pairs: Vec<[usize; 2]> = Vec::new();
+    move |n, q, gradient| {
+        let pair = Fluid { particles: 2, ..fluid };
+        let energy_of = |[i, j]: [usize; 2]| {
+            let of_pair: Vec<f64> = [&q[3 * i..][..3], &q[3 * j..][..3]].concat();
+            let (mut energy, mut of_both) = (0.0, [0.0; 6]);
+            pair.energy(&of_pair, &mut energy, &mut []);
+            pair.gradient(&of_pair, &mut of_both, &mut []);
+            (energy, of_both)
+        };
+        if n % every == 0 {
+            pairs =
+                (0..27).flat_map(|i| (0..i).map(move |j| [i, j])).filter(|&pair| energy_of(pair).0 != 0.0).collect();
+        }
+        gradient.fill(0.0);
+        let mut sum = 0.0;
+        for &[i, j] in &pairs {
+            let (energy, of_both) = energy_of([i, j]);
+            sum += energy;
+            (0..3).for_each(|axis| {
+                gradient[3 * i + axis] += of_both[axis];
+                gradient[3 * j + axis] += of_both[3 + axis];
+            });
+        }
+        sum
+    }
+}
+
+#[test]
+fn lists_that_are_renewed_too_late_are_found_with_their_places() {
+    let found = with(0.002, late(100));
+    let holds = matches!(found.cause, Cause::Jumps { size } if size > 1e-3);
+    assert!(holds, "{found}");
+    assert!(found.jumps.iter().take(5).all(|jump| jump.n % 100 == 0), "{:?}", found.jumps);
+    let found = with(0.002, late(1));
+    assert_eq!(found.cause, Cause::Nothing, "{found}");
+}
+
+#[test]
+fn forces_of_another_potential_are_found() {
+    let mut smooth = of(Cutoff::Smooth);
+    let found = with(0.002, |n, q, gradient| {
+        let energy = smooth(n, q, gradient);
+        gradient.iter_mut().for_each(|g| *g *= 1.02);
+        energy
+    });
+    assert_eq!(found.cause, Cause::NotTheGradient, "{found}");
+}
+
+#[test]
+fn a_time_step_that_is_too_large_is_found() {
+    let found = with(0.02, of(Cutoff::Smooth));
+    assert_eq!(found.cause, Cause::TimeStep, "{found}");
+}
+
+#[test]
+fn other_steps_are_found() {
+    // friction, as of a thermostat
+    let after = |p: &mut [f64]| p.iter_mut().for_each(|p| *p *= 0.9995);
+    let found = Run { h: 0.002, steps: 200, evaluate: of(Cutoff::Smooth), after, store: |x| x }.observe(0.002);
+    assert_eq!(found.cause, Cause::OtherSteps, "{found}");
+    // another step size than is said
+    let run = Run { h: 0.002, steps: 200, evaluate: of(Cutoff::Smooth), after: |_: &mut [f64]| (), store: |x| x };
+    let found = run.observe(0.00201);
+    assert_eq!(found.cause, Cause::OtherSteps, "{found}");
+    let [of_q, _] = found.differences.unwrap();
+    assert!((of_q.slope + 0.005).abs() < 1e-4, "{of_q:?}");
+}
+
+#[test]
+fn states_with_few_digits_are_not_accused() {
+    let run = |store| {
+        Run { h: 0.002, steps: 400, evaluate: of(Cutoff::Smooth), after: |_: &mut [f64]| (), store }.observe(0.002)
+    };
+    let single = run(|x| f64::from(x as f32));
+    assert_eq!(single.cause, Cause::Nothing, "{single}");
+    let [of_q, _] = single.differences.unwrap();
+    assert!((of_q.correlation + 0.5).abs() < 0.1 && of_q.of_numbers < 1e-7, "{single}");
+    // two decimals
+    let few = run(|x| (x * 1e2).round() / 1e2);
+    assert_eq!(few.cause, Cause::Digits, "{few}");
+}
