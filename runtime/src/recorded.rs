@@ -41,7 +41,7 @@ pub use changes::Jump;
 pub use diagnosis::{Cause, Diagnosis};
 pub use error::RecordedError;
 pub use forces::Smoothness;
-pub use half_steps::integer_momenta;
+pub use half_steps::{integer_momenta, integer_momenta_with_gradients};
 pub use log::{Derivatives, Log, Logged};
 pub use misfit::{Differences, Largest};
 pub use observer::Observer;

@@ -119,6 +119,32 @@ pub enum Cause {
     Undecided,
 }
 
+impl Cause {
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Cause::OtherSteps => "other-steps",
+            Cause::Nothing => "nothing",
+            Cause::Digits => "digits",
+            Cause::Jumps { .. } => "jumps",
+            Cause::NotTheGradient => "not-the-gradient",
+            Cause::EnergyNotSmooth { .. } => "energy-not-smooth",
+            Cause::Noise { .. } => "noise",
+            Cause::ForcesNotSmooth => "forces-not-smooth",
+            Cause::TimeStep => "time-step",
+            Cause::Undecided => "undecided",
+        }
+    }
+
+    /// Of noise, that of the forces; of jumps of U, that of the energy.
+    pub fn size(self) -> Option<f64> {
+        match self {
+            Cause::Jumps { size } | Cause::EnergyNotSmooth { size } | Cause::Noise { size } => Some(size),
+            _ => None,
+        }
+    }
+}
+
 /// What a diagnosis is made of.
 pub(super) struct Evidence<'a> {
     pub(super) h: f64,
@@ -131,8 +157,8 @@ pub(super) struct Evidence<'a> {
 }
 
 impl Diagnosis {
-    pub(super) fn of(evidence: Evidence<'_>) -> Diagnosis {
-        let Evidence { h, states, values, kinetic, changes, forces, differences } = evidence;
+    pub(super) fn of(evidence: &Evidence<'_>) -> Diagnosis {
+        let Evidence { h, states, values, kinetic, changes, forces, differences } = *evidence;
         let largest = |of: &dyn Fn(&Value) -> f64| values.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
         let width = |of: &dyn Fn(&Value) -> f64| largest(of) + largest(&|value| -of(value));
         let beyond = |sign: f64| largest(&|value| sign * value.modified - ERROR_FACTOR * value.error);

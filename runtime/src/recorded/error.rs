@@ -54,6 +54,14 @@ pub enum RecordedError {
         /// A gradient or a rate.
         found: &'static str,
     },
+    /// A window that begins before the newest state.
+    #[error("a window cannot begin at state {n}: the newest state is {newest}, and windows come in the order of time")]
+    Backwards {
+        /// n of its first state.
+        n: i64,
+        /// n of the newest state.
+        newest: i64,
+    },
     /// Box vectors that have no volume, or are not finite.
     #[error("the box vectors {vectors:?} span no volume")]
     Box {

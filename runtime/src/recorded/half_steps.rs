@@ -1,6 +1,8 @@
 //! Momenta at the times of the positions, from those of leapfrog between them.
 
 use super::error::RecordedError;
+use crate::number::Number;
+use crate::step_size::StepSize;
 
 /// The momenta p_n = ½(p_{n−1/2} + p_{n+1/2}) of the states n = 0, 1, … from those of leapfrog, which are half a step before and after.
 ///
@@ -26,4 +28,24 @@ pub fn integer_momenta(dimension: usize, states: usize, half_steps: &[f64]) -> R
     }
     // 0.5 x is exact
     Ok(half_steps.iter().zip(&half_steps[dimension..]).map(|(before, after)| 0.5 * before + 0.5 * after).collect())
+}
+
+/// The momenta p_n = p_{n−1/2} − ½h U_q(q_n) from those of leapfrog half a step before each state, and the gradients at the states, in place.
+///
+/// The same momenta as by [`integer_momenta`], for programs that log forces: each state needs nothing of another one.
+///
+/// # Errors
+/// Arrays that do not have as many numbers.
+pub fn integer_momenta_with_gradients(
+    h: &StepSize,
+    half_steps: &mut [f64],
+    gradients: &[f64],
+) -> Result<(), RecordedError> {
+    let (columns, found) = (half_steps.len(), gradients.len());
+    if columns != found {
+        return Err(RecordedError::Shape { name: "the gradient", found, rows: 1, columns });
+    }
+    let half = f64::from_rational(h.exact(), &()) / 2.0;
+    half_steps.iter_mut().zip(gradients).for_each(|(p, gradient)| *p -= half * gradient);
+    Ok(())
 }

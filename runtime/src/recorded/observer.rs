@@ -86,11 +86,15 @@ impl Observer {
         })
     }
 
-    /// The next state does not follow the newest by a step: a new window begins.
-    pub fn begin(&mut self) {
-        self.steps.begin();
+    /// A new window begins: the next state is the state n, which does not follow the newest by a step.
+    ///
+    /// # Errors
+    /// An n that is not larger than that of the newest state.
+    pub fn begin(&mut self, n: i64) -> Result<(), RecordedError> {
+        self.steps.begin(n)?;
         self.forces.begin();
         self.pushed = 0;
+        Ok(())
     }
 
     /// How many states a window needs for an estimate with its error.
@@ -141,7 +145,7 @@ impl Observer {
 
     /// What moves the energy, as far as the states so far tell.
     pub fn diagnosis(&self) -> Diagnosis {
-        Diagnosis::of(Evidence {
+        Diagnosis::of(&Evidence {
             h: self.h,
             states: self.states,
             values: &self.values,

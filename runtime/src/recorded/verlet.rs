@@ -71,10 +71,15 @@ impl VerletSteps {
         self.h
     }
 
-    /// The next state does not follow the newest by a step.
-    pub(super) fn begin(&mut self) {
+    /// The next state is the state n, which does not follow the newest by a step.
+    pub(super) fn begin(&mut self, n: i64) -> Result<(), RecordedError> {
+        if n <= self.n {
+            return Err(RecordedError::Backwards { n, newest: self.n });
+        }
+        self.n = n - 1;
         self.follows[0] = false;
         self.misfits.iter_mut().for_each(Misfit::begin);
+        Ok(())
     }
 
     /// Refuses a state that is not one of this log.

@@ -178,3 +178,31 @@ fn states_with_few_digits_are_not_accused() {
     let few = run(|x| (x * 1e2).round() / 1e2);
     assert_eq!(few.cause, Cause::Digits, "{few}");
 }
+
+/// Windows of 17 states with gaps between them: the estimates are those of the whole trajectory.
+#[test]
+fn windows_with_gaps_give_the_same_values_and_causes() {
+    let logged = Logged::new(&fluid(), &[1.0; 81], 0.004, fluid().start(), 600);
+    let log = logged.log();
+    let h = step_size("0.004");
+    let [mut whole, mut windows] = [(); 2].map(|()| Observer::new(&h, &[1.0; 81]).unwrap());
+    for n in 0..=600 {
+        let state = log.state(n).unwrap();
+        whole.observe(&state).unwrap();
+        if n % 40 == 0 && n > 0 {
+            windows.begin(n as i64).unwrap();
+        }
+        if n % 40 < 19 {
+            windows.observe(&state).unwrap();
+        }
+    }
+    assert!(windows.values().len() == 45, "{}", windows.values().len());
+    for value in windows.values() {
+        let same = whole.values().iter().find(|other| other.n == value.n).unwrap();
+        assert!((value.modified - same.modified).abs() < 1e-11 && value.energy == same.energy, "{value:?} {same:?}");
+        assert!(value.error > same.error / 2.0 && value.error < 2.0 * same.error + 1e-11, "{value:?} {same:?}");
+    }
+    assert_eq!(windows.diagnosis().cause, Cause::Nothing, "{}", windows.diagnosis());
+    let refused = windows.begin(40).unwrap_err().to_string();
+    assert!(refused.starts_with("a window cannot begin at state 40: the newest state is 600"), "{refused}");
+}

@@ -1,6 +1,6 @@
 //! Values of H̄.
 
-use shadowstep::recorded::{Repeated, Unwrapping, integer_momenta};
+use shadowstep::recorded::{Repeated, Unwrapping, integer_momenta, integer_momenta_with_gradients};
 use shadowstep::run::Trajectory;
 
 use super::*;
@@ -106,6 +106,10 @@ fn momenta_at_half_steps_and_wrapped_positions_give_the_same_values() {
     let after = logged.p.iter().zip(&logged.gradients).map(|(p, g)| p - h / 2.0 * g);
     let half_steps: Vec<f64> = before.chain(after).collect();
     let p = integer_momenta(81, steps + 1, &half_steps).unwrap();
+
+    let mut others = half_steps[..p.len()].to_vec();
+    integer_momenta_with_gradients(&h.try_into().unwrap(), &mut others, &logged.gradients).unwrap();
+    assert!(p.iter().zip(&others).all(|(p, other)| (p - other).abs() < 1e-14));
 
     let wrapped: Vec<f64> = logged.q.iter().map(|q| q.rem_euclid(fluid.side)).collect();
     let jumps = wrapped.iter().zip(&wrapped[81..]).filter(|(a, b)| (*a - *b).abs() > 1.0).count();
