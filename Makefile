@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything and fetches what is missing.
 
-.PHONY: run test wasm test-cluster deps format lint check docs bench stability rivals package fuzz valgrind
+.PHONY: run test wasm wheel test-python test-cluster deps format lint check docs bench stability rivals package fuzz valgrind
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run:
@@ -8,7 +8,7 @@ run:
 	    --scheme stormer-verlet,yoshida4,blanes-moan-s6,blanes-moan-srkn6b \
 	    --step 1/10,1/20,1/40 --until 100 --digits 120 --order auto
 
-test: deps format lint check wasm docs
+test: deps format lint check wasm test-python docs
 
 format:
 	cargo fmt --all --check
@@ -32,6 +32,25 @@ wasm:
 docs:
 	RUSTDOCFLAGS="-D warnings --html-in-header $(CURDIR)/runtime/katex.html" \
 	    cargo doc --workspace --features mpfr --no-deps --locked
+
+# A wheel of the Python package in target/wheels, for CPython 3.10 and later, with the tools in a virtual environment of its own. It contains no LGPL
+# code. `make wheel MPFR=1` adds MPFR, for more than 307 digits.
+PYTHON = python3
+WHEEL = $(abspath $(or $(CARGO_TARGET_DIR),target))/python
+wheel: $(WHEEL)/tools/bin/maturin
+	$(WHEEL)/tools/bin/maturin build --release --locked --manifest-path python/Cargo.toml --out target/wheels $(if $(MPFR),--features mpfr)
+
+$(WHEEL)/tools/bin/maturin:
+	$(PYTHON) -m venv $(WHEEL)/tools
+	$(WHEEL)/tools/bin/pip install --quiet 'maturin>=1.9,<2'
+
+# The Python package in a new virtual environment: its tests, doctests and types. The wheel is one that is built in little time.
+test-python: $(WHEEL)/tools/bin/maturin
+	rm -rf $(WHEEL)/wheels $(WHEEL)/test
+	$(WHEEL)/tools/bin/maturin build --profile quick --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels
+	$(PYTHON) -m venv $(WHEEL)/test
+	$(WHEEL)/test/bin/pip install --quiet "$$(echo $(WHEEL)/wheels/*.whl)[test]"
+	cd python/tests && $(WHEEL)/test/bin/python -m pytest --quiet --doctest-modules --pyargs shadowstep .
 
 # Sweeps on Slurm (of Debian's packages, with a private configuration), with GNU parallel and with Dask, whose tasks and nodes are killed:
 # the results are those of one machine. What is not installed is skipped.

@@ -1,35 +1,23 @@
 //! `shadowstep drift`: the drift of the modified energy, one run per scheme and step, beside the error of H; and on the exact
 //! flow the drift that is the estimator's own.
 
-mod control;
-mod measure;
-mod record;
 mod table;
 
 use std::io::{IsTerminal, Write};
 
 use clap::Args;
-use shadowstep::number::Rounded;
-use shadowstep::run::EnergyDrift;
-use shadowstep::shadow::{SelectionRule, StoppingRule};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::Computation;
-use shadowstep_scenes::estimates::{Estimates, Finished};
-use shadowstep_scenes::propagator::Propagator;
+use shadowstep_scenes::drift::{Controls, Follower, Record, Wanted};
+use shadowstep_scenes::readable::shortened;
 use shadowstep_scenes::run::Run;
-use shadowstep_symbolic::decimal::to_text;
 
 use crate::colour::on_stdout;
-use crate::cpu_time::CpuTime;
 use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::report::{self, Status};
 use crate::run_arguments::RunArguments;
 use crate::selection::Selection;
-use control::{Controls, Found, Wanted};
-use measure::measure;
-use record::{Cost, OrderLabel, Permanent, Record};
 use table::readable;
 
 const EXAMPLE: &str = "\
@@ -81,19 +69,12 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let bar = !arguments.json || arguments.run.output.output.is_some() || !std::io::stdout().is_terminal();
     let mut status = Status::Success;
     let mut controls = Controls::new(arguments.controls());
+    let question = selection.question(!arguments.run.no_summary);
     for (number, (propagator, run)) in (1..).zip(selection.runs()) {
         let progress = Progress::new(bar, selection.numbered(number, run), run.steps);
-        let measurement = Measurement {
-            selection: &selection,
-            propagator,
-            run,
-            controls: &mut controls,
-            progress,
-            interrupt: &interrupt,
-            summarised: !arguments.run.no_summary,
-        };
+        let mut follower = Following { progress, interrupt: &interrupt, hint: NOT_RESUMED };
         let measured = interrupt.attended(
-            || selection.arithmetic.compute(measurement),
+            || question.answer(propagator, run, &mut controls, &mut follower),
             // the runs that are complete are written
             || match records.write() {
                 Ok(()) => Error::run(format!("{}: interrupted", run.name()), NOT_RESUMED),
@@ -159,87 +140,26 @@ impl<'a> Records<'a> {
     }
 }
 
-/// The measurement of one run, in any number type.
-struct Measurement<'a> {
-    selection: &'a Selection,
-    propagator: &'a Propagator,
-    run: Run<'a>,
-    controls: &'a mut Controls,
+/// Shows the progress of a run, and ends it after a signal.
+struct Following<'a> {
     progress: Progress,
     interrupt: &'a Interrupt,
-    summarised: bool,
+    /// What can be done after an interruption.
+    hint: &'static str,
 }
 
-impl Computation for Measurement<'_> {
-    type Output = Result<Record, Error>;
-
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
-        let Measurement { selection, propagator, run, controls, progress, interrupt, summarised } = self;
-        let settings = selection.estimator.clone().with_errors(true);
-        let system = &selection.problem.system;
-        let compensated = selection.arithmetic.is_compensated() && propagator.scheme().is_some();
-        let begin = CpuTime::begin();
-        let estimates = Estimates { system, propagator, run, compensated, settings: &settings, summarised };
-        let (found, finished) = measure::<N>(estimates, context, |n| {
-            progress.reach(n);
-            interrupt.check(run, n, NOT_RESUMED)
-        })?;
-        let seconds = begin.elapsed();
-        let control = match propagator.scheme() {
-            Some(_) => controls.of::<N>(estimates, context, seconds, (&progress, interrupt)),
-            None => Found::Nothing,
-        };
-        let per_step = propagator.scheme().map(|named| named.scheme.proved().plan.evaluations);
-        let cost = Cost {
-            forces_per_step: per_step,
-            own_force_evaluations: finished.own_evaluations,
-            force_evaluations: finished.evaluations,
-            seconds: seconds.as_secs_f64(),
-        };
-        Ok(record(selection, run, &found, finished, control, cost))
+impl Follower for Following<'_> {
+    fn reaches(&mut self, run: Run<'_>, n: i64) -> Result<(), Error> {
+        self.progress.reach(n);
+        self.interrupt.check(run, n, self.hint)
     }
-}
 
-fn record<N: Rounded>(
-    selection: &Selection,
-    run: Run<'_>,
-    found: &EnergyDrift<N>,
-    finished: Finished,
-    control: Found,
-    cost: Cost,
-) -> Record {
-    let options = selection.estimator.options();
-    let (control, control_left_out) = control.parts();
-    Record {
-        shadowstep: env!("CARGO_PKG_VERSION"),
-        problem: selection.problem.name.clone(),
-        parameters: selection.values(),
-        scheme: run.propagator.to_owned(),
-        step: to_text(run.h),
-        until: to_text(&selection.until),
-        end: to_text(&run.time_of_last()),
-        digits: selection.arithmetic.label(),
-        estimator: selection.estimator.name(),
-        order: options.order.map_or(OrderLabel::Word("auto"), OrderLabel::Fixed),
-        max_order: options.max_order,
-        stop: options.stop.map(StoppingRule::name),
-        rule: options.rule.map(SelectionRule::name),
-        accuracy: options.accuracy.as_ref().map(to_text),
-        energy_error: finished.energy,
-        drift: found.drift.to_text(),
-        minimum: found.minimum.to_text(),
-        maximum: found.maximum.to_text(),
-        at_minimum: found.at_minimum,
-        at_maximum: found.at_maximum,
-        first: found.first.to_text(),
-        last: found.last.to_text(),
-        permanent_change: Permanent::of(found),
-        control,
-        control_left_out,
-        order_least: found.orders.0,
-        order_most: found.orders.1,
-        steps: run.steps,
-        cost,
-        summary: finished.summary,
+    fn begins_control(&mut self, run: Run<'_>) {
+        self.progress.restart(format!("on the exact flow, step {}", shortened(run.h, 20)));
+        self.hint = "the run itself is complete";
+    }
+
+    fn no_control(&mut self, error: &Error) {
+        report::note(format_args!("no estimate on the exact flow: {error}"));
     }
 }

@@ -17,7 +17,6 @@
 //! | [`plot`] | charts of runs |
 //! | [`readable`], [`output`], [`progress`], [`tasks`] | tables, lines and bars |
 //! | [`report`], [`colour`], [`interrupt`] | messages on stderr and the exit status; colours; Ctrl-C |
-//! | [`cpu_time`] | what a run costs |
 
 mod advise;
 mod collect;
@@ -33,7 +32,6 @@ mod trace;
 mod work_precision;
 
 mod colour;
-mod cpu_time;
 mod interrupt;
 mod output;
 mod plot;

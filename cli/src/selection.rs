@@ -2,8 +2,8 @@
 
 use shadowstep::Rational;
 use shadowstep::shadow::{EstimatorOptions, EstimatorSettings, check_accuracy};
-use shadowstep_scenes::{Note, System};
-use shadowstep_symbolic::Exact;
+use shadowstep_scenes::Note;
+use shadowstep_scenes::drift::Question;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::quantity;
@@ -84,16 +84,11 @@ impl Selection {
         self.propagators.len() * self.steps.len()
     }
 
-    /// Every parameter and initial value with its exact text, or the digits of what is irrational.
-    pub(crate) fn values(&self) -> Vec<(String, String)> {
-        self.named().map(|(name, exact)| (name.clone(), self.arithmetic.text(exact))).collect()
-    }
-
-    /// Every parameter and initial value.
-    pub(crate) fn named(&self) -> impl Iterator<Item = (&String, &Exact)> {
-        let System { parameters, coordinates, momenta, q, p, .. } = &self.problem.system;
-        let parameters = parameters.iter().map(|(name, exact)| (name, exact));
-        parameters.chain(coordinates.iter().zip(q)).chain(momenta.iter().zip(p))
+    /// What is the same in all runs.
+    pub(crate) fn question(&self, summarised: bool) -> Question<'_> {
+        let Selection { problem, until, arithmetic, estimator, .. } = self;
+        let Described { name, system, .. } = problem;
+        Question { problem: name, system, until, arithmetic: *arithmetic, estimator, summarised }
     }
 
     /// Notes of runs whose steps are beyond the stability limit of their scheme.

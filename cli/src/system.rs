@@ -175,6 +175,7 @@ fn describe(name: String, system: System) -> Described {
         }
         PotentialEnergy::Formula(formula) => (name.clone(), format!("{kinetic} + {formula}")),
         PotentialEnergy::Pairs(pairs) => (name.clone(), format!("{kinetic} + the sum over pairs of {}", pairs.formula)),
+        PotentialEnergy::Own(own) => (name.clone(), format!("{kinetic} + {}", own.name())),
         PotentialEnergy::OfParts => (name.clone(), sum_of_parts(&system.parts)),
     };
     Described { name, title, hamiltonian, system }

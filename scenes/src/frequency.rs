@@ -58,7 +58,7 @@ impl System {
                     .and_then(|expression| graph.build(&expression, &self.coordinates, &parameters).ok());
                 node.is_some_and(|node| graph.is_quadratic(node, self.coordinates.len()))
             }
-            PotentialEnergy::Pairs(_) | PotentialEnergy::OfParts => false,
+            PotentialEnergy::Pairs(_) | PotentialEnergy::Own(_) | PotentialEnergy::OfParts => false,
         }
     }
 }

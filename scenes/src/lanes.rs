@@ -128,7 +128,7 @@ fn potential<const W: usize>(systems: &[&System; W]) -> Box<dyn Potential<Lanes<
             Box::new(FormulaPotential::new(formula, &names(&systems[0].coordinates), &parameters).expect(READ))
         }
         PotentialEnergy::Pairs(pairs) => pairs.of_pair(pair(systems, pairs)),
-        PotentialEnergy::OfParts => unreachable!("the systems are of T(p) and U(q)"),
+        PotentialEnergy::Own(_) | PotentialEnergy::OfParts => unreachable!("the systems have one form"),
     }
 }
 

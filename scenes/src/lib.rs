@@ -77,8 +77,11 @@
 //! | `whole_file`, [`lock`], `temporary` | files that get their names when they are complete, that one process has alone, and that are removed if the program ends early |
 //! | [`arithmetic`] | number types and their digits |
 //! | [`library`] | schemes by their names: shipped ones and files |
+//! | [`scheme_record`] | everything that is known about a scheme |
 //! | [`estimator`] | estimators of the modified energy with their settings |
 //! | [`run`], [`steps`], [`propagator`] | one run of a scheme or of the exact flow with one step size |
+//! | [`integrate`] | a run into memory |
+//! | [`drift`] | the drift of the modified energy of a run, and that on the exact flow; [`cpu_time`] is what it costs |
 //! | [`plot`] | what charts of a run show |
 //! | [`estimates`], [`start`] | the modified energies along such a run; a system at a state with its stepper |
 //! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
@@ -87,6 +90,8 @@
 
 pub mod arithmetic;
 mod boxed;
+pub mod cpu_time;
+pub mod drift;
 mod engine;
 pub mod ensemble;
 mod error;
@@ -96,6 +101,7 @@ mod execute;
 mod explain;
 pub mod family;
 mod frequency;
+pub mod integrate;
 pub mod keys;
 pub mod lanes;
 pub mod library;
@@ -110,6 +116,7 @@ pub mod readable;
 mod results;
 pub mod run;
 mod scene;
+pub mod scheme_record;
 mod shipped;
 mod snapshots;
 pub mod stability;
@@ -130,7 +137,7 @@ pub use observer::Observer;
 pub use read::source;
 pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::{
-    Canonical, CheckpointInterval, EnergyAt, Format, KineticEnergy, Outputs, PairEnergy, Parts, Planets,
+    Canonical, CheckpointInterval, EnergyAt, Format, KineticEnergy, Outputs, OwnPotential, PairEnergy, Parts, Planets,
     PotentialEnergy, Scene, Shown, System,
 };
 pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene};

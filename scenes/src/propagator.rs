@@ -11,7 +11,7 @@ use shadowstep::{StepSize, Stepper};
 use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme};
 use crate::run::Run;
-use crate::scene::{Parts, System};
+use crate::scene::System;
 
 /// A scheme, or the exact flow, on which an estimator shows its own error.
 #[derive(Debug)]
@@ -56,17 +56,7 @@ impl Propagator {
                 }
             };
         }
-        let named = library::scheme(word)?;
-        let usage = |(message, hint)| Error::usage(message, hint);
-        if matches!(system.parts, Parts::Formulas(_)) {
-            let named = library::for_many_parts(&named).map_err(usage)?;
-            return Ok(Propagator::Scheme(Box::new(named)));
-        }
-        library::check_gradient_kicks(&named, system.no_gradient_kicks()).map_err(usage)?;
-        if system.has_general_kinetic() {
-            library::check_general(&named).map_err(usage)?;
-        }
-        Ok(Propagator::Scheme(Box::new(named)))
+        Ok(Propagator::Scheme(Box::new(library::for_system(library::scheme(word)?, system)?)))
     }
 
     /// The name by which it was asked for.

@@ -3,11 +3,11 @@
 use num_traits::Zero;
 use shadowstep::run::Finding;
 use shadowstep_scenes::Summary;
+use shadowstep_scenes::drift::{NOT_SEEN, Permanent, Record};
 use shadowstep_scenes::readable::{shortened, wrapped_to};
 use shadowstep_scenes::run::Run;
 use shadowstep_symbolic::decimal::from_text;
 
-use super::record::{NOT_SEEN, Permanent, Record};
 use crate::colour::{heading, of_verdict, styled};
 use crate::readable::{rounded, table};
 use crate::selection::Selection;
@@ -48,7 +48,7 @@ fn row(run: Run<'_>, record: &Record) -> Row {
         error.unwrap_or_default(),
         rounded(&record.drift, DIGITS),
         control,
-        record.permanent_change.as_ref().map_or(NOT_RELIABLE.to_owned(), Permanent::shown),
+        record.permanent_change.as_ref().map_or(NOT_RELIABLE.to_owned(), shown),
         orders,
         record.cost.own_force_evaluations.to_string(),
         seconds,
@@ -60,15 +60,13 @@ const NOT_RELIABLE: &str = "not reliable";
 const LEFT_OUT: &str = "left out";
 const ABSOLUTE: &str = "abs.";
 
-impl Permanent {
-    /// The change, or what it is below.
-    fn shown(&self) -> String {
-        match self.seen {
-            Finding::Resolved => rounded(&self.change, DIGITS),
-            Finding::BelowResolution if is_zero(&self.resolution) => "0".to_owned(),
-            Finding::BelowResolution => format!("< {}", rounded(&self.resolution, 2)),
-            Finding::OneSided => NOT_SEEN.to_owned(),
-        }
+/// The permanent change, or what it is below.
+fn shown(permanent: &Permanent) -> String {
+    match permanent.seen {
+        Finding::Resolved => rounded(&permanent.change, DIGITS),
+        Finding::BelowResolution if is_zero(&permanent.resolution) => "0".to_owned(),
+        Finding::BelowResolution => format!("< {}", rounded(&permanent.resolution, 2)),
+        Finding::OneSided => NOT_SEEN.to_owned(),
     }
 }
 
@@ -113,8 +111,12 @@ pub(super) fn readable(selection: &Selection, records: &[(Run<'_>, Record)], col
 }
 
 fn head(selection: &Selection) -> String {
-    let mut values: Vec<_> =
-        selection.named().map(|(name, exact)| format!("{name} = {}", shortened(&exact.value, 12))).collect();
+    let mut values: Vec<_> = selection
+        .problem
+        .system
+        .named()
+        .map(|(name, exact)| format!("{name} = {}", shortened(&exact.value, 12)))
+        .collect();
     if values.len() > MOST_VALUES {
         let rest = values.len() - MOST_VALUES;
         values.truncate(MOST_VALUES);

@@ -1,81 +1,14 @@
 //! The analysis of a scheme as records and as text.
 
-use serde::Serialize;
-use shadowstep_analysis::bracket::Bracket;
 use shadowstep_analysis::error::LeadingError;
 use shadowstep_analysis::sampling::SamplingError;
-use shadowstep_analysis::{self as analysis, Analysis, stability, trace};
-use shadowstep_schemes::{Kinetic, to_text};
+use shadowstep_analysis::{self as analysis, Analysis, stability};
+use shadowstep_schemes::Kinetic;
 
 use crate::readable::shortened;
 
 /// More terms than these are too many to read.
 const MOST_TERMS: usize = 6;
-
-/// The leading error of log(step) for one class of kinetic energies.
-#[derive(Serialize)]
-pub(crate) struct ErrorRecord {
-    power: u32,
-    norm: f64,
-    terms: Vec<Term>,
-}
-
-#[derive(Serialize)]
-struct Term {
-    bracket: String,
-    coefficient: f64,
-}
-
-#[derive(Serialize)]
-pub(crate) struct Gap {
-    from: String,
-    /// `None` beyond 2·(evaluations).
-    to: Option<String>,
-    width: f64,
-}
-
-/// (φ − hω)/hω = coefficient·(hω)^power + …
-#[derive(Serialize)]
-pub(crate) struct Phase {
-    coefficient: f64,
-    power: u32,
-}
-
-#[derive(Serialize)]
-pub(crate) struct Sizes {
-    sum_of_sizes: String,
-    smallest: String,
-    largest: String,
-}
-
-impl ErrorRecord {
-    pub(crate) fn of(error: &LeadingError) -> ErrorRecord {
-        let term = |(bracket, c): &(Bracket, f64)| Term { bracket: bracket.to_string(), coefficient: *c };
-        ErrorRecord { power: error.power, norm: error.norm(), terms: error.terms.iter().map(term).collect() }
-    }
-}
-
-impl Gap {
-    pub(crate) fn of(gap: &stability::Gap) -> Gap {
-        Gap { from: gap.from.clone(), to: gap.to.clone(), width: gap.width }
-    }
-}
-
-impl Phase {
-    pub(crate) fn of(phase: trace::PhaseError) -> Phase {
-        Phase { coefficient: phase.coefficient, power: phase.power }
-    }
-}
-
-impl Sizes {
-    pub(crate) fn of(sizes: &analysis::Sizes) -> Sizes {
-        Sizes {
-            sum_of_sizes: to_text(&sizes.sum_of_sizes),
-            smallest: to_text(&sizes.smallest),
-            largest: to_text(&sizes.largest),
-        }
-    }
-}
 
 /// The analysis as text, each fact with its name.
 pub(crate) fn facts(analysis: &Analysis) -> Vec<(String, String)> {

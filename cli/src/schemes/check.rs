@@ -8,10 +8,11 @@ use shadowstep_schemes::Kinetic;
 
 use crate::output::Output;
 use crate::report::{self, Status};
-use crate::schemes::facts::{near_integrable, near_integrable_text};
+use crate::schemes::facts::near_integrable_text;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{self, NamedScheme};
 use shadowstep_scenes::readable::digits as in_digits;
+use shadowstep_scenes::scheme_record::near_integrable;
 
 const EXAMPLE: &str = "\
 Example:

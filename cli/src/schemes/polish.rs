@@ -13,9 +13,10 @@ use crate::output::{Output, OutputArguments};
 use crate::quantity::whole;
 use crate::readable::table;
 use crate::report::{self, Status};
-use crate::schemes::facts::{near_integrable, near_integrable_text};
+use crate::schemes::facts::near_integrable_text;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library;
+use shadowstep_scenes::scheme_record::near_integrable;
 
 const EXAMPLE: &str = "\
 Example:

@@ -5,7 +5,7 @@ use shadowstep::tables::TableScheme;
 use shadowstep_analysis::error::LeadingError;
 use shadowstep_analysis::stability::Stability;
 
-use crate::schemes::facts::{aliases, digits, effective_near_integrable, kinetic, near_integrable};
+use shadowstep_scenes::scheme_record::{aliases, digits, effective_near_integrable, kinetic, near_integrable};
 
 #[derive(Serialize)]
 pub(super) struct Record {

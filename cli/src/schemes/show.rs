@@ -4,32 +4,26 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde::Serialize;
-use sha2::{Digest, Sha256};
-use shadowstep::Rational;
 use shadowstep::tables::TableScheme;
 use shadowstep_analysis::Analysis;
-use shadowstep_analysis::stability::MOST_MAPS;
-use shadowstep_analysis::trace::Trace;
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::map::Stages;
 use shadowstep_schemes::proof::Order;
-use shadowstep_schemes::scheme::Held;
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{ExactScheme, First, Kinetic, Plan, Proved, to_significant, to_text};
+use shadowstep_schemes::{Kinetic, Plan, Proved};
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::readable::{shortened, table, wrapped};
 use crate::report::{self, Status};
 use crate::schemes::analysis;
-use crate::schemes::analysis::{ErrorRecord, Gap, Phase, Sizes};
-use crate::schemes::facts::{
-    aliases, digits, effective_near_integrable, kinetic, near_integrable, near_integrable_text,
-};
+use crate::schemes::facts::near_integrable_text;
 use crate::schemes::plot;
 use shadowstep_scenes::library;
 use shadowstep_scenes::readable::digits as in_digits;
+use shadowstep_scenes::scheme_record::{
+    SchemeRecord, aliases, digits, effective_near_integrable, first, near_integrable,
+};
 use shadowstep_scenes::{Error, WholeFile};
 
 /// Everything that is known about a scheme.
@@ -58,92 +52,6 @@ const NO_GENERAL: &str = "none: gradient kicks contain M⁻¹ of a quadratic T";
 /// The column of the facts.
 const MARGIN: usize = 17;
 
-/// Digits of what a condition of rounded weights was found to be.
-const CONDITION_DIGITS: usize = 30;
-
-#[derive(Serialize)]
-struct Record {
-    name: String,
-    aliases: Vec<String>,
-    title: Option<String>,
-    /// For every T(p), as the three after it; `None` with gradient kicks, which there are for quadratic T only.
-    order: Option<u32>,
-    order_digits: Option<u32>,
-    fails: Option<Failed>,
-    order_quadratic: u32,
-    order_quadratic_digits: Option<u32>,
-    fails_quadratic: Option<Failed>,
-    near_integrable: Vec<u32>,
-    /// The map that moves by A of A + εB.
-    dominant: Option<String>,
-    free: Vec<String>,
-    digits: Option<u32>,
-    evaluations: usize,
-    /// One for each gradient kick.
-    hessian_products: usize,
-    products_per_dimension: usize,
-    products_for_beta: usize,
-    /// Rows of the table of weights, those with a 0 included.
-    stages: usize,
-    symmetric: bool,
-    first: &'static str,
-    kinetic: &'static str,
-    effective_error: f64,
-    effective_error_quadratic: f64,
-    leading_error: ErrorRecord,
-    leading_error_quadratic: ErrorRecord,
-    /// `None`, like the gaps and the trace, for steps of very many maps.
-    stability_limit: Option<String>,
-    unstable_gaps: Option<Vec<Gap>>,
-    phase_error: Phase,
-    /// The largest expected error of the energy over 0 < hω < evaluations; `None` where it is not known, or not bounded.
-    sampling_error: Option<f64>,
-    trace: Option<Vec<String>>,
-    kick_sizes: Sizes,
-    drift_sizes: Sizes,
-    kick: Vec<String>,
-    /// Empty where there are none.
-    gradient_kick: Vec<String>,
-    drift: Vec<String>,
-    maps: Vec<Map>,
-    reference: Option<String>,
-    doi: Option<String>,
-    table_hash: String,
-    notes: Vec<String>,
-    /// `None` for a scheme that is not processed.
-    processor: Option<Processor>,
-}
-
-/// The post-map of a processed scheme, and what is proved of the processed step.
-#[derive(Serialize)]
-struct Processor {
-    order: u32,
-    order_digits: Option<u32>,
-    fails: Option<Failed>,
-    order_quadratic: u32,
-    order_quadratic_digits: Option<u32>,
-    fails_quadratic: Option<Failed>,
-    near_integrable: Vec<u32>,
-    /// Evaluations of the forces for an output, and for the pre-map.
-    evaluations: usize,
-    post: Vec<Map>,
-}
-
-/// The first condition of the order that fails.
-#[derive(Serialize)]
-struct Failed {
-    condition: String,
-    order: u32,
-    found: String,
-    needed: String,
-}
-
-#[derive(Serialize)]
-struct Map {
-    map: String,
-    weight: String,
-}
-
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let named = library::scheme(&arguments.name)?;
     named.note().iter().for_each(report::note);
@@ -154,7 +62,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     }
     let mut output = Output::stdout();
     if arguments.json {
-        output.json(&record(&scheme, &analysis))?;
+        output.json(&SchemeRecord::of(&scheme, &analysis))?;
     } else {
         write!(output, "{}", readable(&scheme, &analysis))?;
     }
@@ -170,110 +78,6 @@ fn draw(path: &Path, force: bool, scheme: &TableScheme, analysis: &Analysis) -> 
     let mut file = if force { WholeFile::create(path, "--plot")? } else { WholeFile::create_new(path, "--plot")? };
     writeln!(file, "{picture}")?;
     file.finish()
-}
-
-fn record(scheme: &TableScheme, analysis: &Analysis) -> Record {
-    let proved = scheme.proved();
-    let (proof, weights, table) = (&proved.proof, &proved.scheme, &proved.scheme.table);
-    let fractions = |weights: &[Rational]| weights.iter().map(Rational::to_string).collect::<Vec<_>>();
-    let maps = weights.maps().into_iter();
-    // the value of a condition of rounded weights is known to this number of digits only
-    let exact = |value: &Rational| match weights.held {
-        Held::Digits(_) if to_text(value).len() > CONDITION_DIGITS => to_significant(value, CONDITION_DIGITS),
-        _ => to_text(value),
-    };
-    let cost = scheme.plan().cost();
-    let general = proved.order_for_every_kinetic();
-    Record {
-        name: table.name.value.clone(),
-        aliases: aliases(table),
-        title: table.title.clone(),
-        order: general.map(|order| order.order),
-        order_digits: general.and_then(|order| order.digits),
-        fails: general.and_then(|order| failed(order, exact)),
-        order_quadratic: proof.quadratic.order,
-        order_quadratic_digits: proof.quadratic.digits,
-        fails_quadratic: failed(&proof.quadratic, exact),
-        near_integrable: near_integrable(proof),
-        dominant: table.near_integrable.as_ref().map(|claim| claim.dominant.to_string()),
-        free: table.free.iter().map(|name| name.value.clone()).collect(),
-        digits: digits(weights.held),
-        evaluations: scheme.plan().evaluations,
-        hessian_products: scheme.plan().hessian_products,
-        products_per_dimension: cost.products_per_dimension,
-        products_for_beta: cost.products_for_beta,
-        stages: weights.stages.kick.len(),
-        symmetric: proof.symmetric,
-        first: first(weights.first()),
-        kinetic: kinetic(table.kinetic),
-        effective_error: analysis.effective_error(Kinetic::Any),
-        effective_error_quadratic: analysis.effective_error(Kinetic::Quadratic),
-        leading_error: ErrorRecord::of(&analysis.general),
-        leading_error_quadratic: ErrorRecord::of(&analysis.quadratic),
-        trace: trace(weights),
-        kick_sizes: Sizes::of(&analysis.kicks),
-        drift_sizes: Sizes::of(&analysis.drifts),
-        phase_error: Phase::of(analysis.phase),
-        sampling_error: analysis.sampling.and_then(|sampling| sampling.largest),
-        unstable_gaps: analysis.stability.as_ref().map(|stability| stability.gaps.iter().map(Gap::of).collect()),
-        stability_limit: analysis.stability.as_ref().map(|stability| stability.limit.clone()),
-        kick: fractions(&weights.stages.kick),
-        gradient_kick: fractions(&weights.stages.gradient_kick),
-        drift: fractions(&weights.stages.drift),
-        maps: maps.map(|map| Map { map: map.kind.to_string(), weight: to_text(&map.weight) }).collect(),
-        reference: table.reference.clone(),
-        doi: table.doi.clone(),
-        table_hash: Sha256::digest(&table.source.text).iter().map(|byte| format!("{byte:02x}")).collect(),
-        notes: proved.notes.iter().map(ToString::to_string).collect(),
-        processor: processor(proved, exact),
-    }
-}
-
-fn processor(proved: &Proved, text: impl Fn(&Rational) -> String) -> Option<Processor> {
-    let (processor, effective) = (proved.scheme.processor.as_ref()?, proved.proof.effective.as_ref()?);
-    let post = processor.post.iter().map(|map| Map { map: map.kind.to_string(), weight: to_text(&map.weight) });
-    Some(Processor {
-        order: effective.general.order,
-        order_digits: effective.general.digits,
-        fails: failed(&effective.general, &text),
-        order_quadratic: effective.quadratic.order,
-        order_quadratic_digits: effective.quadratic.digits,
-        fails_quadratic: failed(&effective.quadratic, &text),
-        near_integrable: effective_near_integrable(&proved.proof),
-        evaluations: processor.evaluations(),
-        post: post.collect(),
-    })
-}
-
-/// The coefficients of the trace polynomial: exact where the weights are, which else are hundreds of digits long; 30
-/// digits of the others.
-fn trace(scheme: &ExactScheme) -> Option<Vec<String>> {
-    let maps = scheme.maps();
-    if maps.len() > MOST_MAPS {
-        return None;
-    }
-    let trace = Trace::of(&maps);
-    let text = |k| match scheme.held {
-        Held::Exactly => to_text(&trace.coefficient(k)),
-        Held::Digits(_) => to_significant(&trace.unreduced_coefficient(k), 30),
-    };
-    Some((0..=trace.degree()).map(text).collect())
-}
-
-fn failed(order: &Order, text: impl Fn(&Rational) -> String) -> Option<Failed> {
-    order.failed.as_ref().map(|(condition, found)| Failed {
-        condition: condition.functional.to_string(),
-        order: condition.order,
-        found: text(found),
-        needed: text(&condition.needed),
-    })
-}
-
-fn first(first: First) -> &'static str {
-    match first {
-        First::Kick => "kick",
-        First::Drift => "drift",
-    }
 }
 
 fn readable(scheme: &TableScheme, analysis: &Analysis) -> String {
@@ -398,10 +202,12 @@ fn order_text(order: &Order) -> String {
         None => format!("order {}, exactly", order.order),
         Some(digits) => format!("order {}, to {}", order.order, in_digits(digits)),
     };
-    match failed(order, |value| shortened(value, 16)) {
+    match &order.failed {
         None => format!("{holds}; more than order {HIGHEST_ORDER} is not looked for"),
-        Some(Failed { condition, order, found, needed }) => {
-            format!("{holds}; of order {order}, the condition of {condition} fails: found {found}, needed {needed}")
+        Some((condition, found)) => {
+            let [found, needed] = [found, &condition.needed].map(|value| shortened(value, 16));
+            let (order, functional) = (condition.order, &condition.functional);
+            format!("{holds}; of order {order}, the condition of {functional} fails: found {found}, needed {needed}")
         }
     }
 }

@@ -73,6 +73,7 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
         }
         PotentialEnergy::Formula(formula) => vec![("potential", json!(formula))],
         PotentialEnergy::Pairs(pairs) => pair_energy(pairs, texts),
+        PotentialEnergy::Own(own) => vec![("potential", json!(own.name()))],
         PotentialEnergy::OfParts => vec![("momenta", json!(system.momenta))],
     };
     let parameters: serde_json::Map<_, _> =

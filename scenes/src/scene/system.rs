@@ -1,5 +1,6 @@
 //! What moves: a shipped problem or a formula's potential, its kinetic energy and its state at t = 0.
 
+use num_traits::Zero;
 use shadowstep::formula::{FormulaError, FormulaKinetic, FormulaPotential};
 use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::number::Rounded;
@@ -8,7 +9,10 @@ use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, S
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_text;
 
+use crate::arithmetic::Arithmetic;
+use crate::error::Error;
 use crate::library::NoGradientKicks;
+use crate::scene::own::OwnPotential;
 use crate::scene::pairs::PairEnergy;
 use crate::scene::parameters::rounded;
 use crate::scene::parts::{Canonical, Parts, Shown};
@@ -43,6 +47,8 @@ pub enum PotentialEnergy {
     Formula(String),
     /// A sum over pairs of bodies.
     Pairs(PairEnergy),
+    /// A potential of the caller, in double precision.
+    Own(Box<dyn OwnPotential>),
     /// None: H is given by the formulas of its parts.
     OfParts,
 }
@@ -95,6 +101,7 @@ impl System {
                 Box::new(potential.expect("the formula was read with the scene"))
             }
             PotentialEnergy::Pairs(pairs) => pairs.potential(&self.parameters, context),
+            PotentialEnergy::Own(own) => own.in_numbers(),
             PotentialEnergy::OfParts => unreachable!("H is not T(p) + U(q)"),
         }
     }
@@ -116,6 +123,12 @@ impl System {
                 }
             }
         }
+    }
+
+    /// Every parameter and initial value with its name.
+    pub fn named(&self) -> impl Iterator<Item = (&String, &Exact)> {
+        let parameters = self.parameters.iter().map(|(name, exact)| (name, exact));
+        parameters.chain(self.coordinates.iter().zip(&self.q)).chain(self.momenta.iter().zip(&self.p))
     }
 
     /// The masses of the coordinates; of a system whose T is given by them.
@@ -192,9 +205,62 @@ impl System {
         System { potential, kinetic, parts, parameters, coordinates, momenta, q, p }
     }
 
+    /// The system of a potential of the caller, with the names q1, q2, … and p1, p2, ….
+    ///
+    /// # Errors
+    /// Numbers of momenta or masses that differ from that of the coordinates; a mass that is 0.
+    pub fn of_own(
+        own: Box<dyn OwnPotential>,
+        (q, p): (Vec<Exact>, Vec<Exact>),
+        masses: Option<Vec<Exact>>,
+    ) -> Result<System, Error> {
+        let dimension = q.len();
+        for (what, count) in [("momenta", Some(p.len())), ("masses", masses.as_ref().map(Vec::len))] {
+            if let Some(count) = count.filter(|count| *count != dimension) {
+                let message = format!("there are {dimension} coordinates and {count} {what}");
+                return Err(Error::usage(message, "give one for each coordinate"));
+            }
+        }
+        if dimension == 0 {
+            return Err(Error::usage("there are no coordinates", "give the state at t = 0: q = [1.0], p = [0.0]"));
+        }
+        if masses.iter().flatten().any(|mass| mass.value.is_zero()) {
+            return Err(Error::usage("a mass is 0", "masses must be nonzero"));
+        }
+        let names = |letter: &str| (1..=dimension).map(|i| format!("{letter}{i}")).collect();
+        Ok(System {
+            potential: PotentialEnergy::Own(own),
+            kinetic: KineticEnergy::Masses(masses),
+            parts: Parts::KineticAndPotential,
+            parameters: Vec::new(),
+            coordinates: names("q"),
+            momenta: names("p"),
+            q,
+            p,
+        })
+    }
+
+    /// Whether the system can be computed in a number type: a potential of the caller is in double precision.
+    ///
+    /// # Errors
+    /// More digits.
+    pub fn check_digits(&self, arithmetic: Arithmetic) -> Result<(), Error> {
+        match self.potential {
+            PotentialEnergy::Own(_) if arithmetic.is_longer_than_double() => Err(Error::usage(
+                format!("a function that computes forces has double precision, not {}", arithmetic.described()),
+                "write the potential as a formula, which has any number of digits",
+            )),
+            _ => Ok(()),
+        }
+    }
+
     /// Why it has no gradient kicks; `None` where it has them, or T is not quadratic.
     pub fn no_gradient_kicks(&self) -> Option<NoGradientKicks> {
         match &self.parts {
+            Parts::KineticAndPotential if matches!(self.potential, PotentialEnergy::Own(_)) => Some(NoGradientKicks {
+                reason: "and a function that computes forces has no second derivatives",
+                hint: "use a scheme without gradient kicks, such as blanes-moan-srkn6b, or write the potential as a formula",
+            }),
             Parts::KineticAndPotential | Parts::Linear(_) | Parts::Formulas(_) => None,
             Parts::WisdomHolman(planets) if planets.coordinates == Canonical::Jacobi => None,
             Parts::WisdomHolman(_) => Some(NoGradientKicks {

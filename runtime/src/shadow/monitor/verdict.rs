@@ -78,6 +78,23 @@ impl Verdict {
     pub fn is_fine(self) -> bool {
         matches!(self, Verdict::Fine | Verdict::RoundOff)
     }
+
+    /// Its name, for other programs: `fine`, `near-resonance`, `drifts`, `not-the-gradient`, `not-smooth`, `not-conserved`, `inconsistent`,
+    /// `too-large`, `round-off` or `undecided`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::Fine => "fine",
+            Verdict::NearResonance { .. } => "near-resonance",
+            Verdict::Drifts => "drifts",
+            Verdict::NotTheGradient => "not-the-gradient",
+            Verdict::NotSmooth => "not-smooth",
+            Verdict::NotConserved => "not-conserved",
+            Verdict::Inconsistent => "inconsistent",
+            Verdict::TooLarge(_) => "too-large",
+            Verdict::RoundOff => "round-off",
+            Verdict::Undecided(_) => "undecided",
+        }
+    }
 }
 
 /// The criterion by which a step size is too large.

@@ -4,18 +4,18 @@ use std::time::Duration;
 
 /// The moment from which time is counted.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct CpuTime {
+pub struct CpuTime {
     begin: Duration,
 }
 
 impl CpuTime {
     /// Counts from now on.
-    pub(crate) fn begin() -> Self {
+    pub fn begin() -> Self {
         CpuTime { begin: of_thread() }
     }
 
     /// The CPU time that the thread has taken since.
-    pub(crate) fn elapsed(&self) -> Duration {
+    pub fn elapsed(&self) -> Duration {
         of_thread().saturating_sub(self.begin)
     }
 }

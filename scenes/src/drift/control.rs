@@ -13,28 +13,28 @@ use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
 use shadowstep::number::Rounded;
 use shadowstep::problems::Setup;
 use shadowstep::run::States;
-use shadowstep_scenes::Error;
-use shadowstep_scenes::estimates::Estimates;
-use shadowstep_scenes::library::EXACT_FLOW;
-use shadowstep_scenes::propagator::Propagator;
-use shadowstep_scenes::readable::shortened;
-use shadowstep_scenes::run::Run;
 
+use super::follower::Follower;
 use super::measure::measure;
 use super::record::{Control, Permanent};
 use crate::cpu_time::CpuTime;
-use crate::interrupt::Interrupt;
-use crate::progress::Progress;
-use crate::report;
+use crate::error::Error;
+use crate::estimates::Estimates;
+use crate::library::EXACT_FLOW;
+use crate::propagator::Propagator;
+use crate::run::Run;
 
 /// It is made in any case if it takes no longer than this.
 const SHORT: Duration = Duration::from_secs(1);
 
 /// Whether controls are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Wanted {
+pub enum Wanted {
+    /// However long they take.
     Always,
+    /// Where they take no longer than the run, or than a second.
     IfFast,
+    /// None.
     Never,
 }
 
@@ -59,13 +59,15 @@ impl Found {
 }
 
 /// The controls by step size.
-pub(super) struct Controls {
+#[derive(Debug)]
+pub struct Controls {
     wanted: Wanted,
     known: BTreeMap<Rational, Found>,
 }
 
 impl Controls {
-    pub(super) fn new(wanted: Wanted) -> Self {
+    /// None so far.
+    pub fn new(wanted: Wanted) -> Self {
         Controls { wanted, known: BTreeMap::new() }
     }
 
@@ -75,7 +77,7 @@ impl Controls {
         estimates: Estimates<'_>,
         context: &N::Context,
         seconds: Duration,
-        (progress, interrupt): (&Progress, &Interrupt),
+        follower: &mut dyn Follower,
     ) -> Found {
         let setup = estimates.system.setup().filter(|setup| has_exact_flow(setup).is_ok());
         let Some(setup) = setup.filter(|_| self.wanted != Wanted::Never) else { return Found::Nothing };
@@ -88,7 +90,7 @@ impl Controls {
         let estimates = Estimates { propagator: &Propagator::ExactFlow, run, compensated: false, ..estimates };
         let found = match expected::<N>(&setup, run, context) {
             Some(expected) if limit.is_some_and(|limit| expected > limit) => left_out(expected, seconds),
-            _ => control::<N>(estimates, context, limit, seconds, (progress, interrupt)),
+            _ => control::<N>(estimates, context, limit, seconds, follower),
         };
         self.known.insert(run.h.clone(), found.clone());
         found
@@ -115,19 +117,18 @@ fn control<N: Rounded + 'static>(
     context: &N::Context,
     limit: Option<Duration>,
     seconds: Duration,
-    (progress, interrupt): (&Progress, &Interrupt),
+    follower: &mut dyn Follower,
 ) -> Found {
-    progress.restart(format!("on the exact flow, step {}", shortened(estimates.run.h, 20)));
+    follower.begins_control(estimates.run);
     let begin = CpuTime::begin();
     let (steps, mut expected) = (estimates.run.steps as f64, None);
     let found = measure::<N>(estimates, context, |n| {
-        progress.reach(n);
         if limit.is_some_and(|limit| begin.elapsed() > 2 * limit) {
             let all = begin.elapsed().mul_f64(steps / (n as f64).max(1.0));
             expected = Some(all.max(begin.elapsed()));
             return Err(Error::run("the control takes too long", "use --control"));
         }
-        interrupt.check(estimates.run, n, "the run itself is complete")
+        follower.reaches(estimates.run, n)
     });
     match (found, expected) {
         (Ok((found, _)), _) => {
@@ -136,7 +137,7 @@ fn control<N: Rounded + 'static>(
         }
         (Err(_), Some(expected)) => left_out(expected, seconds),
         (Err(error), None) => {
-            report::note(format_args!("no estimate on the exact flow: {error}"));
+            follower.no_control(&error);
             Found::Nothing
         }
     }

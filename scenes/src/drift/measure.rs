@@ -3,8 +3,9 @@
 use shadowstep::StepSize;
 use shadowstep::number::Rounded;
 use shadowstep::run::{DriftRecorder, EnergyDrift};
-use shadowstep_scenes::Error;
-use shadowstep_scenes::estimates::{Estimates, Finished};
+
+use crate::error::Error;
+use crate::estimates::{Estimates, Finished};
 
 /// The drift of a run, and what is known of the run besides.
 pub(super) fn measure<N: Rounded + 'static>(

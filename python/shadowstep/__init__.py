@@ -1,0 +1,45 @@
+"""Splitting schemes with proved orders, and the modified ("shadow") energy of the trajectories they make.
+
+>>> import shadowstep
+>>> kepler = shadowstep.Problem("kepler", eccentricity="3/5")
+>>> orbit = shadowstep.integrate(kepler, "yoshida4", h="1/40", until=100, every=10, estimator="bilinear", order=8)
+>>> orbit.q.shape
+(401, 2)
+>>> bool(abs(orbit.energy - orbit.energy[0]).max() > 1e-5)  # the energy oscillates
+True
+>>> bool(abs(orbit.modified_energy[-1] - orbit.modified_energy[0]) < 1e-6)  # the scheme follows a modified one
+True
+"""
+
+from ._shadowstep import InputError, RunError, __version__
+from .drift import drift
+from .integration import Trajectory, integrate
+from .monitor import Monitor, Report, Sample
+from .problem import Problem
+from .scene import Outcome, run, scene
+from .scheme import Scheme, schemes
+from .work_precision import Advice, Choice, Curve, Measurement, advise, work_precision
+
+__all__ = [
+    "Advice",
+    "Choice",
+    "Curve",
+    "InputError",
+    "Monitor",
+    "Outcome",
+    "Problem",
+    "Report",
+    "Measurement",
+    "RunError",
+    "Sample",
+    "Scheme",
+    "Trajectory",
+    "__version__",
+    "advise",
+    "drift",
+    "integrate",
+    "run",
+    "scene",
+    "schemes",
+    "work_precision",
+]

@@ -1,0 +1,192 @@
+"""Runs into arrays."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+
+from . import _shadowstep
+from .exact import Number, exact
+from .problem import Problem
+from .progress import bar
+from .scheme import Scheme
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+
+@dataclass(frozen=True, repr=False)
+class Trajectory:
+    """States of a run, n of them with d coordinates.
+
+    In double precision all are arrays of float64. With more digits they are arrays of decimal texts, which read back to the same
+    numbers; `mpmath` converts them.
+    """
+
+    n: np.ndarray
+    """The numbers of the states, of shape (n,)."""
+    t: np.ndarray
+    """Their times t = n h, of shape (n,)."""
+    q: np.ndarray
+    """Positions, of shape (n, d)."""
+    p: np.ndarray
+    """Momenta, of shape (n, d)."""
+    energy: np.ndarray
+    """H, of shape (n,)."""
+    coordinates: list[str]
+    """The names of the coordinates."""
+    momenta: list[str]
+    """The names of the momenta."""
+    force_evaluations: int
+    """Evaluations of the gradient, those for the states that only the estimator needs included."""
+    modified_energy: np.ndarray | None = None
+    """The modified energy H̄, of shape (n,), if an estimator was asked for."""
+    modified_energy_error: np.ndarray | None = None
+    """Its estimated error."""
+    order: np.ndarray | None = None
+    """The k of E_k or the m of D_m of each estimate."""
+    is_between: bool = False
+    """Whether the modified energies belong to the times t + h/2; the last one is then NaN."""
+    notes: list[str] = field(default_factory=list)
+    """What should be known of the run; each was a warning, too."""
+
+    def mpmath(self, name: str, digits: int | None = None) -> list[Any]:
+        """Numbers of more digits as those of mpmath: nested lists of `mpf` in the shape of the array.
+
+        ``digits`` sets ``mpmath.mp.dps``, which is otherwise taken as it is.
+        """
+        import mpmath
+
+        if digits is not None:
+            mpmath.mp.dps = digits
+        convert = np.vectorize(mpmath.mpf, otypes=[object])
+        return convert(getattr(self, name)).tolist()
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each state, with columns n, t, those of the coordinates and momenta, energy, modified_energy and its error."""
+        import pandas
+
+        columns = {"n": self.n, "t": self.t}
+        columns |= {name: self.q[:, i] for i, name in enumerate(self.coordinates)}
+        columns |= {name: self.p[:, i] for i, name in enumerate(self.momenta)}
+        columns |= dict(self._energies())
+        return pandas.DataFrame(columns)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """q and p over time and coordinates, energies over time."""
+        import xarray
+
+        data = {"q": (("time", "coordinate"), self.q), "p": (("time", "coordinate"), self.p)}
+        data |= {name: (("time",), values) for name, values in self._energies()}
+        return xarray.Dataset(data, coords={"time": self.t, "n": (("time",), self.n), "coordinate": self.coordinates})
+
+    def _energies(self) -> list[tuple[str, np.ndarray]]:
+        named = [("energy", self.energy), ("modified_energy", self.modified_energy), ("modified_energy_error", self.modified_energy_error)]
+        return [(name, values) for name, values in named if values is not None]
+
+    def __len__(self) -> int:
+        return len(self.n)
+
+    def __repr__(self) -> str:
+        modified = "" if self.modified_energy is None else ", with modified energies"
+        return f"Trajectory({len(self)} states of {self.q.shape[1]} coordinates, t = {self.t[0]} to {self.t[-1]}{modified})"
+
+
+def integrate(
+    problem: Problem,
+    scheme: Union[Scheme, str, os.PathLike[str]],
+    h: Number,
+    until: Number | None = None,
+    *,
+    steps: int | None = None,
+    every: int = 1,
+    digits: Union[int, str] = "double",
+    mpfr: bool = False,
+    estimator: str | None = None,
+    order: int | None = None,
+    max_order: int | None = None,
+    stop: str | None = None,
+    rule: str | None = None,
+    accuracy: Number | None = None,
+    progress: bool | None = None,
+) -> Trajectory:
+    """Makes a run of a scheme from the problem's initial state.
+
+    A step alternates kicks p ← p − h a_s U_q(q) and drifts q ← q + h b_s T_p(p).
+
+    Parameters
+    ----------
+    problem
+        H and the initial state.
+    scheme
+        A scheme, or the name or path of one.
+    h
+        The step size, exact: ``"1/20"``; a float is the decimal that Python prints. A negative one goes back in time.
+    until, steps
+        One of the two: the time at which the run ends at the latest, or the number of steps.
+    every
+        The states 0, every, 2 every, … and the last one are kept.
+    digits
+        ``"double"``, ``"compensated"`` (double precision in which q and p are sums with remainders), ``"double-double"``, or a number of
+        decimal digits.
+    mpfr
+        MPFR's numbers for these digits, in wheels that are built with it.
+    estimator
+        ``"bilinear"`` (E_k) or ``"central"`` (D_m), for the modified energies of the states that are kept; None for none.
+    order
+        Its k or m; by default the best one of each state up to ``max_order``. ``stop``, ``rule`` and ``accuracy`` say how that is found:
+        see ``shadowstep drift --help``.
+    progress
+        Whether to show a progress bar, for which tqdm is needed; by default on a terminal or in a notebook, on runs of more than a second.
+
+    Raises
+    ------
+    InputError
+        What is wrong with an argument, and what would be right.
+    RunError
+        A state or an energy that is not finite.
+
+    Examples
+    --------
+    >>> import shadowstep
+    >>> run = shadowstep.integrate(shadowstep.Problem("pendulum"), "stormer-verlet", h="1/10", until=10)
+    >>> run
+    Trajectory(101 states of 1 coordinates, t = 0.0 to 10.0)
+    >>> run.q.shape, run.force_evaluations
+    ((101, 1), 101)
+    >>> precise = shadowstep.integrate(shadowstep.Problem("pendulum"), "yoshida4", h="1/10", steps=3, digits=50)
+    >>> precise.t[-1]
+    '0.3'
+    """
+    scheme = scheme if isinstance(scheme, Scheme) else Scheme(scheme)
+    options = None
+    if estimator is not None:
+        accuracy = None if accuracy is None else exact(accuracy, "accuracy")
+        options = {"name": estimator, "order": order, "max_order": max_order, "stop": stop, "rule": rule, "accuracy": accuracy}
+    with bar(steps, "steps", progress) as reach:
+        found = _shadowstep.integrate(
+            problem._given,
+            scheme._table,
+            exact(h, "h"),
+            steps=steps,
+            until=None if until is None else exact(until, "until"),
+            every=every,
+            digits=str(digits),
+            mpfr=mpfr,
+            options=options,
+            progress=reach,
+        )
+    for note in found["notes"]:
+        warnings.warn(note, stacklevel=2)
+    for name in ("t", "q", "p", "energy", "modified_energy", "modified_energy_error"):
+        if name in found and isinstance(found[name], list):
+            found[name] = np.array(found[name], dtype=object)
+    rows = len(found["n"])
+    for name in ("q", "p"):
+        found[name] = found[name].reshape(rows, -1)
+    return Trajectory(**found)

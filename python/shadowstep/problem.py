@@ -1,0 +1,185 @@
+"""What moves: H = T(p) + U(q), and the state at t = 0."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Union
+
+import numpy as np
+
+from ._shadowstep import Given, problem_names
+from .document import document
+from .exact import Number, exact
+
+Values = Union[Mapping[str, Number], Sequence[Number], np.ndarray]
+Forces = Union[int, Callable[[np.ndarray], "tuple[float, np.ndarray]"]]
+
+
+class Problem:
+    """A system H = T(p) + U(q) with its state at t = 0.
+
+    Parameters
+    ----------
+    system
+        A shipped problem, such as ``"kepler"``; or U(q) as a formula in the coordinates and parameters; or the forces: the address of a C
+        function, or a Python function (see below). None where ``pair`` or ``parts`` is given.
+    q, p
+        Positions and momenta at t = 0, each of d numbers; a mapping has the names of the coordinates with their values. Velocities can be given
+        as ``v`` in place of ``p``. A shipped problem has its own.
+    masses
+        Those of the coordinates, d numbers; 1 by default. T = Σ p_i²/(2 m_i).
+    kinetic
+        T(p) as a formula, in place of masses.
+    pair
+        The energy of two bodies i and j as a formula in ``r2``, the square of their distance, or in one dimension ``d`` = q_j − q_i, with
+        ``dimensions`` and ``bodies``.
+    parts
+        How H is split: a name such as ``"wisdom-holman"``, or a list of formulas of H = H_1 + … + H_n.
+    time
+        The section [time] of a scene as a mapping: steps that become short in close encounters.
+    **others
+        Parameters by their names, with numbers or texts. Other keys of [problem] are taken as they are: ``coordinates``, ``momenta``,
+        ``bodies``, ``dimensions``, ``neighbours``, ``units``, ….
+
+    Numbers may be exact texts such as ``"1/3"``; a float is the decimal that Python prints for it. ``shadowstep run --explain`` describes the
+    keys of [problem], [initial] and [time].
+
+    Own forces
+    ----------
+    A C function ``double f(const double *q, double *gradient)`` returns U(q) and writes the gradient U_q(q); q and the gradient have d numbers.
+    Its address comes from numba (``cfunc(…).address``), ctypes or cffi. The function must live as long as the problem. A Python function gets q
+    as an array of shape (d,) and returns (U, gradient). Both compute in double precision.
+
+    Examples
+    --------
+    >>> Problem("kepler", eccentricity=0.3)
+    Problem('kepler', coordinates x, y)
+    >>> Problem("-1/sqrt(x^2 + y^2)", q={"x": "2/5", "y": 0}, p=[0, 2]).energy
+    -0.5
+    >>> Problem("k*x^2/2", q={"x": 1}, p=[0], k=4).energy
+    2.0
+    >>> bodies = {"m": [1, "1/1000"]}
+    >>> Problem(pair="-m_i*m_j/sqrt(r2)", dimensions=2, bodies=bodies, q=[0, 0, 1, 0], v=[0, 0, 0, 1]).dimension
+    4
+    >>> import numpy as np
+    >>> def spring(q):
+    ...     return 0.5 * q @ q, q
+    >>> Problem(spring, q=[1.0, 0.0], p=[0.0, 1.0]).energy
+    1.0
+    """
+
+    _given: Given
+
+    def __init__(
+        self,
+        system: Union[str, Forces, None] = None,
+        *,
+        q: Values | None = None,
+        p: Values | None = None,
+        v: Values | None = None,
+        masses: Sequence[Number] | np.ndarray | None = None,
+        kinetic: str | None = None,
+        pair: str | None = None,
+        parts: Union[str, Sequence[str], None] = None,
+        time: Mapping[str, Any] | None = None,
+        **others: Any,
+    ) -> None:
+        self._system = system
+        if system is not None and not isinstance(system, str):
+            self._given = _of_forces(system, q, p, v, masses, {"kinetic": kinetic, "pair": pair, "parts": parts, "time": time, **others})
+            return
+        sections = _sections(system, q, p, v, others)
+        problem = sections["problem"]
+        problem |= {"masses": masses, "kinetic": kinetic, "pair": pair, "parts": parts}
+        self._given = Given.of_text(document({**sections, "time": time}), "problem")
+
+    @classmethod
+    def from_scene(cls, path: Union[str, os.PathLike[str]]) -> Problem:
+        """The system of a scene's file, of which [problem], [initial], [[body]] and [time] are used.
+
+        Raises
+        ------
+        InputError
+            A file that cannot be read, or faults of its text, each with its line and column.
+        """
+        problem = cls.__new__(cls)
+        problem._system = os.fspath(path)
+        problem._given = Given.of_file(path)
+        return problem
+
+    @property
+    def name(self) -> str:
+        """The name of the shipped problem, the formula, or another description."""
+        return self._system if isinstance(self._system, str) else "formula" if self._system is None else "forces"
+
+    @property
+    def coordinates(self) -> list[str]:
+        """The names of q_1, …, q_d."""
+        return self._given.coordinates
+
+    @property
+    def momenta(self) -> list[str]:
+        """The names of p_1, …, p_d."""
+        return self._given.momenta
+
+    @property
+    def dimension(self) -> int:
+        """d, the number of coordinates."""
+        return len(self.coordinates)
+
+    @property
+    def initial(self) -> tuple[np.ndarray, np.ndarray]:
+        """q and p at t = 0, of shape (d,), in double precision."""
+        q, p = self._given.initial
+        return np.array(q), np.array(p)
+
+    @property
+    def energy(self) -> float:
+        """H at t = 0, in double precision."""
+        return self._given.energy
+
+    def __repr__(self) -> str:
+        names = self.coordinates
+        shown = ", ".join(names if len(names) <= 6 else [*names[:3], "…", names[-1]])
+        return f"Problem({self._system!r}, coordinates {shown})"
+
+
+# keys of [problem] and [initial]; every other keyword is a parameter
+_PROBLEM = ("coordinates", "momenta", "bodies", "dimensions", "neighbours", "units", "elements", "barycentric", "parameters")
+
+
+def _sections(system: str | None, q: Values | None, p: Values | None, v: Values | None, others: Mapping[str, Any]) -> dict[str, Any]:
+    problem: dict[str, Any] = {key: others[key] for key in _PROBLEM if key in others}
+    parameters = {key: value for key, value in others.items() if key not in (*_PROBLEM, "body")}
+    if parameters:
+        problem["parameters"] = {**problem.get("parameters", {}), **parameters}
+    if system is not None:
+        problem["name" if _is_name(system, q) else "potential"] = system
+    if "potential" in problem and isinstance(q, Mapping):
+        problem.setdefault("coordinates", list(q))
+    if isinstance(p, Mapping):
+        problem.setdefault("momenta", list(p))
+    initial = {"q": _list(q), "p": _list(p), "v": _list(v)}
+    return {"problem": problem, "body": others.get("body"), "initial": {key: value for key, value in initial.items() if value is not None}}
+
+
+def _is_name(system: str, q: Values | None) -> bool:
+    # a formula needs q; without it a word is meant as a name, which may be misspelt
+    return system in problem_names() or (q is None and re.fullmatch("[a-z][a-z0-9-]*", system) is not None)
+
+
+def _list(values: Values | None) -> Sequence[Number] | np.ndarray | None:
+    return list(values.values()) if isinstance(values, Mapping) else values
+
+
+def _of_forces(forces: Forces, q: Values | None, p: Values | None, v: Values | None, masses: Any, others: Mapping[str, Any]) -> Given:
+    given = [name for name, value in others.items() if value is not None]
+    if given:
+        raise TypeError(f"`{given[0]}` goes with a formula or a shipped problem, not with a function for the forces")
+    if q is None or p is None:
+        raise TypeError("a function for the forces needs q and p, the state at t = 0" + ("; give p = m v in place of v" if v is not None else ""))
+    texts = [[exact(value, name) for value in _list(values)] for name, values in (("q", q), ("p", p))]
+    masses = None if masses is None else [exact(mass, "masses") for mass in masses]
+    return Given.of_forces(forces, *texts, masses)

@@ -1,0 +1,125 @@
+"""Splitting schemes with what is proved of them."""
+
+from __future__ import annotations
+
+import json
+import os
+from functools import cached_property
+from typing import Any, Union
+
+from ._shadowstep import Table, shipped_names
+
+
+class Scheme:
+    """A splitting scheme, proved from its table of exact weights.
+
+    Parameters
+    ----------
+    table
+        The name of a shipped scheme, such as ``"yoshida4"``; the path of a table, which ends in ``.toml`` or has a separator; or the text
+        of a table, which has line breaks.
+
+    Raises
+    ------
+    InputError
+        An unknown name; a table with faults: a claim that does not hold, for example, with its line and column.
+
+    Examples
+    --------
+    >>> scheme = Scheme("blanes-moan-srkn11b")
+    >>> scheme
+    Scheme('blanes-moan-srkn11b': order 6 for quadratic T, 4 for every T(p), 11 forces a step)
+    >>> scheme.symmetric, round(scheme.stability_limit, 2)
+    (True, 12.36)
+    >>> verlet = Scheme('''
+    ... name = "velocity-verlet"
+    ... order = 2
+    ... kinetic = "any"
+    ... [stages]
+    ... kick = ["1/2", "1/2"]
+    ... drift = [1, 0]
+    ... ''')
+    >>> verlet.maps
+    [('kick', '1/2'), ('drift', '1'), ('kick', '1/2')]
+    """
+
+    _table: Table
+
+    def __init__(self, table: Union[str, os.PathLike[str]]) -> None:
+        text = os.fspath(table)
+        self._table = Table.of_text(text, "table") if "\n" in text else Table.of_word(text)
+
+    @property
+    def name(self) -> str:
+        """By which it was asked for."""
+        return self._table.name
+
+    @property
+    def order(self) -> int | None:
+        """The order r that is proved for every T(p): errors of size h^r. None with gradient kicks, which there are for quadratic T only."""
+        return self._table.facts()[1]
+
+    @property
+    def order_quadratic(self) -> int:
+        """The order that is proved for T = ½pᵀM⁻¹p."""
+        return self._table.facts()[2]
+
+    @property
+    def evaluations(self) -> int:
+        """Evaluations of the forces in a step."""
+        return self._table.facts()[3]
+
+    @property
+    def text(self) -> str:
+        """The text of the table."""
+        return self._table.text
+
+    @cached_property
+    def record(self) -> dict[str, Any]:
+        """Everything that is known: proofs, the leading error, stability, exact weights as texts. As ``shadowstep schemes show --json``."""
+        return json.loads(self._table.record())
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether a step with −h undoes a step with h."""
+        return self.record["symmetric"]
+
+    @property
+    def stability_limit(self) -> float | None:
+        """The least hω at which an oscillation of frequency ω is unstable; None for a step of very many maps."""
+        limit = self.record["stability_limit"]
+        return None if limit is None else float(limit)
+
+    @property
+    def effective_error(self) -> float:
+        """The norm of the leading error for quadratic T, at equal cost: (evaluations) times its r-th root, for schemes of equal order r."""
+        return self.record["effective_error_quadratic"]
+
+    @property
+    def maps(self) -> list[tuple[str, str]]:
+        """The kicks, drifts and gradient kicks of a step with their exact weights as texts, in the order in which they are made."""
+        return [(entry["map"], entry["weight"]) for entry in self.record["maps"]]
+
+    @property
+    def reference(self) -> str | None:
+        """Where the scheme was published."""
+        return self.record["reference"]
+
+    @property
+    def doi(self) -> str | None:
+        """Its digital object identifier."""
+        return self.record["doi"]
+
+    def __repr__(self) -> str:
+        name, general, quadratic, evaluations = self._table.facts()
+        orders = f"order {quadratic}" if general == quadratic else f"order {quadratic} for quadratic T, {general or 'none'} for every T(p)"
+        return f"Scheme({name!r}: {orders}, {evaluations} force{'s' if evaluations != 1 else ''} a step)"
+
+
+def schemes() -> list[str]:
+    """The names of the shipped schemes.
+
+    >>> "yoshida4" in schemes()
+    True
+    """
+    return shipped_names()

@@ -1,0 +1,199 @@
+"""Speed against error, and advice on a scheme and a step size."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any, Union
+
+from . import _shadowstep
+from .exact import Number, exact
+from .problem import Problem
+from .progress import bar
+from .scheme import Scheme
+
+Schemes = Iterable[Union[Scheme, str, "os.PathLike[str]"]]
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """One run of a scheme."""
+
+    steps: int
+    h: float
+    evaluations: int
+    """Evaluations of the forces."""
+    seconds: float
+    """Of its steps alone, in one thread."""
+    position_error: float | None
+    """|q − q_ref| at the end; None where the reference does not resolve it."""
+    position_error_below: float | None
+    """A bound in its place."""
+    energy_error: float | None
+    """The largest |H(t) − H(0)|, as a part of |H(0)| unless that is 0; None if it is not finite."""
+    permanent_bound: float | None
+    """A permanent change of the modified energy above this is excluded, likewise."""
+    verdict: str
+    """The monitor's verdict on the step size."""
+    failed: float | None
+    """The time at which a state was not finite, as a part of the run."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """The runs of a scheme, the one with the fewest steps first."""
+
+    scheme: str
+    order: int
+    """The order that is proved for the problem's T(p)."""
+    evaluations_per_step: int
+    seconds_per_step: float
+    runs: list[Measurement]
+
+
+def work_precision(
+    problem: Problem,
+    until: Number,
+    schemes: Schemes = (),
+    *,
+    steps: Sequence[int] | None = None,
+    digits: Union[int, str] = "double",
+    seconds: float = 2.0,
+    folder: Union[str, os.PathLike[str], None] = None,
+    progress: bool | None = None,
+) -> list[Curve]:
+    """What each scheme pays for an error, from its stability limit down to round-off.
+
+    Errors of positions are those beside the exact flow where it is known, else beside a scheme of order 10 with more digits.
+
+    Parameters
+    ----------
+    until
+        The end of the runs.
+    schemes
+        By default a dozen that are valid for the problem.
+    steps
+        The numbers of steps of the runs; by default equal numbers of evaluations for all schemes.
+    seconds
+        The time for the runs of a scheme, where ``steps`` is None.
+    folder
+        Keeps results there, and continues with what it has.
+
+    Examples
+    --------
+    >>> import shadowstep
+    >>> curves = shadowstep.work_precision(shadowstep.Problem("pendulum"), 20, ["stormer-verlet", "yoshida4"], steps=[100, 200, 400])
+    >>> [round(curve.runs[-2].position_error / curve.runs[-1].position_error) for curve in curves]
+    [4, 16]
+    """
+    tables = _tables(schemes)
+    with _folder(folder) as path, bar(1000, "", progress) as reach:
+        given = None if steps is None else sorted(int(count) for count in steps)
+        found = _shadowstep.work_precision(
+            problem._given, exact(until, "until"), tables, steps=given, digits=str(digits), seconds=seconds, folder=path, progress=reach
+        )
+    return [Curve(**{**curve, "runs": [Measurement(**run) for run in curve["runs"]]}) for curve in json.loads(found)]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A scheme and a step size with what is expected of them."""
+
+    scheme: str
+    h: str
+    """The exact step size."""
+    steps: int
+    predicted: float
+    """The error that is expected."""
+    evaluations: float
+    seconds: float
+    stable_step: float | None
+    """The largest stable step for the fastest oscillation at the start."""
+    conserved_up_to: float | None
+    """The largest step up to which the verdict was fine."""
+    lost_from: float | None
+    """The smallest step at which the modified energy was lost."""
+
+
+@dataclass(frozen=True)
+class Advice:
+    """A scheme and a step size for a tolerance; ``choices`` is empty if no scheme meets it."""
+
+    choices: list[Choice]
+    """The best first, with up to two alternatives."""
+    verified: float | None
+    """The error of a run of the first one over all of the time."""
+    least: float | None
+    """Where no scheme meets the tolerance: the smallest error that was found."""
+
+
+def advise(
+    problem: Problem,
+    until: Number,
+    tolerance: float,
+    *,
+    of: str = "position",
+    cost: str = "forces",
+    schemes: Schemes = (),
+    digits: Union[int, str] = "double",
+    seconds: float = 4.0,
+    folder: Union[str, os.PathLike[str], None] = None,
+    progress: bool | None = None,
+) -> Advice:
+    """A scheme and a step size for a tolerance: predicted from runs over a part of the time, and verified by one over all of it.
+
+    Parameters
+    ----------
+    tolerance
+        The largest error.
+    of
+        Which error: ``"position"`` at the end, ``"energy"``, the largest |H(t) − H(0)|, or ``"permanent"``, the permanent change of the
+        modified energy.
+    cost
+        What is to be small: ``"forces"`` or ``"time"``.
+
+    Examples
+    --------
+    >>> import shadowstep
+    >>> advice = shadowstep.advise(shadowstep.Problem("pendulum"), 50, 1e-6, seconds=0.2)
+    >>> advice.verified <= 1e-6, len(advice.choices) > 0
+    (True, True)
+    """
+    tables = _tables(schemes)
+    with _folder(folder) as path, bar(1000, "", progress) as reach:
+        found: dict[str, Any] = json.loads(
+            _shadowstep.advise(
+                problem._given,
+                exact(until, "until"),
+                float(tolerance),
+                of=of,
+                cost=cost,
+                schemes=tables,
+                digits=str(digits),
+                seconds=seconds,
+                folder=path,
+                progress=reach,
+            )
+        )
+    choices = [Choice(**choice) for choice in found.get("choices", [])]
+    return Advice(choices=choices, verified=found.get("verified"), least=found.get("least"))
+
+
+def _tables(schemes: Schemes) -> list[Any]:
+    if isinstance(schemes, (str, Scheme)):
+        schemes = [schemes]
+    return [(scheme if isinstance(scheme, Scheme) else Scheme(scheme))._table for scheme in schemes]
+
+
+@contextmanager
+def _folder(folder: Union[str, os.PathLike[str], None]) -> Iterator[str]:
+    if folder is not None:
+        os.makedirs(folder, exist_ok=True)
+        yield os.fspath(folder)
+        return
+    with tempfile.TemporaryDirectory(prefix="shadowstep-") as path:
+        yield path

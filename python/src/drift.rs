@@ -1,0 +1,73 @@
+//! The drift of the modified energy of runs.
+
+use pyo3::prelude::*;
+use shadowstep_scenes::Error;
+use shadowstep_scenes::drift::{Controls, Follower, Question, Record, Wanted};
+use shadowstep_scenes::estimator::order_setting;
+use shadowstep_scenes::library::EXACT_FLOW;
+use shadowstep_scenes::propagator::Propagator;
+use shadowstep_scenes::run::{OrderSetting, Run};
+
+use crate::errors::exception;
+use crate::estimator::Options;
+use crate::given::{Given, arithmetic, number};
+use crate::integrate::{Posed, Times};
+use crate::scheme::Table;
+use crate::waiting::{Watched, waiting};
+
+/// The drift of one run, with its control on the exact flow where that is wanted, as JSON. Without a scheme it is that of the exact flow.
+#[pyfunction]
+#[pyo3(signature = (problem, name, scheme, h, until, *, digits, mpfr, options, control, progress))]
+#[allow(clippy::too_many_arguments)] // the package's own function has the defaults
+pub(crate) fn drift(
+    py: Python<'_>,
+    problem: &Given,
+    name: &str,
+    scheme: Option<&Table>,
+    h: &str,
+    until: &str,
+    digits: &str,
+    mpfr: bool,
+    options: Options,
+    control: bool,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let failed = |error| exception(py, error);
+    let arithmetic = arithmetic(py, digits, mpfr)?;
+    let times = Times::of(py, h, None, Some(until))?;
+    let until = number(py, until)?;
+    let estimator = options.settings(py)?;
+    let (system, propagator) = match scheme {
+        Some(table) => {
+            let posed = Posed::of(problem, &table.0, arithmetic).map_err(failed)?;
+            (posed.system, Propagator::Scheme(Box::new(posed.scheme)))
+        }
+        None => {
+            let system = problem.system(arithmetic).map_err(failed)?;
+            let propagator = Propagator::of_system(EXACT_FLOW, &system).map_err(failed)?;
+            (system, propagator)
+        }
+    };
+    let order = order_setting(&estimator).map(|(name, value)| OrderSetting { name, value });
+    let run = Run { propagator: propagator.name(), h: &times.h, steps: times.steps, order };
+    let question =
+        Question { problem: name, system: &system, until: &until, arithmetic, estimator: &estimator, summarised: true };
+    let found = waiting(py, progress, |watched| -> Result<Record, Error> {
+        let mut controls = Controls::new(if control { Wanted::Always } else { Wanted::Never });
+        question.answer(&propagator, run, &mut controls, &mut Following(watched))
+    });
+    problem.raised(py)?;
+    let record = found?.map_err(failed)?;
+    serde_json::to_string(&record).map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
+}
+
+struct Following<'a>(&'a Watched);
+
+impl Follower for Following<'_> {
+    fn reaches(&mut self, run: Run<'_>, n: i64) -> Result<(), Error> {
+        match self.0.reaches(n) {
+            true => Ok(()),
+            false => Err(Error::run(format!("{}: interrupted at n = {n}", run.name()), "run it again")),
+        }
+    }
+}

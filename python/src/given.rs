@@ -1,0 +1,144 @@
+//! A problem: the sections of a scene that describe a system, or a function that computes its forces.
+
+use pyo3::prelude::*;
+use shadowstep::problems::PROBLEMS;
+use shadowstep::tables::Source;
+use shadowstep_scenes::arithmetic::{Arithmetic, DigitsError, MOST_DIGITS};
+use shadowstep_scenes::{Error, System, source};
+use shadowstep_symbolic::Exact;
+
+use crate::errors::{exception, usage};
+use crate::own_forces::Forces;
+
+/// A problem as it was given; it is read again in the number type of each run, as exact values are computed to the digits of the run.
+#[pyclass(frozen, module = "shadowstep._shadowstep")]
+pub(crate) struct Given(Kind);
+
+enum Kind {
+    Scene(Source),
+    Own { forces: Forces, q: Vec<Exact>, p: Vec<Exact>, masses: Option<Vec<Exact>> },
+}
+
+#[pymethods]
+impl Given {
+    /// From the text of a scene, of which \[problem\], \[initial\], \[\[body\]\] and \[time\] are used.
+    #[staticmethod]
+    fn of_text(py: Python<'_>, text: String, path: String) -> PyResult<Self> {
+        Given(Kind::Scene(Source { path, text })).checked(py)
+    }
+
+    /// From a scene's file.
+    #[staticmethod]
+    fn of_file(py: Python<'_>, path: std::path::PathBuf) -> PyResult<Self> {
+        Given(Kind::Scene(source(&path).map_err(|error| exception(py, error))?)).checked(py)
+    }
+
+    /// With a function for the forces: a number is the address of a C function, anything else is called.
+    #[staticmethod]
+    #[pyo3(signature = (function, q, p, masses))]
+    fn of_forces(
+        py: Python<'_>,
+        function: &Bound<'_, PyAny>,
+        q: Vec<String>,
+        p: Vec<String>,
+        masses: Option<Vec<String>>,
+    ) -> PyResult<Self> {
+        let numbers = |texts: Vec<String>| texts.iter().map(|text| exact(py, text)).collect::<PyResult<Vec<_>>>();
+        let (q, p, masses) = (numbers(q)?, numbers(p)?, masses.map(numbers).transpose()?);
+        let forces = Forces::of(function, q.len())?;
+        Given(Kind::Own { forces, q, p, masses }).checked(py)
+    }
+
+    /// The names of q_1, q_2, ….
+    #[getter]
+    fn coordinates(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        Ok(self.system(Arithmetic::Double).map_err(|error| exception(py, error))?.coordinates)
+    }
+
+    /// The names of p_1, p_2, ….
+    #[getter]
+    fn momenta(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        Ok(self.system(Arithmetic::Double).map_err(|error| exception(py, error))?.momenta)
+    }
+
+    /// The state at t = 0 in double precision, in the coordinates that trajectories have.
+    #[getter]
+    fn initial(&self, py: Python<'_>) -> PyResult<(Vec<f64>, Vec<f64>)> {
+        let system = self.system(Arithmetic::Double).map_err(|error| exception(py, error))?;
+        let (q, p) = system.start::<f64>(&());
+        Ok(match system.shown::<f64>(&()) {
+            Some(mut shown) => {
+                let (q, p) = shown.of_state(&q, &p);
+                (q.to_vec(), p.to_vec())
+            }
+            None => (q, p),
+        })
+    }
+
+    /// H at t = 0 in double precision.
+    #[getter]
+    fn energy(&self, py: Python<'_>) -> PyResult<f64> {
+        let system = self.system(Arithmetic::Double).map_err(|error| exception(py, error))?;
+        let (q, p) = system.start::<f64>(&());
+        let energy = system.energy::<f64>(&())(&q, &p);
+        self.raised(py)?;
+        Ok(energy)
+    }
+}
+
+impl Given {
+    /// The system in a number type.
+    pub(crate) fn system(&self, arithmetic: Arithmetic) -> Result<System, Error> {
+        let system = match &self.0 {
+            Kind::Scene(source) => System::read(source, arithmetic)?.0,
+            Kind::Own { forces, q, p, masses } => {
+                System::of_own(Box::new(forces.clone()), (q.clone(), p.clone()), masses.clone())?
+            }
+        };
+        system.check_digits(arithmetic)?;
+        Ok(system)
+    }
+
+    /// What the function for the forces has raised since it was asked last.
+    pub(crate) fn raised(&self, py: Python<'_>) -> PyResult<()> {
+        match &self.0 {
+            Kind::Own { forces, .. } => forces.raised(py),
+            Kind::Scene(_) => Ok(()),
+        }
+    }
+
+    fn checked(self, py: Python<'_>) -> PyResult<Self> {
+        self.system(Arithmetic::Double).map_err(|error| exception(py, error))?;
+        Ok(self)
+    }
+}
+
+/// The names of the shipped problems.
+#[pyfunction]
+pub(crate) fn problem_names() -> Vec<&'static str> {
+    PROBLEMS.iter().map(|problem| problem.name()).collect()
+}
+
+fn exact(py: Python<'_>, text: &str) -> PyResult<Exact> {
+    number(py, text).map(|value| Exact { value, rounded: false })
+}
+
+/// An exact number.
+pub(crate) fn number(py: Python<'_>, text: &str) -> PyResult<shadowstep::Rational> {
+    shadowstep::exact(text)
+        .map_err(|error| usage(py, format!("`{text}`: {error}"), shadowstep_scenes::arithmetic::NUMBER_EXAMPLES))
+}
+
+/// The number type of some digits: a name or a number.
+pub(crate) fn arithmetic(py: Python<'_>, digits: &str, mpfr: bool) -> PyResult<Arithmetic> {
+    if let Some((_, named)) = Arithmetic::NAMED.iter().find(|(name, _)| *name == digits) {
+        return Ok(*named);
+    }
+    let names = Arithmetic::NAMED.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+    let hint = format!("give a number of decimal digits up to {MOST_DIGITS}, or one of {names}");
+    match digits.parse() {
+        Ok(count @ 1..=MOST_DIGITS) => Arithmetic::of_digits(count, mpfr)
+            .map_err(|error: DigitsError| usage(py, format!("digits = {digits}: {error}"), hint)),
+        _ => Err(usage(py, format!("digits = {digits} is no number type"), hint)),
+    }
+}

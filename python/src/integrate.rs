@@ -1,0 +1,191 @@
+//! Runs into arrays.
+
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use shadowstep::Rational;
+use shadowstep::number::Rounded;
+use shadowstep::shadow::EstimatorSettings;
+use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+use shadowstep_scenes::integrate::{Integration, Samples};
+use shadowstep_scenes::library::{NamedScheme, for_system};
+use shadowstep_scenes::run::{OrderSetting, Run};
+use shadowstep_scenes::stability::unstable;
+use shadowstep_scenes::{Error, Note, Observer, System, estimator, steps};
+
+use crate::errors::{exception, usage};
+use crate::estimator::Options;
+use crate::given::{Given, arithmetic, number};
+use crate::scheme::Table;
+use crate::waiting::waiting;
+
+/// Makes a run, and gives a dictionary of its states: arrays in double precision, else lists of decimal texts.
+#[pyfunction]
+#[pyo3(signature = (problem, scheme, h, *, steps, until, every, digits, mpfr, options, progress))]
+#[allow(clippy::too_many_arguments)] // the package's own function has the defaults
+pub(crate) fn integrate<'py>(
+    py: Python<'py>,
+    problem: &Given,
+    scheme: &Table,
+    h: &str,
+    steps: Option<u64>,
+    until: Option<&str>,
+    every: u64,
+    digits: &str,
+    mpfr: bool,
+    options: Option<Options>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let arithmetic = arithmetic(py, digits, mpfr)?;
+    let times = Times::of(py, h, steps, until)?;
+    let estimator = options.map(|options| options.settings(py)).transpose()?;
+    let failed = |error| exception(py, error);
+    let posed = Posed::of(problem, &scheme.0, arithmetic).map_err(failed)?;
+    let found = waiting(py, progress, |watched| {
+        posed.run(&times, every, estimator.as_ref(), arithmetic, &mut watched.observer())
+    });
+    problem.raised(py)?;
+    let (found, mut notes) = found?.map_err(failed)?;
+    notes.extend(times.note);
+    let dictionary = found.into_dictionary(py)?;
+    dictionary.set_item("notes", PyList::new(py, notes.iter().map(Note::to_string))?)?;
+    dictionary.set_item("coordinates", &posed.system.coordinates)?;
+    dictionary.set_item("momenta", &posed.system.momenta)?;
+    dictionary.set_item("is_between", estimator.is_some_and(|settings| settings.is_between()))?;
+    Ok(dictionary)
+}
+
+/// The steps of a run.
+pub(crate) struct Times {
+    pub(crate) h: Rational,
+    pub(crate) steps: u64,
+    note: Option<Note>,
+}
+
+impl Times {
+    /// Of two values one is given: the number of steps, or the time at which they end.
+    pub(crate) fn of(py: Python<'_>, h: &str, count: Option<u64>, until: Option<&str>) -> PyResult<Self> {
+        let size = number(py, h)?;
+        match (count, until) {
+            (Some(count), None) => {
+                // the same checks, by the time at which they end
+                let until = &size * Rational::from_integer(count.into());
+                Times::until(py, (size, h), (until, &format!("{count} h")))
+            }
+            (None, Some(text)) => Times::until(py, (size, h), (number(py, text)?, text)),
+            _ => Err(usage(py, "give either `until` or `steps`", "until = 100, the time, or steps = 1000")),
+        }
+    }
+
+    fn until(py: Python<'_>, (h, step): (Rational, &str), (until, end): (Rational, &str)) -> PyResult<Self> {
+        let steps = steps::count((&h, step), (&until, end), "");
+        let steps = steps.map_err(|error| usage(py, error.message, error.hint))?;
+        Ok(Times { note: Note::of_end(&h, steps, &until), h, steps })
+    }
+}
+
+/// A system with a scheme that is valid for it.
+pub(crate) struct Posed {
+    pub(crate) system: System,
+    pub(crate) scheme: NamedScheme,
+    note: Option<Note>,
+}
+
+impl Posed {
+    pub(crate) fn of(problem: &Given, scheme: &NamedScheme, arithmetic: Arithmetic) -> Result<Self, Error> {
+        let system = problem.system(arithmetic)?;
+        let scheme = for_system(scheme.clone(), &system)?;
+        let note = arithmetic.suits(&scheme).map_err(|error| {
+            Error::usage(
+                error.to_string(),
+                format!("use {} digits or fewer, or a scheme whose weights are fractions", error.most),
+            )
+        })?;
+        Ok(Posed { system, scheme, note })
+    }
+
+    fn run(
+        &self,
+        times: &Times,
+        every: u64,
+        estimator: Option<&EstimatorSettings>,
+        arithmetic: Arithmetic,
+        observer: &mut dyn Observer,
+    ) -> Result<(Found, Vec<Note>), Error> {
+        let setting = estimator.and_then(estimator::order_setting);
+        let order = setting.map(|(name, value)| OrderSetting { name, value });
+        let run = Run { propagator: &self.scheme.name, h: &times.h, steps: times.steps, order };
+        let compensated = arithmetic.is_compensated();
+        let (system, scheme) = (&self.system, &self.scheme.scheme);
+        let integration = Integration { system, scheme, run, compensated, every, estimator };
+        let found = match arithmetic {
+            Arithmetic::Double | Arithmetic::Compensated => Found::Doubles(integration.run::<f64>(&(), observer)?),
+            _ => Found::Texts(arithmetic.compute(InTexts { integration, observer })?),
+        };
+        let frequency = system.fastest_frequency();
+        let unstable = frequency.and_then(|frequency| unstable(frequency, &self.scheme, &times.h));
+        Ok((found, self.note.iter().cloned().chain(unstable).collect()))
+    }
+}
+
+struct InTexts<'a> {
+    integration: Integration<'a>,
+    observer: &'a mut dyn Observer,
+}
+
+impl Computation for InTexts<'_> {
+    type Output = Result<Samples<String>, Error>;
+
+    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+        Ok(self.integration.run::<N>(context, self.observer)?.map(N::to_text))
+    }
+}
+
+/// The states of a run, in what Python has for its number type.
+enum Found {
+    Doubles(Samples<f64>),
+    Texts(Samples<String>),
+}
+
+impl Found {
+    fn into_dictionary(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+        match self {
+            Found::Doubles(samples) => {
+                dictionary(py, samples, |numbers| Ok(PyArray1::from_vec(py, numbers).into_any()), f64::NAN)
+            }
+            Found::Texts(samples) => {
+                dictionary(py, samples, |texts| Ok(PyList::new(py, texts)?.into_any()), "nan".to_owned())
+            }
+        }
+    }
+}
+
+/// The states as a dictionary; q and p are flat.
+fn dictionary<'py, T: Clone>(
+    py: Python<'py>,
+    samples: Samples<T>,
+    column: impl Fn(Vec<T>) -> PyResult<Bound<'py, PyAny>>,
+    missing: T,
+) -> PyResult<Bound<'py, PyDict>> {
+    let all = PyDict::new(py);
+    let rows = samples.n.len();
+    all.set_item("n", PyArray1::from_vec(py, samples.n))?;
+    let columns = [("t", samples.t), ("q", samples.q), ("p", samples.p), ("energy", samples.energy)];
+    for (name, numbers) in columns {
+        all.set_item(name, column(numbers)?)?;
+    }
+    if !samples.modified.is_empty() {
+        let mut modified = samples.modified;
+        let orders: Vec<i64> = modified.iter().map(|found| found.order.into()).collect();
+        let errors = modified.iter().map(|found| found.error.clone().unwrap_or_else(|| missing.clone()));
+        let mut errors: Vec<T> = errors.collect();
+        let mut values: Vec<T> = modified.drain(..).map(|found| found.value).collect();
+        values.resize(rows, missing.clone());
+        errors.resize(rows, missing);
+        all.set_item("modified_energy", column(values)?)?;
+        all.set_item("modified_energy_error", column(errors)?)?;
+        all.set_item("order", PyArray1::from_vec(py, orders))?;
+    }
+    all.set_item("force_evaluations", samples.evaluations)?;
+    Ok(all)
+}

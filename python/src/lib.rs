@@ -1,0 +1,59 @@
+//! The Python package `shadowstep`: what the library and scenes compute, from Python. There is no mathematics in it.
+//!
+//! The module `_shadowstep` takes and gives plain values; the package's own files in `shadowstep/` have the classes, docstrings and types
+//! that its users see.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | [`errors`] | Python's exceptions for the errors of scenes |
+//! | [`waiting`] | work without Python's lock, until Ctrl-C |
+//! | [`given`] | a problem, from the text of a scene or with a function for its forces |
+//! | [`own_forces`] | forces from a C function or a Python function |
+//! | [`scheme`] | schemes with what is proved of them |
+//! | [`estimator`] | the estimator of the modified energy, from its options |
+//! | [`integrate`] | runs into arrays |
+//! | [`drift`] | the drift of the modified energy |
+//! | [`work_precision`] | speed against error, and advice |
+//! | [`scene`] | runs that a file describes |
+//! | [`monitor`] | the monitor of the modified energy, for loops |
+
+#![allow(clippy::needless_pass_by_value)] // arguments from Python have no owner
+
+mod drift;
+mod errors;
+mod estimator;
+mod given;
+mod integrate;
+mod monitor;
+mod own_forces;
+mod scene;
+mod scheme;
+mod waiting;
+mod work_precision;
+
+use pyo3::prelude::*;
+
+/// The module.
+#[pymodule]
+mod _shadowstep {
+    #[pymodule_export]
+    use crate::drift::drift;
+    #[pymodule_export]
+    use crate::errors::{InputError, RunError};
+    #[pymodule_export]
+    use crate::given::{Given, problem_names};
+    #[pymodule_export]
+    use crate::integrate::integrate;
+    #[pymodule_export]
+    use crate::monitor::Monitor;
+    #[pymodule_export]
+    use crate::scene::{run_scene, scene_text};
+    #[pymodule_export]
+    use crate::scheme::{Table, shipped_names};
+    #[pymodule_export]
+    use crate::work_precision::{advise, work_precision};
+
+    #[pymodule_export]
+    #[allow(non_upper_case_globals)] // as Python names it
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,96 @@
+//! Scenes and sweeps, as files describe them.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use shadowstep::tables::Source;
+use shadowstep_scenes::ensemble::Ensemble;
+use shadowstep_scenes::{Error, FileOptions, Note, Observer, Outcome, Scene, Summary, shipped_scene, source, template};
+
+use crate::errors::{exception, usage};
+use crate::waiting::{Watched, waiting};
+
+/// What a run of a scene gives: the rows as CSV or JSON lines, where it has no file; the summary as text and JSON; notes.
+type Found = (Option<String>, Option<(String, String)>, Vec<String>);
+
+/// Runs a scene, from a file or a text. One that names a file is written there, from its last checkpoint on.
+#[pyfunction]
+#[pyo3(signature = (path, text, *, restart, progress))]
+pub(crate) fn run_scene(
+    py: Python<'_>,
+    path: PathBuf,
+    text: Option<String>,
+    restart: bool,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Found> {
+    let failed = |error| exception(py, error);
+    let source = match text {
+        Some(text) => Source { path: path.display().to_string(), text },
+        None => source(&path).map_err(failed)?,
+    };
+    waiting(py, progress, |watched| run(source, restart, watched))?.map_err(failed)
+}
+
+fn run(source: Source, restart: bool, watched: &Watched) -> Result<Found, Error> {
+    let mut rows = Vec::new();
+    let text = |rows| Some(String::from_utf8(rows).expect("rows are text"));
+    if Ensemble::is_in(&source) {
+        Ensemble::read(source)?.run_into(&mut rows)?;
+        return Ok((text(rows), None, Vec::new()));
+    }
+    let scene = Scene::read(source)?;
+    let mut follower = Following { watched, notes: scene.notes.clone(), summary: None };
+    let outcome = match &scene.output.file {
+        Some(_) => {
+            let options = FileOptions { restart, ..FileOptions::default() };
+            scene.run_to_file(options, &mut follower)?
+        }
+        None => scene.run_into(&mut rows, &mut follower)?,
+    };
+    if let Outcome::Stopped { n } = outcome {
+        return Err(Error::run(format!("the run was interrupted at n = {n}"), "run the scene again"));
+    }
+    let Following { notes, summary, .. } = follower;
+    let notes = notes.iter().map(Note::to_string).collect();
+    let summary = summary.map(|summary| -> Result<_, Error> {
+        let json = serde_json::to_string(&summary)?;
+        Ok((summary.to_string(), json))
+    });
+    Ok((scene.output.file.is_none().then(|| text(rows)).flatten(), summary.transpose()?, notes))
+}
+
+struct Following<'a> {
+    watched: &'a Watched,
+    notes: Vec<Note>,
+    summary: Option<Summary>,
+}
+
+impl Observer for Following<'_> {
+    fn progress(&mut self, n: i64) {
+        self.watched.reaches(n);
+    }
+    fn note(&mut self, note: &Note) {
+        self.notes.push(note.clone());
+    }
+    fn summarises(&self) -> bool {
+        true
+    }
+    fn summary(&mut self, summary: &Summary) {
+        self.summary = Some(summary.clone());
+    }
+    fn stops(&mut self) -> bool {
+        !self.watched.continues()
+    }
+}
+
+/// The text of a shipped scene, or of a scene of a shipped problem.
+#[pyfunction]
+pub(crate) fn scene_text(py: Python<'_>, name: &str) -> PyResult<String> {
+    if let Some(scene) = shipped_scene(name) {
+        return Ok(scene.text.to_owned());
+    }
+    match shadowstep::problems::problem(name) {
+        Ok(problem) => Ok(template(problem.description())),
+        Err(_) => Err(usage(py, format!("there is no scene `{name}`"), "give the name of a shipped problem or scene")),
+    }
+}

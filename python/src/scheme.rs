@@ -1,0 +1,63 @@
+//! Schemes with what is proved of them.
+
+use pyo3::prelude::*;
+use shadowstep::Scheme;
+use shadowstep::tables::Source;
+use shadowstep_scenes::library::{self, NamedScheme};
+use shadowstep_scenes::scheme_record::SchemeRecord;
+
+use crate::errors::of_library;
+
+/// A proved scheme.
+#[pyclass(frozen, module = "shadowstep._shadowstep")]
+pub(crate) struct Table(pub(crate) NamedScheme);
+
+#[pymethods]
+impl Table {
+    /// The scheme that a word means: a shipped one, or a table's file.
+    #[staticmethod]
+    fn of_word(py: Python<'_>, word: &str) -> PyResult<Self> {
+        library::scheme(word).map(Table).map_err(|error| of_library(py, error))
+    }
+
+    /// The scheme of a table's text; `path` names it in messages.
+    #[staticmethod]
+    fn of_text(py: Python<'_>, text: String, path: String) -> PyResult<Self> {
+        library::scheme_of(&Source { path, text }).map(Table).map_err(|error| of_library(py, error))
+    }
+
+    /// By which it was asked for.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// Everything that is known of it, as JSON.
+    fn record(&self, py: Python<'_>) -> PyResult<String> {
+        let scheme = &self.0.scheme;
+        let json = py.detach(|| {
+            let analysis = shadowstep_analysis::Analysis::of(scheme.proved());
+            serde_json::to_string(&SchemeRecord::of(scheme, &analysis))
+        });
+        json.map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
+    }
+
+    /// What can be said without an analysis: (name, order for every T(p) or None, order for quadratic T, evaluations a step).
+    fn facts(&self) -> (&str, Option<u32>, u32, usize) {
+        let (summary, proved) = (self.0.scheme.summary(), self.0.scheme.proved());
+        let general = proved.order_for_every_kinetic().map(|order| order.order);
+        (summary.name, general, summary.order_quadratic, summary.evaluations)
+    }
+
+    /// The text of the table.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.0.scheme.proved().scheme.table.source.text
+    }
+}
+
+/// The names of the shipped schemes.
+#[pyfunction]
+pub(crate) fn shipped_names() -> Vec<&'static str> {
+    shadowstep::tables::shipped_names()
+}

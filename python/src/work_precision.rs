@@ -1,0 +1,209 @@
+//! Speed against error, and advice on a scheme and a step size.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use shadowstep::Rational;
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::{Error, System};
+use shadowstep_symbolic::decimal::to_text;
+use shadowstep_work_precision::advise::{Advice, Choice, Question};
+use shadowstep_work_precision::of::Of;
+use shadowstep_work_precision::problem::Problem;
+use shadowstep_work_precision::run::{Measurement, PositionError};
+use shadowstep_work_precision::schemes::default_schemes;
+use shadowstep_work_precision::series::StepRange;
+use shadowstep_work_precision::size::Size;
+use shadowstep_work_precision::study::{Cost, Request, Studied, Study};
+
+use crate::errors::{exception, usage};
+use crate::given::{Given, arithmetic, number};
+use crate::integrate::Posed;
+use crate::scheme::Table;
+use crate::waiting::waiting;
+
+/// What schemes are compared on, and the schemes.
+struct Compared {
+    system: System,
+    until: Rational,
+    arithmetic: Arithmetic,
+    schemes: Vec<NamedScheme>,
+}
+
+impl Compared {
+    /// Without schemes, a dozen that are valid for the system.
+    fn of(py: Python<'_>, problem: &Given, until: &str, schemes: &[PyRef<'_, Table>], digits: &str) -> PyResult<Self> {
+        let (arithmetic, until) = (arithmetic(py, digits, false)?, number(py, until)?);
+        if until == Rational::from_integer(0.into()) {
+            return Err(usage(py, "until = 0: the runs must have a length", "until = 100"));
+        }
+        let failed = |error| exception(py, error);
+        let system = problem.system(arithmetic).map_err(failed)?;
+        let given: Vec<NamedScheme> = match schemes {
+            [] => {
+                let names = default_schemes(system.has_general_kinetic());
+                let read = |name: &str| shadowstep_scenes::library::scheme(name).map_err(Error::from);
+                names.into_iter().map(read).collect::<Result<_, _>>().map_err(failed)?
+            }
+            given => given.iter().map(|table| table.0.clone()).collect(),
+        };
+        let valid = |scheme| Posed::of(problem, scheme, arithmetic).map(|posed| posed.scheme);
+        let schemes = given.iter().map(valid).collect::<Result<_, _>>().map_err(failed)?;
+        Ok(Compared { system, until, arithmetic, schemes })
+    }
+
+    fn problem(&self) -> Problem<'_> {
+        Problem { system: &self.system, until: &self.until, arithmetic: self.arithmetic }
+    }
+}
+
+/// The errors of several schemes on a problem beside a reference, and their cost, as JSON.
+#[pyfunction]
+#[pyo3(signature = (problem, until, schemes, *, steps, digits, seconds, folder, progress))]
+#[allow(clippy::too_many_arguments)] // the package's own function has the defaults
+pub(crate) fn work_precision(
+    py: Python<'_>,
+    problem: &Given,
+    until: &str,
+    schemes: Vec<PyRef<'_, Table>>,
+    steps: Option<Vec<u64>>,
+    digits: &str,
+    seconds: f64,
+    folder: PathBuf,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    /// The reference may take so many times the time of a scheme.
+    const REFERENCE: f64 = 10.0;
+    let compared = Compared::of(py, problem, until, &schemes, digits)?;
+    let range = match steps {
+        Some(steps) => StepRange::Given(steps),
+        None => StepRange::Automatic { seconds, target: None },
+    };
+    let reference_time = Duration::from_secs_f64(REFERENCE * seconds);
+    let found = waiting(py, progress, |watched| {
+        let (problem, schemes) = (compared.problem(), &compared.schemes);
+        let request = Request { problem, schemes, range, reference_time, folder };
+        request.study(&mut watched.observer_of_tasks()).map(|study| of_study(&study))
+    });
+    problem.raised(py)?;
+    Ok(found?.map_err(|error| exception(py, error))?.to_string())
+}
+
+fn of_study(study: &Study<'_>) -> Value {
+    let of_scheme = |studied: &Studied<'_>| {
+        let run = |run: &Measurement| of_run(study, studied, run);
+        json!({
+            "scheme": studied.scheme.name,
+            "order": studied.proved_order(study.problem),
+            "evaluations_per_step": studied.evaluations_per_step(),
+            "seconds_per_step": studied.time.median,
+            "runs": studied.series.runs.iter().map(run).collect::<Vec<_>>(),
+        })
+    };
+    json!(study.schemes.iter().map(of_scheme).collect::<Vec<_>>())
+}
+
+fn of_run(study: &Study<'_>, studied: &Studied<'_>, run: &Measurement) -> Value {
+    let h = study.problem.until / Rational::from_integer(run.steps.into());
+    let (position, below) = match run.position {
+        PositionError::Known(size) => (number_of(size), None),
+        PositionError::Below(size) => (None, number_of(size)),
+        PositionError::None => (None, None),
+    };
+    json!({
+        "steps": run.steps,
+        "h": <f64 as shadowstep::Number>::from_rational(&h, &()),
+        "evaluations": run.evaluations,
+        "seconds": studied.seconds(run),
+        "position_error": position,
+        "position_error_below": below,
+        "energy_error": number_of(run.energy),
+        "permanent_bound": run.modified.and_then(|modified| modified.bound).and_then(number_of),
+        "verdict": run.verdict,
+        "failed": run.failed,
+    })
+}
+
+/// The size as a double; `None` where it is not finite. Sizes below 1e-308 become 0.
+fn number_of(size: Size) -> Option<f64> {
+    size.is_finite().then(|| 10_f64.powf(size.log10()))
+}
+
+/// A scheme and a step size for a tolerance, as JSON.
+#[pyfunction]
+#[pyo3(signature = (problem, until, tolerance, *, of, cost, schemes, digits, seconds, folder, progress))]
+#[allow(clippy::too_many_arguments)]
+pub(crate) fn advise(
+    py: Python<'_>,
+    problem: &Given,
+    until: &str,
+    tolerance: f64,
+    of: &str,
+    cost: &str,
+    schemes: Vec<PyRef<'_, Table>>,
+    digits: &str,
+    seconds: f64,
+    folder: PathBuf,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let of = word(py, "of", of, &[("position", Of::Position), ("energy", Of::Energy), ("permanent", Of::Permanent)])?;
+    let cost = word(py, "cost", cost, &[("forces", Cost::Evaluations), ("time", Cost::Seconds)])?;
+    if !(tolerance > 0.0 && tolerance.is_finite()) {
+        return Err(usage(py, format!("tolerance = {tolerance}: the tolerance must be positive"), "tolerance = 1e-8"));
+    }
+    let compared = Compared::of(py, problem, until, &schemes, digits)?;
+    let found = waiting(py, progress, |watched| {
+        let question = Question {
+            problem: compared.problem(),
+            schemes: &compared.schemes,
+            of,
+            tolerance: Size::of(&tolerance),
+            cost,
+            seconds,
+            folder,
+        };
+        question.answer(&mut watched.observer_of_tasks()).map(|advice| of_advice(&advice))
+    });
+    problem.raised(py)?;
+    Ok(found?.map_err(|error| exception(py, error))?.to_string())
+}
+
+fn of_advice(advice: &Advice<'_>) -> Value {
+    match advice {
+        Advice::Found { choices, verified, part } => {
+            let choices: Vec<Value> = choices.iter().map(of_choice).collect();
+            json!({ "found": true, "choices": choices, "verified": number_of(*verified), "part": part })
+        }
+        Advice::OutOfReach { least, part, in_time, .. } => json!({
+            "found": false,
+            "least": least.map(|(error, _)| number_of(error)),
+            "scheme": least.map(|(_, name)| name),
+            "part": part,
+            "in_time": in_time,
+        }),
+    }
+}
+
+fn of_choice(choice: &Choice<'_>) -> Value {
+    json!({
+        "scheme": choice.scheme.name,
+        "h": to_text(&choice.step),
+        "steps": choice.steps,
+        "predicted": number_of(choice.error),
+        "evaluations": choice.evaluations(),
+        "seconds": choice.seconds(),
+        "stable_step": choice.stable_step,
+        "conserved_up_to": choice.conserved_up_to,
+        "lost_from": choice.lost_from,
+    })
+}
+
+fn word<T: Copy>(py: Python<'_>, option: &str, word: &str, known: &[(&str, T)]) -> PyResult<T> {
+    known.iter().find(|(name, _)| *name == word).map(|(_, value)| *value).ok_or_else(|| {
+        let names = known.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+        usage(py, format!("{option} = \"{word}\" is not known"), format!("it is one of {names}"))
+    })
+}

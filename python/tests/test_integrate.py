@@ -1,0 +1,252 @@
+"""Runs: their arrays, number types, forces of one's own, and what is refused."""
+
+import ctypes
+import math
+import signal
+import threading
+import time
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import shadowstep
+from shadowstep import InputError, Problem, RunError, Scheme, integrate
+
+
+def verlet(q, p, gradient, h, steps):
+    """Störmer–Verlet by hand, with the operations in the order in which Shadowstep makes them."""
+    q, p = np.array(q), np.array(p)
+    for _ in range(steps):
+        p = p - (h / 2) * gradient(q)
+        q = q + h * p
+        p = p - (h / 2) * gradient(q)
+    return q, p
+
+
+def test_a_run_has_the_bits_of_a_loop_in_python():
+    found = integrate(Problem("-cos(x)", q={"x": "1/2"}, p=["1/4"]), "stormer-verlet", h=0.125, steps=50)
+    q, p = verlet([0.5], [0.25], np.sin, 0.125, 50)
+    # one formula: the same operations; sin of NumPy and of Rust may differ in the last place, which 50 steps keep below 1e-14
+    assert found.q.shape == (51, 1) and abs(found.q[-1, 0] - q[0]) < 1e-14 and abs(found.p[-1, 0] - p[0]) < 1e-14
+
+
+def test_quadratic_potential_to_the_last_bit():
+    found = integrate(Problem("x^2/2", q=[1], p=[0], coordinates=["x"]), "stormer-verlet", h=0.125, steps=50)
+    q, p = verlet([1.0], [0.0], lambda q: q, 0.125, 50)
+    assert found.q[-1, 0] == q[0] and found.p[-1, 0] == p[0]
+
+
+def test_every_keeps_multiples_and_the_last_state():
+    kepler = Problem("kepler")
+    all_states = integrate(kepler, "yoshida4", h="1/20", steps=103)
+    some = integrate(kepler, "yoshida4", h="1/20", steps=103, every=10)
+    assert some.n.tolist() == [*range(0, 103, 10), 103]
+    assert np.array_equal(some.q, all_states.q[some.n]) and np.array_equal(some.energy, all_states.energy[some.n])
+    shadow = integrate(kepler, "yoshida4", h="1/20", steps=103, every=10, estimator="bilinear", order=8)
+    assert np.array_equal(some.q, shadow.q) and some.n.tolist() == shadow.n.tolist()
+    assert np.all(np.abs(shadow.modified_energy + 0.5) < 1e-3) and np.all(shadow.modified_energy_error > 0)
+
+
+def test_an_estimator_between_the_states_has_no_last_value():
+    shadow = integrate(Problem("pendulum"), "stormer-verlet", h="1/10", steps=20, estimator="bilinear", order=7)
+    plain = integrate(Problem("pendulum"), "stormer-verlet", h="1/10", steps=20)
+    assert shadow.is_between and math.isnan(shadow.modified_energy[-1]) and np.all(np.isfinite(shadow.modified_energy[:-1]))
+    assert np.array_equal(plain.q, shadow.q)
+
+
+def test_more_digits_are_texts_that_agree():
+    kepler = Problem("kepler")
+    double = integrate(kepler, "yoshida4", h="1/20", until=2)
+    for digits in (30, "double-double", 120):
+        precise = integrate(kepler, "yoshida4", h="1/20", until=2, digits=digits)
+        assert precise.q.dtype == object and isinstance(precise.q[0, 0], str)
+        # 40 steps of round-off
+        assert np.allclose(precise.q.astype(float), double.q, rtol=0, atol=1e-13)
+    import mpmath
+
+    x = precise.mpmath("q", 120)[0][0]
+    assert x == mpmath.mpf("0.4") and mpmath.mp.dps == 120
+
+
+def test_a_float_is_the_decimal_that_is_printed():
+    run = integrate(Problem("pendulum"), "stormer-verlet", h=0.1, until=0.3)
+    assert run.n[-1] == 3 and run.t[-1] == 0.3
+    assert integrate(Problem("pendulum"), "stormer-verlet", h=Fraction(1, 3), until=1).n[-1] == 3
+
+
+def test_an_end_between_two_steps_is_a_warning():
+    with pytest.warns(UserWarning, match="ends at"):
+        run = integrate(Problem("pendulum"), "stormer-verlet", h="3/10", until=1)
+    assert run.n[-1] == 3
+
+
+def test_backwards():
+    there = integrate(Problem("kepler"), "yoshida4", h="1/20", steps=100)
+    q, p = there.q[-1].tolist(), there.p[-1].tolist()
+    back = integrate(Problem("kepler", q=q, p=p), "yoshida4", h="-1/20", steps=100)
+    # round-off of 200 steps
+    assert np.allclose(back.q[-1], there.q[0], rtol=0, atol=1e-12)
+
+
+def kepler_force(q):
+    r = math.hypot(*q)
+    return -1 / r, q / r**3
+
+
+def test_a_python_function_for_the_forces():
+    own = integrate(Problem(kepler_force, q=[0.4, 0.0], p=[0.0, 2.0]), "yoshida4", h="1/20", steps=100)
+    formula = integrate(Problem("kepler"), "yoshida4", h="1/20", steps=100)
+    # the operations differ, the motion is the same
+    assert np.allclose(own.q, formula.q, rtol=0, atol=1e-11) and np.allclose(own.energy, formula.energy, rtol=0, atol=1e-12)
+
+
+def test_a_c_function_of_ctypes_has_the_bits_of_the_python_function():
+    @ctypes.CFUNCTYPE(ctypes.c_double, ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_double))
+    def spring(q, gradient):
+        gradient[0], gradient[1] = q[0], 4 * q[1]
+        return (q[0] ** 2 + 4 * q[1] ** 2) / 2
+
+    address = ctypes.cast(spring, ctypes.c_void_p).value
+    state = {"q": [1.0, 0.5], "p": [0.0, 0.25]}
+    of_c = integrate(Problem(address, **state), "blanes-moan-srkn6b", h="1/10", steps=50)
+    of_python = integrate(
+        Problem(lambda q: ((q[0] ** 2 + 4 * q[1] ** 2) / 2, np.array([q[0], 4 * q[1]])), **state), "blanes-moan-srkn6b", h="1/10", steps=50
+    )
+    assert np.array_equal(of_c.q, of_python.q) and np.array_equal(of_c.energy, of_python.energy)
+
+
+def test_a_numba_function():
+    numba = pytest.importorskip("numba")
+
+    @numba.cfunc("float64(CPointer(float64), CPointer(float64))")
+    def spring(q, gradient):
+        gradient[0] = q[0]
+        return q[0] * q[0] / 2
+
+    own = integrate(Problem(spring.address, q=[1.0], p=[0.0]), "stormer-verlet", h=0.125, steps=50)
+    q, _ = verlet([1.0], [0.0], lambda q: q, 0.125, 50)
+    assert own.q[-1, 0] == q[0]
+
+
+def test_what_a_function_raises_comes_out():
+    def wrong(q):
+        if q[0] < 0.9:
+            raise KeyError("no forces here")
+        return 0.5 * q @ q, q
+
+    problem = Problem(wrong, q=[1.0], p=[0.0])
+    with pytest.raises(KeyError, match="no forces here"):
+        integrate(problem, "stormer-verlet", h=0.1, steps=100)
+    with pytest.raises(TypeError, match=r"must return \(U, gradient\)"):
+        integrate(Problem(lambda q: q, q=[1.0], p=[0.0]), "stormer-verlet", h=0.1, steps=1)
+    with pytest.raises(ValueError, match="the gradient has 2 numbers, and q has 1"):
+        integrate(Problem(lambda q: (0.0, np.zeros(2)), q=[1.0], p=[0.0]), "stormer-verlet", h=0.1, steps=1)
+
+
+@pytest.mark.parametrize(
+    ("call", "message", "hint"),
+    [
+        (lambda: Problem("keppler"), "there is no problem `keppler`", "did you mean `kepler`?"),
+        (lambda: Scheme("yoshida5"), "yoshida5", "did you mean"),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h=0, until=1), "the step size must be nonzero", "1/10"),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h="1/10"), "give either `until` or `steps`", "steps = 1000"),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h="1/10", until=-1), "the signs differ", "negative values for both"),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h="a", until=1), "`a`", "write an exact number"),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, digits="quad"), "digits = quad", "decimal digits"),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, estimator="trilinear"), "no estimator `trilinear`", "bilinear"),
+        (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, estimator="bilinear", order=8, max_order=9), "max_order", "order"),
+        (
+            lambda: integrate(Problem("x^4", q={"x": 1}, p=[0], kinetic="p^4", momenta=["p"]), "blanes-moan-srkn11b", h=0.1, until=1),
+            "quadratic",
+            "for every T(p)",
+        ),
+        (lambda: integrate(Problem(kepler_force, q=[1.0, 0], p=[0, 1]), "yoshida4", h=0.1, until=1, digits=50), "double precision", "formula"),
+        (lambda: integrate(Problem(kepler_force, q=[1.0, 0], p=[0, 1]), "chin-4a", h=0.1, until=1), "gradient kicks", "formula"),
+        (lambda: Problem(kepler_force, q=[1.0, 0], p=[0]), "2 coordinates and 1 momenta", "one for each coordinate"),
+    ],
+)
+def test_wrong_input_has_a_sentence_and_a_hint(call, message, hint):
+    with pytest.raises(InputError) as error:
+        call()
+    assert message in str(error.value), error.value
+    assert hint in str(error.value), error.value
+    assert isinstance(error.value, ValueError)
+
+
+def test_a_fault_has_its_place():
+    with pytest.raises(InputError) as error:
+        Scheme('name = "mine"\norder = 4\nkinetic = "any"\n[stages]\nkick = ["1/2", "1/2"]\ndrift = [1, 0]\n')
+    (fault,) = error.value.faults
+    assert (fault["path"], fault["line"], fault["column"]) == ("table", 2, 9) and "order 2 holds" in fault["message"]
+
+
+def test_a_run_that_fails_says_where():
+    with pytest.raises(RunError, match="n = ") as error:
+        integrate(Problem("-x^4", q={"x": 1}, p=[1]), "stormer-verlet", h=0.1, steps=1000)
+    assert "smaller step size" in error.value.hint
+
+
+@pytest.mark.parametrize("digits", ["double", 120])
+def test_ctrl_c_ends_a_run_soon(digits):
+    # the interrupt is sent by a timer; it is late where the machine is busy, so that its own delay is not counted
+    sent = []
+
+    def interrupt():
+        sent.append(time.monotonic())
+        signal.raise_signal(signal.SIGINT)
+
+    timer = threading.Timer(0.3, interrupt)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        integrate(Problem("kepler"), "yoshida4", h="1/1000", steps=10**9, every=10**9, digits=digits)
+    # 0.1 s is promised at rest
+    assert time.monotonic() - sent[0] < 2.0
+
+
+def test_other_threads_run_meanwhile():
+    counted = []
+    done = threading.Event()
+
+    def count():
+        while not done.is_set():
+            counted.append(1)
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    integrate(Problem("kepler"), "yoshida4", h="1/100", steps=20_000, every=20_000, digits=60)
+    done.set()
+    thread.join()
+    # if the lock were held, the thread could count only before and after the run
+    assert len(counted) > 20
+
+
+def test_tables():
+    pandas = pytest.importorskip("pandas")
+    run = integrate(Problem("kepler"), "yoshida4", h="1/20", steps=10, estimator="bilinear", order=8)
+    frame = run.to_dataframe()
+    assert isinstance(frame, pandas.DataFrame)
+    assert list(frame.columns) == ["n", "t", "x", "y", "px", "py", "energy", "modified_energy", "modified_energy_error"]
+    assert np.array_equal(frame["x"], run.q[:, 0])
+    pytest.importorskip("xarray")
+    assert run.to_xarray()["q"].sel(coordinate="y").values.tolist() == run.q[:, 1].tolist()
+
+
+def test_planets_and_transformed_time():
+    run = integrate(Problem("kepler", eccentricity="9/10", time={"transform": "logarithmic"}), "yoshida4", h="1/20", steps=100)
+    assert run.q.shape[1] == 2 and np.all(np.diff(run.t) > 0) and np.ptp(np.diff(run.t)) > 0.05
+    assert np.allclose(run.energy, -0.5, atol=1e-2)
+
+
+def test_monitor_of_a_loop():
+    monitor = shadowstep.Monitor(Problem("kepler"), "stormer-verlet", h="1/20", every=50)
+    farthest = 0.0
+    for _ in range(200):
+        monitor.step(50)
+        q, _ = monitor.state
+        farthest = max(farthest, float(np.hypot(*q)))
+    report = monitor.report()
+    assert monitor.n == 10_000 and abs(farthest - 1.6) < 0.1
+    assert report.verdict == "fine" and report.is_fine and "the step size is fine" in str(report)
+    assert abs(monitor.newest.modified_energy + 0.5) < 1e-2

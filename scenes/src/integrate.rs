@@ -1,0 +1,311 @@
+//! A run into memory: states at equal intervals of steps, with their energies and modified energies.
+//!
+//! ```
+//! use shadowstep::exact;
+//! use shadowstep::tables::Source;
+//! use shadowstep_scenes::arithmetic::Arithmetic;
+//! use shadowstep_scenes::integrate::Integration;
+//! use shadowstep_scenes::run::Run;
+//! use shadowstep_scenes::{System, library};
+//!
+//! let text = "[problem]\nname = \"kepler\"".to_owned();
+//! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::Double)?;
+//! let scheme = library::for_system(library::scheme("yoshida4")?, &system)?;
+//! let h = exact("1/20").unwrap();
+//! let run = Run { propagator: &scheme.name, h: &h, steps: 1000, order: None };
+//! let integration =
+//!     Integration { system: &system, scheme: &scheme.scheme, run, compensated: false, every: 100, estimator: None };
+//! let samples = integration.run::<f64>(&(), &mut ())?;
+//! assert_eq!(samples.n, (0..=10).map(|i| 100 * i).collect::<Vec<_>>());
+//! assert!(samples.energy.iter().all(|energy| (energy + 0.5).abs() < 1e-3));
+//! # Ok::<(), shadowstep_scenes::Error>(())
+//! ```
+
+use std::slice;
+use std::time::{Duration, Instant};
+
+use shadowstep::number::{Number, Rounded};
+use shadowstep::run::{NotFinite, Quantity, RunError, ShadowRun};
+use shadowstep::shadow::EstimatorSettings;
+use shadowstep::tables::TableScheme;
+use shadowstep::{MotionError, Ordered, Scheme, Stepper, System, ValidFor};
+
+use crate::error::Error;
+use crate::observer::Observer;
+use crate::run::Run;
+use crate::scene::{self, EnergyAt, Shown};
+use crate::start::{Begin, Steps, Work};
+
+/// A run whose states are kept.
+#[derive(Clone, Copy)]
+pub struct Integration<'a> {
+    /// H and the initial state.
+    pub system: &'a scene::System,
+    /// The scheme, valid for the [system](crate::library::for_system).
+    pub scheme: &'a TableScheme,
+    /// The steps.
+    pub run: Run<'a>,
+    /// Whether q and p are sums with remainders.
+    pub compensated: bool,
+    /// The states n = 0, `every`, 2 `every`, … are kept, and the last one.
+    pub every: u64,
+    /// The estimator of the modified energy, if that is wanted.
+    pub estimator: Option<&'a EstimatorSettings>,
+}
+
+/// The states of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Samples<N> {
+    /// The numbers of the states: t = n h.
+    pub n: Vec<i64>,
+    /// Their physical times.
+    pub t: Vec<N>,
+    /// Positions, one state after the other.
+    pub q: Vec<N>,
+    /// Momenta, likewise.
+    pub p: Vec<N>,
+    /// H
+    pub energy: Vec<N>,
+    /// The modified energies of these states, or of the middles between them and the next ones; the last one is then missing.
+    pub modified: Vec<Modified<N>>,
+    /// Evaluations of the gradient, those for the states beyond both ends included.
+    pub evaluations: u64,
+}
+
+/// A modified energy.
+#[derive(Clone, Debug)]
+pub struct Modified<N> {
+    /// The modified energy H̄.
+    pub value: N,
+    /// Its estimated error, where there is one.
+    pub error: Option<N>,
+    /// The k of E_k, or the m of D_m.
+    pub order: u32,
+}
+
+impl Integration<'_> {
+    /// Makes the run.
+    ///
+    /// # Errors
+    /// A state or an energy that is not finite; settings of the estimator that are not valid; an observer that stops.
+    ///
+    /// # Panics
+    /// If the scheme is not valid for the system.
+    pub fn run<N: Rounded + 'static>(
+        self,
+        context: &N::Context,
+        observer: &mut dyn Observer,
+    ) -> Result<Samples<N>, Error> {
+        let Integration { system, scheme, run, compensated, .. } = self;
+        let steps = Steps { scheme, h: run.h, compensated, displaced: false, begin: Begin::InitialState };
+        let keeper = Keeper {
+            integration: self,
+            context,
+            observer,
+            shown: system.shown(context),
+            energy_of: system.transformed_time().map(|_| system.energy(context)),
+            samples: Samples {
+                n: Vec::new(),
+                t: Vec::new(),
+                q: Vec::new(),
+                p: Vec::new(),
+                energy: Vec::new(),
+                modified: Vec::new(),
+                evaluations: 0,
+            },
+        };
+        let found = system.with(steps, system.start(context), context, keeper);
+        found.map_err(|error: MotionError| Error::usage(error.to_string(), "check the initial state"))?
+    }
+
+    fn keeps(&self, n: u64) -> bool {
+        n.is_multiple_of(self.every.max(1)) || n == self.run.steps
+    }
+}
+
+/// Keeps the states of a run.
+struct Keeper<'a, N: Number> {
+    integration: Integration<'a>,
+    context: &'a N::Context,
+    observer: &'a mut dyn Observer,
+    /// Converts states, where those of the steps have other coordinates.
+    shown: Option<Shown<N>>,
+    /// H, where the steps conserve another function.
+    energy_of: Option<EnergyAt<N>>,
+    samples: Samples<N>,
+}
+
+impl<N: Ordered + 'static> Work<N> for Keeper<'_, N> {
+    type Output = Result<Samples<N>, Error>;
+
+    fn with<S, M>(mut self, stepper: &Stepper<S, N>, system: M) -> Self::Output
+    where
+        S: Scheme + Clone + ValidFor<M::Class> + 'static,
+        M: System<Number = N> + 'static,
+    {
+        match self.integration.estimator {
+            None => self.plain(stepper, system)?,
+            Some(settings) => self.shadowed(stepper, system, settings)?,
+        }
+        Ok(self.samples)
+    }
+}
+
+/// The observer is asked about as often as this.
+const ASKED: Duration = Duration::from_millis(10);
+
+/// So many steps are made at once at most.
+const MOST_AT_ONCE: u64 = 1 << 16;
+
+impl<N: Ordered + 'static> Keeper<'_, N> {
+    fn plain<S, M>(&mut self, stepper: &Stepper<S, N>, mut system: M) -> Result<(), Error>
+    where
+        S: Scheme + ValidFor<M::Class>,
+        M: System<Number = N>,
+    {
+        let Integration { run, every, .. } = self.integration;
+        let every = every.clamp(1, run.steps.max(1));
+        stepper.at_output(&mut system, |system| self.keep(0, system))?;
+        let (mut n, mut at_once, mut asked) = (0, 1, Instant::now());
+        while n < run.steps {
+            let next = (n / every + 1).saturating_mul(every).min(run.steps);
+            while n < next {
+                let count = at_once.min(next - n);
+                stepper.steps(slice::from_mut(&mut system), count);
+                n += count;
+                // the time is asked for once in at_once steps, where states are kept at each of them, too
+                if count < at_once && n % at_once != 0 {
+                    continue;
+                }
+                let took = asked.elapsed();
+                if took < ASKED / 4 {
+                    at_once = (2 * at_once).min(MOST_AT_ONCE);
+                } else if took > ASKED {
+                    at_once = (at_once / 2).max(1);
+                }
+                asked = Instant::now();
+                self.ask(n)?;
+            }
+            stepper.at_output(&mut system, |system| self.keep(n, system))?;
+        }
+        self.samples.evaluations = system.evaluations();
+        Ok(())
+    }
+
+    fn shadowed<S, M>(&mut self, stepper: &Stepper<S, N>, system: M, settings: &EstimatorSettings) -> Result<(), Error>
+    where
+        S: Scheme + ValidFor<M::Class>,
+        M: System<Number = N>,
+    {
+        let Integration { run, system: described, .. } = self.integration;
+        let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
+        let settings = settings.clone().with_errors(true);
+        let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
+        let mut shadow = ShadowRun::new(stepper, system, run.steps, &settings).map_err(failed)?;
+        let (mut asked, mut last) = (Instant::now(), None);
+        let keep_last = |n: i64, system: &M, last: &mut Option<(Vec<N>, Vec<N>)>| {
+            if settings.is_between() && n.unsigned_abs() == run.steps {
+                *last = Some((system.q().to_vec(), system.p().to_vec()));
+            }
+        };
+        while let Some((n, estimate)) =
+            shadow.advance_with(|n, trajectory| keep_last(n, trajectory.system(), &mut last)).map_err(failed)?
+        {
+            let n = n.unsigned_abs();
+            if asked.elapsed() > ASKED {
+                asked = Instant::now();
+                self.ask(n)?;
+            }
+            if !self.integration.keeps(n) {
+                continue;
+            }
+            q.iter_mut().zip(estimate.q).for_each(|(own, q)| own.assign(q));
+            p.iter_mut().zip(estimate.p).for_each(|(own, p)| own.assign(p));
+            let (value, error) = (estimate.value.clone(), estimate.error.cloned());
+            self.samples.modified.push(Modified { value, error, order: estimate.order });
+            stepper.postprocess_state(shadow.system(), &mut q, &mut p);
+            self.keep_state(n, shadow.system(), (&q, &p))?;
+        }
+        // the estimates between two states end before the last one
+        if let Some((mut q, mut p)) = last {
+            stepper.postprocess_state(shadow.system(), &mut q, &mut p);
+            self.keep_state(run.steps, shadow.system(), (&q, &p))?;
+        }
+        self.samples.evaluations = shadow.system().evaluations();
+        Ok(())
+    }
+
+    /// Reports progress, and ends the run if the observer stops it.
+    fn ask(&mut self, n: u64) -> Result<(), Error> {
+        self.observer.progress(i64::try_from(n).unwrap_or(i64::MAX));
+        match self.observer.stops() {
+            false => Ok(()),
+            true => Err(Error::run(
+                format!("{}: interrupted at n = {n}", self.integration.run.name()),
+                "run it again, over a shorter time for example",
+            )),
+        }
+    }
+
+    /// Keeps the present state.
+    fn keep<M: System<Number = N>>(&mut self, n: u64, system: &mut M) -> Result<(), Error> {
+        let energy = match &mut self.energy_of {
+            Some(energy_of) => energy_of(system.q(), system.p()),
+            None => system.energy(),
+        };
+        self.push(n, (system.q(), system.p()), energy)
+    }
+
+    /// Keeps a state that is not the present one of the system.
+    fn keep_state<M: System<Number = N>>(&mut self, n: u64, system: &mut M, (q, p): (&[N], &[N])) -> Result<(), Error> {
+        let energy = match &mut self.energy_of {
+            Some(energy_of) => energy_of(q, p),
+            None => system.energy_at(q, p),
+        };
+        self.push(n, (q, p), energy)
+    }
+
+    fn push(&mut self, n: u64, (q, p): (&[N], &[N]), energy: N) -> Result<(), Error> {
+        let Integration { run, system, .. } = self.integration;
+        let number = i64::try_from(n).unwrap_or(i64::MAX);
+        let quantities = (0..q.len()).map(Quantity::Position).chain((0..p.len()).map(Quantity::Momentum));
+        let values = quantities.zip(q.iter().chain(p)).chain([(Quantity::Energy, &energy)]);
+        if let Some((quantity, value)) = values.into_iter().find(|(_, value)| !value.is_finite()) {
+            let value = NotFinite { quantity, value: value.to_text() };
+            let error = RunError::NotFinite { step: number, value };
+            return Err(run.failed_naming(&error, &system.coordinates, &system.momenta));
+        }
+        let samples = &mut self.samples;
+        samples.n.push(number);
+        samples.t.push(system.time_of(q).cloned().unwrap_or_else(|| N::from_rational(&run.time(number), self.context)));
+        samples.energy.push(energy);
+        let (q, p) = match &mut self.shown {
+            Some(shown) => shown.of_state(q, p),
+            None => (q, p),
+        };
+        samples.q.extend_from_slice(q);
+        samples.p.extend_from_slice(p);
+        Ok(())
+    }
+}
+
+impl<N> Samples<N> {
+    /// The same states in other numbers, as texts for example.
+    pub fn map<T>(self, number: impl Fn(&N) -> T) -> Samples<T> {
+        let all = |numbers: &[N]| numbers.iter().map(&number).collect();
+        let modified = |found: &Modified<N>| Modified {
+            value: number(&found.value),
+            error: found.error.as_ref().map(&number),
+            order: found.order,
+        };
+        Samples {
+            t: all(&self.t),
+            q: all(&self.q),
+            p: all(&self.p),
+            energy: all(&self.energy),
+            modified: self.modified.iter().map(modified).collect(),
+            n: self.n,
+            evaluations: self.evaluations,
+        }
+    }
+}
