@@ -34,20 +34,26 @@ docs:
 	    cargo doc --workspace --features mpfr --no-deps --locked
 
 # A wheel of the Python package in target/wheels, for CPython 3.10 and later, with the tools in a virtual environment of its own. It contains no LGPL
-# code. `make wheel MPFR=1` adds MPFR, for more than 307 digits.
+# code. `make wheel MPFR=1` adds MPFR, for more than 307 digits, and its licence texts.
 PYTHON = python3
 WHEEL = $(abspath $(or $(CARGO_TARGET_DIR),target))/python
+MPFR_SOURCE = $(dir $(shell cargo metadata --locked --format-version 1 | grep -o '"manifest_path":"[^"]*gmp-mpfr-sys-[^"]*Cargo.toml' | cut -d'"' -f4))
 wheel: $(WHEEL)/tools/bin/maturin
+	rm -f python/LICENSE-LGPL-3.0 python/LICENSE-GPL-3.0
+	$(if $(MPFR),cp $(MPFR_SOURCE)gmp-*-c/COPYING.LESSERv3 python/LICENSE-LGPL-3.0)
+	$(if $(MPFR),cp $(MPFR_SOURCE)gmp-*-c/COPYINGv3 python/LICENSE-GPL-3.0)
 	$(WHEEL)/tools/bin/maturin build --release --locked --manifest-path python/Cargo.toml --out target/wheels $(if $(MPFR),--features mpfr)
+	rm -f python/LICENSE-LGPL-3.0 python/LICENSE-GPL-3.0
 
 $(WHEEL)/tools/bin/maturin:
+	@$(PYTHON) -m venv --help >/dev/null 2>&1 || ./.ci/install-python
 	$(PYTHON) -m venv $(WHEEL)/tools
 	$(WHEEL)/tools/bin/pip install --quiet 'maturin>=1.9,<2'
 
 # The Python package in a new virtual environment: its tests, doctests and types. The wheel is one that is built in little time.
 test-python: $(WHEEL)/tools/bin/maturin
 	rm -rf $(WHEEL)/wheels $(WHEEL)/test
-	$(WHEEL)/tools/bin/maturin build --profile quick --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels
+	$(WHEEL)/tools/bin/maturin build --profile wheel --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels
 	$(PYTHON) -m venv $(WHEEL)/test
 	$(WHEEL)/test/bin/pip install --quiet "$$(echo $(WHEEL)/wheels/*.whl)[test]"
 	cd python/tests && $(WHEEL)/test/bin/python -m pytest --quiet --doctest-modules --pyargs shadowstep .
@@ -99,7 +105,7 @@ valgrind: deps
 # packages that an earlier run has unpacked, so these are removed first.
 package: deps
 	rm -rf target/packed "$${CARGO_HOME:-$$HOME/.cargo}"/registry/src/-*/shadowstep*
-	cargo package --workspace --exclude shadowstep-tests --allow-dirty --locked --target-dir target/packed
+	cargo package --workspace --exclude shadowstep-tests --exclude shadowstep-python --allow-dirty --locked --target-dir target/packed
 
 # Where cargo's crate gmp-mpfr-sys keeps the libraries that it has built.
 GMP_FOLDERS = "$${GMP_MPFR_SYS_CACHE:-$${XDG_CACHE_HOME:-$$HOME/.cache}/gmp-mpfr-sys}" \

@@ -17,6 +17,7 @@ use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::study::Request;
 
 use crate::colour::on_stdout;
+use crate::invocation;
 use crate::output::Output;
 use crate::posed::{Posed, PosedArguments};
 use crate::quantity;
@@ -89,7 +90,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 
 /// The command line as it was given, for the head of the files.
 fn command() -> String {
-    let words = std::env::args().skip(1).map(|word| if word.contains(' ') { format!("\"{word}\"") } else { word });
+    let words = invocation::words().map(|word| if word.contains(' ') { format!("\"{word}\"") } else { word });
     format!("shadowstep {}", words.collect::<Vec<_>>().join(" "))
 }
 

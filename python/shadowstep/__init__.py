@@ -12,6 +12,7 @@ True
 """
 
 from ._shadowstep import InputError, RunError, __version__
+from .command import command, sweep
 from .drift import drift
 from .integration import Trajectory, integrate
 from .monitor import Monitor, Report, Sample
@@ -36,10 +37,12 @@ __all__ = [
     "Trajectory",
     "__version__",
     "advise",
+    "command",
     "drift",
     "integrate",
     "run",
     "scene",
     "schemes",
+    "sweep",
     "work_precision",
 ]

@@ -69,7 +69,7 @@ def run(scene: Union[str, os.PathLike[str]], *, restart: bool = False, progress:
         warnings.warn(note, stacklevel=2)
     readable, record = summary if summary else (None, None)
     return Outcome(
-        columns=None if rows is None else _columns(rows),
+        columns=None if rows is None else columns_of(rows),
         text=rows,
         summary=None if record is None else json.loads(record),
         summary_text=readable,
@@ -86,7 +86,8 @@ def scene(name: str) -> str:
     return _shadowstep.scene_text(name)
 
 
-def _columns(rows: str) -> dict[str, np.ndarray]:
+def columns_of(rows: str) -> dict[str, np.ndarray]:
+    """The columns of rows as CSV or JSON lines."""
     lines = [line for line in rows.splitlines() if not line.startswith("#")]
     if lines and lines[0].startswith("{"):  # JSON lines
         records = [json.loads(line) for line in lines]

@@ -15,10 +15,12 @@
 //! | [`drift`] | the drift of the modified energy |
 //! | [`work_precision`] | speed against error, and advice |
 //! | [`scene`] | runs that a file describes |
+//! | [`command`] | the program `shadowstep` |
 //! | [`monitor`] | the monitor of the modified energy, for loops |
 
 #![allow(clippy::needless_pass_by_value)] // arguments from Python have no owner
 
+mod command;
 mod drift;
 mod errors;
 mod estimator;
@@ -36,6 +38,8 @@ use pyo3::prelude::*;
 /// The module.
 #[pymodule]
 mod _shadowstep {
+    #[pymodule_export]
+    use crate::command::command;
     #[pymodule_export]
     use crate::drift::drift;
     #[pymodule_export]

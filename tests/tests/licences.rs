@@ -5,7 +5,17 @@ use std::process::Command;
 use serde_json::Value;
 
 /// Licences that ask for no more than a notice.
-const PERMISSIVE: [&str; 7] = ["MIT", "Apache-2.0", "BSL-1.0", "CC0-1.0", "Unicode-3.0", "Unlicense", "Zlib"];
+const PERMISSIVE: [&str; 9] = [
+    "MIT",
+    "Apache-2.0",
+    "Apache-2.0 WITH LLVM-exception",
+    "BSD-2-Clause",
+    "BSL-1.0",
+    "CC0-1.0",
+    "Unicode-3.0",
+    "Unlicense",
+    "Zlib",
+];
 
 /// Bindings to GMP and MPFR, which are under the LGPL. Without the feature `mpfr`, a user's crate does not have them.
 const WEAK_COPYLEFT: [(&str, &str); 2] = [("gmp-mpfr-sys", "LGPL-3.0+"), ("rug", "LGPL-3.0+")];

@@ -1,6 +1,5 @@
 //! `--submit` and `--status`: the chunks of a sweep as jobs of Slurm.
 
-use std::env;
 use std::io::Write;
 use std::path::{Path, absolute};
 
@@ -9,6 +8,7 @@ use shadowstep_scenes::Error;
 use shadowstep_sweeps::slurm::{self, Chunks, Resources, Scripts, Submitted, SweepCommand, TaskList};
 use shadowstep_sweeps::{Manifest, Missing, Plan};
 
+use crate::invocation;
 use crate::output::Output;
 use crate::quantity::whole;
 use crate::report::{self, Status};
@@ -122,7 +122,7 @@ fn command(sweep: &Path, folder: &Path, chunks: u64) -> Result<SweepCommand, Err
         )
     };
     Ok(SweepCommand {
-        program: env::current_exe().map_err(|error| unknown("this program", error))?,
+        program: invocation::program().map_err(|error| unknown("this program", error))?,
         sweep: absolute(sweep).map_err(|error| unknown("the sweep", error))?,
         folder: absolute(folder).map_err(|error| unknown("the folder", error))?,
         chunks,

@@ -1,0 +1,112 @@
+//! `shadowstep`: the energy drift of splitting schemes, and the schemes themselves, from the command line.
+//!
+//! A command is a file with its flags, `Arguments`, and its function, `execute`. It is registered by its `mod` line and its
+//! line of the list `commands!`.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | [`drift`], [`trace`] | runs of problems: one line a run, or one line a step |
+//! | [`run`], [`scene`] | runs that a file describes; such files |
+//! | [`schemes`], [`problems`] | what can be run |
+//! | [`work_precision`], [`advise`] | speed against error; a scheme and a step size for a tolerance |
+//! | [`sweep`], [`collect`] | many runs of a scene; their results |
+//! | [`stability`] | hard cases |
+//! | [`figures`] | the figures of the paper, and additional ones |
+//! | [`run_arguments`], [`quantity`] | the flags of runs; exact numbers |
+//! | [`selection`], [`system`], [`posed`] | flags → schemes and steps; flags → the system; with end and number type |
+//! | [`plot`] | charts of runs |
+//! | [`readable`], [`output`], [`progress`], [`tasks`] | tables, lines and bars |
+//! | [`invocation`] | how the program was called |
+//! | [`report`], [`colour`], [`interrupt`] | messages on stderr and the exit status; colours; Ctrl-C |
+
+mod advise;
+mod collect;
+mod drift;
+mod figures;
+mod problems;
+mod run;
+mod scene;
+mod schemes;
+mod stability;
+mod sweep;
+mod trace;
+mod work_precision;
+
+mod colour;
+mod interrupt;
+mod invocation;
+mod output;
+mod plot;
+mod posed;
+mod progress;
+mod quantity;
+mod readable;
+mod report;
+mod run_arguments;
+mod selection;
+mod system;
+mod tasks;
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand};
+use shadowstep_scenes::Error;
+
+use report::Status;
+
+/// Makes the enum of all commands from one list `Variant: module`.
+macro_rules! commands {
+    ($($Name:ident: $module:ident,)+) => {
+        #[derive(Debug, Subcommand)]
+        enum Command {
+            $($Name($module::Arguments),)+
+        }
+
+        impl Command {
+            fn execute(&self) -> Result<Status, Error> {
+                match self { $(Command::$Name(arguments) => $module::execute(arguments),)+ }
+            }
+        }
+    };
+}
+
+commands! {
+    Drift: drift,
+    Trace: trace,
+    Run: run,
+    Scene: scene,
+    Schemes: schemes,
+    WorkPrecision: work_precision,
+    Advise: advise,
+    Sweep: sweep,
+    Collect: collect,
+    Stability: stability,
+    Figures: figures,
+    Problems: problems,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  success
+  1  negative answer: a checked table has faults, a table cannot be polished, no scheme meets a tolerance, chunks of a sweep are missing; with
+     --strict, a verdict worse than fine
+  2  usage error: an unknown flag, name or file, a number out of range, a fault in a scene
+  3  a run failed: a state or an energy was not finite, the output could not be written, or it was interrupted";
+
+/// Splitting schemes and their modified energy, in any precision.
+#[derive(Debug, Parser)]
+#[command(name = "shadowstep", version, max_term_width = 100, after_help = EXIT_CODES, arg_required_else_help = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// Runs the program with its arguments, of which the first is its name; gives its exit code. Wrong arguments, `--help` and `--version` end the
+/// process. `program` is its path, for job scripts, where another program contains it.
+pub fn main(arguments: impl IntoIterator<Item = OsString>, program: Option<PathBuf>) -> u8 {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    invocation::keep(&arguments, program);
+    let command = Arguments::parse_from(arguments).command;
+    command.execute().unwrap_or_else(|error| report::error(&error)) as u8
+}
