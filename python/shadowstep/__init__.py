@@ -14,6 +14,7 @@ True
 from ._shadowstep import InputError, RunError, __version__
 from .command import command, sweep
 from .drift import drift
+from .ensemble import Ensemble, ensemble
 from .integration import Trajectory, integrate
 from .monitor import Monitor, Report, Sample
 from .problem import Problem
@@ -25,6 +26,7 @@ __all__ = [
     "Advice",
     "Choice",
     "Curve",
+    "Ensemble",
     "InputError",
     "Monitor",
     "Outcome",
@@ -39,6 +41,7 @@ __all__ = [
     "advise",
     "command",
     "drift",
+    "ensemble",
     "integrate",
     "run",
     "scene",

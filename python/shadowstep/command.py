@@ -34,7 +34,7 @@ def command(*words: Union[str, os.PathLike[str]]) -> str:
     # the package itself is found wherever this process has found it
     program = "import sys; sys.path[:0] = sys.argv.pop(1).split(chr(10)); from shadowstep.__main__ import main; main()"
     paths = "\n".join(path for path in sys.path if path)
-    arguments = [sys.executable, "-c", program, paths, *map(os.fspath, words)]
+    arguments = [sys.executable, "-c", program, paths, *(os.fspath(word) for word in words)]
     done = subprocess.run(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, encoding="utf-8")
     if done.returncode in (2, 3):
         error = (InputError if done.returncode == 2 else RunError)(done.stderr.strip())

@@ -81,7 +81,7 @@ class Trajectory:
         """q and p over time and coordinates, energies over time."""
         import xarray
 
-        data = {"q": (("time", "coordinate"), self.q), "p": (("time", "coordinate"), self.p)}
+        data: dict[str, Any] = {"q": (("time", "coordinate"), self.q), "p": (("time", "coordinate"), self.p)}
         data |= {name: (("time",), values) for name, values in self._energies()}
         return xarray.Dataset(data, coords={"time": self.t, "n": (("time",), self.n), "coordinate": self.coordinates})
 

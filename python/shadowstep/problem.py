@@ -71,6 +71,7 @@ class Problem:
     """
 
     _given: Given
+    _sections: Mapping[str, Any] | None = None
 
     def __init__(
         self,
@@ -93,7 +94,8 @@ class Problem:
         sections = _sections(system, q, p, v, others)
         problem = sections["problem"]
         problem |= {"masses": masses, "kinetic": kinetic, "pair": pair, "parts": parts}
-        self._given = Given.of_text(document({**sections, "time": time}), "problem")
+        self._sections = {**sections, "time": time}
+        self._given = Given.of_text(document(self._sections), "problem")
 
     @classmethod
     def from_scene(cls, path: Union[str, os.PathLike[str]]) -> Problem:
@@ -113,6 +115,19 @@ class Problem:
     def name(self) -> str:
         """The name of the shipped problem, the formula, or another description."""
         return self._system if isinstance(self._system, str) else "formula" if self._system is None else "forces"
+
+    @property
+    def sections(self) -> Mapping[str, Any]:
+        """The sections of a scene that describe it.
+
+        Raises
+        ------
+        TypeError
+            For a problem of a scene's file or with a function for its forces, which has none.
+        """
+        if self._sections is None:
+            raise TypeError("this needs a problem that is given by its keys, not by a scene's file or a function for the forces")
+        return self._sections
 
     @property
     def coordinates(self) -> list[str]:
@@ -180,6 +195,9 @@ def _of_forces(forces: Forces, q: Values | None, p: Values | None, v: Values | N
         raise TypeError(f"`{given[0]}` goes with a formula or a shipped problem, not with a function for the forces")
     if q is None or p is None:
         raise TypeError("a function for the forces needs q and p, the state at t = 0" + ("; give p = m v in place of v" if v is not None else ""))
-    texts = [[exact(value, name) for value in _list(values)] for name, values in (("q", q), ("p", p))]
-    masses = None if masses is None else [exact(mass, "masses") for mass in masses]
-    return Given.of_forces(forces, *texts, masses)
+    texts = None if masses is None else _texts(masses, "masses")
+    return Given.of_forces(forces, _texts(q, "q"), _texts(p, "p"), texts)
+
+
+def _texts(values: Values, name: str) -> list[str]:
+    return [exact(value, name) for value in (values.values() if isinstance(values, Mapping) else values)]

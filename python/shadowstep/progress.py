@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import monotonic
+from typing import Any
 
 # a bar is shown only for what takes longer
 SHORT = 1.0
@@ -25,7 +26,8 @@ def bar(total: int | None, unit: str, wanted: bool | None) -> Iterator[Callable[
     except ImportError:
         yield None
         return
-    begin, shown = monotonic(), []
+    begin = monotonic()
+    shown: list[Any] = []
 
     def reach(done: int) -> None:
         if not shown:

@@ -12,6 +12,7 @@
 //! | [`scheme`] | schemes with what is proved of them |
 //! | [`estimator`] | the estimator of the modified energy, from its options |
 //! | [`integrate`] | runs into arrays |
+//! | [`ensemble`] | many trajectories at once |
 //! | [`drift`] | the drift of the modified energy |
 //! | [`work_precision`] | speed against error, and advice |
 //! | [`scene`] | runs that a file describes |
@@ -22,6 +23,7 @@
 
 mod command;
 mod drift;
+mod ensemble;
 mod errors;
 mod estimator;
 mod given;
@@ -42,6 +44,8 @@ mod _shadowstep {
     use crate::command::command;
     #[pymodule_export]
     use crate::drift::drift;
+    #[pymodule_export]
+    use crate::ensemble::ensemble;
     #[pymodule_export]
     use crate::errors::{InputError, RunError};
     #[pymodule_export]

@@ -108,6 +108,9 @@ pub enum EnsembleError<E> {
     /// The k of the modified energy is not valid.
     #[error("the modified energy: {0}")]
     Estimator(EstimatorError),
+    /// It was stopped before its end.
+    #[error("the ensemble was stopped")]
+    Stopped,
     /// The energy cannot be looked at every 0 steps.
     #[error("the energy can be looked at every 1 step or more, not every 0 steps")]
     EveryZero,
@@ -134,6 +137,24 @@ impl Ensemble {
         M: System<Number = Lanes<W>>,
         E: Send,
     {
+        self.run_while(stepper, system, || true)
+    }
+
+    /// The same, and `continues` is asked every few milliseconds in each thread: where it returns false, the computation ends.
+    ///
+    /// # Errors
+    /// As [`run`](Ensemble::run); [`EnsembleError::Stopped`].
+    pub fn run_while<const W: usize, S, M, E>(
+        &self,
+        stepper: &Stepper<S, Lanes<W>>,
+        system: impl Fn(Block<W>) -> Result<M, E> + Sync,
+        continues: impl Fn() -> bool + Sync,
+    ) -> Result<Vec<Outcome>, EnsembleError<E>>
+    where
+        S: Scheme<Array<Lanes<W>>: Sync> + ValidFor<M::Class> + Sync,
+        M: System<Number = Lanes<W>>,
+        E: Send,
+    {
         if self.every == 0 {
             return Err(EnsembleError::EveryZero);
         }
@@ -144,7 +165,7 @@ impl Ensemble {
             built.map_err(EnsembleError::Estimator)?;
         }
         let parts = self.trajectories.div_ceil(AT_ONCE);
-        let found = self.on_threads(parts, |part| self.compute(stepper, &system, part * AT_ONCE));
+        let found = self.on_threads(parts, |part| self.compute(stepper, &system, part * AT_ONCE, &continues));
         let found: Result<Vec<_>, _> = found.into_iter().collect();
         Ok(found?.into_iter().flatten().collect())
     }
@@ -155,6 +176,7 @@ impl Ensemble {
         stepper: &Stepper<S, Lanes<W>>,
         system: impl Fn(Block<W>) -> Result<M, E>,
         first: usize,
+        continues: &(impl Fn() -> bool + Sync),
     ) -> Result<Vec<Outcome>, EnsembleError<E>>
     where
         S: Scheme + ValidFor<M::Class>,
@@ -167,7 +189,8 @@ impl Ensemble {
         let dimension = systems.first().map_or(0, |system| system.q().len());
         let build = |k| FixedBilinear::new(k).build(stepper.step_size(), dimension, &());
         let estimator = self.modified_energy.map(build).transpose().map_err(EnsembleError::Estimator)?;
-        let mut outcomes = follow(stepper, systems, (self.steps, self.every), estimator.as_ref());
+        let followed = follow(stepper, systems, (self.steps, self.every), estimator.as_ref(), continues);
+        let mut outcomes = followed.ok_or(EnsembleError::Stopped)?;
         outcomes.truncate(end - first);
         Ok(outcomes)
     }

@@ -39,7 +39,7 @@ use std::io::Write;
 use shadowstep::ensemble::{self, Block, EnsembleError, Outcome};
 use shadowstep::number::Lanes;
 use shadowstep::tables::{Faults, Source};
-use shadowstep::{Scheme, Stepper};
+use shadowstep::{Rational, Scheme, Stepper};
 use shadowstep_schemes::document::document;
 
 use crate::error::Error;
@@ -76,6 +76,21 @@ impl Ensemble {
     /// ensemble.
     pub fn read(source: Source) -> Result<Ensemble, Error> {
         let columns = Columns::read(&source)?;
+        Ensemble::of(source, columns)
+    }
+
+    /// The same with columns that are not in the text: their names, and a row of values for each trajectory.
+    ///
+    /// # Errors
+    /// As [`read`](Ensemble::read); no trajectory, or rows of other lengths than the names.
+    pub fn with_columns(source: Source, names: Vec<String>, rows: Vec<Vec<Rational>>) -> Result<Ensemble, Error> {
+        if rows.is_empty() || rows.iter().any(|row| row.len() != names.len()) {
+            return Err(Error::usage("an ensemble needs a value of each column for each trajectory", "give at least one"));
+        }
+        Ensemble::of(source, Columns { names, rows, at: 0..0 })
+    }
+
+    fn of(source: Source, columns: Columns) -> Result<Ensemble, Error> {
         let family = Family::new(source, &[ENSEMBLE.name]);
         let first = family.scene(&columns.values(0)).map_err(|faults| columns.with_trajectory(faults, 0))?;
         if first.displaced {
@@ -96,23 +111,30 @@ impl Ensemble {
     /// # Errors
     /// Values of a trajectory that the scene cannot have, a writer that fails.
     pub fn run_into(&self, writer: &mut dyn Write) -> Result<(), Error> {
-        let outcomes = self.outcomes()?;
+        let outcomes = self.outcomes(|| true)?;
         rows::write(&self.columns, &self.first.system, self.observed.modified_energy.is_some(), &outcomes, writer)
     }
 
-    fn outcomes(&self) -> Result<Vec<Outcome>, Error> {
+    /// Computes all trajectories; `continues` is asked now and then, and ends the computation where it returns false.
+    ///
+    /// # Errors
+    /// Values of a trajectory that the scene cannot have; an end.
+    pub fn outcomes(&self, continues: impl Fn() -> bool + Sync) -> Result<Vec<Outcome>, Error> {
         let parsed = self.family.parsed()?;
         let compensated = self.first.arithmetic.is_compensated();
         let scheme = self.first.scheme.scheme.clone();
         let outcomes = if self.first.system.has_general_kinetic() {
             let stepper = self.stepper(scheme.for_every_kinetic().expect("the scheme was read for this T"));
-            self.trajectories().run(&stepper, |block| Ok(self.together(&parsed, &block)?.general(compensated)))
+            let system = |block| Ok(self.together(&parsed, &block)?.general(compensated));
+            self.trajectories().run_while(&stepper, system, continues)
         } else {
             let stepper = self.stepper(scheme);
-            self.trajectories().run(&stepper, |block| Ok(self.together(&parsed, &block)?.quadratic(compensated)))
+            let system = |block| Ok(self.together(&parsed, &block)?.quadratic(compensated));
+            self.trajectories().run_while(&stepper, system, continues)
         };
         outcomes.map_err(|error| match error {
             EnsembleError::System(error) => error,
+            EnsembleError::Stopped => Error::run("the ensemble was interrupted", "run it again"),
             other => Error::usage(other.to_string(), "give another order of the estimator"),
         })
     }

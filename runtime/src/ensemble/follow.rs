@@ -23,13 +23,17 @@ pub struct Outcome {
     pub not_finite: Option<u64>,
 }
 
-/// The outcomes of all lanes of the systems, whose energy is looked at every so many steps.
+/// So many steps are made at once at most, as the caller may want to end them.
+const AT_ONCE: u64 = 128;
+
+/// The outcomes of all lanes of the systems, whose energy is looked at every so many steps; `None` where `continues` returns false.
 pub(super) fn follow<const W: usize, S, M>(
     stepper: &Stepper<S, Lanes<W>>,
     mut systems: Vec<M>,
     (steps, every): (u64, u64),
     estimator: Option<&EstimatorOf<W>>,
-) -> Vec<Outcome>
+    continues: impl Fn() -> bool,
+) -> Option<Vec<Outcome>>
 where
     S: Scheme + ValidFor<M::Class>,
     M: System<Number = Lanes<W>>,
@@ -53,8 +57,12 @@ where
             seen.iter_mut().zip(&systems).for_each(|(seen, system)| seen.push(system));
             n += 1;
         } else {
-            stepper.steps(&mut systems, next - n);
-            n = next;
+            let count = (next - n).min(AT_ONCE);
+            stepper.steps(&mut systems, count);
+            n += count;
+        }
+        if n % AT_ONCE == 0 && !continues() {
+            return None;
         }
         if n == next {
             for (seen, system) in seen.iter_mut().zip(&mut systems) {
@@ -63,7 +71,8 @@ where
         }
     }
     systems.iter_mut().for_each(|system| stepper.postprocess(system));
-    seen.iter().zip(&systems).flat_map(|(seen, system)| (0..W).map(|lane| seen.outcome(system, lane))).collect()
+    let outcomes = seen.iter().zip(&systems).flat_map(|(seen, system)| (0..W).map(|lane| seen.outcome(system, lane)));
+    Some(outcomes.collect())
 }
 
 /// What is seen of a system.

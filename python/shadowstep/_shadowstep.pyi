@@ -1,0 +1,116 @@
+"""The compiled module: plain values in and out. The package's own classes and functions are what its users call."""
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+__version__: str
+
+class InputError(ValueError):
+    hint: str | None
+    faults: list[dict[str, Any]]
+
+class RunError(ArithmeticError):
+    hint: str | None
+
+class Given:
+    @staticmethod
+    def of_text(text: str, path: str) -> Given: ...
+    @staticmethod
+    def of_file(path: str | os.PathLike[str]) -> Given: ...
+    @staticmethod
+    def of_forces(function: Any, q: Sequence[str], p: Sequence[str], masses: Sequence[str] | None) -> Given: ...
+    @property
+    def coordinates(self) -> list[str]: ...
+    @property
+    def momenta(self) -> list[str]: ...
+    @property
+    def initial(self) -> tuple[list[float], list[float]]: ...
+    @property
+    def energy(self) -> float: ...
+
+class Table:
+    @staticmethod
+    def of_word(word: str) -> Table: ...
+    @staticmethod
+    def of_text(text: str, path: str) -> Table: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+    def record(self) -> str: ...
+    def facts(self) -> tuple[str, int | None, int, int]: ...
+
+class Monitor:
+    def __init__(self, problem: Given, scheme: Table, h: str, *, order: int, every: int, digits: str) -> None: ...
+    def step(self, count: int) -> None: ...
+    @property
+    def n(self) -> int: ...
+    def state(self) -> tuple[np.ndarray, np.ndarray]: ...
+    def energy(self) -> float: ...
+    @property
+    def newest(self) -> tuple[int, float, float | None, float] | None: ...
+    def report(self) -> dict[str, Any]: ...
+
+Progress = Callable[[int], None] | None
+
+def shipped_names() -> list[str]: ...
+def problem_names() -> list[str]: ...
+def command(arguments: Sequence[str], program: str | None) -> int: ...
+def integrate(
+    problem: Given,
+    scheme: Table,
+    h: str,
+    *,
+    steps: int | None,
+    until: str | None,
+    every: int,
+    digits: str,
+    mpfr: bool,
+    options: Mapping[str, Any] | None,
+    progress: Progress,
+) -> dict[str, Any]: ...
+def ensemble(text: str, names: Sequence[str], columns: Sequence[np.ndarray], *, progress: Progress) -> dict[str, Any]: ...
+def drift(
+    problem: Given,
+    name: str,
+    scheme: Table | None,
+    h: str,
+    until: str,
+    *,
+    digits: str,
+    mpfr: bool,
+    options: Mapping[str, Any],
+    control: bool,
+    progress: Progress,
+) -> str: ...
+def work_precision(
+    problem: Given,
+    until: str,
+    schemes: Sequence[Table],
+    *,
+    steps: Sequence[int] | None,
+    digits: str,
+    seconds: float,
+    folder: str,
+    progress: Progress,
+) -> str: ...
+def advise(
+    problem: Given,
+    until: str,
+    tolerance: float,
+    *,
+    of: str,
+    cost: str,
+    schemes: Sequence[Table],
+    digits: str,
+    seconds: float,
+    folder: str,
+    progress: Progress,
+) -> str: ...
+def run_scene(
+    path: str, text: str | None, *, restart: bool, progress: Progress
+) -> tuple[str | None, tuple[str, str] | None, list[str]]: ...
+def scene_text(name: str) -> str: ...

@@ -1,0 +1,124 @@
+"""Ensembles, drift, work-precision, advice, scenes, the command line, types."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import shadowstep
+from shadowstep import InputError, Problem, RunError
+
+
+def test_an_ensemble_has_the_bits_of_its_trajectories():
+    henon_heiles = Problem("henon-heiles")
+    q = np.array([[0.0, y] for y in np.linspace(-0.3, 0.3, 21)])
+    p = np.tile([0.3, 0.1], (21, 1))
+    found = shadowstep.ensemble(henon_heiles, "yoshida4", "1/10", steps=200, q=q, p=p, every=50)
+    assert found.q.shape == (21, 2) and found.modified_drift is None and np.all(found.not_finite == -1)
+    for t in (0, 7, 20):
+        alone = shadowstep.integrate(Problem("henon-heiles", q=q[t], p=p[t]), "yoshida4", "1/10", steps=200, every=50)
+        assert np.array_equal(found.q[t], alone.q[-1]) and np.array_equal(found.p[t], alone.p[-1])
+        # the same states, whose energies were computed in other orders
+        assert found.energy_error[t] == pytest.approx(np.abs(alone.energy / alone.energy[0] - 1).max(), rel=1e-6)
+
+
+def test_an_ensemble_over_a_parameter_of_a_formula():
+    spring = Problem("k*x^2/2", q={"x": 1}, p=[0], k=1)
+    k = np.array([0.5, 1.0, 2.0])
+    found = shadowstep.ensemble(spring, "stormer-verlet", 0.125, steps=80, parameters={"k": k}, every=8, order=4)
+    for t in range(3):
+        alone = shadowstep.integrate(Problem("k*x^2/2", q={"x": 1}, p=[0], k=k[t]), "stormer-verlet", 0.125, steps=80)
+        assert found.q[t, 0] == alone.q[-1, 0]
+    # the modified energy of the oscillator is conserved; E_4 sees it up to its own error
+    assert np.all(found.modified_drift < 1e-3)
+
+
+def test_wrong_shapes_of_an_ensemble_are_refused():
+    kepler = Problem("kepler")
+    with pytest.raises(ValueError, match=r"q must have the shape \(n, 2\), not \(5, 3\)"):
+        shadowstep.ensemble(kepler, "yoshida4", 0.1, steps=1, q=np.zeros((5, 3)))
+    with pytest.raises(ValueError, match=r"\[2, 3\]"):
+        shadowstep.ensemble(kepler, "yoshida4", 0.1, steps=1, q=np.ones((2, 2)), parameters={"eccentricity": np.zeros(3)})
+    with pytest.raises(ValueError, match="needs q, p or parameters"):
+        shadowstep.ensemble(kepler, "yoshida4", 0.1, steps=1)
+    with pytest.raises(InputError, match="trajectory 1 is nan"):
+        shadowstep.ensemble(kepler, "yoshida4", 0.1, steps=1, parameters={"eccentricity": np.array([0.1, np.nan])})
+
+
+def test_drift_is_that_of_the_command_line():
+    kepler = Problem("kepler")
+    found = shadowstep.drift(kepler, "stormer-verlet", "1/20", 10, digits=40, order=8, control=True)
+    words = "drift kepler --scheme stormer-verlet --step 1/20 --until 10 --digits 40 --order 8 --json --control"
+    import json
+
+    printed = json.loads(shadowstep.command(*words.split()))
+    for seconds in (found, printed, found["control"], printed["control"]):
+        seconds.pop("seconds")
+    assert found == printed
+    on_exact_flow = shadowstep.drift(kepler, "exact-flow", "1/20", 10, digits=40, order=8)
+    assert on_exact_flow["drift"] == found["control"]["drift"]
+
+
+def test_work_precision_measures_the_order():
+    curves = shadowstep.work_precision(Problem("pendulum"), 20, ["stormer-verlet", "yoshida4", "blanes-moan-srkn11b"], steps=[100, 200])
+    orders = [np.log2(curve.runs[0].position_error / curve.runs[1].position_error) for curve in curves]
+    # errors of higher order are left at these steps
+    assert np.allclose(orders, [2, 4, 6], atol=0.4), orders
+    assert [curve.order for curve in curves] == [2, 4, 6]
+
+
+def test_advice_meets_its_tolerance():
+    advice = shadowstep.advise(Problem("pendulum"), 40, 1e-7, seconds=0.2, schemes=["yoshida4", "blanes-moan-srkn11b"])
+    assert advice.verified <= 1e-7
+    best = advice.choices[0]
+    run = shadowstep.integrate(Problem("pendulum"), best.scheme, best.h, until=40, every=10**9)
+    precise = shadowstep.integrate(Problem("pendulum"), "bce-rkn8-17", "1/80", until=40, every=10**9)
+    assert abs(run.q[-1, 0] - precise.q[-1, 0]) <= 1e-7
+    with pytest.raises(InputError, match="must be positive"):
+        shadowstep.advise(Problem("pendulum"), 40, 0.0)
+    with pytest.raises(InputError, match='of = "momentum" is not known'):
+        shadowstep.advise(Problem("pendulum"), 40, 1e-6, of="momentum")
+
+
+SCENE = """
+problem.name = "kepler"
+run = { scheme = "yoshida4", step = "1/20", steps = 100, digits = "double" }
+output = { energy = { every = 10 }%s }
+"""
+
+
+def test_scenes(tmp_path):
+    outcome = shadowstep.run(SCENE % "")
+    assert list(outcome.columns) == ["n", "t", "energy"] and len(outcome.to_dataframe()) == 11
+    path = tmp_path / "scene.toml"
+    path.write_text(SCENE % ', file = "kepler.csv"')
+    assert shadowstep.run(path).columns is None
+    rows = [line for line in (tmp_path / "kepler.csv").read_text().splitlines() if not line.startswith("#")]
+    assert rows == [line for line in outcome.text.splitlines() if not line.startswith("#")]
+    with pytest.raises(InputError, match="scene.toml:2:") as error:
+        shadowstep.run('\nproblem.name = "keppler"\n')
+    assert error.value.faults[0]["line"] == 2
+
+
+def test_the_command_line(tmp_path):
+    done = subprocess.run([sys.executable, "-m", "shadowstep", "schemes", "show", "yoshida4", "--json"], capture_output=True, text=True)
+    assert done.returncode == 0 and '"name":"yoshida4"' in done.stdout.replace('": "', '":"')
+    with pytest.raises(InputError, match="no problem"):
+        shadowstep.command("drift", "keppler", "--scheme", "yoshida4", "--step", "0.1", "--until", "1")
+    with pytest.raises(RunError, match="n = "):
+        words = ["--potential", "-x^4", "--q", "x=1", "--p", "1", "--scheme", "yoshida4", "--step", "0.1", "--until", "9"]
+        shadowstep.command("drift", *words)
+    sweep = tmp_path / "sweep.toml"
+    sweep.write_text(SCENE.replace('"1/20"', '"h"') % "" + '\n[axes]\nh = ["1/20", "1/40"]\n[keep]\nvalues = ["energy_error"]\n')
+    columns = shadowstep.sweep(sweep, tmp_path / "out")
+    assert columns["energy_error"][0] > columns["energy_error"][1] > 0
+
+
+def test_types():
+    api = pytest.importorskip("mypy.api")
+    package = Path(shadowstep.__file__).parent
+    assert (package / "py.typed").exists()
+    found, errors, status = api.run(["--ignore-missing-imports", "--python-version", "3.10", str(package)])
+    assert status == 0, found + errors
