@@ -23,7 +23,8 @@ pub(crate) fn ensemble<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let failed = |error| exception(py, error);
     let trajectories = columns.first().map_or(0, |column| column.as_array().len());
-    let rows = (0..trajectories).map(|t| names.iter().zip(&columns).map(|(name, column)| cell(name, column, t)).collect());
+    let rows =
+        (0..trajectories).map(|t| names.iter().zip(&columns).map(|(name, column)| cell(name, column, t)).collect());
     let rows = rows.collect::<Result<Vec<Vec<Rational>>, Error>>().map_err(failed)?;
     let outcomes = waiting(py, progress, |watched| {
         let ensemble = Ensemble::with_columns(Source { path: "ensemble".to_owned(), text }, names, rows)?;
@@ -38,14 +39,14 @@ pub(crate) fn ensemble<'py>(
     all.set_item("p", PyArray1::from_vec(py, outcomes.iter().flat_map(|outcome| outcome.p.clone()).collect()))?;
     all.set_item("energy_error", numbers(|outcome| outcome.energy_error))?;
     all.set_item("modified_drift", numbers(|outcome| outcome.modified_drift.unwrap_or(f64::NAN)))?;
-    let not_finite = outcomes.iter().map(|outcome| outcome.not_finite.map_or(-1, |n| i64::try_from(n).unwrap_or(i64::MAX)));
+    let not_finite =
+        outcomes.iter().map(|outcome| outcome.not_finite.map_or(-1, |n| i64::try_from(n).unwrap_or(i64::MAX)));
     all.set_item("not_finite", PyArray1::from_vec(py, not_finite.collect::<Vec<i64>>()))?;
     Ok(all)
 }
 
 fn cell(name: &str, column: &PyReadonlyArray1<'_, f64>, t: usize) -> Result<Rational, Error> {
     let value = column.as_array()[t];
-    Rational::from_float(value).ok_or_else(|| {
-        Error::usage(format!("{name} of trajectory {t} is {value}"), "give finite numbers")
-    })
+    Rational::from_float(value)
+        .ok_or_else(|| Error::usage(format!("{name} of trajectory {t} is {value}"), "give finite numbers"))
 }

@@ -85,7 +85,10 @@ impl Ensemble {
     /// As [`read`](Ensemble::read); no trajectory, or rows of other lengths than the names.
     pub fn with_columns(source: Source, names: Vec<String>, rows: Vec<Vec<Rational>>) -> Result<Ensemble, Error> {
         if rows.is_empty() || rows.iter().any(|row| row.len() != names.len()) {
-            return Err(Error::usage("an ensemble needs a value of each column for each trajectory", "give at least one"));
+            return Err(Error::usage(
+                "an ensemble needs a value of each column for each trajectory",
+                "give at least one",
+            ));
         }
         Ensemble::of(source, Columns { names, rows, at: 0..0 })
     }

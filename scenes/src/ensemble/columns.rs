@@ -21,7 +21,7 @@ pub(super) struct Columns {
     /// A row for each trajectory, at least one.
     pub(super) rows: Vec<Vec<Rational>>,
     /// Where they are in the scene.
-    at: Range<usize>,
+    pub(super) at: Range<usize>,
 }
 
 impl Columns {
