@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything and fetches what is missing.
 
-.PHONY: run test wasm wheel test-python test-cluster deps format lint check docs bench stability rivals package fuzz valgrind
+.PHONY: run test wasm wheel test-python bench-python test-cluster deps format lint check docs bench stability rivals package fuzz valgrind
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run:
@@ -57,6 +57,12 @@ test-python: $(WHEEL)/tools/bin/maturin
 	$(PYTHON) -m venv $(WHEEL)/test
 	$(WHEEL)/test/bin/pip install --quiet "$$(echo $(WHEEL)/wheels/*.whl)[test]"
 	cd python/tests && $(WHEEL)/test/bin/python -m pytest --quiet --doctest-modules --pyargs shadowstep .
+
+# What a run costs from Python beside a loop in Rust, on a machine without other load: the table of docs/python.md.
+bench-python: wheel
+	cargo build --release --locked -p shadowstep --example steps-of-kepler
+	$(WHEEL)/tools/bin/pip install --quiet --force-reinstall numba target/wheels/shadowstep-*.whl
+	$(WHEEL)/tools/bin/python python/benches/overhead.py $(abspath $(or $(CARGO_TARGET_DIR),target))/release/examples/steps-of-kepler
 
 # Sweeps on Slurm (of Debian's packages, with a private configuration), with GNU parallel and with Dask, whose tasks and nodes are killed:
 # the results are those of one machine. What is not installed is skipped.

@@ -29,7 +29,7 @@ def command(*words: Union[str, os.PathLike[str]]) -> str:
     >>> "Kepler" in command("problems")
     True
     >>> command("schemes", "show", "stormer-verlet").splitlines()[0]
-    'stormer-verlet: Störmer–Verlet'
+    'stormer-verlet: Störmer–Verlet (leapfrog, Strang; kick first: velocity Verlet)'
     """
     # the package itself is found wherever this process has found it
     program = "import sys; sys.path[:0] = sys.argv.pop(1).split(chr(10)); from shadowstep.__main__ import main; main()"

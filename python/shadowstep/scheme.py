@@ -30,7 +30,7 @@ class Scheme:
     >>> scheme
     Scheme('blanes-moan-srkn11b': order 6 for quadratic T, 4 for every T(p), 11 forces a step)
     >>> scheme.symmetric, round(scheme.stability_limit, 2)
-    (True, 12.36)
+    (True, 3.14)
     >>> verlet = Scheme('''
     ... name = "velocity-verlet"
     ... order = 2

@@ -215,7 +215,7 @@ def test_other_threads_run_meanwhile():
 
     thread = threading.Thread(target=count)
     thread.start()
-    integrate(Problem("kepler"), "yoshida4", h="1/100", steps=20_000, every=20_000, digits=60)
+    integrate(Problem("kepler"), "yoshida4", h="1/100", steps=100_000, every=100_000, digits=60)
     done.set()
     thread.join()
     # if the lock were held, the thread could count only before and after the run
