@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything and fetches what is missing.
 
-.PHONY: run test wasm wheel test-python bench-python test-cluster deps format lint check docs bench stability rivals package fuzz valgrind
+.PHONY: run test wasm wheel test-python bench-python test-cluster test-emit deps format lint check docs bench stability rivals package fuzz valgrind
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run:
@@ -70,6 +70,13 @@ test-cluster: deps
 	cargo build --locked -p shadowstep-cli
 	@command -v python3 >/dev/null || { echo "Skipped: python3 is not installed."; exit 0; }; \
 	    PYTHONDONTWRITEBYTECODE=1 exec python3 tests/cluster/test.py
+
+# What `shadowstep emit` writes, run in its own ecosystem. What is not installed is skipped; `make test-emit REQUIRED="fortran jax"` insists on these.
+REQUIRED =
+test-emit:
+	cargo build --locked -p shadowstep-cli
+	@command -v python3 >/dev/null || { echo "Skipped: python3 is not installed."; exit 0; }; \
+	    REQUIRED="$(REQUIRED)" PYTHONDONTWRITEBYTECODE=1 exec python3 tests/emit/test.py
 
 # What steps, potentials and the monitor cost: writes docs/benchmarks.md, on a machine without other load.
 bench: deps

@@ -8,6 +8,7 @@
 //! | [`drift`], [`trace`] | runs of problems: one line a run, or one line a step |
 //! | [`run`], [`scene`] | runs that a file describes; such files |
 //! | [`schemes`], [`problems`] | what can be run |
+//! | [`emit`] | schemes as code for other ecosystems |
 //! | [`work_precision`], [`advise`] | speed against error; a scheme and a step size for a tolerance |
 //! | [`sweep`], [`collect`] | many runs of a scene; their results |
 //! | [`stability`] | hard cases |
@@ -22,6 +23,7 @@
 mod advise;
 mod collect;
 mod drift;
+mod emit;
 mod figures;
 mod problems;
 mod run;
@@ -77,6 +79,7 @@ commands! {
     Run: run,
     Scene: scene,
     Schemes: schemes,
+    Emit: emit,
     WorkPrecision: work_precision,
     Advise: advise,
     Sweep: sweep,

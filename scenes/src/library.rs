@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use sha2::{Digest, Sha256};
 use shadowstep::problems::Problem;
-use shadowstep::tables::{self, Faults, Source, TableScheme, shipped_names};
+use shadowstep::tables::{self, Faults, Proved, Source, TableScheme, shipped_names};
 use shadowstep::{Rational, Scheme, exact_flow};
 use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
@@ -49,9 +49,7 @@ pub enum LibraryError {
 impl NamedScheme {
     /// Its name with a hash of its weights: a table that is changed is another scheme.
     pub fn identity(&self) -> String {
-        let maps = self.scheme.proved().scheme.maps();
-        let weights: Vec<String> = maps.iter().map(|map| format!("{:?} {}", map.kind, to_text(&map.weight))).collect();
-        format!("{} {}", self.name, fingerprint(&weights.join(",")))
+        format!("{} {}", self.name, weights_fingerprint(self.scheme.proved()))
     }
 
     /// A remark on a table in a file that has the name of a shipped scheme with other weights.
@@ -67,6 +65,19 @@ impl NamedScheme {
         let differs = own.len() != shipped.len() || !own.iter().zip(&shipped).all(alike);
         differs.then(|| Note::NameOfShipped { path: self.name.clone(), scheme: scheme.to_owned() })
     }
+}
+
+/// The first digits of a hash of the weights of a scheme, with those of its processor.
+pub fn weights_fingerprint(proved: &Proved) -> String {
+    let text = |maps: &[Map]| {
+        let weights = maps.iter().map(|map| format!("{:?} {}", map.kind, to_text(&map.weight)));
+        weights.collect::<Vec<_>>().join(",")
+    };
+    let step = text(&proved.scheme.maps());
+    fingerprint(&match &proved.scheme.processor {
+        None => step,
+        Some(processor) => format!("{step};{}", text(&processor.post)),
+    })
 }
 
 /// The first digits of a hash.
@@ -296,4 +307,16 @@ fn unknown(word: &str) -> LibraryError {
     let near = shipped_hint(word);
     let hint = format!("{near} (`shadowstep schemes` lists all; the name of a custom table ends in .toml)");
     not_found(format!("there is no scheme `{word}`"), hint)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_processor_of_the_same_kernel_is_another_scheme() {
+        let [third, fifth] = ["wisdom-corrector-3", "wisdom-corrector-5"].map(|name| tables::shipped(name).unwrap());
+        assert_eq!(third.proved().scheme.maps(), fifth.proved().scheme.maps());
+        assert_ne!(weights_fingerprint(third.proved()), weights_fingerprint(fifth.proved()));
+    }
 }

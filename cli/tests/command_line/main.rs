@@ -7,6 +7,7 @@
 mod checkpoints;
 mod digits;
 mod drift;
+mod emit;
 mod figures;
 mod lost_energy;
 mod output_files;

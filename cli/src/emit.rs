@@ -1,0 +1,44 @@
+//! `shadowstep emit`: a scheme as code for other ecosystems.
+
+use std::io::Write;
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use shadowstep_emit::{Target, emit};
+use shadowstep_scenes::{Error, library};
+
+use crate::output::{Output, OutputArguments};
+use crate::report::{self, Status};
+
+const EXAMPLE: &str = "\
+Examples:
+  shadowstep emit yoshida4 --to c --output yoshida4.h
+  shadowstep emit mine.toml --to python > mine.py
+Each file has its own self-test, and says how to run it. docs/emit.md has an example of each.";
+
+/// Writes the proved step of a scheme as code of another ecosystem.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    /// A shipped scheme, such as yoshida4, or the file of a table
+    scheme: String,
+    /// What it is written for: a module for NumPy or JAX, a header of C, a module of Julia or Fortran, a CustomIntegrator of OpenMM, a table for
+    /// SUNDIALS or PETSc, or a table to print
+    #[arg(long, value_name = "TARGET", value_parser = PossibleValuesParser::new(Target::ALL.iter().map(|target| target.name())))]
+    to: String,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// Proves the scheme and writes it.
+pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
+    let named = library::scheme(&arguments.scheme)?;
+    let target: Target = arguments.to.parse().expect("only names of targets are accepted");
+    let code = emit(&named.scheme, target)
+        .map_err(|refusal| Error::usage(format!("{} {}", refusal.scheme, refusal.reason), refusal.hint))?;
+    named.note().iter().for_each(report::note);
+    let mut output = Output::of(&arguments.output)?;
+    write!(output, "{code}")?;
+    output.finish()?;
+    Ok(Status::Success)
+}

@@ -1,0 +1,74 @@
+‹provenance›
+"""An integrator of OpenMM. A step costs ‹cost›, the force -U_q.
+
+    from ‹identifier› import make_integrator
+
+    integrator = make_integrator(2 * unit.femtoseconds)
+    simulation = Simulation(topology, system, integrator)
+
+It has no thermostat. Constraints are not applied, and a system with constraints or virtual sites
+that depend on them must not use it. Forces that change the state of the context by themselves, such
+as a barostat or CMMotionRemover, act at the beginning of each step.
+`python ‹identifier›.py` tests this file.
+"""
+
+‹if order_shows›
+import math
+
+‹end›
+import openmm
+
+‹weights›
+
+
+def make_integrator(step_size):
+    """A CustomIntegrator with this step size."""
+    integrator = openmm.CustomIntegrator(step_size)
+
+    def kick(weight):
+        integrator.addComputePerDof("v", f"v + {weight!r} * dt * f / m")
+
+    def drift(weight):
+        integrator.addComputePerDof("x", f"x + {weight!r} * dt * v")
+
+    integrator.addUpdateContextState()
+    ‹step›
+    return integrator
+
+
+def self_test():
+    """Kepler's problem with e = 3/5: the state that Shadowstep reaches, and the order."""
+
+    def error(h, steps, q, p):
+        system = openmm.System()
+        system.addParticle(1)
+        potential = openmm.CustomExternalForce("-1 / sqrt(x^2 + y^2)")
+        potential.addParticle(0)
+        system.addForce(potential)
+        platform = openmm.Platform.getPlatformByName("Reference")
+        integrator = make_integrator(h)
+        context = openmm.Context(system, integrator, platform)
+        context.setPositions([(0.4, 0, 0)])
+        context.setVelocities([(0, 2, 0)])
+        integrator.step(steps)
+        state = context.getState(getPositions=True, getVelocities=True)
+        found = [*state.getPositions()[0]._value[:2], *state.getVelocities()[0]._value[:2]]
+        return max(abs(a - b) for a, b in zip(found, q + p))
+
+    distance = error(‹h›, ‹count›, [‹end_q›], [‹end_p›])
+    agreement = "the bits of Shadowstep" if distance == 0 else f"{distance:.1e} from Shadowstep"
+    print(f"‹name›: ‹count› steps of ‹part›: {agreement}")
+    passed = distance < ‹tolerance›
+‹if order_shows›
+
+    exact = [‹exact_q›], [‹exact_p›]  # at t = ‹time›
+    ratio = error(‹time› / ‹coarse›, ‹coarse›, *exact) / error(‹time› / ‹fine›, ‹fine›, *exact)
+    order = math.log2(ratio)
+    print(f"‹name›: order {order:.2f} observed, ‹order› proved")
+    passed = passed and order > ‹order› - 0.5
+‹end›
+    return passed
+
+
+if __name__ == "__main__":
+    raise SystemExit(0 if self_test() else "‹name›: the self-test has failed")
