@@ -4,6 +4,7 @@ use crate::provenance;
 use crate::reference::{self, HALVINGS, STEPS, State, TIME, TOLERANCE};
 use crate::step::{Action, Step, Weight};
 use crate::template::Values;
+use crate::text::counted;
 
 /// How a language writes what a step is made of.
 pub(crate) struct Language {
@@ -61,6 +62,7 @@ impl Language {
             .text("identifier", identifier)
             .lines("provenance", provenance::lines(step, self.comment))
             .text("cost", provenance::cost(step))
+            .text("evaluations", counted(step.proved.plan.evaluations, "force evaluation"))
             .lines("weights", self.weights(step))
             .lines("step", self.statements(&step.actions(), Direction::Forward))
             .lines("pre", self.statements(&step.pre(), Direction::Back))
@@ -118,7 +120,7 @@ impl Language {
     }
 
     fn statements(&self, actions: &[Action<'_>], direction: Direction) -> Vec<String> {
-        actions.iter().map(|action| (self.action)(*action, direction)).collect()
+        actions.iter().map(|action| (self.action)(*action, direction)).filter(|line| !line.is_empty()).collect()
     }
 }
 

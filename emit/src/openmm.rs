@@ -15,7 +15,8 @@ pub(crate) fn module(step: &Step<'_>) -> String {
 
 fn action(action: Action<'_>, _: Direction) -> String {
     match action {
-        Action::Gradient => "# the force at x is evaluated here".to_owned(),
+        // OpenMM evaluates it
+        Action::Gradient => String::new(),
         Action::Kick(weight) => format!("kick({})", weight.name),
         Action::Drift(weight) => format!("drift({})", weight.name),
         Action::Curvature | Action::GradientKick(_) => unreachable!("schemes with gradient kicks are refused"),

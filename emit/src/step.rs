@@ -48,6 +48,9 @@ impl Weight {
     /// The exact number where that is short, else more digits of it; `None` if they say no more than the literal.
     pub(crate) fn comment(&self) -> Option<String> {
         let text = to_text(&self.exact);
+        if text == self.literal() {
+            return None;
+        }
         match text.len() {
             0..=SHORT => Some(text).filter(|_| Rational::from_float(self.double()).as_ref() != Some(&self.exact)),
             _ => Some(format!("{}…", to_significant(&self.exact, DIGITS))),

@@ -60,7 +60,7 @@ def arkode(folder, file):
 
 def petsc(folder, file):
     program = folder / "program"
-    run(["cc", "-DSELF_TEST", "-O2", "-Wall", "-x", "c", file, "-x", "none", *pkg_config("petsc", "PETSc"), "-lm", "-o", program], folder)
+    run([found("mpicc"), "-DSELF_TEST", "-O2", "-Wall", "-x", "c", file, "-x", "none", *pkg_config("petsc", "PETSc"), "-lm", "-o", program], folder)
     return [program]
 
 

@@ -1,7 +1,7 @@
 ‹provenance›
 //
-// Steps of q' = T_p(p), p' = -U_q(q), where H = T(p) + U(q). A step costs
-// ‹cost›.
+// Steps of q' = T_p(p), p' = -U_q(q), where H = T(p) + U(q).
+// A step costs ‹cost›.
 //
 //     SCHEME_system system = {.n = n, .gradient = gradient};
 //     SCHEME_integrate(&system, h, steps, q, p, work); // work: ‹IDENTIFIER›_WORK * n numbers

@@ -1,7 +1,7 @@
 ‹provenance›
 !
-! Steps of q' = T_p(p), p' = -U_q(q), where H = T(p) + U(q). A step costs
-! ‹cost›.
+! Steps of q' = T_p(p), p' = -U_q(q), where H = T(p) + U(q).
+! A step costs ‹cost›.
 !
 !     use shadowstep_‹identifier›, only: integrate
 !     call integrate(q, p, h, steps, ‹functions›)

@@ -1,7 +1,8 @@
 ‹provenance›
 """
-Steps of q' = T_p(p), p' = -U_q(q), where H = T(p) + U(q). A step costs
-‹cost›.
+Steps of q' = T_p(p), p' = -U_q(q), where H = T(p) + U(q).
+
+A step costs ‹cost›.
 
     include("‹identifier›.jl")
 

@@ -1,14 +1,13 @@
 ‹provenance›
-"""An integrator of OpenMM. A step costs ‹cost›, the force -U_q.
+"""An integrator of OpenMM, with ‹evaluations› a step.
 
     from ‹identifier› import make_integrator
 
     integrator = make_integrator(2 * unit.femtoseconds)
     simulation = Simulation(topology, system, integrator)
 
-It has no thermostat. Constraints are not applied, and a system with constraints or virtual sites
-that depend on them must not use it. Forces that change the state of the context by themselves, such
-as a barostat or CMMotionRemover, act at the beginning of each step.
+It is for systems without constraints and virtual sites, and has no thermostat. What changes the
+state by itself, such as a barostat or CMMotionRemover, acts at the beginning of each step.
 `python ‹identifier›.py` tests this file.
 """
 

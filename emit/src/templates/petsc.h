@@ -8,7 +8,7 @@
 //
 // The split "momentum" has the right-hand side -U_q(q), the split "position" T_p(p).
 // PETSc evaluates the force for each kick; that of the last is not kept for the first of the next step.
-// This file has its own test: cc -DSELF_TEST -x c ‹identifier›.h $(pkg-config --cflags --libs petsc) -lm && ./a.out
+// This file has its own test: mpicc -DSELF_TEST -x c ‹identifier›.h $(pkg-config --cflags --libs petsc) -lm && ./a.out
 #ifndef SHADOWSTEP_‹IDENTIFIER›_PETSC_H
 #define SHADOWSTEP_‹IDENTIFIER›_PETSC_H
 

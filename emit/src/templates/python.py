@@ -1,6 +1,7 @@
 ‹provenance›
-"""Steps of q' = T_p(p), p' = -U_q(q), where H = T(p) + U(q). A step costs
-‹cost›.
+"""Steps of q' = T_p(p), p' = -U_q(q), where H = T(p) + U(q).
+
+A step costs ‹cost›.
 
     from ‹identifier› import integrate
 
