@@ -34,7 +34,7 @@ pub(crate) fn table(step: &Step<'_>) -> String {
 
 /// The maps as exponentials, that which acts first first.
 fn factors(actions: &[Action<'_>]) -> Vec<String> {
-    let factor = |weight: &Weight, exponent: &str| Some(format!("e^{{{} {exponent}}}\\allowbreak", symbol(weight)));
+    let factor = |weight: &Weight, exponent: &str| Some(format!("e^{{{} {exponent}}}\\,\\allowbreak", symbol(weight)));
     let factors = actions.iter().filter_map(|action| match action {
         Action::Kick(weight) => factor(weight, "hK"),
         Action::Drift(weight) => factor(weight, "hD"),
