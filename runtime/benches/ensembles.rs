@@ -122,6 +122,7 @@ fn in_lanes<'a, S, P, const D: usize, const W: usize>(
     scheme: S,
     start: &Start<P>,
     instructions: Instructions,
+    merged: bool,
 ) -> Contestant<'a>
 where
     S: Scheme + ValidFor<Quadratic> + Copy + 'a,
@@ -130,7 +131,12 @@ where
     let stepper = Stepper::new(scheme, "1/100").expect("h is not 0");
     let mut motions = together::<P, D, W>(start);
     let run = move |repetitions: u32| {
-        instructions.only(|| (0..repetitions).for_each(|_| stepper.steps(&mut motions, STEPS)));
+        instructions.only(|| {
+            (0..repetitions).for_each(|_| match merged {
+                true => stepper.merged_steps(&mut motions, STEPS),
+                false => stepper.steps(&mut motions, STEPS),
+            });
+        });
         black_box(&motions);
     };
     (name, Box::new(run))
@@ -176,13 +182,16 @@ where
     let mut contestants = vec![one_by_one::<S, P, D>(scheme, start), in_turn::<S, P, D>(scheme, start)];
     for instructions in Instructions::available() {
         let names = match instructions {
-            Instructions::Plain => ["4 lanes, plain", "8 lanes, plain", "16 lanes, plain"],
-            Instructions::Avx2 => ["4 lanes, AVX2", "8 lanes, AVX2", "16 lanes, AVX2"],
-            Instructions::Avx512 => ["4 lanes, AVX-512", "8 lanes, AVX-512", "16 lanes, AVX-512"],
+            Instructions::Plain => ["4 lanes, plain", "8 lanes, plain", "8 lanes, plain, merged", "16 lanes, plain"],
+            Instructions::Avx2 => ["4 lanes, AVX2", "8 lanes, AVX2", "8 lanes, AVX2, merged", "16 lanes, AVX2"],
+            Instructions::Avx512 => {
+                ["4 lanes, AVX-512", "8 lanes, AVX-512", "8 lanes, AVX-512, merged", "16 lanes, AVX-512"]
+            }
         };
-        contestants.push(in_lanes::<S, P, D, 4>(names[0], scheme, start, instructions));
-        contestants.push(in_lanes::<S, P, D, 8>(names[1], scheme, start, instructions));
-        contestants.push(in_lanes::<S, P, D, 16>(names[2], scheme, start, instructions));
+        contestants.push(in_lanes::<S, P, D, 4>(names[0], scheme, start, instructions, false));
+        contestants.push(in_lanes::<S, P, D, 8>(names[1], scheme, start, instructions, false));
+        contestants.push(in_lanes::<S, P, D, 8>(names[2], scheme, start, instructions, true));
+        contestants.push(in_lanes::<S, P, D, 16>(names[3], scheme, start, instructions, false));
     }
     let title = format!("{name} on {}, {STEPS} steps of {TRAJECTORIES} trajectories", start.title);
     compare(&title, contestants, 100);

@@ -59,6 +59,9 @@ pub struct Ensemble {
     /// The k of [E_k](FixedBilinear), where the drift of the modified energy is computed: from the k + 1 states that begin with each state
     /// whose energy is looked at.
     pub modified_energy: Option<u32>,
+    /// Whether, between states that are looked at, the last map of a step and the first of the next are made as one: faster, with the bits of
+    /// [`Stepper::merged_steps`]. By default they are not.
+    pub merged: bool,
     /// Threads; `None` means as many as the processor has.
     pub threads: Option<NonZero<usize>>,
 }
@@ -66,7 +69,7 @@ pub struct Ensemble {
 impl Default for Ensemble {
     /// No trajectories, no steps, the energy after each step.
     fn default() -> Self {
-        Ensemble { trajectories: 0, steps: 0, every: 1, modified_energy: None, threads: None }
+        Ensemble { trajectories: 0, steps: 0, every: 1, modified_energy: None, merged: false, threads: None }
     }
 }
 
@@ -189,7 +192,7 @@ impl Ensemble {
         let dimension = systems.first().map_or(0, |system| system.q().len());
         let build = |k| FixedBilinear::new(k).build(stepper.step_size(), dimension, &());
         let estimator = self.modified_energy.map(build).transpose().map_err(EnsembleError::Estimator)?;
-        let followed = follow(stepper, systems, (self.steps, self.every), estimator.as_ref(), continues);
+        let followed = follow(stepper, systems, (self.steps, self.every, self.merged), estimator.as_ref(), continues);
         let mut outcomes = followed.ok_or(EnsembleError::Stopped)?;
         outcomes.truncate(end - first);
         Ok(outcomes)

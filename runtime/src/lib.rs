@@ -103,6 +103,7 @@ mod processor;
 pub mod recorded;
 pub mod run;
 pub mod scheme;
+mod scheme_maps;
 pub mod shadow;
 pub mod step_size;
 pub mod stepper;

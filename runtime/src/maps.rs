@@ -1,4 +1,6 @@
-//! The sequence of kicks, drifts, gradient kicks and middle parts that is a step.
+//! Sequences of kicks, drifts, gradient kicks and middle parts, such as the steps of a run.
+
+use std::ops::Range;
 
 pub use shadowstep_schemes::MapKind;
 
@@ -21,50 +23,24 @@ impl PartOrder {
     }
 }
 
-/// The maps of a step in their order, with their weights.
-#[derive(Clone, Copy, Debug)]
-pub struct Maps<'a, N> {
-    kicks: &'a [N],
-    drifts: &'a [N],
-    middle_weights: &'a [N],
-    gradient_kicks: &'a [N],
-    maps: &'a [(MapKind, usize)],
-    middle: &'a [usize],
-}
-
-impl<'a, N> Maps<'a, N> {
-    /// So many weights of kicks, then those of drifts, then so many of middle parts and of gradient kicks; each map has the place of its weight
-    /// among those of its kind, and `middle` those between each map and the next.
-    pub(crate) fn new(
-        weights: &'a [N],
-        (kicks, maps): (usize, &'a [(MapKind, usize)]),
-        (middle_weights, middle): (usize, &'a [usize]),
-        gradient_kicks: usize,
-    ) -> Self {
-        let (kicks, others) = weights.split_at(kicks);
-        let (others, gradient_kicks) = others.split_at(others.len() - gradient_kicks);
-        let (drifts, middle_weights) = others.split_at(others.len() - middle_weights);
-        Maps { kicks, drifts, middle_weights, gradient_kicks, maps, middle }
-    }
-
-    /// The weight of the middle parts between the map at this index and the next, in the order that is [their order](PartOrder::after) after
-    /// it; `None` for H of two parts.
-    #[inline(always)]
-    pub fn middle_after(&self, index: usize) -> Option<&'a N> {
-        self.middle.get(index).map(|&place| &self.middle_weights[place])
-    }
-
-    /// One after the other, without the middle parts.
-    #[inline(always)]
-    pub fn iter(&self) -> impl Iterator<Item = (MapKind, &'a N)> {
-        let Maps { kicks, drifts, gradient_kicks, maps, .. } = *self;
-        maps.iter().map(
-            #[inline(always)]
-            move |&(kind, index)| match kind {
-                MapKind::Kick => (kind, &kicks[index]),
-                MapKind::Drift => (kind, &drifts[index]),
-                MapKind::GradientKick => (kind, &gradient_kicks[index]),
-            },
-        )
-    }
+/// The maps of a run of steps, one after the other.
+///
+/// Its type knows the scheme, so that a loop over the maps of generated code is unrolled wherever it is compiled.
+pub trait MapSequence<N> {
+    /// Calls `map` for the maps of these steps of a run of so many: its kind, its weight, and the weight of the middle parts after it, in the order
+    /// that is [theirs](PartOrder::after) there; `None` for H of two parts.
+    ///
+    /// ```
+    /// use shadowstep::System;
+    /// use shadowstep::scheme::{MapKind, MapSequence};
+    ///
+    /// fn advance<M: System>(system: &mut M, maps: &impl MapSequence<M::Number>, count: u64) {
+    ///     maps.each(0..count, count, |kind, weight, _| match kind {
+    ///         MapKind::Kick => system.kick(weight),
+    ///         MapKind::Drift => system.drift(weight),
+    ///         MapKind::GradientKick => system.gradient_kick(weight),
+    ///     });
+    /// }
+    /// ```
+    fn each(&self, steps: Range<u64>, count: u64, map: impl FnMut(MapKind, &N, Option<&N>));
 }

@@ -10,7 +10,7 @@ use crate::displaced::Displacements;
 use crate::instructions;
 use crate::kept::Kept;
 use crate::kinetic::{Kinetic, MassError};
-use crate::maps::{MapKind, Maps};
+use crate::maps::{MapKind, MapSequence};
 use crate::number::Number;
 use crate::partial_sums::add_sum;
 use crate::potential::Potential;
@@ -461,51 +461,53 @@ where
         self.gradient_kick_augmented_here(weight);
     }
 
-    fn advance(motions: &mut [Self], maps: Maps<'_, N>, count: u64) {
+    fn advance(motions: &mut [Self], maps: &impl MapSequence<N>, count: u64) {
         N::in_widest_instructions(
             #[inline(always)]
             || match motions {
-                [Motion { flows, moving, .. }] => flows.advance(moving, &maps, count),
-                many => {
-                    for _ in 0..count {
-                        for (kind, weight) in maps.iter() {
-                            match kind {
-                                MapKind::Kick => {
-                                    for Motion { flows, moving, .. } in &mut *many {
-                                        flows.kick(moving, weight, flows.keeps_rate);
-                                    }
-                                }
-                                MapKind::Drift => {
-                                    for Motion { flows, moving, .. } in &mut *many {
-                                        flows.drift(moving, weight);
-                                    }
-                                }
-                                MapKind::GradientKick => {
-                                    for Motion { flows, moving, .. } in &mut *many {
-                                        flows.gradient_kick(moving, weight, flows.keeps_rate);
-                                    }
-                                }
+                [Motion { flows, moving, .. }] => flows.advance(moving, maps, count),
+                many => maps.each(
+                    0..count,
+                    count,
+                    #[inline(always)]
+                    |kind, weight, _| match kind {
+                        MapKind::Kick => {
+                            for Motion { flows, moving, .. } in &mut *many {
+                                flows.kick(moving, weight, flows.keeps_rate);
                             }
                         }
-                    }
-                }
+                        MapKind::Drift => {
+                            for Motion { flows, moving, .. } in &mut *many {
+                                flows.drift(moving, weight);
+                            }
+                        }
+                        MapKind::GradientKick => {
+                            for Motion { flows, moving, .. } in &mut *many {
+                                flows.gradient_kick(moving, weight, flows.keeps_rate);
+                            }
+                        }
+                    },
+                ),
             },
         );
     }
 
-    fn advance_augmented(motions: &mut [Self], maps: Maps<'_, N>) {
+    fn advance_augmented(motions: &mut [Self], maps: &impl MapSequence<N>) {
         N::in_widest_instructions(
             #[inline(always)]
             || {
                 for motion in motions {
                     motion.clear_increments();
-                    for (kind, weight) in maps.iter() {
-                        match kind {
+                    maps.each(
+                        0..1,
+                        1,
+                        #[inline(always)]
+                        |kind, weight, _| match kind {
                             MapKind::Kick => motion.kick_augmented_here(weight),
                             MapKind::Drift => motion.drift_augmented_here(weight),
                             MapKind::GradientKick => motion.gradient_kick_augmented_here(weight),
-                        }
-                    }
+                        },
+                    );
                 }
             },
         );

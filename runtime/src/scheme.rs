@@ -4,7 +4,7 @@ use shadowstep_symbolic::decimal::from_text;
 
 use crate::Rational;
 use crate::kinetic::Quadratic;
-pub use crate::maps::{MapKind, Maps, PartOrder};
+pub use crate::maps::{MapKind, MapSequence, PartOrder};
 use crate::number::Number;
 use crate::system::System;
 

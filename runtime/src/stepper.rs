@@ -2,10 +2,11 @@
 
 use crate::Rational;
 use crate::displaced::{DisplacementError, Displacements, Weights};
-use crate::maps::{MapKind, Maps};
+use crate::maps::MapKind;
 use crate::number::{Number, Ordered};
 use crate::processor::{Kept, Processor};
 use crate::scheme::{Scheme, StepWeights, ValidFor};
+use crate::scheme_maps::{Maps, MergedMaps};
 use crate::step_size::{StepSize, StepSizeError};
 use crate::system::System;
 
@@ -61,6 +62,8 @@ pub struct Stepper<S: Scheme, N: Number> {
     scheme: S,
     h: StepSize,
     weights: StepWeights<S::Array<N>>,
+    /// Of the last map of a step and the first of the next as one.
+    merged: Option<N>,
     processor: Processor<N>,
 }
 
@@ -89,7 +92,8 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     {
         let h = h.try_into()?;
         let processor = Processor::of(&scheme, h.exact(), context);
-        Ok(Stepper { weights: StepWeights::of(&scheme, h.exact(), context), processor, scheme, h })
+        let merged = merged_weight(&scheme, h.exact(), context);
+        Ok(Stepper { weights: StepWeights::of(&scheme, h.exact(), context), merged, processor, scheme, h })
     }
 
     /// The scheme.
@@ -117,16 +121,6 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         self.weights.back().as_ref()
     }
 
-    /// The exact weights a_s, b_s and c_s, the distinct ones in the order of the plan.
-    fn exact_weights(&self, context: &N::Context) -> Vec<Rational> {
-        let mut exact = Vec::new();
-        self.scheme.weights(|weight| {
-            exact.push(weight.clone());
-            N::zero(context)
-        });
-        exact
-    }
-
     /// How far the gradient kicks of its steps displace positions, for a system that makes them by displaced forces in place of second derivatives: see
     /// [`Displacements`].
     ///
@@ -137,7 +131,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         N: Ordered,
     {
         let (kicks, maps) = self.scheme.maps();
-        let exact = self.exact_weights(&self.weights()[0].context());
+        let exact = exact_weights::<N>(&self.scheme, &self.weights()[0].context());
         let first = exact.len() - self.scheme.gradient_kicks();
         let (linear, gradient_kicks) = exact.split_at(first);
         let scheme = Weights { scheme: self.scheme.summary().name, kicks: &linear[..kicks], gradient_kicks, maps };
@@ -145,8 +139,8 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     }
 
     /// The maps of a step with their weights.
-    fn maps(&self) -> Maps<'_, N> {
-        Maps::new(self.weights(), self.scheme.maps(), self.scheme.middle(), self.scheme.gradient_kicks())
+    fn maps(&self) -> Maps<'_, S, N> {
+        Maps::new(&self.scheme, self.weights())
     }
 
     /// One step: t → t + h.
@@ -209,15 +203,19 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     where
         S: ValidFor<M::Class>,
     {
-        M::advance(systems, self.maps(), count);
+        M::advance(systems, &self.maps(), count);
     }
 
-    /// `count` steps of each of several systems, where the last map of a step and the first of the next are made as one: two drifts, or two
-    /// kicks.
+    /// `count` steps of each of several systems, where the last map of a step and the first of the next are made as one: n steps of
+    /// Störmer–Verlet are n + 1 kicks and n drifts.
     ///
-    /// This is a map less a step, and the round-off is another one than that of [`Stepper::steps`]. Of two kicks only the weights are added, as the
-    /// gradient of the last serves the first anyway; two drifts are a flow less, such as a Kepler orbit. Where a step begins and ends with
-    /// different maps, or with a gradient kick, and for three parts and more, these are its steps.
+    /// This is a map less a step, and its bits are other ones than those of [`Stepper::steps`]: the merged map has the weight h(w + w′), the exact
+    /// product rounded once, and q or p is rounded once where it was twice. Of two kicks no gradient is saved, as that of the last serves the
+    /// first anyway; two drifts are a flow less, such as a Kepler orbit. As no state between two steps is made, take it for
+    /// stretches of steps in which none is wanted.
+    ///
+    /// Where a step begins and ends with different maps, or with a gradient kick, and for three parts and more, these are its steps. As
+    /// [`Stepper::steps`] it is compiled for the widest vector instructions.
     ///
     /// ```
     /// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, tables::shipped};
@@ -234,31 +232,10 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     where
         S: ValidFor<M::Class>,
     {
-        let (kicks, maps) = self.scheme.maps();
-        let &[(kind, first), ref middle @ .., (closing, last)] = maps else { return self.steps(systems, count) };
-        let of_two_parts = self.scheme.middle().1.is_empty();
-        if kind != closing || kind == MapKind::GradientKick || !of_two_parts || count < 2 {
-            return self.steps(systems, count);
+        match &self.merged {
+            Some(weight) => M::advance(systems, &MergedMaps { maps: self.maps(), weight }, count),
+            None => M::advance(systems, &self.maps(), count),
         }
-        let context = systems.first().map_or_else(|| self.weights()[0].context(), System::context);
-        let exact = self.exact_weights(&context);
-        // the merged weight becomes the last of its kind
-        let gradient_kicks = self.scheme.gradient_kicks();
-        let (before, end) = match kind {
-            MapKind::Kick => (0, kicks),
-            _ => (kicks, exact.len() - gradient_kicks),
-        };
-        let merged = self.h() * (&exact[before + first] + &exact[before + last]);
-        let mut weights = self.weights().to_vec();
-        weights.insert(end, N::from_rational(&merged, &context));
-        let kicks = if kind == MapKind::Kick { kicks + 1 } else { kicks };
-        let mut advance = |maps: &[(MapKind, usize)], count| {
-            M::advance(systems, Maps::new(&weights, (kicks, maps), (0, &[]), gradient_kicks), count);
-        };
-        let ending = |index| middle.iter().copied().chain([(kind, index)]).collect::<Vec<_>>();
-        advance(&[(kind, first)], 1);
-        advance(&ending(end - before), count - 1);
-        advance(&ending(last), 1);
     }
 
     /// One step of each of several systems with its [increments](System::increments) of q, p and β, with the bits that
@@ -267,7 +244,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     where
         S: ValidFor<M::Class>,
     {
-        M::advance_augmented(systems, self.maps());
+        M::advance_augmented(systems, &self.maps());
     }
 
     /// One step, with its [increments](System::increments) of q, p and β.
@@ -296,4 +273,25 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     {
         self.scheme.step_back_augmented(&self.weights, system);
     }
+}
+
+/// The exact weights a_s, b_s and c_s, the distinct ones in the order of the plan.
+fn exact_weights<N: Number>(scheme: &impl Scheme, context: &N::Context) -> Vec<Rational> {
+    let mut exact = Vec::new();
+    scheme.weights(|weight| {
+        exact.push(weight.clone());
+        N::zero(context)
+    });
+    exact
+}
+
+/// h(w + w′) of the weights of the last map of a step and the first of the next, where both are kicks or both are drifts of H of two parts.
+fn merged_weight<N: Number>(scheme: &impl Scheme, h: &Rational, context: &N::Context) -> Option<N> {
+    let (kicks, &[(kind, first), .., (closing, last)]) = scheme.maps() else { return None };
+    if kind != closing || kind == MapKind::GradientKick || !scheme.middle().1.is_empty() {
+        return None;
+    }
+    let before = if kind == MapKind::Kick { 0 } else { kicks };
+    let exact = exact_weights::<N>(scheme, context);
+    Some(N::from_rational(&(h * (&exact[before + first] + &exact[before + last])), context))
 }

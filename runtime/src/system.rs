@@ -1,7 +1,7 @@
 //! What a splitting scheme advances: a system with its state, its kicks and its drifts.
 
 use crate::coordinates::Coordinates;
-use crate::maps::{MapKind, Maps, PartOrder};
+use crate::maps::{MapKind, MapSequence, PartOrder};
 use crate::number::Number;
 
 /// A Hamiltonian system H = A + B with its state q, p and β, where the flows of A (*drifts*) and of B (*kicks*) are known.
@@ -107,44 +107,43 @@ pub trait System {
     }
 
     /// `count` steps of several systems, with the bits that their kicks and drifts have one by one: what
-    /// [`Stepper::steps`](crate::Stepper::steps) does. [`Motion`](crate::Motion) does it in the widest instructions.
-    fn advance(systems: &mut [Self], maps: Maps<'_, Self::Number>, count: u64)
+    /// [`Stepper::steps`](crate::Stepper::steps) and [`Stepper::merged_steps`](crate::Stepper::merged_steps) do. [`Motion`](crate::Motion) does
+    /// it in the widest instructions.
+    fn advance(systems: &mut [Self], maps: &impl MapSequence<Self::Number>, count: u64)
     where
         Self: Sized,
     {
-        for _ in 0..count {
-            for (index, (kind, weight)) in maps.iter().enumerate() {
-                match kind {
-                    MapKind::Kick => systems.iter_mut().for_each(|system| system.kick(weight)),
-                    MapKind::Drift => systems.iter_mut().for_each(|system| system.drift(weight)),
-                    MapKind::GradientKick => systems.iter_mut().for_each(|system| system.gradient_kick(weight)),
-                }
-                if let Some(weight) = maps.middle_after(index) {
-                    systems.iter_mut().for_each(|system| system.middle_parts(weight, PartOrder::after(kind)));
-                }
+        maps.each(0..count, count, |kind, weight, between| {
+            match kind {
+                MapKind::Kick => systems.iter_mut().for_each(|system| system.kick(weight)),
+                MapKind::Drift => systems.iter_mut().for_each(|system| system.drift(weight)),
+                MapKind::GradientKick => systems.iter_mut().for_each(|system| system.gradient_kick(weight)),
             }
-        }
+            if let Some(weight) = between {
+                systems.iter_mut().for_each(|system| system.middle_parts(weight, PartOrder::after(kind)));
+            }
+        });
     }
 
     /// One step of several systems with its [increments](System::increments), with the bits that their kicks and drifts have one by one: what
     /// [`Stepper::step_each_augmented`](crate::Stepper::step_each_augmented) does. [`Motion`](crate::Motion) does it in the widest
     /// instructions.
-    fn advance_augmented(systems: &mut [Self], maps: Maps<'_, Self::Number>)
+    fn advance_augmented(systems: &mut [Self], maps: &impl MapSequence<Self::Number>)
     where
         Self: Sized,
     {
         for system in systems {
             system.clear_increments();
-            for (index, (kind, weight)) in maps.iter().enumerate() {
+            maps.each(0..1, 1, |kind, weight, between| {
                 match kind {
                     MapKind::Kick => system.kick_augmented(weight),
                     MapKind::Drift => system.drift_augmented(weight),
                     MapKind::GradientKick => system.gradient_kick_augmented(weight),
                 }
-                if let Some(weight) = maps.middle_after(index) {
+                if let Some(weight) = between {
                     system.middle_parts_augmented(weight, PartOrder::after(kind));
                 }
-            }
+            });
         }
     }
 

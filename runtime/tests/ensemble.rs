@@ -32,7 +32,7 @@ fn columns() -> Columns {
 }
 
 const ENSEMBLE: Ensemble =
-    Ensemble { trajectories: 100, steps: 60, every: 10, modified_energy: Some(6), threads: None };
+    Ensemble { trajectories: 100, steps: 60, every: 10, modified_energy: Some(6), merged: false, threads: None };
 
 fn run<const W: usize>(ensemble: Ensemble) -> Vec<Outcome> {
     let Columns { depth, width, x, p } = columns();
@@ -113,6 +113,26 @@ fn outcomes_do_not_depend_on_lanes_threads_or_instructions() {
     }
 }
 
+/// Only the steps between states that are looked at are merged.
+#[test]
+fn merged_outcomes_are_those_of_merged_steps() {
+    let merged = Ensemble { merged: true, modified_energy: None, threads: NonZero::new(1), ..ENSEMBLE };
+    let found = run::<8>(merged);
+    for instructions in Instructions::available() {
+        assert_eq!(instructions.only(|| run::<16>(merged)), found, "{instructions:?}");
+    }
+    let Columns { depth, width, x, p } = columns();
+    let stepper = Stepper::new(Yoshida4, "1/10").unwrap();
+    for (t, (found, plain)) in found.iter().zip(run::<8>(ENSEMBLE)).enumerate() {
+        let well = Well { depth: depth[t], width: width[t] };
+        let mut motion = Motion::new(well, UnitMasses, [x[t], 0.3], [p[t], 0.1]).unwrap();
+        (0..6).for_each(|_| stepper.merged_steps(std::slice::from_mut(&mut motion), 10));
+        assert_eq!([&found.q[..], &found.p], [motion.q(), motion.p()], "trajectory {t}");
+        // 60 steps of 7 maps, each of which rounds numbers of size 1
+        assert!((found.energy_error - plain.energy_error).abs() < 1e-13, "trajectory {t}");
+    }
+}
+
 #[test]
 fn estimates_may_overlap() {
     let every_step = run::<8>(Ensemble { every: 1, ..ENSEMBLE });
@@ -132,7 +152,7 @@ fn a_trajectory_that_is_not_finite_is_reported_alone() {
         70 => 1e200,
         t => 0.5 + 0.01 * t as f64,
     };
-    let ensemble = Ensemble { trajectories: 80, steps: 40, every: 7, modified_energy: Some(4), threads: None };
+    let ensemble = Ensemble { trajectories: 80, steps: 40, every: 7, modified_energy: Some(4), ..Ensemble::default() };
     let found = ensemble.run::<8, _, _, _>(&stepper, |block| {
         let [zero, speed] = [0.0, 1.1].map(|x| block.lanes(|_| x));
         Motion::new(Kepler, UnitMasses, [block.lanes(x), zero], [zero, speed])
@@ -169,7 +189,7 @@ where
 {
     const TRAJECTORIES: usize = 21;
     let ensemble =
-        Ensemble { trajectories: TRAJECTORIES, steps: 40, every: 10, modified_energy: Some(4), threads: None };
+        Ensemble { trajectories: TRAJECTORIES, steps: 40, every: 10, modified_energy: Some(4), ..Ensemble::default() };
     let stepper = Stepper::new(Yoshida4, "1/20").unwrap();
     for instructions in Instructions::available() {
         let one_thread = Ensemble { threads: NonZero::new(1), ..ensemble };

@@ -145,7 +145,7 @@ impl Ensemble {
     fn trajectories(&self) -> ensemble::Ensemble {
         let Observed { every, modified_energy } = self.observed;
         let (trajectories, steps) = (self.columns.trajectories(), self.first.steps());
-        ensemble::Ensemble { trajectories, steps, every, modified_energy, threads: None }
+        ensemble::Ensemble { trajectories, steps, every, modified_energy, merged: false, threads: None }
     }
 
     fn stepper<S: Scheme>(&self, scheme: S) -> Stepper<S, Lanes<LANES>> {

@@ -26,11 +26,12 @@ pub struct Outcome {
 /// So many steps are made at once at most, as the caller may want to end them.
 const AT_ONCE: u64 = 128;
 
-/// The outcomes of all lanes of the systems, whose energy is looked at every so many steps; `None` where `continues` returns false.
+/// The outcomes of all lanes of the systems after so many steps, merged or not, whose energy is looked at every so many; `None` where
+/// `continues` returns false.
 pub(super) fn follow<const W: usize, S, M>(
     stepper: &Stepper<S, Lanes<W>>,
     mut systems: Vec<M>,
-    (steps, every): (u64, u64),
+    (steps, every, merged): (u64, u64, bool),
     estimator: Option<&EstimatorOf<W>>,
     continues: impl Fn() -> bool,
 ) -> Option<Vec<Outcome>>
@@ -58,7 +59,10 @@ where
             n += 1;
         } else {
             let count = (next - n).min(AT_ONCE);
-            stepper.steps(&mut systems, count);
+            match merged {
+                true => stepper.merged_steps(&mut systems, count),
+                false => stepper.steps(&mut systems, count),
+            }
             n += count;
         }
         if n % AT_ONCE == 0 && !continues() {

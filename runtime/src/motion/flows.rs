@@ -1,10 +1,12 @@
 //! The flows of T(p) and U(q), and what they change.
 
+use std::ops::Range;
+
 use super::curved::{Curved, Parts};
 use crate::gradient_kicks::{GradientKicks, Place};
 use crate::kept::Kept;
 use crate::kinetic::Kinetic;
-use crate::maps::{MapKind, Maps};
+use crate::maps::{MapKind, MapSequence};
 use crate::number::Number;
 use crate::partial_sums::{LONG, add_sum};
 use crate::potential::Potential;
@@ -161,39 +163,45 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
 
     /// `count` steps. A state in arrays is copied, so that the compiler can hold it in registers.
     #[inline(always)]
-    pub(super) fn advance<V, S>(&mut self, moving: &mut Moving<N, V, S>, maps: &Maps<'_, N>, count: u64)
+    pub(super) fn advance<V, S>(&mut self, moving: &mut Moving<N, V, S>, maps: &impl MapSequence<N>, count: u64)
     where
         V: AsRef<[N]> + AsMut<[N]> + Clone,
         S: Summation<N>,
     {
         // the rate is kept for what follows the last step
-        let with_rate = u64::from(self.keeps_rate).min(count);
+        let before = count - u64::from(self.keeps_rate).min(count);
         if std::mem::needs_drop::<Moving<N, V, S>>() {
-            self.advance_in_place::<_, _, false>(moving, maps, count - with_rate);
+            self.advance_in_place::<false, _, _>(moving, maps, 0..before, count);
         } else {
             let mut copy = moving.clone();
-            self.advance_in_place::<_, _, false>(&mut copy, maps, count - with_rate);
+            self.advance_in_place::<false, _, _>(&mut copy, maps, 0..before, count);
             *moving = copy;
         }
-        self.advance_in_place::<_, _, true>(moving, maps, with_rate);
+        self.advance_in_place::<true, _, _>(moving, maps, before..count, count);
     }
 
     #[inline(always)]
-    fn advance_in_place<V, S, const RATE: bool>(&mut self, moving: &mut Moving<N, V, S>, maps: &Maps<'_, N>, count: u64)
-    where
+    fn advance_in_place<const RATE: bool, V, S>(
+        &mut self,
+        moving: &mut Moving<N, V, S>,
+        maps: &impl MapSequence<N>,
+        steps: Range<u64>,
+        count: u64,
+    ) where
         V: AsRef<[N]> + AsMut<[N]>,
         S: Summation<N>,
     {
-        for _ in 0..count {
-            for (kind, weight) in maps.iter() {
-                match kind {
-                    MapKind::Kick => self.kick(moving, weight, RATE),
-                    MapKind::Drift => self.drift(moving, weight),
-                    MapKind::GradientKick => {
-                        self.gradient_kick(moving, weight, RATE);
-                    }
+        maps.each(
+            steps,
+            count,
+            #[inline(always)]
+            |kind, weight, _| match kind {
+                MapKind::Kick => self.kick(moving, weight, RATE),
+                MapKind::Drift => self.drift(moving, weight),
+                MapKind::GradientKick => {
+                    self.gradient_kick(moving, weight, RATE);
                 }
-            }
-        }
+            },
+        );
     }
 }

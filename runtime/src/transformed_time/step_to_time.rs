@@ -1,8 +1,8 @@
 //! The last step of a run in transformed time: to a given physical time.
 
-use crate::maps::Maps;
 use crate::number::{Number, Ordered};
 use crate::scheme::{Scheme, ValidFor};
+use crate::scheme_maps::Maps;
 use crate::stepper::Stepper;
 use crate::system::System;
 
@@ -98,11 +98,7 @@ impl<S: Scheme, N: Ordered> Search<'_, S, N> {
             weight.multiply(part);
         }
         system.set_state(&self.start.0, &self.start.1);
-        M::advance(
-            std::slice::from_mut(system),
-            Maps::new(&self.weights, scheme.maps(), scheme.middle(), scheme.gradient_kicks()),
-            1,
-        );
+        M::advance(std::slice::from_mut(system), &Maps::new(scheme, &self.weights), 1);
         let missed = self.missed(system);
         if !missed.is_finite() {
             system.set_state(&self.start.0, &self.start.1);
