@@ -59,8 +59,8 @@ pub struct Ensemble {
     /// The k of [E_k](FixedBilinear), where the drift of the modified energy is computed: from the k + 1 states that begin with each state
     /// whose energy is looked at.
     pub modified_energy: Option<u32>,
-    /// Whether, between states that are looked at, the last map of a step and the first of the next are made as one: faster, with the bits of
-    /// [`Stepper::merged_steps`]. By default they are not.
+    /// Whether, between states that are looked at, the last map of a step and the first of the next are made as one: faster, with the
+    /// bits of [`Stepper::merged_steps`]. By default they are not.
     pub merged: bool,
     /// Threads; `None` means as many as the processor has.
     pub threads: Option<NonZero<usize>>,

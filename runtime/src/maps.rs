@@ -27,8 +27,8 @@ impl PartOrder {
 ///
 /// Its type knows the scheme, so that a loop over the maps of generated code is unrolled wherever it is compiled.
 pub trait MapSequence<N> {
-    /// Calls `map` for the maps of these steps of a run of so many: its kind, its weight, and the weight of the middle parts after it, in the order
-    /// that is [theirs](PartOrder::after) there; `None` for H of two parts.
+    /// Calls `map` for the maps of these steps of a run of so many: its kind, its weight, and the weight of the middle parts after it, in
+    /// the order that is [theirs](PartOrder::after) there; `None` for H of two parts.
     ///
     /// ```
     /// use shadowstep::System;

@@ -209,10 +209,10 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     /// `count` steps of each of several systems, where the last map of a step and the first of the next are made as one: n steps of
     /// Störmer–Verlet are n + 1 kicks and n drifts.
     ///
-    /// This is a map less a step, and its bits are other ones than those of [`Stepper::steps`]: the merged map has the weight h(w + w′), the exact
-    /// product rounded once, and q or p is rounded once where it was twice. Of two kicks no gradient is saved, as that of the last serves the
-    /// first anyway; two drifts are a flow less, such as a Kepler orbit. As no state between two steps is made, take it for
-    /// stretches of steps in which none is wanted.
+    /// This is a map less a step, and its bits are other ones than those of [`Stepper::steps`]: the merged map has the weight h(w + w′),
+    /// the exact product rounded once, and q or p is rounded once where it was twice. Of two kicks no gradient is saved, as that of the
+    /// last serves the first anyway; two drifts are a flow less, such as a Kepler orbit. As no state between two steps is made, take it
+    /// for stretches of steps in which none is wanted.
     ///
     /// Where a step begins and ends with different maps, or with a gradient kick, and for three parts and more, these are its steps. As
     /// [`Stepper::steps`] it is compiled for the widest vector instructions.

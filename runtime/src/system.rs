@@ -107,8 +107,8 @@ pub trait System {
     }
 
     /// `count` steps of several systems, with the bits that their kicks and drifts have one by one: what
-    /// [`Stepper::steps`](crate::Stepper::steps) and [`Stepper::merged_steps`](crate::Stepper::merged_steps) do. [`Motion`](crate::Motion) does
-    /// it in the widest instructions.
+    /// [`Stepper::steps`](crate::Stepper::steps) and [`Stepper::merged_steps`](crate::Stepper::merged_steps) do.
+    /// [`Motion`](crate::Motion) does it in the widest instructions.
     fn advance(systems: &mut [Self], maps: &impl MapSequence<Self::Number>, count: u64)
     where
         Self: Sized,

@@ -1,5 +1,5 @@
-//! Protects steps whose ends are made as one map: the same states up to round-off for every table and number type, n + 1 kicks for n steps, bits
-//! that are those of the merged maps one by one, in all lanes and vector instructions.
+//! Protects steps whose ends are made as one map: the same states up to round-off for every table and number type, n + 1 kicks for n
+//! steps, bits that are those of the merged maps one by one, in all lanes and vector instructions.
 
 use proptest::prelude::*;
 use shadowstep::instructions::Instructions;
@@ -88,9 +88,9 @@ proptest! {
         let [x, y, u, v] = state;
         let start = Motion::new(HenonHeiles, UnitMasses, [x, y], [u, v]).unwrap();
         let ([merged, one_by_one], maps) = match scheme {
-            0 => (both(&Stepper::new(KickFirst, h.clone()).unwrap(), &start, steps), 3.0),
-            1 => (both(&Stepper::new(DriftFirst, h.clone()).unwrap(), &start, steps), 3.0),
-            _ => (both(&Stepper::new(Yoshida4, h.clone()).unwrap(), &start, steps), 7.0),
+            0 => (both(&Stepper::new(KickFirst, h).unwrap(), &start, steps), 3.0),
+            1 => (both(&Stepper::new(DriftFirst, h).unwrap(), &start, steps), 3.0),
+            _ => (both(&Stepper::new(Yoshida4, h).unwrap(), &start, steps), 7.0),
         };
         // each map rounds numbers below 1/2 a few times, and an error grows at most like the time
         let (time, steps) = (steps as f64 * numerator.abs() as f64 / 200.0, steps as f64);
@@ -106,7 +106,7 @@ proptest! {
 
 /// So many times the operations.
 fn times(count: u64, operations: Operations) -> [u64; 3] {
-    [operations.additions, operations.multiplications, operations.divisions].map(|of_kind| count * of_kind as u64)
+    [operations.additions, operations.multiplications, operations.divisions].map(|of_kind| count * of_kind)
 }
 
 fn sum(parts: [[u64; 3]; 3]) -> [u64; 3] {
