@@ -60,7 +60,7 @@ pub struct Ensemble {
     /// whose energy is looked at.
     pub modified_energy: Option<u32>,
     /// Whether, between states that are looked at, the last map of a step and the first of the next are made as one: faster, with the
-    /// bits of [`Stepper::merged_steps`]. By default they are not.
+    /// bits of [`Stepper::merged_steps`] in stretches of 128 steps at most. By default they are not.
     pub merged: bool,
     /// Threads; `None` means as many as the processor has.
     pub threads: Option<NonZero<usize>>,
