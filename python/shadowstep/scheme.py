@@ -7,7 +7,7 @@ import os
 from functools import cached_property
 from typing import Any, Union
 
-from ._shadowstep import Table, shipped_names
+from ._shadowstep import Table, emit, shipped_names
 
 
 class Scheme:
@@ -109,6 +109,31 @@ class Scheme:
     def doi(self) -> str | None:
         """Its digital object identifier."""
         return self.record["doi"]
+
+    def emit(self, target: str) -> str:
+        """The step as code of another ecosystem, with its provenance and a self-test.
+
+        Parameters
+        ----------
+        target
+            ``"python"``, ``"jax"``, ``"c"``, ``"julia"``, ``"fortran"``, ``"openmm"``, ``"sundials"``, ``"petsc"`` or ``"latex"``.
+
+        Raises
+        ------
+        InputError
+            A scheme that the target cannot express, with the reason.
+
+        Examples
+        --------
+        >>> code = Scheme("yoshida4").emit("python")
+        >>> module = {"__name__": "yoshida4"}
+        >>> exec(code, module)
+        >>> q, p = module["integrate"]([1.0], [0.0], h=1 / 64, steps=64, gradient=lambda q: q)
+        >>> import math
+        >>> bool(abs(q[0] - math.cos(1)) < 1e-8)
+        True
+        """
+        return emit(self._table, target)
 
     def __repr__(self) -> str:
         name, general, quadratic, evaluations = self._table.facts()

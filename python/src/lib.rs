@@ -16,6 +16,7 @@
 //! | [`drift`] | the drift of the modified energy |
 //! | [`work_precision`] | speed against error, and advice |
 //! | [`scene`] | runs that a file describes |
+//! | [`emit`] | schemes as code of other ecosystems |
 //! | [`command`] | the program `shadowstep` |
 //! | [`monitor`] | the monitor of the modified energy, for loops |
 
@@ -23,6 +24,7 @@
 
 mod command;
 mod drift;
+mod emit;
 mod ensemble;
 mod errors;
 mod estimator;
@@ -44,6 +46,8 @@ mod _shadowstep {
     use crate::command::command;
     #[pymodule_export]
     use crate::drift::drift;
+    #[pymodule_export]
+    use crate::emit::emit;
     #[pymodule_export]
     use crate::ensemble::ensemble;
     #[pymodule_export]
