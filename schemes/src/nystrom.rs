@@ -45,13 +45,16 @@ pub fn tree_conditions<A: Arithmetic>(
     let mut conditions = vec![(condition("D", 1, 1), bare_value)];
 
     let mut before: Vec<Vec<A::Value>> = Vec::new();
-    // of each tree the products over the children of its root
+    let has_gradient_kicks = maps.iter().any(|(kind, _)| *kind == MapKind::GradientKick);
+    // of each tree the products over the children of its root, which only gradient kicks need
     let mut at_roots: Vec<Vec<A::Value>> = Vec::new();
     for (i, tree) in trees.iter().enumerate() {
         let mut at_kicks = product_of_children(tree, &bare_before, &before, maps, arithmetic);
-        at_roots.push(at_kicks.clone());
-        for r in (0..maps.len()).filter(|&r| maps[r].0 == MapKind::GradientKick) {
-            at_kicks[r] = with_one_child_inside(tree, r, (&bare_before, &before), &at_roots, arithmetic);
+        if has_gradient_kicks {
+            at_roots.push(at_kicks.clone());
+            for r in (0..maps.len()).filter(|&r| maps[r].0 == MapKind::GradientKick) {
+                at_kicks[r] = with_one_child_inside(tree, r, (&bare_before, &before), &at_roots, arithmetic);
+            }
         }
         let (kicked_before, value) = sums(MapKind::Kick, &at_kicks, maps, arithmetic);
         let name = name(&trees, i);
@@ -96,7 +99,7 @@ fn with_one_child_inside<A: Arithmetic>(
     arithmetic.product(&sum, &arithmetic.integer(2))
 }
 
-/// Σ w_r·v_r over the maps r of one kind before each map, and over all of them; kicks include gradient kicks.
+/// Σ w_r·v_r over the maps r of one kind before each map of the other kind, and over all of them; kicks include gradient kicks.
 fn sums<A: Arithmetic>(
     kind: MapKind,
     values: &[A::Value],
@@ -108,11 +111,11 @@ fn sums<A: Arithmetic>(
         .iter()
         .zip(values)
         .map(|((map, weight), value)| {
-            let before = sum.clone();
             if (*map == MapKind::Drift) == (kind == MapKind::Drift) {
                 arithmetic.add_product(&mut sum, weight, value);
+                return arithmetic.zero();
             }
-            before
+            sum.clone()
         })
         .collect();
     (before, sum)

@@ -149,7 +149,7 @@ pub fn weighed<A: Arithmetic>(maps: &[Map], arithmetic: &A) -> Vec<(MapKind, A::
 /// The coefficients of the prefixes in the product of the exponentials of the maps.
 fn coefficients<A: Arithmetic>(maps: &[(MapKind, A::Value)], prefixes: &[Prefix], arithmetic: &A) -> Vec<A::Value> {
     let longest_run = longest_run(prefixes);
-    let mut values = vec![arithmetic.zero(); prefixes.len()];
+    let (mut values, one) = (vec![arithmetic.zero(); prefixes.len()], arithmetic.one());
     for (kind, weight) in maps {
         if *kind == MapKind::GradientKick {
             multiply_by_gradient_kick(&mut values, prefixes, weight, arithmetic);
@@ -158,17 +158,13 @@ fn coefficients<A: Arithmetic>(maps: &[(MapKind, A::Value)], prefixes: &[Prefix]
         let powers = divided_powers(weight, longest_run, arithmetic);
         // children before parents: what is still to be read is not yet changed
         for index in (0..prefixes.len()).rev().filter(|&i| prefixes[i].last == *kind) {
-            let mut value = values[index].clone();
+            let (shorter, own) = values.split_at_mut(index);
             let mut ancestor = Some(index);
             for power in &powers {
                 let Some(i) = ancestor.filter(|&i| prefixes[i].last == *kind) else { break };
                 ancestor = prefixes[i].parent;
-                match ancestor {
-                    Some(i) => arithmetic.add_product(&mut value, power, &values[i]),
-                    None => arithmetic.add_product(&mut value, power, &arithmetic.one()),
-                }
+                arithmetic.add_product(&mut own[0], power, ancestor.map_or(&one, |i| &shorter[i]));
             }
-            values[index] = value;
         }
     }
     values

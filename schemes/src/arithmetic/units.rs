@@ -57,9 +57,19 @@ impl Units {
                 &mut in_memory[..]
             }
         };
-        for (i, limb) in a.limbs.iter().enumerate() {
-            let left_out = first.saturating_sub(i).min(b.limbs.len());
-            add_multiple(&mut product[(i + left_out).saturating_sub(first)..], &b.limbs[left_out..], *limb);
+        // a power of two has limbs of zeros, which are passed over
+        let (rows, columns) = if b.limbs[0] == 0 { (&b.limbs, &a.limbs) } else { (&a.limbs, &b.limbs) };
+        for (pair, limbs) in rows.chunks(2).enumerate() {
+            let left_out = first.saturating_sub(2 * pair);
+            if left_out > columns.len() || limbs.iter().all(|limb| *limb == 0) {
+                continue;
+            }
+            let (before, others) = columns.split_at(left_out);
+            let sum = &mut product[(2 * pair).saturating_sub(first)..];
+            match *limbs {
+                [low, high] => add_multiples(sum, (before.last().copied().unwrap_or(0), others), [low, high]),
+                _ => add_multiple(sum, others, limbs[0]),
+            }
         }
         self.add(a.negative != b.negative, without_zeros(&product[n - first..]));
     }
@@ -113,6 +123,21 @@ fn add_multiple(sum: &mut [u64], others: &[u64], limb: u64) {
         (*own, carry) = (value as u64, (value >> 64) as u64);
     }
     add_to(high, &[carry]);
+}
+
+/// sum += low·others + high·(2⁶⁴ others + before), for which there is room: two chains of carries at once take little longer than one.
+fn add_multiples(sum: &mut [u64], (before, others): (u64, &[u64]), [low, high]: [u64; 2]) {
+    let (own, rest) = sum.split_at_mut(others.len());
+    let (mut previous, mut low_carry, mut high_carry) = (before, 0, 0);
+    for (own, other) in own.iter_mut().zip(others) {
+        let value = u128::from(*own) + u128::from(low) * u128::from(*other) + u128::from(low_carry);
+        low_carry = (value >> 64) as u64;
+        let value = u128::from(value as u64) + u128::from(high) * u128::from(previous) + u128::from(high_carry);
+        (*own, high_carry) = (value as u64, (value >> 64) as u64);
+        previous = *other;
+    }
+    let value = u128::from(high) * u128::from(previous) + u128::from(low_carry) + u128::from(high_carry);
+    add_to(rest, &[value as u64, (value >> 64) as u64]);
 }
 
 /// a += b, where a is not shorter; returns the carry.
