@@ -5,12 +5,13 @@
 //! use shadowstep::tables::Source;
 //! use shadowstep_scenes::arithmetic::Arithmetic;
 //! use shadowstep_scenes::integrate::Integration;
+//! use shadowstep_scenes::propagator::for_system;
 //! use shadowstep_scenes::run::Run;
 //! use shadowstep_scenes::{System, library};
 //!
 //! let text = "[problem]\nname = \"kepler\"".to_owned();
 //! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::Double)?;
-//! let scheme = library::for_system(library::scheme("yoshida4")?, &system)?;
+//! let scheme = for_system(library::scheme("yoshida4")?, &system)?;
 //! let h = exact("1/20").unwrap();
 //! let run = Run { propagator: &scheme.name, h: &h, steps: 1000, order: None };
 //! let integration =
@@ -41,7 +42,7 @@ use crate::start::{Begin, Steps, Work};
 pub struct Integration<'a> {
     /// H and the initial state.
     pub system: &'a scene::System,
-    /// The scheme, valid for the [system](crate::library::for_system).
+    /// The scheme, valid for the [system](crate::propagator::for_system).
     pub scheme: &'a TableScheme,
     /// The steps.
     pub run: Run<'a>,

@@ -16,7 +16,6 @@ use thiserror::Error;
 
 use crate::error::Error;
 use crate::note::Note;
-use crate::scene::{Parts, System};
 
 /// The name of the exact flow in place of a scheme.
 pub const EXACT_FLOW: &str = "exact-flow";
@@ -214,26 +213,6 @@ pub fn for_many_parts(named: &NamedScheme) -> Result<NamedScheme, (String, Strin
             Err((error.to_string(), "use a composition of the leapfrog, such as suzuki4 or blanes-moan-s6".to_owned()))
         }
     }
-}
-
-/// The scheme with steps for a system: for every T(p) or for many parts, where that is needed.
-///
-/// # Errors
-/// A scheme that is not valid for the system: for quadratic T only where T is not, for two parts, with gradient kicks that it has not, processed
-/// in transformed time.
-pub fn for_system(named: NamedScheme, system: &System) -> Result<NamedScheme, Error> {
-    let usage = |(message, hint)| Error::usage(message, hint);
-    if matches!(system.parts, Parts::Formulas(_)) {
-        return for_many_parts(&named).map_err(usage);
-    }
-    check_gradient_kicks(&named, system.no_gradient_kicks()).map_err(usage)?;
-    if system.has_general_kinetic() {
-        check_general(&named).map_err(usage)?;
-    }
-    if system.transformed_time().is_some() {
-        check_transformed_time(&named).map_err(usage)?;
-    }
-    Ok(named)
 }
 
 /// Whether a scheme can advance a system in transformed time.

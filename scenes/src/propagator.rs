@@ -11,7 +11,7 @@ use shadowstep::{StepSize, Stepper};
 use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme};
 use crate::run::Run;
-use crate::scene::System;
+use crate::scene::{Parts, System};
 
 /// A scheme, or the exact flow, on which an estimator shows its own error.
 #[derive(Debug)]
@@ -56,7 +56,7 @@ impl Propagator {
                 }
             };
         }
-        Ok(Propagator::Scheme(Box::new(library::for_system(library::scheme(word)?, system)?)))
+        Ok(Propagator::Scheme(Box::new(for_system(library::scheme(word)?, system)?)))
     }
 
     /// The name by which it was asked for.
@@ -165,4 +165,24 @@ fn take_all<T: States, E: Estimator<T::Number>>(
         take(n, estimate)?;
     }
     Ok(())
+}
+
+/// The scheme with steps for a system: for every T(p) or for many parts, where that is needed.
+///
+/// # Errors
+/// A scheme that is not valid for the system: for quadratic T only where T is not, for two parts, with gradient kicks that it has not, processed
+/// in transformed time.
+pub fn for_system(named: NamedScheme, system: &System) -> Result<NamedScheme, Error> {
+    let usage = |(message, hint)| Error::usage(message, hint);
+    if matches!(system.parts, Parts::Formulas(_)) {
+        return library::for_many_parts(&named).map_err(usage);
+    }
+    library::check_gradient_kicks(&named, system.no_gradient_kicks()).map_err(usage)?;
+    if system.has_general_kinetic() {
+        library::check_general(&named).map_err(usage)?;
+    }
+    if system.transformed_time().is_some() {
+        library::check_transformed_time(&named).map_err(usage)?;
+    }
+    Ok(named)
 }
