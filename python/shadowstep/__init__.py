@@ -18,6 +18,7 @@ from .ensemble import Ensemble, ensemble
 from .integration import Trajectory, integrate
 from .monitor import Monitor, Report, Sample
 from .problem import Problem
+from .recorded import Diagnosis, Observer, ShadowEnergy, diagnose, shadow_energy
 from .scene import Outcome, run, scene
 from .scheme import Scheme, schemes
 from .work_precision import Advice, Choice, Curve, Measurement, advise, work_precision
@@ -26,9 +27,11 @@ __all__ = [
     "Advice",
     "Choice",
     "Curve",
+    "Diagnosis",
     "Ensemble",
     "InputError",
     "Monitor",
+    "Observer",
     "Outcome",
     "Problem",
     "Report",
@@ -36,16 +39,19 @@ __all__ = [
     "RunError",
     "Sample",
     "Scheme",
+    "ShadowEnergy",
     "Trajectory",
     "__version__",
     "advise",
     "command",
+    "diagnose",
     "drift",
     "ensemble",
     "integrate",
     "run",
     "scene",
     "schemes",
+    "shadow_energy",
     "sweep",
     "work_precision",
 ]

@@ -19,6 +19,7 @@
 //! | [`emit`] | schemes as code of other ecosystems |
 //! | [`command`] | the program `shadowstep` |
 //! | [`monitor`] | the monitor of the modified energy, for loops |
+//! | [`recorded`] | trajectories that other programs have computed |
 
 #![allow(clippy::needless_pass_by_value)] // arguments from Python have no owner
 
@@ -32,6 +33,7 @@ mod given;
 mod integrate;
 mod monitor;
 mod own_forces;
+mod recorded;
 mod scene;
 mod scheme;
 mod waiting;
@@ -58,6 +60,10 @@ mod _shadowstep {
     use crate::integrate::integrate;
     #[pymodule_export]
     use crate::monitor::Monitor;
+    #[pymodule_export]
+    use crate::recorded::{
+        Observer, energies_of_log, energies_of_states, momenta_of_half_steps, momenta_with_forces, unwrapped,
+    };
     #[pymodule_export]
     use crate::scene::{run_scene, scene_text};
     #[pymodule_export]

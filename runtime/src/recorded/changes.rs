@@ -65,7 +65,7 @@ impl Changes {
         rms / (NORMAL * median(sizes))
     }
 
-    /// The largest sudden changes, the largest first.
+    /// Sudden changes, the largest first. At the ends of a window, where a change may be the beginning of a larger one, there are none.
     pub(super) fn jumps(&self) -> Vec<Jump> {
         let usual = NORMAL * median(self.after(1).map(|(_, change)| change.abs()).collect());
         let mut largest: Vec<(i64, f64)> = self.after(1).filter(|(_, change)| change.abs() > JUMP * usual).collect();
@@ -73,7 +73,7 @@ impl Changes {
         let mut jumps: Vec<Jump> = Vec::new();
         for (n, _) in largest {
             if jumps.iter().all(|jump| (jump.n - n - 1).abs() > LAG as i64) {
-                let across = (0..=LAG as i64 / 2).rev().find_map(|i| Some(self.value(n + 1 + i)? - self.value(n - i)?));
+                let across = self.value(n + 4).zip(self.value(n - 3)).map(|(after, before)| after - before);
                 jumps.extend(across.map(|energy| Jump { n: n + 1, energy }));
             }
         }

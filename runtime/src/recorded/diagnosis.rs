@@ -22,6 +22,8 @@ const ERROR_FACTOR: f64 = 3.0;
 const EXCESS: [f64; 2] = [8.0, 0.03];
 /// H̄ changes at few states only where the isolation is above this.
 const ISOLATED: f64 = 3.0;
+/// The steps do not resolve the motion where eighth differences of smooth forces are this part of the forces or more.
+const UNRESOLVED: f64 = 0.01;
 /// Exponents of forces that are noise, jump, or have a derivative that jumps, are below these.
 const NOISE: f64 = 0.5;
 const JUMPS: f64 = 2.0;
@@ -81,8 +83,9 @@ pub struct Diagnosis {
 /// | not the gradient | the excess is above 8, the exponent 2 or more |
 /// | energy not smooth | the excess is above 8 |
 /// | noise | the exponent is below 0.5 |
-/// | forces not smooth | the exponent is below 2; or below 4, and the excess above 0.03 |
-/// | time step | the excess is below 0.03 |
+/// | forces not smooth | the exponent is below 2, and the eighth differences of the forces are below 0.01 of these |
+/// | time step | the exponent is 2 or more; and the excess is below 0.03, or the differences are 0.01 of the forces or more |
+/// | forces not smooth | the exponent is from 2 to 4 |
 /// | not decided | none of these, or no gradients are logged |
 ///
 /// The excess, the isolation and the exponent are those of the [`Diagnosis`]. `docs/recorded-trajectories.md` has what they are in an experiment.
@@ -208,7 +211,7 @@ impl Diagnosis {
     }
 
     fn of_forces(&self, in_a_step: f64) -> Cause {
-        let Some((Smoothness { exponent, differences, .. }, excess)) = self.smoothness.zip(self.excess) else {
+        let Some((Smoothness { gradient, exponent, differences }, excess)) = self.smoothness.zip(self.excess) else {
             return Cause::Undecided;
         };
         let [above, below] = EXCESS;
@@ -225,12 +228,14 @@ impl Diagnosis {
                 Cause::EnergyNotSmooth { size: in_a_step }
             };
         }
+        let is_unresolved = differences >= UNRESOLVED * gradient;
         match exponent {
             _ if excess.is_nan() || exponent.is_nan() => Cause::Undecided,
             ..NOISE => Cause::Noise { size: differences },
+            ..JUMPS if is_unresolved => Cause::Undecided,
             ..JUMPS => Cause::ForcesNotSmooth,
-            ..KINKS if excess > below => Cause::ForcesNotSmooth,
-            _ if excess <= below => Cause::TimeStep,
+            _ if is_unresolved || excess <= below => Cause::TimeStep,
+            ..KINKS => Cause::ForcesNotSmooth,
             _ => Cause::Undecided,
         }
     }

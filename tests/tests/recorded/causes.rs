@@ -130,6 +130,9 @@ fn lists_that_are_renewed_too_late_are_found_with_their_places() {
     let holds = matches!(found.cause, Cause::Jumps { size } if size > 1e-3);
     assert!(holds, "{found}");
     assert!(found.jumps.iter().take(5).all(|jump| jump.n % 100 == 0), "{:?}", found.jumps);
+    // what H̄ changes by is the sum of the jumps
+    let sum: f64 = found.jumps.iter().map(|jump| jump.energy).sum();
+    assert!((sum - found.change).abs() < 0.02 * found.range, "{sum}: {found}");
     let found = with(0.002, late(1));
     assert_eq!(found.cause, Cause::Nothing, "{found}");
 }

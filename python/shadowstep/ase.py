@@ -1,0 +1,88 @@
+"""The modified energy of molecular dynamics with ASE."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from ase.md.verlet import VelocityVerlet
+
+from ._shadowstep import InputError
+from .monitor import Sample
+from .recorded import Diagnosis, Observer
+
+
+class ShadowMonitor:
+    """Follows the modified energy of a run with ASE's `VelocityVerlet`, and says what moves the energy.
+
+    Parameters
+    ----------
+    atoms
+        The atoms, with a calculator that gives energies and forces. Their positions are not wrapped during the run.
+    dyn
+        The dynamics: a `VelocityVerlet` of these atoms without constraints. The monitor attaches itself.
+    every
+        A window of 17 successive states in so many steps; at 17 and below, all states.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from ase import units
+    >>> from ase.build import bulk
+    >>> from ase.calculators.emt import EMT
+    >>> from ase.md.velocitydistribution import thermalize_momenta
+    >>> from ase.md.verlet import VelocityVerlet
+    >>> from shadowstep.ase import ShadowMonitor
+    >>> atoms = bulk("Cu", cubic=True)
+    >>> atoms.calc = EMT()
+    >>> thermalize_momenta(atoms, 300, rng=np.random.default_rng(1))
+    >>> dyn = VelocityVerlet(atoms, timestep=2 * units.fs)
+    >>> monitor = ShadowMonitor(atoms, dyn)
+    >>> dyn.run(100)
+    True
+    >>> monitor.diagnosis().cause
+    'nothing'
+    """
+
+    def __init__(self, atoms: Any, dyn: Any, every: int = 1) -> None:
+        if type(dyn) is not VelocityVerlet:
+            found = type(dyn).__name__
+            raise InputError(f"the modified energy is that of velocity Verlet, and the dynamics are {found}: use ase.md.verlet.VelocityVerlet")
+        if dyn.atoms is not atoms:
+            raise InputError("the dynamics are those of other atoms")
+        if atoms.constraints:
+            raise InputError("the atoms have constraints, with which the steps are no velocity Verlet: remove them")
+        self._atoms = atoms
+        self._dyn = dyn
+        self._observer = Observer(np.repeat(atoms.get_masses(), 3), float(dyn.dt))
+        self._every = max(int(every), 1)
+        self._before: int | None = None
+        self.newest: Sample | None = None
+        """The newest estimate; None before the first."""
+        dyn.attach(self._take, interval=1)
+
+    def _take(self) -> None:
+        n = self._dyn.nsteps
+        if self._every > self._observer.window and n % self._every >= self._observer.window:
+            return
+        if n != (0 if self._before is None else self._before + 1):
+            self._observer.begin(n)
+        self._before = n
+        atoms = self._atoms
+        energy = atoms.get_potential_energy(force_consistent=_is_force_consistent(atoms.calc))
+        sample = self._observer.observe(atoms.positions, atoms.get_momenta(), energy, atoms.get_forces())
+        self.newest = sample or self.newest
+
+    @property
+    def values(self) -> dict[str, np.ndarray]:
+        """Arrays ``n``, ``modified_energy``, ``error`` and ``energy`` of all states that have an estimate; energies are in eV."""
+        return self._observer.values
+
+    def diagnosis(self) -> Diagnosis:
+        """What moves the energy, as far as the states so far tell; energies are in eV, forces in eV/Å."""
+        return self._observer.diagnosis()
+
+
+def _is_force_consistent(calculator: Any) -> bool:
+    """Whether the calculator has an energy of its own to which the forces belong, such as a free energy."""
+    return "free_energy" in getattr(calculator, "implemented_properties", ())

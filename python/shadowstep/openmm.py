@@ -1,0 +1,81 @@
+"""The modified energy of molecular dynamics with OpenMM."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import openmm
+from openmm import unit
+
+from ._shadowstep import InputError
+from .monitor import Sample
+from .recorded import Diagnosis, Observer
+
+_OTHER = ("CMMotionRemover", "AndersenThermostat", "MonteCarloBarostat", "MonteCarloAnisotropicBarostat", "MonteCarloMembraneBarostat", "MonteCarloFlexibleBarostat")
+
+
+class ShadowReporter:
+    """A reporter that follows the modified energy of a simulation with OpenMM's `VerletIntegrator`, and says what moves the energy.
+
+    OpenMM's momenta are those of leapfrog, half a step before the positions; they are converted exactly, by the forces.
+
+    Parameters
+    ----------
+    simulation
+        An `openmm.app.Simulation` with a `VerletIntegrator`; no constraints, virtual sites, thermostats, barostats or `CMMotionRemover`. Append the
+        reporter to its ``reporters``.
+    every
+        A window of 17 successive states in so many steps; at 17 and below, all states.
+    """
+
+    def __init__(self, simulation: Any, every: int = 1) -> None:
+        integrator, system = simulation.context.getIntegrator(), simulation.system
+        if not isinstance(integrator, openmm.VerletIntegrator):
+            found = type(integrator).__name__
+            raise InputError(f"the modified energy is that of leapfrog, and the integrator is {found}: use openmm.VerletIntegrator")
+        if system.getNumConstraints():
+            raise InputError(f"the system has {system.getNumConstraints()} constraints, with which the steps are no leapfrog: make it without")
+        others = [type(force).__name__ for force in system.getForces() if type(force).__name__ in _OTHER]
+        if others:
+            raise InputError(f"the system has {', '.join(others)}, which changes states between the steps: remove it")
+        particles = range(system.getNumParticles())
+        if any(system.isVirtualSite(i) for i in particles):
+            raise InputError("the system has virtual sites, whose positions are no coordinates of their own: make it without")
+        masses = np.array([system.getParticleMass(i).value_in_unit(unit.dalton) for i in particles])
+        self._masses = np.repeat(masses, 3)
+        self._observer = Observer(self._masses, integrator.getStepSize().value_in_unit(unit.picosecond))
+        self._every = max(int(every), 1)
+        self._before: int | None = None
+        self.newest: Sample | None = None
+        """The newest estimate; None before the first."""
+
+    def describeNextReport(self, simulation: Any) -> tuple[int, bool, bool, bool, bool, bool]:
+        """OpenMM asks this: in how many steps the next state is needed, and what of it. Positions are not wrapped."""
+        window, done = self._observer.window, simulation.currentStep
+        is_taken = self._every <= window or (done + 1) % self._every < window
+        wait = 1 if is_taken else self._every - done % self._every
+        return (wait, True, True, True, True, False)
+
+    def report(self, simulation: Any, state: Any) -> None:
+        """OpenMM gives a state."""
+        n = simulation.currentStep
+        if n != (0 if self._before is None else self._before + 1):
+            self._observer.begin(n)
+        self._before = n
+        number = lambda quantity, of: np.asarray(quantity.value_in_unit(of))  # noqa: E731
+        q = number(state.getPositions(asNumpy=True), unit.nanometer)
+        v = number(state.getVelocities(asNumpy=True), unit.nanometer / unit.picosecond)
+        forces = number(state.getForces(asNumpy=True), unit.kilojoule_per_mole / unit.nanometer)
+        energy = state.getPotentialEnergy().value_in_unit(unit.kilojoule_per_mole)
+        sample = self._observer.observe(q, v.ravel() * self._masses, energy, forces, half_step=True)
+        self.newest = sample or self.newest
+
+    @property
+    def values(self) -> dict[str, np.ndarray]:
+        """Arrays ``n``, ``modified_energy``, ``error`` and ``energy`` of all states that have an estimate; energies are in kJ/mol."""
+        return self._observer.values
+
+    def diagnosis(self) -> Diagnosis:
+        """What moves the energy, as far as the states so far tell; energies are in kJ/mol, forces in kJ/mol/nm."""
+        return self._observer.diagnosis()

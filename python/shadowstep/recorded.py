@@ -1,0 +1,272 @@
+"""The modified energy of trajectories that other programs have computed."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Union
+
+import numpy as np
+
+from . import _shadowstep
+from .exact import Number, exact
+from .monitor import Sample
+from .problem import Problem
+from .scheme import Scheme
+
+
+class ShadowEnergy(NamedTuple):
+    """The modified energy along a log."""
+
+    values: np.ndarray
+    """H̄ of each state, of shape (n,): NaN at the ends, where an estimate has too few states. For an odd k, H̄ between the state and the next one."""
+    errors: np.ndarray
+    """The estimated errors."""
+
+
+def shadow_energy(
+    q: Any,
+    p: Any,
+    potential: Union[Problem, tuple[Any, Any]],
+    h: Number,
+    k: int = 8,
+    *,
+    masses: Any = 1.0,
+    scheme: Union[Scheme, str, os.PathLike[str]] = "stormer-verlet",
+    half_steps: bool = False,
+    cell: Any = None,
+) -> ShadowEnergy:
+    """The modified energy H̄ along states of another program, by the estimator E_k.
+
+    Parameters
+    ----------
+    q, p
+        Positions and momenta at equal distances h in time, of shape (n, d) or (n, atoms, 3).
+    potential
+        A pair (U, forces) with the forces in the shape of q, or (U, rate) with the rate qᵀU_q − 2U of shape (n,), as the program has logged them; or a `Problem`, in
+        which each step is then made again.
+    masses
+        One for all, for each atom, or for each coordinate. A `Problem` has its own.
+    scheme
+        The scheme of the steps, where a `Problem` is given; logs are those of velocity Verlet.
+    half_steps
+        Whether the momenta are those of leapfrog: half a step before each state where forces are given, else with a row more than there are states, for those
+        before and after.
+    cell
+        The vectors of a periodic box, of shape (3, 3) or three lengths, where positions are wrapped into it.
+
+    Returns
+    -------
+    ShadowEnergy
+        Values and errors of shape (n,).
+
+    Examples
+    --------
+    >>> import numpy as np, shadowstep
+    >>> orbit = shadowstep.integrate(shadowstep.Problem("pendulum"), "stormer-verlet", h=0.1, steps=200)
+    >>> values, errors = shadowstep.shadow_energy(orbit.q, orbit.p, (-np.cos(orbit.q[:, 0]), -np.sin(orbit.q)), h=0.1)
+    >>> bool(np.nanmax(values) - np.nanmin(values) < 1e-10 < 1e-4 < np.ptp(orbit.energy))
+    True
+    """
+    q, p = _rows(q), _rows(p)
+    step = exact(h, "h")
+    if cell is not None:
+        q = _unwrapped(q, cell)
+    if isinstance(potential, Problem):
+        if half_steps:
+            p = _of_half_steps(len(q), p)
+        table = (scheme if isinstance(scheme, Scheme) else Scheme(scheme))._table
+        found = _shadowstep.energies_of_states(q, p, potential._given, table, step, k)
+    else:
+        energies, derivatives = potential
+        energies, derivatives = np.ascontiguousarray(energies, dtype=np.float64), np.asarray(derivatives, dtype=np.float64)
+        forces = None if derivatives.ndim == 1 else _rows(derivatives)
+        rates = derivatives if derivatives.ndim == 1 else None
+        if half_steps:
+            p = _of_half_steps(len(q), p) if forces is None else _with_forces(step, p, forces)
+        found = _shadowstep.energies_of_log(q, p, energies, forces, rates, _masses(masses, q.shape[1]), step, k)
+    values, errors = np.full(len(q), np.nan), np.full(len(q), np.nan)
+    n = np.asarray(found[0], dtype=np.int64)
+    values[n], errors[n] = found[1], found[2]
+    return ShadowEnergy(values, errors)
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What moves the energy of a trajectory that another program has computed. Printed, it is some lines with the numbers."""
+
+    cause: str
+    """``nothing``, ``time-step``, ``noise``, ``forces-not-smooth``, ``energy-not-smooth``, ``jumps``, ``not-the-gradient``, ``other-steps``, ``digits`` or
+    ``undecided``."""
+    size: float | None
+    """Of noise, that of the forces; of jumps, that of the energy."""
+    reason: str
+    """The cause, a sentence with numbers."""
+    text: str
+    states: int
+    """How many states were taken."""
+    estimates: int
+    """How many estimates H̄ there are."""
+    kinetic: float
+    """The mean kinetic energy T."""
+    energy_error: float
+    """max − min of H."""
+    change: float
+    """The last H̄ less the first one."""
+    range: float
+    """max − min of H̄."""
+    moved: float
+    """That beyond three errors of the estimates on both sides."""
+    known_to: float
+    """The median of the errors of H̄."""
+    time: float
+    """From the first estimate to the last."""
+    forces: float | None
+    """The root mean square of the forces."""
+    force_differences: float | None
+    """That of their eighth differences in time, divided by √C(16, 8)."""
+    exponent: float | None
+    """How the squares of these grow with the distance of the states: 0 for noise, 1 where U′ jumps, 3 where U″ does, 16 for smooth forces."""
+    excess: float | None
+    """What H̄ changes by in a step, squared, beside what noise of the forces would make of it: 1 for noise."""
+    isolation: float
+    """How far the changes of H̄ are those of few states: 1 for noise."""
+    off_q: float | None
+    """By how much q of the states differs from the steps, as a part of them."""
+    off_p: float | None
+    """The same of p."""
+    jumps: list[tuple[int, float]]
+    """States before which H̄ changes suddenly, and by how much, the largest first."""
+
+    def __str__(self) -> str:
+        return self.text
+
+
+class Observer:
+    """Follows a trajectory that another program computes by velocity Verlet or leapfrog.
+
+    Parameters
+    ----------
+    masses
+        One for each coordinate, or for each atom in space.
+    h
+        The step size.
+    cell
+        The vectors of a periodic box, where positions are wrapped into it.
+
+    Examples
+    --------
+    >>> import numpy as np, shadowstep
+    >>> orbit = shadowstep.integrate(shadowstep.Problem("pendulum"), "stormer-verlet", h=0.1, steps=200)
+    >>> observer = shadowstep.Observer([1.0], h=0.1)
+    >>> for q, p in zip(orbit.q, orbit.p):
+    ...     sample = observer.observe(q, p, energy=-np.cos(q[0]), forces=-np.sin(q))
+    >>> sample.n, observer.diagnosis().cause
+    (192, 'nothing')
+    """
+
+    def __init__(self, masses: Any, h: Number, *, cell: Any = None, periodic: Sequence[bool] = (True, True, True)) -> None:
+        masses = np.asarray(masses, dtype=np.float64).ravel()
+        cell = None if cell is None else _cell(cell).tolist()
+        self._observer = _shadowstep.Observer(masses.tolist(), exact(h, "h"), cell, [bool(along) for along in periodic])
+
+    @property
+    def window(self) -> int:
+        """How many successive states a window needs."""
+        return self._observer.window
+
+    def begin(self, n: int) -> None:
+        """A new window begins: the next state is the state n, which does not follow the newest by a step."""
+        self._observer.begin(n)
+
+    def observe(self, q: Any, p: Any, energy: float, forces: Any, *, half_step: bool = False) -> Sample | None:
+        """Takes the next state; gives the estimate that it completes.
+
+        Parameters
+        ----------
+        q, p, forces
+            Of the state, of any shape with a number for each coordinate.
+        energy
+            U(q)
+        half_step
+            Whether p is that of leapfrog, half a step before q.
+        """
+        found = self._observer.observe(_flat(q), _flat(p), float(energy), _flat(forces), half_step)
+        return None if found is None else Sample(*found)
+
+    @property
+    def values(self) -> dict[str, np.ndarray]:
+        """Arrays ``n``, ``modified_energy``, ``error`` and ``energy`` of all states that have an estimate."""
+        n, (modified, error, energy) = self._observer.values()
+        numbers = {"modified_energy": modified, "error": error, "energy": energy}
+        return {"n": np.asarray(n, dtype=np.int64), **{name: np.asarray(of) for name, of in numbers.items()}}
+
+    def diagnosis(self) -> Diagnosis:
+        """What moves the energy, as far as the states so far tell."""
+        return Diagnosis(**self._observer.diagnosis())
+
+
+def diagnose(
+    q: Any,
+    p: Any,
+    potential: tuple[Any, Any],
+    h: Number,
+    *,
+    masses: Any = 1.0,
+    half_steps: bool = False,
+    cell: Any = None,
+) -> Diagnosis:
+    """What moves the energy of a log of q, p, U and forces; the arguments are those of `shadow_energy`.
+
+    Examples
+    --------
+    >>> import numpy as np, shadowstep
+    >>> orbit = shadowstep.integrate(shadowstep.Problem("pendulum"), "stormer-verlet", h=0.1, steps=200)
+    >>> U, forces = -np.cos(orbit.q[:, 0]), -np.sin(orbit.q)
+    >>> shadowstep.diagnose(orbit.q, orbit.p, (U, forces), h=0.1).cause
+    'nothing'
+    >>> shadowstep.diagnose(orbit.q, orbit.p, (U, forces), h=0.101).cause
+    'other-steps'
+    """
+    q, p, energies, forces = _rows(q), _rows(p), np.asarray(potential[0], dtype=np.float64), _rows(potential[1])
+    if not len(q) == len(p) == len(energies) == len(forces):
+        lengths = f"{len(q)}, {len(p)}, {len(energies)} and {len(forces)}"
+        raise _shadowstep.InputError(f"q, p, U and forces have {lengths} states: give as many of each")
+    observer = Observer(_masses(masses, q.shape[1]), h, cell=cell)
+    for state in zip(q, p, energies, forces):
+        observer.observe(*state, half_step=half_steps)
+    return observer.diagnosis()
+
+
+def _flat(array: Any) -> np.ndarray:
+    return np.ascontiguousarray(array, dtype=np.float64).ravel()
+
+
+def _rows(array: Any) -> np.ndarray:
+    array = np.ascontiguousarray(array, dtype=np.float64)
+    return array.reshape(len(array), -1)
+
+
+def _masses(masses: Any, dimension: int) -> list[float]:
+    masses = np.asarray(masses, dtype=np.float64).ravel()
+    if masses.size == 1:
+        return [float(masses[0])] * dimension
+    return (np.repeat(masses, 3) if 3 * masses.size == dimension else masses).tolist()
+
+
+def _cell(cell: Any) -> np.ndarray:
+    cell = np.asarray(cell, dtype=np.float64)
+    return np.diag(cell) if cell.shape == (3,) else cell
+
+
+def _unwrapped(q: np.ndarray, cell: Any) -> np.ndarray:
+    return np.asarray(_shadowstep.unwrapped(q, _cell(cell).tolist(), [True] * 3)).reshape(q.shape)
+
+
+def _of_half_steps(states: int, p: np.ndarray) -> np.ndarray:
+    return np.asarray(_shadowstep.momenta_of_half_steps(states, p)).reshape(states, -1)
+
+
+def _with_forces(h: str, p: np.ndarray, forces: np.ndarray) -> np.ndarray:
+    return np.asarray(_shadowstep.momenta_with_forces(h, p, forces)).reshape(p.shape)
