@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from importlib.util import find_spec
 from time import monotonic
 from typing import Any
 
@@ -22,7 +23,10 @@ def bar(total: int | None, unit: str, wanted: bool | None) -> Iterator[Callable[
         yield None
         return
     try:
-        from tqdm.auto import tqdm
+        if find_spec("ipywidgets"):  # without it, `tqdm.auto` warns in a notebook
+            from tqdm.auto import tqdm
+        else:
+            from tqdm import tqdm
     except ImportError:
         yield None
         return
