@@ -1,6 +1,6 @@
 # The two commands: `make run` shows what this is for, `make test` checks everything and fetches what is missing.
 
-.PHONY: run test wasm wheel test-python bench-python test-cluster test-emit deps format lint check docs bench stability rivals package fuzz valgrind
+.PHONY: run test wasm wheel python-environment test-python book bench-python test-cluster test-emit deps format lint check docs bench stability rivals package fuzz valgrind
 
 # The paper's main job: the drift of the modified energy on Kepler's problem at 120 digits.
 run:
@@ -50,19 +50,28 @@ $(WHEEL)/tools/bin/maturin:
 	$(PYTHON) -m venv $(WHEEL)/tools
 	$(WHEEL)/tools/bin/pip install --quiet 'maturin>=1.9,<2'
 
-# The Python package in a new virtual environment: its tests, doctests and types. The wheel is one that is built in little time.
-test-python: $(WHEEL)/tools/bin/maturin
+# A new virtual environment with a wheel that is built in little time, and with what tests, notebooks and the book need.
+python-environment: $(WHEEL)/tools/bin/maturin
 	rm -rf $(WHEEL)/wheels $(WHEEL)/test
 	$(WHEEL)/tools/bin/maturin build --profile wheel --locked --compatibility linux --manifest-path python/Cargo.toml --out $(WHEEL)/wheels
 	$(PYTHON) -m venv $(WHEEL)/test
-	$(WHEEL)/test/bin/pip install --quiet "$$(echo $(WHEEL)/wheels/*.whl)[test]"
-	cd python/tests && $(WHEEL)/test/bin/python -m pytest --quiet --doctest-modules --pyargs shadowstep .
+	$(WHEEL)/test/bin/pip install --quiet "$$(echo $(WHEEL)/wheels/*.whl)[$(or $(EXTRAS),test)]"
 
-# What a run costs from Python beside a loop in Rust, on a machine without other load: the table of docs/python.md.
-bench-python: wheel
-	cargo build --release --locked -p shadowstep --example steps-of-kepler
-	$(WHEEL)/tools/bin/pip install --quiet --force-reinstall numba target/wheels/shadowstep-*.whl
-	$(WHEEL)/tools/bin/python python/benches/overhead.py $(abspath $(or $(CARGO_TARGET_DIR),target))/release/examples/steps-of-kepler
+# The Python package in that environment: its tests, doctests, types and notebooks.
+test-python: python-environment
+	cd python/tests && TQDM_DISABLE=1 $(WHEEL)/test/bin/python -m pytest --quiet --doctest-modules --pyargs shadowstep .
+
+# The documentation as pages in target/book, which need no network: texts, notebooks with their outputs, the Python package, and rustdoc's pages beside them.
+# Outputs of notebooks are kept until one of them or the package changes.
+book: EXTRAS = test,book
+book: docs python-environment
+	rm -rf target/book
+	TQDM_DISABLE=1 $(WHEEL)/test/bin/python -m sphinx --fail-on-warning --keep-going --quiet -b html -c docs/book -d $(WHEEL)/book \
+	    -D nb_execution_cache_path=$(WHEEL)/outputs-$$(cat $(WHEEL)/test/lib/python*/site-packages/shadowstep/*.py \
+	        $(WHEEL)/test/lib/python*/site-packages/shadowstep/*.so | sha256sum | cut -c1-16) . target/book
+	cp -r $(or $(CARGO_TARGET_DIR),target)/doc target/book/rust
+	echo '<meta http-equiv="refresh" content="0; url=README.html"><a href="README.html">Shadowstep</a>' > target/book/index.html
+	@echo "The book is target/book/index.html."
 
 # Sweeps on Slurm (of Debian's packages, with a private configuration), with GNU parallel and with Dask, whose tasks and nodes are killed:
 # the results are those of one machine. What is not installed is skipped.

@@ -20,6 +20,9 @@ Forces = Union[int, Callable[[np.ndarray], "tuple[float, np.ndarray]"]]
 class Problem:
     """A system H = T(p) + U(q) with its state at t = 0.
 
+    Numbers may be exact texts such as ``"1/3"``; a float is the decimal that Python prints for it. ``shadowstep run --explain`` describes the
+    keys of [problem], [initial] and [time].
+
     Parameters
     ----------
     system
@@ -42,9 +45,6 @@ class Problem:
     **others
         Parameters by their names, with numbers or texts. Other keys of [problem] are taken as they are: ``coordinates``, ``momenta``,
         ``bodies``, ``dimensions``, ``neighbours``, ``units``, ….
-
-    Numbers may be exact texts such as ``"1/3"``; a float is the decimal that Python prints for it. ``shadowstep run --explain`` describes the
-    keys of [problem], [initial] and [time].
 
     Own forces
     ----------

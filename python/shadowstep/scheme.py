@@ -56,7 +56,7 @@ class Scheme:
 
     @property
     def order(self) -> int | None:
-        """The order r that is proved for every T(p): errors of size h^r. None with gradient kicks, which there are for quadratic T only."""
+        """The order r that is proved for every T(p), with errors of size h^r. None with gradient kicks, which there are for quadratic T only."""
         return self._table.facts()[1]
 
     @property

@@ -1,0 +1,98 @@
+"""The book: README, docs/*.md, the notebooks and the Python package as pages. `make book` builds it into target/book.
+
+The sources stay where they are, so that their links hold on GitHub too; the folder of the sources is therefore that of the repository.
+"""
+
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+NOTEBOOKS = ["outer-planets", "molecular-dynamics", "drift-of-the-modified-energy", "scheme-of-ones-own", "precision"]
+
+# The chapters in the order in which they are read. A page of docs/ or a notebook that is in none of them is a warning, and so an error.
+CHAPTERS = {
+    "Python": ["docs/python", *(f"python/notebooks/{name}" for name in NOTEBOOKS), "docs/book/python-api"],
+    "Rust and the command line": ["docs/library", "docs/command-line", "docs/ensembles", "docs/sweeps", "docs/clusters", "docs/emit", "docs/book/rust-api"],
+    "The modified energy": ["docs/the-modified-energy", "docs/monitor", "docs/recorded-trajectories"],
+    "Schemes": ["docs/schemes", "schemes/tables/README", "docs/gradient-kicks", "docs/processed-schemes", "docs/errata-of-published-tables"],
+    "Systems": ["docs/planets", "docs/linear-part", "docs/many-parts", "docs/transformed-time"],
+    "Numbers": ["docs/numbers", "docs/round-off"],
+    "Measurements": ["docs/work-precision", "docs/speed-against-error", "rivals/README", "docs/speed", "docs/benchmarks", "docs/stability"],
+    "The project": ["ARCHITECTURE", "CONTRIBUTING", "docs/language", "CHANGELOG"],
+}
+
+project = "Shadowstep"
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax", "sphinx-mathjax-offline"]
+root_doc = "README"
+include_patterns = ["README.md", *(f"{page}.*" for pages in CHAPTERS.values() for page in pages), "docs/*.md", "python/notebooks/*.ipynb"]
+exclude_patterns = ["target", ".git", "**.rs", "**.py", "**.toml", "docs/pictures", "docs/sweeps"]
+
+html_theme = "furo"
+html_title = "Shadowstep"
+html_show_sourcelink = False
+html_theme_options = {"navigation_with_keys": True}
+html_static_path = ["style"]
+html_css_files = ["wide-tables.css"]
+
+# formulas are set in the browser, from files of the book
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4
+# a picture of a notebook is one of the book; widgets would need the network
+nb_ipywidgets_js = {}
+nb_execution_mode = "cache"  # in the folder that `make book` names
+nb_execution_timeout = 600
+nb_execution_raise_on_error = True
+nb_execution_show_tb = True
+
+autodoc_member_order = "bysource"
+autodoc_type_aliases = {name: name for name in ("Forces", "Number", "Schemes", "Values")}
+maximum_signature_line_length = 80
+python_use_unqualified_type_names = True
+napoleon_custom_sections = ["Own forces"]
+napoleon_use_rtype = False
+
+
+def setup(app):
+    app.connect("source-read", chapters)
+    app.connect("source-read", sources_of_rust)
+    app.connect("autodoc-process-docstring", bars)
+    app.connect("autodoc-process-signature", names_of_types)
+
+
+def chapters(app, name, source):
+    """The start page has the chapters; README itself has none, as GitHub shows it."""
+    if name == root_doc:
+        trees = [f"```{{toctree}}\n:hidden:\n:caption: {caption}\n\n" + "\n".join(f"/{page}" for page in pages) + "\n```" for caption, pages in CHAPTERS.items()]
+        source[0] += "\n\n" + "\n\n".join(trees) + "\n"
+
+
+def sources_of_rust(app, name, source):
+    """A link to a Rust file of a crate leads to rustdoc's page of it, which is beside the book; one to a folder is its text only."""
+    folder = (ROOT / name).parent
+    source[0] = re.sub(r"\[([^\[\]]*)\]\(([^)#:\s]+)\)", lambda link: link_to_source(folder, *link.groups()) or link[0], source[0])
+
+
+def link_to_source(folder, text, target):
+    path = (folder / target).resolve()
+    if path.is_dir():
+        return text
+    crate, of_crate, file = str(path.relative_to(ROOT)).partition("/src/")
+    if path.suffix == ".rs" and of_crate:
+        up = "../" * len(folder.relative_to(ROOT).parts)
+        return f'<a href="{up}rust/src/{crate_name(crate)}/{file}.html">{text}</a>'
+    return None
+
+
+def crate_name(folder):
+    manifest = (ROOT / folder / "Cargo.toml").read_text()
+    return re.search(r'^name = "([^"]+)"', manifest, re.MULTILINE)[1].replace("-", "_")
+
+
+def bars(app, what, name, obj, options, lines):
+    """|H| is no substitution of reStructuredText, but in literals bars stay."""
+    lines[:] = [line if ">>>" in line else re.sub(r"(``.*?``)|\|", lambda found: found[1] or r"\|", line) for line in lines]
+
+
+def names_of_types(app, what, name, obj, options, signature, returned):
+    """A name in `autodoc_type_aliases` is shown as it is, in unions too."""
+    return re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", signature or ""), returned
