@@ -66,10 +66,11 @@ test-python: python-environment
 book: EXTRAS = test,book
 book: docs python-environment
 	rm -rf target/book
+	mkdir -p target/book
+	cp -r $(or $(CARGO_TARGET_DIR),target)/doc target/book/rust
 	TQDM_DISABLE=1 $(WHEEL)/test/bin/python -m sphinx --fail-on-warning --keep-going --quiet -b html -c docs/book -d $(WHEEL)/book \
 	    -D nb_execution_cache_path=$(WHEEL)/outputs-$$(cat $(WHEEL)/test/lib/python*/site-packages/shadowstep/*.py \
 	        $(WHEEL)/test/lib/python*/site-packages/shadowstep/*.so | sha256sum | cut -c1-16) . target/book
-	cp -r $(or $(CARGO_TARGET_DIR),target)/doc target/book/rust
 	echo '<meta http-equiv="refresh" content="0; url=README.html"><a href="README.html">Shadowstep</a>' > target/book/index.html
 	@echo "The book is target/book/index.html."
 

@@ -6,18 +6,42 @@ The sources stay where they are, so that their links hold on GitHub too; the fol
 import re
 from pathlib import Path
 
+from sphinx.util.logging import getLogger
+
+logger = getLogger(__name__)
 ROOT = Path(__file__).resolve().parents[2]
 NOTEBOOKS = ["outer-planets", "molecular-dynamics", "drift-of-the-modified-energy", "scheme-of-ones-own", "precision"]
 
 # The chapters in the order in which they are read. A page of docs/ or a notebook that is in none of them is a warning, and so an error.
 CHAPTERS = {
     "Python": ["docs/python", *(f"python/notebooks/{name}" for name in NOTEBOOKS), "docs/book/python-api"],
-    "Rust and the command line": ["docs/library", "docs/command-line", "docs/ensembles", "docs/sweeps", "docs/clusters", "docs/emit", "docs/book/rust-api"],
+    "Rust and the command line": [
+        "docs/library",
+        "docs/command-line",
+        "docs/ensembles",
+        "docs/sweeps",
+        "docs/clusters",
+        "docs/emit",
+        "docs/book/rust-api",
+    ],
     "The modified energy": ["docs/the-modified-energy", "docs/monitor", "docs/recorded-trajectories"],
-    "Schemes": ["docs/schemes", "schemes/tables/README", "docs/gradient-kicks", "docs/processed-schemes", "docs/errata-of-published-tables"],
+    "Schemes": [
+        "docs/schemes",
+        "schemes/tables/README",
+        "docs/gradient-kicks",
+        "docs/processed-schemes",
+        "docs/errata-of-published-tables",
+    ],
     "Systems": ["docs/planets", "docs/linear-part", "docs/many-parts", "docs/transformed-time"],
     "Numbers": ["docs/numbers", "docs/round-off"],
-    "Measurements": ["docs/work-precision", "docs/speed-against-error", "rivals/README", "docs/speed", "docs/benchmarks", "docs/stability"],
+    "Measurements": [
+        "docs/work-precision",
+        "docs/speed-against-error",
+        "rivals/README",
+        "docs/speed",
+        "docs/benchmarks",
+        "docs/stability",
+    ],
     "The project": ["ARCHITECTURE", "CONTRIBUTING", "docs/language", "CHANGELOG"],
 }
 
@@ -62,25 +86,28 @@ def setup(app):
 def chapters(app, name, source):
     """The start page has the chapters; README itself has none, as GitHub shows it."""
     if name == root_doc:
-        trees = [f"```{{toctree}}\n:hidden:\n:caption: {caption}\n\n" + "\n".join(f"/{page}" for page in pages) + "\n```" for caption, pages in CHAPTERS.items()]
+        pages = {caption: "\n".join(f"/{page}" for page in pages) for caption, pages in CHAPTERS.items()}
+        trees = [f"```{{toctree}}\n:hidden:\n:caption: {caption}\n\n{names}\n```" for caption, names in pages.items()]
         source[0] += "\n\n" + "\n\n".join(trees) + "\n"
 
 
 def sources_of_rust(app, name, source):
     """A link to a Rust file of a crate leads to rustdoc's page of it, which is beside the book; one to a folder is its text only."""
     folder = (ROOT / name).parent
-    source[0] = re.sub(r"\[([^\[\]]*)\]\(([^)#:\s]+)\)", lambda link: link_to_source(folder, *link.groups()) or link[0], source[0])
 
+    def changed(link):
+        path = (folder / link[2]).resolve()
+        if path.is_dir():
+            return link[1]
+        crate, of_crate, file = str(path.relative_to(ROOT)).partition("/src/")
+        if path.suffix != ".rs" or not of_crate or "/" in crate:
+            return link[0]
+        page = f"rust/{crate_name(crate)}/index.html" if file == "lib.rs" else f"rust/src/{crate_name(crate)}/{file}.html"
+        if not (Path(app.outdir) / page).exists():
+            logger.warning("rustdoc has not written %s, to which %s leads", page, name)
+        return f'<a href="{"../" * len(folder.relative_to(ROOT).parts)}{page}">{link[1]}</a>'
 
-def link_to_source(folder, text, target):
-    path = (folder / target).resolve()
-    if path.is_dir():
-        return text
-    crate, of_crate, file = str(path.relative_to(ROOT)).partition("/src/")
-    if path.suffix == ".rs" and of_crate:
-        up = "../" * len(folder.relative_to(ROOT).parts)
-        return f'<a href="{up}rust/src/{crate_name(crate)}/{file}.html">{text}</a>'
-    return None
+    source[0] = re.sub(r"\[([^\[\]]*)\]\(([^)#:\s]+)\)", changed, source[0])
 
 
 def crate_name(folder):
