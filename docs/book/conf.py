@@ -122,4 +122,4 @@ def bars(app, what, name, obj, options, lines):
 
 def names_of_types(app, what, name, obj, options, signature, returned):
     """A name in `autodoc_type_aliases` is shown as it is, in unions too."""
-    return re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", signature or ""), returned
+    return signature and re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", signature), returned
