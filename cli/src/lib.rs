@@ -5,20 +5,20 @@
 //!
 //! | file | what it is |
 //! | --- | --- |
-//! | [`drift`], [`trace`] | runs of problems: one line a run, or one line a step |
-//! | [`run`], [`scene`] | runs that a file describes; such files |
-//! | [`schemes`], [`problems`] | what can be run |
-//! | [`emit`] | schemes as code for other ecosystems |
-//! | [`work_precision`], [`advise`] | speed against error; a scheme and a step size for a tolerance |
-//! | [`sweep`], [`collect`] | many runs of a scene; their results |
-//! | [`stability`] | hard cases |
-//! | [`figures`] | the figures of the paper, and additional ones |
-//! | [`run_arguments`], [`quantity`] | the flags of runs; exact numbers |
-//! | [`selection`], [`system`], [`posed`] | flags → schemes and steps; flags → the system; with end and number type |
-//! | [`plot`] | charts of runs |
-//! | [`readable`], [`output`], [`progress`], [`tasks`] | tables, lines and bars |
-//! | [`invocation`] | how the program was called |
-//! | [`report`], [`colour`], [`interrupt`] | messages on stderr and the exit status; colours; Ctrl-C |
+//! | `drift`, `trace` | runs of problems: one line a run, or one line a step |
+//! | `run`, `scene` | runs that a file describes; such files |
+//! | `schemes`, `problems` | what can be run |
+//! | `emit` | schemes as code for other ecosystems |
+//! | `work_precision`, `advise` | speed against error; a scheme and a step size for a tolerance |
+//! | `sweep`, `collect` | many runs of a scene; their results |
+//! | `stability` | hard cases |
+//! | `figures` | the figures of the paper, and additional ones |
+//! | `run_arguments`, `quantity` | the flags of runs; exact numbers |
+//! | `selection`, `system`, `posed` | flags → schemes and steps; flags → the system; with end and number type |
+//! | `plot` | charts of runs |
+//! | `readable`, `output`, `progress`, `tasks` | tables, lines and bars |
+//! | `invocation` | how the program was called |
+//! | `report`, `colour`, `interrupt` | messages on stderr and the exit status; colours; Ctrl-C |
 
 mod advise;
 mod collect;

@@ -5,21 +5,21 @@
 //!
 //! | file | what it is |
 //! | --- | --- |
-//! | [`errors`] | Python's exceptions for the errors of scenes |
-//! | [`waiting`] | work without Python's lock, until Ctrl-C |
-//! | [`given`] | a problem, from the text of a scene or with a function for its forces |
-//! | [`own_forces`] | forces from a C function or a Python function |
-//! | [`scheme`] | schemes with what is proved of them |
-//! | [`estimator`] | the estimator of the modified energy, from its options |
-//! | [`integrate`] | runs into arrays |
-//! | [`ensemble`] | many trajectories at once |
-//! | [`drift`] | the drift of the modified energy |
-//! | [`work_precision`] | speed against error, and advice |
-//! | [`scene`] | runs that a file describes |
-//! | [`emit`] | schemes as code of other ecosystems |
-//! | [`command`] | the program `shadowstep` |
-//! | [`monitor`] | the monitor of the modified energy, for loops |
-//! | [`recorded`] | trajectories that other programs have computed |
+//! | `errors` | Python's exceptions for the errors of scenes |
+//! | `waiting` | work without Python's lock, until Ctrl-C |
+//! | `given` | a problem, from the text of a scene or with a function for its forces |
+//! | `own_forces` | forces from a C function or a Python function |
+//! | `scheme` | schemes with what is proved of them |
+//! | `estimator` | the estimator of the modified energy, from its options |
+//! | `integrate` | runs into arrays |
+//! | `ensemble` | many trajectories at once |
+//! | `drift` | the drift of the modified energy |
+//! | `work_precision` | speed against error, and advice |
+//! | `scene` | runs that a file describes |
+//! | `emit` | schemes as code of other ecosystems |
+//! | `command` | the program `shadowstep` |
+//! | `monitor` | the monitor of the modified energy, for loops |
+//! | `recorded` | trajectories that other programs have computed |
 
 #![allow(clippy::needless_pass_by_value)] // arguments from Python have no owner
 
