@@ -187,8 +187,16 @@ def test_a_run_that_fails_says_where():
     assert "smaller step size" in error.value.hint
 
 
+@pytest.fixture
+def interruptible():
+    """Ctrl-C as in a terminal: a program in the background may begin with SIGINT ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.parametrize("digits", ["double", 120])
-def test_ctrl_c_ends_a_run_soon(digits):
+def test_ctrl_c_ends_a_run_soon(digits, interruptible):
     # the interrupt is sent by a timer; it is late where the machine is busy, so that its own delay is not counted
     sent = []
 

@@ -120,5 +120,5 @@ def test_types():
     api = pytest.importorskip("mypy.api")
     package = Path(shadowstep.__file__).parent
     assert (package / "py.typed").exists()
-    found, errors, status = api.run(["--ignore-missing-imports", "--python-version", "3.10", str(package)])
+    found, errors, status = api.run(["--ignore-missing-imports", "--python-version", "3.10", "--package", "shadowstep"])
     assert status == 0, found + errors
