@@ -57,7 +57,9 @@ class Truncated(LennardJones):
         d = q[:, None] - q[None]
         d -= sides * np.rint(d / sides)
         pairs = (np.count_nonzero((d**2).sum(axis=2) < rc**2) - len(q)) // 2
-        self.results["energy"] += pairs * 4 * epsilon * ((sigma / rc) ** 12 - (sigma / rc) ** 6)
+        at_cutoff = 4 * epsilon * ((sigma / rc) ** 12 - (sigma / rc) ** 6)
+        for name in ("energy", "free_energy"):
+            self.results[name] += pairs * at_cutoff
 
 
 # the calculator, and the step in fs
