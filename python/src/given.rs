@@ -139,6 +139,6 @@ pub(crate) fn arithmetic(py: Python<'_>, digits: &str, mpfr: bool) -> PyResult<A
     match digits.parse() {
         Ok(count @ 1..=MOST_DIGITS) => Arithmetic::of_digits(count, mpfr)
             .map_err(|error: DigitsError| usage(py, format!("digits = {digits}: {error}"), hint)),
-        _ => Err(usage(py, format!("digits = {digits} is no number type"), hint)),
+        _ => Err(usage(py, format!("digits = {digits} is not a number type"), hint)),
     }
 }
