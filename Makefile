@@ -46,7 +46,7 @@ wheel: $(WHEEL)/tools/bin/maturin
 	rm -f python/LICENSE-LGPL-3.0 python/LICENSE-GPL-3.0
 
 $(WHEEL)/tools/bin/maturin:
-	@$(PYTHON) -m venv --help >/dev/null 2>&1 || ./.ci/install-python
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || ./.ci/install-python
 	$(PYTHON) -m venv $(WHEEL)/tools
 	$(WHEEL)/tools/bin/pip install --quiet 'maturin>=1.9,<2'
 
