@@ -74,6 +74,8 @@ def shadow_energy(
     if cell is not None:
         q = _unwrapped(q, cell)
     if isinstance(potential, Problem):
+        if q.shape[1] != potential.dimension:
+            raise _shadowstep.InputError(f"the states have {q.shape[1]} coordinates, and the problem has {potential.dimension}")
         if half_steps:
             p = _of_half_steps(len(q), p)
         table = (scheme if isinstance(scheme, Scheme) else Scheme(scheme))._table

@@ -91,8 +91,11 @@ def work_precision(
     [4, 16]
     """
     tables = _tables(schemes)
+    _check_seconds(seconds)
+    given = None if steps is None else sorted(int(count) for count in steps)
+    if given is not None and (not given or given[0] < 1):
+        raise _shadowstep.InputError(f"steps = {steps}: give numbers of steps such as [100, 200, 400]")
     with _folder(folder) as path, bar(1000, "", progress) as reach:
-        given = None if steps is None else sorted(int(count) for count in steps)
         found = _shadowstep.work_precision(
             problem._given, exact(until, "until"), tables, steps=given, digits=str(digits), seconds=seconds, folder=path, progress=reach
         )
@@ -164,6 +167,7 @@ def advise(
     (True, True)
     """
     tables = _tables(schemes)
+    _check_seconds(seconds)
     with _folder(folder) as path, bar(1000, "", progress) as reach:
         found: dict[str, Any] = json.loads(
             _shadowstep.advise(
@@ -181,6 +185,11 @@ def advise(
         )
     choices = [Choice(**choice) for choice in found.get("choices", [])]
     return Advice(choices=choices, verified=found.get("verified"), least=found.get("least"))
+
+
+def _check_seconds(seconds: float) -> None:
+    if not 1e-3 <= seconds <= 1e6:
+        raise _shadowstep.InputError(f"seconds = {seconds}: give a number of seconds from 0.001 to 1000000")
 
 
 def _tables(schemes: Schemes) -> list[Any]:

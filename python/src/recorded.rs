@@ -62,11 +62,11 @@ pub(crate) fn energies_of_states(
     h: &str,
     k: u32,
 ) -> PyResult<Found> {
-    let h = number(py, h)?;
+    let h = step_size(py, h)?;
     let failed = |error| exception(py, error);
     let posed = Posed::of(problem, &scheme.0, Arithmetic::Double).map_err(failed)?;
     let begin = Begin::InitialState;
-    let steps = Steps { scheme: &posed.scheme.scheme, h: &h, compensated: false, displaced: false, begin };
+    let steps = Steps { scheme: &posed.scheme.scheme, h: h.exact(), compensated: false, displaced: false, begin };
     let start = posed.system.start::<f64>(&());
     let again = Again { q: rows(&q)?, p: rows(&p)?, k };
     let found = posed.system.with(steps, start, &(), again);
