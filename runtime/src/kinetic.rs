@@ -89,6 +89,20 @@ pub trait Kinetic<N: Number> {
     fn exchanged_energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
         let _ = (p, energy, scratch);
     }
+
+    /// M⁻¹ of T = ½pᵀM⁻¹p, if it is diagonal and known; by default it is not.
+    fn inverse_masses(&self) -> Option<InverseMasses<'_, N>> {
+        None
+    }
+}
+
+/// A diagonal M⁻¹.
+#[derive(Debug)]
+pub enum InverseMasses<'a, N> {
+    /// All masses are 1.
+    Ones,
+    /// 1/m_i of each coordinate.
+    Of(&'a [N]),
 }
 
 impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
@@ -113,6 +127,9 @@ impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
     }
     fn exchanged_energy(&self, p: &[N], energy: &mut N, scratch: &mut [N]) {
         (**self).exchanged_energy(p, energy, scratch);
+    }
+    fn inverse_masses(&self) -> Option<InverseMasses<'_, N>> {
+        (**self).inverse_masses()
     }
 }
 
@@ -140,6 +157,10 @@ impl<N: Number> Kinetic<N> for UnitMasses {
         energy.assign_zero();
         add_sum(energy, [p], |[p], energy| energy.add_product(p, p));
         energy.divide_integer(2);
+    }
+
+    fn inverse_masses(&self) -> Option<InverseMasses<'_, N>> {
+        Some(InverseMasses::Ones)
     }
 }
 
@@ -278,6 +299,10 @@ impl<N: Number> Kinetic<N> for DiagonalMasses<N> {
             energy.add_product(&velocity, p);
         });
         energy.divide_integer(2);
+    }
+
+    fn inverse_masses(&self) -> Option<InverseMasses<'_, N>> {
+        Some(InverseMasses::Of(&self.inverse))
     }
 }
 

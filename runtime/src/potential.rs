@@ -1,9 +1,11 @@
 //! Potentials U(q).
 
+mod few_coordinates;
 mod from_fn;
 mod hessian;
 mod widest;
 
+pub use few_coordinates::FewCoordinates;
 pub use from_fn::{FromFn, from_fn};
 pub use hessian::HessianProduct;
 pub use widest::Widest;
@@ -137,6 +139,21 @@ pub trait Potential<N: Number> {
     fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
         None
     }
+
+    /// Makes steps of a few coordinates, compiled for the type of the potential. There is no need to implement it: the default calls
+    /// [`update`](Potential::update) and [`gradient`](Potential::gradient).
+    fn advance_few(&mut self, steps: &mut FewCoordinates<'_, N>, scratch: &mut [N]) {
+        steps.advance(self, scratch);
+    }
+
+    /// Whether the type of the potential is known at run time only, so that many steps are better made by one call of
+    /// [`advance_few`](Potential::advance_few).
+    fn is_boxed() -> bool
+    where
+        Self: Sized,
+    {
+        false
+    }
 }
 
 impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
@@ -163,5 +180,11 @@ impl<N: Number, P: Potential<N> + ?Sized> Potential<N> for Box<P> {
     }
     fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
         (**self).hessian()
+    }
+    fn advance_few(&mut self, steps: &mut FewCoordinates<'_, N>, scratch: &mut [N]) {
+        (**self).advance_few(steps, scratch);
+    }
+    fn is_boxed() -> bool {
+        true
     }
 }

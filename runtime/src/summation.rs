@@ -68,6 +68,11 @@ pub trait Summation<N: Number>: Clone {
     fn is_compensated(&self) -> bool {
         false
     }
+
+    /// Whether increments are added as by [`Plain`]; by default they are not.
+    fn is_plain(&self) -> bool {
+        false
+    }
 }
 
 /// Increments are added to q and p, and the sums are rounded.
@@ -101,6 +106,10 @@ impl<N: Number> Summation<N> for Plain {
         if N::KEEPS_INCREMENTS {
             kinetic.drift(weight, p, added, scratch);
         }
+    }
+
+    fn is_plain(&self) -> bool {
+        true
     }
 }
 
@@ -162,5 +171,9 @@ impl<N: Number, S: Summation<N>> Summation<N> for Option<S> {
 
     fn is_compensated(&self) -> bool {
         self.as_ref().is_some_and(S::is_compensated)
+    }
+
+    fn is_plain(&self) -> bool {
+        self.as_ref().is_none_or(S::is_plain)
     }
 }

@@ -1,9 +1,15 @@
 //! `Stepper::steps` of one system: the bits, evaluations and kept values of a loop of steps.
 
-use shadowstep::kinetic::Quadratic;
-use shadowstep::problems::HenonHeiles;
+use std::cell::Cell;
+use std::rc::Rc;
+use std::slice;
+
+use shadowstep::kinetic::{Kinetic, Quadratic};
+use shadowstep::number::{DoubleDouble, Limbs, Number};
+use shadowstep::potential::FewCoordinates;
+use shadowstep::problems::{HenonHeiles, Kepler};
 use shadowstep::tables::{TableScheme, shipped};
-use shadowstep::{Motion, Stepper, System, UnitMasses};
+use shadowstep::{DiagonalMasses, Motion, Potential, Rational, Stepper, System, UnitMasses, potential};
 
 fn stepper() -> Stepper<TableScheme, f64> {
     Stepper::new(shipped("yoshida4").unwrap(), "1/20").unwrap()
@@ -41,4 +47,118 @@ fn steps_of_vectors_are_those_one_by_one() {
     let motion = Motion::new(HenonHeiles, UnitMasses, vec![0.1, 0.2], vec![0.1, 0.0]).unwrap();
     check(&motion);
     check(&motion.compensated());
+}
+
+// ---------------------------------------------------------------------------------------------------------------
+// A potential and a kinetic energy behind a `dyn`: of a few coordinates many steps are one call
+
+potential! { pub struct Pendulum; U(q) = -cos(q) }
+potential! { pub struct Space; U(x, y, z) = -1/sqrt(x^2 + 2*y^2 + 3*z^2) }
+potential! { pub struct Chain; U(a, b, c, d) = (a - b)^4 + (b - c)^4 + (c - d)^4 + a^2 + d^2 }
+
+/// Counts the calls that make many steps.
+struct Watched<P> {
+    potential: P,
+    calls: Rc<Cell<u32>>,
+}
+
+impl<N: Number, P: Potential<N>> Potential<N> for Watched<P> {
+    fn dimension(&self) -> usize {
+        self.potential.dimension()
+    }
+    fn scratch(&self) -> usize {
+        self.potential.scratch()
+    }
+    fn prepare(&self, scratch: &mut [N], context: &N::Context) {
+        self.potential.prepare(scratch, context);
+    }
+    fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
+        self.potential.energy(q, energy, scratch);
+    }
+    fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
+        self.potential.gradient(q, gradient, scratch);
+    }
+    fn hessian(&self) -> Option<&dyn potential::HessianProduct<N>> {
+        self.potential.hessian()
+    }
+    fn advance_few(&mut self, steps: &mut FewCoordinates<'_, N>, scratch: &mut [N]) {
+        self.calls.set(self.calls.get() + 1);
+        self.potential.advance_few(steps, scratch);
+    }
+}
+
+/// Makes steps one by one and together, of a potential behind a `dyn`; the calls that made many at once.
+fn calls_for<N, P, K>(scheme: &str, potential: impl Fn() -> P, kinetic: impl Fn() -> K, compensated: bool) -> u32
+where
+    N: Number<Context = ()> + PartialEq + 'static,
+    P: Potential<N> + 'static,
+    K: Kinetic<N, Class = Quadratic> + 'static,
+{
+    let stepper = Stepper::<_, N>::new(shipped(scheme).unwrap(), "1/50").unwrap();
+    let calls = Rc::new(Cell::new(0));
+    let state = || {
+        let number = |i: usize| N::from_rational(&Rational::new((3 + i).into(), 7.into()), &());
+        let q: Vec<N> = (0..potential().dimension()).map(number).collect();
+        let p: Vec<N> = q.iter().rev().cloned().collect();
+        (q, p)
+    };
+    let known = || {
+        let (q, p) = state();
+        Motion::new(potential(), kinetic(), q, p).unwrap().compensated_if(compensated)
+    };
+    let boxed = || {
+        let (q, p) = state();
+        let potential: Box<dyn Potential<N>> = Box::new(Watched { potential: potential(), calls: calls.clone() });
+        let kinetic: Box<dyn Kinetic<N, Class = Quadratic>> = Box::new(kinetic());
+        Motion::new(potential, kinetic, q, p).unwrap().compensated_if(compensated)
+    };
+    for (count, keeps_rate) in [(7, false), (8, false), (100, false), (100, true)] {
+        let [mut one_by_one, mut together] = [boxed(), boxed()];
+        for motion in [&mut one_by_one, &mut together] {
+            // a kick leaves a gradient that the first one together takes
+            motion.kick(&stepper.weights()[0]);
+            motion.before_augmented_step(keeps_rate);
+        }
+        (0..count).for_each(|_| stepper.step(&mut one_by_one));
+        stepper.steps(slice::from_mut(&mut together), count);
+        same(&one_by_one, &together);
+        stepper.step_augmented(&mut one_by_one);
+        stepper.step_augmented(&mut together);
+        same(&one_by_one, &together);
+        assert_eq!(one_by_one.increments().beta, together.increments().beta);
+        let (mut known, mut behind) = (known(), boxed());
+        stepper.merged_steps(slice::from_mut(&mut known), count);
+        stepper.merged_steps(slice::from_mut(&mut behind), count);
+        same(&known, &behind);
+    }
+    calls.get()
+}
+
+fn same<N: Number + PartialEq>(a: &impl System<Number = N>, b: &impl System<Number = N>) {
+    assert_eq!((a.q(), a.p(), a.remainders()), (b.q(), b.p(), b.remainders()));
+    assert_eq!(a.evaluations(), b.evaluations());
+}
+
+/// Three times 100 or 8 steps one by one, and as many merged, are one call each.
+const ALL: u32 = 6;
+
+#[test]
+fn steps_behind_a_dyn_are_one_call_with_the_same_bits() {
+    for scheme in ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "saba4", "ruth3"] {
+        assert_eq!(calls_for::<f64, _, _>(scheme, || Pendulum, || UnitMasses, false), ALL, "{scheme}");
+        assert_eq!(calls_for::<f64, _, _>(scheme, || Kepler, || UnitMasses, false), ALL, "{scheme}");
+        assert_eq!(calls_for::<f64, _, _>(scheme, || Space, || UnitMasses, false), ALL, "{scheme}");
+        assert_eq!(calls_for::<DoubleDouble, _, _>(scheme, || Kepler, || UnitMasses, false), ALL, "{scheme}");
+        let masses = || DiagonalMasses::from_numbers(&[3.0, 0.7]).unwrap();
+        assert_eq!(calls_for::<f64, _, _>(scheme, || Kepler, masses, false), ALL, "{scheme}");
+    }
+}
+
+#[test]
+fn other_steps_behind_a_dyn_are_those_one_by_one() {
+    let unit = || UnitMasses;
+    assert_eq!(calls_for::<f64, _, _>("yoshida4", || Chain, unit, false), 0, "four coordinates");
+    assert_eq!(calls_for::<f64, _, _>("yoshida4", || Kepler, unit, true), 0, "compensated");
+    assert_eq!(calls_for::<f64, _, _>("chin-4a", || Kepler, unit, false), 0, "gradient kicks");
+    assert_eq!(calls_for::<Limbs<3>, _, _>("yoshida4", || Kepler, unit, false), 0, "long numbers");
 }

@@ -9,7 +9,7 @@ use crate::kinetic::Kinetic;
 use crate::maps::{MapKind, MapSequence};
 use crate::number::Number;
 use crate::partial_sums::{LONG, add_sum};
-use crate::potential::Potential;
+use crate::potential::{FewCoordinates, Potential};
 use crate::summation::Summation;
 
 /// What flows change: the state with the remainders of its sums, and what is kept at its q.
@@ -170,14 +170,44 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
     {
         // the rate is kept for what follows the last step
         let before = count - u64::from(self.keeps_rate).min(count);
-        if std::mem::needs_drop::<Moving<N, V, S>>() {
+        let is_done = self.advance_few(moving, maps, before, count);
+        if !is_done && std::mem::needs_drop::<Moving<N, V, S>>() {
             self.advance_in_place::<false, _, _>(moving, maps, 0..before, count);
-        } else {
+        } else if !is_done {
             let mut copy = moving.clone();
             self.advance_in_place::<false, _, _>(&mut copy, maps, 0..before, count);
             *moving = copy;
         }
         self.advance_in_place::<true, _, _>(moving, maps, before..count, count);
+    }
+
+    /// The first steps of `count`, by one call of a potential behind a `dyn`; false, and nothing is done, where these steps are not of
+    /// [a few coordinates](FewCoordinates).
+    #[inline(always)]
+    fn advance_few<V, S>(
+        &mut self,
+        moving: &mut Moving<N, V, S>,
+        maps: &impl MapSequence<N>,
+        steps: u64,
+        count: u64,
+    ) -> bool
+    where
+        V: AsRef<[N]> + AsMut<[N]>,
+        S: Summation<N>,
+    {
+        let Moving { summation, q, p, gradient, kept, evaluations, .. } = moving;
+        let [q, p, gradient] = [q, p, gradient].map(V::as_mut);
+        let is_worth_it = P::is_boxed() && steps >= FEW && FewCoordinates::<N>::can_hold(q.len());
+        if !is_worth_it || !summation.is_plain() || self.curved.is_some() {
+            return false;
+        }
+        let Some(inverse_masses) = self.kinetic.inverse_masses() else { return false };
+        let Some(maps) = kicks_and_drifts(maps, steps, count) else { return false };
+        let state = [q, p, gradient];
+        let mut few = FewCoordinates { state, inverse_masses, kept: *kept, evaluations: 0, maps };
+        self.potential.advance_few(&mut few, &mut self.scratch);
+        (*kept, *evaluations) = (few.kept, *evaluations + few.evaluations);
+        true
     }
 
     #[inline(always)]
@@ -204,4 +234,27 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
             },
         );
     }
+}
+
+/// Fewer steps than these are made one by one.
+const FEW: u64 = 8;
+
+/// The maps of the first, of each middle and of the last of these steps of `count`; `None` with gradient kicks or middle parts.
+#[expect(clippy::type_complexity, reason = "as the field that it is made for")]
+fn kicks_and_drifts<N: Number>(
+    maps: &impl MapSequence<N>,
+    steps: u64,
+    count: u64,
+) -> Option<[(Vec<(MapKind, N)>, u64); 3]> {
+    let mut has_others = false;
+    let mut list = |step: u64| {
+        let mut list = Vec::new();
+        maps.each(step..step + 1, count, |kind, weight, between| {
+            has_others |= kind == MapKind::GradientKick || between.is_some();
+            list.push((kind, weight.clone()));
+        });
+        list
+    };
+    let lists = [(list(0), 1), (list(1), steps - 2), (list(steps - 1), 1)];
+    (!has_others).then_some(lists)
 }

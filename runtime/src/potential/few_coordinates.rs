@@ -1,0 +1,104 @@
+//! Steps of a few coordinates, held in registers, for a potential behind a `dyn`.
+
+use std::array;
+use std::mem::{needs_drop, size_of};
+
+use super::Potential;
+use crate::kept::Kept;
+use crate::kinetic::{InverseMasses, Kinetic, UnitMasses};
+use crate::maps::MapKind;
+use crate::number::Number;
+use crate::summation::{Plain, Summation};
+
+/// Steps of H = ½pᵀM⁻¹p + U(q) with at most three coordinates and a diagonal M, for [`Potential::advance_few`].
+///
+/// A step in which the potential and the masses are each behind a `dyn` passes q, p and U_q through memory between its maps. Here one call
+/// makes many steps, compiled for the type of the potential, so that these stay in registers. The bits are those of the maps one by one.
+#[derive(Debug)]
+pub struct FewCoordinates<'a, N> {
+    /// q, p and U_q.
+    pub(crate) state: [&'a mut [N]; 3],
+    pub(crate) inverse_masses: InverseMasses<'a, N>,
+    /// What is kept at q before the first map and after the last.
+    pub(crate) kept: Kept,
+    /// Evaluations of the gradient.
+    pub(crate) evaluations: u64,
+    /// Lists of kicks and drifts, each of which is made so many times.
+    pub(crate) maps: [(Vec<(MapKind, N)>, u64); 3],
+}
+
+/// More coordinates are not held in registers.
+const MOST: usize = 3;
+
+impl<N: Number> FewCoordinates<'_, N> {
+    /// Whether registers hold such numbers: of others these steps are not even compiled.
+    const FIT: bool = size_of::<N>() <= 16 && !needs_drop::<N>();
+
+    /// Whether this makes the steps of a system with so many coordinates.
+    pub(crate) fn can_hold(dimension: usize) -> bool {
+        Self::FIT && (1..=MOST).contains(&dimension)
+    }
+
+    /// Makes the steps.
+    ///
+    /// # Panics
+    /// If the potential is of another number of coordinates.
+    #[inline(always)]
+    pub fn advance<P: Potential<N> + ?Sized>(&mut self, potential: &mut P, scratch: &mut [N]) {
+        if const { Self::FIT } {
+            match potential.dimension() {
+                1 => self.advance_in_arrays::<1, P>(potential, scratch),
+                2 => self.advance_in_arrays::<2, P>(potential, scratch),
+                3 => self.advance_in_arrays::<3, P>(potential, scratch),
+                more => unreachable!("{more} coordinates are more than {MOST}"),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn advance_in_arrays<const D: usize, P: Potential<N> + ?Sized>(&mut self, potential: &mut P, scratch: &mut [N]) {
+        let FewCoordinates { state, inverse_masses, kept, evaluations, maps } = self;
+        let copy = |from: &[N]| -> [N; D] { array::from_fn(|i| from[i].clone()) };
+        let [mut q, mut p, mut gradient] = [copy(state[0]), copy(state[1]), copy(state[2])];
+        let (mut has_gradient, mut evaluated) = (*kept != Kept::Nothing, 0);
+        for (maps, times) in maps {
+            for _ in 0..*times {
+                for (kind, weight) in &*maps {
+                    if *kind == MapKind::Drift {
+                        inverse_masses.drift(weight, &p, &mut q);
+                        has_gradient = false;
+                        continue;
+                    }
+                    if !has_gradient {
+                        potential.update(&q);
+                        potential.gradient(&q, &mut gradient, scratch);
+                        has_gradient = true;
+                        evaluated += 1;
+                    }
+                    Plain.kick(weight, &gradient, &mut p);
+                }
+            }
+        }
+        *kept = if has_gradient { Kept::Gradient } else { Kept::Nothing };
+        *evaluations += evaluated;
+        for (into, from) in state.iter_mut().zip([&q, &p, &gradient]) {
+            into.clone_from_slice(from);
+        }
+    }
+}
+
+impl<N: Number> InverseMasses<'_, N> {
+    #[inline(always)]
+    fn drift<const D: usize>(&self, weight: &N, p: &[N; D], q: &mut [N; D]) {
+        match self {
+            InverseMasses::Ones => UnitMasses.drift(weight, p, q, &mut []),
+            InverseMasses::Of(inverse) => {
+                for ((q, p), inverse) in q.iter_mut().zip(p).zip(*inverse) {
+                    let mut velocity = p.clone();
+                    velocity.assign_product(inverse, p);
+                    q.add_product(weight, &velocity);
+                }
+            }
+        }
+    }
+}
