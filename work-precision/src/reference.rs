@@ -1,7 +1,7 @@
 //! The positions with which those of the schemes are compared: of the exact flow where it is known, else of a scheme of order 10
 //! with more digits and small steps, with an estimate of its own error.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
@@ -11,6 +11,7 @@ use shadowstep::run::States;
 use shadowstep::{Ordered, StepSize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_symbolic::decimal::from_text;
 
@@ -224,12 +225,13 @@ impl Computation for ByHalving<'_> {
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         let ByHalving { problem, named, digits, target, samples, time, continues } = self;
-        let begin = Instant::now();
+        let begin = CpuTime::begin();
         let mut steps = first_steps(problem, samples);
         let (mut last, mut last_difference): (Option<Vec<Vec<N>>>, f64) = (None, f64::INFINITY);
-        let mut best: Option<Reference> = None;
+        let (mut best, mut are_finite): (Option<Reference>, bool) = (None, false);
         while continues() {
             let found = positions::<N>(problem, &named, (steps, samples), context)?;
+            are_finite |= found.len() as u64 == samples;
             if let Some(before) = last.filter(|before| before.len() == found.len() && found.len() as u64 == samples) {
                 let differences = distances(&before, &found, context);
                 let difference = differences.iter().map(|size| size.log10()).fold(f64::NEG_INFINITY, f64::max);
@@ -251,13 +253,19 @@ impl Computation for ByHalving<'_> {
             last = Some(found);
             steps *= 2;
         }
-        best.ok_or_else(|| Error::run("there is no reference: its states are not finite", "use a shorter time"))
+        best.ok_or_else(|| match are_finite {
+            true => Error::run(
+                format!("no reference is found in {} s: two runs with different steps take longer", time.as_secs_f64()),
+                "use a shorter time, or more seconds",
+            ),
+            false => Error::run("there is no reference: its states are not finite", "use a shorter time"),
+        })
     }
 }
 
-/// So many steps that the fastest oscillation turns by about a radian in each.
+/// So many steps that the fastest oscillation turns by about a radian in each; one a sample where none is known.
 fn first_steps(problem: Problem<'_>, samples: u64) -> u64 {
-    let omega = problem.system.fastest_frequency().map_or(1.0, |frequency| frequency.omega);
+    let omega = problem.system.fastest_frequency().map_or(0.0, |frequency| frequency.omega);
     let per_sample = (omega * problem.duration() / samples as f64).ceil().to_u64().unwrap_or(1);
     samples * per_sample.max(1)
 }

@@ -1,7 +1,7 @@
 //! The numbers of steps with which a scheme runs: equal numbers of evaluations for all schemes, from about the stability limit down to
 //! round-off, or to the end of a budget of time.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
@@ -10,6 +10,7 @@ use shadowstep::{Rational, Scheme};
 use shadowstep_analysis::stability::Stability;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::NamedScheme;
 
 use crate::of::Of;
@@ -104,7 +105,7 @@ impl SeriesOf<'_> {
         target: Option<Target>,
         continues: &dyn Fn(f64) -> bool,
     ) -> Result<Option<Series>, Error> {
-        let begin = Instant::now();
+        let begin = CpuTime::begin();
         let mut runs: Vec<Measurement> = Vec::new();
         let mut end = End::Time;
         for index in self.first_index()..self.first_index() + MOST_RUNS {
@@ -115,7 +116,7 @@ impl SeriesOf<'_> {
             if !continues((begin.elapsed().as_secs_f64() / seconds).min(1.0)) {
                 return Ok(None);
             }
-            let this = Instant::now();
+            let this = CpuTime::begin();
             runs.push(self.measure(steps)?);
             if target.is_some_and(|target| target.is_met(&runs)) {
                 end = End::Complete;

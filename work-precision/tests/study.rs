@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use shadowstep::Rational;
 use shadowstep::problems::problem;
+use shadowstep::tables::Source;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::{PotentialEnergy, System};
@@ -76,6 +77,23 @@ fn the_error_of_a_reference_is_estimated() {
         // the same error to three digits, as round-off differs with the form of the potential
         assert!((a - b).abs() < 4e-4 || a < -13.0, "{a} {b}");
     }
+}
+
+/// Of Kepler orbits and their interactions no fastest frequency is known: the reference begins with a step a sample, not a step a day.
+#[test]
+fn a_reference_of_planets_begins_with_few_steps() {
+    let text = "[problem]\nname = \"outer-solar-system\"\nparts = \"wisdom-holman\"".to_owned();
+    let source = Source { path: "planets".to_owned(), text };
+    let (system, _) = System::read(&source, Arithmetic::Double).unwrap();
+    let (until, folder) = (until(20_000), tempfile::tempdir().unwrap());
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
+    let schemes = schemes(&["abah864"]);
+    let study = study(problem, &schemes, StepRange::Given(vec![25, 50, 100]), folder.path());
+    let Origin::Scheme { steps, .. } = study.reference.origin else { panic!("{:?}", study.reference.origin) };
+    assert!(steps < 2000, "{steps}");
+    // 800 days are a fifth of Jupiter's year
+    let found = study.schemes[0].series.runs[0].position.known().unwrap();
+    assert!(found < Size::power_of_ten(-3.0) && study.reference.error() < Size::power_of_ten(-13.0), "{found}");
 }
 
 #[test]
