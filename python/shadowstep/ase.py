@@ -8,6 +8,7 @@ import numpy as np
 from ase.md.verlet import VelocityVerlet
 
 from ._shadowstep import InputError
+from .exact import count
 from .monitor import Sample
 from .recorded import Diagnosis, Observer
 
@@ -55,7 +56,7 @@ class ShadowMonitor:
         self._atoms = atoms
         self._dyn = dyn
         self._observer = Observer(np.repeat(atoms.get_masses(), 3), float(dyn.dt))
-        self._every = max(int(every), 1)
+        self._every = count(every, "every")
         self._before: int | None = None
         self.newest: Sample | None = None
         """The newest estimate; None before the first."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _shadowstep
 from .document import document
-from .exact import Number, exact
+from .exact import Number, count, exact, order_of
 from .problem import Problem
 from .progress import bar
 from .scheme import Scheme
@@ -95,12 +95,13 @@ def ensemble(
     sections["initial"] = initial
     name = scheme.name if isinstance(scheme, Scheme) else os.fspath(scheme)
     run: dict[str, Any] = {"scheme": name, "step": exact(h, "h"), "digits": digits}
+    steps = None if steps is None else count(steps, "steps")
     run |= {"until": None if until is None else exact(until, "until"), "steps": steps}
     sections["run"] = run
-    look = {} if every is None else {"every": int(every)}
+    look = {} if every is None else {"every": count(every, "every")}
     output: dict[str, Any] = {"energy": look or True} if every is not None else {}
     if order is not None:
-        output["modified_energy"] = {"estimator": "bilinear", "order": int(order), **look}
+        output["modified_energy"] = {"estimator": "bilinear", "order": order_of(order), **look}
     sections["output"] = output or {"energy": {"every": steps or 1_000_000_000}}
     with bar(None, "", progress) as reach:
         found = _shadowstep.ensemble(document(sections), *columns.all(), progress=reach)

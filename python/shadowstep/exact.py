@@ -11,10 +11,13 @@
 
 from __future__ import annotations
 
+import operator
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral, Real
 from typing import Any, Union
+
+from . import _shadowstep
 
 Number = Union[str, int, float, Fraction, Decimal]
 
@@ -43,6 +46,34 @@ def exact(value: Any, what: str = "the number") -> str:
     if isinstance(value, Real):
         return repr(_finite(float(value), what))
     raise TypeError(f"{what} must be a number or a text such as '1/10', not {type(value).__name__}")
+
+
+def count(value: Any, what: str, least: int = 1, most: int = 2**63 - 1) -> int:
+    """A number of steps, states or the like.
+
+    >>> count(7, "every")
+    7
+    >>> count(0, "every")
+    Traceback (most recent call last):
+    shadowstep.InputError: every = 0 is too small: give 1 or more
+    >>> count(0.5, "every")
+    Traceback (most recent call last):
+    TypeError: every must be a whole number, not 0.5
+    """
+    try:
+        found = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what} must be a whole number, not {value!r}") from None
+    if found < least:
+        raise _shadowstep.InputError(f"{what} = {found} is too small: give {least} or more")
+    if found > most:
+        raise _shadowstep.InputError(f"{what} = {found} is too large: give {most} or less")
+    return found
+
+
+def order_of(value: Any, what: str = "order") -> int | None:
+    """The k or m of an estimator, if one is given; its largest depends on the estimator."""
+    return None if value is None else count(value, what, most=2**32 - 1)
 
 
 def _finite(value: Any, what: str) -> Any:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from . import _shadowstep
-from .exact import Number, exact
+from .exact import Number, count, exact, order_of
 from .problem import Problem
 from .progress import bar
 from .scheme import Scheme
@@ -167,15 +167,15 @@ def integrate(
     options = None
     if estimator is not None:
         accuracy = None if accuracy is None else exact(accuracy, "accuracy")
-        options = {"name": estimator, "order": order, "max_order": max_order, "stop": stop, "rule": rule, "accuracy": accuracy}
+        options = {"name": estimator, "order": order_of(order), "max_order": order_of(max_order, "max_order"), "stop": stop, "rule": rule, "accuracy": accuracy}
     with bar(steps, "steps", progress) as reach:
         found = _shadowstep.integrate(
             problem._given,
             scheme._table,
             exact(h, "h"),
-            steps=steps,
+            steps=None if steps is None else count(steps, "steps"),
             until=None if until is None else exact(until, "until"),
-            every=every,
+            every=count(every, "every"),
             digits=str(digits),
             mpfr=mpfr,
             options=options,

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from . import _shadowstep
-from .exact import Number, exact
+from .exact import Number, count, exact, order_of
 from .problem import Problem
 from .scheme import Scheme
 
@@ -120,9 +120,11 @@ class Monitor:
         digits: str = "double",
     ) -> None:
         scheme = scheme if isinstance(scheme, Scheme) else Scheme(scheme)
-        self._monitor: Any = _shadowstep.Monitor(problem._given, scheme._table, exact(h, "h"), order=order, every=every, digits=str(digits))
+        self._monitor: Any = _shadowstep.Monitor(
+            problem._given, scheme._table, exact(h, "h"), order=order_of(order), every=count(every, "every"), digits=str(digits)
+        )
 
-    def step(self, count: int = 1) -> None:
+    def step(self, steps: int = 1) -> None:
         """Makes steps.
 
         Raises
@@ -130,7 +132,7 @@ class Monitor:
         RunError
             A state of a window, or its energy, that is not finite.
         """
-        self._monitor.step(count)
+        self._monitor.step(count(steps, "steps", least=0))
 
     @property
     def n(self) -> int:

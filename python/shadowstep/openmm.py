@@ -9,6 +9,7 @@ import openmm
 from openmm import unit
 
 from ._shadowstep import InputError
+from .exact import count
 from .monitor import Sample
 from .recorded import Diagnosis, Observer
 
@@ -45,7 +46,7 @@ class ShadowReporter:
         masses = np.array([system.getParticleMass(i).value_in_unit(unit.dalton) for i in particles])
         self._masses = np.repeat(masses, 3)
         self._observer = Observer(self._masses, integrator.getStepSize().value_in_unit(unit.picosecond))
-        self._every = max(int(every), 1)
+        self._every = count(every, "every")
         self._before: int | None = None
         self.newest: Sample | None = None
         """The newest estimate; None before the first."""

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from . import _shadowstep
-from .exact import Number, exact
+from .exact import Number, exact, order_of
 from .monitor import Sample
 from .problem import Problem
 from .scheme import Scheme
@@ -79,7 +79,7 @@ def shadow_energy(
         if half_steps:
             p = _of_half_steps(len(q), p)
         table = (scheme if isinstance(scheme, Scheme) else Scheme(scheme))._table
-        found = _shadowstep.energies_of_states(q, p, potential._given, table, step, k)
+        found = _shadowstep.energies_of_states(q, p, potential._given, table, step, order_of(k, "k"))
     else:
         energies, derivatives = potential
         energies, derivatives = np.ascontiguousarray(energies, dtype=np.float64), np.asarray(derivatives, dtype=np.float64)
@@ -87,7 +87,7 @@ def shadow_energy(
         rates = derivatives if derivatives.ndim == 1 else None
         if half_steps:
             p = _of_half_steps(len(q), p) if forces is None else _with_forces(step, p, forces)
-        found = _shadowstep.energies_of_log(q, p, energies, forces, rates, _masses(masses, q.shape[1]), step, k)
+        found = _shadowstep.energies_of_log(q, p, energies, forces, rates, _masses(masses, q.shape[1]), step, order_of(k, "k"))
     values, errors = np.full(len(q), np.nan), np.full(len(q), np.nan)
     n = np.asarray(found[0], dtype=np.int64)
     values[n], errors[n] = found[1], found[2]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Union
 
 from . import _shadowstep
-from .exact import Number, exact
+from .exact import Number, count, exact
 from .problem import Problem
 from .progress import bar
 from .scheme import Scheme
@@ -92,8 +92,8 @@ def work_precision(
     """
     tables = _tables(schemes)
     _check_seconds(seconds)
-    given = None if steps is None else sorted(int(count) for count in steps)
-    if given is not None and (not given or given[0] < 1):
+    given = None if steps is None else sorted(count(number, "steps") for number in steps)
+    if given == []:
         raise _shadowstep.InputError(f"steps = {steps}: give numbers of steps such as [100, 200, 400]")
     with _folder(folder) as path, bar(1000, "", progress) as reach:
         found = _shadowstep.work_precision(
