@@ -84,9 +84,10 @@ def main(seed, faults):
         copy = atoms.copy()
         copy.calc = calculator()
         dyn = VelocityVerlet(copy, step * units.fs)
-        monitor = ShadowMonitor(copy, dyn)
+        monitors = {"all states": ShadowMonitor(copy, dyn), "windows of 9 states in 12 steps": ShadowMonitor(copy, dyn, every=12, window=9)}
         dyn.run(400)
-        print(f"{fault}, seed {seed}: {monitor.diagnosis()}\n", flush=True)
+        for states, monitor in monitors.items():
+            print(f"{fault}, seed {seed}, {states}: {monitor.diagnosis()}\n", flush=True)
 
 
 if __name__ == "__main__":

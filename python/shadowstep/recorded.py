@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from . import _shadowstep
-from .exact import Number, exact, order_of
+from .exact import Number, count, exact, order_of
 from .monitor import Sample
 from .problem import Problem
 from .scheme import Scheme
@@ -127,9 +127,9 @@ class Diagnosis:
     forces: float | None
     """The root mean square of the forces."""
     force_differences: float | None
-    """That of their eighth differences in time, divided by √C(16, 8)."""
+    """That of their differences in time: of noise, its size."""
     exponent: float | None
-    """How the squares of these grow with the distance of the states: 0 for noise, 1 where U′ jumps, 3 where U″ does, 16 for smooth forces."""
+    """How the squares of these grow with the distance of the states: 0 for noise, 1 where U′ jumps, 3 where U″ does, large for smooth forces."""
     excess: float | None
     """What H̄ changes by in a step, squared, beside what noise of the forces would make of it: 1 for noise."""
     isolation: float
@@ -154,6 +154,8 @@ class Observer:
         One for each coordinate, or for each atom in space.
     h
         The step size.
+    window
+        How many states follow each other at least: 17, or 9, which tell less of small faults and give the error of H̄ by its last term.
     cell
         The vectors of a periodic box, where positions are wrapped into it.
 
@@ -168,10 +170,10 @@ class Observer:
     (192, 'nothing')
     """
 
-    def __init__(self, masses: Any, h: Number, *, cell: Any = None, periodic: Sequence[bool] = (True, True, True)) -> None:
+    def __init__(self, masses: Any, h: Number, *, window: int = 17, cell: Any = None, periodic: Sequence[bool] = (True, True, True)) -> None:
         masses = np.asarray(masses, dtype=np.float64).ravel()
         cell = None if cell is None else _cell(cell).tolist()
-        self._observer = _shadowstep.Observer(masses.tolist(), exact(h, "h"), cell, [bool(along) for along in periodic])
+        self._observer = _shadowstep.Observer(masses.tolist(), exact(h, "h"), count(window, "window"), cell, [bool(along) for along in periodic])
 
     @property
     def window(self) -> int:
@@ -218,8 +220,9 @@ def diagnose(
     masses: Any = 1.0,
     half_steps: bool = False,
     cell: Any = None,
+    window: int = 17,
 ) -> Diagnosis:
-    """What moves the energy of a log of q, p, U and forces; the arguments are those of `shadow_energy`.
+    """What moves the energy of a log of q, p, U and forces; the arguments are those of `shadow_energy` and `Observer`.
 
     Examples
     --------
@@ -235,7 +238,7 @@ def diagnose(
     if not len(q) == len(p) == len(energies) == len(forces):
         lengths = f"{len(q)}, {len(p)}, {len(energies)} and {len(forces)}"
         raise _shadowstep.InputError(f"q, p, U and forces have {lengths} states: give as many of each")
-    observer = Observer(_masses(masses, q.shape[1]), h, cell=cell)
+    observer = Observer(_masses(masses, q.shape[1]), h, window=window, cell=cell)
     for state in zip(q, p, energies, forces):
         observer.observe(*state, half_step=half_steps)
     return observer.diagnosis()

@@ -4,7 +4,7 @@ use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMe
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use shadowstep::recorded::{
-    Derivatives, Diagnosis, Log, Logged, Recorded, RecordedError, Repeated, Unwrapping, integer_momenta,
+    Derivatives, Diagnosis, Log, Logged, Recorded, RecordedError, Repeated, Unwrapping, Window, integer_momenta,
     integer_momenta_with_gradients,
 };
 use shadowstep::run::{ShadowRun, States};
@@ -158,18 +158,22 @@ pub(crate) struct Observer {
 #[pymethods]
 impl Observer {
     #[new]
-    #[pyo3(signature = (masses, h, cell, periodic))]
+    #[pyo3(signature = (masses, h, window, cell, periodic))]
     fn new(
         py: Python<'_>,
         masses: Vec<f64>,
         h: &str,
+        window: usize,
         cell: Option<[[f64; 3]; 3]>,
         periodic: [bool; 3],
     ) -> PyResult<Self> {
         let h = step_size(py, h)?;
+        let Some(window) = [Window::Nine, Window::Seventeen].into_iter().find(|known| known.states() == window) else {
+            return Err(usage(py, format!("window = {window} is not known"), "a window has 9 or 17 states"));
+        };
         let begin = || -> Result<_, RecordedError> {
             let unwrapping = cell.map(Unwrapping::new).transpose()?.map(|unwrapping| unwrapping.along(periodic));
-            Ok((shadowstep::recorded::Observer::new(&h, &masses)?, unwrapping))
+            Ok((shadowstep::recorded::Observer::with_window(&h, &masses, window)?, unwrapping))
         };
         let (observer, unwrapping) = begin().map_err(|error| refused(py, &error))?;
         Ok(Observer { observer, h, unwrapping })

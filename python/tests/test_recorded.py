@@ -61,6 +61,8 @@ def test_what_does_not_fit_is_refused():
         shadow_energy(run.q, run.p, (energies, forces), h=0.05, masses=[1, -1])
     with pytest.raises(InputError, match="nonzero"):
         shadow_energy(run.q, run.p, (energies, forces), h=0)
+    with pytest.raises(InputError, match=r"window = 12 is not known\s+hint: a window has 9 or 17 states"):
+        diagnose(run.q, run.p, (energies, forces), h=0.05, window=12)
     with pytest.raises(InputError, match="31, 31, 30 and 31 states"):
         diagnose(run.q, run.p, (energies[:-1], forces), h=0.05)
     with pytest.raises(InputError, match="which image it came to is not decided"):
@@ -94,14 +96,14 @@ def lennard_jones(**settings):
     return Noisy(sigma=3.4, epsilon=0.0104, rc=7.5, **settings)
 
 
-def followed(atoms, femtoseconds=5.0, steps=120, every=1):
+def followed(atoms, femtoseconds=5.0, steps=120, every=1, window=17):
     from ase import units
     from ase.md.verlet import VelocityVerlet
 
     from shadowstep.ase import ShadowMonitor
 
     dyn = VelocityVerlet(atoms, femtoseconds * units.fs)
-    monitor = ShadowMonitor(atoms, dyn, every=every)
+    monitor = ShadowMonitor(atoms, dyn, every=every, window=window)
     dyn.run(steps)
     return monitor
 
@@ -119,8 +121,8 @@ def test_ase_in_order():
 def test_ase_with_noise():
     calculator = lennard_jones(smooth=True)
     calculator.noise = 1e-3
-    found = followed(argon(calculator)).diagnosis()
-    assert found.cause == "noise" and abs(found.size / 1e-3 - 1) < 0.05, str(found)
+    for found in (followed(argon(calculator)).diagnosis(), followed(argon(calculator), steps=400, every=12, window=9).diagnosis()):
+        assert found.cause == "noise" and abs(found.size / 1e-3 - 1) < 0.05, str(found)
 
 
 def test_ase_with_a_time_step_that_is_too_large():
@@ -220,3 +222,4 @@ def test_openmm_what_has_no_modified_energy_is_refused():
 
 def test_all_are_exported():
     assert shadowstep.Observer([1.0], h="1/10").window == 17
+    assert shadowstep.Observer([1.0], h="1/10", window=9).window == 9

@@ -16,6 +16,7 @@
 //! | `misfit` | by how much logged states differ from that |
 //! | `source` | the states of a log as a source for estimators |
 //! | `repeated` | states of any scheme, with the steps between them made again |
+//! | `window` | how many states that follow each other an observer needs |
 //! | `observer`, `value` | follows a trajectory, state by state: the modified energy at each |
 //! | `forces` | whether the forces are smooth along it |
 //! | `changes` | how the modified energy changes from state to state |
@@ -36,6 +37,7 @@ mod text;
 mod unwrap;
 mod value;
 mod verlet;
+mod window;
 
 pub use changes::Jump;
 pub use diagnosis::{Cause, Diagnosis};
@@ -49,3 +51,4 @@ pub use repeated::Repeated;
 pub use source::Recorded;
 pub use unwrap::Unwrapping;
 pub use value::Value;
+pub use window::Window;

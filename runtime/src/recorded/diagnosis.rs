@@ -4,6 +4,7 @@ use super::changes::{Changes, Jump, median};
 use super::forces::{ForceDifferences, Smoothness};
 use super::misfit::Differences;
 use super::value::Value;
+use super::window::Window;
 
 /// Estimates that a statement needs.
 const LEAST_ESTIMATES: usize = 32;
@@ -22,8 +23,13 @@ const ERROR_FACTOR: f64 = 3.0;
 const EXCESS: [f64; 2] = [8.0, 0.03];
 /// H̄ changes at few states only where the isolation is above this.
 const ISOLATED: f64 = 3.0;
-/// The steps do not resolve the motion where eighth differences of smooth forces are this part of the forces or more.
-const UNRESOLVED: f64 = 0.01;
+/// The steps do not resolve the motion where differences of smooth forces are this part of the forces or more: both are six steps a turn.
+const fn unresolved(window: Window) -> f64 {
+    match window {
+        Window::Nine => 0.05,
+        Window::Seventeen => 0.01,
+    }
+}
 /// Exponents of forces that are noise, jump, or have a derivative that jumps, are below these.
 const NOISE: f64 = 0.5;
 const JUMPS: f64 = 2.0;
@@ -35,6 +41,8 @@ const KINKS: f64 = 4.0;
 /// H, contains the part H − H̄ of the method in addition, which oscillates. Printed, it is a few lines with the numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {
+    /// How many states follow each other at least.
+    pub window: Window,
     /// How many states were taken.
     pub states: u64,
     /// How many estimates H̄ with errors there are.
@@ -51,7 +59,7 @@ pub struct Diagnosis {
     pub range: f64,
     /// That beyond three errors of the estimates on both sides, or 0.
     pub moved: f64,
-    /// The median of the estimated errors of H̄.
+    /// The median of the estimated errors of H̄; in windows of nine states with three times the scatter of H̄, the part that does not add up.
     pub known_to: f64,
     /// The time from the first estimate to the last.
     pub time: f64,
@@ -83,7 +91,7 @@ pub struct Diagnosis {
 /// | not the gradient | the excess is above 8, the exponent 2 or more |
 /// | energy not smooth | the excess is above 8 |
 /// | noise | the exponent is below 0.5 |
-/// | forces not smooth | the exponent is below 2, and the eighth differences of the forces are below 0.01 of these |
+/// | forces not smooth | the exponent is below 2, and the differences of the forces are below 0.01 of these (0.05 in windows of nine states) |
 /// | time step | the exponent is 2 or more; and the excess is below 0.03, or the differences are 0.01 of the forces or more |
 /// | forces not smooth | the exponent is from 2 to 4 |
 /// | not decided | none of these, or no gradients are logged |
@@ -150,6 +158,7 @@ impl Cause {
 
 /// What a diagnosis is made of.
 pub(super) struct Evidence<'a> {
+    pub(super) window: Window,
     pub(super) h: f64,
     pub(super) states: u64,
     pub(super) values: &'a [Value],
@@ -161,15 +170,21 @@ pub(super) struct Evidence<'a> {
 
 impl Diagnosis {
     pub(super) fn of(evidence: &Evidence<'_>) -> Diagnosis {
-        let Evidence { h, states, values, kinetic, changes, forces, differences } = *evidence;
+        let Evidence { window, h, states, values, kinetic, changes, forces, differences } = *evidence;
         let largest = |of: &dyn Fn(&Value) -> f64| values.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
         let width = |of: &dyn Fn(&Value) -> f64| largest(of) + largest(&|value| -of(value));
-        let beyond = |sign: f64| largest(&|value| sign * value.modified - ERROR_FACTOR * value.error);
+        // the error of seventeen states contains it
+        let scatter = if window == Window::Nine { changes.scatter() } else { 0.0 };
+        let error = |value: &Value| value.error.hypot(scatter);
+        // an error of seventeen states is a range of what scatters
+        let known_to = |value: &Value| value.error.hypot(ERROR_FACTOR * scatter);
+        let beyond = |sign: f64| largest(&|value| sign * value.modified - ERROR_FACTOR * error(value));
         let (first, last) = (values.first(), values.last());
         let modified = |value: Option<&Value>| value.map_or(f64::NAN, |value| value.modified);
         let smoothness = forces.found();
         let square = changes.square_in_a_step();
         let mut diagnosis = Diagnosis {
+            window,
             states,
             estimates: values.len(),
             kinetic,
@@ -178,7 +193,7 @@ impl Diagnosis {
             change: modified(last) - modified(first),
             range: width(&|value| value.modified),
             moved: (beyond(1.0) + beyond(-1.0)).max(0.0),
-            known_to: median(values.iter().map(|value| value.error).collect()),
+            known_to: median(values.iter().map(known_to).collect()),
             time: h.abs() * last.zip(first).map_or(0.0, |(last, first)| (last.n - first.n) as f64),
             smoothness,
             excess: smoothness.map(|_| square / (h * h * forces.power())),
@@ -228,7 +243,7 @@ impl Diagnosis {
                 Cause::EnergyNotSmooth { size: in_a_step }
             };
         }
-        let is_unresolved = differences >= UNRESOLVED * gradient;
+        let is_unresolved = differences >= unresolved(self.window) * gradient;
         match exponent {
             _ if excess.is_nan() || exponent.is_nan() => Cause::Undecided,
             ..NOISE => Cause::Noise { size: differences },

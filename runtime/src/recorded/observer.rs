@@ -3,10 +3,11 @@
 use super::changes::{Changes, K};
 use super::diagnosis::{Diagnosis, Evidence};
 use super::error::RecordedError;
-use super::forces::{ForceDifferences, STATES};
+use super::forces::ForceDifferences;
 use super::log::{Derivatives, Logged};
 use super::value::Value;
 use super::verlet::VerletSteps;
+use super::window::Window;
 use crate::run::{Quantity, check_value};
 use crate::shadow::{Bilinear, BilinearEstimator, BuildEstimator, Estimator};
 use crate::step_size::StepSize;
@@ -15,7 +16,8 @@ use crate::step_size::StepSize;
 /// [what moves the energy](Diagnosis).
 ///
 /// It takes states that follow each other by a step, or windows of such states with [gaps](Observer::begin) between them. From the 17th state of a window on
-/// each gives an estimate E_8 with its error, of the state eight before it.
+/// each gives an estimate E_8 with its error, of the state eight before it; with [windows of nine](Window::Nine), from the ninth on, of the state four before
+/// it.
 ///
 /// ```
 /// use shadowstep::StepSize;
@@ -47,10 +49,12 @@ use crate::step_size::StepSize;
 #[derive(Clone, Debug)]
 pub struct Observer {
     h: f64,
+    window: Window,
     masses: Vec<f64>,
     steps: VerletSteps,
-    with_error: BilinearEstimator<f64>,
+    /// E_8
     estimator: BilinearEstimator<f64>,
+    error: ErrorOf,
     forces: ForceDifferences,
     changes: Changes,
     values: Vec<Value>,
@@ -58,30 +62,55 @@ pub struct Observer {
     pushed: usize,
     states: u64,
     /// H of the newest states, that of the state n in place n mod their number.
-    energies: [f64; STATES],
+    energies: [f64; MOST],
     kinetic: f64,
 }
 
+/// The states of the longest window.
+const MOST: usize = Window::Seventeen.states();
+
+/// What gives the error of E_8.
+#[derive(Clone, Debug)]
+enum ErrorOf {
+    /// E_8 with its error.
+    Windows(BilinearEstimator<f64>),
+    /// E_7, and its newest value.
+    LastTerm(BilinearEstimator<f64>, f64),
+}
+
 impl Observer {
-    /// For steps of size h, of coordinates with these masses.
+    /// For steps of size h, of coordinates with these masses, with windows of 17 states.
     ///
     /// # Errors
     /// A mass that is not positive and finite; no masses.
     pub fn new(h: &StepSize, masses: &[f64]) -> Result<Self, RecordedError> {
+        Self::with_window(h, masses, Window::default())
+    }
+
+    /// The same with windows of so many states.
+    ///
+    /// # Errors
+    /// As [`Observer::new`].
+    pub fn with_window(h: &StepSize, masses: &[f64], window: Window) -> Result<Self, RecordedError> {
         let dimension = masses.len();
         let steps = VerletSteps::new(h, masses)?;
+        let error = match window {
+            Window::Nine => ErrorOf::LastTerm(Bilinear::new(K - 1).build(h, dimension, &())?, f64::NAN),
+            Window::Seventeen => ErrorOf::Windows(Bilinear::with_error(K).build(h, dimension, &())?),
+        };
         Ok(Observer {
             h: steps.h(),
+            window,
             masses: masses.to_vec(),
             steps,
-            with_error: Bilinear::with_error(K).build(h, dimension, &())?,
             estimator: Bilinear::new(K).build(h, dimension, &())?,
-            forces: ForceDifferences::new(dimension),
+            error,
+            forces: ForceDifferences::new(window, dimension),
             changes: Changes::default(),
             values: Vec::new(),
             pushed: 0,
             states: 0,
-            energies: [0.0; STATES],
+            energies: [0.0; MOST],
             kinetic: 0.0,
         })
     }
@@ -99,7 +128,7 @@ impl Observer {
 
     /// How many states a window needs for an estimate with its error.
     pub fn states(&self) -> usize {
-        STATES
+        self.window.states()
     }
 
     /// Takes the next state; gives the estimate that it completes.
@@ -119,21 +148,30 @@ impl Observer {
         check_value(&(kinetic + logged.energy), Quantity::Energy, n)?;
         self.kinetic += kinetic;
         self.states += 1;
-        let place = |n: i64| n as usize % STATES;
+        let place = |n: i64| n as usize % MOST;
         self.energies[place(n)] = kinetic + logged.energy;
 
-        let of_window = |states: usize| self.pushed >= states;
-        if let Some(found) =
-            self.estimator.push(state.q, state.p, state.increments).filter(|_| of_window(K as usize + 1))
-        {
-            check_value(found.value, Quantity::ModifiedEnergy, n)?;
-            self.changes.push(n - i64::from(K) / 2, *found.value);
+        let pushed = self.pushed;
+        let estimate = self.estimator.push(state.q, state.p, state.increments).filter(|_| pushed > K as usize);
+        let estimate = estimate.map(|found| *found.value);
+        if let Some(estimate) = estimate {
+            check_value(&estimate, Quantity::ModifiedEnergy, n)?;
+            self.changes.push(n - i64::from(K) / 2, estimate);
         }
-        let found = self.with_error.push(state.q, state.p, state.increments).filter(|_| of_window(STATES));
-        let Some(found) = found else { return Ok(None) };
-        let n = n - (STATES as i64 - 1) / 2;
-        let error = found.error.copied().unwrap_or(f64::NAN);
-        let value = Value { n, modified: *found.value, error, energy: self.energies[place(n)] };
+        let found = match &mut self.error {
+            ErrorOf::Windows(with_error) => {
+                let found = with_error.push(state.q, state.p, state.increments);
+                found.map(|found| (*found.value, found.error.copied().unwrap_or(f64::NAN)))
+            }
+            ErrorOf::LastTerm(of_seven, before) => {
+                let newest = of_seven.push(state.q, state.p, state.increments).map_or(f64::NAN, |found| *found.value);
+                let mean = (newest + std::mem::replace(before, newest)) / 2.0;
+                estimate.map(|estimate| (estimate, (estimate - mean).abs()))
+            }
+        };
+        let Some((modified, error)) = found.filter(|_| pushed >= self.window.states()) else { return Ok(None) };
+        let n = n - (self.window.states() as i64 - 1) / 2;
+        let value = Value { n, modified, error, energy: self.energies[place(n)] };
         self.values.push(value);
         Ok(Some(value))
     }
@@ -146,6 +184,7 @@ impl Observer {
     /// What moves the energy, as far as the states so far tell.
     pub fn diagnosis(&self) -> Diagnosis {
         Diagnosis::of(&Evidence {
+            window: self.window,
             h: self.h,
             states: self.states,
             values: &self.values,

@@ -43,7 +43,7 @@ impl Diagnosis {
 
     fn why_undecided(&self) -> String {
         if self.smoothness.is_none() {
-            "not decided: no forces are logged, or windows have fewer than 17 states".to_owned()
+            "not decided: no forces are logged, or windows have too few states".to_owned()
         } else {
             format!(
                 "not decided: {} estimates with errors, which are {:.1e}; more states may decide it",
@@ -90,7 +90,7 @@ impl fmt::Display for Diagnosis {
         if let Some(Smoothness { gradient, differences, exponent }) = self.smoothness {
             writeln!(
                 f,
-                "  forces           {gradient:9.2e}  eighth differences {differences:.2e}, exponent {exponent:.2}"
+                "  forces           {gradient:9.2e}  their differences {differences:.2e}, exponent {exponent:.2}"
             )?;
         }
         if let Some(excess) = self.excess {

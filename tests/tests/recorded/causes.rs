@@ -1,6 +1,7 @@
-//! What moves the energy of a fluid of 27 particles: faults that other programs have, each made here.
+//! What moves the energy of a fluid of 27 particles: faults that other programs have, each made here. It is found from all states, and from windows of
+//! nine with gaps between them.
 
-use shadowstep::recorded::{Cause, Derivatives, Diagnosis, Logged as State, Observer};
+use shadowstep::recorded::{Cause, Derivatives, Diagnosis, Logged as State, Observer, Window};
 
 use super::*;
 
@@ -15,22 +16,32 @@ struct Run<E, A> {
 }
 
 impl<E: FnMut(usize, &[f64], &mut [f64]) -> f64, A: FnMut(&mut [f64])> Run<E, A> {
-    fn observe(mut self, logged_h: f64) -> Diagnosis {
+    /// From all states, and from windows of nine in 20 steps.
+    fn observe(mut self, logged_h: f64) -> [Diagnosis; 2] {
         let [mut q, mut p] = fluid().start();
         let mut gradient = vec![0.0; q.len()];
-        let mut observer = Observer::new(&logged_h.try_into().unwrap(), &vec![1.0; q.len()]).unwrap();
+        let (h, masses) = (logged_h.try_into().unwrap(), vec![1.0; q.len()]);
+        let observer = |window| Observer::with_window(&h, &masses, window).unwrap();
+        let [mut all, mut windows] = [Window::Seventeen, Window::Nine].map(observer);
         let mut energy = (self.evaluate)(0, &q, &mut gradient);
         for n in 1..=self.steps {
             let [q_stored, p_stored] = [&q, &p].map(|x| x.iter().map(|x| (self.store)(*x)).collect::<Vec<f64>>());
             let derivatives = Derivatives::Gradient(&gradient);
-            observer.observe(&State { q: &q_stored, p: &p_stored, energy, derivatives }).unwrap();
+            let state = State { q: &q_stored, p: &p_stored, energy, derivatives };
+            all.observe(&state).unwrap();
+            if (n - 1) % 20 == 0 && n > 1 {
+                windows.begin(n as i64 - 1).unwrap();
+            }
+            if (n - 1) % 20 < 9 {
+                windows.observe(&state).unwrap();
+            }
             p.iter_mut().zip(&gradient).for_each(|(p, g)| *p -= self.h / 2.0 * g);
             q.iter_mut().zip(&p).for_each(|(q, p)| *q += self.h * p);
             energy = (self.evaluate)(n, &q, &mut gradient);
             p.iter_mut().zip(&gradient).for_each(|(p, g)| *p -= self.h / 2.0 * g);
             (self.after)(&mut p);
         }
-        observer.diagnosis()
+        [all.diagnosis(), windows.diagnosis()]
     }
 }
 
@@ -45,7 +56,7 @@ fn of(kind: Cutoff) -> impl FnMut(usize, &[f64], &mut [f64]) -> f64 {
 }
 
 /// 1000 steps with these forces.
-fn with(h: f64, evaluate: impl FnMut(usize, &[f64], &mut [f64]) -> f64) -> Diagnosis {
+fn with(h: f64, evaluate: impl FnMut(usize, &[f64], &mut [f64]) -> f64) -> [Diagnosis; 2] {
     Run { h, steps: 1000, evaluate, after: |_: &mut [f64]| (), store: |x| x }.observe(h)
 }
 
@@ -62,10 +73,11 @@ fn noise() -> impl FnMut() -> f64 {
 #[test]
 fn of_smooth_forces_and_resolved_steps_it_is_nothing() {
     for h in [0.001, 0.002, 0.004] {
-        let found = with(h, of(Cutoff::Smooth));
-        assert_eq!(found.cause, Cause::Nothing, "h = {h}: {found}");
-        let found = with(h, of(Cutoff::ForceShifted));
-        assert_eq!(found.cause, Cause::Nothing, "h = {h}: {found}");
+        for kind in [Cutoff::Smooth, Cutoff::ForceShifted] {
+            for found in with(h, of(kind)) {
+                assert_eq!(found.cause, Cause::Nothing, "h = {h}: {found}");
+            }
+        }
     }
 }
 
@@ -78,19 +90,23 @@ fn noise_is_found_with_its_size() {
             gradient.iter_mut().for_each(|g| *g += size * noise());
             energy
         });
-        let holds = matches!(found.cause, Cause::Noise { size: found } if (found / size - 1.0).abs() < 0.05);
-        assert!(holds, "{size}: {found}");
-        // theory: what independent kicks do to the energy
-        assert!((0.5..2.0).contains(&found.excess.unwrap()), "{size}: {found}");
+        for found in found {
+            let holds = matches!(found.cause, Cause::Noise { size: found } if (found / size - 1.0).abs() < 0.05);
+            assert!(holds, "{size}: {found}");
+            // theory: what independent kicks do to the energy
+            assert!((0.5..2.0).contains(&found.excess.unwrap()), "{size}: {found}");
+        }
     }
 }
 
 #[test]
 fn cutoffs_are_found() {
-    let truncated = with(0.002, of(Cutoff::Truncated));
-    assert!(matches!(truncated.cause, Cause::EnergyNotSmooth { .. } | Cause::Jumps { .. }), "{truncated}");
-    let shifted = with(0.002, of(Cutoff::Shifted));
-    assert!((0.5..1.6).contains(&shifted.smoothness.unwrap().exponent), "{shifted}");
+    for truncated in with(0.002, of(Cutoff::Truncated)) {
+        assert!(matches!(truncated.cause, Cause::EnergyNotSmooth { .. } | Cause::Jumps { .. }), "{truncated}");
+    }
+    for shifted in with(0.002, of(Cutoff::Shifted)) {
+        assert!((0.5..1.6).contains(&shifted.smoothness.unwrap().exponent), "{shifted}");
+    }
 }
 
 /// A list of the pairs within the cutoff that is renewed in so many steps.
@@ -126,15 +142,19 @@ fn late(every: usize) -> impl FnMut(usize, &[f64], &mut [f64]) -> f64 {
 
 #[test]
 fn lists_that_are_renewed_too_late_are_found_with_their_places() {
-    let found = with(0.002, late(100));
-    let holds = matches!(found.cause, Cause::Jumps { size } if size > 1e-3);
-    assert!(holds, "{found}");
-    assert!(found.jumps.iter().take(5).all(|jump| jump.n % 100 == 0), "{:?}", found.jumps);
-    // what H̄ changes by is the sum of the jumps
-    let sum: f64 = found.jumps.iter().map(|jump| jump.energy).sum();
-    assert!((sum - found.change).abs() < 0.02 * found.range, "{sum}: {found}");
-    let found = with(0.002, late(1));
-    assert_eq!(found.cause, Cause::Nothing, "{found}");
+    let [all, windows] = with(0.002, late(100));
+    for found in [&all, &windows] {
+        assert!(matches!(found.cause, Cause::Jumps { size } if size > 1e-3), "{found}");
+        // what H̄ changes by is the sum of the jumps
+        let sum: f64 = found.jumps.iter().map(|jump| jump.energy).sum();
+        assert!((sum - found.change).abs() < 0.02 * found.range, "{sum}: {found}");
+    }
+    assert!(all.jumps.iter().take(5).all(|jump| jump.n % 100 == 0), "{:?}", all.jumps);
+    // a jump is before the middle of the first window after it, and the states 100, 200, … begin one
+    assert!(windows.jumps.iter().take(5).all(|jump| jump.n % 100 == 4), "{:?}", windows.jumps);
+    for found in with(0.002, late(1)) {
+        assert_eq!(found.cause, Cause::Nothing, "{found}");
+    }
 }
 
 #[test]
@@ -145,41 +165,48 @@ fn forces_of_another_potential_are_found() {
         gradient.iter_mut().for_each(|g| *g *= 1.02);
         energy
     });
-    assert_eq!(found.cause, Cause::NotTheGradient, "{found}");
+    for found in found {
+        assert_eq!(found.cause, Cause::NotTheGradient, "{found}");
+    }
 }
 
 #[test]
 fn a_time_step_that_is_too_large_is_found() {
-    let found = with(0.02, of(Cutoff::Smooth));
-    assert_eq!(found.cause, Cause::TimeStep, "{found}");
+    for found in with(0.02, of(Cutoff::Smooth)) {
+        assert_eq!(found.cause, Cause::TimeStep, "{found}");
+    }
 }
 
 #[test]
 fn other_steps_are_found() {
     // friction, as of a thermostat
     let after = |p: &mut [f64]| p.iter_mut().for_each(|p| *p *= 0.9995);
-    let found = Run { h: 0.002, steps: 200, evaluate: of(Cutoff::Smooth), after, store: |x| x }.observe(0.002);
-    assert_eq!(found.cause, Cause::OtherSteps, "{found}");
+    for found in (Run { h: 0.002, steps: 1000, evaluate: of(Cutoff::Smooth), after, store: |x| x }).observe(0.002) {
+        assert_eq!(found.cause, Cause::OtherSteps, "{found}");
+    }
     // another step size than is said
-    let run = Run { h: 0.002, steps: 200, evaluate: of(Cutoff::Smooth), after: |_: &mut [f64]| (), store: |x| x };
-    let found = run.observe(0.00201);
-    assert_eq!(found.cause, Cause::OtherSteps, "{found}");
-    let [of_q, _] = found.differences.unwrap();
-    assert!((of_q.slope + 0.005).abs() < 1e-4, "{of_q:?}");
+    let run = Run { h: 0.002, steps: 1000, evaluate: of(Cutoff::Smooth), after: |_: &mut [f64]| (), store: |x| x };
+    for found in run.observe(0.00201) {
+        assert_eq!(found.cause, Cause::OtherSteps, "{found}");
+        let [of_q, _] = found.differences.unwrap();
+        assert!((of_q.slope + 0.005).abs() < 1e-4, "{of_q:?}");
+    }
 }
 
 #[test]
 fn states_with_few_digits_are_not_accused() {
     let run = |store| {
-        Run { h: 0.002, steps: 400, evaluate: of(Cutoff::Smooth), after: |_: &mut [f64]| (), store }.observe(0.002)
+        Run { h: 0.002, steps: 1000, evaluate: of(Cutoff::Smooth), after: |_: &mut [f64]| (), store }.observe(0.002)
     };
-    let single = run(|x| f64::from(x as f32));
-    assert_eq!(single.cause, Cause::Nothing, "{single}");
-    let [of_q, _] = single.differences.unwrap();
-    assert!((of_q.correlation + 0.5).abs() < 0.1 && of_q.of_numbers < 1e-7, "{single}");
+    for single in run(|x| f64::from(x as f32)) {
+        assert_eq!(single.cause, Cause::Nothing, "{single}");
+        let [of_q, _] = single.differences.unwrap();
+        assert!((of_q.correlation + 0.5).abs() < 0.1 && of_q.of_numbers < 1e-7, "{single}");
+    }
     // two decimals
-    let few = run(|x| (x * 1e2).round() / 1e2);
-    assert_eq!(few.cause, Cause::Digits, "{few}");
+    for few in run(|x| (x * 1e2).round() / 1e2) {
+        assert_eq!(few.cause, Cause::Digits, "{few}");
+    }
 }
 
 /// Windows of 17 states with gaps between them: the estimates are those of the whole trajectory.
