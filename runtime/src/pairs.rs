@@ -189,6 +189,19 @@ impl<N: Number, const D: usize> End<'_, N, D> {
     }
 }
 
+/// The sum over all pairs of a few bodies, one after the other in the code, so that it is in registers: the compiler does not unroll loops of
+/// this size.
+macro_rules! few {
+    ($self:ident, ($q:ident, $gradient:ident, $s:ident, $slope:ident), $bodies:literal: $($i:literal $j:literal),*) => {{
+        const BODIES: &str = "there are as many bodies";
+        let q: &[[N; D]; $bodies] = $q.as_chunks().0.try_into().expect(BODIES);
+        let gradient: &mut [[N; D]; $bodies] = $gradient.try_into().expect(BODIES);
+        let mut sum = gradient.clone();
+        $($self.add_pair(End::Body($i, &q[$i]), End::Body($j, &q[$j]), &mut sum, &mut $s, &mut $slope);)*
+        *gradient = sum;
+    }};
+}
+
 impl<P, const D: usize> Pairs<P, D> {
     /// What u is a function of, from the difference.
     #[inline(always)]
@@ -282,6 +295,18 @@ impl<P, const D: usize> Pairs<P, D> {
         gradient.iter_mut().for_each(N::assign_zero);
         let (gradient, _) = gradient.as_chunks_mut::<D>();
         let mut s = parts::<N, D>(scratch);
+        if N::IN_VECTORS && self.which == Which::All {
+            match self.bodies {
+                3 => return few!(self, (q, gradient, s, slope), 3: 0 1, 0 2, 1 2),
+                4 => return few!(self, (q, gradient, s, slope), 4: 0 1, 0 2, 0 3, 1 2, 1 3, 2 3),
+                5 => return few!(self, (q, gradient, s, slope), 5: 0 1, 0 2, 0 3, 0 4, 1 2, 1 3, 1 4, 2 3, 2 4, 3 4),
+                6 => {
+                    return few!(self, (q, gradient, s, slope), 6: 0 1, 0 2, 0 3, 0 4, 0 5, 1 2, 1 3, 1 4, 1 5, 2 3, 2 4,
+                        2 5, 3 4, 3 5, 4 5);
+                }
+                _ => {}
+            }
+        }
         // a closure each, so that the loop over all pairs has its own, inlined
         match self.which {
             Which::All => each_pair(q, |i, j| self.add_pair(i, j, gradient, &mut s, &mut slope)),
