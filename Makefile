@@ -74,6 +74,12 @@ book: docs python-environment
 	echo '<meta http-equiv="refresh" content="0; url=README.html"><a href="README.html">Shadowstep</a>' > target/book/index.html
 	@echo "The book is target/book/index.html."
 
+# What a run costs from Python beside a loop in Rust, on a machine without other load: the table of docs/python.md.
+bench-python: wheel
+	cargo build --release --locked -p shadowstep --example steps-of-kepler
+	$(WHEEL)/tools/bin/pip install --quiet --force-reinstall numba target/wheels/shadowstep-*.whl
+	$(WHEEL)/tools/bin/python python/benches/overhead.py $(abspath $(or $(CARGO_TARGET_DIR),target))/release/examples/steps-of-kepler
+
 # Sweeps on Slurm (of Debian's packages, with a private configuration), with GNU parallel and with Dask, whose tasks and nodes are killed:
 # the results are those of one machine. What is not installed is skipped.
 test-cluster: deps

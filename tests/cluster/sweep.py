@@ -6,7 +6,8 @@ from pathlib import Path
 
 from processes import Failed, descendants, words
 
-PROGRAM = Path(os.environ.get("SHADOWSTEP", Path(__file__).parents[2] / "target/debug/shadowstep")).absolute()
+BUILT = Path(os.environ.get("CARGO_TARGET_DIR", Path(__file__).parents[2] / "target"))
+PROGRAM = Path(os.environ.get("SHADOWSTEP", BUILT / "debug/shadowstep")).absolute()
 CHUNKS = 16
 
 

@@ -54,7 +54,7 @@ where
 
 #[test]
 fn blocks_have_the_bits_of_pairs_one_by_one() {
-    for bodies in [2, 8, 15, 16, 17, 23, 24, 25, 40] {
+    for bodies in [2, 3, 4, 5, 6, 7, 8, 15, 16, 17, 23, 24, 25, 40] {
         let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
         let counting = m.iter().copied().map(Counting).collect();
         agree(
