@@ -18,7 +18,8 @@ import sundials
 from commands import Failed, Missing, found, pkg_config, python_packages, run
 
 ROOT = Path(__file__).parents[2]
-PROGRAM = os.environ.get("SHADOWSTEP", ROOT / "target/debug/shadowstep")
+BUILT = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+PROGRAM = os.environ.get("SHADOWSTEP", BUILT / "debug/shadowstep")
 
 # kick first and drift first, at both ends and at one; gradient kicks inside and at both ends; processed; for H = A + εB; long
 EVERY_KIND = ["stormer-verlet", "symplectic-euler", "yoshida4", "blanes-moan-srkn6b", "chin-4a", "omelyan-4mn3f3gv", "wisdom-kernel-3",
