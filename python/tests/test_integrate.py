@@ -116,6 +116,20 @@ def test_a_c_function_of_ctypes_has_the_bits_of_the_python_function():
     assert np.array_equal(of_c.q, of_python.q) and np.array_equal(of_c.energy, of_python.energy)
 
 
+def test_a_c_function_of_cffi():
+    cffi = pytest.importorskip("cffi")
+    ffi = cffi.FFI()
+
+    @ffi.callback("double(const double *, double *)")
+    def spring(q, gradient):
+        gradient[0] = q[0]
+        return q[0] * q[0] / 2
+
+    own = integrate(Problem(int(ffi.cast("uintptr_t", spring)), q=[1.0], p=[0.0]), "stormer-verlet", h=0.125, steps=50)
+    q, _ = verlet([1.0], [0.0], lambda q: q, 0.125, 50)
+    assert own.q[-1, 0] == q[0]
+
+
 def test_a_numba_function():
     numba = pytest.importorskip("numba")
 
