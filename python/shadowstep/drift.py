@@ -7,7 +7,8 @@ import os
 from typing import Any, Union
 
 from . import _shadowstep
-from .exact import Number, exact, order_of
+from .estimator import options
+from .exact import Number, exact
 from .problem import Problem
 from .progress import bar
 from .scheme import Scheme
@@ -57,8 +58,6 @@ def drift(
     """
     exact_flow = scheme == "exact-flow"
     table = None if exact_flow else (scheme if isinstance(scheme, Scheme) else Scheme(scheme))._table
-    options = {"name": estimator, "order": order_of(order), "max_order": order_of(max_order, "max_order"), "stop": stop, "rule": rule}
-    options["accuracy"] = None if accuracy is None else exact(accuracy, "accuracy")
     with bar(None, "steps", progress) as reach:
         found = _shadowstep.drift(
             problem._given,
@@ -68,7 +67,7 @@ def drift(
             exact(until, "until"),
             digits=str(digits),
             mpfr=mpfr,
-            options=options,
+            options=options(estimator, order, max_order, stop, rule, accuracy),
             control=control,
             progress=reach,
         )

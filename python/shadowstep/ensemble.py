@@ -11,7 +11,8 @@ import numpy as np
 
 from . import _shadowstep
 from .document import document
-from .exact import Number, count, exact, order_of
+from .estimator import order_of
+from .exact import Number, count, exact
 from .problem import Problem
 from .progress import bar
 from .scheme import Scheme

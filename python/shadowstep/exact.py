@@ -71,11 +71,6 @@ def count(value: Any, what: str, least: int = 1, most: int = 2**63 - 1) -> int:
     return found
 
 
-def order_of(value: Any, what: str = "order") -> int | None:
-    """The k or m of an estimator, if one is given; its largest depends on the estimator."""
-    return None if value is None else count(value, what, most=2**32 - 1)
-
-
 def _finite(value: Any, what: str) -> Any:
     if value != value or value in (float("inf"), float("-inf")):
         raise ValueError(f"{what} must be finite, not {value}")

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from . import _shadowstep
-from .exact import Number, count, exact, order_of
+from .estimator import options
+from .exact import Number, count, exact
 from .problem import Problem
 from .progress import bar
 from .scheme import Scheme
@@ -164,10 +165,7 @@ def integrate(
     '0.3'
     """
     scheme = scheme if isinstance(scheme, Scheme) else Scheme(scheme)
-    options = None
-    if estimator is not None:
-        accuracy = None if accuracy is None else exact(accuracy, "accuracy")
-        options = {"name": estimator, "order": order_of(order), "max_order": order_of(max_order, "max_order"), "stop": stop, "rule": rule, "accuracy": accuracy}
+    chosen = None if estimator is None else options(estimator, order, max_order, stop, rule, accuracy)
     with bar(steps, "steps", progress) as reach:
         found = _shadowstep.integrate(
             problem._given,
@@ -178,7 +176,7 @@ def integrate(
             every=count(every, "every"),
             digits=str(digits),
             mpfr=mpfr,
-            options=options,
+            options=chosen,
             progress=reach,
         )
     for note in found["notes"]:

@@ -9,7 +9,8 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from . import _shadowstep
-from .exact import Number, count, exact, order_of
+from .estimator import order_of
+from .exact import Number, count, exact
 from .problem import Problem
 from .scheme import Scheme
 

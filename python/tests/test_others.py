@@ -86,7 +86,7 @@ def test_advice_meets_its_tolerance():
     ("call", "message"),
     [
         (lambda: shadowstep.work_precision(Problem("pendulum"), 10, seconds=-1.0), "seconds = -1.0"),
-        (lambda: shadowstep.work_precision(Problem("pendulum"), 10, steps=[0, 100]), "give numbers of steps"),
+        (lambda: shadowstep.work_precision(Problem("pendulum"), 10, steps=[0, 100]), "steps = 0 is too small"),
         (lambda: shadowstep.advise(Problem("pendulum"), 10, 1e-6, seconds=float("nan")), "seconds = nan"),
         (lambda: shadowstep.shadow_energy(np.zeros((20, 1)), np.zeros((20, 1)), Problem("pendulum"), h=0), "step size must be nonzero"),
         (lambda: shadowstep.shadow_energy(np.zeros((20, 3)), np.zeros((20, 3)), Problem("pendulum"), h=0.1), "3 coordinates, and the problem has 1"),
