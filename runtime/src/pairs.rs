@@ -2,6 +2,7 @@
 
 mod blocks;
 mod chain;
+mod few;
 mod hessian;
 mod pair;
 #[cfg(test)]
@@ -16,6 +17,7 @@ use crate::number::Number;
 use crate::potential::{HessianProduct, Potential};
 use blocks::Blocks;
 use chain::Chain;
+use few::Few;
 
 /// The potential U = Σ u over pairs of bodies in D dimensions.
 ///
@@ -189,19 +191,6 @@ impl<N: Number, const D: usize> End<'_, N, D> {
     }
 }
 
-/// The sum over all pairs of a few bodies, one after the other in the code, so that it is in registers: the compiler does not unroll loops of
-/// this size.
-macro_rules! few {
-    ($self:ident, ($q:ident, $gradient:ident, $s:ident, $slope:ident), $bodies:literal: $($i:literal $j:literal),*) => {{
-        const BODIES: &str = "there are as many bodies";
-        let q: &[[N; D]; $bodies] = $q.as_chunks().0.try_into().expect(BODIES);
-        let gradient: &mut [[N; D]; $bodies] = $gradient.try_into().expect(BODIES);
-        let mut sum = gradient.clone();
-        $($self.add_pair(End::Body($i, &q[$i]), End::Body($j, &q[$j]), &mut sum, &mut $s, &mut $slope);)*
-        *gradient = sum;
-    }};
-}
-
 impl<P, const D: usize> Pairs<P, D> {
     /// What u is a function of, from the difference.
     #[inline(always)]
@@ -261,6 +250,13 @@ impl<P, const D: usize> Pairs<P, D> {
         })
     }
 
+    /// The sum over all pairs of a few bodies.
+    #[inline(always)]
+    fn few<N: Number>(&self) -> Option<Few<'_, P, D>> {
+        let are_few = N::IN_VECTORS && self.which == Which::All && (3..=few::MOST_BODIES).contains(&self.bodies);
+        are_few.then_some(Few { pair: &self.pair, bodies: self.bodies })
+    }
+
     fn all_blocks(&self) -> Blocks<'_, P, D> {
         Blocks { pair: &self.pair, bodies: self.bodies }
     }
@@ -295,18 +291,6 @@ impl<P, const D: usize> Pairs<P, D> {
         gradient.iter_mut().for_each(N::assign_zero);
         let (gradient, _) = gradient.as_chunks_mut::<D>();
         let mut s = parts::<N, D>(scratch);
-        if N::IN_VECTORS && self.which == Which::All {
-            match self.bodies {
-                3 => return few!(self, (q, gradient, s, slope), 3: 0 1, 0 2, 1 2),
-                4 => return few!(self, (q, gradient, s, slope), 4: 0 1, 0 2, 0 3, 1 2, 1 3, 2 3),
-                5 => return few!(self, (q, gradient, s, slope), 5: 0 1, 0 2, 0 3, 0 4, 1 2, 1 3, 1 4, 2 3, 2 4, 3 4),
-                6 => {
-                    return few!(self, (q, gradient, s, slope), 6: 0 1, 0 2, 0 3, 0 4, 0 5, 1 2, 1 3, 1 4, 1 5, 2 3, 2 4,
-                        2 5, 3 4, 3 5, 4 5);
-                }
-                _ => {}
-            }
-        }
         // a closure each, so that the loop over all pairs has its own, inlined
         match self.which {
             Which::All => each_pair(q, |i, j| self.add_pair(i, j, gradient, &mut s, &mut slope)),
@@ -406,6 +390,9 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
             let chain = Chain { pair: &self.pair, ends };
             return chain.sum((q, gradient), None, &mut scratch[own_scratch(D)..]);
         }
+        if let Some(few) = self.few::<N>() {
+            return few.sum((q, gradient), None, &mut scratch[own_scratch(D)..]);
+        }
         N::in_widest_instructions(
             #[inline(always)]
             || {
@@ -423,6 +410,9 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
         if let Some(ends) = self.chain_in_blocks::<N>() {
             let chain = Chain { pair: &self.pair, ends };
             return chain.sum((q, gradient), Some(rate), &mut scratch[own_scratch(D)..]);
+        }
+        if let Some(few) = self.few::<N>() {
+            return few.sum((q, gradient), Some(rate), &mut scratch[own_scratch(D)..]);
         }
         N::in_widest_instructions(
             #[inline(always)]

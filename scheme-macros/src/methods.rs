@@ -84,7 +84,7 @@ impl Methods<'_> {
 
     fn block_body(&self, program: &Program, lane: &Ident, outputs: &[(Ident, Ident)]) -> TokenStream {
         let constants = scratch_names(program, self.programs.energy.kept, self.programs.kept(), false);
-        let block = quote! { ::shadowstep::pairs::BLOCK };
+        let block = own("W");
         let own_xs = own("xs");
         let blocks = (0..program.scratch).map(|i| {
             let block_of = numbered("scratch_of_block", i);

@@ -42,7 +42,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     let outputs = [(slopes.clone(), slope.clone()), (rates.clone(), rate.clone())];
     let slopes_body = in_lane.gradient_of_block(&lane, &outputs[..1]);
     let rates_body = in_lane.gradient_and_rate_of_block(&lane, &outputs);
-    let block = quote! { ::shadowstep::pairs::BLOCK };
+    let width = own("W");
     let scratch_size = size(methods.scratch());
     let kind = format_ident!("{separation:?}");
     Ok(quote! {
@@ -77,25 +77,25 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #rate_body
             }
             #[inline(always)]
-            fn slopes(
+            fn slopes<const #width: usize>(
                 &self,
                 #i: usize,
                 #j: usize,
-                #xs: &[N; #block],
-                #slopes: &mut [N; #block],
+                #xs: &[N; #width],
+                #slopes: &mut [N; #width],
                 #scratch: &mut [N],
             ) {
                 #property_blocks
                 #slopes_body
             }
             #[inline(always)]
-            fn slopes_and_rates(
+            fn slopes_and_rates<const #width: usize>(
                 &self,
                 #i: usize,
                 #j: usize,
-                #xs: &[N; #block],
-                #slopes: &mut [N; #block],
-                #rates: &mut [N; #block],
+                #xs: &[N; #width],
+                #slopes: &mut [N; #width],
+                #rates: &mut [N; #width],
                 #scratch: &mut [N],
             ) {
                 #property_blocks
@@ -168,10 +168,11 @@ fn property_values(definition: &Definition, [i, j]: [&Ident; 2]) -> TokenStream 
 
 /// Those of the bodies from j on.
 fn property_blocks(definition: &Definition, j: &Ident) -> TokenStream {
+    let width = own("W");
     let blocks = listed(definition).enumerate().filter(|(_, (_, _, is_first))| !is_first).map(|(n, (_, list, _))| {
         let block = numbered("block", n);
         quote! {
-            let #block: &[N; ::shadowstep::pairs::BLOCK] =
+            let #block: &[N; #width] =
                 self.#list[#j..].first_chunk().expect("the block is within the bodies");
         }
     });

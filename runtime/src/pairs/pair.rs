@@ -40,24 +40,24 @@ pub trait PairPotential<N: Number>: Pair {
 
     /// The slopes of the body i with the bodies j, j + 1, …, one x for each.
     #[inline(always)]
-    fn slopes(&self, i: usize, j: usize, x: &[N; BLOCK], slopes: &mut [N; BLOCK], scratch: &mut [N]) {
-        for l in 0..BLOCK {
+    fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
+        for l in 0..W {
             self.slope(i, j + l, &x[l], &mut slopes[l], scratch);
         }
     }
 
     /// Those slopes, and the rates.
     #[inline(always)]
-    fn slopes_and_rates(
+    fn slopes_and_rates<const W: usize>(
         &self,
         i: usize,
         j: usize,
-        x: &[N; BLOCK],
-        slopes: &mut [N; BLOCK],
-        rates: &mut [N; BLOCK],
+        x: &[N; W],
+        slopes: &mut [N; W],
+        rates: &mut [N; W],
         scratch: &mut [N],
     ) {
-        for l in 0..BLOCK {
+        for l in 0..W {
             self.slope_and_rate(i, j + l, &x[l], &mut slopes[l], &mut rates[l], scratch);
         }
     }
