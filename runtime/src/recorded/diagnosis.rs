@@ -34,6 +34,13 @@ const fn unresolved(window: Window) -> f64 {
 const NOISE: f64 = 0.5;
 const JUMPS: f64 = 2.0;
 const KINKS: f64 = 4.0;
+/// Where H̄ moves by more than the forces' differences explain, forces are smooth from this exponent on: nine states see more of the smooth part.
+const fn smooth(window: Window) -> f64 {
+    match window {
+        Window::Nine => 3.0,
+        Window::Seventeen => 2.0,
+    }
+}
 
 /// What moves the energy of a trajectory that another program has computed.
 ///
@@ -88,7 +95,7 @@ pub struct Diagnosis {
 /// | nothing | H̄ moved by less than a tenth of the energy error, beyond three times its errors, and is known to a quarter of it |
 /// | digits | else, if it is not known to that, and q differs from the steps as numbers that are stored with few digits |
 /// | jumps | the excess is above 8, the isolation above 3 |
-/// | not the gradient | the excess is above 8, the exponent 2 or more |
+/// | not the gradient | the excess is above 8, the exponent 2 or more (3 in windows of nine states) |
 /// | energy not smooth | the excess is above 8 |
 /// | noise | the exponent is below 0.5 |
 /// | forces not smooth | the exponent is below 2, and the differences of the forces are below 0.01 of these (0.05 in windows of nine states) |
@@ -237,7 +244,7 @@ impl Diagnosis {
             };
             return if is_isolated {
                 Cause::Jumps { size: rms(&self.jumps) }
-            } else if exponent >= JUMPS {
+            } else if exponent >= smooth(self.window) {
                 Cause::NotTheGradient
             } else {
                 Cause::EnergyNotSmooth { size: in_a_step }

@@ -52,7 +52,7 @@ impl Window {
         match self {
             Window::Seventeen => ratio,
             Window::Nine => {
-                let [.., last] = EXPONENTS.windows(2).collect::<Vec<_>>()[..] else { unreachable!("there are five") };
+                let last = &EXPONENTS[EXPONENTS.len() - 2..];
                 let part = EXPONENTS.windows(2).find(|part| ratio < part[1].0).unwrap_or(last);
                 let ((from, low), (to, high)) = (part[0], part[1]);
                 low + (high - low) * (ratio - from) / (to - from)
