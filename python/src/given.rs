@@ -137,8 +137,13 @@ pub(crate) fn arithmetic(py: Python<'_>, digits: &str, mpfr: bool) -> PyResult<A
     let names = Arithmetic::NAMED.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
     let hint = format!("give a number of decimal digits up to {MOST_DIGITS}, or one of {names}");
     match digits.parse() {
-        Ok(count @ 1..=MOST_DIGITS) => Arithmetic::of_digits(count, mpfr)
-            .map_err(|error: DigitsError| usage(py, format!("digits = {digits}: {error}"), hint)),
+        Ok(count @ 1..=MOST_DIGITS) => Arithmetic::of_digits(count, mpfr).map_err(|error: DigitsError| {
+            let hint = match error {
+                DigitsError::NeedsMpfr(_) => "use fewer digits, or a wheel with MPFR: `make wheel MPFR=1`".to_owned(),
+                DigitsError::Precision(_) => hint,
+            };
+            usage(py, format!("digits = {digits}: {error}"), hint)
+        }),
         _ => Err(usage(py, format!("digits = {digits} is not a number type"), hint)),
     }
 }

@@ -168,6 +168,7 @@ def test_what_a_function_raises_comes_out():
         (lambda: integrate(Problem("kepler"), "yoshida4", h="1/10", until=-1), "the signs differ", "negative values for both"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h="a", until=1), "`a`", "write an exact number"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, digits="quad"), "digits = quad", "decimal digits"),
+        (lambda: integrate(Problem("kepler"), "stormer-verlet", h=0.1, until=1, digits=400), "400 digits need MPFR", "make wheel MPFR=1"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, estimator="trilinear"), "no estimator `trilinear`", "bilinear"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, estimator="bilinear", order=8, max_order=9), "max_order", "order"),
         (lambda: integrate(Problem("kepler"), "yoshida4", h=0.1, until=1, estimator="bilinear", order=0), "order = 0 is too small", "give 1 or more"),
