@@ -143,7 +143,14 @@ pub trait Potential<N: Number> {
     /// Makes steps of a few coordinates, compiled for the type of the potential. There is no need to implement it: the default calls
     /// [`update`](Potential::update) and [`gradient`](Potential::gradient).
     fn advance_few(&mut self, steps: &mut FewCoordinates<'_, N>, scratch: &mut [N]) {
-        steps.advance(self, scratch);
+        steps.advance(
+            self.dimension(),
+            #[inline(always)]
+            |q, gradient| {
+                self.update(q);
+                self.gradient(q, gradient, scratch);
+            },
+        );
     }
 
     /// Whether the type of the potential is known at run time only, so that many steps are better made by one call of

@@ -3,14 +3,13 @@
 use std::array;
 use std::mem::{needs_drop, size_of};
 
-use super::Potential;
 use crate::kept::Kept;
 use crate::kinetic::{InverseMasses, Kinetic, UnitMasses};
 use crate::maps::MapKind;
 use crate::number::Number;
 use crate::summation::{Plain, Summation};
 
-/// Steps of H = ½pᵀM⁻¹p + U(q) with at most three coordinates and a diagonal M, for [`Potential::advance_few`].
+/// Steps of H = ½pᵀM⁻¹p + U(q) with at most three coordinates and a diagonal M, for [`Potential::advance_few`](super::Potential::advance_few).
 ///
 /// A step in which the potential and the masses are each behind a `dyn` passes q, p and U_q through memory between its maps. Here one call
 /// makes many steps, compiled for the type of the potential, so that these stay in registers. The bits are those of the maps one by one.
@@ -39,24 +38,24 @@ impl<N: Number> FewCoordinates<'_, N> {
         Self::FIT && (1..=MOST).contains(&dimension)
     }
 
-    /// Makes the steps.
+    /// Makes the steps of a potential of so many coordinates; `evaluate` computes the gradient.
     ///
     /// # Panics
-    /// If the potential is of another number of coordinates.
+    /// If there are more than three.
     #[inline(always)]
-    pub fn advance<P: Potential<N> + ?Sized>(&mut self, potential: &mut P, scratch: &mut [N]) {
+    pub fn advance(&mut self, dimension: usize, evaluate: impl FnMut(&[N], &mut [N])) {
         if const { Self::FIT } {
-            match potential.dimension() {
-                1 => self.advance_in_arrays::<1, P>(potential, scratch),
-                2 => self.advance_in_arrays::<2, P>(potential, scratch),
-                3 => self.advance_in_arrays::<3, P>(potential, scratch),
+            match dimension {
+                1 => self.advance_in_arrays::<1>(evaluate),
+                2 => self.advance_in_arrays::<2>(evaluate),
+                3 => self.advance_in_arrays::<3>(evaluate),
                 more => unreachable!("{more} coordinates are more than {MOST}"),
             }
         }
     }
 
     #[inline(always)]
-    fn advance_in_arrays<const D: usize, P: Potential<N> + ?Sized>(&mut self, potential: &mut P, scratch: &mut [N]) {
+    fn advance_in_arrays<const D: usize>(&mut self, mut evaluate: impl FnMut(&[N], &mut [N])) {
         let FewCoordinates { state, inverse_masses, kept, evaluations, maps } = self;
         let copy = |from: &[N]| -> [N; D] { array::from_fn(|i| from[i].clone()) };
         let [mut q, mut p, mut gradient] = [copy(state[0]), copy(state[1]), copy(state[2])];
@@ -70,8 +69,7 @@ impl<N: Number> FewCoordinates<'_, N> {
                         continue;
                     }
                     if !has_gradient {
-                        potential.update(&q);
-                        potential.gradient(&q, &mut gradient, scratch);
+                        evaluate(&q, &mut gradient);
                         has_gradient = true;
                         evaluated += 1;
                     }
