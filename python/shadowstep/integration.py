@@ -165,13 +165,14 @@ def integrate(
     '0.3'
     """
     scheme = scheme if isinstance(scheme, Scheme) else Scheme(scheme)
+    steps = None if steps is None else count(steps, "steps")
     chosen = None if estimator is None else options(estimator, order, max_order, stop, rule, accuracy)
     with bar(steps, "steps", progress) as reach:
         found = _shadowstep.integrate(
             problem._given,
             scheme._table,
             exact(h, "h"),
-            steps=None if steps is None else count(steps, "steps"),
+            steps=steps,
             until=None if until is None else exact(until, "until"),
             every=count(every, "every"),
             digits=str(digits),
