@@ -105,6 +105,22 @@ pub enum InverseMasses<'a, N> {
     Of(&'a [N]),
 }
 
+impl<N: Number> InverseMasses<'_, N> {
+    /// q ← q + weight·M⁻¹p; `velocity` is scratch space.
+    #[inline(always)]
+    pub(crate) fn drift(&self, weight: &N, p: &[N], q: &mut [N], velocity: &mut N) {
+        match self {
+            InverseMasses::Ones => q.iter_mut().zip(p).for_each(|(q, p)| q.add_product(weight, p)),
+            InverseMasses::Of(inverse) => {
+                for ((q, p), inverse) in q.iter_mut().zip(p).zip(*inverse) {
+                    velocity.assign_product(inverse, p);
+                    q.add_product(weight, velocity);
+                }
+            }
+        }
+    }
+}
+
 impl<N: Number, K: Kinetic<N> + ?Sized> Kinetic<N> for Box<K> {
     type Class = K::Class;
     fn dimension(&self) -> Option<usize> {
@@ -279,11 +295,7 @@ impl<N: Number> Kinetic<N> for DiagonalMasses<N> {
 
     #[inline(always)]
     fn drift(&self, weight: &N, p: &[N], q: &mut [N], scratch: &mut [N]) {
-        let velocity = &mut scratch[0];
-        for ((q, p), inverse) in q.iter_mut().zip(p).zip(&self.inverse) {
-            velocity.assign_product(inverse, p);
-            q.add_product(weight, velocity);
-        }
+        InverseMasses::Of(&self.inverse).drift(weight, p, q, &mut scratch[0]);
     }
 
     #[inline(always)]

@@ -6,6 +6,7 @@ mod hessian;
 mod widest;
 
 pub use few_coordinates::FewCoordinates;
+pub(crate) use few_coordinates::Repeated;
 pub use from_fn::{FromFn, from_fn};
 pub use hessian::HessianProduct;
 pub use widest::Widest;

@@ -9,7 +9,7 @@ use crate::kinetic::Kinetic;
 use crate::maps::{MapKind, MapSequence};
 use crate::number::Number;
 use crate::partial_sums::{LONG, add_sum};
-use crate::potential::{FewCoordinates, Potential};
+use crate::potential::{FewCoordinates, Potential, Repeated};
 use crate::summation::Summation;
 
 /// What flows change: the state with the remainders of its sums, and what is kept at its q.
@@ -240,12 +240,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
 const FEW: u64 = 8;
 
 /// The maps of the first, of each middle and of the last of these steps of `count`; `None` with gradient kicks or middle parts.
-#[expect(clippy::type_complexity, reason = "as the field that it is made for")]
-fn kicks_and_drifts<N: Number>(
-    maps: &impl MapSequence<N>,
-    steps: u64,
-    count: u64,
-) -> Option<[(Vec<(MapKind, N)>, u64); 3]> {
+fn kicks_and_drifts<N: Number>(maps: &impl MapSequence<N>, steps: u64, count: u64) -> Option<[Repeated<N>; 3]> {
     let mut has_others = false;
     let mut list = |step: u64| {
         let mut list = Vec::new();

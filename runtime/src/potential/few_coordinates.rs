@@ -4,7 +4,7 @@ use std::array;
 use std::mem::{needs_drop, size_of};
 
 use crate::kept::Kept;
-use crate::kinetic::{InverseMasses, Kinetic, UnitMasses};
+use crate::kinetic::InverseMasses;
 use crate::maps::MapKind;
 use crate::number::Number;
 use crate::summation::{Plain, Summation};
@@ -22,9 +22,11 @@ pub struct FewCoordinates<'a, N> {
     pub(crate) kept: Kept,
     /// Evaluations of the gradient.
     pub(crate) evaluations: u64,
-    /// Lists of kicks and drifts, each of which is made so many times.
-    pub(crate) maps: [(Vec<(MapKind, N)>, u64); 3],
+    pub(crate) maps: [Repeated<N>; 3],
 }
+
+/// Kicks and drifts with their weights, and how often they are made.
+pub(crate) type Repeated<N> = (Vec<(MapKind, N)>, u64);
 
 /// More coordinates are not held in registers.
 const MOST: usize = 3;
@@ -59,12 +61,13 @@ impl<N: Number> FewCoordinates<'_, N> {
         let FewCoordinates { state, inverse_masses, kept, evaluations, maps } = self;
         let copy = |from: &[N]| -> [N; D] { array::from_fn(|i| from[i].clone()) };
         let [mut q, mut p, mut gradient] = [copy(state[0]), copy(state[1]), copy(state[2])];
+        let mut velocity = p[0].clone();
         let (mut has_gradient, mut evaluated) = (*kept != Kept::Nothing, 0);
         for (maps, times) in maps {
             for _ in 0..*times {
                 for (kind, weight) in &*maps {
                     if *kind == MapKind::Drift {
-                        inverse_masses.drift(weight, &p, &mut q);
+                        inverse_masses.drift(weight, &p, &mut q, &mut velocity);
                         has_gradient = false;
                         continue;
                     }
@@ -81,22 +84,6 @@ impl<N: Number> FewCoordinates<'_, N> {
         *evaluations += evaluated;
         for (into, from) in state.iter_mut().zip([&q, &p, &gradient]) {
             into.clone_from_slice(from);
-        }
-    }
-}
-
-impl<N: Number> InverseMasses<'_, N> {
-    #[inline(always)]
-    fn drift<const D: usize>(&self, weight: &N, p: &[N; D], q: &mut [N; D]) {
-        match self {
-            InverseMasses::Ones => UnitMasses.drift(weight, p, q, &mut []),
-            InverseMasses::Of(inverse) => {
-                for ((q, p), inverse) in q.iter_mut().zip(p).zip(*inverse) {
-                    let mut velocity = p.clone();
-                    velocity.assign_product(inverse, p);
-                    q.add_product(weight, &velocity);
-                }
-            }
         }
     }
 }
