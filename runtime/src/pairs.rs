@@ -15,7 +15,7 @@ use thiserror::Error;
 
 use crate::number::Number;
 use crate::potential::{HessianProduct, Potential};
-use blocks::Blocks;
+use blocks::{Blocks, Places, sum_of_places};
 use chain::Chain;
 use few::Few;
 
@@ -221,6 +221,11 @@ impl<P, const D: usize> Pairs<P, D> {
         suits && self.bodies >= LEAST_BODIES
     }
 
+    /// Whether sums over pairs are in the order of blocks: several numbers in lanes have the bits of one.
+    fn is_in_order_of_blocks<N: Number>(&self) -> bool {
+        N::KEEPS_INCREMENTS && self.is_in_blocks()
+    }
+
     /// The place of a pair in its block; none, if it is one of those that are left over. The last bodies are in a block with some that had
     /// their turn, if there are as many after the body i.
     fn place_in_block(&self, i: usize, j: usize) -> Option<usize> {
@@ -293,6 +298,7 @@ impl<P, const D: usize> Pairs<P, D> {
         let mut s = parts::<N, D>(scratch);
         // a closure each, so that the loop over all pairs has its own, inlined
         match self.which {
+            Which::All if self.is_in_order_of_blocks::<N>() => self.add_by_places(q, gradient, &mut s, &mut slope),
             Which::All => each_pair(q, |i, j| self.add_pair(i, j, gradient, &mut s, &mut slope)),
             Which::Neighbours(ends) => {
                 each_neighbour(q, ends, |i, j| self.add_pair(i, j, gradient, &mut s, &mut slope));
@@ -312,6 +318,53 @@ impl<P, const D: usize> Pairs<P, D> {
     ) where
         P: PairPotential<N>,
     {
+        self.force(i, j, s, slope);
+        if let End::Body(j, _) = j {
+            gradient[j].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.add(force));
+        }
+        if let End::Body(i, _) = i {
+            gradient[i].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.subtract(force));
+        }
+    }
+
+    /// All pairs one after the other, in the order of blocks.
+    #[inline(always)]
+    fn add_by_places<N: Number>(
+        &self,
+        q: &[N],
+        gradient: &mut [[N; D]],
+        s: &mut Scratch<'_, N, D>,
+        slope: &mut impl FnMut(usize, usize, &N, &mut N, &mut N, &mut [N]),
+    ) where
+        P: PairPotential<N>,
+    {
+        let context = q[0].context();
+        let (q, _) = q.as_chunks::<D>();
+        for i in 0..self.bodies {
+            let mut own: Places<N, D> = std::array::from_fn(|_| std::array::from_fn(|_| N::zero(&context)));
+            for j in i + 1..self.bodies {
+                self.force(End::Body(i, &q[i]), End::Body(j, &q[j]), s, slope);
+                let place = self.place_in_block(i, j);
+                for (axis, force) in s.difference.iter().enumerate() {
+                    gradient[j][axis].add(force);
+                    place.map_or(&mut gradient[i][axis], |place| &mut own[axis][place]).subtract(force);
+                }
+            }
+            gradient[i].iter_mut().zip(&mut own).for_each(|(gradient, own)| gradient.add(sum_of_places(own)));
+        }
+    }
+
+    /// The force of a pair, in place of its difference.
+    #[inline(always)]
+    fn force<N: Number>(
+        &self,
+        i: End<'_, N, D>,
+        j: End<'_, N, D>,
+        s: &mut Scratch<'_, N, D>,
+        slope: &mut impl FnMut(usize, usize, &N, &mut N, &mut N, &mut [N]),
+    ) where
+        P: PairPotential<N>,
+    {
         End::subtract(i, j, &mut s.difference);
         let x = self.separation(&s.difference, &mut s.squared);
         slope(i.number(), j.number(), x, &mut s.slope, &mut s.result, s.pair);
@@ -320,12 +373,6 @@ impl<P, const D: usize> Pairs<P, D> {
                 Separation::Difference => difference.assign(&s.slope),
                 Separation::SquaredDistance => difference.multiply(&s.slope),
             }
-        }
-        if let End::Body(j, _) = j {
-            gradient[j].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.add(force));
-        }
-        if let End::Body(i, _) = i {
-            gradient[i].iter_mut().zip(s.difference.iter()).for_each(|(gradient, force)| gradient.subtract(force));
         }
     }
 }
@@ -433,13 +480,12 @@ impl<P, const D: usize> Pairs<P, D> {
         P: PairPotential<N>,
     {
         rate.assign_zero();
-        if !(N::KEEPS_INCREMENTS && self.is_in_blocks()) {
+        if !self.is_in_order_of_blocks::<N>() {
             return self.sum_gradient(q, gradient, scratch, |i, j, x, slope, part, scratch| {
                 self.pair.slope_and_rate(i, j, x, slope, part, scratch);
                 rate.add(part);
             });
         }
-        // several numbers in lanes have the bits of one
         let mut rates: [N; BLOCK] = std::array::from_fn(|_| N::zero(&q[0].context()));
         self.sum_gradient(q, gradient, scratch, |i, j, x, slope, part, scratch| {
             self.pair.slope_and_rate(i, j, x, slope, part, scratch);

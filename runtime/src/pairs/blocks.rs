@@ -1,7 +1,7 @@
 //! The sum over all pairs for numbers of a few bytes: of each body with a block of others at once, in vectors of the processor.
 //!
-//! The gradient is added up in the order of the plain loop over i < j, so that it has its bits; the rate in a sum for each place in a block. So
-//! results do not depend on the vectors.
+//! What a body gets from its blocks, and the rate, are added up in a sum for each place in a block: sums that do not wait for one another, and that are the
+//! same whatever the vectors.
 
 use super::pair::{BLOCK, PairPotential};
 use crate::instructions;
@@ -27,6 +27,32 @@ impl<N: Number, const D: usize> Room<N, D> {
         let zeros = || std::array::from_fn(|_| N::zero(context));
         Room { difference: std::array::from_fn(|_| zeros()), squared: zeros(), slope: zeros(), part: zeros() }
     }
+
+    /// The forces and rates with so many of the first bodies become 0.
+    #[inline(always)]
+    fn clear(&mut self, count: usize) {
+        for l in 0..BLOCK {
+            if l < count {
+                self.difference.iter_mut().for_each(|of_axis| of_axis[l].assign_zero());
+                self.part[l].assign_zero();
+            }
+        }
+    }
+}
+
+/// A body's own gradient: a sum for each axis and place in a block.
+pub(super) type Places<N, const D: usize> = [[N; BLOCK]; D];
+
+/// The sum of the sums of places, which is put into the first one.
+#[inline(always)]
+pub(super) fn sum_of_places<N: Number>(places: &mut [N; BLOCK]) -> &N {
+    for half in [BLOCK / 2, BLOCK / 4, BLOCK / 8] {
+        for l in 0..half {
+            let (sums, others) = places.split_at_mut(half);
+            sums[l].add(&others[l]);
+        }
+    }
+    &places[0]
 }
 
 /// A sum over all pairs of bodies in D dimensions.
@@ -72,12 +98,11 @@ impl<P, const D: usize> Blocks<'_, P, D> {
     {
         let bodies = self.bodies;
         let mut room = Room::<N, D>::new(&q[0].context());
-        let mut forces = room.difference.clone();
-        // of β's rate a sum for each place in a block
-        let mut rates: [N; BLOCK] = std::array::from_fn(|_| N::zero(&q[0].context()));
+        let zeros = || -> [N; BLOCK] { std::array::from_fn(|_| N::zero(&q[0].context())) };
+        let mut rates = zeros();
         for i in 0..bodies {
             let q_i: [N; D] = std::array::from_fn(|axis| q[axis * bodies + i].clone());
-            let mut own: [N; D] = std::array::from_fn(|axis| gradient[axis * bodies + i].clone());
+            let mut own: Places<N, D> = std::array::from_fn(|_| zeros());
             let mut j = i + 1;
             while j + BLOCK <= bodies {
                 self.forces::<N, RATE>((i, j), q, &q_i, &mut room, pair);
@@ -88,26 +113,12 @@ impl<P, const D: usize> Blocks<'_, P, D> {
                 // the last bodies are in a block with some that had their turn
                 let first = bodies - BLOCK;
                 self.forces::<N, RATE>((i, first), q, &q_i, &mut room, pair);
-                // a copy in memory, so that the room itself may stay in registers
-                forces.clone_from(&room.difference);
-                for l in j - first..BLOCK {
-                    for axis in 0..D {
-                        gradient[axis * bodies + first + l].add(&forces[axis][l]);
-                        own[axis].subtract(&forces[axis][l]);
-                    }
-                }
-                if RATE {
-                    room.part
-                        .iter_mut()
-                        .enumerate()
-                        .filter(|(l, _)| first + l < j)
-                        .for_each(|(_, part)| part.assign_zero());
-                    rates.iter_mut().zip(&room.part).for_each(|(own, part)| own.add(part));
-                }
+                room.clear(j - first);
+                self.add_block::<N, RATE>(first, &room, gradient, (&mut own, &mut rates));
                 j = bodies;
             }
-            for axis in 0..D {
-                gradient[axis * bodies + i].assign(&own[axis]);
+            for (axis, own) in own.iter_mut().enumerate() {
+                gradient[axis * bodies + i].add(sum_of_places(own));
             }
             for j in j..bodies {
                 self.add_one::<N, RATE>((i, j), (q, gradient), rate, pair);
@@ -116,20 +127,20 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         rates.iter().for_each(|of_place| rate.add(of_place));
     }
 
-    /// Adds the forces and rates of a block of bodies from j on with a body, whose gradient is `own`.
+    /// Adds the forces and rates of a block of bodies from j on with a body, whose own sums are `own`.
     #[inline(always)]
     fn add_block<N: Number, const RATE: bool>(
         &self,
         j: usize,
         room: &Room<N, D>,
         gradient: &mut [N],
-        (own, rates): (&mut [N; D], &mut [N; BLOCK]),
+        (own, rates): (&mut Places<N, D>, &mut [N; BLOCK]),
     ) {
         for (axis, forces) in room.difference.iter().enumerate() {
             let of_axis: &mut [N; BLOCK] =
                 gradient[axis * self.bodies + j..].first_chunk_mut().expect("the block is within the bodies");
             of_axis.iter_mut().zip(forces).for_each(|(own, force)| own.add(force));
-            forces.iter().for_each(|force| own[axis].subtract(force));
+            own[axis].iter_mut().zip(forces).for_each(|(own, force)| own.subtract(force));
         }
         if RATE {
             rates.iter_mut().zip(&room.part).for_each(|(own, part)| own.add(part));

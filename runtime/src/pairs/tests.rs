@@ -1,6 +1,6 @@
 //! Sums in blocks against sums of one pair after the other.
 
-use super::{Ends, Pairs};
+use super::{Ends, Pairs, Which};
 use crate::Potential;
 use crate::instructions::Instructions;
 use crate::number::Lanes;
@@ -44,16 +44,23 @@ where
         let found = instructions.only(|| evaluated(pairs, &q));
         let what = format!("{} bodies, {instructions:?}, {:?}", pairs.bodies(), pairs.which);
         assert!(found.0.iter().all(|x| x.is_finite()) && (q.len() == 1 || found.0.iter().any(|x| *x != 0.0)), "{what}");
-        assert_eq!(bits(&found.0), bits(&gradient), "{what}");
-        assert_eq!(bits(&found.1), bits(&gradient), "{what}");
-        // of these the rate is added up in another order
+        assert_eq!(bits(&found.0), bits(&found.1), "{what}");
+        if pairs.which == Which::All && pairs.is_in_blocks() {
+            // these are added up in another order: up to 40 forces a body, each rounded to 1e-16
+            let size = gradient.iter().fold(0.0, |size, x| x.abs().max(size));
+            let off = found.0.iter().zip(&gradient).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off <= 1e-14 * size, "{what}: {off:e} of {size:e}");
+        } else {
+            assert_eq!(bits(&found.0), bits(&gradient), "{what}");
+        }
+        // and so are the rates of all blocks
         let off = (found.2 - expected.2.0).abs();
         assert!(off <= 1e-13 * expected.2.0.abs(), "{what}: {off:e}");
     }
 }
 
 #[test]
-fn blocks_have_the_bits_of_pairs_one_by_one() {
+fn blocks_have_the_sums_of_pairs_one_by_one() {
     for bodies in [2, 3, 4, 5, 6, 7, 8, 15, 16, 17, 23, 24, 25, 40] {
         let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
         let counting = m.iter().copied().map(Counting).collect();
@@ -96,10 +103,12 @@ fn chains_in_blocks_have_the_bits_of_springs_one_by_one() {
 }
 
 #[test]
-fn the_rate_does_not_depend_on_the_vectors() {
+fn sums_do_not_depend_on_the_vectors() {
     let pairs = Pairs::<_, 3>::all(37, LennardJones { epsilon: 1.5, sigma: 0.4 }).unwrap();
-    let rates: Vec<f64> = Instructions::available().map(|i| i.only(|| evaluated(&pairs, &places(37, 3)).2)).collect();
-    assert!(rates.iter().all(|rate| rate.to_bits() == rates[0].to_bits()), "{rates:?}");
+    let bits = |(gradient, _, rate): (Vec<f64>, _, f64)| gradient.into_iter().chain([rate]).map(f64::to_bits).collect();
+    let sums: Vec<Vec<u64>> =
+        Instructions::available().map(|i| i.only(|| bits(evaluated(&pairs, &places(37, 3))))).collect();
+    assert!(sums.iter().all(|of_vectors| *of_vectors == sums[0]), "{sums:?}");
 }
 
 /// Blocks are for all pairs.
@@ -112,7 +121,7 @@ fn chains_have_no_blocks() {
     assert_eq!(all - chain, 80);
 }
 
-/// Numbers in lanes take one pair after the other, too, but add up the rate in the order of blocks.
+/// Numbers in lanes take one pair after the other, too, but add up in the order of blocks.
 #[test]
 fn lanes_have_the_bits_of_f64() {
     fn compare<P, Q, const D: usize>(pairs: &Pairs<P, D>, in_lanes: &Pairs<Q, D>)
