@@ -26,6 +26,8 @@
 
 use std::cell::Cell;
 
+use crate::number::Number;
+
 /// The vector instructions of a processor that loops are compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Instructions {
@@ -38,8 +40,8 @@ pub enum Instructions {
 }
 
 thread_local! {
-    /// What [`Instructions::only`] allows in this thread.
-    static ALLOWED: Cell<Instructions> = const { Cell::new(Instructions::Avx512) };
+    /// What [`widest`] means in this thread, once it is known: the widest available, or what [`Instructions::only`] allows.
+    static CHOSEN: Cell<Option<Instructions>> = const { Cell::new(None) };
 }
 
 impl Instructions {
@@ -50,17 +52,29 @@ impl Instructions {
 
     /// Does some work in which [`widest`] means these at most, in this thread: to compare.
     pub fn only<R>(self, work: impl FnOnce() -> R) -> R {
-        struct Reset(Instructions);
+        struct Reset(Option<Instructions>);
         impl Drop for Reset {
             fn drop(&mut self) {
-                ALLOWED.set(self.0);
+                CHOSEN.set(self.0);
             }
         }
-        let _reset = Reset(ALLOWED.replace(self));
+        let allowed = Instructions::available().filter(|available| *available <= self).max();
+        let _reset = Reset(CHOSEN.replace(allowed));
         work()
     }
 
     #[inline]
+    fn chosen() -> Instructions {
+        CHOSEN.get().unwrap_or_else(Instructions::choose)
+    }
+
+    #[cold]
+    fn choose() -> Instructions {
+        let widest = Instructions::available().max().expect("the plain ones are always available");
+        CHOSEN.set(Some(widest));
+        widest
+    }
+
     fn are_available(self) -> bool {
         match self {
             Instructions::Plain => true,
@@ -86,17 +100,15 @@ impl Instructions {
 /// The work is to be an `#[inline(always)]` closure. The choice costs a few nanoseconds.
 #[inline(always)]
 pub fn widest<R>(work: impl FnOnce() -> R) -> R {
-    #[cfg(target_arch = "x86_64")]
-    {
-        let allowed = ALLOWED.get();
-        if allowed >= Instructions::Avx512 && Instructions::Avx512.are_available() {
-            return x86::avx512(work);
-        }
-        if allowed >= Instructions::Avx2 && Instructions::Avx2.are_available() {
-            return x86::avx2(work);
-        }
+    match Instructions::chosen() {
+        Instructions::Plain => work(),
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Avx2 => x86::avx2(work),
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Avx512 => x86::avx512(work),
+        #[cfg(not(target_arch = "x86_64"))]
+        _ => work(),
     }
-    work()
 }
 
 /// From this number of turns on the choice of instructions costs less than it gains.
@@ -108,6 +120,17 @@ pub(crate) fn widest_if_long<R>(in_vectors: bool, turns: usize, work: impl FnOnc
     if in_vectors && turns >= LONG { widest(work) } else { work() }
 }
 
+/// to ← from, of the same length: whole vectors of a long state.
+#[inline(always)]
+pub(crate) fn copy<N: Number>(from: &[N], to: &mut [N]) {
+    widest_if_long(
+        N::IN_VECTORS,
+        from.len(),
+        #[inline(always)]
+        || to.iter_mut().zip(from).for_each(|(to, from)| to.assign(from)),
+    );
+}
+
 #[cfg(target_arch = "x86_64")]
 #[expect(unsafe_code, reason = "a function for more instructions is called after the processor was found to have them")]
 mod x86 {
@@ -117,7 +140,7 @@ mod x86 {
         fn compiled<R>(work: impl FnOnce() -> R) -> R {
             work()
         }
-        // SAFETY: `widest` has found these features
+        // SAFETY: only available instructions are chosen
         unsafe { compiled(work) }
     }
 
@@ -127,7 +150,7 @@ mod x86 {
         fn compiled<R>(work: impl FnOnce() -> R) -> R {
             work()
         }
-        // SAFETY: `widest` has found these features
+        // SAFETY: only available instructions are chosen
         unsafe { compiled(work) }
     }
 }
