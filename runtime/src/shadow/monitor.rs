@@ -92,13 +92,13 @@ use crate::system::{Increments, System};
 /// the step size is fine (20000 steps, 200 windows)
 ///   energy error         9.38e-3  max − min of H; 1.9e-2 of T
 ///   the method's part    1.58e-3  rms of H − H̄, which is from -8.68e-3 to 3.27e-4
-///   H̄ ranges over       3.66e-14  3.9e-12 of the energy error, a random walk
-///   it changed by      -1.19e-14  it moved by 3.72e-14 beyond its errors
-///   it is known to      2.78e-16  3.0e-14 of the energy error
+///   H̄ ranges over       2.40e-14  2.6e-12 of the energy error, a random walk
+///   it changed by      -1.23e-14  it moved by 3.73e-14 beyond its errors
+///   it is known to      2.22e-16  2.4e-14 of the energy error
 ///   round-off           1.02e-14  1.1e-12 of the energy error, expected by Brouwer's law
-///   permanently         3.74e-14  4.0e-12 of the energy error, at most
+///   permanently         2.46e-14  2.6e-12 of the energy error, at most
 ///   fastest motion          17.0  steps a turn
-///   the energy error is 1.9e-2 of T; in 20000 steps a permanent change above 7.58e-14 of T, 7.58e-17 of T per unit time is excluded
+///   the energy error is 1.9e-2 of T; in 20000 steps a permanent change above 4.99e-14 of T, 4.99e-17 of T per unit time is excluded
 /// ```
 ///
 /// Where a loop does more than steps, it can make them itself: with increments where
@@ -337,17 +337,17 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
         energy.assign(of_middle);
         kinetic.assign(kinetic_of_middle);
         self.schedule.advance();
-        self.end_window(states, coordinates)?;
+        self.end_window()?;
         Ok(true)
     }
 
     #[inline(always)]
-    fn end_window(&mut self, states: usize, dimension: usize) -> Result<(), RunError> {
+    fn end_window(&mut self) -> Result<(), RunError> {
         let Newest { n, modified, energy, kinetic, .. } = &self.newest;
         check_value(energy, Quantity::Energy, number(*n))?;
         check_value(&modified.value, Quantity::ModifiedEnergy, number(*n))?;
         check_value(&modified.error, Quantity::ModifiedEnergyError, number(*n))?;
-        self.recent.end(states, dimension, &mut self.fastest);
+        self.recent.end(&self.schedule, kinetic, &mut self.fastest);
         let best = self.blocks.push(energy, modified);
         self.method.assign_difference(energy, &best.value);
         self.statistics.add(energy, kinetic, &self.method, modified);

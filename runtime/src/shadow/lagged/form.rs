@@ -1,52 +1,42 @@
-//! A form in the products of states with steps, for all windows that a state belongs to.
+//! A form in the products of states with steps.
 
 use crate::Rational;
 use crate::number::Number;
 use crate::shadow::weights::BilinearWeights;
 
-/// The weights of a form, and its sums.
+/// The weights of a form.
 #[derive(Clone, Debug)]
 pub(super) struct LaggedForm<N> {
-    /// For the products of a state with the newest steps, the oldest first: the weights in the windows that end 0, 1, … states later, twice.
+    /// For each state of a window, the newest first, those of its products with the steps before it, the oldest first.
     weights: Vec<N>,
-    /// Of the windows that are not at their end, each in turn.
-    sums: Vec<N>,
-    /// The place of the window that ends next.
-    next: usize,
 }
 
 impl<N: Number> LaggedForm<N> {
-    /// From the weights by windows that end j states later, and by steps, the newest first.
+    /// From the weights by states and by steps, the newest first.
     pub(super) fn new(lags: usize, exact: &[Vec<Rational>], context: &N::Context) -> Self {
-        let zero = N::zero(context);
-        let mut weights = vec![zero.clone(); 2 * lags * lags];
+        let mut weights = vec![N::zero(context); lags * lags];
         for (j, row) in exact.iter().enumerate() {
             for (step, weight) in row.iter().enumerate() {
-                let weight = N::from_rational(weight, context);
-                let row = &mut weights[(lags - 1 - step) * 2 * lags..][..2 * lags];
-                row[j].assign(&weight);
-                row[lags + j].assign(&weight);
+                weights[j * lags + lags - 1 - step] = N::from_rational(weight, context);
             }
         }
-        LaggedForm { weights, sums: vec![zero; lags], next: 0 }
+        LaggedForm { weights }
     }
 
-    /// Adds the products of the next state; value ← the sum of the window that it ends.
+    /// value ← the form at the window that a state ends, from its products and those of the states before it, the newest last.
     #[inline(always)]
-    pub(super) fn add<const K: usize>(&mut self, products: &[N; K], value: &mut N) {
-        let own = self.sums.first_chunk_mut::<K>().expect("there are as many windows as lags");
-        let mut sums = own.clone();
-        let weights = &self.weights[K - self.next..][..(2 * K - 1) * K];
-        for (step, product) in products.iter().enumerate() {
-            for (window, sum) in sums.iter_mut().enumerate() {
-                sum.add_product(&weights[step * 2 * K + window], product);
+    pub(super) fn evaluate<const K: usize>(&self, products: &[N; K], before: &[[N; K]; K], value: &mut N) {
+        let weights: &[[N; K]; K] = self.weights.as_chunks().0.try_into().expect("as many states as lags");
+        let mut sums: [N; K] = std::array::from_fn(|_| N::zero(&value.context()));
+        for j in 0..K {
+            let of_state = if j == 0 { products } else { &before[K - j] };
+            // the other steps are before the window; from an even one on, as vectors have two numbers or more
+            for step in j & !1..K {
+                sums[step].add_product(&weights[j][step], &of_state[step]);
             }
         }
-        *own = sums;
-        let ends = &mut own[self.next];
-        value.assign(ends);
-        ends.assign_zero();
-        self.next = if self.next + 1 < K { self.next + 1 } else { 0 };
+        value.assign_zero();
+        sums.iter().for_each(|sum| value.add(sum));
     }
 }
 

@@ -1,10 +1,13 @@
 //! What follows from the newest states of a window besides H̄: the effect of round-off on the energy, the angle by which the fastest
 //! motion turns, and whether the states belong to the increments.
 
+use super::arithmetic::{integer, quotient};
 use super::fastest::Fastest;
 use super::roughness::{Rough, Roughness};
+use super::schedule::Schedule;
 use super::turning::{STATES, Sums, Turning, assign_second_difference, turning};
-use crate::instructions;
+use crate::Rational;
+use crate::instructions::{self, copy};
 use crate::number::{Ordered, epsilon};
 use crate::partial_sums::PartialSums;
 use crate::shadow::estimator::EstimatorError;
@@ -14,10 +17,12 @@ use crate::system::System;
 
 /// The states that are kept, with second differences.
 const KEPT: usize = 3;
+/// After so many windows a part of them is enough, for all but the comparison of states with their increments.
+const ALL_WINDOWS: u64 = 256;
 /// A fourth difference of p is off by less than so many last places of p: rms by √(20 s) · 0.2123, s the stages of a step.
 const LAST_PLACES: f64 = 10.0;
 
-/// The newest states of a window, and sums over all windows.
+/// The newest states of a window, and sums over windows.
 #[derive(Clone, Debug)]
 pub(super) struct Recent<N> {
     /// For each in turn q, p, and δ²p of it and the two states before it.
@@ -32,13 +37,21 @@ pub(super) struct Recent<N> {
     compensated: bool,
     /// (c ε/h)²
     factor: N,
-    /// Σ kick² over all windows, and that of the newest.
+    /// States that are still to be skipped, and those since then.
+    skipped: u64,
+    taken: usize,
+    /// Windows that ended, and those of them that were not skipped, over which all sums are.
+    ended: u64,
+    windows: u64,
+    /// Σ T
+    kinetic: N,
+    /// Σ kick², and that of the newest window.
     kicks: N,
     square_kick: N,
-    /// Over all windows, and in the newest.
+    /// Over these windows, and in the newest.
     sums: Sums<N>,
     window: Sums<N>,
-    /// Σ (p δ²p)² over all windows.
+    /// Σ (p δ²p)²
     weighted: N,
     roughness: Roughness<N>,
     /// (10⁶ ε)²
@@ -81,6 +94,11 @@ impl<N: Ordered> Recent<N> {
             most_stages: u64::MAX,
             compensated: false,
             factor,
+            skipped: 0,
+            taken: 0,
+            ended: 0,
+            windows: 0,
+            kinetic: zero(),
             kicks: zero(),
             square_kick: zero(),
             sums: sums(),
@@ -112,6 +130,21 @@ impl<N: Ordered> Recent<N> {
         let (q, p, added) = (system.q(), system.p(), system.increments());
         self.newest = if self.newest + 1 < KEPT { self.newest + 1 } else { 0 };
         let [before, last, own] = in_order(&mut self.states, self.newest, q.len());
+        copy(q, own.q);
+        copy(p, own.p);
+        if is_augmented && added.has_vectors() {
+            let Recent { rounding, three, x, y, .. } = self;
+            let mut differs =
+                |before: &[N], after: &[N], added: &[N]| differ([before, after, added], rounding, three, [x, y]);
+            self.mismatch |= differs(last.q, q, added.q) | differs(last.p, p, added.p);
+        }
+        self.evaluations = [self.evaluations[1], system.evaluations()];
+        self.compensated = system.is_compensated();
+        if self.skipped > 0 {
+            self.skipped -= 1;
+            return;
+        }
+        self.taken += 1;
         instructions::widest_if_long(
             N::IN_VECTORS,
             p.len(),
@@ -122,30 +155,37 @@ impl<N: Ordered> Recent<N> {
                 }
             },
         );
-        own.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
-        own.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
-        if is_augmented && added.has_vectors() {
-            let Recent { rounding, three, x, y, .. } = self;
-            let mut differs =
-                |before: &[N], after: &[N], added: &[N]| differ([before, after, added], rounding, three, [x, y]);
-            self.mismatch |= differs(last.q, q, added.q) | differs(last.p, p, added.p);
-        }
-        self.evaluations = [self.evaluations[1], system.evaluations()];
-        self.compensated = system.is_compensated();
         if self.roughness.takes() {
             self.roughness.push(q, p, is_augmented.then_some(added));
         }
     }
 
-    /// Ends a window of `states` states of this dimension.
+    /// Ends a window of this schedule with the kinetic energy T in its middle.
     #[inline(always)]
-    pub(super) fn end(&mut self, states: usize, dimension: usize, fastest: &mut Fastest<N>) {
+    pub(super) fn end(&mut self, schedule: &Schedule, kinetic: &N, fastest: &mut Fastest<N>) {
+        self.ended += 1;
         self.mismatches += u64::from(std::mem::take(&mut self.mismatch));
+        let states = schedule.states();
+        if self.taken < states {
+            return;
+        }
+        self.windows += 1;
+        self.kinetic.add(kinetic);
+        self.add_sums(states, fastest.dimension(), fastest);
+        if self.ended > ALL_WINDOWS {
+            self.skipped = schedule.pause(self.windows);
+            self.taken = 0;
+            self.roughness.restart();
+        }
+    }
+
+    #[inline(always)]
+    fn add_sums(&mut self, states: usize, dimension: usize, fastest: &mut Fastest<N>) {
         self.add_kick_and_action(dimension);
         if states >= STATES {
             self.add_turning(dimension, fastest);
         }
-        if self.roughness.ends() {
+        if self.roughness.is_complete() {
             let angle = turning(&self.window, &mut self.x).map(|turning| turning.angle);
             self.roughness.end(angle, &self.square_kick);
         }
@@ -219,10 +259,13 @@ impl<N: Ordered> Recent<N> {
         self.moves
     }
 
-    /// Σ ½(p_0 + p_1)ᵀ(q_1 − q_0) over the last steps of the windows: h Σ 2T where a step is a small part of a turn, and
-    /// sin φ/φ of that where it turns by φ.
-    pub(super) fn action(&self) -> &N {
-        &self.action
+    /// Σ ½(p_0 + p_1)ᵀ(q_1 − q_0) over the last steps of the windows, as a part of h Σ 2T: 1 where a step is a small part of a turn, and
+    /// sin φ/φ where it turns by φ.
+    pub(super) fn action(&self, h: &Rational) -> f64 {
+        let mut whole = N::from_rational(h, &self.kinetic.context());
+        whole.multiply(&self.kinetic);
+        whole.multiply_integer(2);
+        quotient(&self.action, &whole).to_f64()
     }
 
     /// The root mean square of last terms.
@@ -236,10 +279,8 @@ impl<N: Ordered> Recent<N> {
     }
 
     /// The mean of kick² over the windows.
-    pub(super) fn mean_square_kick(&self, windows: &N) -> N {
-        let mut mean = self.kicks.clone();
-        mean.divide(windows);
-        mean
+    pub(super) fn mean_square_kick(&self) -> N {
+        quotient(&self.kicks, &integer(self.windows.max(1), &self.kicks.context()))
     }
 
     /// `None` where the windows are too short, or nothing moves.
@@ -316,9 +357,57 @@ fn differ<N: Ordered>(
 
 #[cfg(test)]
 mod tests {
+    use super::ALL_WINDOWS;
     use crate::problems::Kepler;
-    use crate::shadow::{Bilinear, ShadowEnergy};
-    use crate::{Motion, Stepper, UnitMasses, tables::shipped};
+    use crate::shadow::{Bilinear, BilinearEstimator, ShadowEnergy};
+    use crate::tables::{TableScheme, shipped};
+    use crate::{Motion, Stepper, UnitMasses};
+
+    type Monitor = ShadowEnergy<TableScheme, f64, BilinearEstimator<f64>>;
+
+    fn on_a_circle(every: u64) -> (Monitor, Motion<f64, [f64; 2], Kepler, UnitMasses>) {
+        let stepper = Stepper::new(shipped("stormer-verlet").unwrap(), 0.1).unwrap();
+        let mut motion = Motion::new(Kepler, UnitMasses, [1.0, 0.0], [0.0, 1.0]).unwrap();
+        let monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::new(8)).unwrap().every(every);
+        (monitor, motion)
+    }
+
+    #[test]
+    fn a_part_of_many_windows_is_enough() {
+        for (every, one_in) in [(1, 36), (4, 9), (20, 4)] {
+            let (mut monitor, mut motion) = on_a_circle(every);
+            for _ in 0..20_000 {
+                monitor.step(&mut motion).unwrap();
+            }
+            let recent = &monitor.recent;
+            let expected = ALL_WINDOWS + (recent.ended - ALL_WINDOWS) / one_in;
+            assert!(recent.windows.abs_diff(expected) <= expected / 20, "{every}: {} {expected}", recent.windows);
+            // θ is 0.1 but for O(h³), and the action 1 but for O(θ²)
+            assert!((recent.turning().unwrap().angle - 0.1).abs() < 1e-3, "{every}: {:?}", recent.turning());
+            let action = recent.action(monitor.stepper().h());
+            assert!((action - 1.0).abs() < 0.01, "{every}: {action}");
+        }
+    }
+
+    #[test]
+    fn a_state_that_is_changed_is_found_in_every_window() {
+        for (every, changed) in [(1, 10_000), (1, 10_017), (20, 10_000)] {
+            let (mut monitor, mut motion) = on_a_circle(every);
+            let mut is_changed = false;
+            for n in 0..10_100 {
+                monitor.step(&mut motion).unwrap();
+                if n >= changed && monitor.needs_increments() && !is_changed {
+                    motion.q_mut()[0] += 1e-3;
+                    is_changed = true;
+                }
+            }
+            assert!(
+                is_changed && monitor.recent.mismatches() == 1,
+                "{every}, {changed}: {}",
+                monitor.recent.mismatches()
+            );
+        }
+    }
 
     /// On a circle θ is h + O(h³), which round-off hides from 1e-4 downwards.
     #[test]

@@ -123,7 +123,7 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
         accurate.iter().for_each(|accurate| values.include(&accurate.value));
         let known = |error: N| self.newest.has_error.then_some(error);
         let range = values.width();
-        let kick = root(&self.recent.mean_square_kick(&statistics.count()));
+        let kick = root(&self.recent.mean_square_kick());
         let mut round_off: N = root(&integer(self.n, &context));
         round_off.multiply(&kick);
         let mut time: N = integer(self.n, &context);
@@ -172,10 +172,6 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
     }
 
     fn judge(&self, report: &mut Report<N>, turning: Option<Turning>, trend_ratio: Option<TrendRatio>) {
-        let mut double_kinetic = report.kinetic.clone();
-        double_kinetic.multiply(&self.statistics.count());
-        double_kinetic.multiply_integer(2);
-        double_kinetic.multiply(&N::from_rational(self.stepper.h(), &double_kinetic.context()));
         let [energy_change, modified_change] = self.blocks.means(&report.energy_error).map(|means| Change::of(&means));
         let evidence = Evidence {
             straight: trend_ratio.is_some_and(TrendRatio::is_straight),
@@ -183,7 +179,7 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
             moves: self.recent.moves(),
             energy_change,
             modified_change,
-            action: quotient(self.recent.action(), &double_kinetic).to_f64(),
+            action: self.recent.action(self.stepper.h()),
             distance: self.statistics.distance_of_error(),
             last_term: quotient(&self.recent.last_term(), &self.statistics.error_rms()).to_f64(),
             error_rms: report.part(&self.statistics.error_rms()),

@@ -26,8 +26,6 @@ const LARGEST_RATIO: f64 = 16.0;
 const LOGARITHM: [f64; 2] = [-1.5, 1.0];
 /// Windows that a statement needs.
 const LEAST_WINDOWS: u64 = 16;
-/// After so many windows one of four is enough: where they overlap, as many states in four times as many.
-const ALL_WINDOWS: u64 = 256;
 
 /// Forces that are not smooth: while the motion turns little in a step, the last terms of modified energies from every second state of
 /// the windows are not much larger than those from all states.
@@ -47,11 +45,6 @@ pub struct Rough {
 pub(super) struct Roughness<N> {
     /// `None` for windows that are too short.
     spacings: Option<Spacings<N>>,
-    /// Those of a window.
-    states: usize,
-    /// States that are still to be skipped: whole windows, or as many states where windows overlap.
-    skipped: usize,
-    ended: u64,
     windows: u64,
     /// Σ of mean squares of last terms at h and at 2h.
     squares: [N; 2],
@@ -69,7 +62,7 @@ impl<N: Ordered> Roughness<N> {
         let k = ((states - 1) / 2).min(LARGEST_K);
         let spacings = (k >= LEAST_K).then(|| Spacings::new(k, h, dimension, context)).transpose()?;
         let zero = || N::zero(context);
-        Ok(Roughness { spacings, states, skipped: 0, ended: 0, windows: 0, squares: [zero(), zero()], kicks: zero() })
+        Ok(Roughness { spacings, windows: 0, squares: [zero(), zero()], kicks: zero() })
     }
 
     /// Whether it takes states: windows are long enough.
@@ -80,17 +73,21 @@ impl<N: Ordered> Roughness<N> {
 
     /// Takes a state of a window; what the step to it added is not known of the first one.
     pub(super) fn push(&mut self, q: &[N], p: &[N], added: Option<Increments<'_, N>>) {
-        if self.skipped > 0 {
-            self.skipped -= 1;
-        } else if let Some(spacings) = &mut self.spacings {
+        if let Some(spacings) = &mut self.spacings {
             spacings.push(q, p, added);
         }
     }
 
-    /// Ends a window; whether it has last terms.
+    /// Begins a new window, after states that were not taken.
+    pub(super) fn restart(&mut self) {
+        if let Some(spacings) = &mut self.spacings {
+            spacings.count = 0;
+        }
+    }
+
+    /// Whether the window that ends has last terms.
     #[inline]
-    pub(super) fn ends(&mut self) -> bool {
-        self.ended += 1;
+    pub(super) fn is_complete(&self) -> bool {
         self.spacings.as_ref().is_some_and(Spacings::is_complete)
     }
 
@@ -98,9 +95,6 @@ impl<N: Ordered> Roughness<N> {
     pub(super) fn end(&mut self, angle: Option<f64>, square_kick: &N) {
         let Some(spacings) = &mut self.spacings else { return };
         spacings.count = 0;
-        if self.ended > ALL_WINDOWS {
-            self.skipped = 3 * self.states;
-        }
         if angle.is_none_or(|angle| angle > ANGLE_LIMIT) {
             return;
         }

@@ -3,6 +3,12 @@
 /// The odd number next to 2⁶⁴ times the golden section: its multiples, taken mod 2⁶⁴, are spread evenly.
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
+/// The n-th of numbers below `count` that are spread evenly.
+#[inline]
+fn spread(n: u64, count: u64) -> u64 {
+    ((u128::from(n.wrapping_mul(GOLDEN)) * u128::from(count)) >> 64) as u64
+}
+
 /// Windows of up to this many states have their middles at the same states, where `every` is larger.
 ///
 /// The energies that are compared are those of the middles: so they do not depend on the estimator.
@@ -77,6 +83,13 @@ impl Schedule {
         self.states as usize
     }
 
+    /// How many states there are in the n-th pause between windows, where one of four is looked at closely: those of three windows, or as many in
+    /// the mean where windows overlap, another number each time, as equal distances would see an oscillation always in the same phase.
+    #[inline]
+    pub(super) fn pause(&self, n: u64) -> u64 {
+        if self.overlaps() { 2 * self.states + spread(n, 2 * self.states + 1) } else { 3 * self.states }
+    }
+
     /// Goes on to the next window.
     #[inline]
     pub(super) fn advance(&mut self) {
@@ -86,8 +99,7 @@ impl Schedule {
             return;
         }
         let places = if self.overlaps() { self.every } else { self.every - self.reserved() + 1 };
-        let place = (u128::from(self.window.wrapping_mul(GOLDEN)) * u128::from(places)) >> 64;
-        self.end = self.last_of_first_place() + self.window * self.every + place as u64;
+        self.end = self.last_of_first_place() + self.window * self.every + spread(self.window, places);
     }
 
     /// The steps among which a window has one place: its states, or more of them.
@@ -152,6 +164,25 @@ mod tests {
         }
         assert!((998..=1000).contains(&ends.len()), "{}", ends.len());
         assert_eq!(windows(9, 1, 100).len(), 92 + 1, "each state from the ninth on ends one");
+    }
+
+    /// Three windows; where windows overlap, two to four windows, three in the mean.
+    #[test]
+    fn pauses_change_where_windows_overlap() {
+        let pauses = |every: u64| -> Vec<u64> {
+            let schedule = Schedule::new(9, every);
+            (0..1000).map(|n| schedule.pause(n)).collect()
+        };
+        assert!(pauses(100).iter().all(|pause| *pause == 27));
+        for every in [1, 4, 9] {
+            let pauses = pauses(every);
+            let mean = pauses.iter().sum::<u64>() as f64 / 1000.0;
+            assert!(
+                pauses.iter().all(|pause| (18..=36).contains(pause)) && (mean - 27.0).abs() < 0.5,
+                "{every}: {mean}"
+            );
+            assert!((18..=36).all(|pause| pauses.contains(&pause)), "{every}");
+        }
     }
 
     /// A period that divides the distance of the windows is seen in all its phases.
