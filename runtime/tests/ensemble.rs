@@ -91,9 +91,9 @@ fn outcomes_are_those_of_each_trajectory_alone() {
         assert_eq!(found.energy_error, expected.energy_error, "trajectory {t}");
         assert_eq!(found.modified_drift, expected.modified_drift, "trajectory {t}");
     }
-    // six estimates may agree to the last bit, but not of many trajectories
+    // of one the six estimates agree to the last bit
     let drifting = found.iter().filter(|found| found.modified_drift > Some(0.0)).count();
-    assert!(drifting >= 90, "{drifting}");
+    assert!(drifting >= 99, "{drifting}");
 }
 
 #[test]

@@ -139,6 +139,12 @@ fn lanes_have_the_bits_of_f64() {
         let all = |sigma: f64| Pairs::<_, 3>::all(bodies, LennardJones { epsilon: 1.5, sigma }).unwrap();
         let sigma = Lanes::all(0.4);
         compare(&all(0.4), &Pairs::all(bodies, LennardJones { epsilon: Lanes::all(1.5), sigma }).unwrap());
+        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        let in_lanes = m.iter().copied().map(Lanes::all).collect();
+        compare(
+            &Pairs::<_, 2>::all(bodies, Gravity { g: 0.7, m }).unwrap(),
+            &Pairs::<_, 2>::all(bodies, Gravity { g: Lanes::all(0.7), m: in_lanes }).unwrap(),
+        );
         for ends in [Ends::Free, Ends::Fixed, Ends::Periodic] {
             compare(
                 &Pairs::<_, 1>::neighbours(bodies, CubicSpring { alpha: 0.25 }, ends).unwrap(),

@@ -94,14 +94,14 @@ impl<N: Number> LaggedEstimator<N> {
     /// Adds the products of the next state; `newest` is then the value of the window that it ends.
     #[inline(always)]
     fn add<const K: usize>(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) {
+        let place = self.pushed % K;
         let products: [N; K] = if increments.has_vectors() {
             // as many as coordinates, whose number may be known when this is compiled
             let added = [&increments.q[..q.len()], &increments.p[..p.len()]];
-            self.products.of_state(self.pushed % K, [q, p], added, increments.beta)
+            self.products.of_state(place, [q, p], added, increments.beta)
         } else {
-            self.products_by_differences(q, p, increments.beta)
+            self.products_by_differences(place, [q, p], increments.beta)
         };
-        let place = self.pushed % K;
         let (kept, _) = self.kept.as_chunks_mut::<K>();
         let before: &[[N; K]; K] = kept[place..].first_chunk().expect("they are there twice");
         self.value.evaluate(&products, before, &mut self.newest.value);
@@ -115,12 +115,12 @@ impl<N: Number> LaggedEstimator<N> {
 
     /// Of the first state of all the step is unknown, and has no part in a value.
     #[cold]
-    fn products_by_differences<const K: usize>(&mut self, q: &[N], p: &[N], beta: &N) -> [N; K] {
+    fn products_by_differences<const K: usize>(&mut self, place: usize, [q, p]: [&[N]; 2], beta: &N) -> [N; K] {
         let before = &self.states[self.place * 2 * self.dimension..];
         for (own, (newest, before)) in self.differences.iter_mut().zip(q.iter().chain(p).zip(before)) {
             own.assign_difference(newest, before);
         }
-        self.products.of_state(self.pushed % K, [q, p], self.differences.split_at(self.dimension).into(), beta)
+        self.products.of_state(place, [q, p], self.differences.split_at(self.dimension).into(), beta)
     }
 
     #[inline(always)]

@@ -171,7 +171,7 @@ impl<N: Ordered> Recent<N> {
         }
         self.windows += 1;
         self.kinetic.add(kinetic);
-        self.add_sums(states, fastest.dimension(), fastest);
+        self.add_sums(states, fastest);
         if self.ended > ALL_WINDOWS {
             self.skipped = schedule.pause(self.windows);
             self.taken = 0;
@@ -180,10 +180,10 @@ impl<N: Ordered> Recent<N> {
     }
 
     #[inline(always)]
-    fn add_sums(&mut self, states: usize, dimension: usize, fastest: &mut Fastest<N>) {
-        self.add_kick_and_action(dimension);
+    fn add_sums(&mut self, states: usize, fastest: &mut Fastest<N>) {
+        self.add_kick_and_action(fastest.dimension());
         if states >= STATES {
-            self.add_turning(dimension, fastest);
+            self.add_turning(fastest);
         }
         if self.roughness.is_complete() {
             let angle = turning(&self.window, &mut self.x).map(|turning| turning.angle);
@@ -224,9 +224,9 @@ impl<N: Ordered> Recent<N> {
     }
 
     #[inline(always)]
-    fn add_turning(&mut self, dimension: usize, fastest: &mut Fastest<N>) {
+    fn add_turning(&mut self, fastest: &mut Fastest<N>) {
         let Recent { states, newest, window, four, x, y, .. } = self;
-        let [s2, s3, s4] = in_order(states, *newest, dimension);
+        let [s2, s3, s4] = in_order(states, *newest, fastest.dimension());
         let [squares, products, fourths, weighted] = four.of(
             [s2.second, s3.second, s4.second, s2.p],
             |[before, second, after, p], [squares, products, fourths, weighted]| {
