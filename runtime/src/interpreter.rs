@@ -50,7 +50,7 @@ impl<N: Number> Interpreter<N> {
     /// For the programs of a function of so many properties of bodies, with the values of its parameters.
     pub(crate) fn new(programs: &PotentialPrograms, parameters: Vec<N>, properties: usize) -> Self {
         let layout = Layout::of(programs, parameters.len(), properties);
-        let PotentialPrograms { energy, gradient, gradient_and_rate } = programs;
+        let PotentialPrograms { energy, gradient, gradient_and_rate, .. } = programs;
         let place = |program: &Program, list: &[Instruction], kept_from| layout.placed(program, list, kept_from);
         let mut prepare = place(energy, &energy.prepare, layout.energy_kept);
         prepare.extend(place(gradient_and_rate, &gradient_and_rate.prepare, layout.gradient_kept));
@@ -98,7 +98,7 @@ impl<N: Number> Interpreter<N> {
         self.compute(&self.gradient, x, registers)
     }
 
-    /// Its gradient at x, then its rate, and something more; all may be swapped with other numbers.
+    /// Its gradient at x, then its rate, of a pair its part, and something more; all may be swapped with other numbers.
     pub(crate) fn gradient_and_rate<'r>(&self, x: &[N], registers: &'r mut [N]) -> &'r mut [N] {
         self.compute(&self.gradient_and_rate, x, registers)
     }

@@ -9,11 +9,12 @@ mod pair;
 mod tests;
 
 pub use pair::{BLOCK, Ends, Pair, PairCurvature, PairPotential};
-pub use shadowstep_symbolic::Separation;
+pub use shadowstep_symbolic::{Part, Separation};
 
 use thiserror::Error;
 
 use crate::number::Number;
+use crate::partial_sums::add_sum;
 use crate::potential::{HessianProduct, Potential};
 use blocks::{Blocks, Places, sum_of_places};
 use chain::Chain;
@@ -451,20 +452,12 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
-        if let Some((axes, pair)) = self.blocks(scratch) {
-            return self.all_blocks().sum((q, gradient), Some(rate), axes, pair);
+        self.gradient_and_parts(q, gradient, rate, scratch);
+        if self.pair.part() == Part::Energy {
+            // qᵀU_q − 2U
+            rate.multiply_integer(-2);
+            add_sum(rate, [q, gradient], |[q, gradient], rate| rate.add_product(q, gradient));
         }
-        if let Some(ends) = self.chain_in_blocks::<N>() {
-            let chain = Chain { pair: &self.pair, ends };
-            return chain.sum((q, gradient), Some(rate), &mut scratch[own_scratch(D)..]);
-        }
-        if let Some(few) = self.few::<N>() {
-            return few.sum((q, gradient), Some(rate), &mut scratch[own_scratch(D)..]);
-        }
-        N::in_widest_instructions(
-            #[inline(always)]
-            || self.sum_gradient_and_rate(q, gradient, rate, scratch),
-        );
     }
 
     fn hessian(&self) -> Option<&dyn HessianProduct<N>> {
@@ -473,24 +466,46 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
 }
 
 impl<P, const D: usize> Pairs<P, D> {
-    /// The sum of one pair after the other.
+    /// gradient ← U_q, and the sum of the parts of pairs.
     #[inline(always)]
-    fn sum_gradient_and_rate<N: Number>(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N])
+    fn gradient_and_parts<N: Number>(&self, q: &[N], gradient: &mut [N], parts: &mut N, scratch: &mut [N])
     where
         P: PairPotential<N>,
     {
-        rate.assign_zero();
+        if let Some((axes, pair)) = self.blocks(scratch) {
+            return self.all_blocks().sum((q, gradient), Some(parts), axes, pair);
+        }
+        if let Some(ends) = self.chain_in_blocks::<N>() {
+            let chain = Chain { pair: &self.pair, ends };
+            return chain.sum((q, gradient), Some(parts), &mut scratch[own_scratch(D)..]);
+        }
+        if let Some(few) = self.few::<N>() {
+            return few.sum((q, gradient), Some(parts), &mut scratch[own_scratch(D)..]);
+        }
+        N::in_widest_instructions(
+            #[inline(always)]
+            || self.sum_gradient_and_parts(q, gradient, parts, scratch),
+        );
+    }
+
+    /// The sum of one pair after the other.
+    #[inline(always)]
+    fn sum_gradient_and_parts<N: Number>(&self, q: &[N], gradient: &mut [N], parts: &mut N, scratch: &mut [N])
+    where
+        P: PairPotential<N>,
+    {
+        parts.assign_zero();
         if !self.is_in_order_of_blocks::<N>() {
             return self.sum_gradient(q, gradient, scratch, |i, j, x, slope, part, scratch| {
-                self.pair.slope_and_rate(i, j, x, slope, part, scratch);
-                rate.add(part);
+                self.pair.slope_and_part(i, j, x, slope, part, scratch);
+                parts.add(part);
             });
         }
-        let mut rates: [N; BLOCK] = std::array::from_fn(|_| N::zero(&q[0].context()));
+        let mut parts_of_places: [N; BLOCK] = std::array::from_fn(|_| N::zero(&q[0].context()));
         self.sum_gradient(q, gradient, scratch, |i, j, x, slope, part, scratch| {
-            self.pair.slope_and_rate(i, j, x, slope, part, scratch);
-            self.place_in_block(i, j).map_or(&mut *rate, |place| &mut rates[place]).add(part);
+            self.pair.slope_and_part(i, j, x, slope, part, scratch);
+            self.place_in_block(i, j).map_or(&mut *parts, |place| &mut parts_of_places[place]).add(part);
         });
-        rates.iter().for_each(|of_place| rate.add(of_place));
+        parts_of_places.iter().for_each(|of_place| parts.add(of_place));
     }
 }

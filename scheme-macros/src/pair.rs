@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
-use shadowstep_symbolic::{PotentialPrograms, Separation, is_symmetric};
+use shadowstep_symbolic::{Part, PotentialPrograms, Separation, is_symmetric};
 
 use crate::definition::{Definition, texts};
 use crate::methods::Methods;
@@ -24,10 +24,10 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
         quote! { <N> }
     };
     let x = &definition.arguments[0];
-    let [i, j, energy, slope, rate, scratch] = ["i", "j", "energy", "slope", "rate", "scratch"].map(own);
+    let [i, j, energy, slope, part, scratch] = ["i", "j", "energy", "slope", "part", "scratch"].map(own);
     let methods =
         Methods { programs: &programs, names: definition.names(), arguments: property_values(definition, [&i, &j]) };
-    let [xs, slopes, rates, lane] = ["xs", "slopes", "rates", "lane"].map(own);
+    let [xs, slopes, parts, lane] = ["xs", "slopes", "parts", "lane"].map(own);
     let in_lane = Methods {
         programs: &programs,
         names: definition.names(),
@@ -38,18 +38,21 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
         methods.prepare("prepare").unwrap_or_else(|| quote! { fn prepare(&self, _: &mut [N], _: &N::Context) {} });
     let energy_body = methods.energy(&energy);
     let slope_body = methods.gradient(&[quote! { #slope }]);
-    let rate_body = methods.gradient_and_rate(&[quote! { #slope }, quote! { #rate }]);
-    let outputs = [(slopes.clone(), slope.clone()), (rates.clone(), rate.clone())];
+    let part_body = methods.gradient_and_rate(&[quote! { #slope }, quote! { #part }]);
+    let outputs = [(slopes.clone(), slope.clone()), (parts.clone(), part.clone())];
     let slopes_body = in_lane.gradient_of_block(&lane, &outputs[..1]);
-    let rates_body = in_lane.gradient_and_rate_of_block(&lane, &outputs);
+    let parts_body = in_lane.gradient_and_rate_of_block(&lane, &outputs);
     let width = own("W");
     let scratch_size = size(methods.scratch());
     let kind = format_ident!("{separation:?}");
+    let given = programs.part;
+    let given = format_ident!("{given:?}");
     Ok(quote! {
         #structure
 
         impl #generics ::shadowstep::pairs::Pair for #this {
             fn separation(&self) -> ::shadowstep::pairs::Separation { ::shadowstep::pairs::Separation::#kind }
+            fn part(&self) -> ::shadowstep::pairs::Part { ::shadowstep::pairs::Part::#given }
             fn properties(&self) -> ::std::vec::Vec<usize> { ::std::vec![#(self.#properties.len()),*] }
         }
 
@@ -65,16 +68,16 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #slope_body
             }
             #[inline(always)]
-            fn slope_and_rate(
+            fn slope_and_part(
                 &self,
                 #i: usize,
                 #j: usize,
                 #x: &N,
                 #slope: &mut N,
-                #rate: &mut N,
+                #part: &mut N,
                 #scratch: &mut [N],
             ) {
-                #rate_body
+                #part_body
             }
             #[inline(always)]
             fn slopes<const #width: usize>(
@@ -89,17 +92,17 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #slopes_body
             }
             #[inline(always)]
-            fn slopes_and_rates<const #width: usize>(
+            fn slopes_and_parts<const #width: usize>(
                 &self,
                 #i: usize,
                 #j: usize,
                 #xs: &[N; #width],
                 #slopes: &mut [N; #width],
-                #rates: &mut [N; #width],
+                #parts: &mut [N; #width],
                 #scratch: &mut [N],
             ) {
                 #property_blocks
-                #rates_body
+                #parts_body
             }
             fn curved(&self) -> ::core::option::Option<&dyn ::shadowstep::pairs::PairCurvature<N>> {
                 ::core::option::Option::Some(self)
@@ -241,6 +244,10 @@ fn documentation(definition: &Definition, separation: Separation, programs: &Pot
         Separation::Difference => ("U'(d)", "d U'(d) − 2U"),
         Separation::SquaredDistance => ("2U'(r²)", "2r²U'(r²) − 2U"),
     };
+    let part = match programs.part {
+        Part::Rate => rate,
+        Part::Energy => "U, by which the sum over pairs has its rate,",
+    };
     let parsed = definition.formula.parse();
     let parameters = definition.parameters();
     let symmetric = parsed.ok().and_then(|e| is_symmetric(&e, separation, &texts(&definition.properties), &parameters));
@@ -253,7 +260,7 @@ fn documentation(definition: &Definition, separation: Separation, programs: &Pot
             .to_owned(),
         String::new(),
         format!(" - A pair's {slope} costs {}.", programs.gradient.cost()),
-        format!(" - {slope} and {rate} cost {}.", programs.gradient_and_rate.cost()),
+        format!(" - {slope} and {part} cost {}.", programs.gradient_and_rate.cost()),
     ];
     lines.extend((symmetric == Some(false)).then_some(directed));
     lines

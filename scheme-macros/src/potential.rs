@@ -152,13 +152,14 @@ fn documentation(definition: &Definition, programs: &PotentialPrograms, second: 
 #[cfg(test)]
 mod tests {
     /// Each case: a name and what the user writes.
-    const CASES: [(&str, &str); 9] = [
+    const CASES: [(&str, &str); 10] = [
         ("kepler", "pub struct Kepler; U(x, y) = -1/sqrt(x^2 + y^2)"),
         ("pendulum", "pub struct Pendulum; U(q) = -cos(q)"),
         ("henon-heiles", "pub struct HenonHeiles; U(x, y) = (x^2 + y^2)/2 + x^2*y - y^3/3"),
         ("hill", "pub struct Hill; U(x, y) = exp(-(x^2 + y^2))"),
         ("well", "pub struct Well { depth, width } U(x, y) = -depth * exp(-(x^2 + y^2) / width^2)"),
         ("gravity", "pub struct Gravity { g } pair U(r2; m_i, m_j) = -g*m_i*m_j / sqrt(r2)"),
+        ("softened", "pub struct Softened { s } pair U(r2; m_i, m_j) = -m_i*m_j/sqrt(r2 + s^2)"),
         ("lennard-jones", "pub struct LennardJones { e, s } pair U(r2) = 4*e*(s^12/r2^6 - s^6/r2^3)"),
         ("toda", "struct Toda; pair U(d) = exp(-d) + d - 1"),
         ("morse", "struct Morse { d, a } U(r) = d * (1 - exp(-a*(r - 1.4)))^2"),

@@ -1,6 +1,6 @@
 //! The sum over all pairs for numbers of a few bytes: of each body with a block of others at once, in vectors of the processor.
 //!
-//! What a body gets from its blocks, and the rate, are added up in a sum for each place in a block: sums that do not wait for one another, and that are the
+//! What a body gets from its blocks, and the parts of pairs, are added up in a sum for each place in a block: sums that do not wait for one another, and that are the
 //! same whatever the vectors.
 
 use super::pair::{BLOCK, PairPotential};
@@ -28,7 +28,7 @@ impl<N: Number, const D: usize> Room<N, D> {
         Room { difference: std::array::from_fn(|_| zeros()), squared: zeros(), slope: zeros(), part: zeros() }
     }
 
-    /// The forces and rates with so many of the first bodies become 0.
+    /// The forces and parts with so many of the first bodies become 0.
     #[inline(always)]
     fn clear(&mut self, count: usize) {
         for l in 0..BLOCK {
@@ -62,11 +62,11 @@ pub(super) struct Blocks<'a, P, const D: usize> {
 }
 
 impl<P, const D: usize> Blocks<'_, P, D> {
-    /// gradient ← U_q, and the rate where it is wanted; `axes` is the scratch space of blocks, `pair` that of the pair.
+    /// gradient ← U_q, and the sum of the parts of pairs where it is wanted; `axes` is the scratch space of blocks, `pair` that of the pair.
     pub(super) fn sum<N: Number>(
         &self,
         (q, gradient): (&[N], &mut [N]),
-        rate: Option<&mut N>,
+        parts: Option<&mut N>,
         axes: &mut [N],
         pair: &mut [N],
     ) where
@@ -77,10 +77,10 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         g_axes.iter_mut().for_each(N::assign_zero);
         instructions::widest(
             #[inline(always)]
-            || match rate {
-                Some(rate) => {
-                    rate.assign_zero();
-                    self.add_blocks::<N, true>(q_axes, g_axes, rate, pair);
+            || match parts {
+                Some(parts) => {
+                    parts.assign_zero();
+                    self.add_blocks::<N, true>(q_axes, g_axes, parts, pair);
                 }
                 None => {
                     let mut none = N::zero(&q[0].context());
@@ -92,49 +92,49 @@ impl<P, const D: usize> Blocks<'_, P, D> {
     }
 
     #[inline(always)]
-    fn add_blocks<N: Number, const RATE: bool>(&self, q: &[N], gradient: &mut [N], rate: &mut N, pair: &mut [N])
+    fn add_blocks<N: Number, const PARTS: bool>(&self, q: &[N], gradient: &mut [N], parts: &mut N, pair: &mut [N])
     where
         P: PairPotential<N>,
     {
         let bodies = self.bodies;
         let mut room = Room::<N, D>::new(&q[0].context());
         let zeros = || -> [N; BLOCK] { std::array::from_fn(|_| N::zero(&q[0].context())) };
-        let mut rates = zeros();
+        let mut parts_of_places = zeros();
         for i in 0..bodies {
             let q_i: [N; D] = std::array::from_fn(|axis| q[axis * bodies + i].clone());
             let mut own: Places<N, D> = std::array::from_fn(|_| zeros());
             let mut j = i + 1;
             while j + BLOCK <= bodies {
-                self.forces::<N, RATE>((i, j), q, &q_i, &mut room, pair);
-                self.add_block::<N, RATE>(j, &room, gradient, (&mut own, &mut rates));
+                self.forces::<N, PARTS>((i, j), q, &q_i, &mut room, pair);
+                self.add_block::<N, PARTS>(j, &room, gradient, (&mut own, &mut parts_of_places));
                 j += BLOCK;
             }
             if j < bodies && i + BLOCK < bodies {
                 // the last bodies are in a block with some that had their turn
                 let first = bodies - BLOCK;
-                self.forces::<N, RATE>((i, first), q, &q_i, &mut room, pair);
+                self.forces::<N, PARTS>((i, first), q, &q_i, &mut room, pair);
                 room.clear(j - first);
-                self.add_block::<N, RATE>(first, &room, gradient, (&mut own, &mut rates));
+                self.add_block::<N, PARTS>(first, &room, gradient, (&mut own, &mut parts_of_places));
                 j = bodies;
             }
             for (axis, own) in own.iter_mut().enumerate() {
                 gradient[axis * bodies + i].add(sum_of_places(own));
             }
             for j in j..bodies {
-                self.add_one::<N, RATE>((i, j), (q, gradient), rate, pair);
+                self.add_one::<N, PARTS>((i, j), (q, gradient), parts, pair);
             }
         }
-        rates.iter().for_each(|of_place| rate.add(of_place));
+        parts_of_places.iter().for_each(|of_place| parts.add(of_place));
     }
 
-    /// Adds the forces and rates of a block of bodies from j on with a body, whose own sums are `own`.
+    /// Adds the forces and parts of a block of bodies from j on with a body, whose own sums are `own`.
     #[inline(always)]
-    fn add_block<N: Number, const RATE: bool>(
+    fn add_block<N: Number, const PARTS: bool>(
         &self,
         j: usize,
         room: &Room<N, D>,
         gradient: &mut [N],
-        (own, rates): (&mut Places<N, D>, &mut [N; BLOCK]),
+        (own, parts_of_places): (&mut Places<N, D>, &mut [N; BLOCK]),
     ) {
         for (axis, forces) in room.difference.iter().enumerate() {
             let of_axis: &mut [N; BLOCK] =
@@ -142,14 +142,14 @@ impl<P, const D: usize> Blocks<'_, P, D> {
             of_axis.iter_mut().zip(forces).for_each(|(own, force)| own.add(force));
             own[axis].iter_mut().zip(forces).for_each(|(own, force)| own.subtract(force));
         }
-        if RATE {
-            rates.iter_mut().zip(&room.part).for_each(|(own, part)| own.add(part));
+        if PARTS {
+            parts_of_places.iter_mut().zip(&room.part).for_each(|(own, part)| own.add(part));
         }
     }
 
     /// The forces of the body i at q_i with a block of bodies from j on, in place of their differences.
     #[inline(always)]
-    fn forces<N: Number, const RATE: bool>(
+    fn forces<N: Number, const PARTS: bool>(
         &self,
         (i, j): (usize, usize),
         q: &[N],
@@ -179,8 +179,8 @@ impl<P, const D: usize> Blocks<'_, P, D> {
                 &*squared
             }
         };
-        if RATE {
-            self.pair.slopes_and_rates(i, j, x, slope, part, pair);
+        if PARTS {
+            self.pair.slopes_and_parts(i, j, x, slope, part, pair);
         } else {
             self.pair.slopes(i, j, x, slope, pair);
         }
@@ -196,11 +196,11 @@ impl<P, const D: usize> Blocks<'_, P, D> {
 
     /// Adds one pair.
     #[inline(always)]
-    fn add_one<N: Number, const RATE: bool>(
+    fn add_one<N: Number, const PARTS: bool>(
         &self,
         (i, j): (usize, usize),
         (q, gradient): (&[N], &mut [N]),
-        rate: &mut N,
+        parts: &mut N,
         pair: &mut [N],
     ) where
         P: PairPotential<N>,
@@ -219,9 +219,9 @@ impl<P, const D: usize> Blocks<'_, P, D> {
                 difference[1..].iter().for_each(|of_axis| x.add_product(of_axis, of_axis));
             }
         }
-        if RATE {
-            self.pair.slope_and_rate(i, j, &x, &mut slope, &mut part, pair);
-            rate.add(&part);
+        if PARTS {
+            self.pair.slope_and_part(i, j, &x, &mut slope, &mut part, pair);
+            parts.add(&part);
         } else {
             self.pair.slope(i, j, &x, &mut slope, pair);
         }

@@ -7,12 +7,12 @@ use crate::instructions;
 use crate::number::Number;
 use shadowstep_symbolic::Separation;
 
-/// The chain's sums: that of the rate is one for each place in a block.
+/// The chain's sums: that of the parts of pairs is one for each place in a block.
 struct Sums<N> {
     /// What the springs before a body add to its gradient.
     carried: N,
-    rates: [N; BLOCK],
-    rate: N,
+    parts_of_places: [N; BLOCK],
+    parts: N,
 }
 
 /// A sum over the neighbours in a chain.
@@ -22,17 +22,17 @@ pub(super) struct Chain<'a, P> {
 }
 
 impl<P> Chain<'_, P> {
-    /// gradient ← U_q, and the rate where it is wanted.
-    pub(super) fn sum<N: Number>(&self, (q, gradient): (&[N], &mut [N]), rate: Option<&mut N>, pair: &mut [N])
+    /// gradient ← U_q, and the sum of the parts of pairs where it is wanted.
+    pub(super) fn sum<N: Number>(&self, (q, gradient): (&[N], &mut [N]), parts: Option<&mut N>, pair: &mut [N])
     where
         P: PairPotential<N>,
     {
         instructions::widest(
             #[inline(always)]
-            || match rate {
-                Some(rate) => {
+            || match parts {
+                Some(parts) => {
                     let sum = self.add_springs::<N, true>((q, gradient), pair);
-                    rate.assign(&sum);
+                    parts.assign(&sum);
                 }
                 None => {
                     self.add_springs::<N, false>((q, gradient), pair);
@@ -42,28 +42,28 @@ impl<P> Chain<'_, P> {
     }
 
     #[inline(always)]
-    fn add_springs<N: Number, const RATE: bool>(&self, (q, gradient): (&[N], &mut [N]), pair: &mut [N]) -> N
+    fn add_springs<N: Number, const PARTS: bool>(&self, (q, gradient): (&[N], &mut [N]), pair: &mut [N]) -> N
     where
         P: PairPotential<N>,
     {
         let zero = N::zero(&q[0].context());
         let zeros = || std::array::from_fn(|_| zero.clone());
-        let mut sums = Sums { carried: zero.clone(), rates: zeros(), rate: zero.clone() };
+        let mut sums = Sums { carried: zero.clone(), parts_of_places: zeros(), parts: zero.clone() };
         let last = q.len() - 1;
         let mut slope = zero.clone();
         if self.ends == Ends::Fixed {
             slope.assign(&q[0]);
-            self.spring::<N, RATE>(&mut slope, &mut sums.rate, pair);
+            self.spring::<N, PARTS>(&mut slope, &mut sums.parts, pair);
             sums.carried.add(&slope);
         }
         let mut first = 0;
         while first + BLOCK <= last {
-            self.block_of_springs::<N, RATE>((q, gradient), first, &mut sums, pair);
+            self.block_of_springs::<N, PARTS>((q, gradient), first, &mut sums, pair);
             first += BLOCK;
         }
         for i in first..last {
             slope.assign_difference(&q[i + 1], &q[i]);
-            self.spring::<N, RATE>(&mut slope, &mut sums.rate, pair);
+            self.spring::<N, PARTS>(&mut slope, &mut sums.parts, pair);
             gradient[i].assign_difference(&sums.carried, &slope);
             sums.carried.assign_sum(&zero, &slope);
         }
@@ -73,27 +73,27 @@ impl<P> Chain<'_, P> {
             Ends::Fixed => {
                 slope.assign(&q[last]);
                 slope.negate();
-                self.spring::<N, RATE>(&mut slope, &mut sums.rate, pair);
+                self.spring::<N, PARTS>(&mut slope, &mut sums.parts, pair);
                 gradient[last].subtract(&slope);
             }
             Ends::Periodic => {
                 slope.assign_difference(&q[0], &q[last]);
-                self.spring::<N, RATE>(&mut slope, &mut sums.rate, pair);
+                self.spring::<N, PARTS>(&mut slope, &mut sums.parts, pair);
                 gradient[0].add(&slope);
                 gradient[last].subtract(&slope);
             }
         }
-        sums.rates.iter().for_each(|rate| sums.rate.add(rate));
-        sums.rate
+        sums.parts_of_places.iter().for_each(|of_place| sums.parts.add(of_place));
+        sums.parts
     }
 
     /// A block of springs, of which the first is after the body `first`.
     #[inline(always)]
-    fn block_of_springs<N: Number, const RATE: bool>(
+    fn block_of_springs<N: Number, const PARTS: bool>(
         &self,
         (q, gradient): (&[N], &mut [N]),
         first: usize,
-        Sums { carried, rates, .. }: &mut Sums<N>,
+        Sums { carried, parts_of_places, .. }: &mut Sums<N>,
         pair: &mut [N],
     ) where
         P: PairPotential<N>,
@@ -116,10 +116,10 @@ impl<P> Chain<'_, P> {
                 &squared
             }
         };
-        if RATE {
-            self.pair.slopes_and_rates(first, first + 1, x, &mut slope, &mut part, pair);
+        if PARTS {
+            self.pair.slopes_and_parts(first, first + 1, x, &mut slope, &mut part, pair);
             for l in 0..BLOCK {
-                rates[l].add(&part[l]);
+                parts_of_places[l].add(&part[l]);
             }
         } else {
             self.pair.slopes(first, first + 1, x, &mut slope, pair);
@@ -139,9 +139,9 @@ impl<P> Chain<'_, P> {
         carried.assign_sum(&zero, &slope[BLOCK - 1]);
     }
 
-    /// difference ← the force of a spring, which was its difference; adds its rate.
+    /// difference ← the force of a spring, which was its difference; adds its part.
     #[inline(always)]
-    fn spring<N: Number, const RATE: bool>(&self, difference: &mut N, rate: &mut N, pair: &mut [N])
+    fn spring<N: Number, const PARTS: bool>(&self, difference: &mut N, parts: &mut N, pair: &mut [N])
     where
         P: PairPotential<N>,
     {
@@ -151,9 +151,9 @@ impl<P> Chain<'_, P> {
             Separation::Difference => x.assign(difference),
             Separation::SquaredDistance => x.assign_square(difference),
         }
-        if RATE {
-            self.pair.slope_and_rate(0, 1, &x, &mut slope, &mut part, pair);
-            rate.add(&part);
+        if PARTS {
+            self.pair.slope_and_part(0, 1, &x, &mut slope, &mut part, pair);
+            parts.add(&part);
         } else {
             self.pair.slope(0, 1, &x, &mut slope, pair);
         }

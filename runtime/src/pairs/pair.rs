@@ -1,6 +1,6 @@
 //! What a pair of bodies is: its energy and slope, of one pair or of a block of them.
 
-use shadowstep_symbolic::Separation;
+use shadowstep_symbolic::{Part, Separation};
 
 use crate::number::Number;
 
@@ -11,6 +11,9 @@ pub const BLOCK: usize = 8;
 pub trait Pair {
     /// What u is a function of: of d = q_j − q_i on a line, or of r² = |q_j − q_i|² in any dimension.
     fn separation(&self) -> Separation;
+
+    /// What a pair gives to the rate of the sum beside its slope.
+    fn part(&self) -> Part;
 
     /// For each property of the bodies, such as a mass, for how many bodies it is given.
     fn properties(&self) -> Vec<usize>;
@@ -30,8 +33,8 @@ pub trait PairPotential<N: Number>: Pair {
     /// slope ← u'(d) or 2u'(r²), so that ∂u/∂q_j = slope or slope·(q_j − q_i)
     fn slope(&self, i: usize, j: usize, x: &N, slope: &mut N, scratch: &mut [N]);
 
-    /// The slope, and rate ← d u'(d) − 2u or 2r²u'(r²) − 2u: what the pair adds to qᵀU_q − 2U
-    fn slope_and_rate(&self, i: usize, j: usize, x: &N, slope: &mut N, rate: &mut N, scratch: &mut [N]);
+    /// The slope, and part ← what [`Pair::part`] says: d u'(d) − 2u or 2r²u'(r²) − 2u, or u(x)
+    fn slope_and_part(&self, i: usize, j: usize, x: &N, slope: &mut N, part: &mut N, scratch: &mut [N]);
 
     /// Its second derivatives, which gradient kicks need; the default has none.
     fn curved(&self) -> Option<&dyn PairCurvature<N>> {
@@ -46,19 +49,19 @@ pub trait PairPotential<N: Number>: Pair {
         }
     }
 
-    /// Those slopes, and the rates.
+    /// Those slopes, and the parts.
     #[inline(always)]
-    fn slopes_and_rates<const W: usize>(
+    fn slopes_and_parts<const W: usize>(
         &self,
         i: usize,
         j: usize,
         x: &[N; W],
         slopes: &mut [N; W],
-        rates: &mut [N; W],
+        parts: &mut [N; W],
         scratch: &mut [N],
     ) {
         for l in 0..W {
-            self.slope_and_rate(i, j + l, &x[l], &mut slopes[l], &mut rates[l], scratch);
+            self.slope_and_part(i, j + l, &x[l], &mut slopes[l], &mut parts[l], scratch);
         }
     }
 }

@@ -1,12 +1,18 @@
 //! Sums in blocks against sums of one pair after the other.
 
-use super::{Ends, Pairs, Which};
+use super::{Ends, Pair, Pairs, Part, Which};
 use crate::Potential;
 use crate::instructions::Instructions;
 use crate::number::Lanes;
 use crate::number::counting::Counting;
 use crate::pairs::PairPotential;
 use crate::problems::{CubicSpring, Gravity, LennardJones, TodaSpring};
+
+crate::potential! {
+    /// Its rate is computed from its energy.
+    struct Softened { s }
+    pair U(r2; m_i, m_j) = -m_i * m_j / sqrt(r2 + s^2)
+}
 
 /// Bodies with some disorder, in `dimensions` dimensions.
 fn places(bodies: usize, dimensions: usize) -> Vec<f64> {
@@ -65,8 +71,13 @@ fn blocks_have_the_sums_of_pairs_one_by_one() {
         let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
         let counting = m.iter().copied().map(Counting).collect();
         agree(
-            &Pairs::<_, 3>::all(bodies, Gravity { g: 0.7, m }).unwrap(),
+            &Pairs::<_, 3>::all(bodies, Gravity { g: 0.7, m: m.clone() }).unwrap(),
             &Pairs::<_, 3>::all(bodies, Gravity { g: Counting(0.7), m: counting }).unwrap(),
+        );
+        let counting = m.iter().copied().map(Counting).collect();
+        agree(
+            &Pairs::<_, 3>::all(bodies, Softened { s: 0.2, m }).unwrap(),
+            &Pairs::<_, 3>::all(bodies, Softened { s: Counting(0.2), m: counting }).unwrap(),
         );
         agree(
             &Pairs::<_, 2>::all(bodies, LennardJones { epsilon: 1.5, sigma: 0.4 }).unwrap(),
@@ -111,6 +122,28 @@ fn sums_do_not_depend_on_the_vectors() {
     assert!(sums.iter().all(|of_vectors| *of_vectors == sums[0]), "{sums:?}");
 }
 
+/// The rate that is computed from energies is that of the pairs one by one, 2r²u' − 2u.
+#[test]
+fn rates_are_those_of_pairs_one_by_one() {
+    for bodies in [2, 5, 17, 40] {
+        let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
+        let pairs = Pairs::<_, 3>::all(bodies, Softened { s: 0.2, m: m.clone() }).unwrap();
+        assert_eq!(pairs.pair().part(), Part::Energy);
+        let q = places(bodies, 3);
+        let expected: f64 = (0..bodies)
+            .flat_map(|i| (i + 1..bodies).map(move |j| (i, j)))
+            .map(|(i, j)| {
+                let r2: f64 = (0..3).map(|axis| (q[3 * j + axis] - q[3 * i + axis]).powi(2)).sum();
+                let t = r2 + 0.2_f64.powi(2);
+                m[i] * m[j] * (r2 / t + 2.0) / t.sqrt()
+            })
+            .sum();
+        let off = evaluated(&pairs, &q).2 - expected;
+        // positions are up to ten times as large as differences; each of a few sums is rounded to 1e-16
+        assert!(off.abs() <= 1e-14 * expected, "{bodies} bodies: {off:e} of {expected}");
+    }
+}
+
 /// Blocks are for all pairs.
 #[test]
 fn chains_have_no_blocks() {
@@ -142,8 +175,13 @@ fn lanes_have_the_bits_of_f64() {
         let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
         let in_lanes = m.iter().copied().map(Lanes::all).collect();
         compare(
-            &Pairs::<_, 2>::all(bodies, Gravity { g: 0.7, m }).unwrap(),
+            &Pairs::<_, 2>::all(bodies, Gravity { g: 0.7, m: m.clone() }).unwrap(),
             &Pairs::<_, 2>::all(bodies, Gravity { g: Lanes::all(0.7), m: in_lanes }).unwrap(),
+        );
+        let in_lanes = m.iter().copied().map(Lanes::all).collect();
+        compare(
+            &Pairs::<_, 3>::all(bodies, Softened { s: 0.2, m }).unwrap(),
+            &Pairs::<_, 3>::all(bodies, Softened { s: Lanes::all(0.2), m: in_lanes }).unwrap(),
         );
         for ends in [Ends::Free, Ends::Fixed, Ends::Periodic] {
             compare(

@@ -7,6 +7,15 @@ use crate::graph::{Derivation, Graph, Node};
 use crate::number::rational::Rational;
 use crate::program::Program;
 
+/// What a pair of bodies gives to the rate qᵀU_q − 2U of a sum over pairs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// Its own rate, d u'(d) − 2u or 2r²u'(r²) − 2u: the sum of these is the rate.
+    Rate,
+    /// Its energy u: the rate is qᵀU_q − 2 Σ u.
+    Energy,
+}
+
 /// The programs of a potential U(q).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PotentialPrograms {
@@ -15,8 +24,10 @@ pub struct PotentialPrograms {
     /// An output per coordinate: U_q. The operations are those of `gradient_and_rate`, so that a trajectory has the same
     /// bits whether qᵀU_q − 2U is computed or not; the constants are the same.
     pub gradient: Program,
-    /// U_q, and as the last output qᵀU_q − 2U.
+    /// U_q, and as the last output qᵀU_q − 2U; of a pair its part.
     pub gradient_and_rate: Program,
+    /// What the last output is.
+    pub part: Part,
 }
 
 impl Graph {
@@ -25,25 +36,35 @@ impl Graph {
         let mut outputs: Vec<Node> = (0..coordinates).map(|i| self.derivative(energy, i)).collect();
         outputs.push(self.rate(energy));
         let gradient_and_rate = self.program(&outputs);
-        let gradient = gradient_and_rate.without_last_output();
-        PotentialPrograms { energy: self.program(&[energy]), gradient, gradient_and_rate }
+        PotentialPrograms::new(self.program(&[energy]), gradient_and_rate, Part::Rate)
     }
 }
+
+/// A pair's energy is computed in place of its rate if that saves so many operations: of the sum over all pairs of a few bodies, qᵀU_q
+/// takes about two operations a pair.
+const WORTH_AN_ENERGY: u64 = 2;
 
 impl Graph {
     /// The programs of a pair's energy u, a formula of [`Graph::build_pair`], with in place of the gradient its slope s,
     /// by which ∂u/∂q_j = s (q_j − q_i) for u(r²), ∂u/∂q_j = s for u(d); the rate is Σ qᵀu_q − 2u over both bodies.
     ///
-    /// So s = 2u'(r²) with the rate 2r²u'(r²) − 2u, or s = u'(d) with the rate d u'(d) − 2u.
+    /// So s = 2u'(r²) with the rate 2r²u'(r²) − 2u, or s = u'(d) with the rate d u'(d) − 2u. The last output is u in place of the rate,
+    /// where that saves operations and s is computed by the same ones.
     pub fn pair(&mut self, energy: Node, separation: Separation) -> PotentialPrograms {
         let degree = Rational::from_integer(separation.degree().into());
         let derivative = self.derivative(energy, 0);
         let slope = self.scaled(derivative, &degree);
         let radial = self.derived(energy, Derivation::Radial);
         let rate = self.sum(&[(radial, degree), (energy, -(Rational::one() + Rational::one()))]);
-        let gradient_and_rate = self.program(&[slope, rate]);
-        let gradient = gradient_and_rate.without_last_output();
-        PotentialPrograms { energy: self.program(&[energy]), gradient, gradient_and_rate }
+        let with_rate = self.program(&[slope, rate]);
+        let with_energy = self.program(&[slope, energy]);
+        let energy = self.program(&[energy]);
+        let saves = with_energy.cost().weight() + WORTH_AN_ENERGY <= with_rate.cost().weight();
+        if saves && with_energy.without_last_output() == with_rate.without_last_output() {
+            PotentialPrograms::new(energy, with_energy, Part::Energy)
+        } else {
+            PotentialPrograms::new(energy, with_rate, Part::Rate)
+        }
     }
 }
 
@@ -84,13 +105,16 @@ impl Graph {
 
     /// Programs whose last output is that of the rate.
     fn second_derivatives(&mut self, outputs: &[Node]) -> PotentialPrograms {
-        let gradient_and_rate = self.program(outputs);
-        let gradient = gradient_and_rate.without_last_output();
-        PotentialPrograms { energy: Program::default(), gradient, gradient_and_rate }
+        PotentialPrograms::new(Program::default(), self.program(outputs), Part::Rate)
     }
 }
 
 impl PotentialPrograms {
+    fn new(energy: Program, gradient_and_rate: Program, part: Part) -> Self {
+        let gradient = gradient_and_rate.without_last_output();
+        PotentialPrograms { energy, gradient, gradient_and_rate, part }
+    }
+
     /// The number of kept constants: those of the energy, then those of the gradient.
     pub fn kept(&self) -> usize {
         self.energy.kept + self.gradient_and_rate.kept

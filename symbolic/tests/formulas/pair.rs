@@ -1,7 +1,7 @@
 //! Pairs of bodies: slope and rate of u(r²), u(d) against the derivatives of the same formula in coordinates.
 
 use num_traits::Zero;
-use shadowstep_symbolic::{Graph, Operations, PotentialPrograms, Rational, Separation, is_symmetric, parse};
+use shadowstep_symbolic::{Graph, Operations, Part, PotentialPrograms, Rational, Separation, is_symmetric, parse};
 
 use crate::support::{Point, names, of_node, of_program};
 
@@ -17,13 +17,15 @@ fn pair(text: &str, separation: Separation, properties: &str, parameters: &str) 
 }
 
 /// Pairs, without roots, so that rationals suffice; in coordinates `d` is x − X, r² is (x − X)² + (y − Y)².
-const PAIRS: [(&str, Separation); 6] = [
+const PAIRS: [(&str, Separation); 8] = [
     ("-a*m_i*m_j/r2", Separation::SquaredDistance),
     ("4*a*(b^12/r2^6 - b^6/r2^3)*(m_i + m_j)", Separation::SquaredDistance),
     ("m_i*r2*m_j/2 + b*r2^2/(1 + r2)", Separation::SquaredDistance),
     ("d^2/2 + a*d^3/3 + b*d^4/4", Separation::Difference),
     ("m_i/(1 + d^2) - m_j*d + a", Separation::Difference),
     ("r2", Separation::SquaredDistance),
+    ("m_i*m_j*(r2 + a^2)^3", Separation::SquaredDistance),
+    ("-m_i*m_j/(d + a^2)", Separation::Difference),
 ];
 
 #[test]
@@ -31,6 +33,7 @@ fn slope_and_rate_are_those_of_the_formula_in_coordinates() {
     let (near, far) = ([ratio(1, 3), ratio(-2, 5)], [ratio(7, 4), ratio(5, 6)]);
     let parameters = vec![Some(ratio(3, 7)), Some(ratio(-5, 2))];
     let properties = vec![Some(ratio(2, 9)), Some(ratio(11, 3))];
+    let mut energies = 0;
     for (text, separation) in PAIRS {
         let difference = [&far[0] - &near[0], &far[1] - &near[1]];
         let (written, at) = match separation {
@@ -40,9 +43,21 @@ fn slope_and_rate_are_those_of_the_formula_in_coordinates() {
             }
         };
         let programs = pair(text, separation, "m_i m_j", "a b");
-        let at = Point { coordinates: vec![Some(at)], parameters: parameters.clone(), properties: properties.clone() };
-        let [Some(slope), rate] = &of_program(&programs.gradient_and_rate, &at)[..] else { panic!("two outputs") };
-        assert_eq!(of_program(&programs.gradient, &at), [Some(slope.clone())], "{text}");
+        let point = Point {
+            coordinates: vec![Some(at.clone())],
+            parameters: parameters.clone(),
+            properties: properties.clone(),
+        };
+        let outputs = of_program(&programs.gradient_and_rate, &point);
+        let [Some(slope), Some(part)] = &outputs[..] else { panic!("two outputs") };
+        assert_eq!(of_program(&programs.gradient, &point), [Some(slope.clone())], "{text}");
+        let rate = match programs.part {
+            Part::Rate => part.clone(),
+            Part::Energy => {
+                energies += 1;
+                slope * at - part - part
+            }
+        };
 
         // these letters are in no other name
         let text = text.replace(separation.name(), written);
@@ -57,7 +72,7 @@ fn slope_and_rate_are_those_of_the_formula_in_coordinates() {
             properties: vec![],
         };
         let value = |node| of_node(&graph, node, &point);
-        assert_eq!(value(radial), *rate, "{text}");
+        assert_eq!(value(radial), Some(rate), "{text}");
         for axis in 0..2 {
             let expected = match separation {
                 Separation::SquaredDistance => slope * &difference[axis],
@@ -68,6 +83,7 @@ fn slope_and_rate_are_those_of_the_formula_in_coordinates() {
             assert_eq!(value(slopes[axis + 2]), Some(-expected), "{text}");
         }
     }
+    assert_eq!(energies, 2, "both kinds of parts are among the pairs");
 }
 
 #[test]
@@ -95,6 +111,10 @@ fn pairs_cost_what_they_cost_by_hand() {
     let gravity = pair("-G*m_i*m_j/sqrt(r2)", Separation::SquaredDistance, "m_i m_j", "G");
     assert_eq!(gravity.gradient.cost(), cost(0, 5, 1), "{}", gravity.gradient);
     assert_eq!(gravity.gradient_and_rate.cost(), cost(0, 6, 1), "{}", gravity.gradient_and_rate);
+    // with the energy −m m/√(r² + a²), whose product the slope has, too, in place of a rate of three more operations
+    let softened = pair("-m_i*m_j/sqrt(r2 + a^2)", Separation::SquaredDistance, "m_i m_j", "a");
+    assert_eq!(softened.gradient_and_rate.cost(), cost(1, 4, 1), "{}", softened.gradient_and_rate);
+    assert_eq!([gravity.part, softened.part], [Part::Rate, Part::Energy]);
     // a pair of springs adds nothing to β
     let spring = pair("k*d^2/2", Separation::Difference, "", "k");
     assert_eq!(spring.gradient_and_rate.cost(), cost(0, 1, 0), "{}", spring.gradient_and_rate);
