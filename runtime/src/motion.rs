@@ -2,6 +2,7 @@
 
 mod curved;
 mod flows;
+mod turns;
 
 use thiserror::Error;
 
@@ -466,28 +467,7 @@ where
             #[inline(always)]
             || match motions {
                 [Motion { flows, moving, .. }] => flows.advance(moving, maps, count),
-                many => maps.each(
-                    0..count,
-                    count,
-                    #[inline(always)]
-                    |kind, weight, _| match kind {
-                        MapKind::Kick => {
-                            for Motion { flows, moving, .. } in &mut *many {
-                                flows.kick(moving, weight, flows.keeps_rate);
-                            }
-                        }
-                        MapKind::Drift => {
-                            for Motion { flows, moving, .. } in &mut *many {
-                                flows.drift(moving, weight);
-                            }
-                        }
-                        MapKind::GradientKick => {
-                            for Motion { flows, moving, .. } in &mut *many {
-                                flows.gradient_kick(moving, weight, flows.keeps_rate);
-                            }
-                        }
-                    },
-                ),
+                many => turns::advance(many, maps, count),
             },
         );
     }

@@ -196,8 +196,9 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     /// `count` steps of each of several systems, with the bits that [`Stepper::step`] gives.
     ///
     /// Of [lanes](crate::number::Lanes) this is one loop in the widest vector instructions that the processor has; see
-    /// [`instructions`](crate::instructions). The systems take turns at each kick and drift, so that operations of one need not wait
-    /// for the results of another: four systems of 16 lanes are good, or one of many coordinates. [`Fused`](crate::number::Fused) numbers
+    /// [`instructions`](crate::instructions). The systems take turns: all kicks and drifts of one up to its next evaluation of the
+    /// gradient, then those of the next, so that operations of one need not wait for the results of another. Four systems of 16 lanes are
+    /// good, or one of many coordinates. [`Fused`](crate::number::Fused) numbers
     /// need it for the instructions of their products. Of other numbers it is no faster than a loop of steps.
     pub fn steps<M: System<Number = N>>(&self, systems: &mut [M], count: u64)
     where

@@ -49,6 +49,49 @@ fn steps_of_vectors_are_those_one_by_one() {
     check(&motion.compensated());
 }
 
+/// Steps of several systems, merged and not: the bits of each alone.
+fn check_several<M: System<Number = f64, Class = Quadratic> + Clone>(start: impl Fn(f64) -> M) {
+    for scheme in ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "saba4", "ruth3", "chin-4a"] {
+        let stepper = Stepper::<_, f64>::new(shipped(scheme).unwrap(), "1/20").unwrap();
+        for (count, merged) in [0, 1, 7, 8, 9, 100].into_iter().flat_map(|count| [(count, false), (count, true)]) {
+            let mut alone = [0.1, 0.2, 0.3].map(&start);
+            // one has a gradient that the first kick takes, another keeps its rates
+            alone[1].kick(&stepper.weights()[0]);
+            alone[2].before_augmented_step(true);
+            let mut together = alone.clone();
+            match merged {
+                true => stepper.merged_steps(&mut together, count),
+                false => stepper.steps(&mut together, count),
+            }
+            for (alone, of_several) in alone.iter_mut().zip(&mut together) {
+                match merged {
+                    true => stepper.merged_steps(slice::from_mut(alone), count),
+                    false => (0..count).for_each(|_| stepper.step(alone)),
+                }
+                let what = format!("{scheme}, {count} steps, merged: {merged}");
+                assert_eq!((alone.q(), alone.p()), (of_several.q(), of_several.p()), "{what}");
+                assert_eq!(alone.remainders(), of_several.remainders(), "{what}");
+                assert_eq!(alone.evaluations(), of_several.evaluations(), "{what}");
+                stepper.step_augmented(alone);
+                stepper.step_augmented(of_several);
+                assert_eq!(alone.increments().beta, of_several.increments().beta, "{what}");
+                assert_eq!(alone.q(), of_several.q(), "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn steps_of_several_systems_are_those_of_each_alone() {
+    let in_arrays = |x| Motion::new(HenonHeiles, UnitMasses, [x, 0.2], [0.1, 0.0]).unwrap();
+    check_several(in_arrays);
+    check_several(|x| in_arrays(x).compensated());
+    check_several(|x| in_arrays(x).fixed_point(&[2.0; 2], &[2.0; 2]).unwrap());
+    let in_vectors = |x| Motion::new(HenonHeiles, UnitMasses, vec![x, 0.2], vec![0.1, 0.0]).unwrap();
+    check_several(in_vectors);
+    check_several(|x| in_vectors(x).compensated());
+}
+
 // ---------------------------------------------------------------------------------------------------------------
 // A potential and a kinetic energy behind a `dyn`: of a few coordinates many steps are one call
 

@@ -237,10 +237,14 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
 }
 
 /// Fewer steps than these are made one by one.
-const FEW: u64 = 8;
+pub(super) const FEW: u64 = 8;
 
 /// The maps of the first, of each middle and of the last of these steps of `count`; `None` with gradient kicks or middle parts.
-fn kicks_and_drifts<N: Number>(maps: &impl MapSequence<N>, steps: u64, count: u64) -> Option<[Repeated<N>; 3]> {
+pub(super) fn kicks_and_drifts<N: Number>(
+    maps: &impl MapSequence<N>,
+    steps: u64,
+    count: u64,
+) -> Option<[Repeated<N>; 3]> {
     let mut has_others = false;
     let mut list = |step: u64| {
         let mut list = Vec::new();
