@@ -420,14 +420,23 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn energy(&self, q: &[N], energy: &mut N, scratch: &mut [N]) {
+        if let Some((axes, pair)) = self.blocks(scratch) {
+            return self.all_blocks().energy(q, energy, axes, pair);
+        }
         energy.assign_zero();
+        let in_order_of_blocks = self.which == Which::All && self.is_in_order_of_blocks::<N>();
+        let mut of_places: [N; BLOCK] = std::array::from_fn(|_| energy.clone());
         let mut s = parts::<N, D>(scratch);
         self.each(q, |i, j| {
             End::subtract(i, j, &mut s.difference);
             let x = self.separation(&s.difference, &mut s.squared);
             self.pair.energy(i.number(), j.number(), x, &mut s.result, s.pair);
-            energy.add(&s.result);
+            let place = if in_order_of_blocks { self.place_in_block(i.number(), j.number()) } else { None };
+            place.map_or(&mut *energy, |place| &mut of_places[place]).add(&s.result);
         });
+        if in_order_of_blocks {
+            of_places.iter().for_each(|of_place| energy.add(of_place));
+        }
     }
 
     fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {

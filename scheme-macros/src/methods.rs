@@ -71,19 +71,31 @@ impl Methods<'_> {
         self.body(&self.programs.gradient_and_rate, self.programs.energy.kept, outputs)
     }
 
-    /// U_q of a block at once into `outputs`, one block for each: every instruction for all places of the block before the next one, so that
+    /// U of a block at once into `outputs`, one block for each: every instruction for all places of the block before the next one, so that
     /// each is an operation on vectors.
+    pub(crate) fn energy_of_block(&self, lane: &Ident, outputs: &[(Ident, Ident)]) -> TokenStream {
+        self.block_body(&self.programs.energy, 0, lane, outputs)
+    }
+
+    /// U_q, likewise.
     pub(crate) fn gradient_of_block(&self, lane: &Ident, outputs: &[(Ident, Ident)]) -> TokenStream {
-        self.block_body(&self.programs.gradient, lane, outputs)
+        self.block_body(&self.programs.gradient, self.programs.energy.kept, lane, outputs)
     }
 
     /// The same with qᵀU_q − 2U into the last of them.
     pub(crate) fn gradient_and_rate_of_block(&self, lane: &Ident, outputs: &[(Ident, Ident)]) -> TokenStream {
-        self.block_body(&self.programs.gradient_and_rate, lane, outputs)
+        self.block_body(&self.programs.gradient_and_rate, self.programs.energy.kept, lane, outputs)
     }
 
-    fn block_body(&self, program: &Program, lane: &Ident, outputs: &[(Ident, Ident)]) -> TokenStream {
-        let constants = scratch_names(program, self.programs.energy.kept, self.programs.kept(), false);
+    /// A program, whose constants begin at `kept_before` in the scratch space.
+    fn block_body(
+        &self,
+        program: &Program,
+        kept_before: usize,
+        lane: &Ident,
+        outputs: &[(Ident, Ident)],
+    ) -> TokenStream {
+        let constants = scratch_names(program, kept_before, self.programs.kept(), false);
         let block = own("W");
         let own_xs = own("xs");
         let blocks = (0..program.scratch).map(|i| {
@@ -126,7 +138,7 @@ impl Methods<'_> {
         }
     }
 
-    /// A program, whose constants begin at `kept_before` in the scratch space.
+    /// The same of one.
     fn body(&self, program: &Program, kept_before: usize, outputs: &[TokenStream]) -> TokenStream {
         let arguments = &self.arguments;
         let scratch = scratch_names(program, kept_before, self.programs.kept(), true);

@@ -27,7 +27,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     let [i, j, energy, slope, part, scratch] = ["i", "j", "energy", "slope", "part", "scratch"].map(own);
     let methods =
         Methods { programs: &programs, names: definition.names(), arguments: property_values(definition, [&i, &j]) };
-    let [xs, slopes, parts, lane] = ["xs", "slopes", "parts", "lane"].map(own);
+    let [xs, energies, slopes, parts, lane] = ["xs", "energies", "slopes", "parts", "lane"].map(own);
     let in_lane = Methods {
         programs: &programs,
         names: definition.names(),
@@ -40,6 +40,7 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
     let slope_body = methods.gradient(&[quote! { #slope }]);
     let part_body = methods.gradient_and_rate(&[quote! { #slope }, quote! { #part }]);
     let outputs = [(slopes.clone(), slope.clone()), (parts.clone(), part.clone())];
+    let energies_body = in_lane.energy_of_block(&lane, &[(energies.clone(), energy.clone())]);
     let slopes_body = in_lane.gradient_of_block(&lane, &outputs[..1]);
     let parts_body = in_lane.gradient_and_rate_of_block(&lane, &outputs);
     let width = own("W");
@@ -78,6 +79,18 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #scratch: &mut [N],
             ) {
                 #part_body
+            }
+            #[inline(always)]
+            fn energies<const #width: usize>(
+                &self,
+                #i: usize,
+                #j: usize,
+                #xs: &[N; #width],
+                #energies: &mut [N; #width],
+                #scratch: &mut [N],
+            ) {
+                #property_blocks
+                #energies_body
             }
             #[inline(always)]
             fn slopes<const #width: usize>(

@@ -80,20 +80,40 @@ impl<P, const D: usize> Blocks<'_, P, D> {
             || match parts {
                 Some(parts) => {
                     parts.assign_zero();
-                    self.add_blocks::<N, true>(q_axes, g_axes, parts, pair);
+                    self.add_blocks::<N, true, true>(q_axes, g_axes, parts, pair);
                 }
                 None => {
                     let mut none = N::zero(&q[0].context());
-                    self.add_blocks::<N, false>(q_axes, g_axes, &mut none, pair);
+                    self.add_blocks::<N, true, false>(q_axes, g_axes, &mut none, pair);
                 }
             },
         );
         transpose(g_axes, self.bodies, gradient);
     }
 
-    #[inline(always)]
-    fn add_blocks<N: Number, const PARTS: bool>(&self, q: &[N], gradient: &mut [N], parts: &mut N, pair: &mut [N])
+    /// energy ← U
+    pub(super) fn energy<N: Number>(&self, q: &[N], energy: &mut N, axes: &mut [N], pair: &mut [N])
     where
+        P: PairPotential<N>,
+    {
+        let (q_axes, others) = axes.split_at_mut(self.bodies * D);
+        transpose(q, D, q_axes);
+        energy.assign_zero();
+        instructions::widest(
+            #[inline(always)]
+            || self.add_blocks::<N, false, true>(q_axes, others, energy, pair),
+        );
+    }
+
+    /// Adds the forces to the gradient, and the parts of pairs; without forces, their energies.
+    #[inline(always)]
+    fn add_blocks<N: Number, const FORCES: bool, const PARTS: bool>(
+        &self,
+        q: &[N],
+        gradient: &mut [N],
+        parts: &mut N,
+        pair: &mut [N],
+    ) where
         P: PairPotential<N>,
     {
         let bodies = self.bodies;
@@ -105,23 +125,25 @@ impl<P, const D: usize> Blocks<'_, P, D> {
             let mut own: Places<N, D> = std::array::from_fn(|_| zeros());
             let mut j = i + 1;
             while j + BLOCK <= bodies {
-                self.forces::<N, PARTS>((i, j), q, &q_i, &mut room, pair);
-                self.add_block::<N, PARTS>(j, &room, gradient, (&mut own, &mut parts_of_places));
+                self.forces::<N, FORCES, PARTS>((i, j), q, &q_i, &mut room, pair);
+                self.add_block::<N, FORCES, PARTS>(j, &room, gradient, (&mut own, &mut parts_of_places));
                 j += BLOCK;
             }
             if j < bodies && i + BLOCK < bodies {
                 // the last bodies are in a block with some that had their turn
                 let first = bodies - BLOCK;
-                self.forces::<N, PARTS>((i, first), q, &q_i, &mut room, pair);
+                self.forces::<N, FORCES, PARTS>((i, first), q, &q_i, &mut room, pair);
                 room.clear(j - first);
-                self.add_block::<N, PARTS>(first, &room, gradient, (&mut own, &mut parts_of_places));
+                self.add_block::<N, FORCES, PARTS>(first, &room, gradient, (&mut own, &mut parts_of_places));
                 j = bodies;
             }
-            for (axis, own) in own.iter_mut().enumerate() {
-                gradient[axis * bodies + i].add(sum_of_places(own));
+            if FORCES {
+                for (axis, own) in own.iter_mut().enumerate() {
+                    gradient[axis * bodies + i].add(sum_of_places(own));
+                }
             }
             for j in j..bodies {
-                self.add_one::<N, PARTS>((i, j), (q, gradient), parts, pair);
+                self.add_one::<N, FORCES, PARTS>((i, j), (q, gradient), parts, pair);
             }
         }
         parts_of_places.iter().for_each(|of_place| parts.add(of_place));
@@ -129,14 +151,14 @@ impl<P, const D: usize> Blocks<'_, P, D> {
 
     /// Adds the forces and parts of a block of bodies from j on with a body, whose own sums are `own`.
     #[inline(always)]
-    fn add_block<N: Number, const PARTS: bool>(
+    fn add_block<N: Number, const FORCES: bool, const PARTS: bool>(
         &self,
         j: usize,
         room: &Room<N, D>,
         gradient: &mut [N],
         (own, parts_of_places): (&mut Places<N, D>, &mut [N; BLOCK]),
     ) {
-        for (axis, forces) in room.difference.iter().enumerate() {
+        for (axis, forces) in room.difference.iter().enumerate().filter(|_| FORCES) {
             let of_axis: &mut [N; BLOCK] =
                 gradient[axis * self.bodies + j..].first_chunk_mut().expect("the block is within the bodies");
             of_axis.iter_mut().zip(forces).for_each(|(own, force)| own.add(force));
@@ -149,7 +171,7 @@ impl<P, const D: usize> Blocks<'_, P, D> {
 
     /// The forces of the body i at q_i with a block of bodies from j on, in place of their differences.
     #[inline(always)]
-    fn forces<N: Number, const PARTS: bool>(
+    fn forces<N: Number, const FORCES: bool, const PARTS: bool>(
         &self,
         (i, j): (usize, usize),
         q: &[N],
@@ -179,10 +201,10 @@ impl<P, const D: usize> Blocks<'_, P, D> {
                 &*squared
             }
         };
-        if PARTS {
-            self.pair.slopes_and_parts(i, j, x, slope, part, pair);
-        } else {
-            self.pair.slopes(i, j, x, slope, pair);
+        match (FORCES, PARTS) {
+            (true, true) => self.pair.slopes_and_parts(i, j, x, slope, part, pair),
+            (true, false) => self.pair.slopes(i, j, x, slope, pair),
+            (false, _) => return self.pair.energies(i, j, x, part, pair),
         }
         for of_axis in difference.iter_mut() {
             for l in 0..BLOCK {
@@ -196,7 +218,7 @@ impl<P, const D: usize> Blocks<'_, P, D> {
 
     /// Adds one pair.
     #[inline(always)]
-    fn add_one<N: Number, const PARTS: bool>(
+    fn add_one<N: Number, const FORCES: bool, const PARTS: bool>(
         &self,
         (i, j): (usize, usize),
         (q, gradient): (&[N], &mut [N]),
@@ -219,11 +241,16 @@ impl<P, const D: usize> Blocks<'_, P, D> {
                 difference[1..].iter().for_each(|of_axis| x.add_product(of_axis, of_axis));
             }
         }
+        match (FORCES, PARTS) {
+            (true, true) => self.pair.slope_and_part(i, j, &x, &mut slope, &mut part, pair),
+            (true, false) => self.pair.slope(i, j, &x, &mut slope, pair),
+            (false, _) => self.pair.energy(i, j, &x, &mut part, pair),
+        }
         if PARTS {
-            self.pair.slope_and_part(i, j, &x, &mut slope, &mut part, pair);
             parts.add(&part);
-        } else {
-            self.pair.slope(i, j, &x, &mut slope, pair);
+        }
+        if !FORCES {
+            return;
         }
         for axis in 0..D {
             let force = &mut difference[axis];

@@ -41,7 +41,15 @@ pub trait PairPotential<N: Number>: Pair {
         None
     }
 
-    /// The slopes of the body i with the bodies j, j + 1, …, one x for each.
+    /// The energies of the body i with the bodies j, j + 1, …, one x for each.
+    #[inline(always)]
+    fn energies<const W: usize>(&self, i: usize, j: usize, x: &[N; W], energies: &mut [N; W], scratch: &mut [N]) {
+        for l in 0..W {
+            self.energy(i, j + l, &x[l], &mut energies[l], scratch);
+        }
+    }
+
+    /// The slopes, likewise.
     #[inline(always)]
     fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
         for l in 0..W {

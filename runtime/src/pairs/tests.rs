@@ -21,18 +21,21 @@ fn places(bodies: usize, dimensions: usize) -> Vec<f64> {
     (0..bodies * dimensions).map(place).collect()
 }
 
+/// The gradient, that which comes with the rate, and the rate with the energy.
 fn evaluated<N: crate::Number, P: PairPotential<N>, const D: usize>(
     pairs: &Pairs<P, D>,
     q: &[N],
-) -> (Vec<N>, Vec<N>, N) {
+) -> (Vec<N>, Vec<N>, [N; 2]) {
     let context = q[0].context();
     let zeros = |count| vec![N::zero(&context); count];
     let mut scratch = zeros(Potential::<N>::scratch(pairs));
     pairs.prepare(&mut scratch, &context);
-    let (mut plain, mut with_rate, mut rate) = (zeros(q.len()), zeros(q.len()), N::zero(&context));
+    let (mut plain, mut with_rate) = (zeros(q.len()), zeros(q.len()));
+    let [mut rate, mut energy] = [N::zero(&context), N::zero(&context)];
     pairs.gradient(q, &mut plain, &mut scratch);
     pairs.gradient_and_rate(q, &mut with_rate, &mut rate, &mut scratch);
-    (plain, with_rate, rate)
+    pairs.energy(q, &mut energy, &mut scratch);
+    (plain, with_rate, [rate, energy])
 }
 
 /// Numbers that count their operations take one pair after the other.
@@ -59,9 +62,11 @@ where
         } else {
             assert_eq!(bits(&found.0), bits(&gradient), "{what}");
         }
-        // and so are the rates of all blocks
-        let off = (found.2 - expected.2.0).abs();
-        assert!(off <= 1e-13 * expected.2.0.abs(), "{what}: {off:e}");
+        // and so are the rates and energies of all blocks
+        for (found, expected) in found.2.into_iter().zip(&expected.2) {
+            let off = (found - expected.0).abs();
+            assert!(off <= 1e-13 * expected.0.abs(), "{what}: {off:e}");
+        }
     }
 }
 
@@ -116,7 +121,8 @@ fn chains_in_blocks_have_the_bits_of_springs_one_by_one() {
 #[test]
 fn sums_do_not_depend_on_the_vectors() {
     let pairs = Pairs::<_, 3>::all(37, LennardJones { epsilon: 1.5, sigma: 0.4 }).unwrap();
-    let bits = |(gradient, _, rate): (Vec<f64>, _, f64)| gradient.into_iter().chain([rate]).map(f64::to_bits).collect();
+    let bits =
+        |(gradient, _, sums): (Vec<f64>, _, [f64; 2])| gradient.into_iter().chain(sums).map(f64::to_bits).collect();
     let sums: Vec<Vec<u64>> =
         Instructions::available().map(|i| i.only(|| bits(evaluated(&pairs, &places(37, 3))))).collect();
     assert!(sums.iter().all(|of_vectors| *of_vectors == sums[0]), "{sums:?}");
@@ -138,7 +144,7 @@ fn rates_are_those_of_pairs_one_by_one() {
                 m[i] * m[j] * (r2 / t + 2.0) / t.sqrt()
             })
             .sum();
-        let off = evaluated(&pairs, &q).2 - expected;
+        let off = evaluated(&pairs, &q).2[0] - expected;
         // positions are up to ten times as large as differences; each of a few sums is rounded to 1e-16
         assert!(off.abs() <= 1e-14 * expected, "{bodies} bodies: {off:e} of {expected}");
     }
@@ -166,7 +172,7 @@ fn lanes_have_the_bits_of_f64() {
         let lanes: Vec<_> = q.iter().copied().map(Lanes::all).collect();
         let (one, all) = (evaluated(pairs, &q), evaluated(in_lanes, &lanes));
         assert_eq!(one.1, all.1.iter().map(|x| x.0[3]).collect::<Vec<_>>());
-        assert_eq!(one.2, all.2.0[3], "{} bodies, {:?}", pairs.bodies(), pairs.which);
+        assert_eq!(one.2, all.2.map(|x| x.0[3]), "{} bodies, {:?}", pairs.bodies(), pairs.which);
     }
     for bodies in [15, 16, 17, 24, 25, 39] {
         let all = |sigma: f64| Pairs::<_, 3>::all(bodies, LennardJones { epsilon: 1.5, sigma }).unwrap();

@@ -245,6 +245,26 @@ mod tests {
         }
     }
 
+    /// In windows with other steps between them, whose first states come without increments.
+    #[test]
+    fn values_of_windows_are_those_of_the_definition() {
+        for (k, dimension) in (1..=8).flat_map(|k| [(k, 1), (k, 8), (k, 69)]) {
+            let (states, weights) = (walk(dimension, 80), weights(k));
+            let mut estimator = LaggedEstimator::<f64>::new(k, false, &exact("0.5").unwrap(), dimension, &());
+            for window in states.chunks_exact(k as usize + 3).map(|states| &states[2..]) {
+                let mut last = None;
+                for (n, (q, p, _, added)) in window.iter().enumerate() {
+                    let added = if n > 0 { added.view() } else { Increments::of_beta(&added.beta) };
+                    last = estimator.push(q, p, added).map(|estimate| *estimate.value);
+                }
+                let (value, expected) = (last.unwrap(), by_definition(&weights, 0.5, window));
+                // as above
+                let tolerance = 1e-13 * f64::from(k) * dimension as f64;
+                assert!((value - expected).abs() <= tolerance, "k = {k}, {dimension}: {value} {expected}");
+            }
+        }
+    }
+
     /// The error of E_k by round-off, rms, by lags and by pairs of states, for the same states and increments: the right value is that of
     /// four limbs.
     fn round_off(k: u32, problem: &str, h: &str) -> [f64; 2] {
