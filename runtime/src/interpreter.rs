@@ -98,7 +98,7 @@ impl<N: Number> Interpreter<N> {
         self.compute(&self.gradient, x, registers)
     }
 
-    /// Its gradient at x, then its rate, of a pair its part, and something more; all may be swapped with other numbers.
+    /// Its gradient at x, then its rate, of a pair its summand, and something more; all may be swapped with other numbers.
     pub(crate) fn gradient_and_rate<'r>(&self, x: &[N], registers: &'r mut [N]) -> &'r mut [N] {
         self.compute(&self.gradient_and_rate, x, registers)
     }

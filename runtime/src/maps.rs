@@ -28,7 +28,7 @@ impl PartOrder {
 /// Its type knows the scheme, so that a loop over the maps of generated code is unrolled wherever it is compiled.
 pub trait MapSequence<N> {
     /// Calls `map` for the maps of these steps of a run of so many: its kind, its weight, and the weight of the middle parts after it, in
-    /// the order that is [theirs](PartOrder::after) there; `None` for H of two parts.
+    /// the order that is [theirs](PartOrder::after) there; `None` for H of two parts. All steps but the first and the last have the same maps.
     ///
     /// ```
     /// use shadowstep::System;

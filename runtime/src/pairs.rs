@@ -9,7 +9,7 @@ mod pair;
 mod tests;
 
 pub use pair::{BLOCK, Ends, Pair, PairCurvature, PairPotential};
-pub use shadowstep_symbolic::{Part, Separation};
+pub use shadowstep_symbolic::{Separation, Summand};
 
 use thiserror::Error;
 
@@ -424,19 +424,14 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
             return self.all_blocks().energy(q, energy, axes, pair);
         }
         energy.assign_zero();
-        let in_order_of_blocks = self.which == Which::All && self.is_in_order_of_blocks::<N>();
-        let mut of_places: [N; BLOCK] = std::array::from_fn(|_| energy.clone());
-        let mut s = parts::<N, D>(scratch);
-        self.each(q, |i, j| {
-            End::subtract(i, j, &mut s.difference);
-            let x = self.separation(&s.difference, &mut s.squared);
-            self.pair.energy(i.number(), j.number(), x, &mut s.result, s.pair);
-            let place = if in_order_of_blocks { self.place_in_block(i.number(), j.number()) } else { None };
-            place.map_or(&mut *energy, |place| &mut of_places[place]).add(&s.result);
-        });
-        if in_order_of_blocks {
-            of_places.iter().for_each(|of_place| energy.add(of_place));
+        if self.which != Which::All || !self.is_in_order_of_blocks::<N>() {
+            return self.each_energy(q, scratch, |_, _, of_pair| energy.add(of_pair));
         }
+        let mut sums_of_places: [N; BLOCK] = std::array::from_fn(|_| energy.clone());
+        self.each_energy(q, scratch, |i, j, of_pair| {
+            self.place_in_block(i, j).map_or(&mut *energy, |place| &mut sums_of_places[place]).add(of_pair);
+        });
+        sums_of_places.iter().for_each(|of_place| energy.add(of_place));
     }
 
     fn gradient(&self, q: &[N], gradient: &mut [N], scratch: &mut [N]) {
@@ -461,11 +456,14 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
     }
 
     fn gradient_and_rate(&self, q: &[N], gradient: &mut [N], rate: &mut N, scratch: &mut [N]) {
-        self.gradient_and_parts(q, gradient, rate, scratch);
-        if self.pair.part() == Part::Energy {
+        self.gradient_and_total(q, gradient, rate, scratch);
+        if self.pair.summand() == Summand::Energy {
             // qᵀU_q − 2U
             rate.multiply_integer(-2);
-            add_sum(rate, [q, gradient], |[q, gradient], rate| rate.add_product(q, gradient));
+            N::in_widest_instructions(
+                #[inline(always)]
+                || add_sum(rate, [q, gradient], |[q, gradient], rate| rate.add_product(q, gradient)),
+            );
         }
     }
 
@@ -475,46 +473,60 @@ impl<N: Number, P: PairPotential<N>, const D: usize> Potential<N> for Pairs<P, D
 }
 
 impl<P, const D: usize> Pairs<P, D> {
-    /// gradient ← U_q, and the sum of the parts of pairs.
+    /// Visits the energies of the pairs that interact.
+    fn each_energy<N: Number>(&self, q: &[N], scratch: &mut [N], mut visit: impl FnMut(usize, usize, &N))
+    where
+        P: PairPotential<N>,
+    {
+        let mut s = parts::<N, D>(scratch);
+        self.each(q, |i, j| {
+            End::subtract(i, j, &mut s.difference);
+            let x = self.separation(&s.difference, &mut s.squared);
+            self.pair.energy(i.number(), j.number(), x, &mut s.result, s.pair);
+            visit(i.number(), j.number(), &s.result);
+        });
+    }
+
+    /// gradient ← U_q, and the sum of the summands of pairs.
     #[inline(always)]
-    fn gradient_and_parts<N: Number>(&self, q: &[N], gradient: &mut [N], parts: &mut N, scratch: &mut [N])
+    fn gradient_and_total<N: Number>(&self, q: &[N], gradient: &mut [N], total: &mut N, scratch: &mut [N])
     where
         P: PairPotential<N>,
     {
         if let Some((axes, pair)) = self.blocks(scratch) {
-            return self.all_blocks().sum((q, gradient), Some(parts), axes, pair);
+            return self.all_blocks().sum((q, gradient), Some(total), axes, pair);
         }
         if let Some(ends) = self.chain_in_blocks::<N>() {
             let chain = Chain { pair: &self.pair, ends };
-            return chain.sum((q, gradient), Some(parts), &mut scratch[own_scratch(D)..]);
+            return chain.sum((q, gradient), Some(total), &mut scratch[own_scratch(D)..]);
         }
         if let Some(few) = self.few::<N>() {
-            return few.sum((q, gradient), Some(parts), &mut scratch[own_scratch(D)..]);
+            return few.sum((q, gradient), Some(total), &mut scratch[own_scratch(D)..]);
         }
         N::in_widest_instructions(
             #[inline(always)]
-            || self.sum_gradient_and_parts(q, gradient, parts, scratch),
+            || self.sum_one_by_one(q, gradient, total, scratch),
         );
     }
 
     /// The sum of one pair after the other.
     #[inline(always)]
-    fn sum_gradient_and_parts<N: Number>(&self, q: &[N], gradient: &mut [N], parts: &mut N, scratch: &mut [N])
+    fn sum_one_by_one<N: Number>(&self, q: &[N], gradient: &mut [N], total: &mut N, scratch: &mut [N])
     where
         P: PairPotential<N>,
     {
-        parts.assign_zero();
+        total.assign_zero();
         if !self.is_in_order_of_blocks::<N>() {
-            return self.sum_gradient(q, gradient, scratch, |i, j, x, slope, part, scratch| {
-                self.pair.slope_and_part(i, j, x, slope, part, scratch);
-                parts.add(part);
+            return self.sum_gradient(q, gradient, scratch, |i, j, x, slope, summand, scratch| {
+                self.pair.slope_and_summand(i, j, x, slope, summand, scratch);
+                total.add(summand);
             });
         }
-        let mut parts_of_places: [N; BLOCK] = std::array::from_fn(|_| N::zero(&q[0].context()));
-        self.sum_gradient(q, gradient, scratch, |i, j, x, slope, part, scratch| {
-            self.pair.slope_and_part(i, j, x, slope, part, scratch);
-            self.place_in_block(i, j).map_or(&mut *parts, |place| &mut parts_of_places[place]).add(part);
+        let mut sums_of_places: [N; BLOCK] = std::array::from_fn(|_| N::zero(&q[0].context()));
+        self.sum_gradient(q, gradient, scratch, |i, j, x, slope, summand, scratch| {
+            self.pair.slope_and_summand(i, j, x, slope, summand, scratch);
+            self.place_in_block(i, j).map_or(&mut *total, |place| &mut sums_of_places[place]).add(summand);
         });
-        parts_of_places.iter().for_each(|of_place| parts.add(of_place));
+        sums_of_places.iter().for_each(|of_place| total.add(of_place));
     }
 }

@@ -76,6 +76,8 @@ fn check_several<M: System<Number = f64, Class = Quadratic> + Clone>(start: impl
                 stepper.step_augmented(of_several);
                 assert_eq!(alone.increments().beta, of_several.increments().beta, "{what}");
                 assert_eq!(alone.q(), of_several.q(), "{what}");
+                // a rate that was kept costs no evaluation
+                assert_eq!(alone.evaluations(), of_several.evaluations(), "{what}");
             }
         }
     }

@@ -6,7 +6,7 @@ use shadowstep_symbolic::{Place, PotentialPrograms, Program};
 
 use crate::program::{Names, numbered, own, size, statement};
 
-/// The bodies of the methods that compute U, U_q and qᵀU_q − 2U (or T, T_p and pᵀT_p − 2T).
+/// The bodies of the methods that compute U, U_q and qᵀU_q − 2U (or T, T_p and pᵀT_p − 2T; of pairs a summand in place of the last).
 pub(crate) struct Methods<'a> {
     pub(crate) programs: &'a PotentialPrograms,
     pub(crate) names: Names,
@@ -66,7 +66,7 @@ impl Methods<'_> {
         self.body(&self.programs.gradient, self.programs.energy.kept, outputs)
     }
 
-    /// U_q into `outputs`, qᵀU_q − 2U into the last of them.
+    /// U_q into `outputs`, qᵀU_q − 2U, or a pair's summand, into the last of them.
     pub(crate) fn gradient_and_rate(&self, outputs: &[TokenStream]) -> TokenStream {
         self.body(&self.programs.gradient_and_rate, self.programs.energy.kept, outputs)
     }
@@ -82,7 +82,7 @@ impl Methods<'_> {
         self.block_body(&self.programs.gradient, self.programs.energy.kept, lane, outputs)
     }
 
-    /// The same with qᵀU_q − 2U into the last of them.
+    /// The same with qᵀU_q − 2U, or a pair's summand, into the last of them.
     pub(crate) fn gradient_and_rate_of_block(&self, lane: &Ident, outputs: &[(Ident, Ident)]) -> TokenStream {
         self.block_body(&self.programs.gradient_and_rate, self.programs.energy.kept, lane, outputs)
     }

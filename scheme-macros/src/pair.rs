@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
-use shadowstep_symbolic::{Part, PotentialPrograms, Separation, is_symmetric};
+use shadowstep_symbolic::{PotentialPrograms, Separation, Summand, is_symmetric};
 
 use crate::definition::{Definition, texts};
 use crate::methods::Methods;
@@ -24,10 +24,10 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
         quote! { <N> }
     };
     let x = &definition.arguments[0];
-    let [i, j, energy, slope, part, scratch] = ["i", "j", "energy", "slope", "part", "scratch"].map(own);
+    let [i, j, energy, slope, summand, scratch] = ["i", "j", "energy", "slope", "summand", "scratch"].map(own);
     let methods =
         Methods { programs: &programs, names: definition.names(), arguments: property_values(definition, [&i, &j]) };
-    let [xs, energies, slopes, parts, lane] = ["xs", "energies", "slopes", "parts", "lane"].map(own);
+    let [xs, energies, slopes, summands, lane] = ["xs", "energies", "slopes", "summands", "lane"].map(own);
     let in_lane = Methods {
         programs: &programs,
         names: definition.names(),
@@ -38,22 +38,22 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
         methods.prepare("prepare").unwrap_or_else(|| quote! { fn prepare(&self, _: &mut [N], _: &N::Context) {} });
     let energy_body = methods.energy(&energy);
     let slope_body = methods.gradient(&[quote! { #slope }]);
-    let part_body = methods.gradient_and_rate(&[quote! { #slope }, quote! { #part }]);
-    let outputs = [(slopes.clone(), slope.clone()), (parts.clone(), part.clone())];
+    let summand_body = methods.gradient_and_rate(&[quote! { #slope }, quote! { #summand }]);
+    let outputs = [(slopes.clone(), slope.clone()), (summands.clone(), summand.clone())];
     let energies_body = in_lane.energy_of_block(&lane, &[(energies.clone(), energy.clone())]);
     let slopes_body = in_lane.gradient_of_block(&lane, &outputs[..1]);
-    let parts_body = in_lane.gradient_and_rate_of_block(&lane, &outputs);
+    let summands_body = in_lane.gradient_and_rate_of_block(&lane, &outputs);
     let width = own("W");
     let scratch_size = size(methods.scratch());
     let kind = format_ident!("{separation:?}");
-    let given = programs.part;
+    let given = programs.summand;
     let given = format_ident!("{given:?}");
     Ok(quote! {
         #structure
 
         impl #generics ::shadowstep::pairs::Pair for #this {
             fn separation(&self) -> ::shadowstep::pairs::Separation { ::shadowstep::pairs::Separation::#kind }
-            fn part(&self) -> ::shadowstep::pairs::Part { ::shadowstep::pairs::Part::#given }
+            fn summand(&self) -> ::shadowstep::pairs::Summand { ::shadowstep::pairs::Summand::#given }
             fn properties(&self) -> ::std::vec::Vec<usize> { ::std::vec![#(self.#properties.len()),*] }
         }
 
@@ -69,16 +69,16 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #slope_body
             }
             #[inline(always)]
-            fn slope_and_part(
+            fn slope_and_summand(
                 &self,
                 #i: usize,
                 #j: usize,
                 #x: &N,
                 #slope: &mut N,
-                #part: &mut N,
+                #summand: &mut N,
                 #scratch: &mut [N],
             ) {
-                #part_body
+                #summand_body
             }
             #[inline(always)]
             fn energies<const #width: usize>(
@@ -105,17 +105,17 @@ pub(crate) fn emit(definition: &Definition) -> syn::Result<TokenStream> {
                 #slopes_body
             }
             #[inline(always)]
-            fn slopes_and_parts<const #width: usize>(
+            fn slopes_and_summands<const #width: usize>(
                 &self,
                 #i: usize,
                 #j: usize,
                 #xs: &[N; #width],
                 #slopes: &mut [N; #width],
-                #parts: &mut [N; #width],
+                #summands: &mut [N; #width],
                 #scratch: &mut [N],
             ) {
                 #property_blocks
-                #parts_body
+                #summands_body
             }
             fn curved(&self) -> ::core::option::Option<&dyn ::shadowstep::pairs::PairCurvature<N>> {
                 ::core::option::Option::Some(self)
@@ -257,9 +257,9 @@ fn documentation(definition: &Definition, separation: Separation, programs: &Pot
         Separation::Difference => ("U'(d)", "d U'(d) − 2U"),
         Separation::SquaredDistance => ("2U'(r²)", "2r²U'(r²) − 2U"),
     };
-    let part = match programs.part {
-        Part::Rate => rate,
-        Part::Energy => "U, by which the sum over pairs has its rate,",
+    let summand = match programs.summand {
+        Summand::Rate => rate,
+        Summand::Energy => "U, by which the sum over pairs has its rate,",
     };
     let parsed = definition.formula.parse();
     let parameters = definition.parameters();
@@ -273,7 +273,7 @@ fn documentation(definition: &Definition, separation: Separation, programs: &Pot
             .to_owned(),
         String::new(),
         format!(" - A pair's {slope} costs {}.", programs.gradient.cost()),
-        format!(" - {slope} and {part} cost {}.", programs.gradient_and_rate.cost()),
+        format!(" - {slope} and {summand} cost {}.", programs.gradient_and_rate.cost()),
     ];
     lines.extend((symmetric == Some(false)).then_some(directed));
     lines

@@ -90,7 +90,7 @@ pub use number::rational::Rational;
 pub use program::Program;
 pub use program::instruction::{Instruction, Place};
 pub use program::operations::Operations;
-pub use program::potential::{Part, PotentialPrograms};
+pub use program::potential::{PotentialPrograms, Summand};
 pub use text::decimal;
 pub use text::error::{Error, SemanticError, SemanticFault, SyntaxError};
 pub use text::near_names::{nearest, nearest_few, suggestion};

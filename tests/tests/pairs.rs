@@ -3,7 +3,7 @@
 use rug::Float;
 use shadowstep::formula::{FormulaPair, FormulaPotential};
 use shadowstep::number::counting::{Counting, Operations, count};
-use shadowstep::pairs::{Ends, Pairs, Separation};
+use shadowstep::pairs::{Ends, Pair, Pairs, Separation, Summand};
 use shadowstep::problems::Gravity;
 use shadowstep::{Ordered, Potential, potential};
 use shadowstep_tests::{Bits, log10_distance, numbers, potential_values, precision};
@@ -21,6 +21,13 @@ potential! {
     pair U(d) = d^2/2 + a*d^3/3 + exp(-d)
 }
 const SPRING: &str = "d^2/2 + a*d^3/3 + exp(-d)";
+
+potential! {
+    /// Its energy costs less than its rate.
+    struct Softened { s }
+    pair U(r2; m_i, m_j) = -m_i*m_j/sqrt(r2 + s^2)
+}
+const SOFTENED: &str = "-m_i*m_j/sqrt(r2 + s^2)";
 
 const POINT: [&str; 6] = ["0.3", "-1.7", "2.1", "1/7", "-0.9", "2/3"];
 const CHARGES: [&str; 3] = ["1.5", "-2/3", "0.7"];
@@ -78,12 +85,52 @@ fn neighbours_are_the_formula_in_coordinates() {
     }
 }
 
-fn compiled_and_read_have_the_same_bits<N: Bits>(context: &N::Context) {
-    let same = |one: &[N], other: &[N]| {
-        for (one, other) in one.iter().zip(other) {
-            assert!(one.is_finite() && one.same_bits(other), "{one} and {other}");
-        }
+/// All pairs, a chain and a ring.
+#[test]
+fn rates_from_energies_are_those_of_the_formula_in_coordinates() {
+    let pair = || {
+        let context = precision(120);
+        Softened { s: numbers(&["0.3"], &context).remove(0), m: numbers::<Float>(&SIZES, &context) }
     };
+    assert_eq!(pair().summand(), Summand::Energy);
+    let term = |(i, j): (usize, usize)| {
+        let square = format!("((q{} - q{})^2 + (q{} - q{})^2)", 2 * j, 2 * i, 2 * j + 1, 2 * i + 1);
+        format!("-{}*{}/sqrt({square} + 0.3^2)", SIZES[i], SIZES[j])
+    };
+    let written_out = |pairs: &[(usize, usize)]| pairs.iter().copied().map(term).collect::<Vec<_>>().join(" + ");
+    let [chain, all] = [&[(0, 1), (1, 2)][..], &[(0, 1), (1, 2), (0, 2)][..]].map(written_out);
+    assert_is(&Pairs::<_, 2>::all(3, pair()).unwrap(), &all, "all pairs");
+    assert_is(&Pairs::<_, 2>::neighbours(3, pair(), Ends::Free).unwrap(), &chain, "a chain");
+    assert_is(&Pairs::<_, 2>::neighbours(3, pair(), Ends::Periodic).unwrap(), &all, "a ring");
+}
+
+fn same<N: Bits>(one: &[N], other: &[N]) {
+    for (one, other) in one.iter().zip(other) {
+        assert!(one.is_finite() && one.same_bits(other), "{one} and {other}");
+    }
+}
+
+/// Of so many bodies that sums in `f64` are in blocks.
+fn compiled_and_read_are_the_same_of_many<N: Bits>(context: &N::Context) {
+    const BODIES: usize = 21;
+    let texts = |count: usize, divisor: usize| -> Vec<String> {
+        (0..count).map(|i| format!("{}/{divisor}", 1 + (i * i * 7 + i) % 101)).collect()
+    };
+    let of = |texts: Vec<String>| numbers::<N>(&texts.iter().map(String::as_str).collect::<Vec<_>>(), context);
+    let (q, m) = (of(texts(3 * BODIES, 29)), of(texts(BODIES, 53)));
+    let s = numbers::<N>(&["0.3"], context).remove(0);
+    let (properties, parameters) = ([("m", m.clone())], [("s", s.clone())]);
+    let read = FormulaPair::new(SOFTENED, Separation::SquaredDistance, &properties, &parameters).unwrap();
+    let compiled = Softened { s, m };
+    assert_eq!([compiled.summand(), read.summand()], [Summand::Energy; 2]);
+    same(
+        &potential_values(&Pairs::<_, 3>::all(BODIES, compiled).unwrap(), &q),
+        &potential_values(&Pairs::<_, 3>::all(BODIES, read).unwrap(), &q),
+    );
+}
+
+fn compiled_and_read_have_the_same_bits<N: Bits>(context: &N::Context) {
+    compiled_and_read_are_the_same_of_many::<N>(context);
     let q = numbers::<N>(&POINT, context);
     let (compiled, read) = charged::<N>(context);
     same(

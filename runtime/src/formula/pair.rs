@@ -1,6 +1,6 @@
 //! The energy of a pair of bodies from a formula read at run time.
 
-use shadowstep_symbolic::{Graph, Part, Separation, parse};
+use shadowstep_symbolic::{Graph, Separation, Summand, parse};
 
 use super::newest::{Derived, Role, Text, derived};
 use super::{FormulaError, refuse_repeated};
@@ -101,8 +101,8 @@ impl<N> Pair for FormulaPair<N> {
         self.separation
     }
 
-    fn part(&self) -> Part {
-        self.derived.programs.part
+    fn summand(&self) -> Summand {
+        self.derived.programs.summand
     }
 
     fn properties(&self) -> Vec<usize> {
@@ -129,11 +129,11 @@ impl<N: Number> PairPotential<N> for FormulaPair<N> {
         std::mem::swap(slope, &mut self.interpreter.gradient(from_ref(x), scratch)[0]);
     }
 
-    fn slope_and_part(&self, i: usize, j: usize, x: &N, slope: &mut N, part: &mut N, scratch: &mut [N]) {
+    fn slope_and_summand(&self, i: usize, j: usize, x: &N, slope: &mut N, summand: &mut N, scratch: &mut [N]) {
         self.place_properties(i, j, scratch);
         let outputs = self.interpreter.gradient_and_rate(from_ref(x), scratch);
         std::mem::swap(slope, &mut outputs[0]);
-        std::mem::swap(part, &mut outputs[1]);
+        std::mem::swap(summand, &mut outputs[1]);
     }
 
     fn curved(&self) -> Option<&dyn PairCurvature<N>> {

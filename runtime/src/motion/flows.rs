@@ -236,10 +236,10 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Flows<N, P, K> {
     }
 }
 
-/// Fewer steps than these are made one by one.
+/// Of fewer steps than these no list of maps is made.
 pub(super) const FEW: u64 = 8;
 
-/// The maps of the first, of each middle and of the last of these steps of `count`; `None` with gradient kicks or middle parts.
+/// The maps of the first, of each middle and of the last of these steps of `count`; `None` unless a step has kicks and drifts and nothing else.
 pub(super) fn kicks_and_drifts<N: Number>(
     maps: &impl MapSequence<N>,
     steps: u64,
@@ -255,5 +255,7 @@ pub(super) fn kicks_and_drifts<N: Number>(
         list
     };
     let lists = [(list(0), 1), (list(1), steps - 2), (list(steps - 1), 1)];
-    (!has_others).then_some(lists)
+    let middle = &lists[1].0;
+    let has = |wanted| middle.iter().any(|(kind, _)| *kind == wanted);
+    (!has_others && has(MapKind::Kick) && has(MapKind::Drift)).then_some(lists)
 }

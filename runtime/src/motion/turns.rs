@@ -1,6 +1,7 @@
-//! Steps of several systems, which take turns: all maps of one system up to the next evaluation of its gradient, then those of the next one.
+//! Steps of several systems, which take turns: all kicks and drifts of one system up to the next evaluation of its gradient, then those of the next one.
 //!
 //! So an evaluation of one system need not wait for the results of another, and what is between two evaluations stays in the processor's registers.
+//! Few steps, and those with gradient kicks, are made map by map for all systems.
 
 use std::mem::{needs_drop, take};
 
@@ -58,7 +59,7 @@ where
     );
 }
 
-/// Kicks and drifts only: those of the first, of each middle and of the last step.
+/// The kicks and drifts of the first, of each middle and of the last step.
 #[inline(always)]
 fn advance_in_turns<N, V, P, K, S>(
     systems: &mut [Motion<N, V, P, K, S>],
@@ -76,7 +77,7 @@ fn advance_in_turns<N, V, P, K, S>(
     let repeated = turn.continued(middle);
     let mut end = turn.continued(last);
     end.push(turn);
-    // what is left over from a middle step is the same after each
+    // every middle step has a kick after a drift, which begins a turn: what is left over at its end is the same
     for (turns, times) in [(begin, 1), (repeated, times - 1), (end, 1)] {
         for _ in 0..times {
             for turn in &turns {

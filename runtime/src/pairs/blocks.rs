@@ -1,6 +1,6 @@
 //! The sum over all pairs for numbers of a few bytes: of each body with a block of others at once, in vectors of the processor.
 //!
-//! What a body gets from its blocks, and the parts of pairs, are added up in a sum for each place in a block: sums that do not wait for one another, and that are the
+//! What a body gets from its blocks, and the summands of pairs, are added up in a sum for each place in a block: sums that do not wait for one another, and that are the
 //! same whatever the vectors.
 
 use super::pair::{BLOCK, PairPotential};
@@ -18,23 +18,23 @@ struct Room<N, const D: usize> {
     difference: [[N; BLOCK]; D],
     squared: [N; BLOCK],
     slope: [N; BLOCK],
-    part: [N; BLOCK],
+    summand: [N; BLOCK],
 }
 
 impl<N: Number, const D: usize> Room<N, D> {
     #[inline(always)]
     fn new(context: &N::Context) -> Self {
         let zeros = || std::array::from_fn(|_| N::zero(context));
-        Room { difference: std::array::from_fn(|_| zeros()), squared: zeros(), slope: zeros(), part: zeros() }
+        Room { difference: std::array::from_fn(|_| zeros()), squared: zeros(), slope: zeros(), summand: zeros() }
     }
 
-    /// The forces and parts with so many of the first bodies become 0.
+    /// The forces and summands with so many of the first bodies become 0.
     #[inline(always)]
     fn clear(&mut self, count: usize) {
         for l in 0..BLOCK {
             if l < count {
                 self.difference.iter_mut().for_each(|of_axis| of_axis[l].assign_zero());
-                self.part[l].assign_zero();
+                self.summand[l].assign_zero();
             }
         }
     }
@@ -62,11 +62,11 @@ pub(super) struct Blocks<'a, P, const D: usize> {
 }
 
 impl<P, const D: usize> Blocks<'_, P, D> {
-    /// gradient ← U_q, and the sum of the parts of pairs where it is wanted; `axes` is the scratch space of blocks, `pair` that of the pair.
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `axes` is the scratch space of blocks, `pair` that of the pair.
     pub(super) fn sum<N: Number>(
         &self,
         (q, gradient): (&[N], &mut [N]),
-        parts: Option<&mut N>,
+        total: Option<&mut N>,
         axes: &mut [N],
         pair: &mut [N],
     ) where
@@ -77,10 +77,10 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         g_axes.iter_mut().for_each(N::assign_zero);
         instructions::widest(
             #[inline(always)]
-            || match parts {
-                Some(parts) => {
-                    parts.assign_zero();
-                    self.add_blocks::<N, true, true>(q_axes, g_axes, parts, pair);
+            || match total {
+                Some(total) => {
+                    total.assign_zero();
+                    self.add_blocks::<N, true, true>(q_axes, g_axes, total, pair);
                 }
                 None => {
                     let mut none = N::zero(&q[0].context());
@@ -105,13 +105,13 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         );
     }
 
-    /// Adds the forces to the gradient, and the parts of pairs; without forces, their energies.
+    /// Adds the forces to the gradient, and the summands of pairs to their sum; without forces, the energies to the sum.
     #[inline(always)]
-    fn add_blocks<N: Number, const FORCES: bool, const PARTS: bool>(
+    fn add_blocks<N: Number, const FORCES: bool, const SUM: bool>(
         &self,
         q: &[N],
         gradient: &mut [N],
-        parts: &mut N,
+        total: &mut N,
         pair: &mut [N],
     ) where
         P: PairPotential<N>,
@@ -119,22 +119,22 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         let bodies = self.bodies;
         let mut room = Room::<N, D>::new(&q[0].context());
         let zeros = || -> [N; BLOCK] { std::array::from_fn(|_| N::zero(&q[0].context())) };
-        let mut parts_of_places = zeros();
+        let mut sums_of_places = zeros();
         for i in 0..bodies {
             let q_i: [N; D] = std::array::from_fn(|axis| q[axis * bodies + i].clone());
             let mut own: Places<N, D> = std::array::from_fn(|_| zeros());
             let mut j = i + 1;
             while j + BLOCK <= bodies {
-                self.forces::<N, FORCES, PARTS>((i, j), q, &q_i, &mut room, pair);
-                self.add_block::<N, FORCES, PARTS>(j, &room, gradient, (&mut own, &mut parts_of_places));
+                self.forces::<N, FORCES, SUM>((i, j), q, &q_i, &mut room, pair);
+                self.add_block::<N, FORCES, SUM>(j, &room, gradient, (&mut own, &mut sums_of_places));
                 j += BLOCK;
             }
             if j < bodies && i + BLOCK < bodies {
                 // the last bodies are in a block with some that had their turn
                 let first = bodies - BLOCK;
-                self.forces::<N, FORCES, PARTS>((i, first), q, &q_i, &mut room, pair);
+                self.forces::<N, FORCES, SUM>((i, first), q, &q_i, &mut room, pair);
                 room.clear(j - first);
-                self.add_block::<N, FORCES, PARTS>(first, &room, gradient, (&mut own, &mut parts_of_places));
+                self.add_block::<N, FORCES, SUM>(first, &room, gradient, (&mut own, &mut sums_of_places));
                 j = bodies;
             }
             if FORCES {
@@ -143,40 +143,43 @@ impl<P, const D: usize> Blocks<'_, P, D> {
                 }
             }
             for j in j..bodies {
-                self.add_one::<N, FORCES, PARTS>((i, j), (q, gradient), parts, pair);
+                self.add_one::<N, FORCES, SUM>((i, j), (q, gradient), total, pair);
             }
         }
-        parts_of_places.iter().for_each(|of_place| parts.add(of_place));
+        sums_of_places.iter().for_each(|of_place| total.add(of_place));
     }
 
-    /// Adds the forces and parts of a block of bodies from j on with a body, whose own sums are `own`.
+    /// Adds the forces and summands of a block of bodies from j on with a body, whose own sums are `own`.
     #[inline(always)]
-    fn add_block<N: Number, const FORCES: bool, const PARTS: bool>(
+    fn add_block<N: Number, const FORCES: bool, const SUM: bool>(
         &self,
         j: usize,
         room: &Room<N, D>,
         gradient: &mut [N],
-        (own, parts_of_places): (&mut Places<N, D>, &mut [N; BLOCK]),
+        (own, sums_of_places): (&mut Places<N, D>, &mut [N; BLOCK]),
     ) {
-        for (axis, forces) in room.difference.iter().enumerate().filter(|_| FORCES) {
-            let of_axis: &mut [N; BLOCK] =
-                gradient[axis * self.bodies + j..].first_chunk_mut().expect("the block is within the bodies");
-            of_axis.iter_mut().zip(forces).for_each(|(own, force)| own.add(force));
-            own[axis].iter_mut().zip(forces).for_each(|(own, force)| own.subtract(force));
+        if FORCES {
+            for (axis, forces) in room.difference.iter().enumerate() {
+                let of_axis: &mut [N; BLOCK] =
+                    gradient[axis * self.bodies + j..].first_chunk_mut().expect("the block is within the bodies");
+                of_axis.iter_mut().zip(forces).for_each(|(own, force)| own.add(force));
+                own[axis].iter_mut().zip(forces).for_each(|(own, force)| own.subtract(force));
+            }
         }
-        if PARTS {
-            parts_of_places.iter_mut().zip(&room.part).for_each(|(own, part)| own.add(part));
+        if SUM {
+            sums_of_places.iter_mut().zip(&room.summand).for_each(|(own, summand)| own.add(summand));
         }
     }
 
-    /// The forces of the body i at q_i with a block of bodies from j on, in place of their differences.
+    /// The forces of the body i at q_i with a block of bodies from j on, in place of their differences, and their summands; without forces,
+    /// their energies.
     #[inline(always)]
-    fn forces<N: Number, const FORCES: bool, const PARTS: bool>(
+    fn forces<N: Number, const FORCES: bool, const SUM: bool>(
         &self,
         (i, j): (usize, usize),
         q: &[N],
         q_i: &[N; D],
-        Room { difference, squared, slope, part }: &mut Room<N, D>,
+        Room { difference, squared, slope, summand }: &mut Room<N, D>,
         pair: &mut [N],
     ) where
         P: PairPotential<N>,
@@ -201,10 +204,10 @@ impl<P, const D: usize> Blocks<'_, P, D> {
                 &*squared
             }
         };
-        match (FORCES, PARTS) {
-            (true, true) => self.pair.slopes_and_parts(i, j, x, slope, part, pair),
+        match (FORCES, SUM) {
+            (true, true) => self.pair.slopes_and_summands(i, j, x, slope, summand, pair),
             (true, false) => self.pair.slopes(i, j, x, slope, pair),
-            (false, _) => return self.pair.energies(i, j, x, part, pair),
+            (false, _) => return self.pair.energies(i, j, x, summand, pair),
         }
         for of_axis in difference.iter_mut() {
             for l in 0..BLOCK {
@@ -216,20 +219,20 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         }
     }
 
-    /// Adds one pair.
+    /// Adds one pair, likewise.
     #[inline(always)]
-    fn add_one<N: Number, const FORCES: bool, const PARTS: bool>(
+    fn add_one<N: Number, const FORCES: bool, const SUM: bool>(
         &self,
         (i, j): (usize, usize),
         (q, gradient): (&[N], &mut [N]),
-        parts: &mut N,
+        total: &mut N,
         pair: &mut [N],
     ) where
         P: PairPotential<N>,
     {
         let bodies = self.bodies;
         let context = q[0].context();
-        let [mut x, mut slope, mut part] = [(); 3].map(|()| N::zero(&context));
+        let [mut x, mut slope, mut summand] = [(); 3].map(|()| N::zero(&context));
         let mut difference: [N; D] = std::array::from_fn(|_| N::zero(&context));
         for axis in 0..D {
             difference[axis].assign_difference(&q[axis * bodies + j], &q[axis * bodies + i]);
@@ -241,13 +244,13 @@ impl<P, const D: usize> Blocks<'_, P, D> {
                 difference[1..].iter().for_each(|of_axis| x.add_product(of_axis, of_axis));
             }
         }
-        match (FORCES, PARTS) {
-            (true, true) => self.pair.slope_and_part(i, j, &x, &mut slope, &mut part, pair),
+        match (FORCES, SUM) {
+            (true, true) => self.pair.slope_and_summand(i, j, &x, &mut slope, &mut summand, pair),
             (true, false) => self.pair.slope(i, j, &x, &mut slope, pair),
-            (false, _) => self.pair.energy(i, j, &x, &mut part, pair),
+            (false, _) => self.pair.energy(i, j, &x, &mut summand, pair),
         }
-        if PARTS {
-            parts.add(&part);
+        if SUM {
+            total.add(&summand);
         }
         if !FORCES {
             return;

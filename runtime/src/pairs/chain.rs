@@ -7,12 +7,12 @@ use crate::instructions;
 use crate::number::Number;
 use shadowstep_symbolic::Separation;
 
-/// The chain's sums: that of the parts of pairs is one for each place in a block.
+/// The chain's sums: that of the summands of pairs is one for each place in a block.
 struct Sums<N> {
     /// What the springs before a body add to its gradient.
     carried: N,
-    parts_of_places: [N; BLOCK],
-    parts: N,
+    sums_of_places: [N; BLOCK],
+    total: N,
 }
 
 /// A sum over the neighbours in a chain.
@@ -22,17 +22,17 @@ pub(super) struct Chain<'a, P> {
 }
 
 impl<P> Chain<'_, P> {
-    /// gradient ← U_q, and the sum of the parts of pairs where it is wanted.
-    pub(super) fn sum<N: Number>(&self, (q, gradient): (&[N], &mut [N]), parts: Option<&mut N>, pair: &mut [N])
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted.
+    pub(super) fn sum<N: Number>(&self, (q, gradient): (&[N], &mut [N]), total: Option<&mut N>, pair: &mut [N])
     where
         P: PairPotential<N>,
     {
         instructions::widest(
             #[inline(always)]
-            || match parts {
-                Some(parts) => {
+            || match total {
+                Some(total) => {
                     let sum = self.add_springs::<N, true>((q, gradient), pair);
-                    parts.assign(&sum);
+                    total.assign(&sum);
                 }
                 None => {
                     self.add_springs::<N, false>((q, gradient), pair);
@@ -42,28 +42,28 @@ impl<P> Chain<'_, P> {
     }
 
     #[inline(always)]
-    fn add_springs<N: Number, const PARTS: bool>(&self, (q, gradient): (&[N], &mut [N]), pair: &mut [N]) -> N
+    fn add_springs<N: Number, const SUM: bool>(&self, (q, gradient): (&[N], &mut [N]), pair: &mut [N]) -> N
     where
         P: PairPotential<N>,
     {
         let zero = N::zero(&q[0].context());
         let zeros = || std::array::from_fn(|_| zero.clone());
-        let mut sums = Sums { carried: zero.clone(), parts_of_places: zeros(), parts: zero.clone() };
+        let mut sums = Sums { carried: zero.clone(), sums_of_places: zeros(), total: zero.clone() };
         let last = q.len() - 1;
         let mut slope = zero.clone();
         if self.ends == Ends::Fixed {
             slope.assign(&q[0]);
-            self.spring::<N, PARTS>(&mut slope, &mut sums.parts, pair);
+            self.spring::<N, SUM>(&mut slope, &mut sums.total, pair);
             sums.carried.add(&slope);
         }
         let mut first = 0;
         while first + BLOCK <= last {
-            self.block_of_springs::<N, PARTS>((q, gradient), first, &mut sums, pair);
+            self.block_of_springs::<N, SUM>((q, gradient), first, &mut sums, pair);
             first += BLOCK;
         }
         for i in first..last {
             slope.assign_difference(&q[i + 1], &q[i]);
-            self.spring::<N, PARTS>(&mut slope, &mut sums.parts, pair);
+            self.spring::<N, SUM>(&mut slope, &mut sums.total, pair);
             gradient[i].assign_difference(&sums.carried, &slope);
             sums.carried.assign_sum(&zero, &slope);
         }
@@ -73,27 +73,27 @@ impl<P> Chain<'_, P> {
             Ends::Fixed => {
                 slope.assign(&q[last]);
                 slope.negate();
-                self.spring::<N, PARTS>(&mut slope, &mut sums.parts, pair);
+                self.spring::<N, SUM>(&mut slope, &mut sums.total, pair);
                 gradient[last].subtract(&slope);
             }
             Ends::Periodic => {
                 slope.assign_difference(&q[0], &q[last]);
-                self.spring::<N, PARTS>(&mut slope, &mut sums.parts, pair);
+                self.spring::<N, SUM>(&mut slope, &mut sums.total, pair);
                 gradient[0].add(&slope);
                 gradient[last].subtract(&slope);
             }
         }
-        sums.parts_of_places.iter().for_each(|of_place| sums.parts.add(of_place));
-        sums.parts
+        sums.sums_of_places.iter().for_each(|of_place| sums.total.add(of_place));
+        sums.total
     }
 
     /// A block of springs, of which the first is after the body `first`.
     #[inline(always)]
-    fn block_of_springs<N: Number, const PARTS: bool>(
+    fn block_of_springs<N: Number, const SUM: bool>(
         &self,
         (q, gradient): (&[N], &mut [N]),
         first: usize,
-        Sums { carried, parts_of_places, .. }: &mut Sums<N>,
+        Sums { carried, sums_of_places, .. }: &mut Sums<N>,
         pair: &mut [N],
     ) where
         P: PairPotential<N>,
@@ -102,7 +102,7 @@ impl<P> Chain<'_, P> {
         let after: &[N; BLOCK] = q[first + 1..].first_chunk().expect("the block is within the bodies");
         let zero = N::zero(&carried.context());
         let zeros = || std::array::from_fn(|_| zero.clone());
-        let (mut difference, mut squared, mut slope, mut part): ([N; BLOCK], [N; BLOCK], [N; BLOCK], [N; BLOCK]) =
+        let (mut difference, mut squared, mut slope, mut summand): ([N; BLOCK], [N; BLOCK], [N; BLOCK], [N; BLOCK]) =
             (zeros(), zeros(), zeros(), zeros());
         for l in 0..BLOCK {
             difference[l].assign_difference(&after[l], &before[l]);
@@ -116,10 +116,10 @@ impl<P> Chain<'_, P> {
                 &squared
             }
         };
-        if PARTS {
-            self.pair.slopes_and_parts(first, first + 1, x, &mut slope, &mut part, pair);
+        if SUM {
+            self.pair.slopes_and_summands(first, first + 1, x, &mut slope, &mut summand, pair);
             for l in 0..BLOCK {
-                parts_of_places[l].add(&part[l]);
+                sums_of_places[l].add(&summand[l]);
             }
         } else {
             self.pair.slopes(first, first + 1, x, &mut slope, pair);
@@ -139,21 +139,21 @@ impl<P> Chain<'_, P> {
         carried.assign_sum(&zero, &slope[BLOCK - 1]);
     }
 
-    /// difference ← the force of a spring, which was its difference; adds its part.
+    /// difference ← the force of a spring, which was its difference; adds its summand.
     #[inline(always)]
-    fn spring<N: Number, const PARTS: bool>(&self, difference: &mut N, parts: &mut N, pair: &mut [N])
+    fn spring<N: Number, const SUM: bool>(&self, difference: &mut N, total: &mut N, pair: &mut [N])
     where
         P: PairPotential<N>,
     {
         let zero = N::zero(&difference.context());
-        let (mut x, mut slope, mut part) = (zero.clone(), zero.clone(), zero);
+        let (mut x, mut slope, mut summand) = (zero.clone(), zero.clone(), zero);
         match self.pair.separation() {
             Separation::Difference => x.assign(difference),
             Separation::SquaredDistance => x.assign_square(difference),
         }
-        if PARTS {
-            self.pair.slope_and_part(0, 1, &x, &mut slope, &mut part, pair);
-            parts.add(&part);
+        if SUM {
+            self.pair.slope_and_summand(0, 1, &x, &mut slope, &mut summand, pair);
+            total.add(&summand);
         } else {
             self.pair.slope(0, 1, &x, &mut slope, pair);
         }

@@ -1,6 +1,6 @@
 //! The sum over all pairs of a few bodies, for numbers of a few bytes: unrolled, so that sums are in registers, with two pairs of a body at once.
 //!
-//! The gradient is added up in the order of the plain loop over i < j, so that it has its bits, and so is the sum of the parts of pairs.
+//! The gradient is added up in the order of the plain loop over i < j, so that it has its bits, and so is the sum of the summands of pairs.
 
 use super::pair::PairPotential;
 use crate::number::Number;
@@ -17,30 +17,30 @@ pub(super) struct Few<'a, P, const D: usize> {
 
 /// The sum of so many bodies, by groups of pairs: the body i, the first other one, and how many. The compiler does not unroll loops of this size.
 macro_rules! unrolled {
-    ($few:ident, $q:ident, $gradient:ident, $parts:ident, $scratch:ident, $bodies:literal: $($i:literal $j:literal $width:literal),*) => {{
+    ($few:ident, $q:ident, $gradient:ident, $total:ident, $scratch:ident, $bodies:literal: $($i:literal $j:literal $width:literal),*) => {{
         const BODIES: &str = "there are as many bodies";
         let q: &[[N; D]; $bodies] = $q.as_chunks().0.try_into().expect(BODIES);
         let gradient: &mut [[N; D]; $bodies] = $gradient.as_chunks_mut().0.try_into().expect(BODIES);
         let zero = N::zero(&q[0][0].context());
         let mut sum: [[N; D]; $bodies] = std::array::from_fn(|_| std::array::from_fn(|_| zero.clone()));
-        $($few.add::<N, PARTS, $bodies, $width>(($i, $j), q, &mut sum, $parts, $scratch);)*
+        $($few.add::<N, SUM, $bodies, $width>(($i, $j), q, &mut sum, $total, $scratch);)*
         *gradient = sum;
     }};
 }
 
 impl<P, const D: usize> Few<'_, P, D> {
-    /// gradient ← U_q, and the sum of the parts of pairs where it is wanted; `scratch` is that of the pair.
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `scratch` is that of the pair.
     #[inline(always)]
-    pub(super) fn sum<N: Number>(&self, (q, gradient): (&[N], &mut [N]), parts: Option<&mut N>, scratch: &mut [N])
+    pub(super) fn sum<N: Number>(&self, (q, gradient): (&[N], &mut [N]), total: Option<&mut N>, scratch: &mut [N])
     where
         P: PairPotential<N>,
     {
         N::in_widest_instructions(
             #[inline(always)]
-            || match parts {
-                Some(parts) => {
-                    parts.assign_zero();
-                    self.add_all::<N, true>(q, gradient, parts, scratch);
+            || match total {
+                Some(total) => {
+                    total.assign_zero();
+                    self.add_all::<N, true>(q, gradient, total, scratch);
                 }
                 None => self.add_all::<N, false>(q, gradient, &mut N::zero(&q[0].context()), scratch),
             },
@@ -48,33 +48,33 @@ impl<P, const D: usize> Few<'_, P, D> {
     }
 
     #[inline(always)]
-    fn add_all<N: Number, const PARTS: bool>(&self, q: &[N], gradient: &mut [N], parts: &mut N, scratch: &mut [N])
+    fn add_all<N: Number, const SUM: bool>(&self, q: &[N], gradient: &mut [N], total: &mut N, scratch: &mut [N])
     where
         P: PairPotential<N>,
     {
         match self.bodies {
-            3 => unrolled!(self, q, gradient, parts, scratch, 3: 0 1 2, 1 2 1),
-            4 => unrolled!(self, q, gradient, parts, scratch, 4: 0 1 2, 0 3 1, 1 2 2, 2 3 1),
-            5 => unrolled!(self, q, gradient, parts, scratch, 5: 0 1 2, 0 3 2, 1 2 2, 1 4 1, 2 3 2, 3 4 1),
+            3 => unrolled!(self, q, gradient, total, scratch, 3: 0 1 2, 1 2 1),
+            4 => unrolled!(self, q, gradient, total, scratch, 4: 0 1 2, 0 3 1, 1 2 2, 2 3 1),
+            5 => unrolled!(self, q, gradient, total, scratch, 5: 0 1 2, 0 3 2, 1 2 2, 1 4 1, 2 3 2, 3 4 1),
             _ => {
-                unrolled!(self, q, gradient, parts, scratch, 6: 0 1 2, 0 3 2, 0 5 1, 1 2 2, 1 4 2, 2 3 2, 2 5 1, 3 4 2, 4 5 1)
+                unrolled!(self, q, gradient, total, scratch, 6: 0 1 2, 0 3 2, 0 5 1, 1 2 2, 1 4 2, 2 3 2, 2 5 1, 3 4 2, 4 5 1)
             }
         }
     }
 
     /// Adds the pairs of the body i with the bodies j, …, j + W − 1.
     #[inline(always)]
-    fn add<N: Number, const PARTS: bool, const B: usize, const W: usize>(
+    fn add<N: Number, const SUM: bool, const B: usize, const W: usize>(
         &self,
         (i, j): (usize, usize),
         q: &[[N; D]; B],
         sum: &mut [[N; D]; B],
-        parts: &mut N,
+        total: &mut N,
         scratch: &mut [N],
     ) where
         P: PairPotential<N>,
     {
-        let zero = N::zero(&parts.context());
+        let zero = N::zero(&total.context());
         let zeros = || -> [N; W] { std::array::from_fn(|_| zero.clone()) };
         let mut forces: [[N; W]; D] = std::array::from_fn(|_| zeros());
         for axis in 0..D {
@@ -94,10 +94,10 @@ impl<P, const D: usize> Few<'_, P, D> {
                 }
             }
         }
-        let (mut slopes, mut of_pairs) = (zeros(), zeros());
-        if PARTS {
-            self.pair.slopes_and_parts(i, j, &x, &mut slopes, &mut of_pairs, scratch);
-            of_pairs.iter().for_each(|of_pair| parts.add(of_pair));
+        let (mut slopes, mut summands) = (zeros(), zeros());
+        if SUM {
+            self.pair.slopes_and_summands(i, j, &x, &mut slopes, &mut summands, scratch);
+            summands.iter().for_each(|summand| total.add(summand));
         } else {
             self.pair.slopes(i, j, &x, &mut slopes, scratch);
         }

@@ -1,6 +1,6 @@
 //! What a pair of bodies is: its energy and slope, of one pair or of a block of them.
 
-use shadowstep_symbolic::{Part, Separation};
+use shadowstep_symbolic::{Separation, Summand};
 
 use crate::number::Number;
 
@@ -13,7 +13,7 @@ pub trait Pair {
     fn separation(&self) -> Separation;
 
     /// What a pair gives to the rate of the sum beside its slope.
-    fn part(&self) -> Part;
+    fn summand(&self) -> Summand;
 
     /// For each property of the bodies, such as a mass, for how many bodies it is given.
     fn properties(&self) -> Vec<usize>;
@@ -33,8 +33,8 @@ pub trait PairPotential<N: Number>: Pair {
     /// slope ← u'(d) or 2u'(r²), so that ∂u/∂q_j = slope or slope·(q_j − q_i)
     fn slope(&self, i: usize, j: usize, x: &N, slope: &mut N, scratch: &mut [N]);
 
-    /// The slope, and part ← what [`Pair::part`] says: d u'(d) − 2u or 2r²u'(r²) − 2u, or u(x)
-    fn slope_and_part(&self, i: usize, j: usize, x: &N, slope: &mut N, part: &mut N, scratch: &mut [N]);
+    /// The slope, and summand ← what [`Pair::summand`] says: d u'(d) − 2u or 2r²u'(r²) − 2u, or u(x)
+    fn slope_and_summand(&self, i: usize, j: usize, x: &N, slope: &mut N, summand: &mut N, scratch: &mut [N]);
 
     /// Its second derivatives, which gradient kicks need; the default has none.
     fn curved(&self) -> Option<&dyn PairCurvature<N>> {
@@ -57,19 +57,19 @@ pub trait PairPotential<N: Number>: Pair {
         }
     }
 
-    /// Those slopes, and the parts.
+    /// Those slopes, and the summands.
     #[inline(always)]
-    fn slopes_and_parts<const W: usize>(
+    fn slopes_and_summands<const W: usize>(
         &self,
         i: usize,
         j: usize,
         x: &[N; W],
         slopes: &mut [N; W],
-        parts: &mut [N; W],
+        summands: &mut [N; W],
         scratch: &mut [N],
     ) {
         for l in 0..W {
-            self.slope_and_part(i, j + l, &x[l], &mut slopes[l], &mut parts[l], scratch);
+            self.slope_and_summand(i, j + l, &x[l], &mut slopes[l], &mut summands[l], scratch);
         }
     }
 }

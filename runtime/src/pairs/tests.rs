@@ -1,6 +1,6 @@
 //! Sums in blocks against sums of one pair after the other.
 
-use super::{Ends, Pair, Pairs, Part, Which};
+use super::{Ends, Pair, Pairs, Summand, Which};
 use crate::Potential;
 use crate::instructions::Instructions;
 use crate::number::Lanes;
@@ -134,7 +134,7 @@ fn rates_are_those_of_pairs_one_by_one() {
     for bodies in [2, 5, 17, 40] {
         let m: Vec<f64> = (0..bodies).map(|i| 1.0 + i as f64 / 8.0).collect();
         let pairs = Pairs::<_, 3>::all(bodies, Softened { s: 0.2, m: m.clone() }).unwrap();
-        assert_eq!(pairs.pair().part(), Part::Energy);
+        assert_eq!(pairs.pair().summand(), Summand::Energy);
         let q = places(bodies, 3);
         let expected: f64 = (0..bodies)
             .flat_map(|i| (i + 1..bodies).map(move |j| (i, j)))
@@ -148,6 +148,12 @@ fn rates_are_those_of_pairs_one_by_one() {
         // positions are up to ten times as large as differences; each of a few sums is rounded to 1e-16
         assert!(off.abs() <= 1e-14 * expected, "{bodies} bodies: {off:e} of {expected}");
     }
+}
+
+/// Sums over chosen pairs of planets add up their rates.
+#[test]
+fn gravity_has_rates() {
+    assert_eq!(Gravity { g: 1.0, m: vec![1.0, 2.0] }.summand(), Summand::Rate);
 }
 
 /// Blocks are for all pairs.

@@ -1,7 +1,7 @@
 //! Sums of Newton's potential over chosen pairs of bodies, from the formula of the pair.
 
 use crate::number::Number;
-use crate::pairs::{Pair, PairCurvature, PairPotential, Pairs, Part};
+use crate::pairs::{PairCurvature, PairPotential, Pairs};
 use crate::potential::{HessianProduct, Potential};
 use crate::problems::Gravity;
 
@@ -36,7 +36,6 @@ impl<N: Number, const D: usize> Interactions<N, D> {
         let gravity = |m| Gravity { g: number(&bodies.g), m };
         let planets = Pairs::all(own.len(), gravity(own)).expect("a mass for each planet");
         let single = gravity(masses);
-        assert_eq!(single.part(), Part::Rate, "rates are added up pair by pair");
         let zeros = |count| vec![N::zero(context); count];
         let mut scratch = zeros(Potential::<N>::scratch(&planets));
         planets.prepare(&mut scratch, context);
@@ -144,7 +143,7 @@ impl<N: Number, const D: usize> Interactions<N, D> {
         squared.assign_zero();
         x.iter().for_each(|x| squared.add_product(x, x));
         match with_rate {
-            true => single.slope_and_part(i, j, squared, slope, part, single_scratch),
+            true => single.slope_and_summand(i, j, squared, slope, part, single_scratch),
             false => single.slope(i, j, squared, slope, single_scratch),
         }
     }

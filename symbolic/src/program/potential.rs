@@ -7,12 +7,12 @@ use crate::graph::{Derivation, Graph, Node};
 use crate::number::rational::Rational;
 use crate::program::Program;
 
-/// What a pair of bodies gives to the rate qᵀU_q − 2U of a sum over pairs.
+/// What is added up over the pairs of bodies to find the rate qᵀU_q − 2U of their sum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Part {
-    /// Its own rate, d u'(d) − 2u or 2r²u'(r²) − 2u: the sum of these is the rate.
+pub enum Summand {
+    /// A pair's own rate, d u'(d) − 2u or 2r²u'(r²) − 2u: the sum of these is the rate.
     Rate,
-    /// Its energy u: the rate is qᵀU_q − 2 Σ u.
+    /// A pair's energy u: the rate is qᵀU_q − 2 Σ u. Its round-off grows with q, as that of other products with q in estimates does.
     Energy,
 }
 
@@ -24,10 +24,10 @@ pub struct PotentialPrograms {
     /// An output per coordinate: U_q. The operations are those of `gradient_and_rate`, so that a trajectory has the same
     /// bits whether qᵀU_q − 2U is computed or not; the constants are the same.
     pub gradient: Program,
-    /// U_q, and as the last output qᵀU_q − 2U; of a pair its part.
+    /// U_q, and as the last output qᵀU_q − 2U; of a pair its summand.
     pub gradient_and_rate: Program,
-    /// What the last output is.
-    pub part: Part,
+    /// What the last output of a pair is.
+    pub summand: Summand,
 }
 
 impl Graph {
@@ -36,12 +36,12 @@ impl Graph {
         let mut outputs: Vec<Node> = (0..coordinates).map(|i| self.derivative(energy, i)).collect();
         outputs.push(self.rate(energy));
         let gradient_and_rate = self.program(&outputs);
-        PotentialPrograms::new(self.program(&[energy]), gradient_and_rate, Part::Rate)
+        PotentialPrograms::new(self.program(&[energy]), gradient_and_rate, Summand::Rate)
     }
 }
 
-/// A pair's energy is computed in place of its rate if that saves so many operations: of the sum over all pairs of a few bodies, qᵀU_q
-/// takes about two operations a pair.
+/// A pair's energy is computed in place of its rate if that saves so many operations a pair. qᵀU_q takes two operations a pair for seven bodies
+/// in space, less for more bodies, and more for fewer.
 const WORTH_AN_ENERGY: u64 = 2;
 
 impl Graph {
@@ -61,9 +61,9 @@ impl Graph {
         let energy = self.program(&[energy]);
         let saves = with_energy.cost().weight() + WORTH_AN_ENERGY <= with_rate.cost().weight();
         if saves && with_energy.without_last_output() == with_rate.without_last_output() {
-            PotentialPrograms::new(energy, with_energy, Part::Energy)
+            PotentialPrograms::new(energy, with_energy, Summand::Energy)
         } else {
-            PotentialPrograms::new(energy, with_rate, Part::Rate)
+            PotentialPrograms::new(energy, with_rate, Summand::Rate)
         }
     }
 }
@@ -105,14 +105,14 @@ impl Graph {
 
     /// Programs whose last output is that of the rate.
     fn second_derivatives(&mut self, outputs: &[Node]) -> PotentialPrograms {
-        PotentialPrograms::new(Program::default(), self.program(outputs), Part::Rate)
+        PotentialPrograms::new(Program::default(), self.program(outputs), Summand::Rate)
     }
 }
 
 impl PotentialPrograms {
-    fn new(energy: Program, gradient_and_rate: Program, part: Part) -> Self {
+    fn new(energy: Program, gradient_and_rate: Program, summand: Summand) -> Self {
         let gradient = gradient_and_rate.without_last_output();
-        PotentialPrograms { energy, gradient, gradient_and_rate, part }
+        PotentialPrograms { energy, gradient, gradient_and_rate, summand }
     }
 
     /// The number of kept constants: those of the energy, then those of the gradient.

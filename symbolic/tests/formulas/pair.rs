@@ -1,7 +1,7 @@
 //! Pairs of bodies: slope and rate of u(r²), u(d) against the derivatives of the same formula in coordinates.
 
 use num_traits::Zero;
-use shadowstep_symbolic::{Graph, Operations, Part, PotentialPrograms, Rational, Separation, is_symmetric, parse};
+use shadowstep_symbolic::{Graph, Operations, PotentialPrograms, Rational, Separation, Summand, is_symmetric, parse};
 
 use crate::support::{Point, names, of_node, of_program};
 
@@ -29,7 +29,7 @@ const PAIRS: [(&str, Separation); 8] = [
 ];
 
 #[test]
-fn slope_and_rate_are_those_of_the_formula_in_coordinates() {
+fn slope_and_summand_are_those_of_the_formula_in_coordinates() {
     let (near, far) = ([ratio(1, 3), ratio(-2, 5)], [ratio(7, 4), ratio(5, 6)]);
     let parameters = vec![Some(ratio(3, 7)), Some(ratio(-5, 2))];
     let properties = vec![Some(ratio(2, 9)), Some(ratio(11, 3))];
@@ -49,13 +49,13 @@ fn slope_and_rate_are_those_of_the_formula_in_coordinates() {
             properties: properties.clone(),
         };
         let outputs = of_program(&programs.gradient_and_rate, &point);
-        let [Some(slope), Some(part)] = &outputs[..] else { panic!("two outputs") };
+        let [Some(slope), Some(summand)] = &outputs[..] else { panic!("two outputs") };
         assert_eq!(of_program(&programs.gradient, &point), [Some(slope.clone())], "{text}");
-        let rate = match programs.part {
-            Part::Rate => part.clone(),
-            Part::Energy => {
+        let rate = match programs.summand {
+            Summand::Rate => summand.clone(),
+            Summand::Energy => {
                 energies += 1;
-                slope * at - part - part
+                slope * at - summand - summand
             }
         };
 
@@ -83,7 +83,7 @@ fn slope_and_rate_are_those_of_the_formula_in_coordinates() {
             assert_eq!(value(slopes[axis + 2]), Some(-expected), "{text}");
         }
     }
-    assert_eq!(energies, 2, "both kinds of parts are among the pairs");
+    assert_eq!(energies, 2, "both kinds of summands are among the pairs");
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn pairs_cost_what_they_cost_by_hand() {
     // with the energy −m m/√(r² + a²), whose product the slope has, too, in place of a rate of three more operations
     let softened = pair("-m_i*m_j/sqrt(r2 + a^2)", Separation::SquaredDistance, "m_i m_j", "a");
     assert_eq!(softened.gradient_and_rate.cost(), cost(1, 4, 1), "{}", softened.gradient_and_rate);
-    assert_eq!([gravity.part, softened.part], [Part::Rate, Part::Energy]);
+    assert_eq!([gravity.summand, softened.summand], [Summand::Rate, Summand::Energy]);
     // a pair of springs adds nothing to β
     let spring = pair("k*d^2/2", Separation::Difference, "", "k");
     assert_eq!(spring.gradient_and_rate.cost(), cost(0, 1, 0), "{}", spring.gradient_and_rate);
