@@ -20,6 +20,7 @@ use crate::system::{Increments, OwnedIncrements, Remainders, System};
 
 use curved::Curved;
 use flows::{Flows, Moving};
+use turns::Flowing;
 
 /// A system H = T(p) + U(q) and its state.
 ///
@@ -384,6 +385,26 @@ pub enum MotionError {
     /// A mass is not valid.
     #[error(transparent)]
     Masses(#[from] MassError),
+}
+
+impl<N, V, P, K, S> Flowing for Motion<N, V, P, K, S>
+where
+    N: Number,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
+    S: Summation<N>,
+{
+    type Number = N;
+    type Coordinates = V;
+    type Potential = P;
+    type Kinetic = K;
+    type Summation = S;
+
+    #[inline(always)]
+    fn flows(&mut self) -> (&mut Flows<N, P, K>, &mut Moving<N, V, S>) {
+        (&mut self.flows, &mut self.moving)
+    }
 }
 
 impl<N, V, P, K, S> System for Motion<N, V, P, K, S>

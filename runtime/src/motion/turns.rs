@@ -5,7 +5,6 @@
 
 use std::mem::{needs_drop, take};
 
-use super::Motion;
 use super::flows::{FEW, Flows, Moving, kicks_and_drifts};
 use crate::coordinates::Coordinates;
 use crate::kept::Kept;
@@ -15,16 +14,23 @@ use crate::number::Number;
 use crate::potential::{Potential, Repeated};
 use crate::summation::Summation;
 
+/// A system of flows, and of what they change.
+pub(super) trait Flowing {
+    type Number: Number;
+    type Coordinates: Coordinates<Self::Number>;
+    type Potential: Potential<Self::Number>;
+    type Kinetic: Kinetic<Self::Number>;
+    type Summation: Summation<Self::Number>;
+
+    fn flows(&mut self) -> (&mut FlowsOf<Self>, &mut MovingOf<Self>);
+}
+
+type FlowsOf<M> = Flows<<M as Flowing>::Number, <M as Flowing>::Potential, <M as Flowing>::Kinetic>;
+type MovingOf<M> = Moving<<M as Flowing>::Number, <M as Flowing>::Coordinates, <M as Flowing>::Summation>;
+
 /// `count` steps of each system.
 #[inline(always)]
-pub(super) fn advance<N, V, P, K, S>(systems: &mut [Motion<N, V, P, K, S>], maps: &impl MapSequence<N>, count: u64)
-where
-    N: Number,
-    V: Coordinates<N>,
-    P: Potential<N>,
-    K: Kinetic<N>,
-    S: Summation<N>,
-{
+pub(super) fn advance<M: Flowing>(systems: &mut [M], maps: &impl MapSequence<M::Number>, count: u64) {
     let in_turns = if count >= FEW { kicks_and_drifts(maps, count, count) } else { None };
     match in_turns {
         Some(steps) => advance_in_turns(systems, &steps),
@@ -33,20 +39,14 @@ where
 }
 
 #[inline(always)]
-fn advance_map_by_map<N, V, P, K, S>(systems: &mut [Motion<N, V, P, K, S>], maps: &impl MapSequence<N>, count: u64)
-where
-    N: Number,
-    V: Coordinates<N>,
-    P: Potential<N>,
-    K: Kinetic<N>,
-    S: Summation<N>,
-{
+fn advance_map_by_map<M: Flowing>(systems: &mut [M], maps: &impl MapSequence<M::Number>, count: u64) {
     maps.each(
         0..count,
         count,
         #[inline(always)]
         |kind, weight, _| {
-            for Motion { flows, moving, .. } in &mut *systems {
+            for system in &mut *systems {
+                let (flows, moving) = system.flows();
                 match kind {
                     MapKind::Kick => flows.kick(moving, weight, flows.keeps_rate),
                     MapKind::Drift => flows.drift(moving, weight),
@@ -61,16 +61,10 @@ where
 
 /// The kicks and drifts of the first, of each middle and of the last step.
 #[inline(always)]
-fn advance_in_turns<N, V, P, K, S>(
-    systems: &mut [Motion<N, V, P, K, S>],
-    [(first, _), (middle, times), (last, _)]: &[Repeated<N>; 3],
-) where
-    N: Number,
-    V: Coordinates<N>,
-    P: Potential<N>,
-    K: Kinetic<N>,
-    S: Summation<N>,
-{
+fn advance_in_turns<M: Flowing>(
+    systems: &mut [M],
+    [(first, _), (middle, times), (last, _)]: &[Repeated<M::Number>; 3],
+) {
     let mut turn = Turn::default();
     let mut begin = turn.continued(first);
     begin.extend(turn.continued(middle));
@@ -146,13 +140,7 @@ impl<'a, N: Number> Turn<'a, N> {
 
     /// Those of one system after the other.
     #[inline(always)]
-    fn apply<V, P, K, S>(&self, systems: &mut [Motion<N, V, P, K, S>])
-    where
-        V: Coordinates<N>,
-        P: Potential<N>,
-        K: Kinetic<N>,
-        S: Summation<N>,
-    {
+    fn apply<M: Flowing<Number = N>>(&self, systems: &mut [M]) {
         // what is there and what is not as constants: so each of these is compiled without branches
         let Turn { kicks: [kick, other_kick], drifts: [drift, other_drift] } = *self;
         match (kick, other_kick, drift, other_drift) {
@@ -167,20 +155,14 @@ impl<'a, N: Number> Turn<'a, N> {
 }
 
 #[inline(always)]
-fn advance_each<N, V, P, K, S>(systems: &mut [Motion<N, V, P, K, S>], turn: &Turn<'_, N>)
-where
-    N: Number,
-    V: Coordinates<N>,
-    P: Potential<N>,
-    K: Kinetic<N>,
-    S: Summation<N>,
-{
-    for Motion { flows, moving, .. } in systems {
+fn advance_each<M: Flowing>(systems: &mut [M], turn: &Turn<'_, M::Number>) {
+    for system in systems {
+        let (flows, moving) = system.flows();
         moving.settle();
         if turn.kicks[0].is_some() && moving.kept == Kept::Nothing {
             flows.evaluate(moving, flows.keeps_rate);
         }
-        if needs_drop::<V>() {
+        if needs_drop::<M::Coordinates>() {
             let Moving { summation, q, p, gradient, .. } = moving;
             turn.advance(flows, summation, (q.as_mut(), p.as_mut()), gradient.as_ref());
         } else {
