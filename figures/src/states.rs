@@ -2,7 +2,7 @@
 
 use shadowstep::OwnedIncrements;
 use shadowstep::number::AnyLimbs;
-use shadowstep::run::{RunError, State, States};
+use shadowstep::run::{RunError, States, TrajectoryState};
 
 /// The states of a trajectory, kept for several estimators.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ impl Recorded {
     /// All states of a trajectory that has `reach` of them before 0, and after the last one of the run.
     pub(crate) fn of(mut states: impl States<Number = AnyLimbs>, reach: usize) -> Result<Self, RunError> {
         let mut all = Vec::new();
-        while let Some(State { n, q, p, increments }) = states.advance()? {
+        while let Some(TrajectoryState { n, q, p, increments }) = states.advance()? {
             all.push(Kept { n, q: q.to_vec(), p: p.to_vec(), increments: increments.to_owned() });
         }
         Ok(Recorded { reach, states: all })
@@ -46,9 +46,9 @@ pub(crate) struct Replay<'a> {
 impl States for Replay<'_> {
     type Number = AnyLimbs;
 
-    fn advance(&mut self) -> Result<Option<State<'_, AnyLimbs>>, RunError> {
+    fn advance(&mut self) -> Result<Option<TrajectoryState<'_, AnyLimbs>>, RunError> {
         let state = self.states.next();
-        Ok(state.map(|Kept { n, q, p, increments }| State { n: *n, q, p, increments: increments.view() }))
+        Ok(state.map(|Kept { n, q, p, increments }| TrajectoryState { n: *n, q, p, increments: increments.view() }))
     }
 }
 
@@ -61,7 +61,7 @@ pub(crate) struct Watched<T, F> {
 impl<T: States, F: FnMut(i64) -> bool> States for Watched<T, F> {
     type Number = T::Number;
 
-    fn advance(&mut self) -> Result<Option<State<'_, T::Number>>, RunError> {
+    fn advance(&mut self) -> Result<Option<TrajectoryState<'_, T::Number>>, RunError> {
         let Some(state) = self.states.advance()? else { return Ok(None) };
         if !(self.continues)(state.n) {
             return Err(RunError::Stopped { step: state.n });

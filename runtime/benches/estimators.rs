@@ -15,7 +15,7 @@ use rug::{Float, Integer};
 use shadowstep::number::counting::Counting;
 use shadowstep::number::{Limbs, Ordered, Precision};
 use shadowstep::problems::Kepler;
-use shadowstep::run::{State, States, Trajectory};
+use shadowstep::run::{States, Trajectory, TrajectoryState};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimator, EstimatorSettings, StoppingRule};
 use shadowstep::tables::shipped;
 use shadowstep::{Increments, Motion, Number, Rational, StepSize, Stepper, UnitMasses, exact};
@@ -42,7 +42,7 @@ fn states() -> Vec<Given<Number7>> {
     let start = Motion::new(Kepler, UnitMasses, q, p).expect("the dimensions agree");
     let mut states = Trajectory::new(&stepper, start, STATES, 0).expect("a finite start");
     let mut all = Vec::new();
-    while let Some(State { q, p, increments, .. }) = states.advance().expect("finite states") {
+    while let Some(TrajectoryState { q, p, increments, .. }) = states.advance().expect("finite states") {
         all.push(Given { q: q.to_vec(), p: p.to_vec(), beta: *increments.beta });
     }
     all

@@ -5,6 +5,7 @@ use thiserror::Error;
 use crate::Rational;
 use crate::maps::MapKind;
 use crate::number::{Number, Ordered};
+use crate::scheme::Scheme;
 
 /// How far the gradient kicks of a stepper displace the positions at which the force is evaluated once more.
 ///
@@ -55,24 +56,17 @@ pub enum DisplacementError {
     },
 }
 
-/// The weights of a scheme, exact, and its maps in their order.
-pub(crate) struct Weights<'a> {
-    pub(crate) scheme: &'a str,
-    pub(crate) kicks: &'a [Rational],
-    pub(crate) gradient_kicks: &'a [Rational],
-    pub(crate) maps: &'a [(MapKind, usize)],
-}
-
 impl<N: Ordered> Displacements<N> {
-    /// Those of a scheme with the step size h; `weights` are the numbers 2h³c.
-    pub(crate) fn of(scheme: &Weights<'_>, h: &Rational, weights: &[N]) -> Result<Self, DisplacementError> {
-        let name = || scheme.scheme.to_owned();
+    /// The displacements of a scheme with the step size h; `weights` are the numbers 2h³c.
+    pub(crate) fn of(scheme: &impl Scheme, h: &Rational, weights: &[N]) -> Result<Self, DisplacementError> {
+        let name = || scheme.summary().name.to_owned();
+        let exact = scheme.exact_weights();
         let mut found: Vec<Option<Rational>> = vec![None; weights.len()];
-        for stage in scheme.maps.split(|(kind, _)| *kind == MapKind::Drift) {
+        for stage in scheme.sequence().maps.split(|(kind, _)| *kind == MapKind::Drift) {
             let Some((_, gradient)) = stage.iter().find(|(kind, _)| *kind == MapKind::GradientKick) else { continue };
             let kick = stage.iter().find(|(kind, _)| *kind == MapKind::Kick);
             let (_, kick) = kick.ok_or_else(|| DisplacementError::NoKick { scheme: name() })?;
-            let ratio = &scheme.gradient_kicks[*gradient] / &scheme.kicks[*kick];
+            let ratio = &exact.gradient_kicks[*gradient] / &exact.kicks[*kick];
             match &found[*gradient] {
                 Some(known) if *known != ratio => return Err(DisplacementError::Ambiguous { scheme: name() }),
                 _ => found[*gradient] = Some(ratio),

@@ -136,7 +136,7 @@ impl Ensemble {
         system: impl Fn(Block<W>) -> Result<M, E> + Sync,
     ) -> Result<Vec<Outcome>, EnsembleError<E>>
     where
-        S: Scheme<Array<Lanes<W>>: Sync> + ValidFor<M::Class> + Sync,
+        S: Scheme<Weights<Lanes<W>>: Sync> + ValidFor<M::Class> + Sync,
         M: System<Number = Lanes<W>>,
         E: Send,
     {
@@ -154,7 +154,7 @@ impl Ensemble {
         continues: impl Fn() -> bool + Sync,
     ) -> Result<Vec<Outcome>, EnsembleError<E>>
     where
-        S: Scheme<Array<Lanes<W>>: Sync> + ValidFor<M::Class> + Sync,
+        S: Scheme<Weights<Lanes<W>>: Sync> + ValidFor<M::Class> + Sync,
         M: System<Number = Lanes<W>>,
         E: Send,
     {

@@ -25,7 +25,7 @@ pub(crate) mod solver;
 
 use crate::number::{Number, Rounded};
 use crate::problems::{PROBLEMS, Problem, Setup};
-use crate::run::{RunError, ShadowRun, State, States, last};
+use crate::run::{RunError, ShadowRun, States, TrajectoryState, last};
 use crate::shadow::{BuildEstimator, Estimator};
 use crate::step_size::StepSize;
 use crate::system::OwnedIncrements;
@@ -81,13 +81,13 @@ impl<N: Rounded> States for ExactFlow<N> {
     ///
     /// # Errors
     /// A state that is not finite, as where `f64` overflows.
-    fn advance(&mut self) -> Result<Option<State<'_, N>>, RunError> {
+    fn advance(&mut self) -> Result<Option<TrajectoryState<'_, N>>, RunError> {
         if self.n >= self.last {
             return Ok(None);
         }
         self.n += 1;
         self.points.assign(self.n, &mut self.q, &mut self.p, &mut self.increments);
-        let state = State { n: self.n, q: &self.q, p: &self.p, increments: self.increments.view() };
+        let state = TrajectoryState { n: self.n, q: &self.q, p: &self.p, increments: self.increments.view() };
         state.check()?;
         Ok(Some(state))
     }

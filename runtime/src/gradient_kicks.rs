@@ -3,7 +3,6 @@
 use crate::displaced::Displacements;
 use crate::kept::Kept;
 use crate::number::Number;
-use crate::system::OwnedIncrements;
 
 /// The derivatives of B(q), and the M of A's kinetic part ½pᵀM⁻¹p.
 pub(crate) trait Curvature<N> {
@@ -110,15 +109,5 @@ impl<N: Number> GradientKicks<N> {
         }
         *kept = if with_rate { Kept::GradientAndRate } else { Kept::Gradient };
         *evaluations += 1;
-    }
-
-    /// Adds what a gradient kick of this weight adds to p and β.
-    pub(crate) fn add_increments<V: AsMut<[N]>>(&self, weight: &N, increments: &mut OwnedIncrements<N, V>) {
-        increments.beta.add_product(weight, &self.rate);
-        if N::KEEPS_INCREMENTS {
-            for (increment, force) in increments.p.as_mut().iter_mut().zip(&self.force) {
-                increment.subtract_product(weight, force);
-            }
-        }
     }
 }

@@ -52,7 +52,7 @@ use passage::Passage;
 /// | 10⁶ | 1.1e-13 | 5.5e-14 | 6.9e-13 |
 /// | 10⁷ | 3.9e-13 | 1.9e-13 | 1.6e-12 |
 ///
-/// Both tables are from `cargo test --release -p shadowstep --test kepler_drift -- --ignored --nocapture`. What a drift costs: `cargo bench -p shadowstep --bench
+/// Both tables are from `cargo test --release -p shadowstep kepler_drift -- --ignored --nocapture`. What a drift costs: `cargo bench -p shadowstep --bench
 /// kepler_drift`; for planets about 105 ns in `f64` and 24 ns an orbit in `Lanes<16>` with AVX-512.
 ///
 /// **Radial orbits** (of no angular momentum) pass through the centre as ellipses and hyperbolas do whose pericentre goes to 0: the body comes back

@@ -105,12 +105,14 @@ pub mod run;
 pub mod scheme;
 mod scheme_maps;
 pub mod shadow;
+mod state;
 pub mod step_size;
 pub mod stepper;
 pub mod summation;
 pub mod system;
 pub mod tables;
 pub mod transformed_time;
+mod weights;
 pub mod wisdom_holman;
 
 #[doc(inline)]
@@ -126,14 +128,16 @@ pub use potential::Potential;
 #[doc(inline)]
 pub use potential_check::check_potential;
 #[doc(inline)]
-pub use scheme::{Scheme, StepWeights, Summary, ValidFor};
+pub use scheme::{Scheme, Summary, ValidFor};
 #[doc(inline)]
 pub use shadowstep_macros::{kinetic, potential, splitting_scheme};
 #[doc(inline)]
 pub use shadowstep_symbolic::{Rational, exact};
 #[doc(inline)]
+pub use state::{Remainders, State, VectorState};
+#[doc(inline)]
 pub use step_size::{StepSize, StepSizeError};
 #[doc(inline)]
 pub use stepper::Stepper;
 #[doc(inline)]
-pub use system::{Increments, OwnedIncrements, Remainders, System};
+pub use system::{Carried, Increments, OwnedIncrements, System};

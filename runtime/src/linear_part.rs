@@ -19,7 +19,9 @@ use crate::matrix::precision;
 use crate::motion::MotionError;
 use crate::number::{Number, Rounded};
 use crate::potential::Potential;
-use crate::system::{Increments, OwnedIncrements, System};
+use crate::state::{State, VectorState};
+use crate::summation::{Compensated, Half};
+use crate::system::{Carried, System};
 use rotation::Rotations;
 
 /// A system with a linear part that drifts solve exactly, at a state.
@@ -48,17 +50,14 @@ pub struct LinearPart<N, P> {
     stiffness: Vec<Vec<N>>,
     kinetic: DiagonalMasses<N>,
     rotations: Rotations<N>,
-    q: Vec<N>,
-    p: Vec<N>,
+    state: VectorState<N>,
     /// B_q and qᵀB_q − 2B
     gradient: Vec<N>,
     rate: N,
     kept: bool,
     /// Once there was a gradient kick, with the potential's scratch space; what it keeps belongs to the q of the last evaluation.
     gradient_kicks: Option<Box<(GradientKicks<N>, Vec<N>)>>,
-    increments: OwnedIncrements<N>,
     scratch_of_kinetic: Vec<N>,
-    evaluations: u64,
 }
 
 impl<N: Rounded, P: Potential<N>> LinearPart<N, P> {
@@ -108,22 +107,27 @@ impl<N: Rounded, P: Potential<N>> LinearPart<N, P> {
                 .iter()
                 .map(|row| row.iter().map(|k| N::from_rational(k, &context)).collect())
                 .collect(),
-            q: q.to_vec(),
-            p: p.to_vec(),
+            state: State::new(q.to_vec(), p.to_vec(), &context).compensated_if(false),
             gradient: vec![zero.clone(); coordinates],
             rate: zero.clone(),
             kept: false,
             gradient_kicks: None,
-            increments: OwnedIncrements::zero(coordinates, &context),
             scratch_of_kinetic: vec![zero; of_kinetic],
-            evaluations: 0,
         })
+    }
+
+    /// The same system with [compensated sums](crate::summation::Compensated): the round-off of a kick or drift is ε times the increment, in place of ε
+    /// times the coordinate.
+    #[must_use]
+    pub fn compensated(mut self) -> Self {
+        self.state = self.state.compensated_if(true);
+        self
     }
 
     /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see [`Displacements`].
     #[must_use]
     pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
-        let (dimension, context) = (self.q.len(), self.context());
+        let (dimension, context) = (self.state.q.len(), self.state.context());
         let kicks = GradientKicks::new(dimension, Some(displacements), &context);
         self.gradient_kicks = Some(Box::new((kicks, Vec::new())));
         self
@@ -134,61 +138,17 @@ impl<N: Rounded, P: Potential<N>> LinearPart<N, P> {
         if self.kept {
             return;
         }
-        let LinearPart { potential, scratch, stiffness, q, gradient, rate, .. } = self;
-        potential.update(q);
-        potential.gradient_and_rate(q, gradient, rate, scratch);
+        let LinearPart { potential, scratch, stiffness, state, gradient, rate, .. } = self;
+        potential.update(&state.q);
+        potential.gradient_and_rate(&state.q, gradient, rate, scratch);
         for (gradient, row) in gradient.iter_mut().zip(stiffness) {
-            row.iter().zip(&*q).for_each(|(k, q)| gradient.subtract_product(k, q));
+            row.iter().zip(&state.q).for_each(|(k, q)| gradient.subtract_product(k, q));
         }
         self.kept = true;
-        self.evaluations += 1;
+        self.state.count_evaluation();
         if let Some(curved) = &mut self.gradient_kicks {
             curved.0.kept = Kept::Nothing;
         }
-    }
-
-    /// The gradient kick p ← p + weight·B_qq M⁻¹B_q: ½qᵀKq as a part of A commutes with B.
-    fn gradient_kick_by(&mut self, weight: &N, augmented: bool) {
-        self.evaluate();
-        let LinearPart { potential, scratch, stiffness, kinetic, q, p, gradient, rate, .. } = self;
-        let curved = self.gradient_kicks.get_or_insert_with(|| Box::new(room(potential, &weight.context())));
-        let (kicks, hessian_scratch) = &mut **curved;
-        let before = kicks.evaluations;
-        let rest = &mut Rest { potential, scratch, stiffness, kinetic, hessian_scratch };
-        kicks.evaluate(rest, Place { q, gradient, rate }, weight, augmented);
-        if kicks.is_displaced() {
-            self.evaluations += kicks.evaluations - before;
-        }
-        for (p, force) in p.iter_mut().zip(&kicks.force) {
-            p.subtract_product(weight, force);
-        }
-        if augmented {
-            kicks.add_increments(weight, &mut self.increments);
-        }
-    }
-
-    fn kick_by(&mut self, weight: &N, augmented: bool) {
-        self.evaluate();
-        for (p, gradient) in self.p.iter_mut().zip(&self.gradient) {
-            p.subtract_product(weight, gradient);
-        }
-        if augmented {
-            self.increments.beta.add_product(weight, &self.rate);
-            for (increment, gradient) in self.increments.p.iter_mut().zip(&self.gradient) {
-                increment.subtract_product(weight, gradient);
-            }
-        }
-    }
-
-    fn drift_by(&mut self, weight: &N, augmented: bool) {
-        let (to_q, to_p) = self.rotations.increments(weight, &self.q, &self.p);
-        self.q.iter_mut().zip(to_q).for_each(|(q, by)| q.add(by));
-        self.p.iter_mut().zip(to_p).for_each(|(p, by)| p.add(by));
-        if augmented {
-            self.increments.q.iter_mut().zip(to_q).for_each(|(sum, by)| sum.add(by));
-            self.increments.p.iter_mut().zip(to_p).for_each(|(sum, by)| sum.add(by));
-        }
-        self.kept = false;
     }
 }
 
@@ -249,39 +209,39 @@ impl<N: Rounded, P: Potential<N>> System for LinearPart<N, P> {
     type Number = N;
     /// A = ½pᵀM⁻¹p + f(q), and B depends on q only.
     type Class = Quadratic;
+    type Coordinates = Vec<N>;
+    type Summation = Option<Compensated<N, Vec<N>>>;
 
-    fn q(&self) -> &[N] {
-        &self.q
+    fn state(&self) -> &VectorState<N> {
+        &self.state
     }
 
-    fn p(&self) -> &[N] {
-        &self.p
-    }
-
-    fn increments(&self) -> Increments<'_, N> {
-        self.increments.view()
-    }
-
-    fn set_state(&mut self, q: &[N], p: &[N]) {
-        self.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
-        self.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
+    fn state_mut(&mut self) -> &mut VectorState<N> {
         self.kept = false;
+        &mut self.state
     }
 
-    fn kick(&mut self, weight: &N) {
-        self.kick_by(weight, false);
+    fn clear_increments(&mut self) {
+        self.state.clear_increments();
     }
 
-    fn kick_augmented(&mut self, weight: &N) {
-        self.kick_by(weight, true);
+    fn kick(&mut self, weight: &N, carried: Carried) {
+        self.evaluate();
+        match carried {
+            Carried::Increments => self.state.kick_augmented(weight, &self.gradient, &self.rate),
+            Carried::Nothing | Carried::Rate => self.state.kick(weight, &self.gradient),
+        }
     }
 
-    fn drift(&mut self, weight: &N) {
-        self.drift_by(weight, false);
-    }
-
-    fn drift_augmented(&mut self, weight: &N) {
-        self.drift_by(weight, true);
+    fn drift(&mut self, weight: &N, carried: Carried) {
+        let LinearPart { state, rotations, .. } = self;
+        let (to_q, to_p) = rotations.increments(weight, &state.q, &state.p);
+        for (half, increments) in [(Half::Positions, to_q), (Half::Momenta, to_p)] {
+            for (index, by) in increments.iter().enumerate() {
+                state.change(half, index, carried, |x| x.add(by));
+            }
+        }
+        self.kept = false;
     }
 
     fn has_gradient_kicks(&self) -> bool {
@@ -289,34 +249,31 @@ impl<N: Rounded, P: Potential<N>> System for LinearPart<N, P> {
         is_displaced || self.potential.hessian().is_some()
     }
 
-    fn gradient_kick(&mut self, weight: &N) {
-        self.gradient_kick_by(weight, false);
+    /// The gradient kick p ← p + weight·B_qq M⁻¹B_q: ½qᵀKq as a part of A commutes with B.
+    fn gradient_kick(&mut self, weight: &N, carried: Carried) {
+        self.evaluate();
+        let LinearPart { potential, scratch, stiffness, kinetic, state, gradient, rate, .. } = self;
+        let curved = self.gradient_kicks.get_or_insert_with(|| Box::new(room(potential, &weight.context())));
+        let (kicks, hessian_scratch) = &mut **curved;
+        let before = kicks.evaluations;
+        let rest = &mut Rest { potential, scratch, stiffness, kinetic, hessian_scratch };
+        let augmented = carried == Carried::Increments;
+        kicks.evaluate(rest, Place { q: &state.q, gradient, rate }, weight, augmented);
+        if kicks.is_displaced() {
+            state.evaluations += kicks.evaluations - before;
+        }
+        match augmented {
+            true => state.kick_augmented(weight, &kicks.force, &kicks.rate),
+            false => state.kick(weight, &kicks.force),
+        }
     }
 
-    fn gradient_kick_augmented(&mut self, weight: &N) {
-        self.gradient_kick_by(weight, true);
-    }
-
-    fn clear_increments(&mut self) {
-        self.increments.assign_zero();
-    }
-
-    fn assign_energies(&mut self, energy: &mut N, kinetic: &mut N) {
-        self.potential.update(&self.q);
-        self.potential.energy(&self.q, energy, &mut self.scratch);
-        Kinetic::energy(&self.kinetic, &self.p, kinetic, &mut self.scratch_of_kinetic);
-        energy.add(kinetic);
-    }
-
-    fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic: &mut N) {
+    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+        let (q, p) = at.unwrap_or((&self.state.q, &self.state.p));
         self.potential.update(q);
         self.potential.energy(q, energy, &mut self.scratch);
         Kinetic::energy(&self.kinetic, p, kinetic, &mut self.scratch_of_kinetic);
         energy.add(kinetic);
-        self.kept = false;
-    }
-
-    fn evaluations(&self) -> u64 {
-        self.evaluations
+        self.kept &= at.is_none();
     }
 }

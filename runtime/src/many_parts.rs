@@ -41,12 +41,14 @@ mod part;
 mod quadratic;
 
 pub use formula::{FormulaPart, PartError, parts};
-pub use part::{Moving, Part};
+pub use part::{FlowState, Part};
 
 use crate::maps::PartOrder;
 use crate::motion::MotionError;
 use crate::number::Number;
-use crate::system::{Increments, OwnedIncrements, System};
+use crate::state::{State, VectorState};
+use crate::summation::Compensated;
+use crate::system::{Carried, System};
 
 /// The class of H = H_1 + … + H_n. Schemes for two parts do not advance its systems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,13 +57,10 @@ pub enum ManyParts {}
 /// A system of parts whose flows are known, at a state.
 pub struct SystemOfParts<N> {
     parts: Vec<Box<dyn Part<N>>>,
-    q: Vec<N>,
-    p: Vec<N>,
-    increments: OwnedIncrements<N>,
+    state: VectorState<N>,
     /// The part that flowed last, if the state has not been changed otherwise.
     last: Option<usize>,
     of_part: N,
-    evaluations: u64,
 }
 
 impl<N: Number> SystemOfParts<N> {
@@ -82,36 +81,69 @@ impl<N: Number> SystemOfParts<N> {
         let context = first.context();
         Ok(SystemOfParts {
             parts,
-            q: q.to_vec(),
-            p: p.to_vec(),
-            increments: OwnedIncrements::zero(coordinates, &context),
+            state: State::new(q.to_vec(), p.to_vec(), &context).compensated_if(false),
             last: None,
             of_part: N::zero(&context),
-            evaluations: 0,
         })
     }
 
-    /// The flow of a part.
-    fn flow(&mut self, index: usize, time: &N, augmented: bool) {
-        let continues = self.last == Some(index);
-        self.evaluations += u64::from(index == 0 && !continues);
-        let increments = augmented.then_some(&mut self.increments);
-        let mut moving = Moving::new(&mut self.q, &mut self.p, increments);
-        self.parts[index].flow(time, &mut moving, continues);
-        self.last = Some(index);
+    /// The same system with [compensated sums](crate::summation::Compensated): the round-off of a flow is ε times the increment, in place of ε times the
+    /// coordinate.
+    #[must_use]
+    pub fn compensated(mut self) -> Self {
+        self.state = self.state.compensated_if(true);
+        self
     }
 
-    fn middle(&mut self, time: &N, order: PartOrder, augmented: bool) {
+    /// The flow of a part.
+    fn flow(&mut self, index: usize, time: &N, carried: Carried) {
+        let continues = self.last == Some(index);
+        if index == 0 && !continues {
+            self.state.count_evaluation();
+        }
+        self.parts[index].flow(time, &mut FlowState::new(&mut self.state, carried), continues);
+        self.last = Some(index);
+    }
+}
+
+impl<N: Number> System for SystemOfParts<N> {
+    type Number = N;
+    type Class = ManyParts;
+    type Coordinates = Vec<N>;
+    type Summation = Option<Compensated<N, Vec<N>>>;
+
+    fn state(&self) -> &VectorState<N> {
+        &self.state
+    }
+
+    fn state_mut(&mut self) -> &mut VectorState<N> {
+        self.last = None;
+        &mut self.state
+    }
+
+    fn clear_increments(&mut self) {
+        self.state.clear_increments();
+    }
+
+    fn kick(&mut self, weight: &N, carried: Carried) {
+        self.flow(0, weight, carried);
+    }
+
+    fn drift(&mut self, weight: &N, carried: Carried) {
+        self.flow(self.parts.len() - 1, weight, carried);
+    }
+
+    fn middle_parts(&mut self, weight: &N, order: PartOrder, carried: Carried) {
         let middle = 1..self.parts.len() - 1;
         match order {
-            PartOrder::Ascending => middle.for_each(|index| self.flow(index, time, augmented)),
-            PartOrder::Descending => middle.rev().for_each(|index| self.flow(index, time, augmented)),
+            PartOrder::Ascending => middle.for_each(|index| self.flow(index, weight, carried)),
+            PartOrder::Descending => middle.rev().for_each(|index| self.flow(index, weight, carried)),
         }
     }
 
-    /// energy ← H, and kinetic ← √ΣH_i², at a state.
-    fn energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
-        let (q, p) = at.unwrap_or((&self.q, &self.p));
+    /// `kinetic` ← √ΣH_i², the root of the sum of the squares of the parts.
+    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+        let (q, p) = at.unwrap_or((&self.state.q, &self.state.p));
         energy.assign_zero();
         kinetic.assign_zero();
         for part in &mut self.parts {
@@ -122,70 +154,5 @@ impl<N: Number> SystemOfParts<N> {
         }
         self.of_part.assign_sqrt(kinetic);
         kinetic.assign(&self.of_part);
-    }
-}
-
-impl<N: Number> System for SystemOfParts<N> {
-    type Number = N;
-    type Class = ManyParts;
-
-    fn q(&self) -> &[N] {
-        &self.q
-    }
-
-    fn p(&self) -> &[N] {
-        &self.p
-    }
-
-    fn increments(&self) -> Increments<'_, N> {
-        self.increments.view()
-    }
-
-    fn set_state(&mut self, q: &[N], p: &[N]) {
-        self.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
-        self.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
-        self.last = None;
-    }
-
-    fn kick(&mut self, weight: &N) {
-        self.flow(0, weight, false);
-    }
-
-    fn kick_augmented(&mut self, weight: &N) {
-        self.flow(0, weight, true);
-    }
-
-    fn drift(&mut self, weight: &N) {
-        self.flow(self.parts.len() - 1, weight, false);
-    }
-
-    fn drift_augmented(&mut self, weight: &N) {
-        self.flow(self.parts.len() - 1, weight, true);
-    }
-
-    fn middle_parts(&mut self, weight: &N, order: PartOrder) {
-        self.middle(weight, order, false);
-    }
-
-    fn middle_parts_augmented(&mut self, weight: &N, order: PartOrder) {
-        self.middle(weight, order, true);
-    }
-
-    fn clear_increments(&mut self) {
-        self.increments.assign_zero();
-    }
-
-    /// `kinetic` is the root of the sum of the squares of the parts.
-    fn assign_energies(&mut self, energy: &mut N, kinetic: &mut N) {
-        self.energies(None, energy, kinetic);
-    }
-
-    fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic: &mut N) {
-        self.energies(Some((q, p)), energy, kinetic);
-    }
-
-    /// Those of H_1.
-    fn evaluations(&self) -> u64 {
-        self.evaluations
     }
 }

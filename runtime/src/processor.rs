@@ -1,10 +1,10 @@
 //! The pre-map and the post-map of a processed scheme, with a step size.
 
 use crate::Rational;
-use crate::maps::MapKind;
+use crate::maps::{Flows, MapKind};
 use crate::number::Number;
 use crate::scheme::Scheme;
-use crate::system::{Remainders, System};
+use crate::system::{Carried, Carrying, System};
 
 /// χ and χ⁻¹ of a processed scheme χ⁻¹ ∘ kernelⁿ ∘ χ, their weights times h; both are the identity for other schemes.
 #[derive(Clone, Debug)]
@@ -37,29 +37,6 @@ impl<N: Number> Processor<N> {
 }
 
 fn act<N: Number>(maps: &[(MapKind, N)], system: &mut impl System<Number = N>) {
-    for (kind, weight) in maps {
-        match kind {
-            MapKind::Kick => system.kick(weight),
-            MapKind::Drift => system.drift(weight),
-            MapKind::GradientKick => unreachable!("a processor has kicks and drifts only"),
-        }
-    }
-}
-
-/// A state that a system leaves and comes back to, to the last bit.
-pub(crate) struct Kept<N> {
-    q: Vec<N>,
-    p: Vec<N>,
-    remainders: Remainders<N>,
-}
-
-impl<N: Number> Kept<N> {
-    pub(crate) fn of(system: &impl System<Number = N>) -> Self {
-        Kept { q: system.q().to_vec(), p: system.p().to_vec(), remainders: system.remainders() }
-    }
-
-    pub(crate) fn restore(&self, system: &mut impl System<Number = N>) {
-        system.set_state(&self.q, &self.p);
-        system.set_remainders(&self.remainders);
-    }
+    let mut flows = Carrying { system, carried: Carried::Nothing };
+    maps.iter().for_each(|(kind, weight)| flows.apply(*kind, weight, None));
 }

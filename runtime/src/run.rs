@@ -23,5 +23,5 @@ pub(crate) use error::{check_energy, check_stepper, check_value};
 pub use permanent::{Finding, LowErrorStates, PermanentChange};
 pub use shadow_run::{Estimated, ShadowRun};
 pub(crate) use state::last;
-pub use state::{State, States};
+pub use state::{States, TrajectoryState};
 pub use trajectory::Trajectory;

@@ -2,72 +2,66 @@
 
 use std::ops::Range;
 
-use crate::maps::{MapKind, MapSequence};
+use crate::maps::{Flows, MapKind, MapSequence};
+use crate::number::Number;
 use crate::scheme::Scheme;
+use crate::weights::WeightLists;
 
-/// Those of steps one by one, with weights such as those of a [`Stepper`](crate::Stepper).
-#[derive(Debug)]
-pub(crate) struct Maps<'a, S, N> {
+/// The maps of steps one by one, with weights such as those of a [`Stepper`](crate::Stepper).
+pub(crate) struct Maps<'a, S: Scheme, N: Number> {
     scheme: &'a S,
-    weights: &'a [N],
+    weights: &'a S::Weights<N>,
 }
 
-impl<'a, S: Scheme, N> Maps<'a, S, N> {
-    pub(crate) fn new(scheme: &'a S, weights: &'a [N]) -> Self {
+impl<'a, S: Scheme, N: Number> Maps<'a, S, N> {
+    pub(crate) fn new(scheme: &'a S, weights: &'a S::Weights<N>) -> Self {
         Maps { scheme, weights }
     }
 
     #[inline(always)]
     fn weight(&self, (kind, place): (MapKind, usize)) -> &'a N {
-        let kicks = self.scheme.maps().0;
-        match kind {
-            MapKind::Kick => &self.weights[place],
-            MapKind::Drift => &self.weights[kicks + place],
-            MapKind::GradientKick => &self.weights[self.weights.len() - self.scheme.gradient_kicks() + place],
-        }
+        &self.weights.view().of(kind)[place]
     }
 
-    /// Of the middle parts after the map at this index.
+    /// The weight of the middle parts after the map at this index.
     #[inline(always)]
     fn middle_weight(&self, index: usize) -> Option<&'a N> {
-        let (count, middle) = self.scheme.middle();
-        let place = middle.get(index)?;
-        Some(&self.weights[self.weights.len() - self.scheme.gradient_kicks() - count + place])
+        let place = *self.scheme.sequence().middle_parts.get(index)?;
+        Some(&self.weights.view().middle_parts[place])
     }
 }
 
-impl<S: Scheme, N> MapSequence<N> for Maps<'_, S, N> {
+impl<S: Scheme, N: Number> MapSequence<N> for Maps<'_, S, N> {
     #[inline(always)]
-    fn each(&self, steps: Range<u64>, _: u64, mut map: impl FnMut(MapKind, &N, Option<&N>)) {
+    fn each(&self, steps: Range<u64>, _: u64, flows: &mut impl Flows<Number = N>) {
         for _ in steps {
-            for (index, &own) in self.scheme.maps().1.iter().enumerate() {
-                map(own.0, self.weight(own), self.middle_weight(index));
+            for (index, &map) in self.scheme.sequence().maps.iter().enumerate() {
+                flows.apply(map.0, self.weight(map), self.middle_weight(index));
             }
         }
     }
 }
 
-/// Those of steps of H of two parts where the last map of a step and the first of the next, which are of one kind, are made as one.
-#[derive(Debug)]
-pub(crate) struct MergedMaps<'a, S, N> {
+/// The maps of steps of H of two parts where the last map of a step and the first of the next, which are of one kind, are made as one.
+pub(crate) struct MergedMaps<'a, S: Scheme, N: Number> {
     pub(crate) maps: Maps<'a, S, N>,
-    /// That of the merged map.
+    /// The weight of the merged map.
     pub(crate) weight: &'a N,
 }
 
-impl<S: Scheme, N> MapSequence<N> for MergedMaps<'_, S, N> {
+impl<S: Scheme, N: Number> MapSequence<N> for MergedMaps<'_, S, N> {
     #[inline(always)]
-    fn each(&self, steps: Range<u64>, count: u64, mut map: impl FnMut(MapKind, &N, Option<&N>)) {
+    fn each(&self, steps: Range<u64>, count: u64, flows: &mut impl Flows<Number = N>) {
         let MergedMaps { maps, weight: merged } = self;
-        let &[first, ref middle @ .., last] = maps.scheme.maps().1 else { return };
+        let &[first, ref middle @ .., last] = maps.scheme.sequence().maps else { return };
         if steps.start == 0 && !steps.is_empty() {
-            map(first.0, maps.weight(first), None);
+            flows.apply(first.0, maps.weight(first), None);
         }
         for step in steps {
-            for &own in middle {
-                map(own.0, maps.weight(own), None);
+            for &map in middle {
+                flows.apply(map.0, maps.weight(map), None);
             }
-            map(last.0, if step + 1 < count { merged } else { maps.weight(last) }, None);
+            flows.apply(last.0, if step + 1 < count { merged } else { maps.weight(last) }, None);
         }
     }
 }

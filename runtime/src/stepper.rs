@@ -1,14 +1,16 @@
 //! A scheme with a step size: the object that makes steps.
 
 use crate::Rational;
-use crate::displaced::{DisplacementError, Displacements, Weights};
+use crate::displaced::{DisplacementError, Displacements};
 use crate::maps::MapKind;
 use crate::number::{Number, Ordered};
-use crate::processor::{Kept, Processor};
-use crate::scheme::{Scheme, StepWeights, ValidFor};
+use crate::processor::Processor;
+use crate::scheme::{Scheme, ValidFor};
 use crate::scheme_maps::{Maps, MergedMaps};
+use crate::state::Saved;
 use crate::step_size::{StepSize, StepSizeError};
-use crate::system::System;
+use crate::system::{Carried, Carrying, System};
+use crate::weights::{WeightLists, Weights};
 
 /// A scheme, its step size h and its weights h·a_s, h·b_s and 2h³·c_s of gradient kicks, each an exact product rounded once to the number
 /// type.
@@ -61,7 +63,9 @@ use crate::system::System;
 pub struct Stepper<S: Scheme, N: Number> {
     scheme: S,
     h: StepSize,
-    weights: StepWeights<S::Array<N>>,
+    forward: S::Weights<N>,
+    /// The negatives.
+    back: S::Weights<N>,
     /// Of the last map of a step and the first of the next as one.
     merged: Option<N>,
     processor: Processor<N>,
@@ -91,9 +95,11 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         StepSizeError: From<H::Error>,
     {
         let h = h.try_into()?;
-        let processor = Processor::of(&scheme, h.exact(), context);
-        let merged = merged_weight(&scheme, h.exact(), context);
-        Ok(Stepper { weights: StepWeights::of(&scheme, h.exact(), context), merged, processor, scheme, h })
+        let exact = scheme.exact_weights();
+        let forward = times(exact.view(), h.exact(), context);
+        let back = times(exact.view(), &-h.exact(), context);
+        let merged = merged_weight(&scheme, exact.view(), h.exact(), context);
+        Ok(Stepper { forward, back, merged, processor: Processor::of(&scheme, h.exact(), context), scheme, h })
     }
 
     /// The scheme.
@@ -111,14 +117,14 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         self.h.exact()
     }
 
-    /// h·a_s, h·b_s, those of middle parts and 2h³·c_s of gradient kicks, the distinct ones in the order of the plan.
-    pub fn weights(&self) -> &[N] {
-        self.weights.forward().as_ref()
+    /// h·a_s, h·b_s, those of middle parts and 2h³·c_s of gradient kicks: the distinct ones, in the order of the plan.
+    pub fn weights(&self) -> Weights<&[N]> {
+        self.forward.view()
     }
 
     /// The weights of the inverse step, the negatives of these.
-    pub fn weights_back(&self) -> &[N] {
-        self.weights.back().as_ref()
+    pub fn weights_back(&self) -> Weights<&[N]> {
+        self.back.view()
     }
 
     /// How far the gradient kicks of its steps displace positions, for a system that makes them by displaced forces in place of second derivatives: see
@@ -130,17 +136,12 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     where
         N: Ordered,
     {
-        let (kicks, maps) = self.scheme.maps();
-        let exact = exact_weights::<N>(&self.scheme, &self.weights()[0].context());
-        let first = exact.len() - self.scheme.gradient_kicks();
-        let (linear, gradient_kicks) = exact.split_at(first);
-        let scheme = Weights { scheme: self.scheme.summary().name, kicks: &linear[..kicks], gradient_kicks, maps };
-        Displacements::of(&scheme, self.h(), &self.weights()[first..])
+        Displacements::of(&self.scheme, self.h(), self.weights().gradient_kicks)
     }
 
     /// The maps of a step with their weights.
     fn maps(&self) -> Maps<'_, S, N> {
-        Maps::new(&self.scheme, self.weights())
+        Maps::new(&self.scheme, &self.forward)
     }
 
     /// One step: t → t + h.
@@ -149,7 +150,17 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     where
         S: ValidFor<M::Class>,
     {
-        self.scheme.step(&self.weights, system);
+        self.scheme.forward(&self.forward, &mut Carrying { system, carried: Carried::Nothing });
+    }
+
+    /// One step before an augmented one, with the bits of [`Stepper::step`]: what it evaluates last, such as the rate qᵀU_q − 2U beside the gradient, is kept
+    /// for the augmented step, which then costs no evaluation more.
+    #[inline]
+    pub fn step_before_augmented<M: System<Number = N>>(&self, system: &mut M)
+    where
+        S: ValidFor<M::Class>,
+    {
+        self.scheme.forward(&self.forward, &mut Carrying { system, carried: Carried::Rate });
     }
 
     /// Whether the scheme is a processed one, whose steps are those of its kernel.
@@ -173,10 +184,10 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         if !self.is_processed() {
             return read(system);
         }
-        let kept = Kept::of(system);
+        let saved = Saved::of(system.state());
         self.postprocess(system);
         let found = read(system);
-        kept.restore(system);
+        saved.restore(system.state_mut());
         found
     }
 
@@ -185,12 +196,12 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         if !self.is_processed() {
             return;
         }
-        let kept = Kept::of(system);
-        system.set_state(q, p);
+        let saved = Saved::of(system.state());
+        system.state_mut().set(q, p);
         self.postprocess(system);
         q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
         p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
-        kept.restore(system);
+        saved.restore(system.state_mut());
     }
 
     /// `count` steps of each of several systems, with the bits that [`Stepper::step`] gives.
@@ -204,7 +215,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     where
         S: ValidFor<M::Class>,
     {
-        M::advance(systems, &self.maps(), count);
+        M::advance(systems, &self.maps(), count, Carried::Nothing);
     }
 
     /// `count` steps of each of several systems, where the last map of a step and the first of the next are made as one: n steps of
@@ -234,27 +245,28 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         S: ValidFor<M::Class>,
     {
         match &self.merged {
-            Some(weight) => M::advance(systems, &MergedMaps { maps: self.maps(), weight }, count),
-            None => M::advance(systems, &self.maps(), count),
+            Some(weight) => M::advance(systems, &MergedMaps { maps: self.maps(), weight }, count, Carried::Nothing),
+            None => M::advance(systems, &self.maps(), count, Carried::Nothing),
         }
     }
 
-    /// One step of each of several systems with its [increments](System::increments) of q, p and β, with the bits that
+    /// One step of each of several systems with its [increments](crate::State::increments) of q, p and β, with the bits that
     /// [`Stepper::step_augmented`] gives. Of lanes it is compiled for the widest vector instructions, as [`Stepper::steps`] is.
     pub fn step_each_augmented<M: System<Number = N>>(&self, systems: &mut [M])
     where
         S: ValidFor<M::Class>,
     {
-        M::advance_augmented(systems, &self.maps());
+        M::advance(systems, &self.maps(), 1, Carried::Increments);
     }
 
-    /// One step, with its [increments](System::increments) of q, p and β.
+    /// One step, with its [increments](crate::State::increments) of q, p and β.
     #[inline]
     pub fn step_augmented<M: System<Number = N>>(&self, system: &mut M)
     where
         S: ValidFor<M::Class>,
     {
-        self.scheme.step_augmented(&self.weights, system);
+        system.clear_increments();
+        self.scheme.forward(&self.forward, &mut Carrying { system, carried: Carried::Increments });
     }
 
     /// The exact inverse of [`Stepper::step`]: t → t − h, up to round-off.
@@ -263,7 +275,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     where
         S: ValidFor<M::Class>,
     {
-        self.scheme.step_back(&self.weights, system);
+        self.scheme.back(&self.back, &mut Carrying { system, carried: Carried::Nothing });
     }
 
     /// The exact inverse of [`Stepper::step_augmented`]; its increments are the negatives.
@@ -272,27 +284,30 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     where
         S: ValidFor<M::Class>,
     {
-        self.scheme.step_back_augmented(&self.weights, system);
+        system.clear_increments();
+        self.scheme.back(&self.back, &mut Carrying { system, carried: Carried::Increments });
     }
 }
 
-/// The exact weights a_s, b_s and c_s, the distinct ones in the order of the plan.
-fn exact_weights<N: Number>(scheme: &impl Scheme, context: &N::Context) -> Vec<Rational> {
-    let mut exact = Vec::new();
-    scheme.weights(|weight| {
-        exact.push(weight.clone());
-        N::zero(context)
-    });
-    exact
+/// h·w of each weight w of a scheme, 2h³·w of those of gradient kicks: an exact product rounded once.
+fn times<N: Number, W: WeightLists<N>>(exact: Weights<&[Rational]>, h: &Rational, context: &N::Context) -> W {
+    let twice_cube = h.pow(MapKind::GradientKick.power() as i32) * Rational::from_integer(2.into());
+    let number = |factor: Rational| move |weight: &Rational| N::from_rational(&(&factor * weight), context);
+    W::from_vecs(exact.map(number(h.clone()), number(twice_cube)))
 }
 
 /// h(w + w′) of the weights of the last map of a step and the first of the next, where both are kicks or both are drifts of H of two parts.
-fn merged_weight<N: Number>(scheme: &impl Scheme, h: &Rational, context: &N::Context) -> Option<N> {
-    let (kicks, &[(kind, first), .., (closing, last)]) = scheme.maps() else { return None };
-    if kind != closing || kind == MapKind::GradientKick || !scheme.middle().1.is_empty() {
+fn merged_weight<N: Number>(
+    scheme: &impl Scheme,
+    exact: Weights<&[Rational]>,
+    h: &Rational,
+    context: &N::Context,
+) -> Option<N> {
+    let sequence = scheme.sequence();
+    let &[(kind, first), .., (closing, last)] = sequence.maps else { return None };
+    if kind != closing || kind == MapKind::GradientKick || !sequence.middle_parts.is_empty() {
         return None;
     }
-    let before = if kind == MapKind::Kick { 0 } else { kicks };
-    let exact = exact_weights::<N>(scheme, context);
-    Some(N::from_rational(&(h * (&exact[before + first] + &exact[before + last])), context))
+    let weights = exact.of(kind);
+    Some(N::from_rational(&(h * (&weights[first] + &weights[last])), context))
 }

@@ -13,12 +13,11 @@ mod compensated;
 mod fixed_point;
 
 pub use compensated::Compensated;
-pub(crate) use compensated::add_with_remainder;
 pub use fixed_point::{FixedPoint, RangeError};
 
 use crate::kinetic::Kinetic;
 use crate::number::Number;
-use crate::system::Remainders;
+use crate::state::Remainders;
 
 /// How increments are added to q and p.
 ///
@@ -41,6 +40,9 @@ pub trait Summation<N: Number>: Clone {
         increments: (&mut [N], &mut N),
         scratch: &mut [N],
     );
+
+    /// x ← x + δ of one coordinate or momentum x; `add` adds δ to a number.
+    fn change(&mut self, half: Half, index: usize, x: &mut N, add: impl Fn(&mut N));
 
     /// q was set: what was kept of it is dropped. The default does nothing.
     fn forget_positions(&mut self) {}
@@ -75,6 +77,15 @@ pub trait Summation<N: Number>: Clone {
     }
 }
 
+/// The two halves of a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Half {
+    /// q
+    Positions,
+    /// p
+    Momenta,
+}
+
 /// Increments are added to q and p, and the sums are rounded.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Plain;
@@ -106,6 +117,11 @@ impl<N: Number> Summation<N> for Plain {
         if N::KEEPS_INCREMENTS {
             kinetic.drift(weight, p, added, scratch);
         }
+    }
+
+    #[inline(always)]
+    fn change(&mut self, _: Half, _: usize, x: &mut N, add: impl Fn(&mut N)) {
+        add(x);
     }
 
     fn is_plain(&self) -> bool {
@@ -143,6 +159,14 @@ impl<N: Number, S: Summation<N>> Summation<N> for Option<S> {
         match self {
             Some(own) => own.drift_augmented(kinetic, weight, p, q, (added, beta), scratch),
             None => Plain.drift_augmented(kinetic, weight, p, q, (added, beta), scratch),
+        }
+    }
+
+    #[inline(always)]
+    fn change(&mut self, half: Half, index: usize, x: &mut N, add: impl Fn(&mut N)) {
+        match self {
+            Some(own) => own.change(half, index, x, add),
+            None => Plain.change(half, index, x, add),
         }
     }
 

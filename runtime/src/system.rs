@@ -1,17 +1,17 @@
 //! What a splitting scheme advances: a system with its state, its kicks and its drifts.
 
 use crate::coordinates::Coordinates;
-use crate::maps::{MapKind, MapSequence, PartOrder};
+use crate::maps::{Flows, MapSequence, PartOrder};
 use crate::number::Number;
+use crate::state::State;
+use crate::summation::Summation;
 
-/// A Hamiltonian system H = A + B with its state q, p and β, where the flows of A (*drifts*) and of B (*kicks*) are known.
+/// A Hamiltonian system H = A + B with its state, where the flows of A (*drifts*) and of B (*kicks*) are known.
 ///
-/// Mostly A = T(p) and B = U(q): [`Motion`](crate::Motion) is such a system, made of a kinetic energy and a potential. A system
-/// with a storage of its own, or with other flows, implements this trait; then schemes, trajectories, energy drifts and the
-/// [monitor](crate::shadow::ShadowEnergy) work on it.
+/// Mostly A = T(p) and B = U(q): [`Motion`](crate::Motion) is such a system, made of a kinetic energy and a potential. A system with other flows
+/// implements this trait; then schemes, trajectories, energy drifts and the [monitor](crate::shadow::ShadowEnergy) work on it.
 ///
-/// Along each flow β grows by the integral of qᵀH_q + pᵀH_p − 2H, H being A or B (Moan & Niesen, eq. 2, whose printed sign is
-/// wrong): by weight·(qᵀU_q − 2U) in a kick, and by weight·(pᵀT_p − 2T) in a drift, which is 0 for quadratic T.
+/// Each flow is written once, for all that may be [carried](Carried) along: it changes q and p with the same bits whatever that is.
 pub trait System {
     /// The type of its numbers.
     type Number: Number;
@@ -21,47 +21,26 @@ pub trait System {
     /// the brackets that vanish do so by their degree in p.)
     type Class;
 
-    /// Positions.
-    fn q(&self) -> &[Self::Number];
+    /// What holds its positions, and its momenta: arrays or vectors.
+    type Coordinates: Coordinates<Self::Number>;
 
-    /// Momenta, as many as positions.
-    fn p(&self) -> &[Self::Number];
+    /// How increments are added to q and p.
+    type Summation: Summation<Self::Number>;
 
-    /// What the last augmented step added to q, p and β.
-    fn increments(&self) -> Increments<'_, Self::Number>;
+    /// The state.
+    fn state(&self) -> &StateOf<Self>;
 
-    /// Sets q and p. Where the state is changed in another way, the system has to drop all that it keeps of it, such as a
-    /// gradient.
-    fn set_state(&mut self, q: &[Self::Number], p: &[Self::Number]);
+    /// The state, to be set: the system has to drop all that it keeps of it, such as a gradient.
+    fn state_mut(&mut self) -> &mut StateOf<Self>;
 
-    /// What the state has beyond q and p, such as the remainders of [compensated sums](crate::summation): the state is q and p with
-    /// these. By default there is nothing.
-    fn remainders(&self) -> Remainders<Self::Number> {
-        Remainders::default()
-    }
-
-    /// Sets them, after [`set_state`](System::set_state), which sets them to 0. The default does nothing.
-    fn set_remainders(&mut self, remainders: &Remainders<Self::Number>) {
-        let _ = remainders;
-    }
-
-    /// Whether the round-off of a kick or drift is ε times its increment, as of compensated sums, in place of ε times q and p. By default it
-    /// is not.
-    fn is_compensated(&self) -> bool {
-        false
-    }
+    /// The increments of the state ← 0, with [`State::clear_increments`]; what is kept of the state stays.
+    fn clear_increments(&mut self);
 
     /// The flow of B for the time `weight`: p ← p − weight·U_q(q) for B = U(q).
-    fn kick(&mut self, weight: &Self::Number);
-
-    /// The kick with the same bits of q and p, and its part of the [increments](System::increments).
-    fn kick_augmented(&mut self, weight: &Self::Number);
+    fn kick(&mut self, weight: &Self::Number, carried: Carried);
 
     /// The flow of A for the time `weight`: q ← q + weight·T_p(p) for A = T(p). Another A may change p as well.
-    fn drift(&mut self, weight: &Self::Number);
-
-    /// The drift with the same bits of q and p, and its part of the [increments](System::increments).
-    fn drift_augmented(&mut self, weight: &Self::Number);
+    fn drift(&mut self, weight: &Self::Number, carried: Carried);
 
     /// Whether there are [gradient kicks](System::gradient_kick). By default there are none.
     fn has_gradient_kicks(&self) -> bool {
@@ -70,22 +49,14 @@ pub trait System {
 
     /// The gradient kick p ← p + weight·U_qq M⁻¹U_q of B = U(q) and A = ½pᵀM⁻¹p; its weight is 2h³ c.
     ///
-    /// It is the flow of h³ c `[B,[A,B]]`: of the Hamiltonian −½U_qᵀM⁻¹U_q for the time `weight`.
+    /// It is the flow of h³ c `[B,[A,B]]`: of the Hamiltonian −½U_qᵀM⁻¹U_q for the time `weight`. With v = M⁻¹U_q it adds
+    /// −weight·vᵀ∂(qᵀU_q − 2U)/∂q to β.
     ///
     /// # Panics
     /// By default, as where [`has_gradient_kicks`](System::has_gradient_kicks) is false.
-    fn gradient_kick(&mut self, weight: &Self::Number) {
-        let _ = weight;
+    fn gradient_kick(&mut self, weight: &Self::Number, carried: Carried) {
+        let _ = (weight, carried);
         panic!("this system has no gradient kicks, which the scheme needs: see `System::gradient_kick`");
-    }
-
-    /// The gradient kick with the same bits of p, and its part of the [increments](System::increments): it adds
-    /// −weight·vᵀ∂(qᵀU_q − 2U)/∂q with v = M⁻¹U_q to β.
-    ///
-    /// # Panics
-    /// As [`gradient_kick`](System::gradient_kick).
-    fn gradient_kick_augmented(&mut self, weight: &Self::Number) {
-        self.gradient_kick(weight);
     }
 
     /// The flows of the middle parts H_2, …, H_(n−1) of H = H_1 + … + H_n for the time `weight`, one after the other; kicks are then the flow of
@@ -93,119 +64,147 @@ pub trait System {
     ///
     /// # Panics
     /// By default, as H has two parts.
-    fn middle_parts(&mut self, weight: &Self::Number, order: PartOrder) {
-        let _ = (weight, order);
+    fn middle_parts(&mut self, weight: &Self::Number, order: PartOrder, carried: Carried) {
+        let _ = (weight, order, carried);
         panic!("this system has two parts, and the scheme is for three and more: see `System::middle_parts`");
     }
 
-    /// The same with the same bits of q and p, and its part of the [increments](System::increments).
-    ///
-    /// # Panics
-    /// As [`middle_parts`](System::middle_parts).
-    fn middle_parts_augmented(&mut self, weight: &Self::Number, order: PartOrder) {
-        self.middle_parts(weight, order);
-    }
-
-    /// `count` steps of several systems, with the bits that their kicks and drifts have one by one: what
-    /// [`Stepper::steps`](crate::Stepper::steps) and [`Stepper::merged_steps`](crate::Stepper::merged_steps) do.
+    /// `count` steps of several systems, with the bits that their kicks and drifts have one by one; increments are those of all these steps.
     /// [`Motion`](crate::Motion) does it in the widest instructions.
-    fn advance(systems: &mut [Self], maps: &impl MapSequence<Self::Number>, count: u64)
+    fn advance(systems: &mut [Self], maps: &impl MapSequence<Self::Number>, count: u64, carried: Carried)
     where
         Self: Sized,
     {
-        maps.each(0..count, count, |kind, weight, between| {
-            match kind {
-                MapKind::Kick => systems.iter_mut().for_each(|system| system.kick(weight)),
-                MapKind::Drift => systems.iter_mut().for_each(|system| system.drift(weight)),
-                MapKind::GradientKick => systems.iter_mut().for_each(|system| system.gradient_kick(weight)),
-            }
-            if let Some(weight) = between {
-                systems.iter_mut().for_each(|system| system.middle_parts(weight, PartOrder::after(kind)));
-            }
-        });
-    }
-
-    /// One step of several systems with its [increments](System::increments), with the bits that their kicks and drifts have one by one: what
-    /// [`Stepper::step_each_augmented`](crate::Stepper::step_each_augmented) does. [`Motion`](crate::Motion) does it in the widest
-    /// instructions.
-    fn advance_augmented(systems: &mut [Self], maps: &impl MapSequence<Self::Number>)
-    where
-        Self: Sized,
-    {
-        for system in systems {
-            system.clear_increments();
-            maps.each(0..1, 1, |kind, weight, between| {
-                match kind {
-                    MapKind::Kick => system.kick_augmented(weight),
-                    MapKind::Drift => system.drift_augmented(weight),
-                    MapKind::GradientKick => system.gradient_kick_augmented(weight),
-                }
-                if let Some(weight) = between {
-                    system.middle_parts_augmented(weight, PartOrder::after(kind));
-                }
-            });
+        if carried == Carried::Increments {
+            systems.iter_mut().for_each(Self::clear_increments);
         }
+        maps.each(0..count, count, &mut Each { systems, carried });
     }
 
-    /// Sets the increments to 0: an augmented step begins with it, so that β keeps its digits in long runs.
-    fn clear_increments(&mut self);
-
-    /// energy ← H, and kinetic ← T, at the present state.
+    /// energy ← H, and kinetic ← T, at another state q, p of the same system, or at the present one.
     ///
     /// The monitor compares the error of H with T: for an A that is not a kinetic energy, `kinetic` is any energy of the size of
     /// those exchanged in the motion.
-    fn assign_energies(&mut self, energy: &mut Self::Number, kinetic: &mut Self::Number);
-
-    /// energy ← H, and kinetic ← T, at another state of the same system.
-    fn assign_energies_at(
+    fn assign_energies(
         &mut self,
-        q: &[Self::Number],
-        p: &[Self::Number],
+        at: Option<(&[Self::Number], &[Self::Number])>,
         energy: &mut Self::Number,
         kinetic: &mut Self::Number,
     );
 
-    /// How often the forces have been evaluated so far; the monitor counts the stages of a step by it.
-    fn evaluations(&self) -> u64;
+    /// Positions.
+    #[inline(always)]
+    fn q(&self) -> &[Self::Number] {
+        self.state().q()
+    }
 
-    /// Announces whether the next augmented step follows the next plain step: what that evaluates last, such as the rate
-    /// qᵀU_q − 2U beside the gradient, can then be kept. The default does nothing.
-    fn before_augmented_step(&mut self, follows: bool) {
-        let _ = follows;
+    /// Momenta, as many as positions.
+    #[inline(always)]
+    fn p(&self) -> &[Self::Number] {
+        self.state().p()
     }
 
     /// H at the present state.
     fn energy(&mut self) -> Self::Number {
-        let [mut energy, mut kinetic] = [self.increments().beta.clone(), self.increments().beta.clone()];
-        self.assign_energies(&mut energy, &mut kinetic);
+        let [mut energy, mut kinetic] = [self.state().increments.beta.clone(), self.state().increments.beta.clone()];
+        self.assign_energies(None, &mut energy, &mut kinetic);
         energy
     }
 
     /// H at another state of the same system.
     fn energy_at(&mut self, q: &[Self::Number], p: &[Self::Number]) -> Self::Number {
-        let [mut energy, mut kinetic] = [self.increments().beta.clone(), self.increments().beta.clone()];
-        self.assign_energies_at(q, p, &mut energy, &mut kinetic);
+        let [mut energy, mut kinetic] = [self.state().increments.beta.clone(), self.state().increments.beta.clone()];
+        self.assign_energies(Some((q, p)), &mut energy, &mut kinetic);
         energy
     }
+}
 
-    /// The context of the numbers.
-    fn context(&self) -> <Self::Number as Number>::Context {
-        self.increments().beta.context()
+/// The state of a system.
+pub type StateOf<M> = State<<M as System>::Number, <M as System>::Coordinates, <M as System>::Summation>;
+
+/// What a step carries along beside q and p.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Carried {
+    /// Nothing: a plain step.
+    Nothing,
+    /// The rate of β, not β itself: a plain step before an augmented one. What it evaluates last, such as qᵀU_q − 2U beside the gradient, is kept for that.
+    Rate,
+    /// The [increments](Increments) of q, p and β: an augmented step.
+    ///
+    /// Along each flow β grows by the integral of qᵀH_q + pᵀH_p − 2H, H being A or B (Moan & Niesen, eq. 2, whose printed sign is
+    /// wrong): by weight·(qᵀU_q − 2U) in a kick, and by weight·(pᵀT_p − 2T) in a drift, which is 0 for quadratic T.
+    Increments,
+}
+
+/// The flows of a system, with what they carry along.
+pub(crate) struct Carrying<'a, M: ?Sized> {
+    pub(crate) system: &'a mut M,
+    pub(crate) carried: Carried,
+}
+
+impl<M: System + ?Sized> Flows for Carrying<'_, M> {
+    type Number = M::Number;
+
+    #[inline(always)]
+    fn kick(&mut self, weight: &M::Number) {
+        self.system.kick(weight, self.carried);
+    }
+
+    #[inline(always)]
+    fn drift(&mut self, weight: &M::Number) {
+        self.system.drift(weight, self.carried);
+    }
+
+    #[inline(always)]
+    fn gradient_kick(&mut self, weight: &M::Number) {
+        self.system.gradient_kick(weight, self.carried);
+    }
+
+    #[inline(always)]
+    fn middle_parts(&mut self, weight: &M::Number, order: PartOrder) {
+        self.system.middle_parts(weight, order, self.carried);
     }
 }
 
-/// What a state has beyond q and p: numbers of the size of their last places, or nothing.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Remainders<N> {
-    /// Beyond q: as many, or none.
-    pub q: Vec<N>,
-    /// Beyond p, likewise.
-    pub p: Vec<N>,
+/// The flows of several systems, each map for all of them.
+pub(crate) struct Each<'a, M> {
+    pub(crate) systems: &'a mut [M],
+    pub(crate) carried: Carried,
 }
 
-impl<N> Default for Remainders<N> {
-    fn default() -> Self {
-        Remainders { q: Vec::new(), p: Vec::new() }
+impl<M: System> Flows for Each<'_, M> {
+    type Number = M::Number;
+
+    #[inline(always)]
+    fn kick(&mut self, weight: &M::Number) {
+        self.systems.iter_mut().for_each(
+            #[inline(always)]
+            |system| system.kick(weight, self.carried),
+        );
+    }
+
+    #[inline(always)]
+    fn drift(&mut self, weight: &M::Number) {
+        self.systems.iter_mut().for_each(
+            #[inline(always)]
+            |system| system.drift(weight, self.carried),
+        );
+    }
+
+    #[inline(always)]
+    fn gradient_kick(&mut self, weight: &M::Number) {
+        self.systems.iter_mut().for_each(
+            #[inline(always)]
+            |system| system.gradient_kick(weight, self.carried),
+        );
+    }
+
+    #[inline(always)]
+    fn middle_parts(&mut self, weight: &M::Number, order: PartOrder) {
+        self.systems.iter_mut().for_each(
+            #[inline(always)]
+            |system| system.middle_parts(weight, order, self.carried),
+        );
     }
 }
 
@@ -217,7 +216,7 @@ pub struct Increments<'a, N> {
     /// To q: the sum of what its flows added, without the round-off of q itself. For an exact flow it must be computed without
     /// cancellation, not as a difference of states.
     pub q: &'a [N],
-    /// To p, likewise.
+    /// To p: the sum of what its flows added, without the round-off of p itself.
     pub p: &'a [N],
     /// To β.
     pub beta: &'a N,

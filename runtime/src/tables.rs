@@ -11,10 +11,10 @@ use thiserror::Error;
 use crate::Rational;
 use crate::kinetic::{General, Quadratic};
 use crate::many_parts::ManyParts;
-use crate::maps::PartOrder;
+use crate::maps::{Flows, Sequence};
 use crate::number::Number;
-use crate::scheme::{Scheme, StepWeights, Summary, ValidFor};
-use crate::system::System;
+use crate::scheme::{Scheme, Summary, ValidFor};
+use crate::weights::Weights;
 
 /// A proved scheme with the plan of its step. A clone shares them.
 ///
@@ -137,18 +137,33 @@ impl QuadraticOnly {
     }
 }
 
+impl ValidFor<Quadratic> for TableScheme<Quadratic> {}
+
+impl ValidFor<Quadratic> for TableScheme<General> {}
+
 impl ValidFor<General> for TableScheme<General> {}
 
 impl ValidFor<ManyParts> for TableScheme<ManyParts> {}
 
-/// Among the schemes for two parts, where the class of the system is known to be checked elsewhere: steps of a system of two parts panic.
 impl From<TableScheme<ManyParts>> for TableScheme {
     fn from(scheme: TableScheme<ManyParts>) -> Self {
         TableScheme { proved: scheme.proved, class: PhantomData }
     }
 }
 
+/// The class of systems whose makers check that a scheme is valid for them, as where the kind of a system is known at run time only. No system of this library is
+/// of this class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CheckedByCaller {}
+
+impl ValidFor<CheckedByCaller> for TableScheme<CheckedByCaller> {}
+
 impl<Class> TableScheme<Class> {
+    /// The scheme for systems of the class [`CheckedByCaller`].
+    pub fn for_checked_systems(self) -> TableScheme<CheckedByCaller> {
+        TableScheme { proved: self.proved, class: PhantomData }
+    }
+
     /// The exact scheme with its proof.
     pub fn proved(&self) -> &Proved {
         &self.proved
@@ -158,38 +173,10 @@ impl<Class> TableScheme<Class> {
     pub fn plan(&self) -> &Plan {
         &self.proved.plan
     }
-
-    fn run<'a, M: System>(
-        &self,
-        weights: &[M::Number],
-        maps: impl Iterator<Item = &'a (MapKind, usize)>,
-        mut middle: impl Iterator<Item = &'a usize>,
-        augmented: bool,
-        system: &mut M,
-    ) {
-        let (kicks, others) = weights.split_at(self.plan().kicks.len());
-        let (drifts, others) = others.split_at(self.plan().drifts.len());
-        let (middle_weights, gradient_kicks) = others.split_at(self.plan().middle_weights.len());
-        for &(kind, index) in maps {
-            match (kind, augmented) {
-                (MapKind::Kick, false) => system.kick(&kicks[index]),
-                (MapKind::Kick, true) => system.kick_augmented(&kicks[index]),
-                (MapKind::Drift, false) => system.drift(&drifts[index]),
-                (MapKind::Drift, true) => system.drift_augmented(&drifts[index]),
-                (MapKind::GradientKick, false) => system.gradient_kick(&gradient_kicks[index]),
-                (MapKind::GradientKick, true) => system.gradient_kick_augmented(&gradient_kicks[index]),
-            }
-            match (middle.next(), augmented) {
-                (None, _) => {}
-                (Some(&index), false) => system.middle_parts(&middle_weights[index], PartOrder::after(kind)),
-                (Some(&index), true) => system.middle_parts_augmented(&middle_weights[index], PartOrder::after(kind)),
-            }
-        }
-    }
 }
 
 impl<Class> Scheme for TableScheme<Class> {
-    type Array<N: Number> = Vec<N>;
+    type Weights<N: Number> = Weights<Vec<N>>;
 
     fn summary(&self) -> Summary<'_> {
         let Proved { scheme, proof, plan, .. } = &*self.proved;
@@ -203,20 +190,13 @@ impl<Class> Scheme for TableScheme<Class> {
         }
     }
 
-    fn weights<N: Number>(&self, scaled: impl FnMut(&Rational) -> N) -> Vec<N> {
-        self.plan().weights().map(scaled).collect()
+    fn exact_weights(&self) -> Weights<Vec<Rational>> {
+        let Plan { kicks, drifts, middle_weights, gradient_kicks, .. } = self.plan().clone();
+        Weights { kicks, drifts, middle_parts: middle_weights, gradient_kicks }
     }
 
-    fn maps(&self) -> (usize, &[(MapKind, usize)]) {
-        (self.plan().kicks.len(), &self.plan().maps)
-    }
-
-    fn middle(&self) -> (usize, &[usize]) {
-        (self.plan().middle_weights.len(), &self.plan().middle)
-    }
-
-    fn gradient_kicks(&self) -> usize {
-        self.plan().gradient_kicks.len()
+    fn sequence(&self) -> Sequence<'_> {
+        Sequence { maps: &self.plan().maps, middle_parts: &self.plan().middle }
     }
 
     fn processor(&self) -> Vec<(MapKind, Rational)> {
@@ -224,33 +204,15 @@ impl<Class> Scheme for TableScheme<Class> {
         maps.map(|map| (map.kind, map.weight.clone())).collect()
     }
 
-    fn step<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
-    where
-        Self: ValidFor<M::Class>,
-    {
-        self.run(weights.forward(), self.plan().maps.iter(), self.plan().middle.iter(), false, system);
+    fn forward<F: Flows>(&self, weights: &Weights<Vec<F::Number>>, flows: &mut F) {
+        let Sequence { maps, middle_parts } = self.sequence();
+        let mut middle = middle_parts.iter().map(|place| &weights.middle_parts[*place]);
+        maps.iter().for_each(|&(kind, place)| flows.apply(kind, &weights.view().of(kind)[place], middle.next()));
     }
 
-    fn step_augmented<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
-    where
-        Self: ValidFor<M::Class>,
-    {
-        system.clear_increments();
-        self.run(weights.forward(), self.plan().maps.iter(), self.plan().middle.iter(), true, system);
-    }
-
-    fn step_back<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
-    where
-        Self: ValidFor<M::Class>,
-    {
-        self.run(weights.back(), self.plan().maps.iter().rev(), self.plan().middle.iter().rev(), false, system);
-    }
-
-    fn step_back_augmented<M: System>(&self, weights: &StepWeights<Vec<M::Number>>, system: &mut M)
-    where
-        Self: ValidFor<M::Class>,
-    {
-        system.clear_increments();
-        self.run(weights.back(), self.plan().maps.iter().rev(), self.plan().middle.iter().rev(), true, system);
+    fn back<F: Flows>(&self, weights: &Weights<Vec<F::Number>>, flows: &mut F) {
+        let Sequence { maps, middle_parts } = self.sequence();
+        let mut middle = middle_parts.iter().rev().map(|place| &weights.middle_parts[*place]);
+        maps.iter().rev().for_each(|&(kind, place)| flows.apply(kind, &weights.view().of(kind)[place], middle.next()));
     }
 }

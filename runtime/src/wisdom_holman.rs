@@ -17,7 +17,6 @@ mod interactions;
 mod jacobi;
 mod orbits;
 pub mod secular;
-mod sum;
 
 pub use bodies::{Bodies, BodiesError};
 pub use heliocentric::DemocraticHeliocentric;
@@ -28,8 +27,9 @@ use crate::displaced::Displacements;
 use crate::gradient_kicks::{Curvature, GradientKicks, Place};
 use crate::kept::Kept;
 use crate::number::Number;
-use crate::system::{Increments, OwnedIncrements, Remainders, System};
-use sum::Sum;
+use crate::state::{State, VectorState};
+use crate::summation::{Compensated, Half};
+use crate::system::{Carried, System};
 
 /// Canonical coordinates in which a planetary system is a sum of Kepler orbits and interactions.
 ///
@@ -96,8 +96,7 @@ pub trait PlanetaryCoordinates<N: Number, const D: usize> {
 #[derive(Clone, Debug)]
 pub struct WisdomHolman<N: Number, C, const D: usize> {
     coordinates: C,
-    q: Vec<N>,
-    p: Vec<N>,
+    state: VectorState<N>,
     /// ∂B/∂Q
     gradient: Vec<N>,
     /// −3B
@@ -105,11 +104,7 @@ pub struct WisdomHolman<N: Number, C, const D: usize> {
     kept: Kept,
     /// Once there was a gradient kick; what it keeps belongs to the Q of the last evaluation.
     gradient_kicks: Option<Box<GradientKicks<N>>>,
-    increments: OwnedIncrements<N>,
     orbits: orbits::Advance<N, D>,
-    /// Of q and of p.
-    sums: [Sum<N>; 2],
-    evaluations: u64,
 }
 
 impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C, D> {
@@ -127,16 +122,12 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
         let zeros = || vec![N::zero(context); dimension];
         let mut system = WisdomHolman {
             coordinates: C::new(bodies, context),
-            q: zeros(),
-            p: zeros(),
+            state: State::new(zeros(), zeros(), context).compensated_if(false),
             gradient: zeros(),
             rate: N::zero(context),
             kept: Kept::Nothing,
             gradient_kicks: None,
-            increments: OwnedIncrements::zero(dimension, context),
             orbits: orbits::Advance::new(context),
-            sums: [Sum::plain(context), Sum::plain(context)],
-            evaluations: 0,
         };
         system.set_inertial(q, p);
         Ok(system)
@@ -146,30 +137,32 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
     /// times the coordinate.
     #[must_use]
     pub fn compensated(mut self) -> Self {
-        let dimension = self.q.len();
-        self.sums.iter_mut().for_each(|sum| sum.compensate(dimension));
+        self.state = self.state.compensated_if(true);
         self
     }
 
     /// The same system with gradient kicks by displaced forces, of the stepper that computed these: see [`Displacements`].
     #[must_use]
     pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
-        let (dimension, context) = (self.q.len(), self.context());
+        let (dimension, context) = (self.state.q.len(), self.state.context());
         self.gradient_kicks = Some(Box::new(GradientKicks::new(dimension, Some(displacements), &context)));
         self
     }
 
     /// The inertial positions and momenta.
     pub fn inertial(&mut self) -> (Vec<N>, Vec<N>) {
-        let (mut q, mut p) = (self.q.clone(), self.p.clone());
-        self.coordinates.assign_inertial((&self.q, &self.p), (&mut q, &mut p));
+        let (mut q, mut p) = (self.state.q.clone(), self.state.p.clone());
+        self.coordinates.assign_inertial((&self.state.q, &self.state.p), (&mut q, &mut p));
         (q, p)
     }
 
     /// Sets the inertial positions and momenta.
     pub fn set_inertial(&mut self, q: &[N], p: &[N]) {
-        self.coordinates.assign_from_inertial((q, p), (&mut self.q, &mut self.p));
-        self.sums.iter_mut().for_each(Sum::forget);
+        let WisdomHolman { coordinates, state, .. } = self;
+        coordinates.assign_from_inertial((q, p), (&mut state.q, &mut state.p));
+        // the remainders of what was there before
+        state.q_mut();
+        state.p_mut();
         self.kept = Kept::Nothing;
     }
 
@@ -184,65 +177,22 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
             return;
         }
         let rate = with_rate.then_some(&mut self.rate);
-        self.coordinates.gradient_and_rate(&self.q, &mut self.gradient, rate);
+        self.coordinates.gradient_and_rate(&self.state.q, &mut self.gradient, rate);
         self.kept = if with_rate { Kept::GradientAndRate } else { Kept::Gradient };
-        self.evaluations += 1;
+        self.state.count_evaluation();
         if let Some(kicks) = &mut self.gradient_kicks {
             kicks.kept = Kept::Nothing;
         }
     }
 
-    /// The gradient kick p ← p + weight·B_QQ M′⁻¹B_Q.
-    fn gradient_kick_by(&mut self, weight: &N, augmented: bool) {
-        assert!(
-            C::HAS_GRADIENT_KICKS,
-            "B depends on P in these coordinates: there are gradient kicks in Jacobi coordinates only"
-        );
-        self.evaluate(augmented);
-        let WisdomHolman { coordinates, q, p, gradient, rate, gradient_kicks, sums, increments, .. } = self;
-        let kicks =
-            gradient_kicks.get_or_insert_with(|| Box::new(GradientKicks::new(q.len(), None, &weight.context())));
-        let before = kicks.evaluations;
-        kicks.evaluate(&mut Interacting::<C, D>(coordinates), Place { q, gradient, rate }, weight, augmented);
-        if kicks.is_displaced() {
-            self.evaluations += kicks.evaluations - before;
-        }
-        sums[1].kick(p, weight, &kicks.force);
-        if augmented {
-            kicks.add_increments(weight, increments);
-        }
-    }
-
-    /// The jump and the kick by the gradient at the place where it ends: the two commute.
-    fn kick_by(&mut self, weight: &N, augmented: bool) {
-        self.jump(weight, augmented);
-        self.evaluate(augmented);
-        self.sums[1].kick(&mut self.p, weight, &self.gradient);
-        if augmented {
-            self.increments.beta.add_product(weight, &self.rate);
-            for (increment, gradient) in self.increments.p.iter_mut().zip(&self.gradient) {
-                increment.subtract_product(weight, gradient);
-            }
-        }
-    }
-
-    fn jump(&mut self, weight: &N, augmented: bool) {
-        let WisdomHolman { coordinates, q, p, sums, increments, kept, .. } = self;
-        let Some(velocity) = coordinates.jump(p) else { return };
-        for number in D..q.len() {
-            let velocity = &velocity[number % D];
-            sums[0].add_product(number, &mut q[number], weight, velocity);
-            if augmented && N::KEEPS_INCREMENTS {
-                increments.q[number].add_product(weight, velocity);
-            }
+    /// The velocity with which the part of B that depends on P moves all planets.
+    fn jump(&mut self, weight: &N, carried: Carried) {
+        let WisdomHolman { coordinates, state, kept, .. } = self;
+        let Some(velocity) = coordinates.jump(&state.p) else { return };
+        for index in D..state.q.len() {
+            state.change(Half::Positions, index, carried, |q| q.add_product(weight, &velocity[index % D]));
         }
         *kept = Kept::Nothing;
-    }
-
-    fn drift_by(&mut self, weight: &N, augmented: bool) {
-        let WisdomHolman { coordinates, q, p, sums, increments, orbits, .. } = self;
-        orbits.advance(coordinates.orbits(), weight, (q, p), sums, augmented.then_some(increments));
-        self.kept = Kept::Nothing;
     }
 }
 
@@ -277,86 +227,71 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> Curvature<N> for 
 impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for WisdomHolman<N, C, D> {
     type Number = N;
     type Class = C::Class;
+    type Coordinates = Vec<N>;
+    type Summation = Option<Compensated<N, Vec<N>>>;
 
-    fn q(&self) -> &[N] {
-        &self.q
+    fn state(&self) -> &VectorState<N> {
+        &self.state
     }
 
-    fn p(&self) -> &[N] {
-        &self.p
-    }
-
-    fn increments(&self) -> Increments<'_, N> {
-        self.increments.view()
-    }
-
-    fn set_state(&mut self, q: &[N], p: &[N]) {
-        self.q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
-        self.p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
-        self.sums.iter_mut().for_each(Sum::forget);
+    fn state_mut(&mut self) -> &mut VectorState<N> {
         self.kept = Kept::Nothing;
+        &mut self.state
     }
 
-    fn remainders(&self) -> Remainders<N> {
-        let [q, p] = [0, 1].map(|of| self.sums[of].remainders.clone());
-        Remainders { q, p }
+    fn clear_increments(&mut self) {
+        self.state.clear_increments();
     }
 
-    fn set_remainders(&mut self, remainders: &Remainders<N>) {
-        for (sum, given) in self.sums.iter_mut().zip([&remainders.q, &remainders.p]) {
-            sum.remainders.iter_mut().zip(given).for_each(|(own, given)| own.assign(given));
+    /// The jump and the kick by the gradient at the place where it ends: the two commute.
+    fn kick(&mut self, weight: &N, carried: Carried) {
+        let augmented = carried == Carried::Increments;
+        self.jump(weight, carried);
+        self.evaluate(augmented);
+        match augmented {
+            true => self.state.kick_augmented(weight, &self.gradient, &self.rate),
+            false => self.state.kick(weight, &self.gradient),
         }
     }
 
-    fn is_compensated(&self) -> bool {
-        !self.sums[0].remainders.is_empty()
-    }
-
-    fn kick(&mut self, weight: &N) {
-        self.kick_by(weight, false);
-    }
-
-    fn kick_augmented(&mut self, weight: &N) {
-        self.kick_by(weight, true);
-    }
-
-    fn drift(&mut self, weight: &N) {
-        self.drift_by(weight, false);
-    }
-
-    fn drift_augmented(&mut self, weight: &N) {
-        self.drift_by(weight, true);
+    fn drift(&mut self, weight: &N, carried: Carried) {
+        let WisdomHolman { coordinates, state, orbits, .. } = self;
+        orbits.advance(coordinates.orbits(), weight, state, carried);
+        self.kept = Kept::Nothing;
     }
 
     fn has_gradient_kicks(&self) -> bool {
         C::HAS_GRADIENT_KICKS
     }
 
-    fn gradient_kick(&mut self, weight: &N) {
-        self.gradient_kick_by(weight, false);
-    }
-
-    fn gradient_kick_augmented(&mut self, weight: &N) {
-        self.gradient_kick_by(weight, true);
-    }
-
-    fn clear_increments(&mut self) {
-        self.increments.assign_zero();
+    /// The gradient kick p ← p + weight·B_QQ M′⁻¹B_Q.
+    fn gradient_kick(&mut self, weight: &N, carried: Carried) {
+        assert!(
+            C::HAS_GRADIENT_KICKS,
+            "B depends on P in these coordinates: there are gradient kicks in Jacobi coordinates only"
+        );
+        let augmented = carried == Carried::Increments;
+        self.evaluate(augmented);
+        let WisdomHolman { coordinates, state, gradient, rate, gradient_kicks, .. } = self;
+        let kicks =
+            gradient_kicks.get_or_insert_with(|| Box::new(GradientKicks::new(state.q.len(), None, &weight.context())));
+        let before = kicks.evaluations;
+        let place = Place { q: &state.q, gradient, rate };
+        kicks.evaluate(&mut Interacting::<C, D>(coordinates), place, weight, augmented);
+        if kicks.is_displaced() {
+            state.evaluations += kicks.evaluations - before;
+        }
+        match augmented {
+            true => state.kick_augmented(weight, &kicks.force, &kicks.rate),
+            false => state.kick(weight, &kicks.force),
+        }
     }
 
     /// H is the same as in inertial coordinates; `kinetic` is T.
-    fn assign_energies(&mut self, energy: &mut N, kinetic: &mut N) {
-        let WisdomHolman { coordinates, q, p, orbits, .. } = self;
-        coordinates.assign_interaction_energy((q, p), energy);
-        orbits.add_energies(coordinates.orbits(), (q, p), energy, kinetic);
-    }
-
-    fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic: &mut N) {
-        self.coordinates.assign_interaction_energy((q, p), energy);
-        self.orbits.add_energies(self.coordinates.orbits(), (q, p), energy, kinetic);
-    }
-
-    fn evaluations(&self) -> u64 {
-        self.evaluations
+    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+        let WisdomHolman { coordinates, state, orbits, .. } = self;
+        let at = at.unwrap_or((&state.q, &state.p));
+        coordinates.assign_interaction_energy(at, energy);
+        orbits.add_energies(coordinates.orbits(), at, energy, kinetic);
     }
 }

@@ -8,9 +8,7 @@ use shadowstep::kinetic::{Kinetic, Quadratic};
 use shadowstep::number::Lanes;
 use shadowstep::problems::Kepler;
 use shadowstep::shadow::{BuildEstimator, Estimator, FixedBilinear};
-use shadowstep::{
-    DiagonalMasses, FullMasses, Motion, MotionError, Stepper, System, UnitMasses, potential, splitting_scheme,
-};
+use shadowstep::{DiagonalMasses, FullMasses, Motion, MotionError, Stepper, UnitMasses, potential, splitting_scheme};
 
 #[splitting_scheme("yoshida4.toml")]
 #[derive(Clone, Copy)]
@@ -58,7 +56,7 @@ fn alone(t: usize) -> Outcome {
         if n % 10 == 0 {
             estimator = Some(FixedBilinear::new(6).build(stepper.step_size(), 2, &()).unwrap());
         }
-        if let Some(estimate) = estimator.as_mut().unwrap().push(motion.q(), motion.p(), System::increments(&motion)) {
+        if let Some(estimate) = estimator.as_mut().unwrap().push(motion.q(), motion.p(), motion.increments()) {
             range = [range[0].min(*estimate.value), range[1].max(*estimate.value)];
         }
         stepper.step_augmented(&mut motion);
@@ -66,7 +64,7 @@ fn alone(t: usize) -> Outcome {
             largest = largest.max((motion.energy() - initial).abs());
         }
         if n % 10 == 5 {
-            let estimate = estimator.as_mut().unwrap().push(motion.q(), motion.p(), System::increments(&motion));
+            let estimate = estimator.as_mut().unwrap().push(motion.q(), motion.p(), motion.increments());
             let value = *estimate.expect("7 states").value;
             range = [range[0].min(value), range[1].max(value)];
             estimator = Some(FixedBilinear::new(6).build(stepper.step_size(), 2, &()).unwrap());

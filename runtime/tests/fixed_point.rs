@@ -5,7 +5,7 @@ use rug::integer::Order;
 use rug::{Float, Integer};
 use shadowstep::number::{Limbs, Ordered, Precision};
 use shadowstep::problems::{PROBLEMS, Problem};
-use shadowstep::run::{State, States, Trajectory};
+use shadowstep::run::{States, Trajectory, TrajectoryState};
 use shadowstep::shadow::{
     Bilinear, BuildEstimator, Central, Estimator, EstimatorSettings, SelectionRule, StoppingRule,
 };
@@ -118,7 +118,7 @@ fn trajectory<const L: usize>(problem: Problem, h: &str, steps: u64) -> Vec<Give
     let start = problem.setup(&[], 120).unwrap().motion::<Limbs<L>>(&()).unwrap();
     let mut states = Trajectory::new(&stepper, start, steps, 0).unwrap();
     let mut all = Vec::new();
-    while let Some(State { q, p, increments, .. }) = states.advance().unwrap() {
+    while let Some(TrajectoryState { q, p, increments, .. }) = states.advance().unwrap() {
         all.push(Given { q: q.to_vec(), p: p.to_vec(), beta: *increments.beta });
     }
     all

@@ -222,7 +222,7 @@ fn errors_of_random_orbits() {
     }
 }
 
-/// What the documentation says: `cargo test --release -p shadowstep --test kepler_drift -- --ignored --nocapture`
+/// What the documentation says: `cargo test --release -p shadowstep kepler_drift -- --ignored --nocapture`
 #[test]
 #[ignore = "some minutes"]
 fn errors_of_a_hundred_thousand_random_orbits() {

@@ -32,7 +32,7 @@ fn in_lane(x: &[f64], lane: usize) -> Vec<f64> {
 /// All numbers of a state and of its increments, and its energy.
 fn numbers<M: System<Number: Clone>>(system: &mut M) -> Vec<M::Number> {
     let energy = system.energy();
-    let (increments, remainders) = (system.increments(), system.remainders());
+    let (increments, remainders) = (system.state().increments(), system.state().remainders());
     let parts = [system.q(), system.p(), increments.q, increments.p, &remainders.q, &remainders.p];
     parts.into_iter().flatten().cloned().chain([increments.beta.clone(), energy]).collect()
 }
@@ -76,12 +76,12 @@ fn compare_shipped<const W: usize>(problem: Problem, scheme: &str) {
         &format!("{scheme}, {}", problem.name()),
         || {
             let mut system = setup.motion::<Lanes<W>>(&()).unwrap();
-            system.set_state(&in_lanes(start.q()), &in_lanes(start.p()));
+            system.state_mut().set(&in_lanes(start.q()), &in_lanes(start.p()));
             system
         },
         |lane| {
             let mut system = setup.motion::<f64>(&()).unwrap();
-            system.set_state(&in_lane(start.q(), lane), &in_lane(start.p(), lane));
+            system.state_mut().set(&in_lane(start.q(), lane), &in_lane(start.p(), lane));
             system
         },
         |system| {
@@ -124,7 +124,7 @@ fn after_five_steps<N: Number<Context = ()> + 'static>(problem: Problem, start: 
     let stepper = Stepper::new(tables::shipped("yoshida4").unwrap(), problem.description().step).unwrap();
     let values = setup.motion::<f64>(&()).unwrap();
     let mut system = setup.motion::<N>(&()).unwrap();
-    system.set_state(&start(values.q()), &start(values.p()));
+    system.state_mut().set(&start(values.q()), &start(values.p()));
     stepper.steps(from_mut(&mut system), 5);
     system.q().iter().chain(system.p()).cloned().collect()
 }

@@ -1,5 +1,4 @@
 //! Protects steps and estimates in numbers of seven limbs: they agree with MPFR's to 120 digits, for every shipped scheme and problem.
-#![cfg(feature = "mpfr")]
 
 use rug::Float;
 use shadowstep::number::{Limbs, Precision};

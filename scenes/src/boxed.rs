@@ -3,18 +3,25 @@
 use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::many_parts::ManyParts;
 use shadowstep::scheme::PartOrder;
-use shadowstep::{Increments, Number, Remainders, System};
+use shadowstep::summation::Compensated;
+use shadowstep::{Carried, Number, System, VectorState};
+
+/// A system whose coordinates are vectors and whose sums are plain or compensated.
+type Dynamic<N, Class> = Box<dyn System<Number = N, Class = Class, Coordinates = Vec<N>, Summation = Sums<N>>>;
+
+/// Sums that are compensated or not.
+type Sums<N> = Option<Compensated<N, Vec<N>>>;
 
 /// A system with flows of its own.
 ///
 /// It has the class of quadratic T whatever the class of its system is: the scheme was checked when the scene was read.
-pub(crate) enum Boxed<N> {
+pub(crate) enum Boxed<N: Number> {
     /// A system for schemes for quadratic T.
-    Quadratic(Box<dyn System<Number = N, Class = Quadratic>>),
+    Quadratic(Dynamic<N, Quadratic>),
     /// A system for schemes for every T(p), or every H = A + B.
-    General(Box<dyn System<Number = N, Class = General>>),
+    General(Dynamic<N, General>),
     /// A system of three parts and more.
-    ManyParts(Box<dyn System<Number = N, Class = ManyParts>>),
+    ManyParts(Dynamic<N, ManyParts>),
 }
 
 /// Calls a method of the system inside.
@@ -31,68 +38,34 @@ macro_rules! of {
 impl<N: Number> System for Boxed<N> {
     type Number = N;
     type Class = Quadratic;
+    type Coordinates = Vec<N>;
+    type Summation = Sums<N>;
 
-    fn q(&self) -> &[N] {
-        of!(self, system => system.q())
+    fn state(&self) -> &VectorState<N> {
+        of!(self, system => system.state())
     }
-    fn p(&self) -> &[N] {
-        of!(self, system => system.p())
-    }
-    fn increments(&self) -> Increments<'_, N> {
-        of!(self, system => system.increments())
-    }
-    fn set_state(&mut self, q: &[N], p: &[N]) {
-        of!(self, system => system.set_state(q, p));
-    }
-    fn remainders(&self) -> Remainders<N> {
-        of!(self, system => system.remainders())
-    }
-    fn set_remainders(&mut self, remainders: &Remainders<N>) {
-        of!(self, system => system.set_remainders(remainders));
-    }
-    fn is_compensated(&self) -> bool {
-        of!(self, system => system.is_compensated())
-    }
-    fn kick(&mut self, weight: &N) {
-        of!(self, system => system.kick(weight));
-    }
-    fn kick_augmented(&mut self, weight: &N) {
-        of!(self, system => system.kick_augmented(weight));
-    }
-    fn drift(&mut self, weight: &N) {
-        of!(self, system => system.drift(weight));
-    }
-    fn drift_augmented(&mut self, weight: &N) {
-        of!(self, system => system.drift_augmented(weight));
-    }
-    fn middle_parts(&mut self, weight: &N, order: PartOrder) {
-        of!(self, system => system.middle_parts(weight, order));
-    }
-    fn middle_parts_augmented(&mut self, weight: &N, order: PartOrder) {
-        of!(self, system => system.middle_parts_augmented(weight, order));
-    }
-    fn has_gradient_kicks(&self) -> bool {
-        of!(self, system => system.has_gradient_kicks())
-    }
-    fn gradient_kick(&mut self, weight: &N) {
-        of!(self, system => system.gradient_kick(weight));
-    }
-    fn gradient_kick_augmented(&mut self, weight: &N) {
-        of!(self, system => system.gradient_kick_augmented(weight));
+    fn state_mut(&mut self) -> &mut VectorState<N> {
+        of!(self, system => system.state_mut())
     }
     fn clear_increments(&mut self) {
         of!(self, system => system.clear_increments());
     }
-    fn assign_energies(&mut self, energy: &mut N, kinetic: &mut N) {
-        of!(self, system => system.assign_energies(energy, kinetic));
+    fn kick(&mut self, weight: &N, carried: Carried) {
+        of!(self, system => system.kick(weight, carried));
     }
-    fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic: &mut N) {
-        of!(self, system => system.assign_energies_at(q, p, energy, kinetic));
+    fn drift(&mut self, weight: &N, carried: Carried) {
+        of!(self, system => system.drift(weight, carried));
     }
-    fn evaluations(&self) -> u64 {
-        of!(self, system => system.evaluations())
+    fn middle_parts(&mut self, weight: &N, order: PartOrder, carried: Carried) {
+        of!(self, system => system.middle_parts(weight, order, carried));
     }
-    fn before_augmented_step(&mut self, follows: bool) {
-        of!(self, system => system.before_augmented_step(follows));
+    fn has_gradient_kicks(&self) -> bool {
+        of!(self, system => system.has_gradient_kicks())
+    }
+    fn gradient_kick(&mut self, weight: &N, carried: Carried) {
+        of!(self, system => system.gradient_kick(weight, carried));
+    }
+    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+        of!(self, system => system.assign_energies(at, energy, kinetic));
     }
 }

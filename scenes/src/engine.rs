@@ -115,7 +115,9 @@ impl<N: Ordered + 'static> Work<N> for Recorder<'_, '_, N> {
         S: Scheme + Clone + ValidFor<M::Class> + 'static,
         M: System<Number = N> + 'static,
     {
-        system.set_remainders(&self.remainders);
+        if self.from.is_some() {
+            system.state_mut().set_remainders(&self.remainders);
+        }
         match &self.scene.output.modified_energy {
             None => self.plain(stepper, system, self.from.unwrap_or(0)),
             Some((settings, _)) => self.shadowed(stepper, system, self.from, settings),
@@ -187,7 +189,7 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         }
         let system = trajectory.system();
         let energy = stepper.at_output(system, M::energy);
-        let ended = (self.complete(&energy, system.evaluations())?, self.summary(watch, &energy));
+        let ended = (self.complete(&energy, system.state().evaluations())?, self.summary(watch, &energy));
         let (q, p) = (system.q().to_vec(), system.p().to_vec());
         self.end_at_time(stepper, system, (&q, &p))?;
         Ok(ended)
@@ -244,7 +246,7 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
             }
         }
         let energy = shadow.system().energy_at(&q, &p);
-        let ended = (self.complete(&energy, shadow.system().evaluations())?, self.summary(watch, &energy));
+        let ended = (self.complete(&energy, shadow.system().state().evaluations())?, self.summary(watch, &energy));
         self.end_at_time(stepper, shadow.system(), (&q, &p))?;
         Ok(ended)
     }

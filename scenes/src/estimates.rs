@@ -118,7 +118,7 @@ where
             (self.take)(n, estimate)?;
         }
         Ok(Finished {
-            evaluations: shadow.system().evaluations(),
+            evaluations: shadow.system().state().evaluations(),
             own_evaluations: evaluations.at_last - evaluations.at_first,
             energy: Some(watch.energy()),
             summary: watch.summary(run),
@@ -136,10 +136,10 @@ struct Evaluations {
 impl Evaluations {
     fn count<M: shadowstep::System>(&mut self, n: i64, last: i64, system: &M) {
         if n == 0 {
-            self.at_first = system.evaluations();
+            self.at_first = system.state().evaluations();
         }
         if n == last {
-            self.at_last = system.evaluations();
+            self.at_last = system.state().evaluations();
         }
     }
 }

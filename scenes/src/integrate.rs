@@ -189,7 +189,7 @@ impl<N: Ordered + 'static> Keeper<'_, N> {
             }
             stepper.at_output(&mut system, |system| self.keep(n, system))?;
         }
-        self.samples.evaluations = system.evaluations();
+        self.samples.evaluations = system.state().evaluations();
         Ok(())
     }
 
@@ -232,7 +232,7 @@ impl<N: Ordered + 'static> Keeper<'_, N> {
             stepper.postprocess_state(shadow.system(), &mut q, &mut p);
             self.keep_state(run.steps, shadow.system(), (&q, &p))?;
         }
-        self.samples.evaluations = shadow.system().evaluations();
+        self.samples.evaluations = shadow.system().state().evaluations();
         Ok(())
     }
 

@@ -196,7 +196,7 @@ pub struct NoGradientKicks {
 /// # Errors
 /// A scheme with gradient kicks for such a system: a message and a hint.
 pub fn check_gradient_kicks(named: &NamedScheme, none: Option<NoGradientKicks>) -> Result<(), (String, String)> {
-    match none.filter(|_| named.scheme.gradient_kicks() > 0) {
+    match none.filter(|_| named.scheme.proved().scheme.has_gradient_kicks()) {
         None => Ok(()),
         Some(none) => Err((format!("{} has gradient kicks, {}", named.name, none.reason), none.hint.to_owned())),
     }

@@ -61,8 +61,8 @@ impl<N: Ordered> Work<N> for Until<N> {
         S: Scheme + Clone + ValidFor<M::Class> + 'static,
         M: System<Number = N> + 'static,
     {
-        let zero = N::zero(&system.context());
-        let forward = N::from_rational(stepper.h(), &system.context()) > zero;
+        let zero = N::zero(&system.state().context());
+        let forward = N::from_rational(stepper.h(), &system.state().context()) > zero;
         for n in 1..=MOST_STEPS {
             stepper.step(&mut system);
             let Some(t) = system.q().last().filter(|t| t.is_finite()) else { return n };
@@ -88,8 +88,8 @@ where
     S: Scheme + Clone + ValidFor<M::Class>,
     M: System<Number: Ordered>,
 {
-    let until = <M::Number as Number>::from_rational(until, &system.context());
-    system.set_state(q, p);
+    let until = <M::Number as Number>::from_rational(until, &system.state().context());
+    system.state_mut().set(q, p);
     if q.last() == Some(&until) {
         return Ok(false);
     }

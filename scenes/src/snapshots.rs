@@ -16,7 +16,7 @@ pub(crate) struct Snapshot<N> {
 impl<N: Ordered> Snapshot<N> {
     /// Of a system that is at the state n.
     pub(crate) fn of(n: i64, system: &impl System<Number = N>) -> Self {
-        Snapshot { n, q: system.q().to_vec(), p: system.p().to_vec(), remainders: system.remainders() }
+        Snapshot { n, q: system.q().to_vec(), p: system.p().to_vec(), remainders: system.state().remainders() }
     }
 }
 

@@ -116,9 +116,9 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
     pub fn include<M: System<Number = N>>(&mut self, n: i64, system: &mut M) {
         self.n = n;
         if self.energies == Energies::All {
-            let mut energy = N::zero(&system.context());
+            let mut energy = N::zero(&system.state().context());
             let mut kinetic = energy.clone();
-            self.stepper.at_output(system, |system| system.assign_energies(&mut energy, &mut kinetic));
+            self.stepper.at_output(system, |system| system.assign_energies(None, &mut energy, &mut kinetic));
             self.energy.include(n, &energy);
             self.energy.include_kinetic(&kinetic);
         }

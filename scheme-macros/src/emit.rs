@@ -7,6 +7,7 @@ use quote::{format_ident, quote};
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::{Kinetic, Map, MapKind, Plan, Proved, to_text};
+use shadowstep_symbolic::Rational;
 use syn::{Ident, ItemStruct, LitStr};
 
 /// The most kicks and drifts of a step that is inlined wherever it is called: 7 are those of Yoshida's scheme of order 4.
@@ -18,42 +19,17 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
     let plan = &proved.plan;
     let docs = documentation(proved);
     let watched = watch(files);
-    let count = Literal::usize_unsuffixed(plan.weights().count());
-    let names = weight_names(plan);
-    let weights: Vec<_> = plan.weights().map(to_text).collect();
+    let weights = Weights::of(plan);
+    let (in_arrays, exact) = (weights.in_arrays(), weights.exact());
     let summary = summary(proved);
-    let forth = Sequence { maps: plan.maps.clone(), middle: plan.middle.clone() };
-    let back = forth.reversed();
-    let step = step("step", "forward", &names, &forth, false);
-    let step_augmented = self::step("step_augmented", "forward", &names, &forth, true);
-    let step_back = self::step("step_back", "back", &names, &back, false);
-    let step_back_augmented = self::step("step_back_augmented", "back", &names, &back, true);
-    let kicks = Literal::usize_unsuffixed(plan.kicks.len());
-    let kinds = plan.maps.iter().map(|(kind, _)| format_ident!("{kind:?}"));
-    let places = plan.maps.iter().map(|(_, place)| Literal::usize_unsuffixed(*place));
-    let middle = (!plan.middle.is_empty()).then(|| {
-        let count = Literal::usize_unsuffixed(plan.middle_weights.len());
-        let places = plan.middle.iter().map(|place| Literal::usize_unsuffixed(*place));
-        quote! {
-            fn middle(&self) -> (usize, &[usize]) {
-                (#count, &[#(#places),*])
-            }
-        }
-    });
-    let gradient_kicks = (!plan.gradient_kicks.is_empty()).then(|| {
-        let count = Literal::usize_unsuffixed(plan.gradient_kicks.len());
-        quote! {
-            fn gradient_kicks(&self) -> usize {
-                #count
-            }
-        }
-    });
+    let sequence = sequence(plan);
+    let maps = Maps { maps: plan.maps.clone(), middle: plan.middle.clone() };
+    let (forward, back) = (maps.function("forward", &weights), maps.inverse(&weights));
     let processor = processor(proved);
-    let valid_for_other = match &proved.proof.many_parts {
-        Some(_) => Some(quote! { impl ::shadowstep::ValidFor<::shadowstep::many_parts::ManyParts> for #ident {} }),
-        None => proved.holds_for_every_kinetic().then(|| {
-            quote! { impl ::shadowstep::ValidFor<::shadowstep::kinetic::General> for #ident {} }
-        }),
+    let classes = match &proved.proof.many_parts {
+        Some(_) => vec![quote!(many_parts::ManyParts)],
+        None if proved.holds_for_every_kinetic() => vec![quote!(kinetic::Quadratic), quote!(kinetic::General)],
+        None => vec![quote!(kinetic::Quadratic)],
     };
     quote! {
         #(#attrs)*
@@ -63,34 +39,27 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
         #watched
 
         impl ::shadowstep::Scheme for #ident {
-            type Array<N: ::shadowstep::Number> = [N; #count];
+            type Weights<N: ::shadowstep::Number> = #in_arrays;
 
             fn summary(&self) -> ::shadowstep::Summary<'_> {
                 #summary
             }
 
-            fn weights<N: ::shadowstep::Number>(
-                &self,
-                scaled: impl ::core::ops::FnMut(&::shadowstep::Rational) -> N,
-            ) -> [N; #count] {
-                ::shadowstep::scheme::exact_weights([#(#weights),*]).each_ref().map(scaled)
+            fn exact_weights(&self) -> ::shadowstep::scheme::Weights<::std::vec::Vec<::shadowstep::Rational>> {
+                #exact
             }
 
-            fn maps(&self) -> (usize, &[(::shadowstep::scheme::MapKind, usize)]) {
-                (#kicks, &[#((::shadowstep::scheme::MapKind::#kinds, #places)),*])
+            fn sequence(&self) -> ::shadowstep::scheme::Sequence<'_> {
+                #sequence
             }
 
-            #middle
-            #gradient_kicks
             #processor
 
-            #step
-            #step_augmented
-            #step_back
-            #step_back_augmented
+            #forward
+            #back
         }
 
-        #valid_for_other
+        #(impl ::shadowstep::ValidFor<::shadowstep::#classes> for #ident {})*
     }
 }
 
@@ -99,20 +68,6 @@ pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &
     let ItemStruct { attrs, vis, ident, .. } = item;
     let error = syn::Error::new(table.span(), message).into_compile_error();
     let watched = watch(files);
-    let steps = ["step", "step_augmented", "step_back", "step_back_augmented"].map(|name| {
-        let name = format_ident!("{name}");
-        quote! {
-            fn #name<M: ::shadowstep::System>(
-                &self,
-                _: &::shadowstep::StepWeights<[M::Number; 0]>,
-                _: &mut M,
-            )
-            where
-                Self: ::shadowstep::ValidFor<M::Class>,
-            {
-            }
-        }
-    });
     quote! {
         #(#attrs)*
         #vis struct #ident;
@@ -121,22 +76,21 @@ pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &
         #watched
 
         impl ::shadowstep::Scheme for #ident {
-            type Array<N: ::shadowstep::Number> = [N; 0];
+            type Weights<N: ::shadowstep::Number> = ::shadowstep::scheme::Weights<[N; 0]>;
             fn summary(&self) -> ::shadowstep::Summary<'_> {
                 ::core::unreachable!()
             }
-            fn weights<N: ::shadowstep::Number>(
-                &self,
-                _: impl ::core::ops::FnMut(&::shadowstep::Rational) -> N,
-            ) -> [N; 0] {
+            fn exact_weights(&self) -> ::shadowstep::scheme::Weights<::std::vec::Vec<::shadowstep::Rational>> {
                 ::core::unreachable!()
             }
-            fn maps(&self) -> (usize, &[(::shadowstep::scheme::MapKind, usize)]) {
+            fn sequence(&self) -> ::shadowstep::scheme::Sequence<'_> {
                 ::core::unreachable!()
             }
-            #(#steps)*
+            fn forward<F: ::shadowstep::scheme::Flows>(&self, _: &Self::Weights<F::Number>, _: &mut F) {}
+            fn back<F: ::shadowstep::scheme::Flows>(&self, _: &Self::Weights<F::Number>, _: &mut F) {}
         }
 
+        impl ::shadowstep::ValidFor<::shadowstep::kinetic::Quadratic> for #ident {}
         impl ::shadowstep::ValidFor<::shadowstep::kinetic::General> for #ident {}
         impl ::shadowstep::ValidFor<::shadowstep::many_parts::ManyParts> for #ident {}
     }
@@ -170,96 +124,126 @@ fn summary(proved: &Proved) -> TokenStream {
 /// The post-map of a processed scheme.
 fn processor(proved: &Proved) -> Option<TokenStream> {
     let processor = proved.scheme.processor.as_ref()?;
-    let kinds = processor.post.iter().map(|Map { kind, .. }| format_ident!("{kind:?}"));
-    let weights = processor.post.iter().map(|map| to_text(&map.weight));
+    let mut weights: Vec<&Rational> = Vec::new();
+    let maps = processor.post.iter().map(|Map { kind, weight }| {
+        let place = weights.iter().position(|known| *known == weight).unwrap_or_else(|| {
+            weights.push(weight);
+            weights.len() - 1
+        });
+        let (kind, place) = (format_ident!("{kind:?}"), Literal::usize_unsuffixed(place));
+        quote! { (MapKind::#kind, #place) }
+    });
+    let maps: Vec<_> = maps.collect();
+    let weights = weights.into_iter().map(to_text);
     Some(quote! {
         fn processor(&self) -> ::std::vec::Vec<(::shadowstep::scheme::MapKind, ::shadowstep::Rational)> {
-            ::shadowstep::scheme::exact_maps([#((::shadowstep::scheme::MapKind::#kinds, #weights)),*])
+            use ::shadowstep::scheme::MapKind;
+            ::shadowstep::scheme::exact_maps(&[#(#maps),*], &[#(#weights),*])
         }
     })
 }
 
-/// `kick_1, kick_2, …, drift_1, …, middle_1, …, gradient_kick_1, …`
-fn weight_names(plan: &Plan) -> Vec<Ident> {
-    let of_kind = |kind, count| (0..count).map(move |i| weight_name((kind, i)));
-    of_kind(MapKind::Kick, plan.kicks.len())
-        .chain(of_kind(MapKind::Drift, plan.drifts.len()))
-        .chain((0..plan.middle_weights.len()).map(middle_name))
-        .chain(of_kind(MapKind::GradientKick, plan.gradient_kicks.len()))
-        .collect()
+/// The distinct weights of each kind, and the names they have in a step.
+struct Weights<'a> {
+    kinds: [(Ident, &'a [Rational]); 4],
 }
 
-fn weight_name((kind, index): (MapKind, usize)) -> Ident {
-    format_ident!("{kind}_{}", index + 1, kind = kind.to_string().replace(' ', "_"))
+impl<'a> Weights<'a> {
+    fn of(plan: &'a Plan) -> Self {
+        let Plan { kicks, drifts, middle_weights, gradient_kicks, .. } = plan;
+        let fields = ["kicks", "drifts", "middle_parts", "gradient_kicks"].map(|name| format_ident!("{name}"));
+        let [a, b, c, d] = fields;
+        Weights { kinds: [(a, kicks), (b, drifts), (c, middle_weights), (d, gradient_kicks)] }
+    }
+
+    /// The type of the weights of a step.
+    fn in_arrays(&self) -> TokenStream {
+        let counts = self.kinds.iter().map(|(_, weights)| Literal::usize_unsuffixed(weights.len()));
+        quote! { ::shadowstep::scheme::Weights<#([N; #counts]),*> }
+    }
+
+    /// The exact weights.
+    fn exact(&self) -> TokenStream {
+        let fields = self.kinds.iter().map(|(field, weights)| {
+            let texts = weights.iter().map(to_text);
+            quote! { #field: &[#(#texts),*] }
+        });
+        quote! { ::shadowstep::scheme::exact_weights(::shadowstep::scheme::Weights { #(#fields),* }) }
+    }
+
+    /// Gives each weight its name.
+    fn destructured(&self) -> TokenStream {
+        let named = self.kinds.iter().filter(|(_, weights)| !weights.is_empty());
+        let fields = named.map(|(field, weights)| {
+            let name = field.to_string();
+            let name = name.trim_end_matches('s');
+            let names = (1..=weights.len()).map(|number| format_ident!("{name}_{number}"));
+            quote! { #field: [#(#names),*] }
+        });
+        quote! { let ::shadowstep::scheme::Weights { #(#fields,)* .. } = weights; }
+    }
 }
 
-fn middle_name(index: usize) -> Ident {
-    format_ident!("middle_{}", index + 1)
+fn sequence(plan: &Plan) -> TokenStream {
+    let kinds = plan.maps.iter().map(|(kind, _)| format_ident!("{kind:?}"));
+    let places = plan.maps.iter().map(|(_, place)| Literal::usize_unsuffixed(*place));
+    let middle = plan.middle.iter().map(|place| Literal::usize_unsuffixed(*place));
+    quote! {
+        use ::shadowstep::scheme::MapKind;
+        ::shadowstep::scheme::Sequence { maps: &[#((MapKind::#kinds, #places)),*], middle_parts: &[#(#middle),*] }
+    }
 }
 
 /// The maps of a step, and the places of the weights of the middle parts between them.
-struct Sequence {
+#[derive(PartialEq)]
+struct Maps {
     maps: Vec<(MapKind, usize)>,
     middle: Vec<usize>,
 }
 
-impl Sequence {
-    fn reversed(&self) -> Sequence {
-        Sequence {
+impl Maps {
+    /// The maps in the opposite order; for a symmetric scheme these are the same, and are not written twice.
+    fn inverse(&self, weights: &Weights<'_>) -> TokenStream {
+        let reversed = Maps {
             maps: self.maps.iter().rev().copied().collect(),
             middle: self.middle.iter().rev().copied().collect(),
+        };
+        if reversed != *self {
+            return reversed.function("back", weights);
+        }
+        quote! {
+            #[inline(always)]
+            fn back<F: ::shadowstep::scheme::Flows>(&self, weights: &Self::Weights<F::Number>, flows: &mut F) {
+                self.forward(weights, flows);
+            }
         }
     }
-}
 
-/// The middle parts after a map.
-fn middle_parts((kind, place): (MapKind, usize), augmented: bool) -> TokenStream {
-    let weight = middle_name(place);
-    let order = if kind == MapKind::Drift { quote!(Descending) } else { quote!(Ascending) };
-    let order = quote! { ::shadowstep::scheme::PartOrder::#order };
-    match augmented {
-        false => quote! { system.middle_parts(#weight, #order); },
-        true => quote! { system.middle_parts_augmented(#weight, #order); },
-    }
-}
-
-fn step(name: &str, direction: &str, names: &[Ident], sequence: &Sequence, augmented: bool) -> TokenStream {
-    let Sequence { maps, middle } = sequence;
-    let (name, direction) = (format_ident!("{name}"), format_ident!("{direction}"));
-    let count = Literal::usize_unsuffixed(names.len());
-    let statements = maps.iter().enumerate().map(|(index, &map)| {
-        let weight = weight_name(map);
-        let own = match (map.0, augmented) {
-            (MapKind::Kick, false) => quote! { system.kick(#weight); },
-            (MapKind::Kick, true) => quote! { system.kick_augmented(#weight); },
-            (MapKind::Drift, false) => quote! { system.drift(#weight); },
-            (MapKind::Drift, true) => quote! { system.drift_augmented(#weight); },
-            (MapKind::GradientKick, false) => quote! { system.gradient_kick(#weight); },
-            (MapKind::GradientKick, true) => quote! { system.gradient_kick_augmented(#weight); },
+    /// A function that applies the maps one after the other.
+    fn function(&self, name: &str, weights: &Weights<'_>) -> TokenStream {
+        let name = format_ident!("{name}");
+        let weights = weights.destructured();
+        let statements = self.maps.iter().enumerate().map(|(index, &(kind, place))| {
+            let map = format_ident!("{}", kind.to_string().replace(' ', "_"));
+            let weight = format_ident!("{map}_{}", place + 1);
+            let middle = self.middle.get(index).map(|place| {
+                let weight = format_ident!("middle_part_{}", place + 1);
+                let order = if kind == MapKind::Drift { quote!(Descending) } else { quote!(Ascending) };
+                quote! { flows.middle_parts(#weight, ::shadowstep::scheme::PartOrder::#order); }
+            });
+            quote! { flows.#map(#weight); #middle }
+        });
+        // inlined into a loop, a short step can hold its state in registers
+        let inline = match self.maps.len() + self.middle.len() <= MOST_INLINED {
+            true => quote! { #[inline(always)] },
+            false => quote! { #[inline] },
         };
-        let next = middle.get(index).map(|&place| middle_parts((map.0, place), augmented));
-        quote! { #own #next }
-    });
-    let begin = augmented.then(|| quote! { system.clear_increments(); });
-    // inlined into a loop, a short step can hold its state in registers
-    let inline = if maps.len() + middle.len() <= MOST_INLINED {
-        quote! { #[inline(always)] }
-    } else {
-        quote! { #[inline] }
-    };
-    quote! {
-        #inline
-        fn #name<M: ::shadowstep::System>(
-            &self,
-            weights: &::shadowstep::StepWeights<[M::Number; #count]>,
-            system: &mut M,
-        )
-        where
-            Self: ::shadowstep::ValidFor<M::Class>,
-        {
-            let [#(#names),*] = weights.#direction();
-            #begin
-            #(#statements)*
+        quote! {
+            #inline
+            fn #name<F: ::shadowstep::scheme::Flows>(&self, weights: &Self::Weights<F::Number>, flows: &mut F) {
+                #weights
+                #(#statements)*
+            }
         }
     }
 }

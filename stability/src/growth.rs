@@ -57,7 +57,7 @@ pub(crate) fn size<M: System<Number: Ordered>>(system: &M) -> f64 {
 }
 
 fn scale_down<M: System>(system: &mut M, size: f64) {
-    let context = system.context();
+    let context = system.state().context();
     let size = Rational::from_float(size).expect("it is finite");
     let divisor = M::Number::from_rational(&size, &context);
     let divided = |numbers: &[M::Number]| {
@@ -66,5 +66,5 @@ fn scale_down<M: System>(system: &mut M, size: f64) {
         numbers
     };
     let (q, p) = (divided(system.q()), divided(system.p()));
-    system.set_state(&q, &p);
+    system.state_mut().set(&q, &p);
 }

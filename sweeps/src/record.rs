@@ -173,7 +173,7 @@ where
             return Ok(None);
         }
     }
-    Ok(Some(Ended { drift: None, evaluations: trajectory.system().evaluations() }))
+    Ok(Some(Ended { drift: None, evaluations: trajectory.system().state().evaluations() }))
 }
 
 /// Follows the states of a run with an estimate at each of them; `None` if it was stopped.
@@ -213,7 +213,7 @@ where
             return Ok(None);
         }
     }
-    Ok(Some(Ended { drift: drift.drift(), evaluations: shadow.system().evaluations() }))
+    Ok(Some(Ended { drift: drift.drift(), evaluations: shadow.system().state().evaluations() }))
 }
 
 /// What is kept, as far as the states have come.

@@ -49,7 +49,7 @@ pub(crate) fn suits(scene: &Scene, keep: &Keep) -> bool {
 
 /// Whether two runs can be computed together, as far as their numbers and steps are concerned.
 pub(crate) fn are_alike(a: &Scene, b: &Scene) -> bool {
-    let steps = |scene: &Scene| (sums(scene), scene.steps(), scene.scheme.scheme.maps().1.to_vec());
+    let steps = |scene: &Scene| (sums(scene), scene.steps(), scene.scheme.scheme.sequence().maps.to_vec());
     steps(a) == steps(b) && a.h == b.h && a.scheme.name == b.scheme.name
 }
 
@@ -233,7 +233,7 @@ impl<'a> Following<'a> {
             if !(energy.0[lane].is_finite() && state.iter().all(|x| x.is_finite())) {
                 continue;
             }
-            let values = self.keep.values.iter().map(|kept| self.value(*kept, lane, n, system.evaluations()));
+            let values = self.keep.values.iter().map(|kept| self.value(*kept, lane, n, system.state().evaluations()));
             let times = self.tests.iter().map(|(_, met)| met[lane].map(|n| to_text(&run.time(n.cast_signed()))));
             let text = |x: f64| x.is_finite().then(|| x.to_text());
             let ends = at_end.iter().map(of_lane).map(text);

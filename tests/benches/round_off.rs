@@ -80,7 +80,7 @@ where
 {
     let context = precision(DIGITS);
     let number = |x: f64| Float::from_rational(&Rational::from_float(x).expect("states are finite"), &context);
-    let rest = system.remainders();
+    let rest = system.state().remainders();
     let with = |values: &[f64], rest: &[f64]| -> Vec<Float> {
         let rest = rest.iter().copied().chain(std::iter::repeat(0.0));
         values.iter().zip(rest).map(|(x, rest)| number(*x) + number(rest)).collect()

@@ -15,7 +15,7 @@ use crate::rational;
 const SHOWN: usize = 25;
 
 const HEAD: &str = "\
-<!-- Generated from schemes/tables/*.toml; `UPDATE_DOCS=1 cargo test -p shadowstep-tests --test documentation` writes it. -->
+<!-- Generated from schemes/tables/*.toml; `UPDATE_DOCS=1 cargo test -p shadowstep-tests documentation` writes it. -->
 
 # The shipped schemes
 

@@ -9,7 +9,7 @@ use shadowstep::run::energy_drift;
 use shadowstep::shadow::Bilinear;
 use shadowstep::tables::{self, Source, TableScheme};
 use shadowstep::wisdom_holman::{Bodies, Jacobi, PlanetaryCoordinates, WisdomHolman};
-use shadowstep::{DiagonalMasses, Motion, Stepper, System, UnitMasses, ValidFor, linear_part::LinearPart};
+use shadowstep::{Carried, DiagonalMasses, Motion, Stepper, System, UnitMasses, ValidFor, linear_part::LinearPart};
 use shadowstep_tests::{
     Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, stepper,
 };
@@ -45,10 +45,10 @@ fn is_the_formula(mut system: impl System<Number = Float>, inverse_masses: &[Flo
     let (q, p) = (system.q().to_vec(), system.p().to_vec());
     let zeros = vec![number("0"); q.len()];
     let mut kick_at = |q: &[Float]| {
-        system.set_state(q, &zeros);
+        system.state_mut().set(q, &zeros);
         system.clear_increments();
-        system.kick_augmented(&kick);
-        (system.p().to_vec(), system.increments().beta.clone())
+        system.kick(&kick, Carried::Increments);
+        (system.p().to_vec(), system.state().increments().beta.clone())
     };
     let v = kick_at(&q).0.into_iter().zip(inverse_masses).map(|(p, inverse)| -p / &kick * inverse);
     let displaced: Vec<_> = q.iter().zip(v).map(|(q, v)| q.clone() - v * &delta).collect();
@@ -56,18 +56,18 @@ fn is_the_formula(mut system: impl System<Number = Float>, inverse_masses: &[Flo
     let expected: Vec<_> = p.iter().zip(to_p).map(|(p, to_p)| p.clone() + to_p).collect();
 
     for kick_first in [true, false] {
-        system.set_state(&q, &p);
+        system.state_mut().set(&q, &p);
         system.clear_increments();
         if kick_first {
-            system.kick_augmented(&kick);
+            system.kick(&kick, Carried::Increments);
         }
-        system.gradient_kick_augmented(&gradient_kick);
+        system.gradient_kick(&gradient_kick, Carried::Increments);
         if !kick_first {
-            system.kick_augmented(&kick);
+            system.kick(&kick, Carried::Increments);
         }
         let off = log10_largest_distance(system.p(), &expected);
         assert!(off < 4.0 - f64::from(DIGITS), "p: 10^{off}");
-        let off = log10_distance(system.increments().beta, &to_beta);
+        let off = log10_distance(system.state().increments().beta, &to_beta);
         assert!(off < 4.0 - f64::from(DIGITS), "β: 10^{off}");
     }
 }
@@ -160,7 +160,7 @@ where
             let [ahead, behind] = [1, -1].map(|sign| {
                 let (mut moved, mut system) = (start.clone(), system.clone());
                 moved[column] += shift.clone() * sign;
-                system.set_state(&moved[..dimension], &moved[dimension..]);
+                system.state_mut().set(&moved[..dimension], &moved[dimension..]);
                 stepper.step(&mut system);
                 [system.q(), system.p()].concat()
             });

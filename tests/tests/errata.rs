@@ -1,5 +1,5 @@
 //! Protects docs/errata-of-published-tables.md: its tables are judged, and what it quotes is what the compiler says of
-//! them. `UPDATE_DOCS=1 cargo test -p shadowstep-tests --test errata` writes its messages and its table of digits anew.
+//! them. `UPDATE_DOCS=1 cargo test -p shadowstep-tests errata` writes its messages and its table of digits anew.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -13,8 +13,8 @@ use shadowstep::run::{EnergyDrift, ShadowRun, energy_drift};
 use shadowstep::shadow::Central;
 use shadowstep::tables::{QuadraticOnly, Source, TableScheme, read, shipped};
 use shadowstep::{
-    DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, Scheme, Stepper, System, UnitMasses, ValidFor,
-    kinetic, potential, splitting_scheme,
+    Carried, DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, Scheme, Stepper, System, UnitMasses,
+    ValidFor, kinetic, potential, splitting_scheme,
 };
 use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::First;
@@ -303,9 +303,9 @@ fn a_drift_of_a_quadratic_formula_costs_the_same_with_beta() {
     let stiff = Stiff { omega: Counting(1.5) };
     let mut motion = Motion::new(Spring, stiff, [Counting(0.7)], [Counting(1.1)]).unwrap();
     let weight = Counting(0.1);
-    let plain = count(|| motion.drift(&weight)).1;
+    let plain = count(|| motion.drift(&weight, Carried::Nothing)).1;
     assert_eq!(plain, Operations { additions: 1, multiplications: 2, ..Operations::default() });
-    assert_eq!(count(|| motion.drift_augmented(&weight)).1, plain);
+    assert_eq!(count(|| motion.drift(&weight, Carried::Increments)).1, plain);
 }
 
 /// ω = 3/2 has an exact square, so that nothing is rounded differently.

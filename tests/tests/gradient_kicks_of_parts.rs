@@ -7,7 +7,7 @@ use shadowstep::problems::HenonHeiles;
 use shadowstep::run::energy_drift;
 use shadowstep::shadow::Bilinear;
 use shadowstep::wisdom_holman::{Bodies, Jacobi, PlanetaryCoordinates, WisdomHolman};
-use shadowstep::{Rational, Stepper, System};
+use shadowstep::{Carried, Rational, Stepper, System};
 use shadowstep_tests::{
     Bits, log10_distance, log10_largest_distance, numbers, precision, rational, same_bits, stepper,
 };
@@ -35,10 +35,10 @@ fn oscillators<N: Rounded>(context: &N::Context) -> LinearPart<N, HenonHeiles> {
 /// B_q and the rate qᵀB_q − 2B at q, from a kick of weight 1.
 fn gradient_and_rate(system: &mut impl System<Number = Float>, q: &[Float]) -> (Vec<Float>, Float) {
     let (zeros, one) = (vec![Float::new(q[0].prec()); q.len()], Float::with_val(q[0].prec(), 1));
-    system.set_state(q, &zeros);
+    system.state_mut().set(q, &zeros);
     system.clear_increments();
-    system.kick_augmented(&one);
-    (system.p().iter().map(|p| -p.clone()).collect(), system.increments().beta.clone())
+    system.kick(&one, Carried::Increments);
+    (system.p().iter().map(|p| -p.clone()).collect(), system.state().increments().beta.clone())
 }
 
 /// The gradient kick is the flow of W = −½B_qᵀM⁻¹B_q, and its rate is the derivative of a kick's in the direction −M⁻¹B_q, by
@@ -74,13 +74,13 @@ fn is_the_derivative_of_kicks(mut system: impl System<Number = Float>, inverse_m
 
     let zeros = vec![Float::new(bits); q.len()];
     assert!(system.has_gradient_kicks());
-    system.set_state(&q, &zeros);
+    system.state_mut().set(&q, &zeros);
     system.clear_increments();
-    system.gradient_kick_augmented(&weight);
+    system.gradient_kick(&weight, Carried::Increments);
     let size = expected.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max);
     let off = log10_largest_distance(system.p(), &expected);
     assert!(off < size - 50.0, "force: 10^{off} of 10^{size}");
-    let off = log10_distance(system.increments().beta, &expected_rate);
+    let off = log10_distance(system.state().increments().beta, &expected_rate);
     let size = expected_rate.log10_abs();
     assert!(off < size - 50.0, "β: 10^{off} of 10^{size}");
 }
@@ -102,14 +102,14 @@ where
     M::Number: Bits,
     shadowstep::tables::TableScheme: shadowstep::ValidFor<M::Class>,
 {
-    let stepper = stepper::<M::Number>("omelyan-4mn5f2gv", h, &system.context());
+    let stepper = stepper::<M::Number>("omelyan-4mn5f2gv", h, &system.state().context());
     let [mut plain, mut augmented] = [system.clone(), system.clone()];
     let start = [system.q(), system.p()].concat();
     for _ in 0..20 {
         stepper.step(&mut plain);
         let before = [augmented.q(), augmented.p()].concat();
         stepper.step_augmented(&mut augmented);
-        let increments = augmented.increments().to_owned();
+        let increments = augmented.state().increments().to_owned();
         for ((later, earlier), added) in
             augmented.q().iter().chain(augmented.p()).zip(&before).zip(increments.q.iter().chain(&increments.p))
         {

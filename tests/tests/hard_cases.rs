@@ -6,7 +6,7 @@ use shadowstep::kinetic::Quadratic;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
 use shadowstep::run::{EnergyDrift, Quantity, RunError, ShadowRun, energy_drift};
 use shadowstep::shadow::{Central, SelectionRule, ShadowEnergy, StoppingRule};
-use shadowstep::{Kinetic, Motion, MotionError, Ordered, Potential, System, UnitMasses};
+use shadowstep::{Carried, Kinetic, Motion, MotionError, Ordered, Potential, System, UnitMasses};
 use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, stepper};
 
 type State<P, N> = Motion<N, Vec<N>, P, UnitMasses>;
@@ -68,9 +68,9 @@ fn positions_whose_squares_overflow_are_refused() {
     assert_eq!(start("3e153").energy(), 0.5);
     // where the gradient is kept, the energy follows from it
     let mut kicked = start("1e160");
-    kicked.kick_augmented(&0.0);
+    kicked.kick(&0.0, Carried::Increments);
     let [mut energy, mut kinetic] = [0.0; 2];
-    kicked.assign_energies(&mut energy, &mut kinetic);
+    kicked.assign_energies(None, &mut energy, &mut kinetic);
     assert!(energy.is_nan() && kinetic == 0.5);
     let monitor = ShadowEnergy::new(stepper("stormer-verlet", "1/10", &()), &mut kicked, &Central::fixed(2));
     assert!(monitor.err().unwrap().to_string().contains("q1 = 1e160, whose square overflows"));

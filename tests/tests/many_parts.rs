@@ -4,12 +4,12 @@
 
 use rug::Float;
 use shadowstep::formula::FormulaPotential;
-use shadowstep::many_parts::{FormulaPart, ManyParts, Moving, Part, SystemOfParts, parts};
+use shadowstep::many_parts::{FlowState, FormulaPart, ManyParts, Part, SystemOfParts, parts};
 use shadowstep::number::{Number, Rounded};
 use shadowstep::run::energy_drift;
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::tables::{TableScheme, shipped};
-use shadowstep::{OwnedIncrements, Potential, Rational, Scheme, Stepper, System, splitting_scheme};
+use shadowstep::{Carried, Potential, Rational, Scheme, State, Stepper, System, splitting_scheme};
 use shadowstep_tests::steps::Steps;
 use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, rational, same_bits};
 
@@ -146,12 +146,15 @@ fn flows_solve_the_equations_of_their_formulas() {
         let start = [&q[..], &p[..], std::slice::from_ref(&zero)].concat();
         let exact = Equations::of(&[formula], names).flow(&start, &time, 30);
 
-        let (mut plain_q, mut plain_p) = (q.clone(), p.clone());
-        part.flow(&time, &mut Moving::new(&mut plain_q, &mut plain_p, None), false);
-        let mut increments = OwnedIncrements { q: vec![zero.clone(); 2], p: vec![zero.clone(); 2], beta: zero.clone() };
-        let (mut new_q, mut new_p) = (q.clone(), p.clone());
-        part.flow(&time, &mut Moving::new(&mut new_q, &mut new_p, Some(&mut increments)), false);
-        assert!(same_bits(&plain_q, &new_q) && same_bits(&plain_p, &new_p), "{formula}");
+        let mut flow = |carried| {
+            let mut state = State::new(q.clone(), p.clone(), &context).compensated_if(false);
+            part.flow(&time, &mut FlowState::new(&mut state, carried), false);
+            state
+        };
+        let (plain, augmented) = (flow(Carried::Nothing), flow(Carried::Increments));
+        let (new_q, new_p) = (augmented.q().to_vec(), augmented.p().to_vec());
+        let increments = augmented.increments().to_owned();
+        assert!(same_bits(plain.q(), &new_q) && same_bits(plain.p(), &new_p), "{formula}");
 
         let found = [&new_q[..], &new_p[..], std::slice::from_ref(&increments.beta)].concat();
         let off = log10_largest_distance(&found, &exact);
@@ -276,7 +279,7 @@ where
         generated.step_augmented(&mut augmented);
         twin.step_augmented(&mut other);
         assert!(same_bits(&state(&plain), &state(&augmented)) && same_bits(&state(&plain), &state(&other)));
-        assert!(augmented.increments().beta.same_bits(other.increments().beta));
+        assert!(augmented.state().increments().beta.same_bits(other.state().increments().beta));
     }
     // in one loop
     let mut loops = [chain::<N>(context)];
@@ -314,5 +317,5 @@ fn the_first_part_is_evaluated_as_often_as_it_must_be() {
     let mut system = chain::<f64>(&());
     let stepper = Stepper::new(scheme, "1/10").unwrap();
     (0..100).for_each(|_| stepper.step(&mut system));
-    assert_eq!(system.evaluations(), 301);
+    assert_eq!(system.state().evaluations(), 301);
 }

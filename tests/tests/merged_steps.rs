@@ -6,7 +6,7 @@ use shadowstep::instructions::Instructions;
 use shadowstep::number::counting::{Counting, Operations, count};
 use shadowstep::number::{Float, Fused, Lanes, Limbs, Number, Ordered};
 use shadowstep::problems::HenonHeiles;
-use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses, splitting_scheme, tables};
+use shadowstep::{Carried, Motion, Rational, Scheme, Stepper, System, UnitMasses, splitting_scheme, tables};
 use shadowstep_schemes::First;
 use shadowstep_tests::shipped::{Visitor, for_each};
 use shadowstep_tests::{log10_largest_distance, precision, rational, same_bits};
@@ -119,9 +119,9 @@ fn so_many_merged_steps_have_one_kick_more() {
     let fresh = || start::<Counting<f64>>(&());
     let weight = Counting(0.05);
     let mut motion = fresh();
-    let ((), gradient_and_kick) = count(|| motion.kick(&weight));
-    let ((), kick) = count(|| motion.kick(&weight));
-    let ((), drift) = count(|| motion.drift(&weight));
+    let ((), gradient_and_kick) = count(|| motion.kick(&weight, Carried::Nothing));
+    let ((), kick) = count(|| motion.kick(&weight, Carried::Nothing));
+    let ((), drift) = count(|| motion.drift(&weight, Carried::Nothing));
     let of = |merged: bool| {
         let (stepper, mut motion) = (Stepper::new(KickFirst, "1/20").unwrap(), fresh());
         let ((), made) = count(|| match merged {
@@ -156,10 +156,10 @@ fn a_drift_less_a_step_is_as_many_kicks() {
 /// The merged maps of Störmer–Verlet with the exact weights h/2, h, h/2, one by one.
 fn by_hand(motion: &mut Star<f64>, h: &str, steps: u64) {
     let [half, whole] = [format!("{h}/2"), h.to_owned()].map(|text| f64::from_rational(&rational(&text), &()));
-    motion.kick(&half);
+    motion.kick(&half, Carried::Nothing);
     for step in 1..=steps {
-        motion.drift(&whole);
-        motion.kick(if step < steps { &whole } else { &half });
+        motion.drift(&whole, Carried::Nothing);
+        motion.kick(if step < steps { &whole } else { &half }, Carried::Nothing);
     }
 }
 
@@ -228,18 +228,5 @@ fn fused_numbers_merge_as_well() {
     let [merged, one_by_one] = both(&stepper, &start(&()), 100);
     for (merged, one) in merged.iter().zip(&one_by_one) {
         assert!((merged.to_f64() - one.to_f64()).abs() < 1e-14, "{merged} is not {one}");
-    }
-}
-
-/// What follows needs the rate beside the last gradient, which is evaluated once for both.
-#[test]
-fn an_augmented_step_after_merged_steps_takes_their_last_gradient() {
-    for steps in [1, 2, 10] {
-        let stepper = Stepper::new(KickFirst, "1/20").unwrap();
-        let mut motion = start::<f64>(&());
-        motion.before_augmented_step(true);
-        stepper.merged_steps(std::slice::from_mut(&mut motion), steps);
-        stepper.step_augmented(&mut motion);
-        assert_eq!(motion.evaluations(), steps + 2);
     }
 }

@@ -1,4 +1,4 @@
-//! Protects the trait `System` for systems with a storage and flows of their own: all schemes that are valid for every T(p) advance
+//! Protects the trait `System` for systems with flows of their own: all schemes that are valid for every T(p) advance
 //! one, and runs and the monitor follow its modified energy.
 //!
 //! H = A + B with A = (q² + p²)²/4, which is no T(p), and B = q³/10. The flow of A turns (q, p) by the angle r²t, r² = q² + p². Along it
@@ -8,7 +8,8 @@ use rug::Float;
 use shadowstep::kinetic::General;
 use shadowstep::run::{ShadowRun, energy_drift};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Criterion, ShadowEnergy, Verdict};
-use shadowstep::{Increments, Number, Ordered, OwnedIncrements, Stepper, System, splitting_scheme};
+use shadowstep::summation::{Half, Plain};
+use shadowstep::{Carried, Number, Ordered, OwnedIncrements, State, Stepper, System, splitting_scheme};
 use shadowstep_tests::shipped::all_for_every_kinetic;
 use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, precision, rational, same_bits};
 
@@ -23,10 +24,7 @@ struct StormerVerlet;
 /// The system with its state.
 #[derive(Clone)]
 struct Rotor<N> {
-    /// q and p in one array.
-    state: [N; 2],
-    increments: OwnedIncrements<N>,
-    evaluations: u64,
+    state: State<N, [N; 1]>,
     /// The degree of A, 4: along its flow β grows by (degree − 2) A.
     degree: i32,
     /// q(t) − q and p(t) − p along the flow of A.
@@ -38,25 +36,26 @@ struct Rotor<N> {
 impl<N: Number> Rotor<N> {
     fn new(start: [&str; 2], context: &N::Context) -> Self {
         let zero = || N::zero(context);
-        Rotor {
-            state: start.map(|text| N::from_rational(&rational(text), context)),
-            increments: OwnedIncrements::zero(1, context),
-            evaluations: 0,
-            degree: 4,
-            turn: [zero(), zero()],
-            scratch: [zero(), zero(), zero()],
-        }
+        let [q, p] = start.map(|text| [N::from_rational(&rational(text), context)]);
+        Rotor { state: State::new(q, p, context), degree: 4, turn: [zero(), zero()], scratch: [zero(), zero(), zero()] }
     }
 
     fn energies(&mut self) -> [N; 2] {
-        let [mut energy, mut kinetic] = [N::zero(&self.context()), N::zero(&self.context())];
-        self.assign_energies(&mut energy, &mut kinetic);
+        let zero = N::zero(&self.state.context());
+        let [mut energy, mut kinetic] = [zero.clone(), zero];
+        self.assign_energies(None, &mut energy, &mut kinetic);
         [energy, kinetic]
+    }
+
+    /// q and p.
+    fn point(&self) -> [N; 2] {
+        [self.state.q()[0].clone(), self.state.p()[0].clone()]
     }
 
     /// turn ← (p sin θ − 2q sin²(θ/2), −q sin θ − 2p sin²(θ/2)) with θ = r² weight; the first scratch ← r²
     fn assign_turn(&mut self, weight: &N) {
-        let Rotor { state: [q, p], turn: [to_q, to_p], scratch: [square, sine, versine], .. } = self;
+        let Rotor { state, turn: [to_q, to_p], scratch: [square, sine, versine], .. } = self;
+        let (q, p) = (&state.q()[0], &state.p()[0]);
         assign_squared_radius(square, q, p);
         versine.assign_product(square, weight);
         sine.assign_sin(versine);
@@ -73,11 +72,11 @@ impl<N: Number> Rotor<N> {
 
     /// The first scratch ← 3q²/10
     fn assign_slope(&mut self) {
-        let Rotor { state: [q, _], scratch: [slope, ..], .. } = self;
-        slope.assign_square(q);
+        let Rotor { state, scratch: [slope, ..], .. } = self;
+        slope.assign_square(&state.q()[0]);
         slope.multiply_integer(3);
         slope.divide_integer(10);
-        self.evaluations += 1;
+        state.count_evaluation();
     }
 }
 
@@ -96,74 +95,49 @@ fn assign_b<N: Number>(b: &mut N, q: &N) {
 impl<N: Number> System for Rotor<N> {
     type Number = N;
     type Class = General;
+    type Coordinates = [N; 1];
+    type Summation = Plain;
 
-    fn q(&self) -> &[N] {
-        &self.state[..1]
+    fn state(&self) -> &State<N, [N; 1]> {
+        &self.state
     }
 
-    fn p(&self) -> &[N] {
-        &self.state[1..]
-    }
-
-    fn increments(&self) -> Increments<'_, N> {
-        self.increments.view()
-    }
-
-    fn set_state(&mut self, q: &[N], p: &[N]) {
-        self.state[0].assign(&q[0]);
-        self.state[1].assign(&p[0]);
-    }
-
-    fn kick(&mut self, weight: &N) {
-        self.assign_slope();
-        self.state[1].subtract_product(weight, &self.scratch[0]);
-    }
-
-    fn kick_augmented(&mut self, weight: &N) {
-        self.kick(weight);
-        let Rotor { state: [q, _], increments, scratch: [slope, b, _], .. } = self;
-        assign_b(b, q);
-        increments.beta.add_product(weight, b);
-        increments.p.iter_mut().for_each(|p| p.subtract_product(weight, slope));
-    }
-
-    fn drift(&mut self, weight: &N) {
-        self.assign_turn(weight);
-        self.state.iter_mut().zip(&self.turn).for_each(|(state, turn)| state.add(turn));
-    }
-
-    fn drift_augmented(&mut self, weight: &N) {
-        self.drift(weight);
-        let Rotor { turn: [to_q, to_p], increments, degree, scratch: [square, rate, _], .. } = self;
-        rate.assign_square(square);
-        rate.multiply_integer(*degree - 2);
-        rate.divide_integer(4);
-        increments.beta.add_product(weight, rate);
-        increments.q.iter_mut().for_each(|q| q.add(to_q));
-        increments.p.iter_mut().for_each(|p| p.add(to_p));
+    fn state_mut(&mut self) -> &mut State<N, [N; 1]> {
+        &mut self.state
     }
 
     fn clear_increments(&mut self) {
-        self.increments.assign_zero();
+        self.state.clear_increments();
     }
 
-    fn assign_energies(&mut self, energy: &mut N, kinetic: &mut N) {
-        let [q, p] = self.state.clone();
-        self.assign_energies_at(&[q], &[p], energy, kinetic);
+    fn kick(&mut self, weight: &N, carried: Carried) {
+        self.assign_slope();
+        let Rotor { state, scratch: [slope, b, _], .. } = self;
+        state.change(Half::Momenta, 0, carried, |p| p.subtract_product(weight, slope));
+        assign_b(b, &state.q()[0]);
+        state.add_to_beta(carried, weight, b);
+    }
+
+    fn drift(&mut self, weight: &N, carried: Carried) {
+        self.assign_turn(weight);
+        let Rotor { state, turn: [to_q, to_p], degree, scratch: [square, rate, _], .. } = self;
+        state.change(Half::Positions, 0, carried, |q| q.add(to_q));
+        state.change(Half::Momenta, 0, carried, |p| p.add(to_p));
+        rate.assign_square(square);
+        rate.multiply_integer(*degree - 2);
+        rate.divide_integer(4);
+        state.add_to_beta(carried, weight, rate);
     }
 
     /// A is taken for the kinetic energy.
-    fn assign_energies_at(&mut self, q: &[N], p: &[N], energy: &mut N, kinetic: &mut N) {
-        let square = &mut self.scratch[0];
+    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic: &mut N) {
+        let Rotor { state, scratch: [square, ..], .. } = self;
+        let (q, p) = at.unwrap_or((state.q(), state.p()));
         assign_squared_radius(square, &q[0], &p[0]);
         kinetic.assign_square(square);
         kinetic.divide_integer(4);
         assign_b(energy, &q[0]);
         energy.add(kinetic);
-    }
-
-    fn evaluations(&self) -> u64 {
-        self.evaluations
     }
 }
 
@@ -194,17 +168,17 @@ fn reference([mut q, mut p]: [f64; 2], until: f64, steps: u32, with_b: bool) -> 
 #[test]
 fn the_drift_is_the_flow_of_a() {
     let mut rotor = Rotor::<f64>::new(START, &());
-    let start = rotor.state;
+    let start = rotor.point();
     let [_, a] = rotor.energies();
     // (0.9² + 0.3²)²/4
     assert!((a - 0.2025).abs() < 1e-15);
-    rotor.drift_augmented(&2.5);
+    rotor.drift(&2.5, Carried::Increments);
     let exact = reference(start, 2.5, 2000, false);
     // the reference is off by some (2.5/2000)⁴ = 2e-12 and less
-    assert!((rotor.state[0] - exact[0]).hypot(rotor.state[1] - exact[1]) < 1e-12, "{:?}, {exact:?}", rotor.state);
-    let OwnedIncrements { q, p, beta } = rotor.increments().to_owned();
+    assert!((rotor.point()[0] - exact[0]).hypot(rotor.point()[1] - exact[1]) < 1e-12, "{:?}, {exact:?}", rotor.point());
+    let OwnedIncrements { q, p, beta } = rotor.state.increments().to_owned();
     assert!((beta - 2.0 * a * 2.5).abs() < 1e-15 && (rotor.energies()[1] - a).abs() < 1e-15);
-    assert_eq!([start[0] + q[0], start[1] + p[0]], rotor.state);
+    assert_eq!([start[0] + q[0], start[1] + p[0]], rotor.point());
 }
 
 /// Every scheme for every T(p), generated and read at run time: back is the inverse of forth, augmented steps have the bits of plain
@@ -216,28 +190,28 @@ fn steps_are_steps<N: Bits>(context: &N::Context) {
         for _ in 0..3 {
             steps.step(&mut plain);
             steps.step_augmented(&mut augmented);
-            assert!(same_bits(&plain.state, &augmented.state), "{}", scheme.name);
+            assert!(same_bits(&plain.point(), &augmented.point()), "{}", scheme.name);
         }
-        let there = augmented.increments().to_owned();
-        let reached = augmented.state.clone();
+        let there = augmented.state.increments().to_owned();
+        let reached = augmented.point();
         steps.step_back_augmented(&mut augmented);
-        let tolerance = start.state[0].log10_epsilon() + 2.5;
-        let added = there.q.iter().chain(&there.p).zip(reached.iter().zip(&augmented.state));
+        let tolerance = start.point()[0].log10_epsilon() + 2.5;
+        let added = there.q.iter().chain(&there.p).zip(reached.iter().zip(augmented.point()));
         for (added, (later, earlier)) in added {
             let mut difference = later.clone();
-            difference.subtract(earlier);
+            difference.subtract(&earlier);
             let off = log10_distance(added, &difference);
             assert!(off < tolerance, "{}: 10^{off}", scheme.name);
         }
-        let mut back = augmented.increments().beta.clone();
+        let mut back = augmented.state.increments().beta.clone();
         back.negate();
         let off = log10_distance(&there.beta, &back);
         assert!(there.beta.log10_abs() > -3.0 && off < tolerance, "{}, β: {} and {back}", scheme.name, there.beta);
         for _ in 0..3 {
             steps.step_back(&mut plain);
         }
-        let moved = log10_largest_distance(&reached, &start.state);
-        let off = log10_largest_distance(&plain.state, &start.state);
+        let moved = log10_largest_distance(&reached, &start.point());
+        let off = log10_largest_distance(&plain.point(), &start.point());
         assert!(moved > -2.0 && off < tolerance, "{}: 10^{off} after steps and steps back", scheme.name);
     }
 }
@@ -250,14 +224,14 @@ fn steps_are_steps_in_both_kinds_of_numbers() {
 
 #[test]
 fn yoshida_has_order_4() {
-    let start = Rotor::<f64>::new(START, &()).state;
+    let start = Rotor::<f64>::new(START, &()).point();
     let [good, better] = [16_000, 32_000].map(|steps| reference(start, 8.0, steps, true));
     assert!((good[0] - better[0]).hypot(good[1] - better[1]) < 1e-12);
     let errors = [4, 8, 16, 32].map(|n: u32| {
         let stepper = Stepper::new(Yoshida4, 1.0 / f64::from(n)).unwrap();
         let mut rotor = Rotor::<f64>::new(START, &());
         (0..8 * n).for_each(|_| stepper.step(&mut rotor));
-        (rotor.state[0] - better[0]).hypot(rotor.state[1] - better[1])
+        (rotor.point()[0] - better[0]).hypot(rotor.point()[1] - better[1])
     });
     let orders: Vec<f64> = errors.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect();
     println!("{errors:?}, {orders:?}");
@@ -335,7 +309,7 @@ fn a_run_has_the_states_of_its_steps() {
     }
     assert_eq!(n, 201);
     // 4 kicks a step, and 4 + 200 + 4 steps; the initial state is returned to without one
-    assert_eq!(run.system().evaluations(), 208 * 4);
+    assert_eq!(run.system().state().evaluations(), 208 * 4);
 }
 
 // ---------------------------------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ use shadowstep::problems::{HenonHeiles, Kepler};
 use shadowstep::run::{ShadowRun, States, Trajectory, energy_drift};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::summation::RangeError;
-use shadowstep::{Motion, Rational, Remainders, Scheme, Stepper, System, UnitMasses, ValidFor};
+use shadowstep::{Carried, Motion, Rational, Remainders, Scheme, Stepper, System, UnitMasses, ValidFor};
 use shadowstep_tests::general;
 use shadowstep_tests::shipped::{all, all_for_every_kinetic};
 use shadowstep_tests::systems::{AnyMotion, Masses, Problem, system};
@@ -20,7 +20,7 @@ fn comet() -> Motion<f64, [f64; 2], Kepler, UnitMasses> {
 }
 
 fn all_bits<M: System<Number = f64>>(system: &M) -> Vec<u64> {
-    let Remainders { q, p } = system.remainders();
+    let Remainders { q, p } = system.state().remainders();
     system.q().iter().chain(system.p()).chain(&q).chain(&p).map(|x| x.to_bits()).collect()
 }
 
@@ -84,19 +84,19 @@ fn no_part_of_a_sum_is_lost<N: Exactly>(problem: Problem, context: &N::Context) 
             };
             values.iter().map(product).collect()
         };
-        let Remainders { q: rest, .. } = motion.remainders();
+        let Remainders { q: rest, .. } = motion.state().remainders();
         let q = expected(motion.q(), &rest, &times(motion.p(), 1));
-        motion.drift(weight);
-        agrees(exactly(motion.q(), &motion.remainders().q), q, weight);
+        motion.drift(weight, Carried::Nothing);
+        agrees(exactly(motion.q(), &motion.state().remainders().q), q, weight);
         shadowstep::Potential::<N>::gradient(motion.potential(), motion.q(), &mut gradient, &mut scratch);
-        let Remainders { p: rest, .. } = motion.remainders();
+        let Remainders { p: rest, .. } = motion.state().remainders();
         let p = expected(motion.p(), &rest, &times(&gradient, -1));
-        motion.kick(weight);
+        motion.kick(weight, Carried::Nothing);
         // MPFR rounds −w g and e − w g to one number at once
         if N::KEEPS_INCREMENTS {
-            agrees(exactly(motion.p(), &motion.remainders().p), p, weight);
+            agrees(exactly(motion.p(), &motion.state().remainders().p), p, weight);
         }
-        kept += motion.remainders().p.iter().filter(|rest| rest.log10_abs().is_finite()).count();
+        kept += motion.state().remainders().p.iter().filter(|rest| rest.log10_abs().is_finite()).count();
     }
     assert!(kept > 100, "{kept} remainders are not 0");
 }
@@ -124,7 +124,7 @@ fn a_long_sum_is_exact_to_the_size_of_its_increments() {
     }
     let off = |sum: Rational, reached: Rational| f64::from_rational(&(start.clone() + sum - reached), &()).abs();
     let plain = off(plain, one.q()[0].exactly());
-    let compensated = off(compensated, other.q()[0].exactly() + other.remainders().q[0].exactly());
+    let compensated = off(compensated, other.q()[0].exactly() + other.state().remainders().q[0].exactly());
     println!("{plain:e}, {compensated:e}");
     // each sum of the one is rounded by 1e-16, each of the other by 1e-19
     assert!(plain > 1e-15 && compensated < 1e-17, "{plain:e}, {compensated:e}");
@@ -162,9 +162,9 @@ fn a_state_is_saved_with_its_remainders() {
         let mut gone_on = start.clone();
         (0..100).for_each(|_| stepper.step(&mut gone_on));
         let [mut saved, mut without] = [start.clone(), start];
-        saved.set_state(gone_on.q(), gone_on.p());
-        saved.set_remainders(&gone_on.remainders());
-        without.set_state(gone_on.q(), gone_on.p());
+        saved.state_mut().set(gone_on.q(), gone_on.p());
+        saved.state_mut().set_remainders(&gone_on.state().remainders());
+        without.state_mut().set(gone_on.q(), gone_on.p());
         assert_eq!(all_bits(&saved), all_bits(&gone_on));
         assert_ne!(all_bits(&without), all_bits(&gone_on), "the remainders were dropped");
         for _ in 0..100 {
@@ -224,7 +224,7 @@ fn the_modified_energy_of_compensated_steps_is_conserved() {
 /// H̄ of a state with its remainders, by steps of 40 digits around it.
 fn modified(h: &str, system: &impl System<Number = f64>) -> Float {
     let context = precision(40);
-    let Remainders { q, p } = system.remainders();
+    let Remainders { q, p } = system.state().remainders();
     let with = |values: &[f64], rest: &[f64]| -> Vec<Float> {
         let rest = rest.iter().copied().chain(std::iter::repeat(0.0));
         let sum = |(x, rest): (&f64, f64)| x.exactly() + rest.exactly();
@@ -335,7 +335,7 @@ fn many_steps_are_undone_to_the_last_bit() {
 fn a_state_that_is_set_is_rounded() {
     let mut motion = comet().fixed_point(&[2.0; 2], &[4.0; 2]).unwrap();
     let third = 1.0 / 3.0;
-    motion.set_state(&[third, 1e-10 * third], &[0.1, 0.2]);
+    motion.state_mut().set(&[third, 1e-10 * third], &[0.1, 0.2]);
     let unit = 2.0 / 2.0_f64.powi(62);
     assert_eq!(motion.q()[0], third);
     assert!(motion.q()[1] != 1e-10 * third && (motion.q()[1] - 1e-10 * third).abs() <= unit / 2.0);
@@ -361,7 +361,7 @@ fn a_coordinate_that_leaves_its_range_is_not_finite() {
     assert!((20..63).contains(&steps), "{steps}");
     (0..10).for_each(|_| stepper.step(&mut motion));
     assert!(motion.q()[0].is_nan() && !motion.is_finite());
-    motion.set_state(&[0.4, 0.0], &[0.0, 2.0]);
+    motion.state_mut().set(&[0.4, 0.0], &[0.0, 2.0]);
     stepper.step(&mut motion);
     assert!(motion.is_finite());
     let run = comet().fixed_point(&[0.5; 2], &[4.0; 2]).unwrap();

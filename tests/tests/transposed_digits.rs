@@ -187,7 +187,7 @@ fn decimals_between_which_the_conditions_do_not_decide_are_all_named() {
     }
 }
 
-/// `cargo test --release -p shadowstep-tests --test transposed_digits -- --ignored --nocapture` prints what is answered.
+/// `cargo test --release -p shadowstep-tests transposed_digits -- --ignored --nocapture` prints what is answered.
 #[test]
 #[ignore = "5959 proofs"]
 fn the_full_set_of_exchanged_digits_is_refused_or_noted() {

@@ -323,7 +323,7 @@ where
         stepper.step(plain);
         let before = [augmented.q(), augmented.p()].concat();
         stepper.step_augmented(augmented);
-        let increments = augmented.increments().to_owned();
+        let increments = augmented.state().increments().to_owned();
         for ((later, earlier), added) in
             augmented.q().iter().chain(augmented.p()).zip(&before).zip(increments.q.iter().chain(&increments.p))
         {

@@ -103,7 +103,7 @@ impl<N: Ordered> Work<N> for Measuring<'_> {
         let mut energy = EnergyError::new(stepper.at_output(&mut system, M::energy));
         let (mut position, mut largest_position) = (PositionError::None, PositionError::None);
         let mut in_first_half = (PositionError::None, Size::ZERO);
-        for (sample, expected) in reference.in_two_parts::<N>(&system.context()).iter().enumerate() {
+        for (sample, expected) in reference.in_two_parts::<N>(&system.state().context()).iter().enumerate() {
             for _ in 0..steps / reference.samples() {
                 // what is not finite stays so, and is seen at the sample
                 let _ = monitor.step(&mut system);

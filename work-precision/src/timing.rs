@@ -100,7 +100,7 @@ impl<N: Ordered + 'static> Work<N> for Bare {
     {
         let (q, p, stepper) = (system.q().to_vec(), system.p().to_vec(), stepper.clone());
         Box::new(move |count| {
-            system.set_state(&q, &p);
+            system.state_mut().set(&q, &p);
             let begin = CpuTime::begin();
             stepper.steps(slice::from_mut(&mut system), count.into());
             begin.elapsed()

@@ -127,7 +127,7 @@ impl<const W: usize> Seen<W> {
 
     fn push<M: System<Number = Lanes<W>>>(&mut self, system: &M) {
         let Some(estimator) = &mut self.estimator else { return };
-        let Some(estimate) = estimator.push(system.q(), system.p(), system.increments()) else { return };
+        let Some(estimate) = estimator.push(system.q(), system.p(), system.state().increments()) else { return };
         let [least, most] = &mut self.modified;
         for ((least, most), value) in least.0.iter_mut().zip(&mut most.0).zip(estimate.value.0) {
             if value.is_finite() {

@@ -2,7 +2,7 @@
 
 use shadowstep_symbolic::PotentialPrograms;
 
-use super::part::{Moving, Part};
+use super::part::{FlowState, Part};
 use crate::Rational;
 use crate::interpreter::Interpreter;
 use crate::number::Number;
@@ -28,7 +28,7 @@ impl<N: Number> Function<N> {
     }
 
     /// The slope, and where it is needed the rate, at an action; `assign` computes the action.
-    fn evaluate(&mut self, state: &Moving<'_, N>, continues: bool, assign: impl FnOnce(&mut N)) {
+    fn evaluate(&mut self, state: &FlowState<'_, N>, continues: bool, assign: impl FnOnce(&mut N)) {
         let augmented = state.is_augmented();
         if continues && (self.has_rate || !augmented) {
             return;
@@ -122,7 +122,7 @@ impl<N: Number> Part<N> for Rotation<N> {
         function.add_energy(energy, |action| form.action(&q[*freedom], &p[*freedom], [x, y], action));
     }
 
-    fn flow(&mut self, time: &N, state: &mut Moving<'_, N>, continues: bool) {
+    fn flow(&mut self, time: &N, state: &mut FlowState<'_, N>, continues: bool) {
         let Rotation { freedom, form, function, root, inverse, half, sin, cos, by: [of_q, of_p] } = self;
         let freedoms = state.q().len();
         let (q, p) = (&state.q()[*freedom], &state.p()[*freedom]);
@@ -173,7 +173,7 @@ impl<N: Number> Part<N> for Squeeze<N> {
         self.function.add_energy(energy, |action| action.assign_product(&q[freedom], &p[freedom]));
     }
 
-    fn flow(&mut self, time: &N, state: &mut Moving<'_, N>, continues: bool) {
+    fn flow(&mut self, time: &N, state: &mut FlowState<'_, N>, continues: bool) {
         let Squeeze { freedom, function, half, sinh, exp, by } = self;
         let freedoms = state.q().len();
         function.evaluate(state, continues, |action| action.assign_product(&state.q()[*freedom], &state.p()[*freedom]));

@@ -2,7 +2,7 @@
 
 use shadowstep_symbolic::PotentialPrograms;
 
-use super::part::{Moving, Part};
+use super::part::{FlowState, Part};
 use crate::interpreter::Interpreter;
 use crate::number::Number;
 
@@ -36,7 +36,7 @@ impl<N: Number> Commuting<N> {
         }
     }
 
-    fn evaluate(&mut self, state: &Moving<'_, N>) {
+    fn evaluate(&mut self, state: &FlowState<'_, N>) {
         let Commuting { variables, interpreter, registers, x, gradient, rate, has_rate } = self;
         x.iter_mut().zip(&*variables).for_each(|(x, index)| x.assign(state.variable(*index)));
         *has_rate = state.is_augmented();
@@ -60,7 +60,7 @@ impl<N: Number> Part<N> for Commuting<N> {
         energy.add(self.interpreter.energy(&self.x, &mut self.registers));
     }
 
-    fn flow(&mut self, time: &N, state: &mut Moving<'_, N>, continues: bool) {
+    fn flow(&mut self, time: &N, state: &mut FlowState<'_, N>, continues: bool) {
         if !continues || state.is_augmented() && !self.has_rate {
             self.evaluate(state);
         }

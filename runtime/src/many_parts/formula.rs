@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::action::{Rotation, Squeeze};
 use super::commuting::Commuting;
 use super::kepler::Kepler;
-use super::part::{Moving, Part};
+use super::part::{FlowState, Part};
 use super::quadratic::Quadratic;
 use crate::Rational;
 use crate::formula::{FormulaError, refuse_repeated};
@@ -108,7 +108,7 @@ impl<N: Number> Part<N> for FormulaPart<N> {
         self.flows.iter_mut().for_each(|part| part.add_energy(q, p, energy));
     }
 
-    fn flow(&mut self, time: &N, state: &mut Moving<'_, N>, continues: bool) {
+    fn flow(&mut self, time: &N, state: &mut FlowState<'_, N>, continues: bool) {
         // they have no degree of freedom in common
         self.flows.iter_mut().for_each(|part| part.flow(time, state, continues));
     }

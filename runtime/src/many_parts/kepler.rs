@@ -1,6 +1,6 @@
 //! Kepler's problem |p|²/(2m) − κ/|q| as a part: β grows by 3κ ∫dt/r.
 
-use super::part::{Moving, Part};
+use super::part::{FlowState, Part};
 use crate::Rational;
 use crate::kepler_drift::KeplerDrift;
 use crate::number::Number;
@@ -55,7 +55,7 @@ impl<N: Number> Part<N> for Kepler<N> {
         energy.subtract(square);
     }
 
-    fn flow(&mut self, time: &N, state: &mut Moving<'_, N>, _: bool) {
+    fn flow(&mut self, time: &N, state: &mut FlowState<'_, N>, _: bool) {
         let Kepler { freedoms, drift, mass, mu, rate, q, v, dq, dv, .. } = self;
         for (k, &i) in freedoms.iter().enumerate() {
             q[k].assign(&state.q()[i]);

@@ -1,7 +1,9 @@
 //! A part of H with its flow, and the state that it moves.
 
 use crate::number::Number;
-use crate::system::OwnedIncrements;
+use crate::state::VectorState;
+use crate::summation::Half;
+use crate::system::Carried;
 
 /// A part A of H = H_1 + … + H_n whose flow is known.
 pub trait Part<N: Number> {
@@ -11,41 +13,40 @@ pub trait Part<N: Number> {
     /// The exact flow over a time, and its part of the increments: β grows by ∫(qᵀA_q + pᵀA_p − 2A) dt. The state has the same bits with them and without.
     ///
     /// `continues` says that the state is the one that the last flow of this part has made: what stays along the flow is then known.
-    fn flow(&mut self, time: &N, state: &mut Moving<'_, N>, continues: bool);
+    fn flow(&mut self, time: &N, state: &mut FlowState<'_, N>, continues: bool);
 }
 
 /// A state that a flow changes, with its increments in an augmented step.
-pub struct Moving<'a, N> {
-    q: &'a mut [N],
-    p: &'a mut [N],
-    increments: Option<&'a mut OwnedIncrements<N>>,
+pub struct FlowState<'a, N> {
+    state: &'a mut VectorState<N>,
+    carried: Carried,
 }
 
-impl<'a, N: Number> Moving<'a, N> {
-    /// Of q and p; with the increments in an augmented step.
-    pub fn new(q: &'a mut [N], p: &'a mut [N], increments: Option<&'a mut OwnedIncrements<N>>) -> Self {
-        Moving { q, p, increments }
+impl<'a, N: Number> FlowState<'a, N> {
+    /// The state, with what its flow carries along.
+    pub fn new(state: &'a mut VectorState<N>, carried: Carried) -> Self {
+        FlowState { state, carried }
     }
 
     /// Positions.
     pub fn q(&self) -> &[N] {
-        self.q
+        self.state.q()
     }
 
     /// Momenta.
     pub fn p(&self) -> &[N] {
-        self.p
+        self.state.p()
     }
 
     /// A variable by its index: those of q come first.
     pub fn variable(&self, index: usize) -> &N {
-        let count = self.q.len();
-        if index < count { &self.q[index] } else { &self.p[index - count] }
+        let count = self.q().len();
+        if index < count { &self.q()[index] } else { &self.p()[index - count] }
     }
 
     /// Whether β is needed.
     pub fn is_augmented(&self) -> bool {
-        self.increments.is_some()
+        self.carried == Carried::Increments
     }
 
     /// x ← x + by, of a variable by its index.
@@ -65,20 +66,12 @@ impl<'a, N: Number> Moving<'a, N> {
 
     /// β ← β + ab, in an augmented step.
     pub fn add_to_beta(&mut self, a: &N, b: &N) {
-        if let Some(increments) = &mut self.increments {
-            increments.beta.add_product(a, b);
-        }
+        self.state.add_to_beta(self.carried, a, b);
     }
 
-    /// The same of a variable and of its increment.
-    fn change(&mut self, index: usize, change: impl Fn(&mut N)) {
-        let count = self.q.len();
-        let (of_q, index) = if index < count { (true, index) } else { (false, index - count) };
-        change(if of_q { &mut self.q[index] } else { &mut self.p[index] });
-        if let Some(increments) = &mut self.increments {
-            let vector = if of_q { &mut increments.q } else { &mut increments.p };
-            // some number types keep none
-            vector.get_mut(index).into_iter().for_each(change);
-        }
+    fn change(&mut self, index: usize, add: impl Fn(&mut N)) {
+        let count = self.q().len();
+        let (half, index) = if index < count { (Half::Positions, index) } else { (Half::Momenta, index - count) };
+        self.state.change(half, index, self.carried, add);
     }
 }

@@ -4,7 +4,7 @@
 
 use shadowstep_symbolic::decimal::from_text;
 
-use super::part::{Moving, Part};
+use super::part::{FlowState, Part};
 use crate::Rational;
 use crate::matrix::{MOST_KEPT, MOST_TERMS, Matrix, add, precision, product, round, scale};
 use crate::number::{AnyLimbs, Number, Ordered, Rounded};
@@ -62,7 +62,7 @@ impl<N: Rounded> Part<N> for Quadratic<N> {
         energy.add(&twice);
     }
 
-    fn flow(&mut self, time: &N, state: &mut Moving<'_, N>, _: bool) {
+    fn flow(&mut self, time: &N, state: &mut FlowState<'_, N>, _: bool) {
         let index = self.flow_over(time);
         let Quadratic { freedoms, known, x, by, .. } = self;
         let count = state.q().len();

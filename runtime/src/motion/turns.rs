@@ -5,66 +5,47 @@
 
 use std::mem::{needs_drop, take};
 
-use super::flows::{FEW, Flows, Moving, kicks_and_drifts};
+use super::Motion;
+use super::hamiltonian::{Evaluated, FEW, Hamiltonian, kicks_and_drifts};
 use crate::coordinates::Coordinates;
 use crate::kept::Kept;
 use crate::kinetic::Kinetic;
 use crate::maps::{MapKind, MapSequence};
 use crate::number::Number;
 use crate::potential::{Potential, Repeated};
+use crate::state::State;
 use crate::summation::Summation;
+use crate::system::{Carried, Each};
 
-/// A system of flows, and of what they change.
-pub(super) trait Flowing {
-    type Number: Number;
-    type Coordinates: Coordinates<Self::Number>;
-    type Potential: Potential<Self::Number>;
-    type Kinetic: Kinetic<Self::Number>;
-    type Summation: Summation<Self::Number>;
-
-    fn flows(&mut self) -> (&mut FlowsOf<Self>, &mut MovingOf<Self>);
-}
-
-type FlowsOf<M> = Flows<<M as Flowing>::Number, <M as Flowing>::Potential, <M as Flowing>::Kinetic>;
-type MovingOf<M> = Moving<<M as Flowing>::Number, <M as Flowing>::Coordinates, <M as Flowing>::Summation>;
-
-/// `count` steps of each system.
+/// `count` plain steps of each motion.
 #[inline(always)]
-pub(super) fn advance<M: Flowing>(systems: &mut [M], maps: &impl MapSequence<M::Number>, count: u64) {
-    let in_turns = if count >= FEW { kicks_and_drifts(maps, count, count) } else { None };
+pub(super) fn advance<N, V, P, K, S>(motions: &mut [Motion<N, V, P, K, S>], maps: &impl MapSequence<N>, count: u64)
+where
+    N: Number,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
+    S: Summation<N>,
+{
+    let in_turns = if count >= FEW { kicks_and_drifts(maps, count) } else { None };
     match in_turns {
-        Some(steps) => advance_in_turns(systems, &steps),
-        None => advance_map_by_map(systems, maps, count),
+        Some(steps) => advance_in_turns(motions, &steps),
+        None => maps.each(0..count, count, &mut Each { systems: motions, carried: Carried::Nothing }),
     }
-}
-
-#[inline(always)]
-fn advance_map_by_map<M: Flowing>(systems: &mut [M], maps: &impl MapSequence<M::Number>, count: u64) {
-    maps.each(
-        0..count,
-        count,
-        #[inline(always)]
-        |kind, weight, _| {
-            for system in &mut *systems {
-                let (flows, moving) = system.flows();
-                match kind {
-                    MapKind::Kick => flows.kick(moving, weight, flows.keeps_rate),
-                    MapKind::Drift => flows.drift(moving, weight),
-                    MapKind::GradientKick => {
-                        flows.gradient_kick(moving, weight, flows.keeps_rate);
-                    }
-                }
-            }
-        },
-    );
 }
 
 /// The kicks and drifts of the first, of each middle and of the last step.
 #[inline(always)]
-fn advance_in_turns<M: Flowing>(
-    systems: &mut [M],
-    [(first, _), (middle, times), (last, _)]: &[Repeated<M::Number>; 3],
-) {
+fn advance_in_turns<N, V, P, K, S>(
+    motions: &mut [Motion<N, V, P, K, S>],
+    [(first, _), (middle, times), (last, _)]: &[Repeated<N>; 3],
+) where
+    N: Number,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
+    S: Summation<N>,
+{
     let mut turn = Turn::default();
     let mut begin = turn.continued(first);
     begin.extend(turn.continued(middle));
@@ -75,7 +56,7 @@ fn advance_in_turns<M: Flowing>(
     for (turns, times) in [(begin, 1), (repeated, times - 1), (end, 1)] {
         for _ in 0..times {
             for turn in &turns {
-                turn.apply(systems);
+                turn.apply(motions);
             }
         }
     }
@@ -116,64 +97,75 @@ impl<'a, N: Number> Turn<'a, N> {
     #[inline(always)]
     fn advance<P, K: Kinetic<N>, S: Summation<N>>(
         &self,
-        flows: &mut Flows<N, P, K>,
-        summation: &mut S,
+        hamiltonian: &mut Hamiltonian<N, P, K>,
+        sums: &mut S,
         (q, p): (&mut [N], &mut [N]),
         gradient: &[N],
     ) {
-        let Flows { kinetic, kinetic_scratch, .. } = flows;
+        let Hamiltonian { kinetic, kinetic_scratch, .. } = hamiltonian;
         // one by one: the compiler would not unroll loops
         let Turn { kicks: [kick, other_kick], drifts: [drift, other_drift] } = self;
         if let Some(weight) = kick {
-            summation.kick(weight, gradient, p);
+            sums.kick(weight, gradient, p);
         }
         if let Some(weight) = other_kick {
-            summation.kick(weight, gradient, p);
+            sums.kick(weight, gradient, p);
         }
         if let Some(weight) = drift {
-            summation.drift(kinetic, weight, p, q, kinetic_scratch);
+            sums.drift(kinetic, weight, p, q, kinetic_scratch);
         }
         if let Some(weight) = other_drift {
-            summation.drift(kinetic, weight, p, q, kinetic_scratch);
+            sums.drift(kinetic, weight, p, q, kinetic_scratch);
         }
     }
 
-    /// Those of one system after the other.
+    /// The maps of one motion after the other.
     #[inline(always)]
-    fn apply<M: Flowing<Number = N>>(&self, systems: &mut [M]) {
+    fn apply<V, P, K, S>(&self, motions: &mut [Motion<N, V, P, K, S>])
+    where
+        V: Coordinates<N>,
+        P: Potential<N>,
+        K: Kinetic<N>,
+        S: Summation<N>,
+    {
         // what is there and what is not as constants: so each of these is compiled without branches
         let Turn { kicks: [kick, other_kick], drifts: [drift, other_drift] } = *self;
         match (kick, other_kick, drift, other_drift) {
             (Some(_), None, Some(_), None) => {
-                advance_each(systems, &Turn { kicks: [kick, None], drifts: [drift, None] })
+                advance_each(motions, &Turn { kicks: [kick, None], drifts: [drift, None] })
             }
-            (Some(_), Some(_), Some(_), None) => advance_each(systems, &Turn { drifts: [drift, None], ..*self }),
-            (Some(_), None, Some(_), Some(_)) => advance_each(systems, &Turn { kicks: [kick, None], ..*self }),
-            _ => advance_each(systems, &Turn { ..*self }),
+            (Some(_), Some(_), Some(_), None) => advance_each(motions, &Turn { drifts: [drift, None], ..*self }),
+            (Some(_), None, Some(_), Some(_)) => advance_each(motions, &Turn { kicks: [kick, None], ..*self }),
+            _ => advance_each(motions, &Turn { ..*self }),
         }
     }
 }
 
 #[inline(always)]
-fn advance_each<M: Flowing>(systems: &mut [M], turn: &Turn<'_, M::Number>) {
-    for system in systems {
-        let (flows, moving) = system.flows();
-        moving.settle();
-        if turn.kicks[0].is_some() && moving.kept == Kept::Nothing {
-            flows.evaluate(moving, flows.keeps_rate);
+fn advance_each<N, V, P, K, S>(motions: &mut [Motion<N, V, P, K, S>], turn: &Turn<'_, N>)
+where
+    N: Number,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
+    S: Summation<N>,
+{
+    for Motion { hamiltonian, at } in motions {
+        at.state.settle();
+        if turn.kicks[0].is_some() && at.kept == Kept::Nothing {
+            hamiltonian.evaluate(at, false);
         }
-        if needs_drop::<M::Coordinates>() {
-            let Moving { summation, q, p, gradient, .. } = moving;
-            turn.advance(flows, summation, (q.as_mut(), p.as_mut()), gradient.as_ref());
+        let Evaluated { state: State { q, p, sums, .. }, gradient, kept, .. } = at;
+        if needs_drop::<V>() {
+            turn.advance(hamiltonian, sums, (q.as_mut(), p.as_mut()), gradient.as_ref());
         } else {
             // a copy, which the compiler can hold in registers
-            let mut p = moving.p.clone();
-            let Moving { summation, q, gradient, .. } = moving;
-            turn.advance(flows, summation, (q.as_mut(), p.as_mut()), gradient.as_ref());
-            moving.p = p;
+            let mut copy = p.clone();
+            turn.advance(hamiltonian, sums, (q.as_mut(), copy.as_mut()), gradient.as_ref());
+            *p = copy;
         }
         if turn.drifts[0].is_some() {
-            moving.kept = Kept::Nothing;
+            *kept = Kept::Nothing;
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::error::RecordedError;
 use super::misfit::{Differences, Misfit};
-use crate::run::{RunError, ShadowRun, State, States, check_stepper};
+use crate::run::{RunError, ShadowRun, States, TrajectoryState, check_stepper};
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::{BuildEstimator, Estimator};
 use crate::stepper::Stepper;
@@ -101,7 +101,7 @@ impl<S: Scheme, M: System<Number = f64>> Repeated<'_, S, M> {
 impl<'a, S: Scheme + ValidFor<M::Class>, M: System<Number = f64>> States for Repeated<'a, S, M> {
     type Number = f64;
 
-    fn advance(&mut self) -> Result<Option<State<'_, f64>>, RunError> {
+    fn advance(&mut self) -> Result<Option<TrajectoryState<'_, f64>>, RunError> {
         let (n, dimension) = (self.next, self.system.q().len());
         let row = |numbers: &'a [f64], n: usize| numbers.get(n * dimension..(n + 1) * dimension);
         let Some((q, p)) = row(self.q, n).zip(row(self.p, n)) else { return Ok(None) };
@@ -109,9 +109,9 @@ impl<'a, S: Scheme + ValidFor<M::Class>, M: System<Number = f64>> States for Rep
         let before = n.checked_sub(1).and_then(|before| row(self.q, before).zip(row(self.p, before)));
         let increments = match before {
             Some((q_before, p_before)) => {
-                self.system.set_state(q_before, p_before);
+                self.system.state_mut().set(q_before, p_before);
                 self.stepper.step_augmented(&mut self.system);
-                let increments = self.system.increments();
+                let increments = self.system.state().increments();
                 let [of_q, of_p] = &mut self.misfits;
                 of_q.add_step(n as i64, [q_before, q], increments.q);
                 of_p.add_step(n as i64, [p_before, p], increments.p);
@@ -119,7 +119,7 @@ impl<'a, S: Scheme + ValidFor<M::Class>, M: System<Number = f64>> States for Rep
             }
             None => Increments::of_beta(&0.0),
         };
-        let state = State { n: n as i64, q, p, increments };
+        let state = TrajectoryState { n: n as i64, q, p, increments };
         state.check()?;
         Ok(Some(state))
     }

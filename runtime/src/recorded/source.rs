@@ -4,7 +4,7 @@ use super::error::RecordedError;
 use super::log::Log;
 use super::misfit::Differences;
 use super::verlet::VerletSteps;
-use crate::run::{RunError, ShadowRun, State, States};
+use crate::run::{RunError, ShadowRun, States, TrajectoryState};
 use crate::shadow::{BuildEstimator, Estimator};
 use crate::step_size::StepSize;
 
@@ -89,7 +89,7 @@ impl<'a> Recorded<'a> {
 impl States for Recorded<'_> {
     type Number = f64;
 
-    fn advance(&mut self) -> Result<Option<State<'_, f64>>, RunError> {
+    fn advance(&mut self) -> Result<Option<TrajectoryState<'_, f64>>, RunError> {
         let Some(logged) = self.log.state(self.next) else { return Ok(None) };
         self.next += 1;
         self.steps.push(&logged)?;

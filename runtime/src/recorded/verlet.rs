@@ -4,7 +4,7 @@ use super::error::RecordedError;
 use super::log::{Derivatives, Logged};
 use super::misfit::{Differences, Misfit};
 use crate::number::Number;
-use crate::run::{RunError, State};
+use crate::run::{RunError, TrajectoryState};
 use crate::step_size::StepSize;
 use crate::system::{Increments, OwnedIncrements};
 
@@ -153,9 +153,9 @@ impl VerletSteps {
     }
 
     /// The newest state, with what the step to it added if it follows the one before.
-    pub(super) fn state(&self) -> State<'_, f64> {
+    pub(super) fn state(&self) -> TrajectoryState<'_, f64> {
         let increments = if self.follows[1] { self.increments.view() } else { Increments::of_beta(&0.0) };
-        State { n: self.n, q: &self.q, p: &self.p, increments }
+        TrajectoryState { n: self.n, q: &self.q, p: &self.p, increments }
     }
 
     /// By how much logged q and p differ from the steps; `None` before the first step, and where no gradients are logged.

@@ -54,7 +54,7 @@ where
 {
     let mut run = ShadowRun::new(stepper, system, steps, settings)?;
     let mut found = run.drift()?;
-    found.evaluations = run.system().evaluations();
+    found.evaluations = run.system().state().evaluations();
     Ok(found)
 }
 

@@ -109,11 +109,11 @@ pub(crate) fn check_stepper<S: Scheme, M: System<Number: Ordered>>(
     stepper: &Stepper<S, M::Number>,
     system: &M,
 ) -> Result<(), RunError> {
-    let context = system.context();
+    let context = system.state().context();
     if !stepper.weights().iter().all(|weight| weight.context() == context) {
         return Err(RunError::Precision);
     }
-    if stepper.scheme().gradient_kicks() > 0 && !system.has_gradient_kicks() {
+    if !stepper.weights().gradient_kicks.is_empty() && !system.has_gradient_kicks() {
         return Err(RunError::NoGradientKicks { scheme: stepper.scheme().summary().name.to_owned() });
     }
     Ok(())

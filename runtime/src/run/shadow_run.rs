@@ -2,7 +2,7 @@
 
 use crate::number::Ordered;
 use crate::run::error::{Quantity, RunError, check_value};
-use crate::run::state::{State, States};
+use crate::run::state::{States, TrajectoryState};
 use crate::run::trajectory::Trajectory;
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::{BuildEstimator, Estimate, Estimator};
@@ -61,7 +61,7 @@ where
         steps: u64,
         settings: &impl BuildEstimator<M::Number, Estimator = E>,
     ) -> Result<Self, RunError> {
-        let estimator = settings.build(stepper.step_size(), system.q().len(), &system.context())?;
+        let estimator = settings.build(stepper.step_size(), system.q().len(), &system.state().context())?;
         let mut run = ShadowRun::of(Trajectory::after(stepper, system, from)?, estimator, stepper.step_size());
         run.states.extend(steps, run.reach as usize);
         Ok(run)
@@ -122,7 +122,7 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
         mut watch: impl FnMut(i64, &mut T),
     ) -> Result<Option<Estimated<'_, T::Number>>, RunError> {
         loop {
-            let Some(State { n, q, p, increments }) = self.states.advance()? else { return Ok(None) };
+            let Some(TrajectoryState { n, q, p, increments }) = self.states.advance()? else { return Ok(None) };
             if self.missing > 0 {
                 self.missing -= 1;
                 self.estimator.push(q, p, increments);
@@ -173,7 +173,7 @@ mod tests {
     fn states(stepper: &Stepper<TableScheme, f64>, steps: u64) -> Vec<(Vec<f64>, Vec<f64>)> {
         let mut trajectory = Trajectory::plain(stepper, start(), 0, steps).unwrap();
         let mut states = Vec::new();
-        while let Some(State { q, p, .. }) = trajectory.advance().unwrap() {
+        while let Some(TrajectoryState { q, p, .. }) = trajectory.advance().unwrap() {
             states.push((q.to_vec(), p.to_vec()));
         }
         states

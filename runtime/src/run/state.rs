@@ -7,7 +7,7 @@ use crate::system::{Increments, System};
 
 /// A state of a trajectory.
 #[derive(Clone, Copy, Debug)]
-pub struct State<'a, N> {
+pub struct TrajectoryState<'a, N> {
     /// Its number: t = n h.
     pub n: i64,
     /// Positions.
@@ -18,16 +18,16 @@ pub struct State<'a, N> {
     pub increments: Increments<'a, N>,
 }
 
-impl<'a, N: Ordered> State<'a, N> {
+impl<'a, N: Ordered> TrajectoryState<'a, N> {
     /// The present state of a system.
     pub(crate) fn of<S: System<Number = N>>(system: &'a S, n: i64) -> Self {
-        State { n, q: system.q(), p: system.p(), increments: system.increments() }
+        TrajectoryState { n, q: system.q(), p: system.p(), increments: system.state().increments() }
     }
 
     /// Refuses a state with a value that is not finite.
     #[inline(always)]
     pub(crate) fn check(&self) -> Result<(), RunError> {
-        let State { q, p, increments, .. } = *self;
+        let TrajectoryState { q, p, increments, .. } = *self;
         // without a branch for each coordinate
         let are_finite = |numbers: &[N]| {
             instructions::widest_if_long(
@@ -42,7 +42,7 @@ impl<'a, N: Ordered> State<'a, N> {
 
     #[cold]
     fn refuse(&self) -> Result<(), RunError> {
-        let State { n, q, p, increments } = *self;
+        let TrajectoryState { n, q, p, increments } = *self;
         for (index, position) in q.iter().enumerate() {
             check_value(position, Quantity::Position(index), n)?;
         }
@@ -62,7 +62,7 @@ pub trait States {
     ///
     /// # Errors
     /// A state that is not finite.
-    fn advance(&mut self) -> Result<Option<State<'_, Self::Number>>, RunError>;
+    fn advance(&mut self) -> Result<Option<TrajectoryState<'_, Self::Number>>, RunError>;
 
     /// Whether the round-off of a step is that of its increments: see [`System::is_compensated`]. By default it is not.
     fn is_compensated(&self) -> bool {
@@ -73,7 +73,7 @@ pub trait States {
 impl<T: States + ?Sized> States for &mut T {
     type Number = T::Number;
 
-    fn advance(&mut self) -> Result<Option<State<'_, T::Number>>, RunError> {
+    fn advance(&mut self) -> Result<Option<TrajectoryState<'_, T::Number>>, RunError> {
         (**self).advance()
     }
 

@@ -2,8 +2,9 @@
 
 use crate::number::Ordered;
 use crate::run::error::{RunError, check_energy, check_stepper};
-use crate::run::state::{State, States, last};
+use crate::run::state::{States, TrajectoryState, last};
 use crate::scheme::{Scheme, ValidFor};
+use crate::state::Saved;
 use crate::stepper::Stepper;
 use crate::system::{OwnedIncrements, System};
 
@@ -32,7 +33,7 @@ struct Stored<N> {
 
 impl<N: crate::Number> Stored<N> {
     fn of<M: System<Number = N>>(system: &M) -> Self {
-        Stored { q: system.q().to_vec(), p: system.p().to_vec(), increments: system.increments().to_owned() }
+        Stored { q: system.q().to_vec(), p: system.p().to_vec(), increments: system.state().increments().to_owned() }
     }
 }
 
@@ -79,21 +80,20 @@ impl<'s, S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<
     /// Makes the states −reach, …, 0 from the present one, which is 0, and returns to it.
     pub(super) fn step_back(&mut self, reach: usize) -> Result<(), RunError> {
         let Trajectory { stepper, system, before, .. } = self;
-        let (start, remainders) = (Stored::of(system), system.remainders());
+        let (start, saved) = (Stored::of(system), Saved::of(system.state()));
         let mut later = start.clone();
         for n in 1..=reach as i64 {
             stepper.step_back_augmented(system);
-            State::of(system, -n).check()?;
+            TrajectoryState::of(system, -n).check()?;
             // the step from −n to −n + 1 adds what the step back took
-            later.increments.assign(system.increments());
+            later.increments.assign(system.state().increments());
             later.increments.negate();
             let earlier = Stored::of(system);
             before.push(std::mem::replace(&mut later, earlier));
         }
         later.increments.assign_zero();
         before.push(later);
-        system.set_state(&start.q, &start.p);
-        system.set_remainders(&remainders);
+        saved.restore(system.state_mut());
         self.n = -(reach as i64) - 1;
         Ok(())
     }
@@ -128,7 +128,7 @@ impl<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<'_, 
             } else {
                 self.stepper.step(&mut self.system);
             }
-            State::of(&self.system, self.n).check()?;
+            TrajectoryState::of(&self.system, self.n).check()?;
             if !continues() {
                 return Ok(false);
             }
@@ -140,7 +140,7 @@ impl<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<'_, 
 impl<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> States for Trajectory<'_, S, M> {
     type Number = M::Number;
 
-    fn advance(&mut self) -> Result<Option<State<'_, M::Number>>, RunError> {
+    fn advance(&mut self) -> Result<Option<TrajectoryState<'_, M::Number>>, RunError> {
         if self.n >= self.last {
             return Ok(None);
         }
@@ -148,20 +148,20 @@ impl<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> States for Traj
         let n = self.n;
         self.present = self.before.pop();
         if let Some(Stored { q, p, increments }) = &self.present {
-            return Ok(Some(State { n, q, p, increments: increments.view() }));
+            return Ok(Some(TrajectoryState { n, q, p, increments: increments.view() }));
         }
         if self.augmented {
             self.stepper.step_augmented(&mut self.system);
         } else {
             self.stepper.step(&mut self.system);
         }
-        let state = State::of(&self.system, n);
+        let state = TrajectoryState::of(&self.system, n);
         state.check()?;
         Ok(Some(state))
     }
 
     fn is_compensated(&self) -> bool {
-        self.system.is_compensated()
+        self.system.state().is_compensated()
     }
 }
 
@@ -205,7 +205,7 @@ mod tests {
             let states = plain(&stepper, 50);
             assert_eq!(states.len(), 51);
             let mut augmented = Trajectory::new(&stepper, start(), 50, 3).unwrap();
-            while let Some(State { n, q, p, .. }) = augmented.advance().unwrap() {
+            while let Some(TrajectoryState { n, q, p, .. }) = augmented.advance().unwrap() {
                 if (0..=50).contains(&n) {
                     assert_eq!((n, q, p), (states[n as usize].0, &*states[n as usize].1, &*states[n as usize].2));
                 }

@@ -45,7 +45,7 @@ use self::recent::Recent;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
 use crate::number::Ordered;
-use crate::run::{Quantity, RunError, State, check_energy, check_stepper, check_value};
+use crate::run::{Quantity, RunError, TrajectoryState, check_energy, check_stepper, check_value};
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
 use crate::stepper::Stepper;
@@ -194,12 +194,12 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
         system: &mut M,
         settings: &impl BuildEstimator<N, Estimator = E>,
     ) -> Result<Self, RunError> {
-        let (dimension, context) = (system.q().len(), system.context());
+        let (dimension, context) = (system.q().len(), system.state().context());
         check_stepper(&stepper, system)?;
         let estimator = settings.build(stepper.step_size(), dimension, &context)?;
         let states = estimator.states();
         let [mut energy, mut kinetic] = [N::zero(&context), N::zero(&context)];
-        system.assign_energies(&mut energy, &mut kinetic);
+        system.assign_energies(None, &mut energy, &mut kinetic);
         check_energy(&energy, system.q(), 0)?;
         let schedule = Schedule::new(states, 1);
         let mut monitor = ShadowEnergy {
@@ -265,11 +265,11 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
     {
         if self.needs_increments() {
             self.stepper.step_augmented(system);
-        } else {
+        } else if self.schedule.begins(self.n + 1) {
             // the gradient at the first state of a window is the first one of an augmented step, too
-            system.before_augmented_step(self.schedule.begins(self.n + 1));
+            self.stepper.step_before_augmented(system);
+        } else {
             self.stepper.step(system);
-            system.before_augmented_step(false);
         }
         self.observe(system)
     }
@@ -307,15 +307,15 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
         }
         if let Some(([energy, kinetic], is_checked)) = self.energies.at_middle(self.n) {
             // while the gradient is kept from which the energy follows
-            system.assign_energies(energy, kinetic);
+            system.assign_energies(None, energy, kinetic);
             if is_checked {
                 self.rate.compare(system, energy);
             }
         }
         let begins = self.schedule.begins(self.n);
-        let increments = if begins { Increments::of_beta(&self.unknown) } else { system.increments() };
+        let increments = if begins { Increments::of_beta(&self.unknown) } else { system.state().increments() };
         let (q, p) = (system.q(), system.p());
-        State { n: number(self.n), q, p, increments }.check()?;
+        TrajectoryState { n: number(self.n), q, p, increments }.check()?;
         self.recent.push(system, !begins && self.n > 0);
         let states = self.schedule.states();
         let estimate = self.estimator.push(q, p, increments);

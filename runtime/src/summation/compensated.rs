@@ -1,10 +1,10 @@
 //! Compensated sums: each coordinate with the remainder of its last sum.
 
-use super::Summation;
+use super::{Half, Summation};
 use crate::coordinates::Coordinates;
 use crate::kinetic::Kinetic;
 use crate::number::Number;
-use crate::system::Remainders;
+use crate::state::Remainders;
 
 /// q and p with the remainder of each sum, which is added to the next increment.
 ///
@@ -50,7 +50,7 @@ impl<N: Number, V: Coordinates<N>> Compensated<N, V> {
 
 /// a ← a + y, and what is rounded away is the remainder.
 #[inline(always)]
-pub(crate) fn add_with_remainder<N: Number>(a: &mut N, remainder: &mut N, y: &N, sum: &mut N) {
+fn add_with_remainder<N: Number>(a: &mut N, remainder: &mut N, y: &N, sum: &mut N) {
     sum.assign_sum(a, y);
     remainder.assign_difference(a, sum);
     remainder.add(y);
@@ -91,6 +91,18 @@ impl<N: Number, V: Coordinates<N>> Summation<N> for Compensated<N, V> {
             added.iter_mut().zip(self.increment.as_ref()).for_each(|(own, increment)| own.add(increment));
         }
         self.add_increment(q);
+    }
+
+    #[inline(always)]
+    fn change(&mut self, half: Half, index: usize, x: &mut N, add: impl Fn(&mut N)) {
+        let remainders = match half {
+            Half::Positions => self.q.as_mut(),
+            Half::Momenta => self.p.as_mut(),
+        };
+        let remainder = &mut remainders[index];
+        self.y.assign(remainder);
+        add(&mut self.y);
+        add_with_remainder(x, remainder, &self.y, &mut self.sum);
     }
 
     fn forget_positions(&mut self) {

@@ -2,10 +2,10 @@
 
 use thiserror::Error;
 
-use super::Summation;
+use super::{Half, Summation};
 use crate::coordinates::Coordinates;
 use crate::kinetic::Kinetic;
-use crate::system::Remainders;
+use crate::state::Remainders;
 
 /// q and p as whole multiples of powers of two, in 64 bits.
 ///
@@ -97,9 +97,13 @@ impl Multiples {
         let Multiples { values, units, per_unit, .. } = self;
         let places = values.iter_mut().zip(units).zip(per_unit).zip(coordinates);
         for ((((value, unit), per_unit), x), increment) in places.zip(increments) {
-            *value = sum(*value, multiple(increment * *per_unit));
-            *x = if *value == LOST { f64::NAN } else { *value as f64 * *unit };
+            add(value, (*unit, *per_unit), increment, x);
         }
+    }
+
+    /// Adds an increment, rounded, to one coordinate.
+    fn add_to(&mut self, index: usize, increment: f64, x: &mut f64) {
+        add(&mut self.values[index], (self.units[index], self.per_unit[index]), increment, x);
     }
 
     /// What the multiples are more than the coordinates, which are the multiples rounded.
@@ -117,6 +121,13 @@ impl Multiples {
             self.values[i] = sum(self.values[i], multiple(remainder * self.per_unit[i]));
         }
     }
+}
+
+/// Adds an increment, rounded, to a multiple, and sets the coordinate to the sum.
+#[inline(always)]
+fn add(value: &mut i64, (unit, per_unit): (f64, f64), increment: f64, x: &mut f64) {
+    *value = sum(*value, multiple(increment * per_unit));
+    *x = if *value == LOST { f64::NAN } else { *value as f64 * unit };
 }
 
 /// The smallest power of two from x on.
@@ -169,6 +180,16 @@ impl<V: Coordinates<f64>> Summation<f64> for FixedPoint<V> {
         kinetic.drift_augmented(weight, p, self.increment.as_mut(), beta, scratch);
         added.iter_mut().zip(self.increment.as_ref()).for_each(|(own, increment)| *own += increment);
         self.add_increment(q);
+    }
+
+    #[inline]
+    fn change(&mut self, half: Half, index: usize, x: &mut f64, add: impl Fn(&mut f64)) {
+        let mut increment = 0.0;
+        add(&mut increment);
+        match half {
+            Half::Positions => self.q.add_to(index, increment, x),
+            Half::Momenta => self.p.add_to(index, increment, x),
+        }
     }
 
     fn forget_positions(&mut self) {

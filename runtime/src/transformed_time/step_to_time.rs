@@ -4,7 +4,8 @@ use crate::number::{Number, Ordered};
 use crate::scheme::{Scheme, ValidFor};
 use crate::scheme_maps::Maps;
 use crate::stepper::Stepper;
-use crate::system::System;
+use crate::system::{Carried, System};
+use crate::weights::WeightLists;
 
 /// More iterations than any number type needs: bisections alone find double precision in 60.
 const MOST_ITERATIONS: u32 = 400;
@@ -19,10 +20,10 @@ where
     S: Scheme + ValidFor<M::Class>,
     M: System<Number: Ordered>,
 {
-    let context = system.context();
+    let context = system.state().context();
     let zero = <M::Number as Number>::zero(&context);
     let start = (system.q().to_vec(), system.p().to_vec());
-    let mut search = Search { start, stepper, weights: stepper.weights().to_vec(), until, best: None };
+    let mut search = Search { start, stepper, until, best: None };
     let mut low = (zero.clone(), search.missed(system));
     if low.1 == zero {
         return None;
@@ -70,8 +71,6 @@ fn next_part<N: Ordered>(latest: &[Point<N>; 2], [low, high]: [&Point<N>; 2]) ->
 struct Search<'a, S: Scheme, N: Ordered> {
     start: (Vec<N>, Vec<N>),
     stepper: &'a Stepper<S, N>,
-    /// Those of the stepper times a part.
-    weights: Vec<N>,
     until: &'a N,
     /// The part that misses least, and by how much.
     best: Option<Point<N>>,
@@ -90,18 +89,21 @@ impl<S: Scheme, N: Ordered> Search<'_, S, N> {
     where
         S: ValidFor<M::Class>,
     {
-        let scheme = self.stepper.scheme();
-        self.weights.iter_mut().zip(self.stepper.weights()).for_each(|(own, weight)| own.assign_product(weight, part));
-        // those of gradient kicks have h³
-        for weight in self.weights.iter_mut().rev().take(scheme.gradient_kicks()) {
-            weight.multiply(part);
-            weight.multiply(part);
-        }
-        system.set_state(&self.start.0, &self.start.1);
-        M::advance(std::slice::from_mut(system), &Maps::new(scheme, &self.weights), 1);
+        let times = |weight: &N, factor: &N| {
+            let mut product = weight.clone();
+            product.assign_product(weight, factor);
+            product
+        };
+        let linear = |weight: &N| times(weight, part);
+        // h³
+        let cubic = |weight: &N| times(&times(&times(weight, part), part), part);
+        let weights = S::Weights::from_vecs(self.stepper.weights().map(linear, cubic));
+        system.state_mut().set(&self.start.0, &self.start.1);
+        let maps = Maps::new(self.stepper.scheme(), &weights);
+        M::advance(std::slice::from_mut(system), &maps, 1, Carried::Nothing);
         let missed = self.missed(system);
         if !missed.is_finite() {
-            system.set_state(&self.start.0, &self.start.1);
+            system.state_mut().set(&self.start.0, &self.start.1);
             return None;
         }
         let mut distance = missed.clone();

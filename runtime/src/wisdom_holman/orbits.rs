@@ -3,9 +3,9 @@
 use crate::Rational;
 use crate::kepler_drift::KeplerDrift;
 use crate::number::Number;
-use crate::system::OwnedIncrements;
-
-use super::sum::Sum;
+use crate::state::VectorState;
+use crate::summation::Half;
+use crate::system::Carried;
 
 /// The masses and attractions of A = P₀²/2M + Σ (P_i²/2m_i′ − κ_i/|Q_i|).
 #[derive(Clone, Debug)]
@@ -62,41 +62,26 @@ impl<N: Number, const D: usize> Advance<N, D> {
         }
     }
 
-    /// The flow of A for a time; with the increments of q, p and β if asked for.
-    pub(super) fn advance(
-        &mut self,
-        orbits: &Orbits<N>,
-        time: &N,
-        (q, p): (&mut [N], &mut [N]),
-        sums: &mut [Sum<N>; 2],
-        mut increments: Option<&mut OwnedIncrements<N>>,
-    ) {
-        let ((q, _), (p, _)) = (q.as_chunks_mut::<D>(), p.as_chunks_mut::<D>());
-        let ([centre, q @ ..], [momentum, p @ ..]) = (q, p) else { return };
-        for (axis, (q, p)) in centre.iter_mut().zip(momentum).enumerate() {
-            self.scratch.assign_quotient(p, &orbits.total_mass);
-            sums[0].add_product(axis, q, time, &self.scratch);
-            if let Some(kept) = increments.as_deref_mut().filter(|_| N::KEEPS_INCREMENTS) {
-                kept.q[axis].add_product(time, &self.scratch);
-            }
+    /// The flow of A for a time.
+    pub(super) fn advance(&mut self, orbits: &Orbits<N>, time: &N, state: &mut VectorState<N>, carried: Carried) {
+        for axis in 0..D {
+            self.scratch.assign_quotient(&state.p()[axis], &orbits.total_mass);
+            state.change(Half::Positions, axis, carried, |q| q.add_product(time, &self.scratch));
         }
-        for (planet, (orbit, (q, p))) in (1..).zip(orbits.planets.iter().zip(q.iter_mut().zip(p))) {
-            self.find_increments(orbit, time, q, p);
-            let own = planet * D..(planet + 1) * D;
-            for (number, (q, part)) in own.clone().zip(q.iter_mut().zip(&self.to_q)) {
-                sums[0].add(number, q, part);
+        for (planet, orbit) in (1..).zip(&orbits.planets) {
+            let first = planet * D;
+            self.find_increments(orbit, time, (&state.q()[first..first + D], &state.p()[first..first + D]));
+            for (axis, part) in self.to_q.iter().enumerate() {
+                state.change(Half::Positions, first + axis, carried, |q| q.add(part));
             }
-            for (number, (p, part)) in own.clone().zip(p.iter_mut().zip(&self.to_v)) {
-                sums[1].add_product(number, p, &orbit.mass, part);
+            for (axis, part) in self.to_v.iter().enumerate() {
+                state.change(Half::Momenta, first + axis, carried, |p| p.add_product(&orbit.mass, part));
             }
-            let Some(increments) = increments.as_deref_mut() else { continue };
-            // 3κ s
-            self.scratch.multiply(&orbit.attraction);
-            self.scratch.multiply_integer(3);
-            increments.beta.add(&self.scratch);
-            if N::KEEPS_INCREMENTS {
-                increments.q[own.clone()].iter_mut().zip(&self.to_q).for_each(|(sum, part)| sum.add(part));
-                increments.p[own].iter_mut().zip(&self.to_v).for_each(|(sum, part)| sum.add_product(&orbit.mass, part));
+            if carried == Carried::Increments {
+                // 3κ s
+                self.scratch.multiply(&orbit.attraction);
+                self.scratch.multiply_integer(3);
+                state.increments.beta.add(&self.scratch);
             }
         }
     }
@@ -104,7 +89,7 @@ impl<N: Number, const D: usize> Advance<N, D> {
     /// What the drift adds to a planet's position and velocity, and its universal anomaly in the scratch number.
     ///
     /// The velocity is the true quotient of momentum and mass: a product with 1/m, rounded, would let the energy drift.
-    fn find_increments(&mut self, orbit: &Orbit<N>, time: &N, q: &[N; D], p: &[N; D]) {
+    fn find_increments(&mut self, orbit: &Orbit<N>, time: &N, (q, p): (&[N], &[N])) {
         let Advance { kepler, place, velocity, to_q, to_v, scratch, .. } = self;
         place.iter_mut().zip(q).for_each(|(place, q)| place.assign(q));
         velocity.iter_mut().zip(p).for_each(|(v, p)| v.assign_quotient(p, &orbit.mass));

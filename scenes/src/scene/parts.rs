@@ -165,7 +165,7 @@ impl Planets {
                 Boxed::General(Box::new(self.at_rest::<N, DemocraticHeliocentric<N, 3>, 3>(compensated, context)))
             }
         };
-        system.set_state(q, p);
+        system.state_mut().set(q, p);
         Ok(system)
     }
 

@@ -147,7 +147,7 @@ where
         q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
         p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
     }
-    system.set_state(&q, &p);
+    system.state_mut().set(&q, &p);
     step_to_time(stepper, system, until);
 }
 

@@ -33,7 +33,7 @@ impl<N: Ordered> RateCheck<N> {
     pub(super) fn compare<M: System<Number = N>>(&mut self, system: &mut M, energy: &N) {
         self.q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
         self.p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
-        system.assign_energies_at(&self.q, &self.p, &mut self.energy, &mut self.kinetic);
+        system.assign_energies(Some((&self.q, &self.p)), &mut self.energy, &mut self.kinetic);
         self.size.assign(energy);
         self.size.make_absolute();
         self.size.add(&self.kinetic);

@@ -127,7 +127,7 @@ impl<N: Ordered> Recent<N> {
     /// Takes the next state of a window, to which an augmented step may have led.
     #[inline(always)]
     pub(super) fn push<M: System<Number = N>>(&mut self, system: &M, is_augmented: bool) {
-        let (q, p, added) = (system.q(), system.p(), system.increments());
+        let (q, p, added) = (system.q(), system.p(), system.state().increments());
         self.newest = if self.newest + 1 < KEPT { self.newest + 1 } else { 0 };
         let [before, last, own] = in_order(&mut self.states, self.newest, q.len());
         copy(q, own.q);
@@ -138,8 +138,8 @@ impl<N: Ordered> Recent<N> {
                 |before: &[N], after: &[N], added: &[N]| differ([before, after, added], rounding, three, [x, y]);
             self.mismatch |= differs(last.q, q, added.q) | differs(last.p, p, added.p);
         }
-        self.evaluations = [self.evaluations[1], system.evaluations()];
-        self.compensated = system.is_compensated();
+        self.evaluations = [self.evaluations[1], system.state().evaluations()];
+        self.compensated = system.state().is_compensated();
         if self.skipped > 0 {
             self.skipped -= 1;
             return;

@@ -1,0 +1,99 @@
+//! The flows and steps of a motion.
+
+use super::hamiltonian::Evaluated;
+use super::{Motion, turns};
+use crate::coordinates::Coordinates;
+use crate::kept::Kept;
+use crate::kinetic::Kinetic;
+use crate::maps::MapSequence;
+use crate::number::Number;
+use crate::partial_sums::add_sum;
+use crate::potential::Potential;
+use crate::state::State;
+use crate::summation::Summation;
+use crate::system::{Carried, Carrying, System};
+
+impl<N, V, P, K, S> System for Motion<N, V, P, K, S>
+where
+    N: Number,
+    V: Coordinates<N>,
+    P: Potential<N>,
+    K: Kinetic<N>,
+    S: Summation<N>,
+{
+    type Number = N;
+    type Class = K::Class;
+    type Coordinates = V;
+    type Summation = S;
+
+    #[inline(always)]
+    fn state(&self) -> &State<N, V, S> {
+        &self.at.state
+    }
+
+    fn state_mut(&mut self) -> &mut State<N, V, S> {
+        self.at.kept = Kept::Nothing;
+        &mut self.at.state
+    }
+
+    #[inline]
+    fn clear_increments(&mut self) {
+        self.at.state.clear_increments();
+    }
+
+    #[inline(always)]
+    fn kick(&mut self, weight: &N, carried: Carried) {
+        self.hamiltonian.kick(&mut self.at, weight, carried);
+    }
+
+    #[inline(always)]
+    fn drift(&mut self, weight: &N, carried: Carried) {
+        self.hamiltonian.drift(&mut self.at, weight, carried);
+    }
+
+    fn has_gradient_kicks(&self) -> bool {
+        let is_displaced = self.hamiltonian.curved.as_ref().is_some_and(|curved| curved.kicks.is_displaced());
+        is_displaced || self.hamiltonian.potential.hessian().is_some()
+    }
+
+    #[inline(always)]
+    fn gradient_kick(&mut self, weight: &N, carried: Carried) {
+        self.hamiltonian.gradient_kick(&mut self.at, weight, carried);
+    }
+
+    fn advance(motions: &mut [Self], maps: &impl MapSequence<N>, count: u64, carried: Carried) {
+        N::in_widest_instructions(
+            #[inline(always)]
+            || match motions {
+                [Motion { hamiltonian, at }] if carried == Carried::Nothing => hamiltonian.advance(at, maps, count),
+                many if carried == Carried::Nothing => turns::advance(many, maps, count),
+                all => all.iter_mut().for_each(
+                    #[inline(always)]
+                    |motion| {
+                        motion.clear_increments();
+                        maps.each(0..count, count, &mut Carrying { system: motion, carried: Carried::Increments });
+                    },
+                ),
+            },
+        );
+    }
+
+    /// Where the gradient and the rate are kept, U = ½(qᵀU_q − rate) costs no evaluation.
+    #[inline]
+    fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic_energy: &mut N) {
+        let Motion { hamiltonian, at: Evaluated { state, gradient, rate, kept } } = self;
+        let (q, p) = at.unwrap_or((state.q(), state.p()));
+        if at.is_some() || *kept != Kept::GradientAndRate {
+            return hamiltonian.assign_energies((q, p), energy, kinetic_energy);
+        }
+        energy.assign_zero();
+        add_sum(energy, [q, gradient.as_ref()], |[q, u], energy| energy.add_product(q, u));
+        energy.subtract(rate);
+        energy.divide_integer(2);
+        hamiltonian.add_kinetic_energy((q, p), energy, kinetic_energy);
+    }
+
+    fn energy(&mut self) -> N {
+        Motion::energy(self)
+    }
+}
