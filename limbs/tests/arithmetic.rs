@@ -1,10 +1,8 @@
 //! Every operation beside MPFR's, which rounds correctly: the same bits for random numbers and for those that are hard to round.
 //!
-//! `cargo test --release -p shadowstep-limbs --test arithmetic -- --ignored` runs 10⁷ cases.
+//! `cargo test --release -p shadowstep-limbs arithmetic -- --ignored` runs 10⁷ cases.
 
-mod mpfr;
-
-use mpfr::{Random, float, same};
+use super::mpfr::{Random, float, same};
 use rug::Float;
 use rug::ops::CompleteRound;
 use shadowstep_limbs::Limbs;

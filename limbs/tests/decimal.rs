@@ -1,8 +1,6 @@
 //! Decimal text beside MPFR's.
 
-mod mpfr;
-
-use mpfr::{Random, float, same};
+use super::mpfr::{Random, float, same};
 use rug::{Assign, Float};
 use shadowstep_limbs::{Limbs, ParseError};
 

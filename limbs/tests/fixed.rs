@@ -1,8 +1,6 @@
 //! Fixed-point arithmetic of arrays of limbs beside GMP's integers.
 
-mod mpfr;
-
-use mpfr::Random;
+use super::mpfr::Random;
 use rug::Integer;
 use rug::integer::Order;
 use rug::ops::RemRounding;

@@ -1,10 +1,8 @@
 //! Elementary functions beside MPFR's of more bits, for random arguments and for those that are hard to reduce or to round.
 //!
-//! `cargo test --release -p shadowstep-limbs --test functions -- --ignored` runs 10⁶ cases.
+//! `cargo test --release -p shadowstep-limbs functions -- --ignored` runs 10⁶ cases.
 
-mod mpfr;
-
-use mpfr::{Random, float};
+use super::mpfr::{Random, float};
 use rug::Float;
 use rug::float::Constant;
 use shadowstep_limbs::Limbs;

@@ -1,7 +1,5 @@
 //! Numbers beside MPFR's of the same bits, and random ones.
 
-#![allow(dead_code)] // each test uses a part
-
 use rug::Float;
 use rug::Integer;
 use rug::float::Round;

@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::random::Random;
-use crate::support::{DIGITS, Point, Real, call_method, names, of_node, of_program, of_tree};
+use super::random::Random;
+use super::support::{DIGITS, Point, Real, call_method, names, of_node, of_program, of_tree};
 use num_dual::{Dual64, DualNum};
 use rug::Float;
 use rug::ops::Pow;

@@ -1,6 +1,6 @@
 //! What programs cost: never more than what a careful person writes by hand.
 
-use crate::support::program;
+use super::support::program;
 use shadowstep_symbolic::Operations;
 
 /// Additions, multiplications, divisions, roots, elementary functions.

@@ -1,6 +1,6 @@
 //! Formulas as nodes: equal formulas are one node, invalid ones are rejected with their place, sizes stay moderate.
 
-use crate::support::{names, program};
+use super::support::{names, program};
 use shadowstep_symbolic::{Graph, Node, Place, Rational, parse};
 
 fn build(graph: &mut Graph, text: &str) -> Node {
@@ -120,10 +120,10 @@ fn a_derivative_that_is_not_defined_anywhere_is_allowed() {
     let mut graph = Graph::new();
     let node = build(&mut graph, "asin(sqrt(x^2)/x)");
     let derivative = graph.derivative(node, 0);
-    let point = crate::support::Point { coordinates: vec![0.5, 1.0, 1.0], parameters: vec![], properties: vec![] };
-    assert!(!crate::support::of_node(&graph, derivative, &point).is_finite());
+    let point = super::support::Point { coordinates: vec![0.5, 1.0, 1.0], parameters: vec![], properties: vec![] };
+    assert!(!super::support::of_node(&graph, derivative, &point).is_finite());
     let program = graph.program(&[derivative]);
-    assert!(!crate::support::of_program(&program, &point)[0].is_finite(), "{program}");
+    assert!(!super::support::of_program(&program, &point)[0].is_finite(), "{program}");
 }
 
 #[test]
@@ -374,14 +374,14 @@ fn sums_share_parts_of_either_sign() {
     let program = graph.program(&outputs);
     // x + y and x − y, and one more for each of the other four.
     assert_eq!(program.cost().additions, 6, "{program}");
-    let point = crate::support::Point {
+    let point = super::support::Point {
         coordinates: vec![0.3, 0.45, 1.7],
         parameters: vec![0.2, 0.0, 0.0],
         properties: vec![],
     };
-    let found = crate::support::of_program(&program, &point);
+    let found = super::support::of_program(&program, &point);
     for (output, found) in outputs.into_iter().zip(found) {
-        let expected = crate::support::of_node(&graph, output, &point);
+        let expected = super::support::of_node(&graph, output, &point);
         assert!((found - expected).abs() < 1e-14, "{found} instead of {expected}\n{program}");
     }
 }

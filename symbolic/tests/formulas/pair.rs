@@ -3,7 +3,7 @@
 use num_traits::Zero;
 use shadowstep_symbolic::{Graph, Operations, PotentialPrograms, Rational, Separation, Summand, is_symmetric, parse};
 
-use crate::support::{Point, names, of_node, of_program};
+use super::support::{Point, names, of_node, of_program};
 
 fn ratio(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use petgraph::algo::tarjan_scc;
 use petgraph::graphmap::DiGraphMap;
 
-use crate::imports::Imports;
+use super::imports::Imports;
 
 /// The strongly connected components of more than one file: each file imports from every other, directly or through more.
 pub(crate) fn circles(imports: &Imports) -> BTreeSet<BTreeSet<PathBuf>> {

@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use crate::circles::{circles, show};
-use crate::imports::imports;
-use crate::source::Crate;
+use super::circles::{circles, show};
+use super::imports::imports;
+use super::source::Crate;
 
 /// The circles of a crate with these files under src, as they are shown.
 fn circles_of(files: &[(&str, &str)]) -> Vec<String> {

@@ -9,9 +9,9 @@ mod source;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::circles::{circles, show};
-use crate::imports::imports;
-use crate::source::Crate;
+use self::circles::{circles, show};
+use self::imports::imports;
+use self::source::Crate;
 
 #[test]
 fn no_files_import_each_other_in_a_circle() {

@@ -1,0 +1,7 @@
+//! The tests of numbers of limbs, as one program.
+
+mod arithmetic;
+mod decimal;
+mod fixed;
+mod functions;
+mod mpfr;
