@@ -34,7 +34,8 @@ use shadowstep::{MotionError, Ordered, Scheme, Stepper, System, ValidFor};
 use crate::error::Error;
 use crate::observer::Observer;
 use crate::run::Run;
-use crate::scene::{self, EnergyAt, Shown};
+use crate::scene::{self, EnergyAt};
+use crate::split::Shown;
 use crate::start::{Begin, Steps, Work};
 
 /// A run whose states are kept.
@@ -104,7 +105,7 @@ impl Integration<'_> {
             context,
             observer,
             shown: system.shown(context),
-            energy_of: system.transformed_time().map(|_| system.energy(context)),
+            energy_of: system.energy_of_rows(context),
             samples: Samples {
                 n: Vec::new(),
                 t: Vec::new(),

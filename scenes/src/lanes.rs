@@ -8,7 +8,7 @@ use shadowstep::summation::Compensated;
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Rational, Stepper, UnitMasses};
 use shadowstep_symbolic::Exact;
 
-use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, Parts, PotentialEnergy, System};
+use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use crate::start::{Steps, Work};
 
 /// The systems of W trajectories as one, at their initial states.
@@ -34,7 +34,7 @@ const QUADRATIC: &str = "T is of the class of the first system";
 impl<const W: usize> Together<W> {
     /// `None` if the systems differ in more than numbers, or are not of T(p) and U(q).
     pub fn of(systems: &[&System; W]) -> Option<Self> {
-        if !systems.iter().all(|system| matches!(system.parts, Parts::KineticAndPotential)) {
+        if !systems.iter().all(|system| system.parts.is_kinetic_and_potential()) {
             return None;
         }
         systems.iter().all(|system| have_one_form(systems[0], system)).then(|| Together {

@@ -8,7 +8,7 @@ use shadowstep_schemes::document::{Reader, document};
 
 use crate::arithmetic::Arithmetic;
 use crate::error::Error;
-use crate::scene::{Format, Parts, Scene};
+use crate::scene::{Format, Scene};
 
 /// Energies of the trajectories.
 #[derive(Clone, Copy, Debug)]
@@ -62,13 +62,9 @@ fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
         let at = place(reader.source, "output", key);
         reader.fault(&at, format!("an ensemble has no `{key}`"), format!("remove `{key}`: {why}"));
     }
-    if scene.system.transformed_time().is_some() {
-        let at = place(reader.source, "time", "transform");
-        reader.fault(&at, "an ensemble has no transformed time: its steps end at different times", "remove [time]");
-    }
-    if matches!(scene.system.parts, Parts::Formulas(_)) {
-        let at = place(reader.source, "problem", "parts");
-        reader.fault(&at, "an ensemble has no formulas of parts", "make a sweep of the scene instead");
+    if let Some(refusal) = scene.system.needs().no_ensembles {
+        let (section, key) = scene.system.parts.key();
+        reader.fault(&place(reader.source, section, key), refusal.message, refusal.hint);
     }
     let Some((file, at)) = &output.file else { return };
     if output.format == Format::JsonLines {

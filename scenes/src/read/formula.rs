@@ -6,7 +6,8 @@ use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::scene::COLUMNS;
-use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System, formula_potential};
+use crate::scene::{KineticEnergy, PotentialEnergy, System, formula_potential};
+use crate::split::{KineticAndPotential, Parts};
 use shadowstep_schemes::document::{Placed, Text};
 
 /// The system with this potential.
@@ -42,7 +43,7 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -
     Some(System {
         potential,
         kinetic,
-        parts: Parts::KineticAndPotential,
+        parts: Parts::KineticAndPotential(KineticAndPotential),
         parameters,
         coordinates,
         momenta,

@@ -4,25 +4,17 @@ use shadowstep::Rational;
 use shadowstep::many_parts::{FormulaPart, PartError};
 use shadowstep_schemes::document::{Text, Value};
 use shadowstep_symbolic::Exact;
-use toml::de::DeValue;
 
 use super::formula::names;
 use super::given::Given;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System};
-
-/// The most digits of a run with a quadratic form as a part, whose flow is computed in more.
-const MOST_DIGITS: u32 = 288;
+use crate::scene::{KineticEnergy, PotentialEnergy, System};
+use crate::split::{Formulas, LONGEST_EXACT_FLOW, Parts};
 
 /// What a part may be.
 const KNOWN: &str = "a part is a function of variables none of which is the momentum of another, such as T(p), U(q) or x*py, a quadratic \
                      form, f((q^2 + p^2)/2) or f(q*p) of one pair, p^2/(2*m) - k/r, or a sum of these in different coordinates";
-
-/// Whether the value of `parts` is a list of formulas.
-pub(super) fn is_list(value: &Value<'_>) -> bool {
-    matches!(value.get_ref(), DeValue::Array(_))
-}
 
 /// The system of these parts.
 pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) -> Option<System> {
@@ -44,13 +36,6 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) 
         let message = format!("H needs two parts at least, not {}", formulas.value.len());
         return reader.toml.wrong(&formulas.at, message, "add the other parts of H to the list");
     }
-    if reader.arithmetic.is_compensated() {
-        return reader.toml.wrong(
-            &formulas.at,
-            "formulas of parts have no compensated sums",
-            "use digits = \"double\"",
-        );
-    }
     if reader.toml.faults.len() == before {
         for formula in &formulas.value {
             check(reader, formula, (&coordinates, &momenta), &parameters);
@@ -64,7 +49,7 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) 
     Some(System {
         potential: PotentialEnergy::OfParts,
         kinetic: KineticEnergy::Masses(None),
-        parts: Parts::Formulas(formulas.value.into_iter().map(|formula| formula.value).collect()),
+        parts: Parts::Formulas(Formulas(formulas.value.into_iter().map(|formula| formula.value).collect())),
         parameters,
         coordinates,
         momenta,
@@ -87,9 +72,9 @@ fn check(
         parameters.iter().map(|(name, value)| (name.as_str(), value.value.clone())).collect();
     let part = FormulaPart::<f64>::new(&formula.value, (&borrowed(coordinates), &borrowed(momenta)), &exact, &());
     match part {
-        Ok(part) if part.has_quadratic_form() && reader.arithmetic.digits() > MOST_DIGITS => {
+        Ok(part) if part.has_quadratic_form() && reader.arithmetic.digits() > LONGEST_EXACT_FLOW => {
             let message = PartError::Digits.to_string();
-            reader.toml.fault(&formula.at, message, format!("write digits = {MOST_DIGITS}, or less"));
+            reader.toml.fault(&formula.at, message, format!("write digits = {LONGEST_EXACT_FLOW}, or less"));
         }
         Ok(_) => reader.refuse_constants(
             formula,
@@ -105,7 +90,7 @@ fn check(
 
 #[cfg(test)]
 mod tests {
-    use crate::scene::{Parts, Scene};
+    use crate::scene::Scene;
     use crate::shipped::MANY_PARTS_SCENES;
     use shadowstep::tables::{Faults, Source};
 
@@ -130,8 +115,8 @@ mod tests {
     fn the_shipped_scenes_are_of_three_parts() {
         for shipped in &MANY_PARTS_SCENES {
             let scene = read(shipped.text).unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
-            let Parts::Formulas(formulas) = &scene.system.parts else { panic!("{}", shipped.name) };
-            assert_eq!(formulas.len(), 3);
+            let hamiltonian = scene.system.parts.hamiltonian().unwrap_or_else(|| panic!("{}", shipped.name));
+            assert_eq!(hamiltonian.split(") + (").count(), 3);
             assert!(scene.scheme.scheme.proved().proof.many_parts.is_some());
         }
     }

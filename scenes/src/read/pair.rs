@@ -10,7 +10,8 @@ use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::note::Note;
 use crate::scene::PairEnergy;
-use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System};
+use crate::scene::{KineticEnergy, PotentialEnergy, System};
+use crate::split::{KineticAndPotential, Parts};
 use shadowstep_schemes::document::Text;
 
 /// The formula of the energy of a pair.
@@ -94,7 +95,7 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, pair: Option<PairFo
     Some(System {
         potential,
         kinetic,
-        parts: Parts::KineticAndPotential,
+        parts: Parts::KineticAndPotential(KineticAndPotential),
         parameters,
         coordinates,
         momenta,

@@ -12,12 +12,13 @@ use toml::de::{DeTable, DeValue};
 use super::elements::{Elements, Vector};
 use super::given::Given;
 use super::kinetic;
-use super::many_parts;
 use super::names::check_name;
 use super::numbers::Numbers;
+use super::parts::{self, Split};
 use super::reader::Reader;
 use super::units;
-use crate::scene::{Canonical, KineticEnergy, LINEAR, PairEnergy, Parts, Planets, PotentialEnergy, System};
+use crate::scene::{KineticEnergy, PairEnergy, PotentialEnergy, System};
+use crate::split::{KineticAndPotential, Parts};
 use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The name of the section.
@@ -161,15 +162,7 @@ pub(super) fn system(
         let at = bodies.first().map_or(&given.problem, |body| &body.at);
         return reader.toml.wrong(at, "a planetary system has a central body and at least one planet", "add [[body]]");
     }
-    let (g, centre, parts) = (constant?, settings.centre?, settings.parts?);
-    if parts == GivenParts::Linear {
-        let at = given.place("parts").unwrap_or(&given.problem);
-        return reader.toml.wrong(
-            at,
-            "the attraction between bodies has no linear part",
-            "write parts = \"wisdom-holman\"",
-        );
-    }
+    let (g, centre, split) = (constant?, settings.centre?, settings.split?);
     let dimensions = bodies.iter().find_map(|body| body.q.as_ref()).map_or(3, |q| q.value.len());
     let masses = masses(reader, bodies)?;
     let mut placing = Placing { g: g.clone(), dimensions, centre, masses, states: Vec::new() };
@@ -188,21 +181,15 @@ pub(super) fn system(
     if !parameters.iter().any(|(name, _)| name == "g") {
         parameters.push(("g".to_owned(), Exact { value: g, rounded: false }));
     }
-    placing.into_system(reader, parts, parameters, &names, &given.problem)
-}
-
-/// The value of the key `parts`.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum GivenParts {
-    KineticAndPotential,
-    Linear,
-    Planets(Canonical),
+    let (system, bodies) = placing.into_system(reader, parameters, &names, &given.problem)?;
+    let parts = split(&system, reader.arithmetic, Some((bodies, dimensions)));
+    parts::split(reader, given.place("parts").unwrap_or(&given.problem), system, parts)
 }
 
 /// What [problem] says of bodies and parts.
 pub(super) struct Settings {
     /// The parts that the steps have.
-    pub(super) parts: Option<GivenParts>,
+    pub(super) split: Option<Split>,
     /// The constant in these units.
     units: Option<Option<Rational>>,
     centre: Option<Centre>,
@@ -211,15 +198,9 @@ pub(super) struct Settings {
 
 impl Settings {
     pub(super) fn read(reader: &mut Reader<'_>, problem: &Section<'_, '_>) -> Settings {
-        let [first, second] = Canonical::NAMES.map(|(name, canonical)| (name, GivenParts::Planets(canonical)));
-        let parts =
-            [first, second, (LINEAR, GivenParts::Linear), ("kinetic-potential", GivenParts::KineticAndPotential)];
         let centres = [("heliocentric", Centre::Body), ("jacobi", Centre::Inner)];
         Settings {
-            parts: problem
-                .get("parts")
-                .filter(|value| !many_parts::is_list(value))
-                .map_or(Some(GivenParts::KineticAndPotential), |value| reader.word(value, &parts)),
+            split: parts::of_word(reader, problem),
             units: problem.get("units").map(|value| units::constant(reader, value)),
             centre: problem.get("elements").map_or(Some(Centre::Body), |value| reader.word(value, &centres)),
             barycentric: problem
@@ -366,11 +347,10 @@ impl Placing {
     fn into_system(
         self,
         reader: &mut Reader<'_>,
-        parts: GivenParts,
         parameters: Vec<(String, Exact)>,
         names: &[String],
         at: &Range<usize>,
-    ) -> Option<System> {
+    ) -> Option<(System, Bodies)> {
         let Placing { g, dimensions, masses, states, .. } = self;
         let exact = |value: Rational| Exact { value, rounded: true };
         let bodies = match Bodies::new(g, masses.clone()) {
@@ -393,19 +373,17 @@ impl Placing {
             properties: vec![("m".to_owned(), masses.iter().cloned().map(exact).collect())],
             ends: None,
         };
-        Some(System {
+        let system = System {
             p: p.collect(),
             q: states.iter().flat_map(|[q, _]| q.iter().cloned().map(exact)).collect(),
             potential: PotentialEnergy::Pairs(pairs),
             kinetic: KineticEnergy::Masses((!unit).then_some(of_coordinates)),
-            parts: match parts {
-                GivenParts::Planets(coordinates) => Parts::WisdomHolman(Planets { coordinates, bodies, dimensions }),
-                GivenParts::KineticAndPotential | GivenParts::Linear => Parts::KineticAndPotential,
-            },
+            parts: Parts::KineticAndPotential(KineticAndPotential),
             parameters,
             coordinates,
             momenta,
-        })
+        };
+        Some((system, bodies))
     }
 }
 
@@ -413,8 +391,8 @@ impl Placing {
 mod tests {
     use shadowstep::tables::{Faults, Source};
 
+    use crate::Scene;
     use crate::shipped::PLANETARY_SCENES;
-    use crate::{Parts, Scene};
 
     fn read(text: &str) -> Result<Scene, Vec<String>> {
         let source = Source { path: "scene.toml".to_owned(), text: text.to_owned() };
@@ -525,7 +503,7 @@ mod tests {
     fn the_shipped_scenes_are_of_planets() {
         for shipped in &PLANETARY_SCENES {
             let scene = read(shipped.text).unwrap();
-            assert!(matches!(scene.system.parts, Parts::WisdomHolman(_)), "{}", shipped.name);
+            assert!(scene.system.parts.planets().is_some(), "{}", shipped.name);
         }
     }
 }

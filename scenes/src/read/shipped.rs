@@ -7,7 +7,8 @@ use super::given::Given;
 use super::kinetic;
 use super::reader::Reader;
 use crate::arithmetic::{ANY_SIZE, GUARD_DIGITS, MOST_VALUE_DIGITS};
-use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System};
+use crate::scene::{KineticEnergy, PotentialEnergy, System};
+use crate::split::{KineticAndPotential, Parts};
 use shadowstep_schemes::document::Text;
 
 /// The problem of this name.
@@ -43,7 +44,7 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Opt
         parameters: reader.known.iter().map(|(name, value)| (name.clone(), value.clone())).collect(),
         potential: PotentialEnergy::Shipped(setup),
         kinetic: KineticEnergy::Masses(masses),
-        parts: Parts::KineticAndPotential,
+        parts: Parts::KineticAndPotential(KineticAndPotential),
         coordinates,
         momenta,
         q: own_q.unwrap_or(q),

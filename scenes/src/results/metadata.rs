@@ -13,7 +13,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use crate::arithmetic::Arithmetic;
 use crate::library;
-use crate::scene::{KineticEnergy, LINEAR, PairEnergy, Parts, PotentialEnergy, Scene, System};
+use crate::scene::{KineticEnergy, PairEnergy, PotentialEnergy, Scene, System};
 
 /// Names and values in the order in which they are written.
 pub(crate) struct Metadata(Vec<(&'static str, Value)>);
@@ -82,16 +82,9 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
         KineticEnergy::Masses(masses) => masses.iter().map(|masses| ("masses", texts(masses))).collect(),
         KineticEnergy::Formula(formula) => vec![("kinetic", json!(formula)), ("momenta", json!(system.momenta))],
     };
-    let parts = match &system.parts {
-        Parts::KineticAndPotential => None,
-        Parts::Linear(_) => Some(("parts", json!(LINEAR))),
-        Parts::WisdomHolman(planets) => Some(("parts", json!(planets.coordinates.name()))),
-        Parts::TransformedTime(time) => Some(("time", json!(time.to_string()))),
-        Parts::Formulas(formulas) => Some(("parts", json!(formulas))),
-    };
     named
         .into_iter()
-        .chain(parts)
+        .chain(system.parts.metadata())
         .chain([("parameters", json!(parameters)), ("coordinates", json!(system.coordinates))])
         .chain(kinetic)
         .chain([("q", texts(&system.q)), ("p", texts(&system.p))])

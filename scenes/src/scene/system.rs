@@ -3,19 +3,17 @@
 use num_traits::Zero;
 use shadowstep::formula::{FormulaError, FormulaKinetic, FormulaPotential};
 use shadowstep::kinetic::{General, Quadratic};
-use shadowstep::number::Rounded;
 use shadowstep::problems::Setup;
-use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, System as _, UnitMasses};
+use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, UnitMasses};
 use shadowstep_symbolic::Exact;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::arithmetic::Arithmetic;
 use crate::error::Error;
-use crate::library::NoGradientKicks;
 use crate::scene::own::OwnPotential;
 use crate::scene::pairs::PairEnergy;
 use crate::scene::parameters::rounded;
-use crate::scene::parts::{Canonical, Parts, Shown};
+use crate::split::{KineticAndPotential, Parts};
 
 /// H = T(p) + U(q) and the state at t = 0, all exact.
 #[derive(Debug)]
@@ -72,24 +70,10 @@ pub(crate) enum ClassifiedKinetic<N> {
 }
 
 impl System {
-    /// Positions and momenta at t = 0, in the coordinates of the steps.
-    pub fn start<N: Number + 'static>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
+    /// Positions and momenta at t = 0.
+    pub(crate) fn initial<N: Number>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
         let numbers = |values: &[Exact]| values.iter().map(|v| N::from_rational(&v.value, context)).collect();
-        let (q, p): (Vec<N>, Vec<N>) = (numbers(&self.q), numbers(&self.p));
-        match &self.parts {
-            Parts::KineticAndPotential | Parts::Linear(_) | Parts::Formulas(_) => (q, p),
-            Parts::WisdomHolman(planets) => planets.canonical((&q, &p), context),
-            Parts::TransformedTime(_) => self.with_time((q, p), context),
-        }
-    }
-
-    /// Converts states from the coordinates of the steps to those that are shown, where these differ.
-    pub fn shown<N: Number + 'static>(&self, context: &N::Context) -> Option<Shown<N>> {
-        match &self.parts {
-            Parts::KineticAndPotential | Parts::Linear(_) | Parts::Formulas(_) => None,
-            Parts::WisdomHolman(planets) => Some(planets.shown(context)),
-            Parts::TransformedTime(_) => Some(Shown::without_time(self.q.len(), context)),
-        }
+        (numbers(&self.q), numbers(&self.p))
     }
 
     /// U(q)
@@ -139,34 +123,8 @@ impl System {
         }
     }
 
-    /// H of any state, in the coordinates of the steps; where time is transformed, of its q and p.
-    ///
-    /// # Panics
-    /// If q, p and U have different dimensions, which reading a system excludes.
-    pub fn energy<N: Rounded + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
-        match &self.parts {
-            Parts::KineticAndPotential | Parts::Linear(_) => self.plain_energy(context),
-            Parts::WisdomHolman(planets) => {
-                let (q, p) = self.start(context);
-                let mut system =
-                    planets.system((&q, &p), false, None, context).expect("the dimensions were read with the system");
-                Box::new(move |q, p| system.energy_at(q, p))
-            }
-            Parts::Formulas(formulas) => {
-                let (q, p) = self.start(context);
-                let mut system =
-                    self.in_formulas(formulas, (&q, &p), context).expect("the dimensions were read with the system");
-                Box::new(move |q, p| system.energy_at(q, p))
-            }
-            Parts::TransformedTime(_) => {
-                let (mut energy, dimension) = (self.plain_energy(context), self.q.len());
-                Box::new(move |q, p| energy(&q[..dimension], &p[..dimension]))
-            }
-        }
-    }
-
     /// T(p) + U(q)
-    pub(super) fn plain_energy<N: Number + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
+    pub(crate) fn plain_energy<N: Number + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
         const READ: &str = "the dimensions were read with the system";
         let zeros = || vec![N::zero(context); self.q.len()];
         let (q, p) = (zeros(), zeros());
@@ -201,7 +159,7 @@ impl System {
         let state = values.positions().len() + values.momenta().len();
         let parameters = values.named()[..values.named().len() - state].to_vec();
         let kinetic = KineticEnergy::Masses(values.masses().map(<[_]>::to_vec));
-        let (potential, parts) = (PotentialEnergy::Shipped(setup), Parts::KineticAndPotential);
+        let (potential, parts) = (PotentialEnergy::Shipped(setup), Parts::KineticAndPotential(KineticAndPotential));
         System { potential, kinetic, parts, parameters, coordinates, momenta, q, p }
     }
 
@@ -231,7 +189,7 @@ impl System {
         Ok(System {
             potential: PotentialEnergy::Own(own),
             kinetic: KineticEnergy::Masses(masses),
-            parts: Parts::KineticAndPotential,
+            parts: Parts::KineticAndPotential(KineticAndPotential),
             parameters: Vec::new(),
             coordinates: names("q"),
             momenta: names("p"),
@@ -254,35 +212,11 @@ impl System {
         }
     }
 
-    /// Why it has no gradient kicks; `None` where it has them, or T is not quadratic.
-    pub fn no_gradient_kicks(&self) -> Option<NoGradientKicks> {
-        match &self.parts {
-            Parts::KineticAndPotential if matches!(self.potential, PotentialEnergy::Own(_)) => Some(NoGradientKicks {
-                reason: "and a function that computes forces has no second derivatives",
-                hint: "use a scheme without gradient kicks, such as blanes-moan-srkn6b, or write the potential as a formula",
-            }),
-            Parts::KineticAndPotential | Parts::Linear(_) | Parts::Formulas(_) => None,
-            Parts::WisdomHolman(planets) if planets.coordinates == Canonical::Jacobi => None,
-            Parts::WisdomHolman(_) => Some(NoGradientKicks {
-                reason: "but in heliocentric coordinates the kicks depend on the momenta, so that [B,[A,B]] is no kick",
-                hint: "write parts = \"wisdom-holman\" for Jacobi coordinates, or use a scheme such as abah864",
-            }),
-            Parts::TransformedTime(_) => Some(NoGradientKicks {
-                reason: "but in transformed time no part of H is a quadratic form of the momenta",
-                hint: "use a composition of the leapfrog, such as sofroniou-spaletta6-13",
-            }),
-        }
-    }
-
-    /// Whether schemes for quadratic T only do not move it.
-    pub fn has_general_kinetic(&self) -> bool {
-        match (&self.parts, &self.kinetic) {
-            (Parts::WisdomHolman(planets), _) => planets.coordinates == Canonical::DemocraticHeliocentric,
-            (Parts::TransformedTime(_) | Parts::Formulas(_), _) => true,
-            (Parts::KineticAndPotential | Parts::Linear(_), KineticEnergy::Masses(_)) => false,
-            (Parts::KineticAndPotential | Parts::Linear(_), KineticEnergy::Formula(_)) => {
-                matches!(self.kinetic::<f64>(&()), ClassifiedKinetic::General(_))
-            }
+    /// Whether T is a quadratic form.
+    pub(crate) fn has_quadratic_kinetic(&self) -> bool {
+        match self.kinetic {
+            KineticEnergy::Masses(_) => true,
+            KineticEnergy::Formula(_) => matches!(self.kinetic::<f64>(&()), ClassifiedKinetic::Quadratic(_)),
         }
     }
 }
@@ -307,6 +241,6 @@ pub(crate) fn formula_kinetic<N: Number>(
     FormulaKinetic::new(formula, &borrowed(momenta), &rounded(parameters, context))
 }
 
-pub(super) fn borrowed(names: &[String]) -> Vec<&str> {
+pub(crate) fn borrowed(names: &[String]) -> Vec<&str> {
     names.iter().map(String::as_str).collect()
 }

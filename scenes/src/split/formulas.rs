@@ -1,0 +1,86 @@
+//! H as a sum of parts by their formulas.
+
+use serde_json::{Value, json};
+use shadowstep::many_parts::{SystemOfParts, parts};
+use shadowstep::number::Rounded;
+use shadowstep::tables::TableScheme;
+use shadowstep::{MotionError, Rational, System as _};
+
+use super::{Class, Needs, Refusal, Split, State};
+use crate::boxed::Boxed;
+use crate::scene::{EnergyAt, System, borrowed};
+use crate::start::{Steps, Work};
+
+/// H is the sum of these formulas.
+#[derive(Clone, Debug)]
+pub struct Formulas(pub(crate) Vec<String>);
+
+impl Split for Formulas {
+    fn needs(&self, _: &System) -> Needs {
+        Needs {
+            no_compensated_sums: Some(Refusal::new(
+                "formulas of parts have no compensated sums",
+                "use digits = \"double\"",
+            )),
+            no_ensembles: Some(Refusal::new(
+                "an ensemble has no formulas of parts",
+                "make a sweep of the scene instead",
+            )),
+            ..Needs::of_class(Class::ManyParts)
+        }
+    }
+
+    fn metadata(&self) -> Option<(&'static str, Value)> {
+        Some(("parts", json!(self.0)))
+    }
+
+    fn energy<N: Rounded + 'static>(&self, system: &System, context: &N::Context) -> EnergyAt<N> {
+        let state = system.start(context);
+        let mut system = self.system(system, &state, context).expect("the dimensions were read with the system");
+        Box::new(move |q, p| system.energy_at(q, p))
+    }
+
+    fn with<N: Rounded + 'static, W: Work<N>>(
+        &self,
+        system: &System,
+        steps: Steps<'_>,
+        state: State<N>,
+        context: &N::Context,
+        work: W,
+    ) -> Result<W::Output, MotionError> {
+        let system = self.system(system, &state, context)?;
+        Ok(steps.begin(in_many_parts(steps.scheme), system, context, work))
+    }
+
+    fn hamiltonian(&self) -> Option<String> {
+        Some(self.0.iter().map(|formula| format!("({formula})")).collect::<Vec<_>>().join(" + "))
+    }
+}
+
+impl Formulas {
+    /// The system of these parts at a state.
+    fn system<N: Rounded + 'static>(
+        &self,
+        system: &System,
+        (q, p): &State<N>,
+        context: &N::Context,
+    ) -> Result<Boxed<N>, MotionError> {
+        let (coordinates, momenta) = (borrowed(&system.coordinates), borrowed(&system.momenta));
+        if q.len() != coordinates.len() {
+            return Err(MotionError::Potential { coordinates: q.len(), dimension: coordinates.len() });
+        }
+        let exact = system.parameters.iter().map(|(name, exact)| (name.as_str(), exact.value.clone()));
+        let exact: Vec<(&str, Rational)> = exact.collect();
+        let parts = parts(&borrowed(&self.0), (&coordinates, &momenta), &exact, context);
+        let system = SystemOfParts::new(parts.expect("the formulas were read with the scene"), q, p)?;
+        Ok(Boxed::ManyParts(Box::new(system)))
+    }
+}
+
+/// The scheme with the steps of many parts, which it has already where the scene was read with it.
+fn in_many_parts(scheme: &TableScheme) -> TableScheme {
+    match scheme.proved().proof.many_parts {
+        Some(_) => scheme.clone(),
+        None => scheme.clone().for_many_parts().expect("the scheme is valid for many parts").into(),
+    }
+}
