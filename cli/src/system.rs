@@ -160,15 +160,17 @@ fn quoted(text: &str) -> String {
 fn describe(name: String, system: System) -> Described {
     let kinetic = match &system.kinetic {
         KineticEnergy::Masses(_) => "T(p)",
-        KineticEnergy::Formula(formula) => formula,
+        KineticEnergy::Formula(formula) => formula.text(),
     };
     let (title, hamiltonian) = match &system.potential {
         PotentialEnergy::Shipped(setup) => {
             let problem = setup.problem.description();
             (problem.title.to_owned(), problem.hamiltonian.to_owned())
         }
-        PotentialEnergy::Formula(formula) => (name.clone(), format!("{kinetic} + {formula}")),
-        PotentialEnergy::Pairs(pairs) => (name.clone(), format!("{kinetic} + the sum over pairs of {}", pairs.formula)),
+        PotentialEnergy::Formula(formula) => (name.clone(), format!("{kinetic} + {}", formula.text())),
+        PotentialEnergy::Pairs(pairs) => {
+            (name.clone(), format!("{kinetic} + the sum over pairs of {}", pairs.formula.text()))
+        }
         PotentialEnergy::Own(own) => (name.clone(), format!("{kinetic} + {}", own.name())),
         PotentialEnergy::OfParts => (name.clone(), system.parts.hamiltonian().unwrap_or_default()),
     };

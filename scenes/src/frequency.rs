@@ -1,7 +1,6 @@
 //! The fastest oscillation of a system, linearised at its initial state: the frequency ω of M^{-1/2} U_qq M^{-1/2}.
 
 use shadowstep::Potential;
-use shadowstep_symbolic::{Graph, parse};
 
 use crate::scene::{KineticEnergy, PotentialEnergy, System};
 
@@ -51,14 +50,7 @@ impl System {
     fn is_quadratic(&self) -> bool {
         match &self.potential {
             PotentialEnergy::Shipped(setup) => setup.problem.name() == "harmonic-oscillator",
-            PotentialEnergy::Formula(formula) => {
-                let parameters: Vec<String> = self.parameters.iter().map(|(name, _)| name.clone()).collect();
-                let mut graph = Graph::new();
-                let node = parse(formula)
-                    .ok()
-                    .and_then(|expression| graph.build(&expression, &self.coordinates, &parameters).ok());
-                node.is_some_and(|node| graph.is_quadratic(node, self.coordinates.len()))
-            }
+            PotentialEnergy::Formula(formula) => formula.meaning().is_quadratic(),
             PotentialEnergy::Pairs(_) | PotentialEnergy::Own(_) | PotentialEnergy::OfParts => false,
         }
     }

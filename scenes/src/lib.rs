@@ -139,8 +139,8 @@ pub use observer::Observer;
 pub use read::source;
 pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::{
-    CheckpointInterval, EnergyAt, Format, KineticEnergy, Outputs, OwnPotential, PairEnergy, PotentialEnergy, Scene,
-    System,
+    CheckpointInterval, EnergyAt, Format, Formula, KineticEnergy, Outputs, OwnPotential, PairEnergy, PotentialEnergy,
+    Scene, System,
 };
 pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene};
 pub use split::{

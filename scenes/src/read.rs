@@ -169,7 +169,7 @@ fn sections(
     let arithmetic = run::arithmetic(reader, &run);
     reader.arithmetic = arithmetic.unwrap_or(Arithmetic::Double);
     let system = system(reader, root, &problem, &initial);
-    let steps = run::Steps::read(reader, &run, system.as_ref(), schemes);
+    let steps = run::Steps::read(reader, &run, (system.as_ref(), root.contains_key(time::TIME)), schemes);
     let output = output::read(reader, &output, system.as_ref());
     arithmetic?;
     Some((system?, steps?, output?))

@@ -1,6 +1,7 @@
 //! The content of a scene: plain data, all of it exact.
 
 mod format;
+mod formula;
 mod output;
 mod own;
 mod pairs;
@@ -9,10 +10,11 @@ mod system;
 
 pub(crate) use format::COLUMNS;
 pub use format::Format;
+pub use formula::Formula;
 pub use output::{CheckpointInterval, Outputs};
 pub use own::OwnPotential;
 pub use pairs::PairEnergy;
-pub(crate) use system::{ClassifiedKinetic, borrowed, formula_kinetic, formula_potential};
+pub(crate) use system::ClassifiedKinetic;
 pub use system::{EnergyAt, KineticEnergy, PotentialEnergy, System};
 
 use std::sync::OnceLock;

@@ -36,7 +36,7 @@ use crate::start::{Steps, Work};
 pub(crate) const LONGEST_EXACT_FLOW: u32 = 288;
 
 /// The parts of H: one of the kinds of split.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub enum Parts {
     /// T(p) and U(q).
     KineticAndPotential(KineticAndPotential),

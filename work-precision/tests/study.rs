@@ -8,7 +8,7 @@ use shadowstep::problems::problem;
 use shadowstep::tables::Source;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
-use shadowstep_scenes::{PotentialEnergy, System};
+use shadowstep_scenes::{Formula, PotentialEnergy, System};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::reference::Origin;
@@ -53,12 +53,18 @@ fn schemes_show_their_orders_beside_the_exact_flow() {
     }
 }
 
+/// A potential without parameters.
+fn formula(text: &str, coordinates: &[&str]) -> PotentialEnergy {
+    let coordinates: Vec<String> = coordinates.iter().map(|name| (*name).to_owned()).collect();
+    PotentialEnergy::Formula(Formula::potential(text, &coordinates, &[]).unwrap())
+}
+
 /// The reference is a scheme of order 10, whose estimated error is not smaller than its error.
 #[test]
 fn the_error_of_a_reference_is_estimated() {
     let (system, until, folder) = (system("kepler"), until(20), tempfile::tempdir().unwrap());
     let formula = System {
-        potential: PotentialEnergy::Formula("-1/sqrt(x^2 + y^2)".to_owned()),
+        potential: formula("-1/sqrt(x^2 + y^2)", &["x", "y"]),
         parameters: Vec::new(),
         ..self::system("kepler")
     };
@@ -133,11 +139,8 @@ fn runs_that_fail_are_kept_as_failed() {
     let (until, folder) = (until(10), tempfile::tempdir().unwrap());
     // far from the centre the force is large: the coarse steps overshoot ever more
     let setup = problem("pendulum").unwrap().setup(&[("p".to_owned(), "10".to_owned())], 60).unwrap();
-    let quartic = System {
-        potential: PotentialEnergy::Formula("x^4".to_owned()),
-        coordinates: vec!["x".to_owned()],
-        ..System::of_setup(setup)
-    };
+    let quartic =
+        System { potential: formula("x^4", &["x"]), coordinates: vec!["x".to_owned()], ..System::of_setup(setup) };
     let schemes = schemes(&["stormer-verlet"]);
     let problem = Problem { system: &quartic, until: &until, arithmetic: Arithmetic::Double };
     let study = study(problem, &schemes, StepRange::Given(vec![20, 4000]), folder.path());

@@ -1,7 +1,6 @@
 //! `parts = ["…", "…", "…"]`: H as a sum of parts by their formulas.
 
-use shadowstep::Rational;
-use shadowstep::many_parts::{FormulaPart, PartError};
+use shadowstep::many_parts::{PartError, PartFormula};
 use shadowstep_schemes::document::{Text, Value};
 use shadowstep_symbolic::Exact;
 
@@ -9,7 +8,7 @@ use super::formula::names;
 use super::given::Given;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::scene::{KineticEnergy, PotentialEnergy, System};
+use crate::scene::{Formula, KineticEnergy, PotentialEnergy, System};
 use crate::split::{Formulas, LONGEST_EXACT_FLOW, Parts};
 
 /// What a part may be.
@@ -36,11 +35,9 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) 
         let message = format!("H needs two parts at least, not {}", formulas.value.len());
         return reader.toml.wrong(&formulas.at, message, "add the other parts of H to the list");
     }
-    if reader.toml.faults.len() == before {
-        for formula in &formulas.value {
-            check(reader, formula, (&coordinates, &momenta), &parameters);
-        }
-    }
+    let named = reader.toml.faults.len() == before;
+    let parts = formulas.value.iter().filter(|_| named);
+    let parts: Vec<_> = parts.map(|formula| part(reader, formula, (&coordinates, &momenta), &parameters)).collect();
     if let Some(initial) = &given.initial {
         given.state.all_there(reader, initial);
     }
@@ -49,7 +46,7 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) 
     Some(System {
         potential: PotentialEnergy::OfParts,
         kinetic: KineticEnergy::Masses(None),
-        parts: Parts::Formulas(Formulas(formulas.value.into_iter().map(|formula| formula.value).collect())),
+        parts: Parts::Formulas(Formulas(parts.into_iter().collect::<Option<_>>()?)),
         parameters,
         coordinates,
         momenta,
@@ -58,33 +55,27 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) 
     })
 }
 
-/// Refuses a part whose flow is not known.
-fn check(
+/// A part whose flow is known.
+fn part(
     reader: &mut Reader<'_>,
-    formula: &Text,
-    (coordinates, momenta): (&[String], &[String]),
+    text: &Text,
+    names: (&[String], &[String]),
     parameters: &[(String, Exact)],
-) {
-    fn borrowed(names: &[String]) -> Vec<&str> {
-        names.iter().map(String::as_str).collect()
-    }
-    let exact: Vec<(&str, Rational)> =
-        parameters.iter().map(|(name, value)| (name.as_str(), value.value.clone())).collect();
-    let part = FormulaPart::<f64>::new(&formula.value, (&borrowed(coordinates), &borrowed(momenta)), &exact, &());
-    match part {
-        Ok(part) if part.has_quadratic_form() && reader.arithmetic.digits() > LONGEST_EXACT_FLOW => {
+) -> Option<Formula<PartFormula>> {
+    match Formula::part(&text.value, names, parameters) {
+        Ok(part) if part.meaning().has_quadratic_form() && reader.arithmetic.digits() > LONGEST_EXACT_FLOW => {
             let message = PartError::Digits.to_string();
-            reader.toml.fault(&formula.at, message, format!("write digits = {LONGEST_EXACT_FLOW}, or less"));
+            reader.toml.wrong(&text.at, message, format!("write digits = {LONGEST_EXACT_FLOW}, or less"))
         }
-        Ok(_) => reader.refuse_constants(
-            formula,
-            [coordinates, momenta].into_iter().flatten().chain(parameters.iter().map(|(name, _)| name)),
-        ),
+        Ok(part) => {
+            reader.refuse_numbers(text, &part.meaning().numbers());
+            Some(part)
+        }
         Err(error @ PartError::Formula(_)) => {
             let help = "a part is a smooth formula in the coordinates, their momenta and the parameters";
-            reader.toml.fault(&formula.place(&error.range()), error.to_string(), help);
+            reader.toml.wrong(&text.place(&error.range()), error.to_string(), help)
         }
-        Err(error) => reader.toml.fault(&formula.at, error.to_string(), KNOWN),
+        Err(error) => reader.toml.wrong(&text.at, error.to_string(), KNOWN),
     }
 }
 

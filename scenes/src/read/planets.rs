@@ -17,7 +17,7 @@ use super::numbers::Numbers;
 use super::parts::{self, Split};
 use super::reader::Reader;
 use super::units;
-use crate::scene::{KineticEnergy, PairEnergy, PotentialEnergy, System};
+use crate::scene::{Formula, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use crate::split::{KineticAndPotential, Parts};
 use shadowstep_schemes::document::{Placed, Section, Text};
 
@@ -40,6 +40,9 @@ pub(super) struct GivenBody {
     elements: Vec<(&'static str, Text)>,
     at: Range<usize>,
 }
+
+/// The energy of two bodies.
+const GRAVITY: &str = "-g*m_i*m_j/sqrt(r2)";
 
 /// What the elements of a planet are relative to.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -181,9 +184,22 @@ pub(super) fn system(
     if !parameters.iter().any(|(name, _)| name == "g") {
         parameters.push(("g".to_owned(), Exact { value: g, rounded: false }));
     }
+    if has_names_of_energy(reader, given) {
+        return None;
+    }
     let (system, bodies) = placing.into_system(reader, parameters, &names, &given.problem)?;
     let parts = split(&system, reader.arithmetic, Some((bodies, dimensions)));
     parts::split(reader, given.place("parts").unwrap_or(&given.problem), system, parts)
+}
+
+/// Refuses parameters that have a name of the bodies' energy; whether there are any.
+fn has_names_of_energy(reader: &mut Reader<'_>, given: &Given) -> bool {
+    let before = reader.toml.faults.len();
+    for (name, _) in given.parameters.iter().filter(|(name, _)| ["r2", "m_i", "m_j"].contains(&name.value.as_str())) {
+        let message = format!("with [[body]], `{}` is a name in {GRAVITY}, the energy of two bodies", name.value);
+        reader.toml.fault(&name.at, message, "give it another name");
+    }
+    reader.toml.faults.len() > before
 }
 
 /// What [problem] says of bodies and parts.
@@ -365,14 +381,12 @@ impl Placing {
         let p = states.iter().zip(&masses).flat_map(|([_, v], mass)| v.iter().map(move |v| exact(v * mass)));
         let of_coordinates: Vec<_> = masses.iter().flat_map(|mass| vec![exact(mass.clone()); dimensions]).collect();
         let unit = of_coordinates.iter().all(|mass| mass.value.is_one());
-        let pairs = PairEnergy {
-            formula: "-g*m_i*m_j/sqrt(r2)".to_owned(),
-            separation: Separation::SquaredDistance,
-            dimensions,
-            bodies: masses.len(),
-            properties: vec![("m".to_owned(), masses.iter().cloned().map(exact).collect())],
-            ends: None,
+        let properties = vec![("m".to_owned(), masses.iter().cloned().map(exact).collect())];
+        let formula = match Formula::pair(GRAVITY, Separation::SquaredDistance, &properties, &parameters) {
+            Ok(formula) => formula,
+            Err(error) => return reader.toml.wrong(at, error.to_string(), "give the parameters other names"),
         };
+        let pairs = PairEnergy { formula, dimensions, bodies: masses.len(), properties, ends: None };
         let system = System {
             p: p.collect(),
             q: states.iter().flat_map(|[q, _]| q.iter().cloned().map(exact)).collect(),

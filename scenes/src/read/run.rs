@@ -47,11 +47,11 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// For this system; `None` if it cannot be read.
+    /// For this system, `None` if it cannot be read, and whether its time is transformed.
     pub(super) fn read(
         reader: &mut Reader<'_>,
         run: &Section<'_, '_>,
-        system: Option<&System>,
+        (system, transformed): (Option<&System>, bool),
         schemes: &Schemes,
     ) -> Option<Steps> {
         let first = run.get("first").map(|value| reader.word(value, &[("kick", First::Kick), ("drift", First::Drift)]));
@@ -70,7 +70,7 @@ impl Steps {
                 reader.word(value, &[("exact", false), ("displaced", true)]).map(|wanted| Some((value.span(), wanted)))
             }
         };
-        let times = times(reader, run, system.is_some_and(|system| system.transformed_time().is_some()));
+        let times = times(reader, run, transformed);
         if matches!(first, Some(None)) {
             return None;
         }

@@ -71,7 +71,7 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
             let problem = setup.problem.description();
             vec![("problem", json!(problem.name)), ("hamiltonian", json!(problem.hamiltonian))]
         }
-        PotentialEnergy::Formula(formula) => vec![("potential", json!(formula))],
+        PotentialEnergy::Formula(formula) => vec![("potential", json!(formula.text()))],
         PotentialEnergy::Pairs(pairs) => pair_energy(pairs, texts),
         PotentialEnergy::Own(own) => vec![("potential", json!(own.name()))],
         PotentialEnergy::OfParts => vec![("momenta", json!(system.momenta))],
@@ -80,7 +80,7 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
         system.parameters.iter().map(|(name, value)| (name.clone(), json!(arithmetic.text(value)))).collect();
     let kinetic = match &system.kinetic {
         KineticEnergy::Masses(masses) => masses.iter().map(|masses| ("masses", texts(masses))).collect(),
-        KineticEnergy::Formula(formula) => vec![("kinetic", json!(formula)), ("momenta", json!(system.momenta))],
+        KineticEnergy::Formula(formula) => vec![("kinetic", json!(formula.text())), ("momenta", json!(system.momenta))],
     };
     named
         .into_iter()
@@ -100,7 +100,7 @@ fn pair_energy(pairs: &PairEnergy, texts: impl Fn(&[Exact]) -> Value) -> Vec<(&'
         Ends::Fixed => "fixed",
         Ends::Periodic => "periodic",
     });
-    [("pair", json!(pairs.formula)), ("dimensions", json!(pairs.dimensions)), ("bodies", bodies)]
+    [("pair", json!(pairs.formula.text())), ("dimensions", json!(pairs.dimensions)), ("bodies", bodies)]
         .into_iter()
         .chain(neighbours.map(|neighbours| ("neighbours", json!(neighbours))))
         .collect()

@@ -1,7 +1,7 @@
 //! What moves: a shipped problem or a formula's potential, its kinetic energy and its state at t = 0.
 
 use num_traits::Zero;
-use shadowstep::formula::{FormulaError, FormulaKinetic, FormulaPotential};
+use shadowstep::formula::{FormulaKinetic, FormulaPotential};
 use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::problems::Setup;
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, UnitMasses};
@@ -10,9 +10,10 @@ use shadowstep_symbolic::decimal::to_text;
 
 use crate::arithmetic::Arithmetic;
 use crate::error::Error;
+use crate::scene::formula::Formula;
 use crate::scene::own::OwnPotential;
 use crate::scene::pairs::PairEnergy;
-use crate::scene::parameters::rounded;
+use crate::scene::parameters::values;
 use crate::split::{KineticAndPotential, Parts};
 
 /// H = T(p) + U(q) and the state at t = 0, all exact.
@@ -42,7 +43,7 @@ pub enum PotentialEnergy {
     /// That of a shipped problem.
     Shipped(Setup),
     /// A formula in the coordinates and parameters.
-    Formula(String),
+    Formula(Formula<FormulaPotential<f64>>),
     /// A sum over pairs of bodies.
     Pairs(PairEnergy),
     /// A potential of the caller, in double precision.
@@ -57,7 +58,7 @@ pub enum KineticEnergy {
     /// One for each coordinate, unless all are 1.
     Masses(Option<Vec<Exact>>),
     /// A formula in the momenta and parameters.
-    Formula(String),
+    Formula(Formula<FormulaKinetic<f64>>),
 }
 
 /// H of the positions and momenta that it gets.
@@ -81,8 +82,7 @@ impl System {
         match &self.potential {
             PotentialEnergy::Shipped(setup) => setup.potential(context),
             PotentialEnergy::Formula(formula) => {
-                let potential = formula_potential::<N>(formula, &self.coordinates, &self.parameters, context);
-                Box::new(potential.expect("the formula was read with the scene"))
+                Box::new(formula.meaning().in_numbers(values(&self.parameters, context)))
             }
             PotentialEnergy::Pairs(pairs) => pairs.potential(&self.parameters, context),
             PotentialEnergy::Own(own) => own.in_numbers(),
@@ -100,8 +100,7 @@ impl System {
                 ClassifiedKinetic::Quadratic(Box::new(masses.expect("the masses were read with the scene")))
             }
             KineticEnergy::Formula(formula) => {
-                let kinetic = formula_kinetic::<N>(formula, &self.momenta, &self.parameters, context);
-                match kinetic.expect("the formula was read with the scene").into_quadratic() {
+                match formula.meaning().in_numbers(values(&self.parameters, context)).into_quadratic() {
                     Ok(quadratic) => ClassifiedKinetic::Quadratic(Box::new(quadratic)),
                     Err(general) => ClassifiedKinetic::General(Box::new(general)),
                 }
@@ -214,33 +213,9 @@ impl System {
 
     /// Whether T is a quadratic form.
     pub(crate) fn has_quadratic_kinetic(&self) -> bool {
-        match self.kinetic {
+        match &self.kinetic {
             KineticEnergy::Masses(_) => true,
-            KineticEnergy::Formula(_) => matches!(self.kinetic::<f64>(&()), ClassifiedKinetic::Quadratic(_)),
+            KineticEnergy::Formula(formula) => formula.meaning().is_quadratic(),
         }
     }
-}
-
-/// The potential of a formula, with its parameters rounded once.
-pub(crate) fn formula_potential<N: Number>(
-    formula: &str,
-    coordinates: &[String],
-    parameters: &[(String, Exact)],
-    context: &N::Context,
-) -> Result<FormulaPotential<N>, FormulaError> {
-    FormulaPotential::new(formula, &borrowed(coordinates), &rounded(parameters, context))
-}
-
-/// The kinetic energy of a formula, likewise.
-pub(crate) fn formula_kinetic<N: Number>(
-    formula: &str,
-    momenta: &[String],
-    parameters: &[(String, Exact)],
-    context: &N::Context,
-) -> Result<FormulaKinetic<N>, FormulaError> {
-    FormulaKinetic::new(formula, &borrowed(momenta), &rounded(parameters, context))
-}
-
-pub(crate) fn borrowed(names: &[String]) -> Vec<&str> {
-    names.iter().map(String::as_str).collect()
 }

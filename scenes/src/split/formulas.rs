@@ -1,19 +1,19 @@
 //! H as a sum of parts by their formulas.
 
 use serde_json::{Value, json};
-use shadowstep::many_parts::{SystemOfParts, parts};
+use shadowstep::many_parts::{Part, PartFormula, SystemOfParts};
 use shadowstep::number::Rounded;
 use shadowstep::tables::TableScheme;
-use shadowstep::{MotionError, Rational, System as _};
+use shadowstep::{MotionError, System as _};
 
 use super::{Class, Needs, Refusal, Split, State};
 use crate::boxed::Boxed;
-use crate::scene::{EnergyAt, System, borrowed};
+use crate::scene::{EnergyAt, Formula, System};
 use crate::start::{Steps, Work};
 
 /// H is the sum of these formulas.
-#[derive(Clone, Debug)]
-pub struct Formulas(pub(crate) Vec<String>);
+#[derive(Debug)]
+pub struct Formulas(pub(crate) Vec<Formula<PartFormula>>);
 
 impl Split for Formulas {
     fn needs(&self, _: &System) -> Needs {
@@ -31,7 +31,7 @@ impl Split for Formulas {
     }
 
     fn metadata(&self) -> Option<(&'static str, Value)> {
-        Some(("parts", json!(self.0)))
+        Some(("parts", json!(self.0.iter().map(Formula::text).collect::<Vec<_>>())))
     }
 
     fn energy<N: Rounded + 'static>(&self, system: &System, context: &N::Context) -> EnergyAt<N> {
@@ -53,7 +53,7 @@ impl Split for Formulas {
     }
 
     fn hamiltonian(&self) -> Option<String> {
-        Some(self.0.iter().map(|formula| format!("({formula})")).collect::<Vec<_>>().join(" + "))
+        Some(self.0.iter().map(|formula| format!("({})", formula.text())).collect::<Vec<_>>().join(" + "))
     }
 }
 
@@ -65,14 +65,13 @@ impl Formulas {
         (q, p): &State<N>,
         context: &N::Context,
     ) -> Result<Boxed<N>, MotionError> {
-        let (coordinates, momenta) = (borrowed(&system.coordinates), borrowed(&system.momenta));
-        if q.len() != coordinates.len() {
-            return Err(MotionError::Potential { coordinates: q.len(), dimension: coordinates.len() });
+        let dimension = system.coordinates.len();
+        if q.len() != dimension {
+            return Err(MotionError::Potential { coordinates: q.len(), dimension });
         }
-        let exact = system.parameters.iter().map(|(name, exact)| (name.as_str(), exact.value.clone()));
-        let exact: Vec<(&str, Rational)> = exact.collect();
-        let parts = parts(&borrowed(&self.0), (&coordinates, &momenta), &exact, context);
-        let system = SystemOfParts::new(parts.expect("the formulas were read with the scene"), q, p)?;
+        let parts = self.0.iter().map(|formula| formula.meaning().in_numbers(context));
+        let parts = parts.map(|part| Ok(Box::new(part.map_err(|_| MotionError::Digits)?) as Box<dyn Part<N>>));
+        let system = SystemOfParts::new(parts.collect::<Result<_, MotionError>>()?, q, p)?;
         Ok(Boxed::ManyParts(Box::new(system)))
     }
 }
