@@ -128,7 +128,7 @@ mod tests {
 
     fn frequency(problem: &str) -> Option<Frequency> {
         let source = Source { path: "test.toml".to_owned(), text: problem.to_owned() };
-        System::read(&source, Arithmetic::Double).unwrap().0.fastest_frequency()
+        System::read(&source, Arithmetic::DOUBLE).unwrap().0.fastest_frequency()
     }
 
     #[test]

@@ -10,7 +10,7 @@
 //! use shadowstep_scenes::{System, library};
 //!
 //! let text = "[problem]\nname = \"kepler\"".to_owned();
-//! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::Double)?;
+//! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::DOUBLE)?;
 //! let scheme = for_system(library::scheme("yoshida4")?, &system)?;
 //! let h = exact("1/20").unwrap();
 //! let run = Run { propagator: &scheme.name, h: &h, steps: 1000, order: None };

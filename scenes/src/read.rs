@@ -167,7 +167,7 @@ fn sections(
     let (run, output) = (reader.section(root, "run"), reader.section(root, "output"));
     // the digits come first: values are computed to them
     let arithmetic = run::arithmetic(reader, &run);
-    reader.arithmetic = arithmetic.unwrap_or(Arithmetic::Double);
+    reader.arithmetic = arithmetic.unwrap_or(Arithmetic::DOUBLE);
     let system = system(reader, root, &problem, &initial);
     let steps = run::Steps::read(reader, &run, (system.as_ref(), root.contains_key(time::TIME)), schemes);
     let output = output::read(reader, &output, system.as_ref());

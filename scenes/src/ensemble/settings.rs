@@ -6,7 +6,6 @@ use shadowstep::shadow::EstimatorSettings;
 use shadowstep::tables::{Faults, Source};
 use shadowstep_schemes::document::{Reader, document};
 
-use crate::arithmetic::Arithmetic;
 use crate::error::Error;
 use crate::scene::{Format, Scene};
 
@@ -44,7 +43,7 @@ fn place(source: &Source, section: &str, key: &str) -> Range<usize> {
 }
 
 fn refuse_numbers(reader: &mut Reader<'_>, scene: &Scene) {
-    if !matches!(scene.arithmetic, Arithmetic::Double | Arithmetic::Compensated) {
+    if scene.arithmetic.is_longer_than_double() {
         let at = place(reader.source, "run", "digits");
         let hint = "write digits = \"double\" or \"compensated\" in [run]";
         reader.fault(&at, "an ensemble is computed in double precision", hint);

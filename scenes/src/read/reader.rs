@@ -36,7 +36,7 @@ impl<'a> Reader<'a> {
         let toml = document::Reader::new(source, Vec::new());
         Reader {
             toml,
-            arithmetic: Arithmetic::Double,
+            arithmetic: Arithmetic::DOUBLE,
             known: BTreeMap::new(),
             names: Vec::new(),
             budget: Budget::default(),
