@@ -87,7 +87,7 @@
 //! | [`estimates`], [`start`] | the modified energies along such a run; a system at a state with its stepper |
 //! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
 //! | [`watch`], `summary` | what a run shows: the error of H, the modified energy, close encounters, the verdict |
-//! | [`readable`], `error` | numbers and texts for people; what can go wrong |
+//! | [`readable`], `error`, `refusal` | numbers and texts for people; what can go wrong |
 
 pub mod arithmetic;
 mod boxed;
@@ -114,6 +114,7 @@ pub mod plot;
 pub mod propagator;
 mod read;
 pub mod readable;
+mod refusal;
 mod results;
 pub mod run;
 mod scene;
@@ -137,16 +138,14 @@ pub use frequency::Frequency;
 pub use note::Note;
 pub use observer::Observer;
 pub use read::source;
+pub use refusal::{NoGradientKicks, NoProcessor, Refusal};
 pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::{
-    CheckpointInterval, EnergyAt, Format, Formula, KineticEnergy, Outputs, OwnPotential, PairEnergy, PotentialEnergy,
-    Scene, System,
+    CheckpointInterval, EnergyAt, Format, Formula, InitialValueProblem, KineticEnergy, Outputs, OwnPotential,
+    PairEnergy, PotentialEnergy, Scene, System,
 };
 pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene};
-pub use split::{
-    Canonical, Class, Formulas, KineticAndPotential, Linear, Needs, NoProcessor, Parts, Planets, Refusal, Shown,
-    TransformedTime,
-};
+pub use split::{Canonical, Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Shown, TransformedTime};
 pub use summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use template::template;
 pub use temporary::{Temporary, remove_temporary_files};

@@ -16,7 +16,7 @@ use thiserror::Error;
 
 use crate::error::Error;
 use crate::note::Note;
-use crate::split::{NoProcessor, Refusal};
+use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
 
 /// The name of the exact flow in place of a scheme.
 pub const EXACT_FLOW: &str = "exact-flow";
@@ -181,15 +181,6 @@ pub(crate) fn check_every_kinetic(named: &NamedScheme) -> Result<(), Refusal> {
     let better = best_for_every_kinetic(claimed).expect("there are shipped schemes for every T(p)");
     let (name, order) = (&better.scheme.table.name.value, better.proof.general.order);
     Err(Refusal::new(error.to_string(), format!("use a scheme such as {name}, which has order {order} for every T(p)")))
-}
-
-/// Why a system has no gradient kicks, and what would be right.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoGradientKicks {
-    /// What follows "the scheme has gradient kicks".
-    pub reason: &'static str,
-    /// What would be right.
-    pub hint: &'static str,
 }
 
 /// Whether a scheme can advance a system that perhaps has no gradient kicks.

@@ -6,6 +6,7 @@ mod output;
 mod own;
 mod pairs;
 mod parameters;
+mod problem;
 mod system;
 
 pub(crate) use format::COLUMNS;
@@ -14,8 +15,9 @@ pub use formula::Formula;
 pub use output::{CheckpointInterval, Outputs};
 pub use own::OwnPotential;
 pub use pairs::PairEnergy;
-pub(crate) use system::ClassifiedKinetic;
-pub use system::{EnergyAt, KineticEnergy, PotentialEnergy, System};
+pub(crate) use problem::ClassifiedKinetic;
+pub use problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};
+pub use system::{Parts, System};
 
 use std::sync::OnceLock;
 

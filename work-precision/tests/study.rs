@@ -8,7 +8,7 @@ use shadowstep::problems::problem;
 use shadowstep::tables::Source;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
-use shadowstep_scenes::{Formula, PotentialEnergy, System};
+use shadowstep_scenes::{Formula, InitialValueProblem, PotentialEnergy, System};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::reference::Origin;
@@ -63,11 +63,11 @@ fn formula(text: &str, coordinates: &[&str]) -> PotentialEnergy {
 #[test]
 fn the_error_of_a_reference_is_estimated() {
     let (system, until, folder) = (system("kepler"), until(20), tempfile::tempdir().unwrap());
-    let formula = System {
+    let formula = System::from(InitialValueProblem {
         potential: formula("-1/sqrt(x^2 + y^2)", &["x", "y"]),
         parameters: Vec::new(),
-        ..self::system("kepler")
-    };
+        ..self::system("kepler").problem
+    });
     let schemes = schemes(&["kahan-li8"]);
     let runs = |system| {
         let folder = folder.path().join(format!("{system:p}"));

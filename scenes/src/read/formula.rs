@@ -9,12 +9,11 @@ use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::scene::COLUMNS;
-use crate::scene::{Formula, PotentialEnergy, System};
-use crate::split::{KineticAndPotential, Parts};
+use crate::scene::{Formula, InitialValueProblem, PotentialEnergy};
 use shadowstep_schemes::document::{Placed, Text};
 
-/// The system with this potential.
-pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -> Option<System> {
+/// The problem with this potential.
+pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) -> Option<InitialValueProblem> {
     given.refuse(reader, &["bodies", "dimensions", "neighbours"], |key| {
         (format!("{key} requires `pair`"), format!("remove `{key}`, or write `pair` instead of `potential`"))
     });
@@ -34,10 +33,9 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -
     }
     let (q, p) = given.state.values(reader, values, masses.as_deref());
     let kinetic = if named { kinetic::kinetic(reader, given, &momenta, &parameters, masses) } else { None };
-    Some(System {
+    Some(InitialValueProblem {
         potential: PotentialEnergy::Formula(potential?),
         kinetic: kinetic?,
-        parts: Parts::KineticAndPotential(KineticAndPotential),
         parameters,
         coordinates,
         momenta,

@@ -8,8 +8,9 @@ use super::formula::names;
 use super::given::Given;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::scene::{Formula, KineticEnergy, PotentialEnergy, System};
-use crate::split::{Formulas, LONGEST_EXACT_FLOW, Parts};
+use crate::arithmetic::LONGEST_EXACT_FLOW;
+use crate::scene::{Formula, InitialValueProblem, KineticEnergy, Parts, PotentialEnergy, System};
+use crate::split::Formulas;
 
 /// What a part may be.
 const KNOWN: &str = "a part is a function of variables none of which is the momentum of another, such as T(p), U(q) or x*py, a quadratic \
@@ -43,16 +44,16 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) 
     }
     let values = |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values(reader, coordinates.len());
     let (q, p) = given.state.values(reader, values, None);
-    Some(System {
+    let problem = InitialValueProblem {
         potential: PotentialEnergy::OfParts,
         kinetic: KineticEnergy::Masses(None),
-        parts: Parts::Formulas(Formulas(parts.into_iter().collect::<Option<_>>()?)),
         parameters,
         coordinates,
         momenta,
         q: q?,
         p: p?,
-    })
+    };
+    Some(System { problem, parts: Parts::Formulas(Formulas(parts.into_iter().collect::<Option<_>>()?)) })
 }
 
 /// A part whose flow is known.

@@ -9,8 +9,7 @@ use super::kinetic;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::note::Note;
-use crate::scene::{Formula, PairEnergy, PotentialEnergy, System};
-use crate::split::{KineticAndPotential, Parts};
+use crate::scene::{Formula, InitialValueProblem, PairEnergy, PotentialEnergy};
 use shadowstep_schemes::document::Text;
 
 /// The formula of the energy of a pair.
@@ -58,8 +57,12 @@ fn separations(expression: &Expression, found: &mut Vec<Separation>) {
     }
 }
 
-/// The system of bodies with this energy of each pair.
-pub(super) fn system(reader: &mut Reader<'_>, given: &Given, pair: Option<PairFormula>) -> Option<System> {
+/// The problem of bodies with this energy of each pair.
+pub(super) fn problem(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    pair: Option<PairFormula>,
+) -> Option<InitialValueProblem> {
     given.refuse(reader, &["coordinates", "momenta"], |key| {
         let names = "x1, y1, …, px1, py1, …, or in one dimension q1, …, p1, …";
         (format!("{key} cannot be set with `pair`"), format!("remove `{key}`: the names are {names}"))
@@ -89,10 +92,9 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, pair: Option<PairFo
     let (q, p) = given.state.values(reader, values, masses.as_deref());
     let kinetic = if named { kinetic::kinetic(reader, given, &momenta, &parameters, masses) } else { None };
     let potential = pair_energy(reader, given, &pair, bodies, dimensions, &parameters).map(PotentialEnergy::Pairs);
-    Some(System {
+    Some(InitialValueProblem {
         potential: potential?,
         kinetic: kinetic?,
-        parts: Parts::KineticAndPotential(KineticAndPotential),
         parameters,
         coordinates,
         momenta,

@@ -1,26 +1,28 @@
 //! How H is split: the words of the key `parts`, one for each kind of split that needs no more than its name.
 
-use std::ops::Range;
-
 use shadowstep::wisdom_holman::Bodies;
 use shadowstep_schemes::document::{Section, Value};
 use toml::de::{DeTable, DeValue};
 
+use super::given::Given;
 use super::reader::Reader;
 use crate::arithmetic::Arithmetic;
-use crate::scene::System;
-use crate::split::{Canonical, KineticAndPotential, LINEAR, Linear, Parts, Planets, Refusal};
+use crate::refusal::Refusal;
+use crate::scene::{InitialValueProblem, Parts, System};
+use crate::split::{Canonical, KineticAndPotential, LINEAR, Linear, Planets};
 
-/// The parts of a system, or why it has none of this kind; with the bodies that attract each other and their dimensions, if it is a system of these.
-pub(super) type Split = fn(&System, Arithmetic, Option<(Bodies, usize)>) -> Result<Parts, Refusal>;
+/// The parts of a problem, or why it has none of this kind; with the bodies that attract each other and their dimensions, if it is a problem of these.
+pub(super) type Split = fn(&InitialValueProblem, Arithmetic, Option<(Bodies, usize)>) -> Result<Parts, Refusal>;
 
 const KINETIC_AND_POTENTIAL: Split = |_, _, _| Ok(Parts::KineticAndPotential(KineticAndPotential));
 
 /// The values of `parts`.
 const WORDS: [(&str, Split); 4] = [
-    (Canonical::Jacobi.name(), |_, _, bodies| Planets::of(Canonical::Jacobi, bodies)),
-    (Canonical::DemocraticHeliocentric.name(), |_, _, bodies| Planets::of(Canonical::DemocraticHeliocentric, bodies)),
-    (LINEAR, |system, arithmetic, bodies| Linear::of(system, arithmetic, bodies.is_some())),
+    (Canonical::Jacobi.name(), |_, _, bodies| Planets::of(Canonical::Jacobi, bodies).map(Parts::WisdomHolman)),
+    (Canonical::DemocraticHeliocentric.name(), |_, _, bodies| {
+        Planets::of(Canonical::DemocraticHeliocentric, bodies).map(Parts::WisdomHolman)
+    }),
+    (LINEAR, |problem, arithmetic, bodies| Linear::of(problem, arithmetic, bodies.is_some()).map(Parts::Linear)),
     ("kinetic-potential", KINETIC_AND_POTENTIAL),
 ];
 
@@ -35,16 +37,19 @@ pub(super) fn of_word(reader: &mut Reader<'_>, problem: &Section<'_, '_>) -> Opt
     word.map_or(Some(KINETIC_AND_POTENTIAL), |value| reader.word(value, &WORDS))
 }
 
-/// The system in the parts that its steps have.
+/// The problem in the parts that its steps have.
 pub(super) fn split(
     reader: &mut Reader<'_>,
-    at: &Range<usize>,
-    system: System,
-    parts: Result<Parts, Refusal>,
+    given: &Given,
+    problem: InitialValueProblem,
+    split: Split,
+    bodies: Option<(Bodies, usize)>,
 ) -> Option<System> {
-    match parts {
-        Ok(parts) => Some(System { parts, ..system }),
-        Err(Refusal { message, hint }) => reader.toml.wrong(at, message, hint),
+    match split(&problem, reader.arithmetic, bodies) {
+        Ok(parts) => Some(System { problem, parts }),
+        Err(Refusal { message, hint }) => {
+            reader.toml.wrong(given.place("parts").unwrap_or(&given.problem), message, hint)
+        }
     }
 }
 

@@ -17,8 +17,7 @@ use super::numbers::Numbers;
 use super::parts::{self, Split};
 use super::reader::Reader;
 use super::units;
-use crate::scene::{Formula, KineticEnergy, PairEnergy, PotentialEnergy, System};
-use crate::split::{KineticAndPotential, Parts};
+use crate::scene::{Formula, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The name of the section.
@@ -187,9 +186,8 @@ pub(super) fn system(
     if has_names_of_energy(reader, given) {
         return None;
     }
-    let (system, bodies) = placing.into_system(reader, parameters, &names, &given.problem)?;
-    let parts = split(&system, reader.arithmetic, Some((bodies, dimensions)));
-    parts::split(reader, given.place("parts").unwrap_or(&given.problem), system, parts)
+    let (problem, bodies) = placing.into_system(reader, parameters, &names, &given.problem)?;
+    parts::split(reader, given, problem, split, Some((bodies, dimensions)))
 }
 
 /// Refuses parameters that have a name of the bodies' energy; whether there are any.
@@ -366,7 +364,7 @@ impl Placing {
         parameters: Vec<(String, Exact)>,
         names: &[String],
         at: &Range<usize>,
-    ) -> Option<(System, Bodies)> {
+    ) -> Option<(InitialValueProblem, Bodies)> {
         let Placing { g, dimensions, masses, states, .. } = self;
         let exact = |value: Rational| Exact { value, rounded: true };
         let bodies = match Bodies::new(g, masses.clone()) {
@@ -387,17 +385,16 @@ impl Placing {
             Err(error) => return reader.toml.wrong(at, error.to_string(), "give the parameters other names"),
         };
         let pairs = PairEnergy { formula, dimensions, bodies: masses.len(), properties, ends: None };
-        let system = System {
+        let problem = InitialValueProblem {
             p: p.collect(),
             q: states.iter().flat_map(|[q, _]| q.iter().cloned().map(exact)).collect(),
             potential: PotentialEnergy::Pairs(pairs),
             kinetic: KineticEnergy::Masses((!unit).then_some(of_coordinates)),
-            parts: Parts::KineticAndPotential(KineticAndPotential),
             parameters,
             coordinates,
             momenta,
         };
-        Some((system, bodies))
+        Some((problem, bodies))
     }
 }
 

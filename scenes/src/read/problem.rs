@@ -4,11 +4,11 @@ use shadowstep::pairs::Separation;
 
 use super::given::Given;
 use super::pair::PairFormula;
-use super::parts::{self, Split};
+use super::parts;
 use super::planets::{self, GivenBody, Settings};
 use super::reader::Reader;
 use super::{formula, many_parts, pair, shipped};
-use crate::scene::{PotentialEnergy, System};
+use crate::scene::System;
 use shadowstep_schemes::document::Section;
 
 /// The keys of which exactly one gives the potential.
@@ -46,13 +46,13 @@ pub(super) fn system(
             reader.toml.wrong(given.place(way)?, message, "keep one of the two")
         }
         ["name"] => {
-            let system = shipped::system(reader, &given, &name?)?;
-            in_parts(reader, &given, system, settings.split?)
+            let (problem, bodies) = shipped::problem(reader, &given, &name?)?;
+            parts::split(reader, &given, problem, settings.split?, bodies)
         }
         ["potential"] => {
             given.needs(reader, problem, "coordinates");
-            let system = formula::system(reader, &given, &potential?)?;
-            in_parts(reader, &given, system, settings.split?)
+            let problem = formula::problem(reader, &given, &potential?)?;
+            parts::split(reader, &given, problem, settings.split?, None)
         }
         ["pair"] => {
             given.needs(reader, problem, "bodies");
@@ -60,8 +60,8 @@ pub(super) fn system(
             if pair.as_ref().is_some_and(|pair| pair.separation == Separation::SquaredDistance) {
                 given.needs(reader, problem, "dimensions");
             }
-            let system = pair::system(reader, &given, pair)?;
-            in_parts(reader, &given, system, settings.split?)
+            let problem = pair::problem(reader, &given, pair)?;
+            parts::split(reader, &given, problem, settings.split?, None)
         }
         [] => {
             reader.toml.missing(problem, &WAYS);
@@ -73,16 +73,6 @@ pub(super) fn system(
         }
         _ => reader.toml.wrong(given.place("pair")?, "name, potential and pair are all given", "keep one of the three"),
     }
-}
-
-/// The system in the parts that its steps have.
-fn in_parts(reader: &mut Reader<'_>, given: &Given, system: System, split: Split) -> Option<System> {
-    let bodies = match &system.potential {
-        PotentialEnergy::Shipped(setup) => setup.bodies(),
-        _ => None,
-    };
-    let parts = split(&system, reader.arithmetic, bodies);
-    parts::split(reader, given.place("parts").unwrap_or(&given.problem), system, parts)
 }
 
 /// Refuses what only bodies can have.

@@ -13,8 +13,9 @@ use super::reader::Reader;
 use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS, OTHER_SCHEME};
 use crate::library::{LibraryError, NamedScheme, Schemes};
 use crate::note::Note;
+use crate::refusal::Refusal;
 use crate::scene::System;
-use crate::split::{Class, Needs, Refusal};
+use crate::split::{Class, Needs};
 use crate::steps::{self, MOST_STEPS, WrongValue};
 use shadowstep_schemes::document::{Section, Text};
 

@@ -3,9 +3,9 @@
 use shadowstep::transformed_time::TimeTransformation;
 use toml::de::DeTable;
 
-use super::parts;
 use super::reader::Reader;
-use crate::scene::System;
+use crate::refusal::Refusal;
+use crate::scene::{Parts, System};
 use crate::split::TransformedTime;
 use shadowstep_schemes::document::Section;
 
@@ -37,8 +37,10 @@ pub(super) fn transformed(
     }
     let time = transformation(reader, section);
     let (system, time) = (system?, time?);
-    let parts = TransformedTime::of(time, &system);
-    parts::split(reader, &section.at, system, parts)
+    match TransformedTime::of(time, &system, system.parts.is_kinetic_and_potential()) {
+        Ok(parts) => Some(System { parts: Parts::TransformedTime(parts), ..system }),
+        Err(Refusal { message, hint }) => reader.toml.wrong(&section.at, message, hint),
+    }
 }
 
 fn transformation(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<TimeTransformation> {

@@ -6,9 +6,10 @@ use shadowstep::number::Rounded;
 use shadowstep::tables::TableScheme;
 use shadowstep::{MotionError, System as _};
 
-use super::{Class, Needs, Refusal, Split, State};
+use super::{Class, Needs, Split, State};
 use crate::boxed::Boxed;
-use crate::scene::{EnergyAt, Formula, System};
+use crate::refusal::Refusal;
+use crate::scene::{EnergyAt, Formula, InitialValueProblem};
 use crate::start::{Steps, Work};
 
 /// H is the sum of these formulas.
@@ -16,7 +17,7 @@ use crate::start::{Steps, Work};
 pub struct Formulas(pub(crate) Vec<Formula<PartFormula>>);
 
 impl Split for Formulas {
-    fn needs(&self, _: &System) -> Needs {
+    fn needs(&self, _: &InitialValueProblem) -> Needs {
         Needs {
             no_compensated_sums: Some(Refusal::new(
                 "formulas of parts have no compensated sums",
@@ -34,21 +35,21 @@ impl Split for Formulas {
         Some(("parts", json!(self.0.iter().map(Formula::text).collect::<Vec<_>>())))
     }
 
-    fn energy<N: Rounded + 'static>(&self, system: &System, context: &N::Context) -> EnergyAt<N> {
-        let state = system.start(context);
-        let mut system = self.system(system, &state, context).expect("the dimensions were read with the system");
+    fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+        let state = problem.initial(context);
+        let mut system = self.system(problem, &state, context).expect("the dimensions were read with the system");
         Box::new(move |q, p| system.energy_at(q, p))
     }
 
     fn with<N: Rounded + 'static, W: Work<N>>(
         &self,
-        system: &System,
+        problem: &InitialValueProblem,
         steps: Steps<'_>,
         state: State<N>,
         context: &N::Context,
         work: W,
     ) -> Result<W::Output, MotionError> {
-        let system = self.system(system, &state, context)?;
+        let system = self.system(problem, &state, context)?;
         Ok(steps.begin(in_many_parts(steps.scheme), system, context, work))
     }
 
@@ -61,11 +62,11 @@ impl Formulas {
     /// The system of these parts at a state.
     fn system<N: Rounded + 'static>(
         &self,
-        system: &System,
+        problem: &InitialValueProblem,
         (q, p): &State<N>,
         context: &N::Context,
     ) -> Result<Boxed<N>, MotionError> {
-        let dimension = system.coordinates.len();
+        let dimension = problem.coordinates.len();
         if q.len() != dimension {
             return Err(MotionError::Potential { coordinates: q.len(), dimension });
         }

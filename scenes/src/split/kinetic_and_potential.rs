@@ -5,8 +5,8 @@ use shadowstep::number::Rounded;
 use shadowstep::{Motion, MotionError};
 
 use super::{Class, Needs, Split, State};
-use crate::library::NoGradientKicks;
-use crate::scene::{ClassifiedKinetic, PotentialEnergy, System};
+use crate::refusal::NoGradientKicks;
+use crate::scene::{ClassifiedKinetic, InitialValueProblem, PotentialEnergy};
 use crate::start::{Steps, Work};
 
 /// T(p) and U(q).
@@ -14,9 +14,9 @@ use crate::start::{Steps, Work};
 pub struct KineticAndPotential;
 
 impl Split for KineticAndPotential {
-    fn needs(&self, system: &System) -> Needs {
-        let own = matches!(system.potential, PotentialEnergy::Own(_));
-        let class = if system.has_quadratic_kinetic() { Class::Quadratic } else { Class::EveryKinetic };
+    fn needs(&self, problem: &InitialValueProblem) -> Needs {
+        let own = matches!(problem.potential, PotentialEnergy::Own(_));
+        let class = if problem.has_quadratic_kinetic() { Class::Quadratic } else { Class::EveryKinetic };
         Needs {
             no_gradient_kicks: own.then_some(NoGradientKicks {
                 reason: "and a function that computes forces has no second derivatives",
@@ -32,14 +32,14 @@ impl Split for KineticAndPotential {
 
     fn with<N: Rounded + 'static, W: Work<N>>(
         &self,
-        system: &System,
+        problem: &InitialValueProblem,
         steps: Steps<'_>,
         (q, p): State<N>,
         context: &N::Context,
         work: W,
     ) -> Result<W::Output, MotionError> {
-        let (potential, displacements) = (system.potential(context), steps.displacements(context));
-        Ok(match system.kinetic(context) {
+        let (potential, displacements) = (problem.potential(context), steps.displacements(context));
+        Ok(match problem.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {
                 let mut motion = Motion::new(potential, kinetic, q, p)?;
                 if let Some(displacements) = displacements {

@@ -7,10 +7,11 @@ use shadowstep::number::{AnyLimbs, LimbCount, Rounded};
 use shadowstep::{MotionError, Number, Potential, Rational, exact};
 use shadowstep_symbolic::decimal::from_text;
 
-use super::{Class, LONGEST_EXACT_FLOW, Needs, Parts, Refusal, Split, State};
-use crate::arithmetic::Arithmetic;
+use super::{Class, Needs, Split, State};
+use crate::arithmetic::{Arithmetic, LONGEST_EXACT_FLOW};
 use crate::boxed::Boxed;
-use crate::scene::{KineticEnergy, System};
+use crate::refusal::Refusal;
+use crate::scene::{InitialValueProblem, KineticEnergy};
 use crate::start::{Steps, Work};
 
 /// T(p) + ½qᵀKq with this K, row by row, and what is left of U.
@@ -24,7 +25,7 @@ pub(crate) const LINEAR: &str = "linear";
 const MOST_COORDINATES: usize = 100;
 
 impl Split for Linear {
-    fn needs(&self, _: &System) -> Needs {
+    fn needs(&self, _: &InitialValueProblem) -> Needs {
         Needs {
             no_compensated_sums: Some(Refusal::new("a linear part has no compensated sums", CHANGE)),
             no_ensembles: Some(Refusal::new(
@@ -41,13 +42,13 @@ impl Split for Linear {
 
     fn with<N: Rounded + 'static, W: Work<N>>(
         &self,
-        system: &System,
+        problem: &InitialValueProblem,
         steps: Steps<'_>,
         (q, p): State<N>,
         context: &N::Context,
         work: W,
     ) -> Result<W::Output, MotionError> {
-        let mut system = LinearPart::new(system.potential(context), &system.exact_masses(), &self.0, &q, &p)?;
+        let mut system = LinearPart::new(problem.potential(context), &problem.exact_masses(), &self.0, &q, &p)?;
         if let Some(displacements) = steps.displacements(context) {
             system = system.displaced(displacements);
         }
@@ -63,8 +64,8 @@ impl Linear {
     ///
     /// # Errors
     /// A system that has no linear part, or whose flow is not computed to these digits.
-    pub(crate) fn of(system: &System, arithmetic: Arithmetic, of_bodies: bool) -> Result<Parts, Refusal> {
-        let coordinates = system.q.len();
+    pub(crate) fn of(problem: &InitialValueProblem, arithmetic: Arithmetic, of_bodies: bool) -> Result<Self, Refusal> {
+        let coordinates = problem.q.len();
         let refuse = |message: String| Err(Refusal::new(message, CHANGE));
         match () {
             () if of_bodies => {
@@ -74,7 +75,7 @@ impl Linear {
             () if coordinates > MOST_COORDINATES => {
                 return refuse(format!("a linear part has at most {MOST_COORDINATES} coordinates, not {coordinates}"));
             }
-            () if matches!(system.kinetic, KineticEnergy::Formula(_)) => {
+            () if matches!(problem.kinetic, KineticEnergy::Formula(_)) => {
                 return refuse("a linear part requires T by masses, not by a formula".to_owned());
             }
             () if arithmetic.digits() > LONGEST_EXACT_FLOW => {
@@ -82,8 +83,8 @@ impl Linear {
             }
             () => {}
         }
-        match stiffness(|count| system.potential::<AnyLimbs>(count)) {
-            Some(stiffness) => Ok(Parts::Linear(Linear(stiffness))),
+        match stiffness(|count| problem.potential::<AnyLimbs>(count)) {
+            Some(stiffness) => Ok(Linear(stiffness)),
             None => Err(Refusal::new(
                 "U has no second derivatives at q = 0",
                 "remove `parts`: the force has no linear part",

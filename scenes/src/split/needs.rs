@@ -1,7 +1,7 @@
 //! What a kind of split needs of a scheme and of a run, and why something else is refused.
 
-use crate::error::Error;
-use crate::library::{self, NamedScheme, NoGradientKicks, Schemes};
+use crate::library::{self, NamedScheme, Schemes};
+use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
 
 /// What a split needs of a scheme and of a run.
 #[derive(Clone, Debug)]
@@ -27,36 +27,6 @@ pub enum Class {
     EveryKinetic,
     /// Schemes with an order for three parts and more.
     ManyParts,
-}
-
-/// Why something is refused, and what would be right.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Refusal {
-    /// What is wrong, one sentence.
-    pub message: String,
-    /// What would be right.
-    pub hint: String,
-}
-
-/// Why schemes are not processed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoProcessor {
-    /// What follows "the scheme is a processed scheme, which".
-    pub reason: &'static str,
-    /// What would be right.
-    pub hint: &'static str,
-}
-
-impl Refusal {
-    pub(crate) fn new(message: impl Into<String>, hint: impl Into<String>) -> Self {
-        Refusal { message: message.into(), hint: hint.into() }
-    }
-}
-
-impl From<Refusal> for Error {
-    fn from(Refusal { message, hint }: Refusal) -> Self {
-        Error::usage(message, hint)
-    }
 }
 
 impl Needs {

@@ -5,11 +5,10 @@ use shadowstep::number::Rounded;
 use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::{Kinetic, Motion, MotionError, Number, Ordered, Potential};
 
-use super::needs::NoProcessor;
-use super::{Class, Needs, Parts, Refusal, Shown, Split, State};
+use super::{Class, Needs, Shown, Split, State};
 use crate::boxed::Boxed;
-use crate::library::NoGradientKicks;
-use crate::scene::{ClassifiedKinetic, EnergyAt, System};
+use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
+use crate::scene::{ClassifiedKinetic, EnergyAt, InitialValueProblem};
 use crate::start::{Steps, Work};
 
 /// f(T + p_t) and −f(−U): the steps are in a fictitious time.
@@ -20,7 +19,7 @@ pub struct TransformedTime(TimeTransformation);
 const COMPOSITION: &str = "use a composition of the leapfrog, such as sofroniou-spaletta6-13";
 
 impl Split for TransformedTime {
-    fn needs(&self, _: &System) -> Needs {
+    fn needs(&self, _: &InitialValueProblem) -> Needs {
         Needs {
             no_gradient_kicks: Some(NoGradientKicks {
                 reason: "but in transformed time no part of H is a quadratic form of the momenta",
@@ -45,8 +44,13 @@ impl Split for TransformedTime {
     }
 
     /// q, 0 and p, −H
-    fn start<N: Number + 'static>(&self, system: &System, (mut q, mut p): State<N>, context: &N::Context) -> State<N> {
-        let mut momentum = system.plain_energy(context)(&q, &p);
+    fn start<N: Number + 'static>(
+        &self,
+        problem: &InitialValueProblem,
+        (mut q, mut p): State<N>,
+        context: &N::Context,
+    ) -> State<N> {
+        let mut momentum = problem.plain_energy(context)(&q, &p);
         momentum.negate();
         q.push(N::zero(context));
         p.push(momentum);
@@ -54,29 +58,29 @@ impl Split for TransformedTime {
     }
 
     /// Without t and p_t.
-    fn shown<N: Number + 'static>(&self, system: &System, context: &N::Context) -> Option<Shown<N>> {
+    fn shown<N: Number + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> Option<Shown<N>> {
         let assign = |own: &[N], shown: &mut [N]| shown.iter_mut().zip(own).for_each(|(shown, own)| shown.assign(own));
-        Some(Shown::by(system.q.len(), context, move |(q, p), shown| {
+        Some(Shown::by(problem.q.len(), context, move |(q, p), shown| {
             assign(q, shown.0);
             assign(p, shown.1);
         }))
     }
 
-    fn energy<N: Rounded + 'static>(&self, system: &System, context: &N::Context) -> EnergyAt<N> {
-        let (mut energy, dimension) = (system.plain_energy(context), system.q.len());
+    fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+        let (mut energy, dimension) = (problem.plain_energy(context), problem.q.len());
         Box::new(move |q, p| energy(&q[..dimension], &p[..dimension]))
     }
 
     fn with<N: Rounded + 'static, W: Work<N>>(
         &self,
-        system: &System,
+        problem: &InitialValueProblem,
         steps: Steps<'_>,
         state: State<N>,
         context: &N::Context,
         work: W,
     ) -> Result<W::Output, MotionError> {
-        let (time, potential) = (self.0, system.potential(context));
-        let system = match system.kinetic(context) {
+        let (time, potential) = (self.0, problem.potential(context));
+        let system = match problem.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => motion(time, potential, kinetic, state, steps.compensated)?,
             ClassifiedKinetic::General(kinetic) => motion(time, potential, kinetic, state, steps.compensated)?,
         };
@@ -89,31 +93,31 @@ impl Split for TransformedTime {
 }
 
 impl TransformedTime {
-    /// The parts of a system in this time.
+    /// The parts of a problem in this time; `plain` if they are T(p) and U(q) without it.
     ///
     /// # Errors
     /// A system that is split in another way, or whose U is not negative at its initial state.
-    pub(crate) fn of(time: TimeTransformation, system: &System) -> Result<Parts, Refusal> {
-        if !system.parts.is_kinetic_and_potential() {
+    pub(crate) fn of(time: TimeTransformation, problem: &InitialValueProblem, plain: bool) -> Result<Self, Refusal> {
+        if !plain {
             return Err(Refusal::new(
                 "transformed time requires the parts T(p) and U(q): others have no explicit flows in it",
                 "remove [time], or write `parts = \"kinetic-potential\"`",
             ));
         }
-        match wrong_sign(system) {
+        match wrong_sign(problem) {
             Some(message) => Err(Refusal::new(
                 message,
                 "remove [time]; transformed time is for attraction whose potential is 0 at infinity, as in gravity",
             )),
-            None => Ok(Parts::TransformedTime(TransformedTime(time))),
+            None => Ok(TransformedTime(time)),
         }
     }
 }
 
 /// Why the initial state has no transformed time, in double precision.
-fn wrong_sign(system: &System) -> Option<String> {
-    let (q, _) = system.initial::<f64>(&());
-    let potential = system.potential::<f64>(&());
+fn wrong_sign(problem: &InitialValueProblem) -> Option<String> {
+    let (q, _) = problem.initial::<f64>(&());
+    let potential = problem.potential::<f64>(&());
     let mut scratch = vec![0.0; potential.scratch()];
     potential.prepare(&mut scratch, &());
     let mut energy = <f64 as Number>::zero(&());

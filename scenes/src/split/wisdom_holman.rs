@@ -6,10 +6,10 @@ use shadowstep::number::Rounded;
 use shadowstep::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{MotionError, Number, System as _};
 
-use super::{Class, Needs, Parts, Refusal, Shown, Split, State};
+use super::{Class, Needs, Shown, Split, State};
 use crate::boxed::Boxed;
-use crate::library::NoGradientKicks;
-use crate::scene::{EnergyAt, System};
+use crate::refusal::{NoGradientKicks, Refusal};
+use crate::scene::{EnergyAt, InitialValueProblem};
 use crate::start::{Steps, Work};
 
 /// A planetary system of point masses, the central body first.
@@ -46,7 +46,7 @@ impl Canonical {
 pub(crate) type OfPlanets = Box<dyn FnMut(&[f64]) -> Vec<f64>>;
 
 impl Split for Planets {
-    fn needs(&self, _: &System) -> Needs {
+    fn needs(&self, _: &InitialValueProblem) -> Needs {
         let no_ensembles = Some(Refusal::new(
             "an ensemble has no orbits of planets as parts",
             "write parts = \"kinetic-potential\", or make a sweep of the scene instead",
@@ -68,16 +68,21 @@ impl Split for Planets {
         Some(("parts", json!(self.coordinates.name())))
     }
 
-    fn start<N: Number + 'static>(&self, _: &System, inertial: State<N>, context: &N::Context) -> State<N> {
+    fn start<N: Number + 'static>(
+        &self,
+        _: &InitialValueProblem,
+        inertial: State<N>,
+        context: &N::Context,
+    ) -> State<N> {
         self.canonical((&inertial.0, &inertial.1), context)
     }
 
-    fn shown<N: Number + 'static>(&self, _: &System, context: &N::Context) -> Option<Shown<N>> {
+    fn shown<N: Number + 'static>(&self, _: &InitialValueProblem, context: &N::Context) -> Option<Shown<N>> {
         Some(self.inertial(context))
     }
 
-    fn energy<N: Rounded + 'static>(&self, system: &System, context: &N::Context) -> EnergyAt<N> {
-        let (q, p) = system.start(context);
+    fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+        let (q, p) = self.start(problem, problem.initial(context), context);
         let system = self.system((&q, &p), false, None, context);
         let mut system = system.expect("the dimensions were read with the system");
         Box::new(move |q, p| system.energy_at(q, p))
@@ -85,7 +90,7 @@ impl Split for Planets {
 
     fn with<N: Rounded + 'static, W: Work<N>>(
         &self,
-        _: &System,
+        _: &InitialValueProblem,
         steps: Steps<'_>,
         (q, p): State<N>,
         context: &N::Context,
@@ -94,10 +99,6 @@ impl Split for Planets {
         let system = self.system((&q, &p), steps.compensated, steps.displacements(context), context)?;
         Ok(steps.begin(steps.scheme.clone(), system, context, work))
     }
-
-    fn planets(&self) -> Option<&Planets> {
-        Some(self)
-    }
 }
 
 impl Planets {
@@ -105,9 +106,9 @@ impl Planets {
     ///
     /// # Errors
     /// Another system.
-    pub(crate) fn of(coordinates: Canonical, bodies: Option<(Bodies, usize)>) -> Result<Parts, Refusal> {
+    pub(crate) fn of(coordinates: Canonical, bodies: Option<(Bodies, usize)>) -> Result<Self, Refusal> {
         match bodies {
-            Some((bodies, dimensions)) => Ok(Parts::WisdomHolman(Planets { coordinates, bodies, dimensions })),
+            Some((bodies, dimensions)) => Ok(Planets { coordinates, bodies, dimensions }),
             None => Err(Refusal::new(
                 "only bodies that attract each other have these parts",
                 "remove `parts`, give the bodies in sections [[body]], or use a problem such as outer-solar-system",
