@@ -142,7 +142,7 @@ pub use refusal::{NoGradientKicks, NoProcessor, Refusal};
 pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::{
     CheckpointInterval, EnergyAt, Format, Formula, InitialValueProblem, KineticEnergy, Outputs, OwnPotential,
-    PairEnergy, PotentialEnergy, Scene, System,
+    PairEnergy, Parts, PotentialEnergy, Scene, System,
 };
 pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene};
 pub use split::{Canonical, Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Shown, TransformedTime};
