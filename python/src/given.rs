@@ -52,13 +52,13 @@ impl Given {
     /// The names of q_1, q_2, ….
     #[getter]
     fn coordinates(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.coordinates)
+        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.problem.coordinates)
     }
 
     /// The names of p_1, p_2, ….
     #[getter]
     fn momenta(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.momenta)
+        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.problem.momenta)
     }
 
     /// The state at t = 0 in double precision, in the coordinates that trajectories have.
