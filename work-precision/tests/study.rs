@@ -139,8 +139,12 @@ fn runs_that_fail_are_kept_as_failed() {
     let (until, folder) = (until(10), tempfile::tempdir().unwrap());
     // far from the centre the force is large: the coarse steps overshoot ever more
     let setup = problem("pendulum").unwrap().setup(&[("p".to_owned(), "10".to_owned())], 60).unwrap();
-    let quartic =
-        System { potential: formula("x^4", &["x"]), coordinates: vec!["x".to_owned()], ..System::of_setup(setup) };
+    let quartic = System::from(InitialValueProblem {
+        potential: formula("x^4", &["x"]),
+        parameters: Vec::new(),
+        coordinates: vec!["x".to_owned()],
+        ..System::of_setup(setup).problem
+    });
     let schemes = schemes(&["stormer-verlet"]);
     let problem = Problem { system: &quartic, until: &until, arithmetic: Arithmetic::DOUBLE };
     let study = study(problem, &schemes, StepRange::Given(vec![20, 4000]), folder.path());

@@ -21,7 +21,7 @@ pub struct InitialValueProblem {
     pub potential: PotentialEnergy,
     /// T(p)
     pub kinetic: KineticEnergy,
-    /// Parameters of formulas or of the shipped problem: names and values.
+    /// Parameters of the shipped problem, or those with which the formulas were read: names and values.
     pub parameters: Vec<(String, Exact)>,
     /// Names of q_1, q_2, ….
     pub coordinates: Vec<String>,
