@@ -335,3 +335,24 @@ pub struct TooManyDigits {
     /// The digits of the run.
     pub digits: u32,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_sums_have_the_names_of_records() {
+        let labels =
+            |arithmetic: Arithmetic| (serde_json::json!(arithmetic.label()).to_string(), arithmetic.described());
+        for ((word, arithmetic), described) in Arithmetic::NAMED.iter().zip([
+            "double precision",
+            "double precision, compensated sums",
+            "double-double precision",
+        ]) {
+            assert_eq!(labels(*arithmetic), (format!("\"{word}\""), described.to_owned()));
+        }
+        assert_eq!(labels(Arithmetic::with_digits(30).unwrap()), ("30".to_owned(), "30 digits".to_owned()));
+        assert!(Arithmetic::COMPENSATED.is_compensated() && !Arithmetic::COMPENSATED.is_longer_than_double());
+        assert!(!Arithmetic::DOUBLE_DOUBLE.is_compensated() && Arithmetic::DOUBLE_DOUBLE.is_longer_than_double());
+    }
+}
