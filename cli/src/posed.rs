@@ -42,9 +42,9 @@ impl PosedArguments {
     /// The number type that a flag names.
     fn named(&self) -> Option<Arithmetic> {
         let flags = [
-            (self.double, Arithmetic::Double),
-            (self.compensated, Arithmetic::Compensated),
-            (self.double_double, Arithmetic::DoubleDouble),
+            (self.double, Arithmetic::DOUBLE),
+            (self.compensated, Arithmetic::COMPENSATED),
+            (self.double_double, Arithmetic::DOUBLE_DOUBLE),
         ];
         flags.into_iter().find_map(|(given, arithmetic)| given.then_some(arithmetic))
     }
@@ -74,7 +74,7 @@ impl Posed {
                 found.map_err(|error| Error::usage(error.to_string(), "use --digits 120"))?
             }
             (None, scene) => {
-                let of_scene = scene.as_ref().map_or(Arithmetic::Double, |scene| scene.arithmetic);
+                let of_scene = scene.as_ref().map_or(Arithmetic::DOUBLE, |scene| scene.arithmetic);
                 arguments.named().unwrap_or(of_scene)
             }
         };

@@ -92,7 +92,7 @@ fn suite(arguments: &Arguments) -> Result<Suite, Error> {
         Some(digits) => {
             Arithmetic::with_digits(digits).map_err(|error| Error::usage(error.to_string(), "use --digits 120"))?
         }
-        None => Arithmetic::Double,
+        None => Arithmetic::DOUBLE,
     };
     let mut schemes: Vec<NamedScheme> = Vec::new();
     for word in &arguments.schemes {

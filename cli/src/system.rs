@@ -5,7 +5,7 @@ use std::path::Path;
 use shadowstep::problems::problem;
 use shadowstep::tables::{Faults, Source};
 use shadowstep_scenes::arithmetic::{Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS};
-use shadowstep_scenes::{Error, KineticEnergy, Parts, PotentialEnergy, System, source};
+use shadowstep_scenes::{Error, KineticEnergy, PotentialEnergy, System, source};
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::quantity::{assignment, problem_error};
@@ -157,26 +157,22 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
-/// The formulas of the parts, added.
-fn sum_of_parts(parts: &Parts) -> String {
-    let Parts::Formulas(formulas) = parts else { return String::new() };
-    formulas.iter().map(|formula| format!("({formula})")).collect::<Vec<_>>().join(" + ")
-}
-
 fn describe(name: String, system: System) -> Described {
     let kinetic = match &system.kinetic {
         KineticEnergy::Masses(_) => "T(p)",
-        KineticEnergy::Formula(formula) => formula,
+        KineticEnergy::Formula(formula) => formula.text(),
     };
     let (title, hamiltonian) = match &system.potential {
         PotentialEnergy::Shipped(setup) => {
             let problem = setup.problem.description();
             (problem.title.to_owned(), problem.hamiltonian.to_owned())
         }
-        PotentialEnergy::Formula(formula) => (name.clone(), format!("{kinetic} + {formula}")),
-        PotentialEnergy::Pairs(pairs) => (name.clone(), format!("{kinetic} + the sum over pairs of {}", pairs.formula)),
+        PotentialEnergy::Formula(formula) => (name.clone(), format!("{kinetic} + {}", formula.text())),
+        PotentialEnergy::Pairs(pairs) => {
+            (name.clone(), format!("{kinetic} + the sum over pairs of {}", pairs.formula.text()))
+        }
         PotentialEnergy::Own(own) => (name.clone(), format!("{kinetic} + {}", own.name())),
-        PotentialEnergy::OfParts => (name.clone(), sum_of_parts(&system.parts)),
+        PotentialEnergy::OfParts => (name.clone(), system.parts.hamiltonian().unwrap_or_default()),
     };
     Described { name, title, hamiltonian, system }
 }

@@ -8,8 +8,9 @@ use std::time::Duration;
 
 use clap::Args;
 use shadowstep::Rational;
-use shadowstep_scenes::library::{self, NamedScheme, scheme};
-use shadowstep_scenes::{Error, Parts, System};
+use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::propagator::for_system;
+use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::files::{Title, refuse_foreign, write};
 use shadowstep_work_precision::schemes::default_schemes;
@@ -145,12 +146,7 @@ pub(crate) fn schemes(words: &[String], posed: &Posed) -> Result<Vec<NamedScheme
 }
 
 fn is_valid(scheme: &NamedScheme, system: &System, posed: &Posed) -> Result<(), Error> {
-    let valid = match system.parts {
-        Parts::Formulas(_) => library::for_many_parts(scheme).map(drop),
-        _ if system.has_general_kinetic() => library::check_general(scheme),
-        _ => Ok(()),
-    };
-    valid.map_err(|(message, hint)| Error::usage(message, hint))?;
+    for_system(scheme.clone(), system)?;
     let suits = posed.arithmetic.suits(scheme);
     suits.map(drop).map_err(|error| Error::usage(error.to_string(), format!("use --digits {}", error.most)))
 }

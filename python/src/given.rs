@@ -52,19 +52,19 @@ impl Given {
     /// The names of q_1, q_2, ….
     #[getter]
     fn coordinates(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(self.system(Arithmetic::Double).map_err(|error| exception(py, error))?.coordinates)
+        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.problem.coordinates)
     }
 
     /// The names of p_1, p_2, ….
     #[getter]
     fn momenta(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        Ok(self.system(Arithmetic::Double).map_err(|error| exception(py, error))?.momenta)
+        Ok(self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?.problem.momenta)
     }
 
     /// The state at t = 0 in double precision, in the coordinates that trajectories have.
     #[getter]
     fn initial(&self, py: Python<'_>) -> PyResult<(Vec<f64>, Vec<f64>)> {
-        let system = self.system(Arithmetic::Double).map_err(|error| exception(py, error))?;
+        let system = self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?;
         let (q, p) = system.start::<f64>(&());
         Ok(match system.shown::<f64>(&()) {
             Some(mut shown) => {
@@ -78,7 +78,7 @@ impl Given {
     /// H at t = 0 in double precision.
     #[getter]
     fn energy(&self, py: Python<'_>) -> PyResult<f64> {
-        let system = self.system(Arithmetic::Double).map_err(|error| exception(py, error))?;
+        let system = self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?;
         let (q, p) = system.start::<f64>(&());
         let energy = system.energy::<f64>(&())(&q, &p);
         self.raised(py)?;
@@ -108,7 +108,7 @@ impl Given {
     }
 
     fn checked(self, py: Python<'_>) -> PyResult<Self> {
-        self.system(Arithmetic::Double).map_err(|error| exception(py, error))?;
+        self.system(Arithmetic::DOUBLE).map_err(|error| exception(py, error))?;
         Ok(self)
     }
 }

@@ -119,9 +119,9 @@ impl Posed {
         let compensated = arithmetic.is_compensated();
         let (system, scheme) = (&self.system, &self.scheme.scheme);
         let integration = Integration { system, scheme, run, compensated, every, estimator };
-        let found = match arithmetic {
-            Arithmetic::Double | Arithmetic::Compensated => Found::Doubles(integration.run::<f64>(&(), observer)?),
-            _ => Found::Texts(arithmetic.compute(InTexts { integration, observer })?),
+        let found = match arithmetic.is_longer_than_double() {
+            false => Found::Doubles(integration.run::<f64>(&(), observer)?),
+            true => Found::Texts(arithmetic.compute(InTexts { integration, observer })?),
         };
         let frequency = system.fastest_frequency();
         let unstable = frequency.and_then(|frequency| unstable(frequency, &self.scheme, &times.h));

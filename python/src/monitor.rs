@@ -7,7 +7,6 @@ use shadowstep::run::RunError;
 use shadowstep::shadow::{Bilinear, Estimator, Report, ShadowEnergy};
 use shadowstep::{Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::start::{Begin, Steps, Work};
 
 use crate::errors::exception;
@@ -47,7 +46,7 @@ impl Monitor {
             return Err(failed(Error::usage("the step size must be nonzero", "write a step size such as 1/10")));
         }
         let posed = Posed::of(given, &scheme.0, arithmetic).map_err(failed)?;
-        let compensated = matches!(arithmetic, Arithmetic::Compensated);
+        let compensated = arithmetic.is_compensated();
         let steps =
             Steps { scheme: &posed.scheme.scheme, h: &h, compensated, displaced: false, begin: Begin::InitialState };
         let start = posed.system.start::<f64>(&());

@@ -64,7 +64,7 @@ pub(crate) fn energies_of_states(
 ) -> PyResult<Found> {
     let h = step_size(py, h)?;
     let failed = |error| exception(py, error);
-    let posed = Posed::of(problem, &scheme.0, Arithmetic::Double).map_err(failed)?;
+    let posed = Posed::of(problem, &scheme.0, Arithmetic::DOUBLE).map_err(failed)?;
     let begin = Begin::InitialState;
     let steps = Steps { scheme: &posed.scheme.scheme, h: h.exact(), compensated: false, displaced: false, begin };
     let start = posed.system.start::<f64>(&());

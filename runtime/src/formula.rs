@@ -15,6 +15,7 @@ use thiserror::Error;
 
 pub use kinetic::FormulaKinetic;
 
+use crate::Rational;
 use crate::interpreter::Interpreter;
 use crate::number::Number;
 use crate::potential::{HessianProduct, Potential};
@@ -74,9 +75,32 @@ impl<N: Number> FormulaPotential<N> {
     /// A text that is not a valid formula, unknown or repeated names, functions that are not smooth.
     pub fn new(formula: &str, coordinates: &[&str], parameters: &[(&str, N)]) -> Result<Self, FormulaError> {
         let derived = derive(Role::Potential, formula, coordinates, parameters)?;
-        let parameters: Vec<N> = parameters.iter().map(|(_, value)| value.clone()).collect();
+        let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
+        Ok(FormulaPotential::of(derived, coordinates.len(), parameters))
+    }
+
+    fn of(derived: Arc<Derived>, dimension: usize, parameters: Vec<N>) -> Self {
         let interpreter = Interpreter::new(&derived.programs, parameters.clone(), 0);
-        Ok(FormulaPotential { dimension: coordinates.len(), interpreter, parameters, derived, second: OnceLock::new() })
+        FormulaPotential { dimension, interpreter, parameters, derived, second: OnceLock::new() }
+    }
+
+    /// The same formula in other numbers, with the values of its parameters in their order.
+    ///
+    /// # Panics
+    /// If there is not a value for each parameter.
+    pub fn in_numbers<M: Number>(&self, parameters: Vec<M>) -> FormulaPotential<M> {
+        assert_eq!(parameters.len(), self.parameters.len(), "each parameter has a value");
+        FormulaPotential::of(Arc::clone(&self.derived), self.dimension, parameters)
+    }
+
+    /// The numbers in the formula.
+    pub fn numbers(&self) -> Vec<&Rational> {
+        self.derived.numbers()
+    }
+
+    /// Whether it is a quadratic form.
+    pub fn is_quadratic(&self) -> bool {
+        self.derived.graph.clone().is_quadratic(self.derived.node, self.dimension)
     }
 
     fn second(&self) -> &Interpreter<N> {

@@ -40,7 +40,7 @@ mod kepler;
 mod part;
 mod quadratic;
 
-pub use formula::{FormulaPart, PartError, parts};
+pub use formula::{FormulaPart, PartError, PartFormula, parts};
 pub use part::{FlowState, Part};
 
 use crate::maps::PartOrder;

@@ -1,4 +1,4 @@
-//! The number type of a run and its digits: the list of number types, and the one place that dispatches on them.
+//! The arithmetic of a run: its number type, the one place that dispatches on number types, and its sums.
 
 use num_traits::Zero;
 use shadowstep::Rational;
@@ -18,10 +18,13 @@ use crate::readable;
 pub const GUARD_DIGITS: u32 = 20;
 
 /// Irrational values are not computed to more digits.
-pub const MOST_VALUE_DIGITS: u32 = 5000;
+pub const MOST_VALUE_DIGITS: u32 = shadowstep_symbolic::MOST_DIGITS;
 
 /// The most digits of a run.
 pub const MOST_DIGITS: u32 = 100_000;
+
+/// The most digits of a run with a flow that is computed in more digits and rounded: of a linear part, or of a quadratic form.
+pub(crate) const LONGEST_EXACT_FLOW: u32 = 288;
 
 /// The default digits of a run.
 pub const DEFAULT_DIGITS: u32 = 120;
@@ -51,83 +54,22 @@ pub enum DigitsLabel {
     Digits(u32),
 }
 
-/// Makes [`Arithmetic`] from one list of the number types that have names:
-/// `Variant: type, "name in scenes and records", "description", digits`.
-macro_rules! number_types {
-    ($($(#[$doc:meta])* $Name:ident: $number:ty, $word:literal, $description:literal, $digits:literal;)+) => {
-        /// The number type of a run.
-        #[derive(Clone, Copy, Debug)]
-        pub enum Arithmetic {
-            $($(#[$doc])* $Name,)+
-            /// Decimal digits, and the numbers that have them.
-            Digits(u32, Digits),
-        }
-
-        impl Arithmetic {
-            /// The number types that have names instead of digits.
-            pub const NAMED: &'static [(&'static str, Arithmetic)] = &[$(($word, Arithmetic::$Name),)+];
-
-            /// Makes a computation in this number type.
-            ///
-            /// ```
-            /// use shadowstep::number::Rounded;
-            /// use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
-            ///
-            /// struct Third;
-            ///
-            /// impl Computation for Third {
-            ///     type Output = String;
-            ///
-            ///     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> String {
-            ///         N::from_rational(&shadowstep::exact("1/3").unwrap(), context).to_text()
-            ///     }
-            /// }
-            ///
-            /// assert_eq!(Arithmetic::Double.compute(Third), "0.3333333333333333");
-            /// assert_eq!(Arithmetic::with_digits(30)?.compute(Third).len(), "0.".len() + 39);
-            /// # Ok::<(), shadowstep_scenes::arithmetic::DigitsError>(())
-            /// ```
-            pub fn compute<C: Computation>(self, computation: C) -> C::Output {
-                match self {
-                    $(Arithmetic::$Name => computation.compute::<$number>(&Default::default()),)+
-                    Arithmetic::Digits(_, digits) => digits.compute(computation),
-                }
-            }
-
-            /// Its significant decimal digits, rounded up.
-            pub fn digits(self) -> u32 {
-                match self {
-                    $(Arithmetic::$Name => $digits,)+
-                    Arithmetic::Digits(digits, _) => digits,
-                }
-            }
-
-            /// Its name or digits in records and metadata.
-            pub fn label(self) -> DigitsLabel {
-                match self {
-                    $(Arithmetic::$Name => DigitsLabel::Name($word),)+
-                    Arithmetic::Digits(digits, _) => DigitsLabel::Digits(digits),
-                }
-            }
-
-            /// Its description: `double precision`, `120 digits`.
-            pub fn described(self) -> String {
-                match self {
-                    $(Arithmetic::$Name => $description.to_owned(),)+
-                    Arithmetic::Digits(digits, _) => readable::digits(digits),
-                }
-            }
-        }
-    };
+/// The arithmetic of a run: its number type, and how positions and momenta are added up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Arithmetic {
+    numbers: Numbers,
+    compensated: bool,
 }
 
-number_types! {
+/// A number type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Numbers {
     /// Double precision, `f64`.
-    Double: f64, "double", "double precision", 16;
-    /// Double precision with [compensated sums](shadowstep::summation::Compensated).
-    Compensated: f64, "compensated", "double precision, compensated sums", 16;
+    Double,
     /// Sums of two doubles: [`DoubleDouble`].
-    DoubleDouble: DoubleDouble, "double-double", "double-double precision", 32;
+    DoubleDouble,
+    /// Decimal digits, and the numbers that have them.
+    Digits(u32, Digits),
 }
 
 /// Numbers of many digits.
@@ -142,6 +84,32 @@ pub enum Digits {
 
 /// The most digits that numbers of limbs have in a run; references to compare with may have one limb more.
 const MOST_LIMBS: usize = 16;
+
+impl Numbers {
+    fn compute<C: Computation>(self, computation: C) -> C::Output {
+        match self {
+            Numbers::Double => computation.compute::<f64>(&()),
+            Numbers::DoubleDouble => computation.compute::<DoubleDouble>(&()),
+            Numbers::Digits(_, digits) => digits.compute(computation),
+        }
+    }
+
+    fn digits(self) -> u32 {
+        match self {
+            Numbers::Double => 16,
+            Numbers::DoubleDouble => 32,
+            Numbers::Digits(digits, _) => digits,
+        }
+    }
+
+    fn described(self) -> String {
+        match self {
+            Numbers::Double => "double precision".to_owned(),
+            Numbers::DoubleDouble => "double-double precision".to_owned(),
+            Numbers::Digits(digits, _) => readable::digits(digits),
+        }
+    }
+}
 
 impl Digits {
     fn compute<C: Computation>(self, computation: C) -> C::Output {
@@ -180,14 +148,76 @@ impl Computation for HasSquare<'_> {
 pub const ANY_SIZE: &str = "write digits = 16 in [run] for numbers of any size";
 
 impl Arithmetic {
+    /// Double precision.
+    pub const DOUBLE: Self = Arithmetic::plain(Numbers::Double);
+
+    /// Double precision with [compensated sums](shadowstep::summation::Compensated).
+    pub const COMPENSATED: Self = Arithmetic { numbers: Numbers::Double, compensated: true };
+
+    /// Sums of two doubles.
+    pub const DOUBLE_DOUBLE: Self = Arithmetic::plain(Numbers::DoubleDouble);
+
+    /// Those that have names instead of digits, in scenes and records.
+    pub const NAMED: &'static [(&'static str, Self)] =
+        &[("double", Self::DOUBLE), ("compensated", Self::COMPENSATED), ("double-double", Self::DOUBLE_DOUBLE)];
+
+    const fn plain(numbers: Numbers) -> Self {
+        Arithmetic { numbers, compensated: false }
+    }
+
+    /// The number type.
+    pub fn numbers(self) -> Numbers {
+        self.numbers
+    }
+
+    /// Makes a computation in this number type.
+    ///
+    /// ```
+    /// use shadowstep::number::Rounded;
+    /// use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+    ///
+    /// struct Third;
+    ///
+    /// impl Computation for Third {
+    ///     type Output = String;
+    ///
+    ///     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> String {
+    ///         N::from_rational(&shadowstep::exact("1/3").unwrap(), context).to_text()
+    ///     }
+    /// }
+    ///
+    /// assert_eq!(Arithmetic::DOUBLE.compute(Third), "0.3333333333333333");
+    /// assert_eq!(Arithmetic::with_digits(30)?.compute(Third).len(), "0.".len() + 39);
+    /// # Ok::<(), shadowstep_scenes::arithmetic::DigitsError>(())
+    /// ```
+    pub fn compute<C: Computation>(self, computation: C) -> C::Output {
+        self.numbers.compute(computation)
+    }
+
+    /// Its significant decimal digits, rounded up.
+    pub fn digits(self) -> u32 {
+        self.numbers.digits()
+    }
+
+    /// Its name or digits in records and metadata.
+    pub fn label(self) -> DigitsLabel {
+        let named = Arithmetic::NAMED.iter().find(|(_, named)| *named == self);
+        named.map_or(DigitsLabel::Digits(self.digits()), |(word, _)| DigitsLabel::Name(word))
+    }
+
+    /// Its description: `double precision`, `120 digits`.
+    pub fn described(self) -> String {
+        self.numbers.described() + if self.compensated { ", compensated sums" } else { "" }
+    }
+
     /// Whether q and p are sums with remainders.
     pub fn is_compensated(self) -> bool {
-        matches!(self, Arithmetic::Compensated)
+        self.compensated
     }
 
     /// Whether numbers have more digits than double precision.
     pub fn is_longer_than_double(self) -> bool {
-        !matches!(self, Arithmetic::Double | Arithmetic::Compensated)
+        self.numbers != Numbers::Double
     }
 
     /// Numbers with this many decimal digits: of the fewest limbs that have them, beyond 307 digits MPFR's.
@@ -197,7 +227,7 @@ impl Arithmetic {
     pub fn with_digits(digits: u32) -> Result<Self, DigitsError> {
         let precision = Precision::digits(digits)?;
         match LimbCount::of_bits(precision.in_bits()).filter(|count| count.get() <= MOST_LIMBS) {
-            Some(count) => Ok(Arithmetic::Digits(digits, Digits::Limbs(count))),
+            Some(count) => Ok(Arithmetic::plain(Numbers::Digits(digits, Digits::Limbs(count)))),
             None => Arithmetic::with_mpfr(digits),
         }
     }
@@ -209,7 +239,7 @@ impl Arithmetic {
     pub fn with_mpfr(digits: u32) -> Result<Self, DigitsError> {
         let precision = Precision::digits(digits)?;
         #[cfg(feature = "mpfr")]
-        return Ok(Arithmetic::Digits(digits, Digits::Mpfr(precision)));
+        return Ok(Arithmetic::plain(Numbers::Digits(digits, Digits::Mpfr(precision))));
         #[cfg(not(feature = "mpfr"))]
         Err(DigitsError::NeedsMpfr(precision.in_digits()))
     }
@@ -224,8 +254,8 @@ impl Arithmetic {
 
     /// The number of limbs of 64 bits; `None` of other number types.
     pub fn limbs(self) -> Option<usize> {
-        match self {
-            Arithmetic::Digits(_, Digits::Limbs(count)) => Some(count.get()),
+        match self.numbers {
+            Numbers::Digits(_, Digits::Limbs(count)) => Some(count.get()),
             _ => None,
         }
     }
@@ -304,4 +334,25 @@ pub struct TooManyDigits {
     pub most: u32,
     /// The digits of the run.
     pub digits: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_sums_have_the_names_of_records() {
+        let labels =
+            |arithmetic: Arithmetic| (serde_json::json!(arithmetic.label()).to_string(), arithmetic.described());
+        for ((word, arithmetic), described) in Arithmetic::NAMED.iter().zip([
+            "double precision",
+            "double precision, compensated sums",
+            "double-double precision",
+        ]) {
+            assert_eq!(labels(*arithmetic), (format!("\"{word}\""), described.to_owned()));
+        }
+        assert_eq!(labels(Arithmetic::with_digits(30).unwrap()), ("30".to_owned(), "30 digits".to_owned()));
+        assert!(Arithmetic::COMPENSATED.is_compensated() && !Arithmetic::COMPENSATED.is_longer_than_double());
+        assert!(!Arithmetic::DOUBLE_DOUBLE.is_compensated() && Arithmetic::DOUBLE_DOUBLE.is_longer_than_double());
+    }
 }

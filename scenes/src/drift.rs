@@ -11,10 +11,10 @@
 //! use shadowstep_scenes::run::Run;
 //!
 //! let text = "[problem]\nname = \"kepler\"".to_owned();
-//! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::Double)?;
+//! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::DOUBLE)?;
 //! let (h, until) = (exact("1/20").unwrap(), exact("50").unwrap());
 //! let estimator = Bilinear::new(8).into();
-//! let (arithmetic, summarised) = (Arithmetic::Double, true);
+//! let (arithmetic, summarised) = (Arithmetic::DOUBLE, true);
 //! let question = Question { problem: "kepler", system: &system, until: &until, arithmetic, estimator: &estimator, summarised };
 //! let propagator = Propagator::of_system("yoshida4", &system)?;
 //! let run = Run { propagator: propagator.name(), h: &h, steps: 1000, order: None };

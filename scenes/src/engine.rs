@@ -13,8 +13,9 @@ use crate::observer::Observer;
 use crate::physical_end::last_step;
 use crate::results::{Checkpoint, ModifiedEnergy, Row, Rows, SavedState};
 use crate::run::Run;
-use crate::scene::{CheckpointInterval, EnergyAt, Scene, Shown};
+use crate::scene::{CheckpointInterval, EnergyAt, Scene};
 use crate::snapshots::{Snapshot, Snapshots};
+use crate::split::Shown;
 use crate::start::{Begin, Steps, Work};
 use crate::summary::Summary;
 use crate::watch::{Energies, Watch};
@@ -64,7 +65,7 @@ pub(crate) fn follow<N: Rounded + 'static>(
         from: saved.map(|saved| saved.n),
         remainders,
         shown: scene.system.shown(context),
-        energy_of: scene.system.transformed_time().map(|_| scene.system.energy(context)),
+        energy_of: scene.system.energy_of_rows(context),
     };
     let compensated = scene.arithmetic.is_compensated();
     // the states of checkpoints are those of the steps

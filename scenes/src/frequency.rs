@@ -1,9 +1,8 @@
 //! The fastest oscillation of a system, linearised at its initial state: the frequency ω of M^{-1/2} U_qq M^{-1/2}.
 
 use shadowstep::Potential;
-use shadowstep_symbolic::{Graph, parse};
 
-use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System};
+use crate::scene::{KineticEnergy, PotentialEnergy, System};
 
 /// ω, the largest frequency of the linearised system.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,9 +26,10 @@ impl System {
     ///
     /// An eigenvalue that the iterations do not reach is underestimated.
     pub fn fastest_frequency(&self) -> Option<Frequency> {
-        let (KineticEnergy::Masses(masses), Parts::KineticAndPotential) = (&self.kinetic, &self.parts) else {
+        let KineticEnergy::Masses(masses) = &self.kinetic else { return None };
+        if !self.parts.is_kinetic_and_potential() {
             return None;
-        };
+        }
         let (q, p) = self.start::<f64>(&());
         if !self.energy::<f64>(&())(&q, &p).is_finite() {
             return None;
@@ -50,14 +50,7 @@ impl System {
     fn is_quadratic(&self) -> bool {
         match &self.potential {
             PotentialEnergy::Shipped(setup) => setup.problem.name() == "harmonic-oscillator",
-            PotentialEnergy::Formula(formula) => {
-                let parameters: Vec<String> = self.parameters.iter().map(|(name, _)| name.clone()).collect();
-                let mut graph = Graph::new();
-                let node = parse(formula)
-                    .ok()
-                    .and_then(|expression| graph.build(&expression, &self.coordinates, &parameters).ok());
-                node.is_some_and(|node| graph.is_quadratic(node, self.coordinates.len()))
-            }
+            PotentialEnergy::Formula(formula) => formula.meaning().is_quadratic(),
             PotentialEnergy::Pairs(_) | PotentialEnergy::Own(_) | PotentialEnergy::OfParts => false,
         }
     }
@@ -135,7 +128,7 @@ mod tests {
 
     fn frequency(problem: &str) -> Option<Frequency> {
         let source = Source { path: "test.toml".to_owned(), text: problem.to_owned() };
-        System::read(&source, Arithmetic::Double).unwrap().0.fastest_frequency()
+        System::read(&source, Arithmetic::DOUBLE).unwrap().0.fastest_frequency()
     }
 
     #[test]

@@ -10,7 +10,7 @@
 //! use shadowstep_scenes::{System, library};
 //!
 //! let text = "[problem]\nname = \"kepler\"".to_owned();
-//! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::Double)?;
+//! let (system, _) = System::read(&Source { path: "kepler".to_owned(), text }, Arithmetic::DOUBLE)?;
 //! let scheme = for_system(library::scheme("yoshida4")?, &system)?;
 //! let h = exact("1/20").unwrap();
 //! let run = Run { propagator: &scheme.name, h: &h, steps: 1000, order: None };
@@ -34,7 +34,8 @@ use shadowstep::{MotionError, Ordered, Scheme, Stepper, System, ValidFor};
 use crate::error::Error;
 use crate::observer::Observer;
 use crate::run::Run;
-use crate::scene::{self, EnergyAt, Shown};
+use crate::scene::{self, EnergyAt};
+use crate::split::Shown;
 use crate::start::{Begin, Steps, Work};
 
 /// A run whose states are kept.
@@ -104,7 +105,7 @@ impl Integration<'_> {
             context,
             observer,
             shown: system.shown(context),
-            energy_of: system.transformed_time().map(|_| system.energy(context)),
+            energy_of: system.energy_of_rows(context),
             samples: Samples {
                 n: Vec::new(),
                 t: Vec::new(),

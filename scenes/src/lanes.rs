@@ -1,6 +1,6 @@
 //! Several systems of one form, whose numbers differ → one system of lanes.
 
-use shadowstep::formula::{FormulaKinetic, FormulaPair, FormulaPotential};
+use shadowstep::formula::FormulaPair;
 use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::number::{Lanes, Number};
 use shadowstep::problems::Setup;
@@ -8,7 +8,7 @@ use shadowstep::summation::Compensated;
 use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Rational, Stepper, UnitMasses};
 use shadowstep_symbolic::Exact;
 
-use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, Parts, PotentialEnergy, System};
+use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use crate::start::{Steps, Work};
 
 /// The systems of W trajectories as one, at their initial states.
@@ -34,7 +34,7 @@ const QUADRATIC: &str = "T is of the class of the first system";
 impl<const W: usize> Together<W> {
     /// `None` if the systems differ in more than numbers, or are not of T(p) and U(q).
     pub fn of(systems: &[&System; W]) -> Option<Self> {
-        if !systems.iter().all(|system| matches!(system.parts, Parts::KineticAndPotential)) {
+        if !systems.iter().all(|system| system.parts.is_kinetic_and_potential()) {
             return None;
         }
         systems.iter().all(|system| have_one_form(systems[0], system)).then(|| Together {
@@ -85,12 +85,12 @@ fn have_one_form(a: &System, b: &System) -> bool {
     let names = |system: &System| system.parameters.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
     let kinetic = match (&a.kinetic, &b.kinetic) {
         (KineticEnergy::Masses(_), KineticEnergy::Masses(_)) => true,
-        (KineticEnergy::Formula(a), KineticEnergy::Formula(b)) => a == b,
+        (KineticEnergy::Formula(a), KineticEnergy::Formula(b)) => a.text() == b.text(),
         _ => false,
     };
     let potential = match (&a.potential, &b.potential) {
         (PotentialEnergy::Shipped(a), PotentialEnergy::Shipped(b)) => a.problem == b.problem,
-        (PotentialEnergy::Formula(a), PotentialEnergy::Formula(b)) => a == b,
+        (PotentialEnergy::Formula(a), PotentialEnergy::Formula(b)) => a.text() == b.text(),
         (PotentialEnergy::Pairs(a), PotentialEnergy::Pairs(b)) => pairs_have_one_form(a, b),
         _ => false,
     };
@@ -99,8 +99,8 @@ fn have_one_form(a: &System, b: &System) -> bool {
 
 fn pairs_have_one_form(a: &PairEnergy, b: &PairEnergy) -> bool {
     let names = |pairs: &PairEnergy| pairs.properties.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
-    let form = |pairs: &PairEnergy| (pairs.separation, pairs.dimensions, pairs.bodies, pairs.ends);
-    a.formula == b.formula && form(a) == form(b) && names(a) == names(b)
+    let form = |pairs: &PairEnergy| (pairs.dimensions, pairs.bodies, pairs.ends);
+    a.formula.text() == b.formula.text() && form(a) == form(b) && names(a) == names(b)
 }
 
 /// An exact number of each system, rounded once.
@@ -113,8 +113,9 @@ fn in_lanes<'a, const W: usize>(list: impl Fn(usize) -> &'a [Exact]) -> Vec<Lane
     (0..list(0).len()).map(|i| lanes_of(|lane| &list(lane)[i])).collect()
 }
 
-fn names(names: &[String]) -> Vec<&str> {
-    names.iter().map(String::as_str).collect()
+/// The parameters of the formulas.
+fn parameters<const W: usize>(systems: &[&System; W]) -> Vec<Lanes<W>> {
+    System::parameters_of_each(systems).into_iter().map(|(_, value)| value).collect()
 }
 
 fn potential<const W: usize>(systems: &[&System; W]) -> Box<dyn Potential<Lanes<W>>> {
@@ -123,10 +124,7 @@ fn potential<const W: usize>(systems: &[&System; W]) -> Box<dyn Potential<Lanes<
             PotentialEnergy::Shipped(setup) => setup,
             _ => unreachable!("the systems have one form"),
         })),
-        PotentialEnergy::Formula(formula) => {
-            let parameters = System::parameters_of_each(systems);
-            Box::new(FormulaPotential::new(formula, &names(&systems[0].coordinates), &parameters).expect(READ))
-        }
+        PotentialEnergy::Formula(formula) => Box::new(formula.meaning().in_numbers(parameters(systems))),
         PotentialEnergy::Pairs(pairs) => pairs.of_pair(pair(systems, pairs)),
         PotentialEnergy::Own(_) | PotentialEnergy::OfParts => unreachable!("the systems have one form"),
     }
@@ -138,18 +136,15 @@ fn pair<const W: usize>(systems: &[&System; W], first: &PairEnergy) -> FormulaPa
         _ => unreachable!("the systems have one form"),
     };
     let properties = first.properties.iter().enumerate();
-    let properties: Vec<_> =
-        properties.map(|(k, (name, _))| (name.as_str(), in_lanes(|lane| property(lane, k)))).collect();
-    let parameters = System::parameters_of_each(systems);
-    FormulaPair::new(&first.formula, first.separation, &properties, &parameters).expect(READ)
+    let properties = properties.map(|(k, _)| in_lanes(|lane| property(lane, k))).collect();
+    first.formula.meaning().in_numbers(properties, parameters(systems))
 }
 
 fn kinetic<const W: usize>(systems: &[&System; W]) -> ClassifiedKinetic<Lanes<W>> {
     let KineticEnergy::Formula(formula) = &systems[0].kinetic else {
         return ClassifiedKinetic::Quadratic(of_masses(systems));
     };
-    let kinetic = FormulaKinetic::new(formula, &names(&systems[0].momenta), &System::parameters_of_each(systems));
-    match kinetic.expect(READ).into_quadratic() {
+    match formula.meaning().in_numbers(parameters(systems)).into_quadratic() {
         Ok(quadratic) => ClassifiedKinetic::Quadratic(Box::new(quadratic)),
         Err(general) => ClassifiedKinetic::General(Box::new(general)),
     }

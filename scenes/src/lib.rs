@@ -83,10 +83,11 @@
 //! | [`integrate`] | a run into memory |
 //! | [`drift`] | the drift of the modified energy of a run, and that on the exact flow; [`cpu_time`] is what it costs |
 //! | [`plot`] | what charts of a run show |
+//! | `split` | how H is split into parts: each kind of split has its file |
 //! | [`estimates`], [`start`] | the modified energies along such a run; a system at a state with its stepper |
 //! | `frequency`, [`stability`] | the fastest oscillation at the start, and the stability limit of the scheme |
 //! | [`watch`], `summary` | what a run shows: the error of H, the modified energy, close encounters, the verdict |
-//! | [`readable`], `error` | numbers and texts for people; what can go wrong |
+//! | [`readable`], `error`, `refusal` | numbers and texts for people; what can go wrong |
 
 pub mod arithmetic;
 mod boxed;
@@ -113,12 +114,14 @@ pub mod plot;
 pub mod propagator;
 mod read;
 pub mod readable;
+mod refusal;
 mod results;
 pub mod run;
 mod scene;
 pub mod scheme_record;
 mod shipped;
 mod snapshots;
+mod split;
 pub mod stability;
 pub mod start;
 pub mod steps;
@@ -135,12 +138,14 @@ pub use frequency::Frequency;
 pub use note::Note;
 pub use observer::Observer;
 pub use read::source;
+pub use refusal::{NoGradientKicks, NoProcessor, Refusal};
 pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::{
-    Canonical, CheckpointInterval, EnergyAt, Format, KineticEnergy, Outputs, OwnPotential, PairEnergy, Parts, Planets,
-    PotentialEnergy, Scene, Shown, System,
+    CheckpointInterval, EnergyAt, Format, Formula, InitialValueProblem, KineticEnergy, Outputs, OwnPotential,
+    PairEnergy, Parts, PotentialEnergy, Scene, System,
 };
 pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene};
+pub use split::{Canonical, Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Shown, TransformedTime};
 pub use summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use template::template;
 pub use temporary::{Temporary, remove_temporary_files};

@@ -16,6 +16,7 @@ use thiserror::Error;
 
 use crate::error::Error;
 use crate::note::Note;
+use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
 
 /// The name of the exact flow in place of a scheme.
 pub const EXACT_FLOW: &str = "exact-flow";
@@ -158,7 +159,7 @@ impl Schemes {
     ///
     /// # Errors
     /// As [`for_many_parts`].
-    pub fn for_many_parts(&self, named: &NamedScheme) -> Result<NamedScheme, (String, String)> {
+    pub(crate) fn for_many_parts(&self, named: &NamedScheme) -> Result<NamedScheme, Refusal> {
         let known = || self.for_many_parts.lock().unwrap_or_else(PoisonError::into_inner);
         let identity = named.identity();
         if let Some((_, scheme)) = known().iter().find(|(known, _)| *known == identity) {
@@ -173,58 +174,51 @@ impl Schemes {
 /// Whether a scheme is valid for every T(p).
 ///
 /// # Errors
-/// What is wrong, and which scheme would be right.
-pub fn check_general(named: &NamedScheme) -> Result<(), (String, String)> {
+/// A scheme for quadratic T only.
+pub(crate) fn check_every_kinetic(named: &NamedScheme) -> Result<(), Refusal> {
     let Err(error) = named.scheme.clone().for_every_kinetic() else { return Ok(()) };
     let claimed = named.scheme.proved().scheme.table.order.value;
     let better = best_for_every_kinetic(claimed).expect("there are shipped schemes for every T(p)");
     let (name, order) = (&better.scheme.table.name.value, better.proof.general.order);
-    Err((error.to_string(), format!("use a scheme such as {name}, which has order {order} for every T(p)")))
-}
-
-/// Why a system has no gradient kicks, and what would be right.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoGradientKicks {
-    /// What follows "the scheme has gradient kicks".
-    pub reason: &'static str,
-    /// What would be right.
-    pub hint: &'static str,
+    Err(Refusal::new(error.to_string(), format!("use a scheme such as {name}, which has order {order} for every T(p)")))
 }
 
 /// Whether a scheme can advance a system that perhaps has no gradient kicks.
 ///
 /// # Errors
-/// A scheme with gradient kicks for such a system: a message and a hint.
-pub fn check_gradient_kicks(named: &NamedScheme, none: Option<NoGradientKicks>) -> Result<(), (String, String)> {
+/// A scheme with gradient kicks for such a system.
+pub(crate) fn check_gradient_kicks(named: &NamedScheme, none: Option<NoGradientKicks>) -> Result<(), Refusal> {
     match none.filter(|_| named.scheme.proved().scheme.has_gradient_kicks()) {
         None => Ok(()),
-        Some(none) => Err((format!("{} has gradient kicks, {}", named.name, none.reason), none.hint.to_owned())),
+        Some(none) => Err(Refusal::new(format!("{} has gradient kicks, {}", named.name, none.reason), none.hint)),
     }
 }
 
 /// The scheme with steps for H of three parts and more.
 ///
 /// # Errors
-/// A scheme for two parts only: a message and a hint.
-pub fn for_many_parts(named: &NamedScheme) -> Result<NamedScheme, (String, String)> {
+/// A scheme for two parts only.
+fn for_many_parts(named: &NamedScheme) -> Result<NamedScheme, Refusal> {
     match named.scheme.clone().for_many_parts() {
         Ok(scheme) => Ok(NamedScheme { name: named.name.clone(), scheme: scheme.into() }),
         Err(error) => {
-            Err((error.to_string(), "use a composition of the leapfrog, such as suzuki4 or blanes-moan-s6".to_owned()))
+            Err(Refusal::new(error.to_string(), "use a composition of the leapfrog, such as suzuki4 or blanes-moan-s6"))
         }
     }
 }
 
-/// Whether a scheme can advance a system in transformed time.
+/// Whether a scheme can advance a system that perhaps has no processed ones.
 ///
 /// # Errors
-/// A processor, as the last step to a physical time is one of the kernel: a message and a hint.
-pub fn check_transformed_time(named: &NamedScheme) -> Result<(), (String, String)> {
-    if named.scheme.processor().is_empty() {
-        return Ok(());
+/// A processed scheme for such a system.
+pub(crate) fn check_processor(named: &NamedScheme, none: Option<NoProcessor>) -> Result<(), Refusal> {
+    match none.filter(|_| !named.scheme.processor().is_empty()) {
+        None => Ok(()),
+        Some(none) => {
+            let message = format!("{} is a processed scheme, which {}", named.name, none.reason);
+            Err(Refusal::new(message, none.hint))
+        }
     }
-    let message = format!("{} is a processed scheme, which transformed time does not have", named.name);
-    Err((message, "use a composition of the leapfrog, such as sofroniou-spaletta6-13".to_owned()))
 }
 
 /// The text of the table that a word means: a shipped one, or a file.

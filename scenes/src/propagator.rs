@@ -3,15 +3,15 @@
 use shadowstep::exact_flow::{self, ExactFlow, ExactFlowError};
 use shadowstep::number::{Number, Rounded};
 use shadowstep::problems::{Problem, ProblemMotion, Setup};
-use shadowstep::run::{EnergyDrift, RunError, ShadowRun, States};
-use shadowstep::shadow::{BuildEstimator, Estimate, Estimator};
+use shadowstep::run::ShadowRun;
+use shadowstep::shadow::BuildEstimator;
 use shadowstep::tables::TableScheme;
 use shadowstep::{StepSize, Stepper};
 
 use crate::error::Error;
-use crate::library::{self, EXACT_FLOW, NamedScheme};
+use crate::library::{self, EXACT_FLOW, NamedScheme, Schemes};
 use crate::run::Run;
-use crate::scene::{Parts, System};
+use crate::scene::System;
 
 /// A scheme, or the exact flow, on which an estimator shows its own error.
 #[derive(Debug)]
@@ -74,60 +74,6 @@ impl Propagator {
             Propagator::ExactFlow => None,
         }
     }
-
-    /// The drift of the modified energy over a run from the problem's initial state; `progress` gets the n of each value.
-    ///
-    /// # Errors
-    /// A state or a modified energy that is not finite, an exact flow that cannot be followed.
-    pub fn energy_drift<N: Rounded + 'static>(
-        &self,
-        setup: &Setup,
-        run: Run<'_>,
-        settings: &impl BuildEstimator<N>,
-        context: &N::Context,
-        progress: impl FnMut(i64),
-    ) -> Result<EnergyDrift<N>, Error> {
-        let failed = |error: RunError| run.failed(&error);
-        match self {
-            Propagator::Scheme(named) => {
-                let stepper = stepper(named, run, context);
-                let mut motion = motion(setup, context);
-                stepper.preprocess(&mut motion);
-                let mut shadow = ShadowRun::new(&stepper, motion, run.steps, settings).map_err(failed)?;
-                let mut found = shadow.drift_with_progress(progress).map_err(failed)?;
-                found.evaluations = shadow.system().evaluations();
-                Ok(found)
-            }
-            Propagator::ExactFlow => {
-                exact_flow(setup, run, settings, context)?.drift_with_progress(progress).map_err(failed)
-            }
-        }
-    }
-
-    /// Gives each estimate of a run with its n to `take`.
-    ///
-    /// # Errors
-    /// As [`Propagator::energy_drift`], and those of `take`.
-    pub fn estimates<N: Rounded + 'static>(
-        &self,
-        setup: &Setup,
-        run: Run<'_>,
-        settings: &impl BuildEstimator<N>,
-        context: &N::Context,
-        take: impl FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        let failed = |error: RunError| run.failed(&error);
-        match self {
-            Propagator::Scheme(named) => {
-                let stepper = stepper(named, run, context);
-                let mut motion = motion(setup, context);
-                stepper.preprocess(&mut motion);
-                let shadow = ShadowRun::new(&stepper, motion, run.steps, settings).map_err(failed)?;
-                take_all(shadow, run, take)
-            }
-            Propagator::ExactFlow => take_all(exact_flow(setup, run, settings, context)?, run, take),
-        }
-    }
 }
 
 /// The stepper of a run.
@@ -156,33 +102,11 @@ pub fn motion<N: Number + 'static>(setup: &Setup, context: &N::Context) -> Probl
     setup.motion(context).expect("the masses were read with the problem")
 }
 
-fn take_all<T: States, E: Estimator<T::Number>>(
-    mut shadow: ShadowRun<T, E>,
-    run: Run<'_>,
-    mut take: impl FnMut(i64, Estimate<'_, T::Number>) -> Result<(), Error>,
-) -> Result<(), Error> {
-    while let Some((n, estimate)) = shadow.advance().map_err(|error| run.failed(&error))? {
-        take(n, estimate)?;
-    }
-    Ok(())
-}
-
 /// The scheme with steps for a system: for every T(p) or for many parts, where that is needed.
 ///
 /// # Errors
 /// A scheme that is not valid for the system: for quadratic T only where T is not, for two parts, with gradient kicks that it has not, processed
 /// in transformed time.
 pub fn for_system(named: NamedScheme, system: &System) -> Result<NamedScheme, Error> {
-    let usage = |(message, hint)| Error::usage(message, hint);
-    if matches!(system.parts, Parts::Formulas(_)) {
-        return library::for_many_parts(&named).map_err(usage);
-    }
-    library::check_gradient_kicks(&named, system.no_gradient_kicks()).map_err(usage)?;
-    if system.has_general_kinetic() {
-        library::check_general(&named).map_err(usage)?;
-    }
-    if system.transformed_time().is_some() {
-        library::check_transformed_time(&named).map_err(usage)?;
-    }
-    Ok(named)
+    Ok(system.needs().scheme(named, &Schemes::default())?)
 }

@@ -11,6 +11,7 @@ mod names;
 mod numbers;
 mod output;
 mod pair;
+mod parts;
 mod planets;
 mod plot;
 mod problem;
@@ -25,7 +26,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use shadowstep::tables::{Faults, Source};
-use shadowstep_schemes::document::{document, read_text};
+use shadowstep_schemes::document::{Section, document, read_text};
 use shadowstep_symbolic::{Exact, nearest};
 use toml::de::DeTable;
 
@@ -35,7 +36,7 @@ use crate::keys::{self, ENSEMBLE, SECTIONS};
 use crate::library::Schemes;
 use crate::note::Note;
 use crate::read::reader::Reader;
-use crate::scene::{Outputs, Parts, Scene, System};
+use crate::scene::{Outputs, Scene, System};
 
 /// The most bytes of a scene, which may have the initial values of many bodies.
 const LARGEST_SCENE: u64 = 16 << 20;
@@ -88,9 +89,9 @@ pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) ->
     let mut reader = Reader::new(source);
     reader.known.extend(names.numbers.iter().cloned());
     reader.names = names.numbers;
-    let parts = parts(&mut reader, document, names.others, names.schemes);
+    let sections = sections(&mut reader, document, names.others, names.schemes);
     let Reader { toml, arithmetic, notes, .. } = reader;
-    match (Faults::of(toml.faults), parts) {
+    match (Faults::of(toml.faults), sections) {
         (None, Some((system, run::Steps { scheme, displaced, h, until, steps }, output))) => {
             let steps = steps.map_or_else(OnceLock::new, OnceLock::from);
             Ok(Scene { source: source.clone(), arithmetic, system, scheme, displaced, h, until, steps, output, notes })
@@ -131,10 +132,7 @@ impl System {
         reader.arithmetic = arithmetic;
         refuse_unknown_sections(&mut reader, &document, &["problem"], &[]);
         let (problem, initial) = (reader.section(&document, "problem"), reader.section(&document, "initial"));
-        let bodies = planets::given(&mut reader, &document);
-        let time = time::section(&mut reader, &document);
-        let system = problem::system(&mut reader, &problem, &initial, &bodies);
-        let system = time::transformed(&mut reader, &time, system);
+        let system = system(&mut reader, &document, &problem, &initial);
         match (Faults::of(reader.toml.faults), system) {
             (None, Some(system)) => Ok((system, reader.notes)),
             (Some(faults), _) => Err(faults),
@@ -143,7 +141,21 @@ impl System {
     }
 }
 
-fn parts(
+/// The system in the parts that its steps have.
+fn system(
+    reader: &mut Reader<'_>,
+    root: &DeTable<'_>,
+    problem: &Section<'_, '_>,
+    initial: &Section<'_, '_>,
+) -> Option<System> {
+    let bodies = planets::given(reader, root);
+    let time = time::section(reader, root);
+    let system = problem::system(reader, problem, initial, &bodies);
+    let system = time::transformed(reader, &time, system)?;
+    parts::with_sums(reader, root, system)
+}
+
+fn sections(
     reader: &mut Reader<'_>,
     root: &DeTable<'_>,
     others: &[&str],
@@ -155,18 +167,9 @@ fn parts(
     let (run, output) = (reader.section(root, "run"), reader.section(root, "output"));
     // the digits come first: values are computed to them
     let arithmetic = run::arithmetic(reader, &run);
-    reader.arithmetic = arithmetic.unwrap_or(Arithmetic::Double);
-    let bodies = planets::given(reader, root);
-    let time = time::section(reader, root);
-    let system = problem::system(reader, &problem, &initial, &bodies);
-    let system = time::transformed(reader, &time, system);
-    let kind = system.as_ref().map_or_else(Default::default, |system| run::Kind {
-        general: system.has_general_kinetic(),
-        transformed: system.transformed_time().is_some(),
-        no_gradient_kicks: system.no_gradient_kicks(),
-        many_parts: matches!(system.parts, Parts::Formulas(_)),
-    });
-    let steps = run::Steps::read(reader, &run, kind, schemes);
+    reader.arithmetic = arithmetic.unwrap_or(Arithmetic::DOUBLE);
+    let system = system(reader, root, &problem, &initial);
+    let steps = run::Steps::read(reader, &run, (system.as_ref(), root.contains_key(time::TIME)), schemes);
     let output = output::read(reader, &output, system.as_ref());
     arithmetic?;
     Some((system?, steps?, output?))
@@ -191,7 +194,7 @@ fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>, required
     }
     // a shipped problem has an initial state
     let problem = root.get("problem").and_then(|problem| problem.get_ref().as_table());
-    let formulas = |problem: &toml::de::DeTable<'_>| problem.get("parts").is_some_and(many_parts::is_list);
+    let formulas = |problem: &toml::de::DeTable<'_>| problem.get("parts").is_some_and(parts::is_list);
     let has_own = problem
         .is_some_and(|problem| ["potential", "pair"].iter().any(|key| problem.contains_key(*key)) || formulas(problem));
     let needed = required.iter().copied().chain(has_own.then_some("initial"));

@@ -26,7 +26,7 @@ pub struct Run<'a> {
 /// The option that sets the order of the estimator or its largest order, as it is spelt by the caller.
 #[derive(Clone, Copy, Debug)]
 pub struct OrderSetting {
-    /// `--max-order`, or `order` in a scene.
+    /// Such as `order`.
     pub name: &'static str,
     /// Its value.
     pub value: u32,

@@ -1,26 +1,23 @@
 //! The content of a scene: plain data, all of it exact.
 
 mod format;
-mod formulas;
-mod linear;
+mod formula;
 mod output;
 mod own;
 mod pairs;
 mod parameters;
-mod parts;
+mod problem;
 mod system;
-mod time;
 
 pub(crate) use format::COLUMNS;
 pub use format::Format;
-pub(crate) use linear::{LINEAR, MOST_COORDINATES, stiffness};
+pub use formula::Formula;
 pub use output::{CheckpointInterval, Outputs};
 pub use own::OwnPotential;
 pub use pairs::PairEnergy;
-pub(crate) use parts::OfPlanets;
-pub use parts::{Canonical, Parts, Planets, Shown};
-pub(crate) use system::{ClassifiedKinetic, formula_kinetic, formula_potential};
-pub use system::{EnergyAt, KineticEnergy, PotentialEnergy, System};
+pub(crate) use problem::ClassifiedKinetic;
+pub use problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};
+pub use system::{Parts, System};
 
 use std::sync::OnceLock;
 

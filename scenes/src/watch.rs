@@ -5,7 +5,7 @@ pub(crate) mod encounters;
 mod energy;
 
 use shadowstep::run::RunError;
-use shadowstep::shadow::{Bilinear, BuildEstimator, Criterion, Missing, Report, ShadowEnergy, Verdict};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Criterion, KINETIC_LIMIT, Missing, Report, ShadowEnergy, Verdict};
 use shadowstep::{Ordered, Scheme, Stepper, System};
 
 use self::approaches::Approaches;
@@ -25,9 +25,6 @@ const WINDOWS: u64 = 256;
 
 /// In runs of at most this many steps H is computed at each: the monitor has no verdict on the shortest ones.
 const SHORT_RUN: u64 = 64;
-
-/// Without a verdict of the monitor, an error of H from this part of the mean T on is too large. The monitor has the same limit.
-const KINETIC_LIMIT: f64 = 0.4;
 
 /// Which energies are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

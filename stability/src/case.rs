@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use shadowstep::number::Rounded;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+use shadowstep_scenes::arithmetic::{Arithmetic, Computation, Numbers};
 use shadowstep_tasks::{Task, Watcher};
 
 use crate::finding::Finding;
@@ -102,10 +102,10 @@ fn finding<C: Case>(suite: &Suite, results: Vec<Option<Value>>) -> Finding {
 
 /// How many times the operations of `f64` cost more in a number type, approximately.
 fn arithmetic_cost(arithmetic: Arithmetic) -> f64 {
-    match arithmetic {
-        Arithmetic::Double | Arithmetic::Compensated => 1.0,
-        Arithmetic::DoubleDouble => 6.0,
-        Arithmetic::Digits(digits, _) => 30.0 + f64::from(digits).powf(1.5) / 20.0,
+    match arithmetic.numbers() {
+        Numbers::Double => 1.0,
+        Numbers::DoubleDouble => 6.0,
+        Numbers::Digits(digits, _) => 30.0 + f64::from(digits).powf(1.5) / 20.0,
     }
 }
 

@@ -8,7 +8,7 @@
 //! use shadowstep_scenes::library::scheme;
 //! use shadowstep_stability::{Suite, entries, examine};
 //!
-//! let suite = Suite::new(vec![scheme("yoshida4")?], Arithmetic::Double, true);
+//! let suite = Suite::new(vec![scheme("yoshida4")?], Arithmetic::DOUBLE, true);
 //! let folder = tempfile::tempdir()?;
 //! let findings = examine(&suite, &entries(&["oscillator".to_owned()])?, folder.path(), &mut ())?;
 //! println!("{}", findings[0].1.rows[0].found);

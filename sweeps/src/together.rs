@@ -10,7 +10,6 @@ use shadowstep::number::counting::{Counting, count};
 use shadowstep::number::{Lanes, Number, Ordered};
 use shadowstep::{Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::Scene;
-use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::lanes::Together;
 use shadowstep_scenes::start::{Begin, Steps, Work};
 use shadowstep_symbolic::decimal::to_text;
@@ -53,13 +52,9 @@ pub(crate) fn are_alike(a: &Scene, b: &Scene) -> bool {
     steps(a) == steps(b) && a.h == b.h && a.scheme.name == b.scheme.name
 }
 
-/// How doubles are added; `None` for other numbers.
-fn sums(scene: &Scene) -> Option<&'static str> {
-    match scene.arithmetic {
-        Arithmetic::Double => Some("plain"),
-        Arithmetic::Compensated => Some("compensated"),
-        _ => None,
-    }
+/// Whether sums of doubles are compensated; `None` for other numbers.
+fn sums(scene: &Scene) -> Option<bool> {
+    (!scene.arithmetic.is_longer_than_double()).then(|| scene.arithmetic.is_compensated())
 }
 
 /// What is kept of each run, which are at most [`LANES`]; `None` of those that have to be made alone.

@@ -25,8 +25,8 @@ use crate::text::decimal::round_significant;
 use crate::text::error::{SemanticError, SemanticFault};
 use crate::text::syntax::Expression;
 
-/// More digits would take long and exceed the largest size of numbers.
-const MOST_DIGITS: u32 = 5000;
+/// Irrational values are not computed to more digits: they would take long and exceed the largest size of numbers.
+pub const MOST_DIGITS: u32 = 5000;
 
 /// Digits beyond those asked for in the first attempt.
 const GUARD_DIGITS: u32 = 20;

@@ -54,9 +54,9 @@ fn main() {
             continue;
         }
         let source = Source { path: name.to_owned(), text: text.to_owned() };
-        let (system, _) = System::read(&source, Arithmetic::Double).unwrap();
+        let (system, _) = System::read(&source, Arithmetic::DOUBLE).unwrap();
         let until = Rational::from_integer(until.into());
-        let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
+        let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE };
         let names = default_schemes(system.has_general_kinetic());
         let schemes = names.map(|name| scheme(name).unwrap());
         let folder = tempfile::tempdir().unwrap();

@@ -8,7 +8,7 @@ use shadowstep::problems::problem;
 use shadowstep::tables::Source;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
-use shadowstep_scenes::{PotentialEnergy, System};
+use shadowstep_scenes::{Formula, InitialValueProblem, PotentialEnergy, System};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::reference::Origin;
@@ -53,19 +53,25 @@ fn schemes_show_their_orders_beside_the_exact_flow() {
     }
 }
 
+/// A potential without parameters.
+fn formula(text: &str, coordinates: &[&str]) -> PotentialEnergy {
+    let coordinates: Vec<String> = coordinates.iter().map(|name| (*name).to_owned()).collect();
+    PotentialEnergy::Formula(Formula::potential(text, &coordinates, &[]).unwrap())
+}
+
 /// The reference is a scheme of order 10, whose estimated error is not smaller than its error.
 #[test]
 fn the_error_of_a_reference_is_estimated() {
     let (system, until, folder) = (system("kepler"), until(20), tempfile::tempdir().unwrap());
-    let formula = System {
-        potential: PotentialEnergy::Formula("-1/sqrt(x^2 + y^2)".to_owned()),
+    let formula = System::from(InitialValueProblem {
+        potential: formula("-1/sqrt(x^2 + y^2)", &["x", "y"]),
         parameters: Vec::new(),
-        ..self::system("kepler")
-    };
+        ..self::system("kepler").problem
+    });
     let schemes = schemes(&["kahan-li8"]);
     let runs = |system| {
         let folder = folder.path().join(format!("{system:p}"));
-        let problem = Problem { system, until: &until, arithmetic: Arithmetic::Double };
+        let problem = Problem { system, until: &until, arithmetic: Arithmetic::DOUBLE };
         study(problem, &schemes, StepRange::Given(vec![500, 1000, 2000]), &folder)
     };
     let (exact, estimated) = (runs(&system), runs(&formula));
@@ -84,9 +90,9 @@ fn the_error_of_a_reference_is_estimated() {
 fn a_reference_of_planets_begins_with_few_steps() {
     let text = "[problem]\nname = \"outer-solar-system\"\nparts = \"wisdom-holman\"".to_owned();
     let source = Source { path: "planets".to_owned(), text };
-    let (system, _) = System::read(&source, Arithmetic::Double).unwrap();
+    let (system, _) = System::read(&source, Arithmetic::DOUBLE).unwrap();
     let (until, folder) = (until(20_000), tempfile::tempdir().unwrap());
-    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE };
     let schemes = schemes(&["abah864"]);
     let study = study(problem, &schemes, StepRange::Given(vec![25, 50, 100]), folder.path());
     let Origin::Scheme { steps, .. } = study.reference.origin else { panic!("{:?}", study.reference.origin) };
@@ -100,7 +106,7 @@ fn a_reference_of_planets_begins_with_few_steps() {
 fn series_go_from_instability_to_round_off() {
     let (system, until, folder) = (system("harmonic-oscillator"), until(10), tempfile::tempdir().unwrap());
     let schemes = schemes(&["stormer-verlet", "bce-rkn8-17"]);
-    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE };
     let study = study(problem, &schemes, StepRange::Automatic { seconds: 5.0, target: None }, folder.path());
     let [verlet, rkn] = &study.schemes[..] else { panic!() };
     for studied in [verlet, rkn] {
@@ -119,7 +125,7 @@ fn series_go_from_instability_to_round_off() {
 fn results_are_kept() {
     let (system, until, folder) = (system("henon-heiles"), until(5), tempfile::tempdir().unwrap());
     let schemes = schemes(&["stormer-verlet", "yoshida4"]);
-    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::DOUBLE };
     let again = || study(problem, &schemes, StepRange::Given(vec![50, 100]), folder.path()).csv(&[]).unwrap();
     let (first, bytes) = (again(), std::fs::read(folder.path().join("results.jsonl")).unwrap());
     assert_eq!((again(), std::fs::read(folder.path().join("results.jsonl")).unwrap()), (first.clone(), bytes));
@@ -133,13 +139,14 @@ fn runs_that_fail_are_kept_as_failed() {
     let (until, folder) = (until(10), tempfile::tempdir().unwrap());
     // far from the centre the force is large: the coarse steps overshoot ever more
     let setup = problem("pendulum").unwrap().setup(&[("p".to_owned(), "10".to_owned())], 60).unwrap();
-    let quartic = System {
-        potential: PotentialEnergy::Formula("x^4".to_owned()),
+    let quartic = System::from(InitialValueProblem {
+        potential: formula("x^4", &["x"]),
+        parameters: Vec::new(),
         coordinates: vec!["x".to_owned()],
-        ..System::of_setup(setup)
-    };
+        ..System::of_setup(setup).problem
+    });
     let schemes = schemes(&["stormer-verlet"]);
-    let problem = Problem { system: &quartic, until: &until, arithmetic: Arithmetic::Double };
+    let problem = Problem { system: &quartic, until: &until, arithmetic: Arithmetic::DOUBLE };
     let study = study(problem, &schemes, StepRange::Given(vec![20, 4000]), folder.path());
     let runs = &study.schemes[0].series.runs;
     assert!(runs[0].failed.is_some() && runs[1].failed.is_none(), "{runs:?}");

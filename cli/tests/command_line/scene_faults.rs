@@ -188,6 +188,23 @@ fn each_fault_has_its_place_and_message() {
     }
 }
 
+/// However H is split.
+#[test]
+fn a_faulty_formula_has_its_place_in_every_split() {
+    let faulty = GOOD.replacen("sqrt(x^2", "sqrt(z^2", 1);
+    for (part, replacement) in [
+        ("[initial]", "parts = \"linear\"\n[initial]"),
+        ("[initial]", "parts = \"wisdom-holman\"\n[initial]"),
+        ("[run]", "[time]\ntransform = \"logarithmic\"\n[run]"),
+        ("[run]", "[time]\ntransform = \"power\"\nexponent = \"-1/2\"\n[run]"),
+    ] {
+        complains(&faulty.replacen(part, replacement, 1), "2:21: unknown name `z`", "a smooth formula");
+    }
+    let bodies = "[problem]\nparameters = { g = 1, r2 = 2 }\n[[body]]\nmass = 1\n[[body]]\nmass = 0.1\na = 1\n";
+    let (_, run) = GOOD.split_at(GOOD.find("[run]").unwrap());
+    complains(&format!("{bodies}{run}"), "2:23: with [[body]], `r2` is a name in", "give it another name");
+}
+
 /// The same for a scene with a kinetic energy.
 const WRONG_KINETIC: &[(&str, &str, &str, &str)] = &[
     ("p = [0, 1]", "v = [0, 1]", "8:5: velocities `v` require masses, but T is given by `kinetic`", "the momenta `p`"),

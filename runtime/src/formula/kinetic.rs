@@ -1,9 +1,11 @@
 //! Kinetic energies from formulas read at run time: the twin of [`crate::kinetic!`], with the same bits.
 
 use std::marker::PhantomData;
+use std::sync::Arc;
 
-use super::newest::Role;
+use super::newest::{Derived, Role};
 use super::{FormulaError, derive};
+use crate::Rational;
 use crate::interpreter::Interpreter;
 use crate::kinetic::{General, Kinetic, Quadratic};
 use crate::number::Number;
@@ -24,8 +26,9 @@ use crate::number::Number;
 #[derive(Clone, Debug)]
 pub struct FormulaKinetic<N, Class = General> {
     dimension: usize,
-    quadratic: bool,
     interpreter: Interpreter<N>,
+    parameters: usize,
+    derived: Arc<Derived>,
     class: PhantomData<fn() -> Class>,
 }
 
@@ -37,8 +40,32 @@ impl<N: Number> FormulaKinetic<N> {
     pub fn new(formula: &str, momenta: &[&str], parameters: &[(&str, N)]) -> Result<Self, FormulaError> {
         let derived = derive(Role::Kinetic, formula, momenta, parameters)?;
         let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
+        Ok(FormulaKinetic::of(derived, momenta.len(), parameters))
+    }
+
+    fn of(derived: Arc<Derived>, dimension: usize, parameters: Vec<N>) -> Self {
+        let count = parameters.len();
         let interpreter = Interpreter::new(&derived.programs, parameters, 0);
-        Ok(FormulaKinetic { dimension: momenta.len(), quadratic: derived.quadratic, interpreter, class: PhantomData })
+        FormulaKinetic { dimension, interpreter, parameters: count, derived, class: PhantomData }
+    }
+
+    /// The same formula in other numbers, with the values of its parameters in their order.
+    ///
+    /// # Panics
+    /// If there is not a value for each parameter.
+    pub fn in_numbers<M: Number>(&self, parameters: Vec<M>) -> FormulaKinetic<M> {
+        assert_eq!(parameters.len(), self.parameters, "each parameter has a value");
+        FormulaKinetic::of(Arc::clone(&self.derived), self.dimension, parameters)
+    }
+
+    /// The numbers in the formula.
+    pub fn numbers(&self) -> Vec<&Rational> {
+        self.derived.numbers()
+    }
+
+    /// Whether it is a quadratic form.
+    pub fn is_quadratic(&self) -> bool {
+        self.derived.quadratic
     }
 
     /// The same, as one that every scheme moves.
@@ -47,11 +74,11 @@ impl<N: Number> FormulaKinetic<N> {
     /// The formula is not a quadratic form; it is returned.
     #[expect(clippy::result_large_err, reason = "both are the same value; neither is an error")]
     pub fn into_quadratic(self) -> Result<FormulaKinetic<N, Quadratic>, Self> {
-        if !self.quadratic {
+        if !self.is_quadratic() {
             return Err(self);
         }
-        let FormulaKinetic { dimension, quadratic, interpreter, .. } = self;
-        Ok(FormulaKinetic { dimension, quadratic, interpreter, class: PhantomData })
+        let FormulaKinetic { dimension, interpreter, parameters, derived, .. } = self;
+        Ok(FormulaKinetic { dimension, interpreter, parameters, derived, class: PhantomData })
     }
 }
 
@@ -77,7 +104,7 @@ impl<N: Number, Class> Kinetic<N> for FormulaKinetic<N, Class> {
     }
 
     fn drift_augmented(&self, weight: &N, p: &[N], q: &mut [N], beta: &mut N, scratch: &mut [N]) {
-        if self.quadratic {
+        if self.derived.quadratic {
             return self.drift(weight, p, q, scratch);
         }
         let outputs = self.interpreter.gradient_and_rate(p, scratch);

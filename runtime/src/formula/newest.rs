@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use crate::Rational;
 use shadowstep_symbolic::{Graph, Node, PotentialPrograms, Separation};
 
 /// How many are kept.
@@ -42,6 +43,11 @@ pub(super) struct Derived {
 }
 
 impl Derived {
+    /// The numbers in the formula.
+    pub(super) fn numbers(&self) -> Vec<&Rational> {
+        self.graph.numbers(self.node)
+    }
+
     /// The programs of second derivatives, which `derive` makes at the first call.
     pub(super) fn second(&self, derive: impl FnOnce(&mut Graph, Node) -> PotentialPrograms) -> &PotentialPrograms {
         self.second.get_or_init(|| derive(&mut self.graph.clone(), self.node))

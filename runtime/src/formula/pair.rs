@@ -7,6 +7,7 @@ use super::{FormulaError, refuse_repeated};
 use std::slice::from_ref;
 use std::sync::{Arc, OnceLock};
 
+use crate::Rational;
 use crate::interpreter::Interpreter;
 use crate::number::Number;
 use crate::pairs::{Pair, PairCurvature, PairPotential};
@@ -55,7 +56,6 @@ impl<N: Number> FormulaPair<N> {
             parameters: parameters.iter().map(|(name, _)| (*name).to_owned()).collect(),
             role: Role::Pair(separation),
         };
-        let names = text.variables.len();
         let derived = derived::<FormulaError>(text, |Text { formula, variables, parameters, .. }| {
             let expression = parse(formula)?;
             refuse_repeated([separation.name().to_owned()].iter().chain(variables).chain(parameters))?;
@@ -65,15 +65,29 @@ impl<N: Number> FormulaPair<N> {
             let programs = graph.pair(node, separation);
             Ok(Derived { programs, quadratic: false, graph, node, second: OnceLock::new() })
         })?;
-        let parameters: Vec<N> = parameters.iter().map(|(_, value)| value.clone()).collect();
-        Ok(FormulaPair {
-            separation,
-            properties: properties.iter().map(|(_, values)| values.clone()).collect(),
-            interpreter: Interpreter::new(&derived.programs, parameters.clone(), names),
-            parameters,
-            derived,
-            second: OnceLock::new(),
-        })
+        let properties = properties.iter().map(|(_, values)| values.clone()).collect();
+        let parameters = parameters.iter().map(|(_, value)| value.clone()).collect();
+        Ok(FormulaPair::of(derived, separation, properties, parameters))
+    }
+
+    fn of(derived: Arc<Derived>, separation: Separation, properties: Vec<Vec<N>>, parameters: Vec<N>) -> Self {
+        let interpreter = Interpreter::new(&derived.programs, parameters.clone(), 2 * properties.len());
+        FormulaPair { separation, properties, interpreter, parameters, derived, second: OnceLock::new() }
+    }
+
+    /// The same formula in other numbers, with the values of its properties and parameters in their order.
+    ///
+    /// # Panics
+    /// If there are not values for each property and parameter.
+    pub fn in_numbers<M: Number>(&self, properties: Vec<Vec<M>>, parameters: Vec<M>) -> FormulaPair<M> {
+        assert_eq!(properties.len(), self.properties.len(), "each property has values");
+        assert_eq!(parameters.len(), self.parameters.len(), "each parameter has a value");
+        FormulaPair::of(Arc::clone(&self.derived), self.separation, properties, parameters)
+    }
+
+    /// The numbers in the formula.
+    pub fn numbers(&self) -> Vec<&Rational> {
+        self.derived.numbers()
     }
 
     /// Puts the properties of i and j where the programs find them.

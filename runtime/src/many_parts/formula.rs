@@ -38,13 +38,17 @@ impl PartError {
     }
 }
 
-/// A part of H from a formula in coordinates, momenta and parameters: the flows of which it consists.
-pub struct FormulaPart<N> {
-    flows: Vec<Box<dyn Part<N>>>,
-    has_quadratic_form: bool,
+/// A part of H as its formula says: its flows, whose numbers are exact.
+#[derive(Clone, Debug)]
+pub struct PartFormula {
+    graph: Graph,
+    /// The formula, with parameters.
+    hamiltonian: Node,
+    /// With the values of parameters.
+    flows: Vec<ExplicitFlow>,
 }
 
-impl<N: Rounded + 'static> FormulaPart<N> {
+impl PartFormula {
     /// The part of a formula, with the names of the coordinates, as many of their momenta, and the exact values of parameters.
     ///
     /// # Errors
@@ -53,7 +57,6 @@ impl<N: Rounded + 'static> FormulaPart<N> {
         formula: &str,
         (coordinates, momenta): (&[&str], &[&str]),
         parameters: &[(&str, Rational)],
-        context: &N::Context,
     ) -> Result<Self, PartError> {
         let names = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<Vec<_>>();
         let variables = [names(coordinates), names(momenta)].concat();
@@ -61,26 +64,57 @@ impl<N: Rounded + 'static> FormulaPart<N> {
         refuse_repeated(variables.iter().chain(&parameter_names))?;
         let expression = parse(formula).map_err(FormulaError::from)?;
         let mut graph = Graph::new();
-        let built = graph.build(&expression, &variables, &parameter_names).map_err(FormulaError::Meaning)?;
+        let hamiltonian = graph.build(&expression, &variables, &parameter_names).map_err(FormulaError::Meaning)?;
         let values = parameters.iter().enumerate();
         let values = values.map(|(j, (_, value))| (graph.parameter(j), graph.number(value.clone()))).collect();
-        let hamiltonian = graph.replaced(&[built], values)[0];
-        let flows = graph.explicit_flows(hamiltonian, coordinates.len()).map_err(|refused| {
+        let with_values = graph.replaced(&[hamiltonian], values)[0];
+        let flows = graph.explicit_flows(with_values, coordinates.len()).map_err(|refused| {
             let pairs = refused.freedoms.iter().take(4).map(|i| format!("{} and {}", coordinates[*i], momenta[*i]));
             let more = if refused.freedoms.len() > 4 { ", …" } else { "" };
             PartError::NoFlow(pairs.collect::<Vec<_>>().join(", ") + more)
         })?;
-        let has_quadratic_form = flows.iter().any(|flow| matches!(flow, ExplicitFlow::Quadratic { .. }));
-        let flows = flows.into_iter().map(|flow| part(&mut graph, flow, context));
+        Ok(PartFormula { graph, hamiltonian, flows })
+    }
+
+    /// The part in numbers.
+    ///
+    /// # Errors
+    /// [`PartError::Digits`].
+    pub fn in_numbers<N: Rounded + 'static>(&self, context: &N::Context) -> Result<FormulaPart<N>, PartError> {
+        let mut graph = self.graph.clone();
+        let flows = self.flows.iter().map(|flow| part(&mut graph, flow.clone(), context));
         let flows = flows.collect::<Option<_>>().ok_or(PartError::Digits)?;
-        Ok(FormulaPart { flows, has_quadratic_form })
+        Ok(FormulaPart { flows })
+    }
+
+    /// Whether one of its flows is that of a quadratic form, which is computed to at most 288 digits.
+    pub fn has_quadratic_form(&self) -> bool {
+        self.flows.iter().any(|flow| matches!(flow, ExplicitFlow::Quadratic { .. }))
+    }
+
+    /// The numbers in the formula.
+    pub fn numbers(&self) -> Vec<&Rational> {
+        self.graph.numbers(self.hamiltonian)
     }
 }
 
-impl<N> FormulaPart<N> {
-    /// Whether one of its flows is that of a quadratic form, which is computed to at most 288 digits.
-    pub fn has_quadratic_form(&self) -> bool {
-        self.has_quadratic_form
+/// A part of H from a formula in coordinates, momenta and parameters: the flows of which it consists.
+pub struct FormulaPart<N> {
+    flows: Vec<Box<dyn Part<N>>>,
+}
+
+impl<N: Rounded + 'static> FormulaPart<N> {
+    /// The part of a formula, as [`PartFormula::new`] reads it, in numbers.
+    ///
+    /// # Errors
+    /// As [`PartFormula::new`]; [`PartError::Digits`].
+    pub fn new(
+        formula: &str,
+        names: (&[&str], &[&str]),
+        parameters: &[(&str, Rational)],
+        context: &N::Context,
+    ) -> Result<Self, PartError> {
+        PartFormula::new(formula, names, parameters)?.in_numbers(context)
     }
 }
 

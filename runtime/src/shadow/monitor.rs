@@ -34,7 +34,7 @@ mod verdict;
 pub use report::Report;
 pub use roughness::Rough;
 pub use trend::Trend;
-pub use verdict::{Advice, Criterion, Missing, Verdict};
+pub use verdict::{Advice, Criterion, KINETIC_LIMIT, Missing, Verdict};
 
 use self::blocks::Blocks;
 use self::energies::Energies;

@@ -6,9 +6,8 @@ use shadowstep::shadow::EstimatorSettings;
 use shadowstep::tables::{Faults, Source};
 use shadowstep_schemes::document::{Reader, document};
 
-use crate::arithmetic::Arithmetic;
 use crate::error::Error;
-use crate::scene::{Format, Parts, Scene};
+use crate::scene::{Format, Scene};
 
 /// Energies of the trajectories.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +43,7 @@ fn place(source: &Source, section: &str, key: &str) -> Range<usize> {
 }
 
 fn refuse_numbers(reader: &mut Reader<'_>, scene: &Scene) {
-    if !matches!(scene.arithmetic, Arithmetic::Double | Arithmetic::Compensated) {
+    if scene.arithmetic.is_longer_than_double() {
         let at = place(reader.source, "run", "digits");
         let hint = "write digits = \"double\" or \"compensated\" in [run]";
         reader.fault(&at, "an ensemble is computed in double precision", hint);
@@ -62,13 +61,9 @@ fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
         let at = place(reader.source, "output", key);
         reader.fault(&at, format!("an ensemble has no `{key}`"), format!("remove `{key}`: {why}"));
     }
-    if scene.system.transformed_time().is_some() {
-        let at = place(reader.source, "time", "transform");
-        reader.fault(&at, "an ensemble has no transformed time: its steps end at different times", "remove [time]");
-    }
-    if matches!(scene.system.parts, Parts::Formulas(_)) {
-        let at = place(reader.source, "problem", "parts");
-        reader.fault(&at, "an ensemble has no formulas of parts", "make a sweep of the scene instead");
+    if let Some(refusal) = scene.system.needs().no_ensembles {
+        let (section, key) = scene.system.parts.key();
+        reader.fault(&place(reader.source, section, key), refusal.message, refusal.hint);
     }
     let Some((file, at)) = &output.file else { return };
     if output.format == Format::JsonLines {

@@ -1,16 +1,19 @@
 //! A custom potential, with its coordinates and momenta.
 
+use shadowstep::formula::FormulaPotential;
+use shadowstep_symbolic::Exact;
+
 use super::given::Given;
 use super::kinetic;
 use super::names::check_name;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::scene::COLUMNS;
-use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System, formula_potential};
+use crate::scene::{Formula, InitialValueProblem, PotentialEnergy};
 use shadowstep_schemes::document::{Placed, Text};
 
-/// The system with this potential.
-pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -> Option<System> {
+/// The problem with this potential.
+pub(super) fn problem(reader: &mut Reader<'_>, given: &Given, potential: &Text) -> Option<InitialValueProblem> {
     given.refuse(reader, &["bodies", "dimensions", "neighbours"], |key| {
         (format!("{key} requires `pair`"), format!("remove `{key}`, or write `pair` instead of `potential`"))
     });
@@ -19,15 +22,7 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -
     let before = reader.toml.faults.len();
     let (coordinates, momenta) = names(reader, given, list);
     let named = reader.toml.faults.len() == before;
-    if named && let Err(error) = formula_potential::<f64>(&potential.value, &coordinates, &parameters, &()) {
-        let help = "a potential is a smooth formula such as \"-1/sqrt(x^2 + y^2)\"";
-        reader.toml.fault(&potential.place(&error.range()), error.to_string(), help);
-    }
-    reader.refuse_constants(potential, coordinates.iter().chain(parameters.iter().map(|(name, _)| name)));
-    let kinetic = match named {
-        true => kinetic::by_formula(reader, given, &momenta, &parameters),
-        false => None,
-    };
+    let potential = if named { self::potential(reader, potential, &coordinates, &parameters) } else { None };
     let values = |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values(reader, coordinates.len());
     let masses = given.masses.as_ref().and_then(|numbers| {
         let values = values(reader, numbers)?;
@@ -37,18 +32,35 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, potential: &Text) -
         given.state.all_there(reader, initial);
     }
     let (q, p) = given.state.values(reader, values, masses.as_deref());
-    let potential = PotentialEnergy::Formula(potential.value.clone());
-    let kinetic = kinetic.unwrap_or(KineticEnergy::Masses(masses));
-    Some(System {
-        potential,
-        kinetic,
-        parts: Parts::KineticAndPotential,
+    let kinetic = if named { kinetic::kinetic(reader, given, &momenta, &parameters, masses) } else { None };
+    Some(InitialValueProblem {
+        potential: PotentialEnergy::Formula(potential?),
+        kinetic: kinetic?,
         parameters,
         coordinates,
         momenta,
         q: q?,
         p: p?,
     })
+}
+
+/// U(q) in these names.
+fn potential(
+    reader: &mut Reader<'_>,
+    text: &Text,
+    coordinates: &[String],
+    parameters: &[(String, Exact)],
+) -> Option<Formula<FormulaPotential<f64>>> {
+    match Formula::potential(&text.value, coordinates, parameters) {
+        Ok(formula) => {
+            reader.refuse_numbers(text, &formula.meaning().numbers());
+            Some(formula)
+        }
+        Err(error) => {
+            let help = "a potential is a smooth formula such as \"-1/sqrt(x^2 + y^2)\"";
+            reader.toml.wrong(&text.place(&error.range()), error.to_string(), help)
+        }
+    }
 }
 
 /// The names of the coordinates and of their momenta, each different from all other names.

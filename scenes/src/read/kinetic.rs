@@ -10,31 +10,38 @@ use super::given::Given;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::arithmetic::{ANY_SIZE, Arithmetic};
-use crate::scene::{KineticEnergy, formula_kinetic};
+use crate::scene::{Formula, KineticEnergy};
 
-/// T(p), where it is given by its formula.
-pub(super) fn by_formula(
+/// T(p): by its formula, where that is given, or else by these masses.
+pub(super) fn kinetic(
     reader: &mut Reader<'_>,
     given: &Given,
     momenta: &[String],
     parameters: &[(String, Exact)],
+    masses: Option<Vec<Exact>>,
 ) -> Option<KineticEnergy> {
-    given.place("kinetic")?;
+    if given.place("kinetic").is_none() {
+        return Some(KineticEnergy::Masses(masses));
+    }
     given.refuse(reader, &["masses"], |_| {
         let help = "keep one of the two; with `kinetic`, write the masses as numbers or parameters in its formula";
         ("masses and kinetic are both given".to_owned(), help.to_owned())
     });
     given.state.refuse_velocities(reader, "T is given by `kinetic`");
     let text = given.kinetic.as_ref()?;
-    if let Err(error) = formula_kinetic::<f64>(&text.value, momenta, parameters, &()) {
-        let known = momenta.iter().take(3).map(String::as_str).collect::<Vec<_>>().join(", ");
-        let more = if momenta.len() > 3 { ", …" } else { "" };
-        let renamed = if given.place("pair").is_none() { "; `momenta` gives them other names" } else { "" };
-        let help = format!("T is a smooth formula in the momenta {known}{more} and the parameters{renamed}");
-        return reader.toml.wrong(&text.place(&error.range()), error.to_string(), help);
+    match Formula::kinetic(&text.value, momenta, parameters) {
+        Ok(formula) => {
+            reader.refuse_numbers(text, &formula.meaning().numbers());
+            Some(KineticEnergy::Formula(formula))
+        }
+        Err(error) => {
+            let known = momenta.iter().take(3).map(String::as_str).collect::<Vec<_>>().join(", ");
+            let more = if momenta.len() > 3 { ", …" } else { "" };
+            let renamed = if given.place("pair").is_none() { "; `momenta` gives them other names" } else { "" };
+            let help = format!("T is a smooth formula in the momenta {known}{more} and the parameters{renamed}");
+            reader.toml.wrong(&text.place(&error.range()), error.to_string(), help)
+        }
     }
-    reader.refuse_constants(text, momenta.iter().chain(parameters.iter().map(|(name, _)| name)));
-    Some(KineticEnergy::Formula(text.value.clone()))
 }
 
 /// The masses, unless all are 1.

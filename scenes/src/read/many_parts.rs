@@ -1,28 +1,20 @@
 //! `parts = ["…", "…", "…"]`: H as a sum of parts by their formulas.
 
-use shadowstep::Rational;
-use shadowstep::many_parts::{FormulaPart, PartError};
+use shadowstep::many_parts::{PartError, PartFormula};
 use shadowstep_schemes::document::{Text, Value};
 use shadowstep_symbolic::Exact;
-use toml::de::DeValue;
 
 use super::formula::names;
 use super::given::Given;
 use super::numbers::Numbers;
 use super::reader::Reader;
-use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System};
-
-/// The most digits of a run with a quadratic form as a part, whose flow is computed in more.
-const MOST_DIGITS: u32 = 288;
+use crate::arithmetic::LONGEST_EXACT_FLOW;
+use crate::scene::{Formula, InitialValueProblem, KineticEnergy, Parts, PotentialEnergy, System};
+use crate::split::Formulas;
 
 /// What a part may be.
 const KNOWN: &str = "a part is a function of variables none of which is the momentum of another, such as T(p), U(q) or x*py, a quadratic \
                      form, f((q^2 + p^2)/2) or f(q*p) of one pair, p^2/(2*m) - k/r, or a sum of these in different coordinates";
-
-/// Whether the value of `parts` is a list of formulas.
-pub(super) fn is_list(value: &Value<'_>) -> bool {
-    matches!(value.get_ref(), DeValue::Array(_))
-}
 
 /// The system of these parts.
 pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) -> Option<System> {
@@ -44,68 +36,53 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, value: &Value<'_>) 
         let message = format!("H needs two parts at least, not {}", formulas.value.len());
         return reader.toml.wrong(&formulas.at, message, "add the other parts of H to the list");
     }
-    if reader.arithmetic.is_compensated() {
-        return reader.toml.wrong(
-            &formulas.at,
-            "formulas of parts have no compensated sums",
-            "use digits = \"double\"",
-        );
-    }
-    if reader.toml.faults.len() == before {
-        for formula in &formulas.value {
-            check(reader, formula, (&coordinates, &momenta), &parameters);
-        }
-    }
+    let named = reader.toml.faults.len() == before;
+    let parts = formulas.value.iter().filter(|_| named);
+    let parts: Vec<_> = parts.map(|formula| part(reader, formula, (&coordinates, &momenta), &parameters)).collect();
     if let Some(initial) = &given.initial {
         given.state.all_there(reader, initial);
     }
     let values = |reader: &mut Reader<'_>, numbers: &Numbers| numbers.values(reader, coordinates.len());
     let (q, p) = given.state.values(reader, values, None);
-    Some(System {
+    let problem = InitialValueProblem {
         potential: PotentialEnergy::OfParts,
         kinetic: KineticEnergy::Masses(None),
-        parts: Parts::Formulas(formulas.value.into_iter().map(|formula| formula.value).collect()),
         parameters,
         coordinates,
         momenta,
         q: q?,
         p: p?,
-    })
+    };
+    Some(System { problem, parts: Parts::Formulas(Formulas(parts.into_iter().collect::<Option<_>>()?)) })
 }
 
-/// Refuses a part whose flow is not known.
-fn check(
+/// A part whose flow is known.
+fn part(
     reader: &mut Reader<'_>,
-    formula: &Text,
-    (coordinates, momenta): (&[String], &[String]),
+    text: &Text,
+    names: (&[String], &[String]),
     parameters: &[(String, Exact)],
-) {
-    fn borrowed(names: &[String]) -> Vec<&str> {
-        names.iter().map(String::as_str).collect()
-    }
-    let exact: Vec<(&str, Rational)> =
-        parameters.iter().map(|(name, value)| (name.as_str(), value.value.clone())).collect();
-    let part = FormulaPart::<f64>::new(&formula.value, (&borrowed(coordinates), &borrowed(momenta)), &exact, &());
-    match part {
-        Ok(part) if part.has_quadratic_form() && reader.arithmetic.digits() > MOST_DIGITS => {
+) -> Option<Formula<PartFormula>> {
+    match Formula::part(&text.value, names, parameters) {
+        Ok(part) if part.meaning().has_quadratic_form() && reader.arithmetic.digits() > LONGEST_EXACT_FLOW => {
             let message = PartError::Digits.to_string();
-            reader.toml.fault(&formula.at, message, format!("write digits = {MOST_DIGITS}, or less"));
+            reader.toml.wrong(&text.at, message, format!("write digits = {LONGEST_EXACT_FLOW}, or less"))
         }
-        Ok(_) => reader.refuse_constants(
-            formula,
-            [coordinates, momenta].into_iter().flatten().chain(parameters.iter().map(|(name, _)| name)),
-        ),
+        Ok(part) => {
+            reader.refuse_numbers(text, &part.meaning().numbers());
+            Some(part)
+        }
         Err(error @ PartError::Formula(_)) => {
             let help = "a part is a smooth formula in the coordinates, their momenta and the parameters";
-            reader.toml.fault(&formula.place(&error.range()), error.to_string(), help);
+            reader.toml.wrong(&text.place(&error.range()), error.to_string(), help)
         }
-        Err(error) => reader.toml.fault(&formula.at, error.to_string(), KNOWN),
+        Err(error) => reader.toml.wrong(&text.at, error.to_string(), KNOWN),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::scene::{Parts, Scene};
+    use crate::scene::Scene;
     use crate::shipped::MANY_PARTS_SCENES;
     use shadowstep::tables::{Faults, Source};
 
@@ -130,8 +107,8 @@ mod tests {
     fn the_shipped_scenes_are_of_three_parts() {
         for shipped in &MANY_PARTS_SCENES {
             let scene = read(shipped.text).unwrap_or_else(|faults| panic!("{}: {faults}", shipped.name));
-            let Parts::Formulas(formulas) = &scene.system.parts else { panic!("{}", shipped.name) };
-            assert_eq!(formulas.len(), 3);
+            let hamiltonian = scene.system.parts.hamiltonian().unwrap_or_else(|| panic!("{}", shipped.name));
+            assert_eq!(hamiltonian.split(") + (").count(), 3);
             assert!(scene.scheme.scheme.proved().proof.many_parts.is_some());
         }
     }

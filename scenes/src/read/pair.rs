@@ -9,13 +9,13 @@ use super::kinetic;
 use super::numbers::Numbers;
 use super::reader::Reader;
 use crate::note::Note;
-use crate::scene::PairEnergy;
-use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System};
+use crate::scene::{Formula, InitialValueProblem, PairEnergy, PotentialEnergy};
 use shadowstep_schemes::document::Text;
 
 /// The formula of the energy of a pair.
 pub(super) struct PairFormula {
-    pub(super) text: Text,
+    text: Text,
+    expression: Expression,
     pub(super) separation: Separation,
 }
 
@@ -32,7 +32,7 @@ impl PairFormula {
         separations(&expression, &mut found);
         found.dedup();
         match found[..] {
-            [separation] => Some(PairFormula { text, separation }),
+            [separation] => Some(PairFormula { text, expression, separation }),
             [] => reader.toml.wrong(
                 &text.at,
                 "the energy of a pair must be a formula in `r2` or in `d`; this one has neither",
@@ -57,8 +57,12 @@ fn separations(expression: &Expression, found: &mut Vec<Separation>) {
     }
 }
 
-/// The system of bodies with this energy of each pair.
-pub(super) fn system(reader: &mut Reader<'_>, given: &Given, pair: Option<PairFormula>) -> Option<System> {
+/// The problem of bodies with this energy of each pair.
+pub(super) fn problem(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    pair: Option<PairFormula>,
+) -> Option<InitialValueProblem> {
     given.refuse(reader, &["coordinates", "momenta"], |key| {
         let names = "x1, y1, …, px1, py1, …, or in one dimension q1, …, p1, …";
         (format!("{key} cannot be set with `pair`"), format!("remove `{key}`: the names are {names}"))
@@ -75,10 +79,7 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, pair: Option<PairFo
     }
     let (pair, bodies, dimensions) = (pair?, bodies?, dimensions?);
     let (coordinates, momenta) = names(bodies.count, dimensions);
-    let kinetic = match has_names_of_bodies(reader, given, &coordinates, &momenta) {
-        true => None,
-        false => kinetic::by_formula(reader, given, &momenta, &parameters),
-    };
+    let named = !has_names_of_bodies(reader, given, &coordinates, &momenta);
     let masses = given.masses.as_ref().and_then(|numbers| {
         let values = bodies.values(reader, numbers)?;
         let masses = kinetic::masses(reader, numbers, values)?;
@@ -89,12 +90,11 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, pair: Option<PairFo
     }
     let values = |reader: &mut Reader<'_>, numbers: &Numbers| bodies.values_in_space(reader, numbers, dimensions);
     let (q, p) = given.state.values(reader, values, masses.as_deref());
-    let kinetic = kinetic.unwrap_or(KineticEnergy::Masses(masses));
-    let potential = PotentialEnergy::Pairs(pair_energy(reader, given, &pair, bodies, dimensions, &parameters));
-    Some(System {
-        potential,
-        kinetic,
-        parts: Parts::KineticAndPotential,
+    let kinetic = if named { kinetic::kinetic(reader, given, &momenta, &parameters, masses) } else { None };
+    let potential = pair_energy(reader, given, &pair, bodies, dimensions, &parameters).map(PotentialEnergy::Pairs);
+    Some(InitialValueProblem {
+        potential: potential?,
+        kinetic: kinetic?,
         parameters,
         coordinates,
         momenta,
@@ -110,30 +110,26 @@ fn pair_energy(
     bodies: Bodies,
     dimensions: usize,
     parameters: &[(String, Exact)],
-) -> PairEnergy {
-    let energy = PairEnergy {
-        formula: pair.text.value.clone(),
-        separation: pair.separation,
-        dimensions,
-        ends: ends(reader, given, &bodies),
-        bodies: bodies.count,
-        properties: bodies.properties,
+) -> Option<PairEnergy> {
+    let before = reader.toml.faults.len();
+    let ends = ends(reader, given, &bodies);
+    let formula = match Formula::pair(&pair.text.value, pair.separation, &bodies.properties, parameters) {
+        Ok(formula) => formula,
+        Err(error) => {
+            let help = "the energy of a pair is a smooth formula such as \"-g*m_i*m_j/sqrt(r2)\"";
+            return reader.toml.wrong(&pair.text.place(&error.range()), error.to_string(), help);
+        }
     };
-    if let Err(error) = energy.pair::<f64>(parameters, &()) {
-        let help = "the energy of a pair is a smooth formula such as \"-g*m_i*m_j/sqrt(r2)\"";
-        reader.toml.fault(&pair.text.place(&error.range()), error.to_string(), help);
-    }
-    let properties = energy.properties.iter().flat_map(|(name, _)| [format!("{name}_i"), format!("{name}_j")]);
+    reader.refuse_numbers(&pair.text, &formula.meaning().numbers());
+    let properties = bodies.properties.iter().flat_map(|(name, _)| [format!("{name}_i"), format!("{name}_j")]);
     let properties: Vec<String> = properties.collect();
     let parameters: Vec<String> = parameters.iter().map(|(name, _)| name.clone()).collect();
-    let separation = pair.separation.name().to_owned();
-    reader.refuse_constants(&pair.text, properties.iter().chain(&parameters).chain([&separation]));
-    let symmetric = parse(&pair.text.value).ok();
-    let symmetric = symmetric.and_then(|text| is_symmetric(&text, pair.separation, &properties, &parameters));
-    if energy.ends.is_none() && symmetric == Some(false) {
+    if ends.is_none() && is_symmetric(&pair.expression, pair.separation, &properties, &parameters) == Some(false) {
         reader.notes.push(Note::AsymmetricPair { formula: pair.text.value.clone() });
     }
-    energy
+    let Bodies { count, properties } = bodies;
+    let energy = PairEnergy { formula, dimensions, bodies: count, properties, ends };
+    (reader.toml.faults.len() == before).then_some(energy)
 }
 
 /// The number of dimensions; 1 for a formula in `d`.

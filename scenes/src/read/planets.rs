@@ -12,12 +12,12 @@ use toml::de::{DeTable, DeValue};
 use super::elements::{Elements, Vector};
 use super::given::Given;
 use super::kinetic;
-use super::many_parts;
 use super::names::check_name;
 use super::numbers::Numbers;
+use super::parts::{self, Split};
 use super::reader::Reader;
 use super::units;
-use crate::scene::{Canonical, KineticEnergy, LINEAR, PairEnergy, Parts, Planets, PotentialEnergy, System};
+use crate::scene::{Formula, InitialValueProblem, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use shadowstep_schemes::document::{Placed, Section, Text};
 
 /// The name of the section.
@@ -39,6 +39,9 @@ pub(super) struct GivenBody {
     elements: Vec<(&'static str, Text)>,
     at: Range<usize>,
 }
+
+/// The energy of two bodies.
+const GRAVITY: &str = "-g*m_i*m_j/sqrt(r2)";
 
 /// What the elements of a planet are relative to.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -161,15 +164,7 @@ pub(super) fn system(
         let at = bodies.first().map_or(&given.problem, |body| &body.at);
         return reader.toml.wrong(at, "a planetary system has a central body and at least one planet", "add [[body]]");
     }
-    let (g, centre, parts) = (constant?, settings.centre?, settings.parts?);
-    if parts == GivenParts::Linear {
-        let at = given.place("parts").unwrap_or(&given.problem);
-        return reader.toml.wrong(
-            at,
-            "the attraction between bodies has no linear part",
-            "write parts = \"wisdom-holman\"",
-        );
-    }
+    let (g, centre, split) = (constant?, settings.centre?, settings.split?);
     let dimensions = bodies.iter().find_map(|body| body.q.as_ref()).map_or(3, |q| q.value.len());
     let masses = masses(reader, bodies)?;
     let mut placing = Placing { g: g.clone(), dimensions, centre, masses, states: Vec::new() };
@@ -188,21 +183,27 @@ pub(super) fn system(
     if !parameters.iter().any(|(name, _)| name == "g") {
         parameters.push(("g".to_owned(), Exact { value: g, rounded: false }));
     }
-    placing.into_system(reader, parts, parameters, &names, &given.problem)
+    if has_names_of_energy(reader, given) {
+        return None;
+    }
+    let (problem, bodies) = placing.into_system(reader, parameters, &names, &given.problem)?;
+    parts::split(reader, given, problem, split, Some((bodies, dimensions)))
 }
 
-/// The value of the key `parts`.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum GivenParts {
-    KineticAndPotential,
-    Linear,
-    Planets(Canonical),
+/// Refuses parameters that have a name of the bodies' energy; whether there are any.
+fn has_names_of_energy(reader: &mut Reader<'_>, given: &Given) -> bool {
+    let before = reader.toml.faults.len();
+    for (name, _) in given.parameters.iter().filter(|(name, _)| ["r2", "m_i", "m_j"].contains(&name.value.as_str())) {
+        let message = format!("with [[body]], `{}` is a name in {GRAVITY}, the energy of two bodies", name.value);
+        reader.toml.fault(&name.at, message, "give it another name");
+    }
+    reader.toml.faults.len() > before
 }
 
 /// What [problem] says of bodies and parts.
 pub(super) struct Settings {
     /// The parts that the steps have.
-    pub(super) parts: Option<GivenParts>,
+    pub(super) split: Option<Split>,
     /// The constant in these units.
     units: Option<Option<Rational>>,
     centre: Option<Centre>,
@@ -211,15 +212,9 @@ pub(super) struct Settings {
 
 impl Settings {
     pub(super) fn read(reader: &mut Reader<'_>, problem: &Section<'_, '_>) -> Settings {
-        let [first, second] = Canonical::NAMES.map(|(name, canonical)| (name, GivenParts::Planets(canonical)));
-        let parts =
-            [first, second, (LINEAR, GivenParts::Linear), ("kinetic-potential", GivenParts::KineticAndPotential)];
         let centres = [("heliocentric", Centre::Body), ("jacobi", Centre::Inner)];
         Settings {
-            parts: problem
-                .get("parts")
-                .filter(|value| !many_parts::is_list(value))
-                .map_or(Some(GivenParts::KineticAndPotential), |value| reader.word(value, &parts)),
+            split: parts::of_word(reader, problem),
             units: problem.get("units").map(|value| units::constant(reader, value)),
             centre: problem.get("elements").map_or(Some(Centre::Body), |value| reader.word(value, &centres)),
             barycentric: problem
@@ -366,11 +361,10 @@ impl Placing {
     fn into_system(
         self,
         reader: &mut Reader<'_>,
-        parts: GivenParts,
         parameters: Vec<(String, Exact)>,
         names: &[String],
         at: &Range<usize>,
-    ) -> Option<System> {
+    ) -> Option<(InitialValueProblem, Bodies)> {
         let Placing { g, dimensions, masses, states, .. } = self;
         let exact = |value: Rational| Exact { value, rounded: true };
         let bodies = match Bodies::new(g, masses.clone()) {
@@ -385,27 +379,22 @@ impl Placing {
         let p = states.iter().zip(&masses).flat_map(|([_, v], mass)| v.iter().map(move |v| exact(v * mass)));
         let of_coordinates: Vec<_> = masses.iter().flat_map(|mass| vec![exact(mass.clone()); dimensions]).collect();
         let unit = of_coordinates.iter().all(|mass| mass.value.is_one());
-        let pairs = PairEnergy {
-            formula: "-g*m_i*m_j/sqrt(r2)".to_owned(),
-            separation: Separation::SquaredDistance,
-            dimensions,
-            bodies: masses.len(),
-            properties: vec![("m".to_owned(), masses.iter().cloned().map(exact).collect())],
-            ends: None,
+        let properties = vec![("m".to_owned(), masses.iter().cloned().map(exact).collect())];
+        let formula = match Formula::pair(GRAVITY, Separation::SquaredDistance, &properties, &parameters) {
+            Ok(formula) => formula,
+            Err(error) => return reader.toml.wrong(at, error.to_string(), "give the parameters other names"),
         };
-        Some(System {
+        let pairs = PairEnergy { formula, dimensions, bodies: masses.len(), properties, ends: None };
+        let problem = InitialValueProblem {
             p: p.collect(),
             q: states.iter().flat_map(|[q, _]| q.iter().cloned().map(exact)).collect(),
             potential: PotentialEnergy::Pairs(pairs),
             kinetic: KineticEnergy::Masses((!unit).then_some(of_coordinates)),
-            parts: match parts {
-                GivenParts::Planets(coordinates) => Parts::WisdomHolman(Planets { coordinates, bodies, dimensions }),
-                GivenParts::KineticAndPotential | GivenParts::Linear => Parts::KineticAndPotential,
-            },
             parameters,
             coordinates,
             momenta,
-        })
+        };
+        Some((problem, bodies))
     }
 }
 
@@ -413,8 +402,8 @@ impl Placing {
 mod tests {
     use shadowstep::tables::{Faults, Source};
 
+    use crate::Scene;
     use crate::shipped::PLANETARY_SCENES;
-    use crate::{Parts, Scene};
 
     fn read(text: &str) -> Result<Scene, Vec<String>> {
         let source = Source { path: "scene.toml".to_owned(), text: text.to_owned() };
@@ -525,7 +514,7 @@ mod tests {
     fn the_shipped_scenes_are_of_planets() {
         for shipped in &PLANETARY_SCENES {
             let scene = read(shipped.text).unwrap();
-            assert!(matches!(scene.system.parts, Parts::WisdomHolman(_)), "{}", shipped.name);
+            assert!(scene.system.parts.planets().is_some(), "{}", shipped.name);
         }
     }
 }

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
+use shadowstep::Rational;
 use shadowstep_schemes::document::{self, Key, Keys, Placed, Section, Source, Text, Value};
 use shadowstep_symbolic::decimal::to_significant;
-use shadowstep_symbolic::{Budget, Exact, Graph, parse};
+use shadowstep_symbolic::{Budget, Exact};
 use toml::de::DeTable;
 
 use crate::arithmetic::{ANY_SIZE, Arithmetic, GUARD_DIGITS, MOST_VALUE_DIGITS, NUMBER_EXAMPLES};
@@ -35,7 +36,7 @@ impl<'a> Reader<'a> {
         let toml = document::Reader::new(source, Vec::new());
         Reader {
             toml,
-            arithmetic: Arithmetic::Double,
+            arithmetic: Arithmetic::DOUBLE,
             known: BTreeMap::new(),
             names: Vec::new(),
             budget: Budget::default(),
@@ -122,13 +123,9 @@ impl<'a> Reader<'a> {
         found.into_iter().collect()
     }
 
-    /// Refuses a formula in these names if one of its numbers overflows or underflows in the number type of the run.
-    pub(super) fn refuse_constants<'n>(&mut self, text: &Text, names: impl Iterator<Item = &'n String>) {
-        let names: Vec<String> = names.cloned().collect();
-        let mut graph = Graph::new();
-        let Ok(expression) = parse(&text.value) else { return };
-        let Ok(node) = graph.build(&expression, &names, &[]) else { return };
-        if let Some(value) = graph.numbers(node).into_iter().find(|value| !self.arithmetic.holds(value)) {
+    /// Refuses a formula if one of its numbers overflows or underflows in the number type of the run.
+    pub(super) fn refuse_numbers(&mut self, text: &Text, numbers: &[&Rational]) {
+        if let Some(value) = numbers.iter().find(|value| !self.arithmetic.holds(value)) {
             let message = format!(
                 "the number {} in the formula overflows or underflows in {}",
                 to_significant(value, 12),

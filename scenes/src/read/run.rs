@@ -11,8 +11,11 @@ use toml::de::DeValue;
 
 use super::reader::Reader;
 use crate::arithmetic::{Arithmetic, DEFAULT_DIGITS, MOST_DIGITS, OTHER_SCHEME};
-use crate::library::{self, LibraryError, NamedScheme, NoGradientKicks, Schemes};
+use crate::library::{LibraryError, NamedScheme, Schemes};
 use crate::note::Note;
+use crate::refusal::Refusal;
+use crate::scene::System;
+use crate::split::{Class, Needs};
 use crate::steps::{self, MOST_STEPS, WrongValue};
 use shadowstep_schemes::document::{Section, Text};
 
@@ -32,19 +35,6 @@ pub(super) fn arithmetic(reader: &mut Reader<'_>, run: &Section<'_, '_>) -> Opti
     }
 }
 
-/// What a system asks of its scheme.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Kind {
-    /// An order for every T(p).
-    pub(super) general: bool,
-    /// Steps in a fictitious time.
-    pub(super) transformed: bool,
-    /// A scheme without gradient kicks, for this reason.
-    pub(super) no_gradient_kicks: Option<NoGradientKicks>,
-    /// Steps for three parts and more.
-    pub(super) many_parts: bool,
-}
-
 /// The section [run].
 pub(super) struct Steps {
     pub(super) scheme: NamedScheme,
@@ -58,12 +48,17 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// For a system of this kind.
-    pub(super) fn read(reader: &mut Reader<'_>, run: &Section<'_, '_>, kind: Kind, schemes: &Schemes) -> Option<Steps> {
+    /// For this system, `None` if it cannot be read, and whether its time is transformed.
+    pub(super) fn read(
+        reader: &mut Reader<'_>,
+        run: &Section<'_, '_>,
+        (system, transformed): (Option<&System>, bool),
+        schemes: &Schemes,
+    ) -> Option<Steps> {
         let first = run.get("first").map(|value| reader.word(value, &[("kick", First::Kick), ("drift", First::Drift)]));
         let scheme = match run.get("scheme") {
             Some(value) => {
-                reader.toml.text(value).and_then(|text| scheme(reader, &text, first.flatten(), kind, schemes))
+                reader.toml.text(value).and_then(|text| scheme(reader, &text, first.flatten(), system, schemes))
             }
             None => {
                 reader.toml.missing(run, &["scheme"]);
@@ -76,7 +71,7 @@ impl Steps {
                 reader.word(value, &[("exact", false), ("displaced", true)]).map(|wanted| Some((value.span(), wanted)))
             }
         };
-        let times = times(reader, run, kind.transformed);
+        let times = times(reader, run, transformed);
         if matches!(first, Some(None)) {
             return None;
         }
@@ -92,7 +87,7 @@ fn scheme(
     reader: &mut Reader<'_>,
     word: &Text,
     first: Option<First>,
-    kind: Kind,
+    system: Option<&System>,
     schemes: &Schemes,
 ) -> Option<NamedScheme> {
     let folder = Path::new(&reader.toml.source.path).parent().unwrap_or(Path::new(""));
@@ -104,19 +99,16 @@ fn scheme(
             return None;
         }
     };
-    let valid = library::check_gradient_kicks(&named, kind.no_gradient_kicks);
-    let general = kind.general && !kind.many_parts;
-    let valid = valid.and_then(|()| if general { library::check_general(&named) } else { Ok(()) });
-    let valid = valid.and_then(|()| if kind.transformed { library::check_transformed_time(&named) } else { Ok(()) });
-    let in_parts =
-        valid.and_then(|()| if kind.many_parts { schemes.for_many_parts(&named).map(Some) } else { Ok(None) });
-    let in_parts = match in_parts {
-        Ok(in_parts) => in_parts,
-        Err((message, hint)) => return reader.toml.wrong(&word.at, message, hint),
+    let needs = system.map_or_else(|| Needs::of_class(Class::Quadratic), System::needs);
+    let note = named.note();
+    let named = match needs.scheme(named, schemes) {
+        Ok(named) => named,
+        Err(Refusal { message, hint }) => return reader.toml.wrong(&word.at, message, hint),
     };
-    reader.notes.extend(named.note());
-    reader.notes.extend(in_parts.as_ref().and_then(near_integrable));
-    let named = in_parts.unwrap_or(named);
+    reader.notes.extend(note);
+    if needs.class == Class::ManyParts {
+        reader.notes.extend(near_integrable(&named));
+    }
     match reader.arithmetic.suits(&named) {
         Ok(note) => {
             reader.notes.extend(note);

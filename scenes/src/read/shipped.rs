@@ -1,17 +1,22 @@
 //! A shipped problem, with its own or other parameters and initial state.
 
-use shadowstep::problems::{ProblemError, Setup, problem};
+use shadowstep::problems::{self, ProblemError, Setup};
+use shadowstep::wisdom_holman::Bodies;
 use shadowstep_symbolic::{evaluate, nearest, parse};
 
 use super::given::Given;
 use super::kinetic;
 use super::reader::Reader;
 use crate::arithmetic::{ANY_SIZE, GUARD_DIGITS, MOST_VALUE_DIGITS};
-use crate::scene::{KineticEnergy, Parts, PotentialEnergy, System};
+use crate::scene::{InitialValueProblem, KineticEnergy, PotentialEnergy};
 use shadowstep_schemes::document::Text;
 
-/// The problem of this name.
-pub(super) fn system(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<System> {
+/// The problem of this name; with its bodies and their dimensions, if it has bodies that attract each other.
+pub(super) fn problem(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    name: &Text,
+) -> Option<(InitialValueProblem, Option<(Bodies, usize)>)> {
     given.refuse(
         reader,
         &["coordinates", "momenta", "masses", "kinetic", "bodies", "dimensions", "neighbours"],
@@ -39,21 +44,22 @@ pub(super) fn system(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Opt
             reader.toml.fault(&name.at, message, help);
         }
     }
-    Some(System {
+    let bodies = setup.bodies();
+    let problem = InitialValueProblem {
         parameters: reader.known.iter().map(|(name, value)| (name.clone(), value.clone())).collect(),
         potential: PotentialEnergy::Shipped(setup),
         kinetic: KineticEnergy::Masses(masses),
-        parts: Parts::KineticAndPotential,
         coordinates,
         momenta,
         q: own_q.unwrap_or(q),
         p: own_p.unwrap_or(p),
-    })
+    };
+    Some((problem, bodies))
 }
 
 /// The shipped problem with its parameters, which become known to the reader.
 fn setup(reader: &mut Reader<'_>, given: &Given, name: &Text) -> Option<Setup> {
-    let problem = match problem(&name.value) {
+    let problem = match problems::problem(&name.value) {
         Ok(problem) => problem,
         Err(ProblemError::UnknownProblem { hint, .. }) => {
             return reader.toml.wrong(&name.at, format!("there is no problem `{}`", name.value), hint);

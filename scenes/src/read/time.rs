@@ -1,11 +1,12 @@
 //! [time]: how the fictitious time of the steps runs.
 
 use shadowstep::transformed_time::TimeTransformation;
-use shadowstep::{Number, Ordered};
 use toml::de::DeTable;
 
 use super::reader::Reader;
+use crate::refusal::Refusal;
 use crate::scene::{Parts, System};
+use crate::split::TransformedTime;
 use shadowstep_schemes::document::Section;
 
 /// The name of the section.
@@ -36,19 +37,10 @@ pub(super) fn transformed(
     }
     let time = transformation(reader, section);
     let (system, time) = (system?, time?);
-    if !matches!(system.parts, Parts::KineticAndPotential) {
-        let help = "remove [time], or write `parts = \"kinetic-potential\"`";
-        return reader.toml.wrong(
-            &section.at,
-            "transformed time requires the parts T(p) and U(q): others have no explicit flows in it",
-            help,
-        );
+    match TransformedTime::of(time, &system, system.parts.is_kinetic_and_potential()) {
+        Ok(parts) => Some(System { parts: Parts::TransformedTime(parts), ..system }),
+        Err(Refusal { message, hint }) => reader.toml.wrong(&section.at, message, hint),
     }
-    if let Some(message) = wrong_sign(&system) {
-        let help = "remove [time]; transformed time is for attraction whose potential is 0 at infinity, as in gravity";
-        return reader.toml.wrong(&section.at, message, help);
-    }
-    Some(System { parts: Parts::TransformedTime(time), ..system })
 }
 
 fn transformation(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<TimeTransformation> {
@@ -74,22 +66,6 @@ fn transformation(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Option<
             }
         }
     }
-}
-
-/// Why the initial state has no transformed time, in double precision.
-fn wrong_sign(system: &System) -> Option<String> {
-    let (q, _) = system.start::<f64>(&());
-    let potential = system.potential::<f64>(&());
-    let mut scratch = vec![0.0; potential.scratch()];
-    potential.prepare(&mut scratch, &());
-    let mut energy = <f64 as Number>::zero(&());
-    potential.energy(&q, &mut energy, &mut scratch);
-    (energy >= 0.0).then(|| {
-        format!(
-            "transformed time requires U < 0 on the whole orbit, as time runs at a rate that is a function of -U; at t = 0 U is {}",
-            energy.to_text()
-        )
-    })
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::{Ordered, Remainders};
 use shadowstep_symbolic::decimal::from_text;
 
-use crate::arithmetic::Arithmetic;
+use crate::arithmetic::Numbers;
 use crate::results::functions::elementary_functions;
 use crate::results::metadata::{platform, sha256, table_hashes};
 use crate::scene::Scene;
@@ -79,7 +79,7 @@ impl Identity {
 
 /// The fingerprint of the functions that determine the bits of a run.
 fn functions(scene: &Scene) -> Option<&'static str> {
-    let is_double = !matches!(scene.arithmetic, Arithmetic::Digits(..));
+    let is_double = !matches!(scene.arithmetic.numbers(), Numbers::Digits(..));
     (is_double && scene.output.checkpoint.is_some()).then(elementary_functions)
 }
 

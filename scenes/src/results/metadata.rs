@@ -13,7 +13,7 @@ use shadowstep_symbolic::decimal::to_text;
 
 use crate::arithmetic::Arithmetic;
 use crate::library;
-use crate::scene::{KineticEnergy, LINEAR, PairEnergy, Parts, PotentialEnergy, Scene, System};
+use crate::scene::{KineticEnergy, PairEnergy, PotentialEnergy, Scene, System};
 
 /// Names and values in the order in which they are written.
 pub(crate) struct Metadata(Vec<(&'static str, Value)>);
@@ -71,7 +71,7 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
             let problem = setup.problem.description();
             vec![("problem", json!(problem.name)), ("hamiltonian", json!(problem.hamiltonian))]
         }
-        PotentialEnergy::Formula(formula) => vec![("potential", json!(formula))],
+        PotentialEnergy::Formula(formula) => vec![("potential", json!(formula.text()))],
         PotentialEnergy::Pairs(pairs) => pair_energy(pairs, texts),
         PotentialEnergy::Own(own) => vec![("potential", json!(own.name()))],
         PotentialEnergy::OfParts => vec![("momenta", json!(system.momenta))],
@@ -80,18 +80,11 @@ fn system(system: &System, arithmetic: Arithmetic) -> Vec<(&'static str, Value)>
         system.parameters.iter().map(|(name, value)| (name.clone(), json!(arithmetic.text(value)))).collect();
     let kinetic = match &system.kinetic {
         KineticEnergy::Masses(masses) => masses.iter().map(|masses| ("masses", texts(masses))).collect(),
-        KineticEnergy::Formula(formula) => vec![("kinetic", json!(formula)), ("momenta", json!(system.momenta))],
-    };
-    let parts = match &system.parts {
-        Parts::KineticAndPotential => None,
-        Parts::Linear(_) => Some(("parts", json!(LINEAR))),
-        Parts::WisdomHolman(planets) => Some(("parts", json!(planets.coordinates.name()))),
-        Parts::TransformedTime(time) => Some(("time", json!(time.to_string()))),
-        Parts::Formulas(formulas) => Some(("parts", json!(formulas))),
+        KineticEnergy::Formula(formula) => vec![("kinetic", json!(formula.text())), ("momenta", json!(system.momenta))],
     };
     named
         .into_iter()
-        .chain(parts)
+        .chain(system.parts.metadata())
         .chain([("parameters", json!(parameters)), ("coordinates", json!(system.coordinates))])
         .chain(kinetic)
         .chain([("q", texts(&system.q)), ("p", texts(&system.p))])
@@ -107,7 +100,7 @@ fn pair_energy(pairs: &PairEnergy, texts: impl Fn(&[Exact]) -> Value) -> Vec<(&'
         Ends::Fixed => "fixed",
         Ends::Periodic => "periodic",
     });
-    [("pair", json!(pairs.formula)), ("dimensions", json!(pairs.dimensions)), ("bodies", bodies)]
+    [("pair", json!(pairs.formula.text())), ("dimensions", json!(pairs.dimensions)), ("bodies", bodies)]
         .into_iter()
         .chain(neighbours.map(|neighbours| ("neighbours", json!(neighbours))))
         .collect()

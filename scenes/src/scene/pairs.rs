@@ -1,19 +1,18 @@
 //! The energy of pairs of bodies by its formula.
 
-use shadowstep::formula::{FormulaError, FormulaPair};
-use shadowstep::pairs::{Ends, Pairs, Separation};
+use shadowstep::formula::FormulaPair;
+use shadowstep::pairs::{Ends, Pairs};
 use shadowstep::{Number, Potential};
 use shadowstep_symbolic::Exact;
 
-use crate::scene::parameters::rounded;
+use crate::scene::formula::Formula;
+use crate::scene::parameters::values;
 
 /// U = Σ u over all pairs of bodies, or over those of neighbours in a chain.
 #[derive(Debug)]
 pub struct PairEnergy {
     /// u, in the separation, properties and parameters.
-    pub formula: String,
-    /// What the formula is in.
-    pub separation: Separation,
+    pub formula: Formula<FormulaPair<f64>>,
     /// 1, 2 or 3.
     pub dimensions: usize,
     /// How many bodies there are.
@@ -25,25 +24,15 @@ pub struct PairEnergy {
 }
 
 impl PairEnergy {
-    /// u, with properties and parameters rounded once.
-    pub(crate) fn pair<N: Number>(
-        &self,
-        parameters: &[(String, Exact)],
-        context: &N::Context,
-    ) -> Result<FormulaPair<N>, FormulaError> {
-        let number = |exact: &Exact| N::from_rational(&exact.value, context);
-        let properties: Vec<(&str, Vec<N>)> =
-            self.properties.iter().map(|(name, values)| (name.as_str(), values.iter().map(number).collect())).collect();
-        FormulaPair::new(&self.formula, self.separation, &properties, &rounded(parameters, context))
-    }
-
-    /// U
+    /// U, with properties and parameters rounded once.
     pub(crate) fn potential<N: Number + 'static>(
         &self,
         parameters: &[(String, Exact)],
         context: &N::Context,
     ) -> Box<dyn Potential<N>> {
-        self.of_pair(self.pair(parameters, context).expect("the formula was read with the scene"))
+        let number = |exact: &Exact| N::from_rational(&exact.value, context);
+        let properties = self.properties.iter().map(|(_, values)| values.iter().map(number).collect()).collect();
+        self.of_pair(self.formula.meaning().in_numbers(properties, values(parameters, context)))
     }
 
     /// U of the pair's energy.

@@ -1,198 +1,102 @@
-//! What moves: a shipped problem or a formula's potential, its kinetic energy and its state at t = 0.
+//! What moves: a problem and the parts of its H.
+
+use std::ops::Deref;
 
 use num_traits::Zero;
-use shadowstep::formula::{FormulaError, FormulaKinetic, FormulaPotential};
-use shadowstep::kinetic::{General, Quadratic};
+use serde_json::Value;
 use shadowstep::number::Rounded;
 use shadowstep::problems::Setup;
-use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, System as _, UnitMasses};
+use shadowstep::transformed_time::TimeTransformation;
+use shadowstep::{MotionError, Number};
 use shadowstep_symbolic::Exact;
-use shadowstep_symbolic::decimal::to_text;
 
-use crate::arithmetic::Arithmetic;
 use crate::error::Error;
-use crate::library::NoGradientKicks;
 use crate::scene::own::OwnPotential;
-use crate::scene::pairs::PairEnergy;
-use crate::scene::parameters::rounded;
-use crate::scene::parts::{Canonical, Parts, Shown};
+use crate::scene::problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};
+use crate::split::{Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Shown, Split, TransformedTime};
+use crate::start::{Steps, Work};
 
-/// H = T(p) + U(q) and the state at t = 0, all exact.
+/// A problem and how its H is split for the steps.
 #[derive(Debug)]
 pub struct System {
-    /// U(q)
-    pub potential: PotentialEnergy,
-    /// T(p)
-    pub kinetic: KineticEnergy,
-    /// How H is split for the steps.
+    /// H and the state at t = 0.
+    pub problem: InitialValueProblem,
+    /// The parts of H.
     pub parts: Parts,
-    /// Parameters of formulas or of the shipped problem: names and values.
-    pub parameters: Vec<(String, Exact)>,
-    /// Names of q_1, q_2, ….
-    pub coordinates: Vec<String>,
-    /// Names of p_1, p_2, ….
-    pub momenta: Vec<String>,
-    /// Positions at t = 0.
-    pub q: Vec<Exact>,
-    /// Momenta at t = 0.
-    pub p: Vec<Exact>,
 }
 
-/// U(q)
+/// The parts of H: one of the kinds of split.
 #[derive(Debug)]
-pub enum PotentialEnergy {
-    /// That of a shipped problem.
-    Shipped(Setup),
-    /// A formula in the coordinates and parameters.
-    Formula(String),
-    /// A sum over pairs of bodies.
-    Pairs(PairEnergy),
-    /// A potential of the caller, in double precision.
-    Own(Box<dyn OwnPotential>),
-    /// None: H is given by the formulas of its parts.
-    OfParts,
+pub enum Parts {
+    /// T(p) and U(q).
+    KineticAndPotential(KineticAndPotential),
+    /// The Kepler orbits of planets, and their interactions.
+    WisdomHolman(Planets),
+    /// T(p) + ½qᵀKq, and what is left of U.
+    Linear(Linear),
+    /// f(T + p_t) and −f(−U): the steps are in a fictitious time.
+    TransformedTime(TransformedTime),
+    /// H is the sum of formulas.
+    Formulas(Formulas),
 }
 
-/// T(p)
-#[derive(Debug)]
-pub enum KineticEnergy {
-    /// One for each coordinate, unless all are 1.
-    Masses(Option<Vec<Exact>>),
-    /// A formula in the momenta and parameters.
-    Formula(String),
+/// Asks the kind of split: the one place where the kinds are told apart.
+macro_rules! ask {
+    ($parts:expr, $split:ident => $answer:expr) => {
+        match $parts {
+            Parts::KineticAndPotential($split) => $answer,
+            Parts::WisdomHolman($split) => $answer,
+            Parts::Linear($split) => $answer,
+            Parts::TransformedTime($split) => $answer,
+            Parts::Formulas($split) => $answer,
+        }
+    };
 }
 
-/// H of the positions and momenta that it gets.
-pub type EnergyAt<N> = Box<dyn FnMut(&[N], &[N]) -> N>;
+impl Parts {
+    /// The section and the key of a scene that ask for them.
+    pub fn key(&self) -> (&'static str, &'static str) {
+        ask!(self, split => split.key())
+    }
 
-/// A kinetic energy with its class, which decides about the schemes that move it.
-pub(crate) enum ClassifiedKinetic<N> {
-    Quadratic(Box<dyn Kinetic<N, Class = Quadratic>>),
-    General(Box<dyn Kinetic<N, Class = General>>),
+    /// H, where the parts alone give it: the sum of their formulas.
+    pub fn hamiltonian(&self) -> Option<String> {
+        ask!(self, split => split.hamiltonian())
+    }
+
+    pub(crate) fn metadata(&self) -> Option<(&'static str, Value)> {
+        ask!(self, split => split.metadata())
+    }
+
+    /// The planets, if these are the parts.
+    pub(crate) fn planets(&self) -> Option<&Planets> {
+        match self {
+            Parts::WisdomHolman(planets) => Some(planets),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn is_kinetic_and_potential(&self) -> bool {
+        ask!(self, split => split.is_kinetic_and_potential())
+    }
+}
+
+impl Deref for System {
+    type Target = InitialValueProblem;
+
+    fn deref(&self) -> &InitialValueProblem {
+        &self.problem
+    }
+}
+
+/// In the parts T(p) and U(q).
+impl From<InitialValueProblem> for System {
+    fn from(problem: InitialValueProblem) -> Self {
+        System { problem, parts: Parts::KineticAndPotential(KineticAndPotential) }
+    }
 }
 
 impl System {
-    /// Positions and momenta at t = 0, in the coordinates of the steps.
-    pub fn start<N: Number + 'static>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
-        let numbers = |values: &[Exact]| values.iter().map(|v| N::from_rational(&v.value, context)).collect();
-        let (q, p): (Vec<N>, Vec<N>) = (numbers(&self.q), numbers(&self.p));
-        match &self.parts {
-            Parts::KineticAndPotential | Parts::Linear(_) | Parts::Formulas(_) => (q, p),
-            Parts::WisdomHolman(planets) => planets.canonical((&q, &p), context),
-            Parts::TransformedTime(_) => self.with_time((q, p), context),
-        }
-    }
-
-    /// Converts states from the coordinates of the steps to those that are shown, where these differ.
-    pub fn shown<N: Number + 'static>(&self, context: &N::Context) -> Option<Shown<N>> {
-        match &self.parts {
-            Parts::KineticAndPotential | Parts::Linear(_) | Parts::Formulas(_) => None,
-            Parts::WisdomHolman(planets) => Some(planets.shown(context)),
-            Parts::TransformedTime(_) => Some(Shown::without_time(self.q.len(), context)),
-        }
-    }
-
-    /// U(q)
-    pub(crate) fn potential<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Potential<N>> {
-        match &self.potential {
-            PotentialEnergy::Shipped(setup) => setup.potential(context),
-            PotentialEnergy::Formula(formula) => {
-                let potential = formula_potential::<N>(formula, &self.coordinates, &self.parameters, context);
-                Box::new(potential.expect("the formula was read with the scene"))
-            }
-            PotentialEnergy::Pairs(pairs) => pairs.potential(&self.parameters, context),
-            PotentialEnergy::Own(own) => own.in_numbers(),
-            PotentialEnergy::OfParts => unreachable!("H is not T(p) + U(q)"),
-        }
-    }
-
-    /// T(p)
-    pub(crate) fn kinetic<N: Number + 'static>(&self, context: &N::Context) -> ClassifiedKinetic<N> {
-        match &self.kinetic {
-            KineticEnergy::Masses(None) => ClassifiedKinetic::Quadratic(Box::new(UnitMasses)),
-            KineticEnergy::Masses(Some(masses)) => {
-                let masses: Vec<Rational> = masses.iter().map(|mass| mass.value.clone()).collect();
-                let masses = DiagonalMasses::new(&masses, context);
-                ClassifiedKinetic::Quadratic(Box::new(masses.expect("the masses were read with the scene")))
-            }
-            KineticEnergy::Formula(formula) => {
-                let kinetic = formula_kinetic::<N>(formula, &self.momenta, &self.parameters, context);
-                match kinetic.expect("the formula was read with the scene").into_quadratic() {
-                    Ok(quadratic) => ClassifiedKinetic::Quadratic(Box::new(quadratic)),
-                    Err(general) => ClassifiedKinetic::General(Box::new(general)),
-                }
-            }
-        }
-    }
-
-    /// Every parameter and initial value with its name.
-    pub fn named(&self) -> impl Iterator<Item = (&String, &Exact)> {
-        let parameters = self.parameters.iter().map(|(name, exact)| (name, exact));
-        parameters.chain(self.coordinates.iter().zip(&self.q)).chain(self.momenta.iter().zip(&self.p))
-    }
-
-    /// The masses of the coordinates; of a system whose T is given by them.
-    pub(crate) fn exact_masses(&self) -> Vec<Rational> {
-        match &self.kinetic {
-            KineticEnergy::Masses(Some(masses)) => masses.iter().map(|mass| mass.value.clone()).collect(),
-            _ => vec![Rational::from_integer(1.into()); self.q.len()],
-        }
-    }
-
-    /// H of any state, in the coordinates of the steps; where time is transformed, of its q and p.
-    ///
-    /// # Panics
-    /// If q, p and U have different dimensions, which reading a system excludes.
-    pub fn energy<N: Rounded + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
-        match &self.parts {
-            Parts::KineticAndPotential | Parts::Linear(_) => self.plain_energy(context),
-            Parts::WisdomHolman(planets) => {
-                let (q, p) = self.start(context);
-                let mut system =
-                    planets.system((&q, &p), false, None, context).expect("the dimensions were read with the system");
-                Box::new(move |q, p| system.energy_at(q, p))
-            }
-            Parts::Formulas(formulas) => {
-                let (q, p) = self.start(context);
-                let mut system =
-                    self.in_formulas(formulas, (&q, &p), context).expect("the dimensions were read with the system");
-                Box::new(move |q, p| system.energy_at(q, p))
-            }
-            Parts::TransformedTime(_) => {
-                let (mut energy, dimension) = (self.plain_energy(context), self.q.len());
-                Box::new(move |q, p| energy(&q[..dimension], &p[..dimension]))
-            }
-        }
-    }
-
-    /// T(p) + U(q)
-    pub(super) fn plain_energy<N: Number + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
-        const READ: &str = "the dimensions were read with the system";
-        let zeros = || vec![N::zero(context); self.q.len()];
-        let (q, p) = (zeros(), zeros());
-        let potential = self.potential(context);
-        match self.kinetic(context) {
-            ClassifiedKinetic::Quadratic(kinetic) => {
-                let mut motion = Motion::new(potential, kinetic, q, p).expect(READ);
-                Box::new(move |q, p| motion.energy_at(q, p))
-            }
-            ClassifiedKinetic::General(kinetic) => {
-                let mut motion = Motion::new(potential, kinetic, q, p).expect(READ);
-                Box::new(move |q, p| motion.energy_at(q, p))
-            }
-        }
-    }
-
-    /// The shipped problem at this initial state; `None` for another system.
-    pub fn setup(&self) -> Option<Setup> {
-        let PotentialEnergy::Shipped(setup) = &self.potential else { return None };
-        let names = setup.values.positions().iter().chain(setup.values.momenta()).map(|(name, _)| name.clone());
-        let values = self.q.iter().chain(&self.p).map(|exact| to_text(&exact.value));
-        let parameters = self.parameters.iter().map(|(name, exact)| (name.clone(), to_text(&exact.value)));
-        // exact texts: no digits are lost
-        setup.problem.setup(&parameters.chain(names.zip(values)).collect::<Vec<_>>(), 1).ok()
-    }
-
     /// The system of a shipped problem.
     pub fn of_setup(setup: Setup) -> System {
         let values = &setup.values;
@@ -201,8 +105,8 @@ impl System {
         let state = values.positions().len() + values.momenta().len();
         let parameters = values.named()[..values.named().len() - state].to_vec();
         let kinetic = KineticEnergy::Masses(values.masses().map(<[_]>::to_vec));
-        let (potential, parts) = (PotentialEnergy::Shipped(setup), Parts::KineticAndPotential);
-        System { potential, kinetic, parts, parameters, coordinates, momenta, q, p }
+        let potential = PotentialEnergy::Shipped(setup);
+        System::from(InitialValueProblem { potential, kinetic, parameters, coordinates, momenta, q, p })
     }
 
     /// The system of a potential of the caller, with the names q1, q2, … and p1, p2, ….
@@ -228,85 +132,81 @@ impl System {
             return Err(Error::usage("a mass is 0", "masses must be nonzero"));
         }
         let names = |letter: &str| (1..=dimension).map(|i| format!("{letter}{i}")).collect();
-        Ok(System {
+        Ok(System::from(InitialValueProblem {
             potential: PotentialEnergy::Own(own),
             kinetic: KineticEnergy::Masses(masses),
-            parts: Parts::KineticAndPotential,
             parameters: Vec::new(),
             coordinates: names("q"),
             momenta: names("p"),
             q,
             p,
-        })
+        }))
     }
 
-    /// Whether the system can be computed in a number type: a potential of the caller is in double precision.
+    /// What the system needs of a scheme and of a run.
+    pub fn needs(&self) -> Needs {
+        ask!(&self.parts, split => split.needs(&self.problem))
+    }
+
+    /// Positions and momenta at t = 0, in the coordinates of the steps.
+    pub fn start<N: Number + 'static>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
+        let state = self.initial(context);
+        ask!(&self.parts, split => split.start(&self.problem, state, context))
+    }
+
+    /// Converts states from the coordinates of the steps to those that are shown, where these differ.
+    pub fn shown<N: Number + 'static>(&self, context: &N::Context) -> Option<Shown<N>> {
+        ask!(&self.parts, split => split.shown(&self.problem, context))
+    }
+
+    /// H of any state, in the coordinates of the steps; where time is transformed, of its q and p.
+    ///
+    /// # Panics
+    /// If q, p and U have different dimensions, which reading a system excludes.
+    pub fn energy<N: Rounded + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
+        ask!(&self.parts, split => split.energy(&self.problem, context))
+    }
+
+    /// H for rows, where the steps conserve another function.
+    pub(crate) fn energy_of_rows<N: Rounded + 'static>(&self, context: &N::Context) -> Option<EnergyAt<N>> {
+        self.transformed_time().map(|_| self.energy(context))
+    }
+
+    /// Does some work with the system at a state and a scheme that is valid for it.
     ///
     /// # Errors
-    /// More digits.
-    pub fn check_digits(&self, arithmetic: Arithmetic) -> Result<(), Error> {
-        match self.potential {
-            PotentialEnergy::Own(_) if arithmetic.is_longer_than_double() => Err(Error::usage(
-                format!("a function that computes forces has double precision, not {}", arithmetic.described()),
-                "write the potential as a formula, which has any number of digits",
-            )),
-            _ => Ok(()),
-        }
+    /// A state of another dimension.
+    ///
+    /// # Panics
+    /// If the step size is 0, the scheme is not valid for the parts or has gradient kicks that cannot be displaced as wanted, which reading a system
+    /// and its scheme excludes.
+    pub fn with<N: Rounded + 'static, W: Work<N>>(
+        &self,
+        steps: Steps<'_>,
+        state: (Vec<N>, Vec<N>),
+        context: &N::Context,
+        work: W,
+    ) -> Result<W::Output, MotionError> {
+        ask!(&self.parts, split => split.with(&self.problem, steps, state, context, work))
     }
 
-    /// Why it has no gradient kicks; `None` where it has them, or T is not quadratic.
-    pub fn no_gradient_kicks(&self) -> Option<NoGradientKicks> {
-        match &self.parts {
-            Parts::KineticAndPotential if matches!(self.potential, PotentialEnergy::Own(_)) => Some(NoGradientKicks {
-                reason: "and a function that computes forces has no second derivatives",
-                hint: "use a scheme without gradient kicks, such as blanes-moan-srkn6b, or write the potential as a formula",
-            }),
-            Parts::KineticAndPotential | Parts::Linear(_) | Parts::Formulas(_) => None,
-            Parts::WisdomHolman(planets) if planets.coordinates == Canonical::Jacobi => None,
-            Parts::WisdomHolman(_) => Some(NoGradientKicks {
-                reason: "but in heliocentric coordinates the kicks depend on the momenta, so that [B,[A,B]] is no kick",
-                hint: "write parts = \"wisdom-holman\" for Jacobi coordinates, or use a scheme such as abah864",
-            }),
-            Parts::TransformedTime(_) => Some(NoGradientKicks {
-                reason: "but in transformed time no part of H is a quadratic form of the momenta",
-                hint: "use a composition of the leapfrog, such as sofroniou-spaletta6-13",
-            }),
-        }
+    /// The function of the transformed time, if time is transformed. The last coordinate of states is then t, its momentum p_t = −H(0).
+    pub fn transformed_time(&self) -> Option<TimeTransformation> {
+        ask!(&self.parts, split => split.transformed_time())
+    }
+
+    /// The physical time of a state in the coordinates of the steps, where time is transformed.
+    pub fn time_of<'s, N>(&self, q: &'s [N]) -> Option<&'s N> {
+        self.transformed_time().and_then(|_| q.last())
+    }
+
+    /// The dimension of q in the coordinates of the steps.
+    pub(crate) fn dimension(&self) -> usize {
+        self.q.len() + usize::from(self.transformed_time().is_some())
     }
 
     /// Whether schemes for quadratic T only do not move it.
     pub fn has_general_kinetic(&self) -> bool {
-        match (&self.parts, &self.kinetic) {
-            (Parts::WisdomHolman(planets), _) => planets.coordinates == Canonical::DemocraticHeliocentric,
-            (Parts::TransformedTime(_) | Parts::Formulas(_), _) => true,
-            (Parts::KineticAndPotential | Parts::Linear(_), KineticEnergy::Masses(_)) => false,
-            (Parts::KineticAndPotential | Parts::Linear(_), KineticEnergy::Formula(_)) => {
-                matches!(self.kinetic::<f64>(&()), ClassifiedKinetic::General(_))
-            }
-        }
+        self.needs().class != Class::Quadratic
     }
-}
-
-/// The potential of a formula, with its parameters rounded once.
-pub(crate) fn formula_potential<N: Number>(
-    formula: &str,
-    coordinates: &[String],
-    parameters: &[(String, Exact)],
-    context: &N::Context,
-) -> Result<FormulaPotential<N>, FormulaError> {
-    FormulaPotential::new(formula, &borrowed(coordinates), &rounded(parameters, context))
-}
-
-/// The kinetic energy of a formula, likewise.
-pub(crate) fn formula_kinetic<N: Number>(
-    formula: &str,
-    momenta: &[String],
-    parameters: &[(String, Exact)],
-    context: &N::Context,
-) -> Result<FormulaKinetic<N>, FormulaError> {
-    FormulaKinetic::new(formula, &borrowed(momenta), &rounded(parameters, context))
-}
-
-pub(super) fn borrowed(names: &[String]) -> Vec<&str> {
-    names.iter().map(String::as_str).collect()
 }

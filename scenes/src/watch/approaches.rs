@@ -3,7 +3,8 @@
 use serde::Serialize;
 use shadowstep::Ordered;
 
-use crate::scene::{OfPlanets, Parts, Planets, Shown, System};
+use crate::scene::System;
+use crate::split::{OfPlanets, Planets, Shown};
 
 /// The closest approach of two planets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,7 +43,7 @@ pub(super) struct Approaches {
 impl Approaches {
     /// `None` of a system whose parts are T(p) and U(q).
     pub(super) fn of(system: &System) -> Option<Approaches> {
-        let Parts::WisdomHolman(planets) = &system.parts else { return None };
+        let planets = system.parts.planets()?;
         let masses = planets.bodies.masses().iter().map(|mass| <f64 as shadowstep::Number>::from_rational(mass, &()));
         let names = system.coordinates.iter().step_by(planets.dimensions);
         let names: Vec<_> = names.map(|name| name.trim_start_matches('x').trim_start_matches('_').to_owned()).collect();
@@ -50,7 +51,7 @@ impl Approaches {
         Some(Approaches {
             masses: masses.collect(),
             names,
-            shown: planets.shown(&()),
+            shown: planets.inertial(&()),
             epsilon: planets.epsilon(),
             planets: planets.clone(),
             q: vec![0.0; system.coordinates.len()],

@@ -263,7 +263,7 @@ mod tests {
     use shadowstep_scenes::library::scheme;
 
     fn errors(name: &str, of: Of) -> Errors {
-        let suite = Suite::new(vec![scheme(name).unwrap()], Arithmetic::Double, true);
+        let suite = Suite::new(vec![scheme(name).unwrap()], Arithmetic::DOUBLE, true);
         let trial = Orders::trials(&suite).into_iter().find(|trial| trial.of == of).unwrap();
         Orders::measure::<Limbs<6>>(&suite, &trial, &(), &|_| true).unwrap()
     }

@@ -32,7 +32,7 @@ impl LongCase for OuterPlanets {
 
     /// Round-off is a part of the case.
     fn arithmetic(_: &Suite) -> Arithmetic {
-        Arithmetic::Double
+        Arithmetic::DOUBLE
     }
 
     fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {

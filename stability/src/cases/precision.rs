@@ -64,7 +64,7 @@ impl Case for Precision {
 
     /// The digits are those of the trials.
     fn arithmetic(_: &Suite) -> Arithmetic {
-        Arithmetic::Double
+        Arithmetic::DOUBLE
     }
 
     fn seconds(_: &Suite, trial: &Trial) -> f64 {
@@ -81,7 +81,7 @@ impl Case for Precision {
         let arithmetics = [trial.digits, 2 * trial.digits].map(Arithmetic::with_digits);
         // without MPFR there are not as many digits
         let [Ok(few), Ok(many)] = arithmetics else { return Ok(Agreement::NotMeasured) };
-        let few = if trial.digits == 16 { Arithmetic::Double } else { few };
+        let few = if trial.digits == 16 { Arithmetic::DOUBLE } else { few };
         match [few, many].map(|arithmetic| arithmetic.suits(scheme)) {
             [Err(refused), _] => return Ok(Agreement::Refused(refused.to_string())),
             [_, Err(_)] => return Ok(Agreement::NotMeasured),

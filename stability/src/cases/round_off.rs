@@ -90,7 +90,7 @@ impl Case for RoundOff {
     }
 
     fn arithmetic(_: &Suite) -> Arithmetic {
-        Arithmetic::Double
+        Arithmetic::DOUBLE
     }
 
     fn seconds(suite: &Suite, trial: &Trial) -> f64 {

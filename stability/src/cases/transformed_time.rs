@@ -308,7 +308,7 @@ mod tests {
 
     #[test]
     fn the_steps_are_those_of_the_closed_form() {
-        let suite = Suite::new(vec![scheme("yoshida4").unwrap()], Arithmetic::Double, true);
+        let suite = Suite::new(vec![scheme("yoshida4").unwrap()], Arithmetic::DOUBLE, true);
         let trial = TransformedTime::trials(&suite).pop().unwrap();
         let orbit = TransformedTime::measure::<f64>(&suite, &trial, &(), &|_| true).unwrap();
         assert!(!orbit.too_large && orbit.position < MOST && orbit.time < MOST, "{} {}", orbit.position, orbit.time);

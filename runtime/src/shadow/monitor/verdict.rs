@@ -167,7 +167,7 @@ const ROUND_OFF_PART: f64 = 0.5;
 /// An energy error below this part of the mean kinetic energy is small: it may grow, and the step size is not yet too large.
 const SMALL_ERROR: f64 = 0.05;
 /// The energy error is too large from this part of the mean kinetic energy on.
-const KINETIC_LIMIT: f64 = 0.4;
+pub const KINETIC_LIMIT: f64 = 0.4;
 /// Round-off may be this many times what is expected.
 const ROUND_OFF_FACTOR: f64 = 10.0;
 /// The error that round-off makes in an estimate, in kicks of one step: 3 to 8 were measured.

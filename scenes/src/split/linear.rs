@@ -1,15 +1,97 @@
-//! The linear part of a system: U_qq at the origin.
+//! The linear part of a system: T(p) + ½qᵀKq with K = U_qq at the origin, and what is left of U.
 
 use num_traits::Signed;
-use shadowstep::number::{AnyLimbs, LimbCount};
-use shadowstep::{Number, Potential, Rational, exact};
+use serde_json::{Value, json};
+use shadowstep::linear_part::LinearPart;
+use shadowstep::number::{AnyLimbs, LimbCount, Rounded};
+use shadowstep::{MotionError, Number, Potential, Rational, exact};
 use shadowstep_symbolic::decimal::from_text;
+
+use super::{Class, Needs, Split, State};
+use crate::arithmetic::{Arithmetic, LONGEST_EXACT_FLOW};
+use crate::boxed::Boxed;
+use crate::refusal::Refusal;
+use crate::scene::{InitialValueProblem, KineticEnergy};
+use crate::start::{Steps, Work};
+
+/// T(p) + ½qᵀKq with this K, row by row, and what is left of U.
+#[derive(Clone, Debug)]
+pub struct Linear(Vec<Vec<Rational>>);
 
 /// The value of the key `parts` for it.
 pub(crate) const LINEAR: &str = "linear";
 
 /// The most coordinates: the flow is computed in time that grows with their third power.
-pub(crate) const MOST_COORDINATES: usize = 100;
+const MOST_COORDINATES: usize = 100;
+
+impl Split for Linear {
+    fn needs(&self, _: &InitialValueProblem) -> Needs {
+        Needs {
+            no_compensated_sums: Some(Refusal::new("a linear part has no compensated sums", CHANGE)),
+            no_ensembles: Some(Refusal::new(
+                "an ensemble has no linear part",
+                "remove `parts`, or make a sweep of the scene instead",
+            )),
+            ..Needs::of_class(Class::Quadratic)
+        }
+    }
+
+    fn metadata(&self) -> Option<(&'static str, Value)> {
+        Some(("parts", json!(LINEAR)))
+    }
+
+    fn with<N: Rounded + 'static, W: Work<N>>(
+        &self,
+        problem: &InitialValueProblem,
+        steps: Steps<'_>,
+        (q, p): State<N>,
+        context: &N::Context,
+        work: W,
+    ) -> Result<W::Output, MotionError> {
+        let mut system = LinearPart::new(problem.potential(context), &problem.exact_masses(), &self.0, &q, &p)?;
+        if let Some(displacements) = steps.displacements(context) {
+            system = system.displaced(displacements);
+        }
+        Ok(steps.begin(steps.scheme.clone(), Boxed::Quadratic(Box::new(system)), context, work))
+    }
+}
+
+/// What helps where a system has no linear part.
+const CHANGE: &str = "remove `parts`, or change that";
+
+impl Linear {
+    /// The parts of a system in this arithmetic; `of_bodies` if it is one of bodies that attract each other.
+    ///
+    /// # Errors
+    /// A system that has no linear part, or whose flow is not computed to these digits.
+    pub(crate) fn of(problem: &InitialValueProblem, arithmetic: Arithmetic, of_bodies: bool) -> Result<Self, Refusal> {
+        let coordinates = problem.q.len();
+        let refuse = |message: String| Err(Refusal::new(message, CHANGE));
+        match () {
+            () if of_bodies => {
+                let message = "the attraction between bodies has no linear part";
+                return Err(Refusal::new(message, "write parts = \"wisdom-holman\""));
+            }
+            () if coordinates > MOST_COORDINATES => {
+                return refuse(format!("a linear part has at most {MOST_COORDINATES} coordinates, not {coordinates}"));
+            }
+            () if matches!(problem.kinetic, KineticEnergy::Formula(_)) => {
+                return refuse("a linear part requires T by masses, not by a formula".to_owned());
+            }
+            () if arithmetic.digits() > LONGEST_EXACT_FLOW => {
+                return refuse(format!("a linear part is computed to {LONGEST_EXACT_FLOW} digits"));
+            }
+            () => {}
+        }
+        match stiffness(|count| problem.potential::<AnyLimbs>(count)) {
+            Some(stiffness) => Ok(Linear(stiffness)),
+            None => Err(Refusal::new(
+                "U has no second derivatives at q = 0",
+                "remove `parts`: the force has no linear part",
+            )),
+        }
+    }
+}
 
 /// Differences are of gradients so far apart: their error is of the size of its square, and round-off is less. Those of both distances agree,
 /// unless U has no second derivatives there.
@@ -24,7 +106,7 @@ const LIMBS: u32 = 17 * 64;
 /// U_qq at q = 0, row by row, exact to some 120 digits; `None` where it has no value.
 ///
 /// The steps need no more: half of qᵀKq is added to one part and subtracted from the other with the same K.
-pub(crate) fn stiffness(potential: impl Fn(&LimbCount) -> Box<dyn Potential<AnyLimbs>>) -> Option<Vec<Vec<Rational>>> {
+fn stiffness(potential: impl Fn(&LimbCount) -> Box<dyn Potential<AnyLimbs>>) -> Option<Vec<Vec<Rational>>> {
     let count = LimbCount::of_bits(LIMBS)?;
     let mut potential = potential(&count);
     let dimension = potential.dimension();

@@ -1,26 +1,16 @@
-//! How H is split into parts.
+//! The Kepler orbits of planets, and their interactions.
 
+use serde_json::{Value, json};
 use shadowstep::displaced::Displacements;
-use shadowstep::transformed_time::TimeTransformation;
+use shadowstep::number::Rounded;
 use shadowstep::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
-use shadowstep::{MotionError, Number, Rational, System as _};
+use shadowstep::{MotionError, Number, System as _};
 
+use super::{Class, Needs, Shown, Split, State};
 use crate::boxed::Boxed;
-
-/// The parts of H, whose flows are exact.
-#[derive(Clone, Debug)]
-pub enum Parts {
-    /// T(p) and U(q).
-    KineticAndPotential,
-    /// The Kepler orbits of planets, and their interactions.
-    WisdomHolman(Planets),
-    /// T(p) + ½qᵀKq with this K, row by row, and what is left of U.
-    Linear(Vec<Vec<Rational>>),
-    /// f(T + p_t) and −f(−U): the steps are in a fictitious time.
-    TransformedTime(TimeTransformation),
-    /// H is the sum of these formulas.
-    Formulas(Vec<String>),
-}
+use crate::refusal::{NoGradientKicks, Refusal};
+use crate::scene::{EnergyAt, InitialValueProblem};
+use crate::start::{Steps, Work};
 
 /// A planetary system of point masses, the central body first.
 #[derive(Clone, Debug)]
@@ -43,70 +33,96 @@ pub enum Canonical {
 }
 
 impl Canonical {
-    /// Its values of the key `parts`.
-    pub(crate) const NAMES: [(&'static str, Canonical); 2] =
-        [("wisdom-holman", Canonical::Jacobi), ("wisdom-holman-heliocentric", Canonical::DemocraticHeliocentric)];
-
     /// Its value of the key `parts`.
-    pub(crate) fn name(self) -> &'static str {
-        Self::NAMES.iter().find(|(_, known)| *known == self).map_or("", |(name, _)| name)
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Canonical::Jacobi => "wisdom-holman",
+            Canonical::DemocraticHeliocentric => "wisdom-holman-heliocentric",
+        }
     }
 }
 
 /// A number for each planet, from Q.
 pub(crate) type OfPlanets = Box<dyn FnMut(&[f64]) -> Vec<f64>>;
 
-/// Converts a state.
-type Convert<N> = Box<dyn FnMut((&[N], &[N]), (&mut [N], &mut [N]))>;
-
-/// Converts states of a system to those that are shown.
-pub struct Shown<N> {
-    convert: Convert<N>,
-    q: Vec<N>,
-    p: Vec<N>,
-}
-
-impl<N: Number + 'static> Shown<N> {
-    fn of<C: PlanetaryCoordinates<N, D> + 'static, const D: usize>(planets: &Planets, context: &N::Context) -> Self {
-        let mut coordinates = C::new(&planets.bodies, context);
-        let dimension = planets.bodies.count() * D;
-        Shown::by(dimension, context, move |state, shown| coordinates.assign_inertial(state, shown))
+impl Split for Planets {
+    fn needs(&self, _: &InitialValueProblem) -> Needs {
+        let no_ensembles = Some(Refusal::new(
+            "an ensemble has no orbits of planets as parts",
+            "write parts = \"kinetic-potential\", or make a sweep of the scene instead",
+        ));
+        match self.coordinates {
+            Canonical::Jacobi => Needs { no_ensembles, ..Needs::of_class(Class::Quadratic) },
+            Canonical::DemocraticHeliocentric => Needs {
+                no_gradient_kicks: Some(NoGradientKicks {
+                    reason: "but in heliocentric coordinates the kicks depend on the momenta, so that [B,[A,B]] is no kick",
+                    hint: "write parts = \"wisdom-holman\" for Jacobi coordinates, or use a scheme such as abah864",
+                }),
+                no_ensembles,
+                ..Needs::of_class(Class::EveryKinetic)
+            },
+        }
     }
 
-    /// The conversion into states of this dimension.
-    pub(super) fn by(
-        dimension: usize,
+    fn metadata(&self) -> Option<(&'static str, Value)> {
+        Some(("parts", json!(self.coordinates.name())))
+    }
+
+    fn start<N: Number + 'static>(
+        &self,
+        _: &InitialValueProblem,
+        inertial: State<N>,
         context: &N::Context,
-        convert: impl FnMut((&[N], &[N]), (&mut [N], &mut [N])) + 'static,
-    ) -> Self {
-        let zeros = || vec![N::zero(context); dimension];
-        Shown { convert: Box::new(convert), q: zeros(), p: zeros() }
+    ) -> State<N> {
+        self.canonical((&inertial.0, &inertial.1), context)
     }
 
-    /// The first `dimension` coordinates and their momenta: without t and p_t.
-    pub(super) fn without_time(dimension: usize, context: &N::Context) -> Self {
-        let assign = |own: &[N], shown: &mut [N]| shown.iter_mut().zip(own).for_each(|(shown, own)| shown.assign(own));
-        Shown::by(dimension, context, move |(q, p), shown| {
-            assign(q, shown.0);
-            assign(p, shown.1);
-        })
+    fn shown<N: Number + 'static>(&self, _: &InitialValueProblem, context: &N::Context) -> Option<Shown<N>> {
+        Some(self.inertial(context))
     }
 
-    /// The positions and momenta that are shown of a state.
-    pub fn of_state(&mut self, q: &[N], p: &[N]) -> (&[N], &[N]) {
-        (self.convert)((q, p), (&mut self.q, &mut self.p));
-        (&self.q, &self.p)
+    fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+        let (q, p) = self.start(problem, problem.initial(context), context);
+        let system = self.system((&q, &p), false, None, context);
+        let mut system = system.expect("the dimensions were read with the system");
+        Box::new(move |q, p| system.energy_at(q, p))
+    }
+
+    fn with<N: Rounded + 'static, W: Work<N>>(
+        &self,
+        _: &InitialValueProblem,
+        steps: Steps<'_>,
+        (q, p): State<N>,
+        context: &N::Context,
+        work: W,
+    ) -> Result<W::Output, MotionError> {
+        let system = self.system((&q, &p), steps.compensated, steps.displacements(context), context)?;
+        Ok(steps.begin(steps.scheme.clone(), system, context, work))
     }
 }
 
 impl Planets {
+    /// The parts of a system of bodies that attract each other.
+    ///
+    /// # Errors
+    /// Another system.
+    pub(crate) fn of(coordinates: Canonical, bodies: Option<(Bodies, usize)>) -> Result<Self, Refusal> {
+        match bodies {
+            Some((bodies, dimensions)) => Ok(Planets { coordinates, bodies, dimensions }),
+            None => Err(Refusal::new(
+                "only bodies that attract each other have these parts",
+                "remove `parts`, give the bodies in sections [[body]], or use a problem such as outer-solar-system",
+            )),
+        }
+    }
+
     /// From the coordinates of the steps to inertial ones.
-    pub(crate) fn shown<N: Number + 'static>(&self, context: &N::Context) -> Shown<N> {
+    pub(crate) fn inertial<N: Number + 'static>(&self, context: &N::Context) -> Shown<N> {
         match (self.coordinates, self.dimensions) {
-            (Canonical::Jacobi, 2) => Shown::of::<Jacobi<N, 2>, 2>(self, context),
-            (Canonical::Jacobi, _) => Shown::of::<Jacobi<N, 3>, 3>(self, context),
-            (Canonical::DemocraticHeliocentric, 2) => Shown::of::<DemocraticHeliocentric<N, 2>, 2>(self, context),
-            (Canonical::DemocraticHeliocentric, _) => Shown::of::<DemocraticHeliocentric<N, 3>, 3>(self, context),
+            (Canonical::Jacobi, 2) => shown::<N, Jacobi<N, 2>, 2>(self, context),
+            (Canonical::Jacobi, _) => shown::<N, Jacobi<N, 3>, 3>(self, context),
+            (Canonical::DemocraticHeliocentric, 2) => shown::<N, DemocraticHeliocentric<N, 2>, 2>(self, context),
+            (Canonical::DemocraticHeliocentric, _) => shown::<N, DemocraticHeliocentric<N, 3>, 3>(self, context),
         }
     }
 
@@ -135,7 +151,7 @@ impl Planets {
     ///
     /// # Errors
     /// A state of another dimension.
-    pub(crate) fn system<N: Number + 'static>(
+    fn system<N: Number + 'static>(
         &self,
         (q, p): (&[N], &[N]),
         compensated: bool,
@@ -181,11 +197,7 @@ impl Planets {
     }
 
     /// The coordinates of the steps at an inertial state.
-    pub(crate) fn canonical<N: Number + 'static>(
-        &self,
-        inertial: (&[N], &[N]),
-        context: &N::Context,
-    ) -> (Vec<N>, Vec<N>) {
+    fn canonical<N: Number + 'static>(&self, inertial: (&[N], &[N]), context: &N::Context) -> (Vec<N>, Vec<N>) {
         let (mut q, mut p) = (inertial.0.to_vec(), inertial.1.to_vec());
         let own = (&mut q[..], &mut p[..]);
         match (self.coordinates, self.dimensions) {
@@ -209,6 +221,14 @@ impl Planets {
     ) {
         C::new(&self.bodies, context).assign_from_inertial(inertial, own);
     }
+}
+
+fn shown<N: Number + 'static, C: PlanetaryCoordinates<N, D> + 'static, const D: usize>(
+    planets: &Planets,
+    context: &N::Context,
+) -> Shown<N> {
+    let mut coordinates = C::new(&planets.bodies, context);
+    Shown::by(planets.bodies.count() * D, context, move |state, shown| coordinates.assign_inertial(state, shown))
 }
 
 /// With gradient kicks by displaced forces, if these are given.

@@ -1,0 +1,63 @@
+//! How H is split: the words of the key `parts`, one for each kind of split that needs no more than its name.
+
+use shadowstep::wisdom_holman::Bodies;
+use shadowstep_schemes::document::{Section, Value};
+use toml::de::{DeTable, DeValue};
+
+use super::given::Given;
+use super::reader::Reader;
+use crate::arithmetic::Arithmetic;
+use crate::refusal::Refusal;
+use crate::scene::{InitialValueProblem, Parts, System};
+use crate::split::{Canonical, KineticAndPotential, LINEAR, Linear, Planets};
+
+/// The parts of a problem, or why it has none of this kind; with the bodies that attract each other and their dimensions, if it is a problem of these.
+pub(super) type Split = fn(&InitialValueProblem, Arithmetic, Option<(Bodies, usize)>) -> Result<Parts, Refusal>;
+
+const KINETIC_AND_POTENTIAL: Split = |_, _, _| Ok(Parts::KineticAndPotential(KineticAndPotential));
+
+/// The values of `parts`.
+const WORDS: [(&str, Split); 4] = [
+    (Canonical::Jacobi.name(), |_, _, bodies| Planets::of(Canonical::Jacobi, bodies).map(Parts::WisdomHolman)),
+    (Canonical::DemocraticHeliocentric.name(), |_, _, bodies| {
+        Planets::of(Canonical::DemocraticHeliocentric, bodies).map(Parts::WisdomHolman)
+    }),
+    (LINEAR, |problem, arithmetic, bodies| Linear::of(problem, arithmetic, bodies.is_some()).map(Parts::Linear)),
+    ("kinetic-potential", KINETIC_AND_POTENTIAL),
+];
+
+/// Whether the value of `parts` is a list of formulas.
+pub(super) fn is_list(value: &Value<'_>) -> bool {
+    matches!(value.get_ref(), DeValue::Array(_))
+}
+
+/// The kind of split that a word asks for: by default T(p) and U(q).
+pub(super) fn of_word(reader: &mut Reader<'_>, problem: &Section<'_, '_>) -> Option<Split> {
+    let word = problem.get("parts").filter(|value| !is_list(value));
+    word.map_or(Some(KINETIC_AND_POTENTIAL), |value| reader.word(value, &WORDS))
+}
+
+/// The problem in the parts that its steps have.
+pub(super) fn split(
+    reader: &mut Reader<'_>,
+    given: &Given,
+    problem: InitialValueProblem,
+    split: Split,
+    bodies: Option<(Bodies, usize)>,
+) -> Option<System> {
+    match split(&problem, reader.arithmetic, bodies) {
+        Ok(parts) => Some(System { problem, parts }),
+        Err(Refusal { message, hint }) => {
+            reader.toml.wrong(given.place("parts").unwrap_or(&given.problem), message, hint)
+        }
+    }
+}
+
+/// The system, if its sums can be compensated where the scene wants that.
+pub(super) fn with_sums(reader: &mut Reader<'_>, root: &DeTable<'_>, system: System) -> Option<System> {
+    let refusal = system.needs().no_compensated_sums.filter(|_| reader.arithmetic.is_compensated());
+    let Some(Refusal { message, hint }) = refusal else { return Some(system) };
+    let (section, key) = system.parts.key();
+    let value = root.get(section).and_then(|section| section.get_ref().as_table()?.get(key));
+    reader.toml.wrong(&value.map_or(0..0, |value| value.span()), message, hint)
+}

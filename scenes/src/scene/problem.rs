@@ -1,0 +1,170 @@
+//! What moves: a shipped problem or a formula's potential, its kinetic energy and its state at t = 0.
+
+use shadowstep::formula::{FormulaKinetic, FormulaPotential};
+use shadowstep::kinetic::{General, Quadratic};
+use shadowstep::problems::Setup;
+use shadowstep::{DiagonalMasses, Kinetic, Motion, Number, Potential, Rational, UnitMasses};
+use shadowstep_symbolic::Exact;
+use shadowstep_symbolic::decimal::to_text;
+
+use crate::arithmetic::Arithmetic;
+use crate::error::Error;
+use crate::scene::formula::Formula;
+use crate::scene::own::OwnPotential;
+use crate::scene::pairs::PairEnergy;
+use crate::scene::parameters::values;
+
+/// H = T(p) + U(q) and the state at t = 0, all exact.
+#[derive(Debug)]
+pub struct InitialValueProblem {
+    /// U(q)
+    pub potential: PotentialEnergy,
+    /// T(p)
+    pub kinetic: KineticEnergy,
+    /// Parameters of the shipped problem, or those with which the formulas were read: names and values.
+    pub parameters: Vec<(String, Exact)>,
+    /// Names of q_1, q_2, ….
+    pub coordinates: Vec<String>,
+    /// Names of p_1, p_2, ….
+    pub momenta: Vec<String>,
+    /// Positions at t = 0.
+    pub q: Vec<Exact>,
+    /// Momenta at t = 0.
+    pub p: Vec<Exact>,
+}
+
+/// U(q)
+#[derive(Debug)]
+pub enum PotentialEnergy {
+    /// That of a shipped problem.
+    Shipped(Setup),
+    /// A formula in the coordinates and parameters.
+    Formula(Formula<FormulaPotential<f64>>),
+    /// A sum over pairs of bodies.
+    Pairs(PairEnergy),
+    /// A potential of the caller, in double precision.
+    Own(Box<dyn OwnPotential>),
+    /// None: H is given by the formulas of its parts.
+    OfParts,
+}
+
+/// T(p)
+#[derive(Debug)]
+pub enum KineticEnergy {
+    /// One for each coordinate, unless all are 1.
+    Masses(Option<Vec<Exact>>),
+    /// A formula in the momenta and parameters.
+    Formula(Formula<FormulaKinetic<f64>>),
+}
+
+/// H of the positions and momenta that it gets.
+pub type EnergyAt<N> = Box<dyn FnMut(&[N], &[N]) -> N>;
+
+/// A kinetic energy with its class, which decides about the schemes that move it.
+pub(crate) enum ClassifiedKinetic<N> {
+    Quadratic(Box<dyn Kinetic<N, Class = Quadratic>>),
+    General(Box<dyn Kinetic<N, Class = General>>),
+}
+
+impl InitialValueProblem {
+    /// Positions and momenta at t = 0.
+    pub(crate) fn initial<N: Number>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
+        let numbers = |values: &[Exact]| values.iter().map(|v| N::from_rational(&v.value, context)).collect();
+        (numbers(&self.q), numbers(&self.p))
+    }
+
+    /// U(q)
+    pub(crate) fn potential<N: Number + 'static>(&self, context: &N::Context) -> Box<dyn Potential<N>> {
+        match &self.potential {
+            PotentialEnergy::Shipped(setup) => setup.potential(context),
+            PotentialEnergy::Formula(formula) => {
+                Box::new(formula.meaning().in_numbers(values(&self.parameters, context)))
+            }
+            PotentialEnergy::Pairs(pairs) => pairs.potential(&self.parameters, context),
+            PotentialEnergy::Own(own) => own.in_numbers(),
+            PotentialEnergy::OfParts => unreachable!("H is not T(p) + U(q)"),
+        }
+    }
+
+    /// T(p)
+    pub(crate) fn kinetic<N: Number + 'static>(&self, context: &N::Context) -> ClassifiedKinetic<N> {
+        match &self.kinetic {
+            KineticEnergy::Masses(None) => ClassifiedKinetic::Quadratic(Box::new(UnitMasses)),
+            KineticEnergy::Masses(Some(masses)) => {
+                let masses: Vec<Rational> = masses.iter().map(|mass| mass.value.clone()).collect();
+                let masses = DiagonalMasses::new(&masses, context);
+                ClassifiedKinetic::Quadratic(Box::new(masses.expect("the masses were read with the scene")))
+            }
+            KineticEnergy::Formula(formula) => {
+                match formula.meaning().in_numbers(values(&self.parameters, context)).into_quadratic() {
+                    Ok(quadratic) => ClassifiedKinetic::Quadratic(Box::new(quadratic)),
+                    Err(general) => ClassifiedKinetic::General(Box::new(general)),
+                }
+            }
+        }
+    }
+
+    /// Every parameter and initial value with its name.
+    pub fn named(&self) -> impl Iterator<Item = (&String, &Exact)> {
+        let parameters = self.parameters.iter().map(|(name, exact)| (name, exact));
+        parameters.chain(self.coordinates.iter().zip(&self.q)).chain(self.momenta.iter().zip(&self.p))
+    }
+
+    /// The masses of the coordinates; of a system whose T is given by them.
+    pub(crate) fn exact_masses(&self) -> Vec<Rational> {
+        match &self.kinetic {
+            KineticEnergy::Masses(Some(masses)) => masses.iter().map(|mass| mass.value.clone()).collect(),
+            _ => vec![Rational::from_integer(1.into()); self.q.len()],
+        }
+    }
+
+    /// T(p) + U(q)
+    pub(crate) fn plain_energy<N: Number + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
+        const READ: &str = "the dimensions were read with the system";
+        let zeros = || vec![N::zero(context); self.q.len()];
+        let (q, p) = (zeros(), zeros());
+        let potential = self.potential(context);
+        match self.kinetic(context) {
+            ClassifiedKinetic::Quadratic(kinetic) => {
+                let mut motion = Motion::new(potential, kinetic, q, p).expect(READ);
+                Box::new(move |q, p| motion.energy_at(q, p))
+            }
+            ClassifiedKinetic::General(kinetic) => {
+                let mut motion = Motion::new(potential, kinetic, q, p).expect(READ);
+                Box::new(move |q, p| motion.energy_at(q, p))
+            }
+        }
+    }
+
+    /// The shipped problem at this initial state; `None` for another system.
+    pub fn setup(&self) -> Option<Setup> {
+        let PotentialEnergy::Shipped(setup) = &self.potential else { return None };
+        let names = setup.values.positions().iter().chain(setup.values.momenta()).map(|(name, _)| name.clone());
+        let values = self.q.iter().chain(&self.p).map(|exact| to_text(&exact.value));
+        let parameters = self.parameters.iter().map(|(name, exact)| (name.clone(), to_text(&exact.value)));
+        // exact texts: no digits are lost
+        setup.problem.setup(&parameters.chain(names.zip(values)).collect::<Vec<_>>(), 1).ok()
+    }
+
+    /// Whether the system can be computed in a number type: a potential of the caller is in double precision.
+    ///
+    /// # Errors
+    /// More digits.
+    pub fn check_digits(&self, arithmetic: Arithmetic) -> Result<(), Error> {
+        match self.potential {
+            PotentialEnergy::Own(_) if arithmetic.is_longer_than_double() => Err(Error::usage(
+                format!("a function that computes forces has double precision, not {}", arithmetic.described()),
+                "write the potential as a formula, which has any number of digits",
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether T is a quadratic form.
+    pub(crate) fn has_quadratic_kinetic(&self) -> bool {
+        match &self.kinetic {
+            KineticEnergy::Masses(_) => true,
+            KineticEnergy::Formula(formula) => formula.meaning().is_quadratic(),
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! How H is split into parts whose flows are exact. Each kind of split has its file and answers the same questions.
+//!
+//! ```text
+//! read/parts.rs: a word of the scene → a kind of split, or why the system has none of this kind
+//! needs         → what the reader and the command line ask of schemes, sums and ensembles
+//! start         → with (a work on the system and its stepper) → shown, energy: the rows
+//! ```
+
+mod formulas;
+mod kinetic_and_potential;
+mod linear;
+mod needs;
+mod shown;
+mod transformed_time;
+mod wisdom_holman;
+
+pub use formulas::Formulas;
+pub use kinetic_and_potential::KineticAndPotential;
+pub(crate) use linear::LINEAR;
+pub use linear::Linear;
+pub use needs::{Class, Needs};
+pub use shown::Shown;
+pub use transformed_time::TransformedTime;
+pub(crate) use wisdom_holman::OfPlanets;
+pub use wisdom_holman::{Canonical, Planets};
+
+use serde_json::Value;
+use shadowstep::number::Rounded;
+use shadowstep::transformed_time::TimeTransformation;
+use shadowstep::{MotionError, Number};
+
+use crate::scene::{EnergyAt, InitialValueProblem};
+use crate::start::{Steps, Work};
+
+/// Positions and momenta.
+pub(crate) type State<N> = (Vec<N>, Vec<N>);
+
+/// What a kind of split answers, of a system whose H is split in this way.
+pub(crate) trait Split {
+    /// What it needs of a scheme and of a run.
+    fn needs(&self, problem: &InitialValueProblem) -> Needs;
+
+    /// The section and the key of a scene that ask for it.
+    fn key(&self) -> (&'static str, &'static str) {
+        ("problem", "parts")
+    }
+
+    /// Its name and value in the head of a file.
+    fn metadata(&self) -> Option<(&'static str, Value)>;
+
+    /// The state at t = 0 in the coordinates of the steps, from that of the scene.
+    fn start<N: Number + 'static>(&self, _: &InitialValueProblem, state: State<N>, _: &N::Context) -> State<N> {
+        state
+    }
+
+    /// Converts states from the coordinates of the steps to those that are shown, where these differ.
+    fn shown<N: Number + 'static>(&self, _: &InitialValueProblem, _: &N::Context) -> Option<Shown<N>> {
+        None
+    }
+
+    /// H of any state in the coordinates of the steps.
+    fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+        problem.plain_energy(context)
+    }
+
+    /// Does some work with the system at a state in the coordinates of the steps.
+    ///
+    /// # Errors
+    /// A state of another dimension.
+    fn with<N: Rounded + 'static, W: Work<N>>(
+        &self,
+        problem: &InitialValueProblem,
+        steps: Steps<'_>,
+        state: State<N>,
+        context: &N::Context,
+        work: W,
+    ) -> Result<W::Output, MotionError>;
+
+    /// H, where the parts alone give it.
+    fn hamiltonian(&self) -> Option<String> {
+        None
+    }
+
+    /// The function of the transformed time: the last coordinate is then t, its momentum p_t = −H(0), and the steps conserve another function than H.
+    fn transformed_time(&self) -> Option<TimeTransformation> {
+        None
+    }
+
+    /// Whether the parts are T(p) and U(q): the fastest oscillation limits the step size, and lanes have flows.
+    fn is_kinetic_and_potential(&self) -> bool {
+        false
+    }
+}

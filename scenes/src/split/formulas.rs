@@ -1,0 +1,86 @@
+//! H as a sum of parts by their formulas.
+
+use serde_json::{Value, json};
+use shadowstep::many_parts::{Part, PartFormula, SystemOfParts};
+use shadowstep::number::Rounded;
+use shadowstep::tables::TableScheme;
+use shadowstep::{MotionError, System as _};
+
+use super::{Class, Needs, Split, State};
+use crate::boxed::Boxed;
+use crate::refusal::Refusal;
+use crate::scene::{EnergyAt, Formula, InitialValueProblem};
+use crate::start::{Steps, Work};
+
+/// H is the sum of these formulas.
+#[derive(Debug)]
+pub struct Formulas(pub(crate) Vec<Formula<PartFormula>>);
+
+impl Split for Formulas {
+    fn needs(&self, _: &InitialValueProblem) -> Needs {
+        Needs {
+            no_compensated_sums: Some(Refusal::new(
+                "formulas of parts have no compensated sums",
+                "use digits = \"double\"",
+            )),
+            no_ensembles: Some(Refusal::new(
+                "an ensemble has no formulas of parts",
+                "make a sweep of the scene instead",
+            )),
+            ..Needs::of_class(Class::ManyParts)
+        }
+    }
+
+    fn metadata(&self) -> Option<(&'static str, Value)> {
+        Some(("parts", json!(self.0.iter().map(Formula::text).collect::<Vec<_>>())))
+    }
+
+    fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+        let state = problem.initial(context);
+        let mut system = self.system(problem, &state, context).expect("the dimensions were read with the system");
+        Box::new(move |q, p| system.energy_at(q, p))
+    }
+
+    fn with<N: Rounded + 'static, W: Work<N>>(
+        &self,
+        problem: &InitialValueProblem,
+        steps: Steps<'_>,
+        state: State<N>,
+        context: &N::Context,
+        work: W,
+    ) -> Result<W::Output, MotionError> {
+        let system = self.system(problem, &state, context)?;
+        Ok(steps.begin(in_many_parts(steps.scheme), system, context, work))
+    }
+
+    fn hamiltonian(&self) -> Option<String> {
+        Some(self.0.iter().map(|formula| format!("({})", formula.text())).collect::<Vec<_>>().join(" + "))
+    }
+}
+
+impl Formulas {
+    /// The system of these parts at a state.
+    fn system<N: Rounded + 'static>(
+        &self,
+        problem: &InitialValueProblem,
+        (q, p): &State<N>,
+        context: &N::Context,
+    ) -> Result<Boxed<N>, MotionError> {
+        let dimension = problem.coordinates.len();
+        if q.len() != dimension {
+            return Err(MotionError::Potential { coordinates: q.len(), dimension });
+        }
+        let parts = self.0.iter().map(|formula| formula.meaning().in_numbers(context));
+        let parts = parts.map(|part| Ok(Box::new(part.map_err(|_| MotionError::Digits)?) as Box<dyn Part<N>>));
+        let system = SystemOfParts::new(parts.collect::<Result<_, MotionError>>()?, q, p)?;
+        Ok(Boxed::ManyParts(Box::new(system)))
+    }
+}
+
+/// The scheme with the steps of many parts, which it has already where the scene was read with it.
+fn in_many_parts(scheme: &TableScheme) -> TableScheme {
+    match scheme.proved().proof.many_parts {
+        Some(_) => scheme.clone(),
+        None => scheme.clone().for_many_parts().expect("the scheme is valid for many parts").into(),
+    }
+}

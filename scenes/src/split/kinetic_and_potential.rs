@@ -1,0 +1,61 @@
+//! T(p) and U(q): drifts and kicks.
+
+use serde_json::Value;
+use shadowstep::number::Rounded;
+use shadowstep::{Motion, MotionError};
+
+use super::{Class, Needs, Split, State};
+use crate::refusal::NoGradientKicks;
+use crate::scene::{ClassifiedKinetic, InitialValueProblem, PotentialEnergy};
+use crate::start::{Steps, Work};
+
+/// T(p) and U(q).
+#[derive(Clone, Copy, Debug)]
+pub struct KineticAndPotential;
+
+impl Split for KineticAndPotential {
+    fn needs(&self, problem: &InitialValueProblem) -> Needs {
+        let own = matches!(problem.potential, PotentialEnergy::Own(_));
+        let class = if problem.has_quadratic_kinetic() { Class::Quadratic } else { Class::EveryKinetic };
+        Needs {
+            no_gradient_kicks: own.then_some(NoGradientKicks {
+                reason: "and a function that computes forces has no second derivatives",
+                hint: "use a scheme without gradient kicks, such as blanes-moan-srkn6b, or write the potential as a formula",
+            }),
+            ..Needs::of_class(class)
+        }
+    }
+
+    fn metadata(&self) -> Option<(&'static str, Value)> {
+        None
+    }
+
+    fn with<N: Rounded + 'static, W: Work<N>>(
+        &self,
+        problem: &InitialValueProblem,
+        steps: Steps<'_>,
+        (q, p): State<N>,
+        context: &N::Context,
+        work: W,
+    ) -> Result<W::Output, MotionError> {
+        let (potential, displacements) = (problem.potential(context), steps.displacements(context));
+        Ok(match problem.kinetic(context) {
+            ClassifiedKinetic::Quadratic(kinetic) => {
+                let mut motion = Motion::new(potential, kinetic, q, p)?;
+                if let Some(displacements) = displacements {
+                    motion = motion.displaced(displacements);
+                }
+                steps.begin(steps.scheme.clone(), motion.compensated_if(steps.compensated), context, work)
+            }
+            ClassifiedKinetic::General(kinetic) => {
+                let scheme = steps.scheme.clone().for_every_kinetic().expect("the scheme was read for this T");
+                let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(steps.compensated);
+                steps.begin(scheme, motion, context, work)
+            }
+        })
+    }
+
+    fn is_kinetic_and_potential(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,52 @@
+//! What a kind of split needs of a scheme and of a run, and why something else is refused.
+
+use crate::library::{self, NamedScheme, Schemes};
+use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
+
+/// What a split needs of a scheme and of a run.
+#[derive(Clone, Debug)]
+pub struct Needs {
+    /// The class of schemes that move it.
+    pub class: Class,
+    /// Why it has no gradient kicks; `None` where it has them, or the class has none.
+    pub no_gradient_kicks: Option<NoGradientKicks>,
+    /// Why its schemes are not processed, if they are not.
+    pub no_processor: Option<NoProcessor>,
+    /// Why its sums are not compensated, if they are not.
+    pub no_compensated_sums: Option<Refusal>,
+    /// Why there are no ensembles of it, if there are none.
+    pub no_ensembles: Option<Refusal>,
+}
+
+/// A class of schemes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// All schemes for two parts.
+    Quadratic,
+    /// Schemes with an order for every T(p).
+    EveryKinetic,
+    /// Schemes with an order for three parts and more.
+    ManyParts,
+}
+
+impl Needs {
+    /// No more than that a scheme is of this class.
+    pub(crate) fn of_class(class: Class) -> Self {
+        Needs { class, no_gradient_kicks: None, no_processor: None, no_compensated_sums: None, no_ensembles: None }
+    }
+
+    /// The scheme with the steps that are needed: for many parts, those of many parts. The schemes that have been read keep these.
+    ///
+    /// # Errors
+    /// A scheme that is not valid.
+    pub fn scheme(&self, named: NamedScheme, schemes: &Schemes) -> Result<NamedScheme, Refusal> {
+        library::check_gradient_kicks(&named, self.no_gradient_kicks)?;
+        match self.class {
+            Class::Quadratic => {}
+            Class::EveryKinetic => library::check_every_kinetic(&named)?,
+            Class::ManyParts => return schemes.for_many_parts(&named),
+        }
+        library::check_processor(&named, self.no_processor)?;
+        Ok(named)
+    }
+}

@@ -1,0 +1,142 @@
+//! Transformed time: the system in q, t and p, p_t.
+
+use serde_json::{Value, json};
+use shadowstep::number::Rounded;
+use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
+use shadowstep::{Kinetic, Motion, MotionError, Number, Ordered, Potential};
+
+use super::{Class, Needs, Shown, Split, State};
+use crate::boxed::Boxed;
+use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
+use crate::scene::{ClassifiedKinetic, EnergyAt, InitialValueProblem};
+use crate::start::{Steps, Work};
+
+/// f(T + p_t) and −f(−U): the steps are in a fictitious time.
+#[derive(Clone, Copy, Debug)]
+pub struct TransformedTime(TimeTransformation);
+
+/// What helps where another scheme is needed.
+const COMPOSITION: &str = "use a composition of the leapfrog, such as sofroniou-spaletta6-13";
+
+impl Split for TransformedTime {
+    fn needs(&self, _: &InitialValueProblem) -> Needs {
+        Needs {
+            no_gradient_kicks: Some(NoGradientKicks {
+                reason: "but in transformed time no part of H is a quadratic form of the momenta",
+                hint: COMPOSITION,
+            }),
+            // the last step to a physical time is one of the kernel
+            no_processor: Some(NoProcessor { reason: "transformed time does not have", hint: COMPOSITION }),
+            no_ensembles: Some(Refusal::new(
+                "an ensemble has no transformed time: its steps end at different times",
+                "remove [time]",
+            )),
+            ..Needs::of_class(Class::EveryKinetic)
+        }
+    }
+
+    fn key(&self) -> (&'static str, &'static str) {
+        ("time", "transform")
+    }
+
+    fn metadata(&self) -> Option<(&'static str, Value)> {
+        Some(("time", json!(self.0.to_string())))
+    }
+
+    /// q, 0 and p, −H
+    fn start<N: Number + 'static>(
+        &self,
+        problem: &InitialValueProblem,
+        (mut q, mut p): State<N>,
+        context: &N::Context,
+    ) -> State<N> {
+        let mut momentum = problem.plain_energy(context)(&q, &p);
+        momentum.negate();
+        q.push(N::zero(context));
+        p.push(momentum);
+        (q, p)
+    }
+
+    /// Without t and p_t.
+    fn shown<N: Number + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> Option<Shown<N>> {
+        let assign = |own: &[N], shown: &mut [N]| shown.iter_mut().zip(own).for_each(|(shown, own)| shown.assign(own));
+        Some(Shown::by(problem.q.len(), context, move |(q, p), shown| {
+            assign(q, shown.0);
+            assign(p, shown.1);
+        }))
+    }
+
+    fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+        let (mut energy, dimension) = (problem.plain_energy(context), problem.q.len());
+        Box::new(move |q, p| energy(&q[..dimension], &p[..dimension]))
+    }
+
+    fn with<N: Rounded + 'static, W: Work<N>>(
+        &self,
+        problem: &InitialValueProblem,
+        steps: Steps<'_>,
+        state: State<N>,
+        context: &N::Context,
+        work: W,
+    ) -> Result<W::Output, MotionError> {
+        let (time, potential) = (self.0, problem.potential(context));
+        let system = match problem.kinetic(context) {
+            ClassifiedKinetic::Quadratic(kinetic) => motion(time, potential, kinetic, state, steps.compensated)?,
+            ClassifiedKinetic::General(kinetic) => motion(time, potential, kinetic, state, steps.compensated)?,
+        };
+        Ok(steps.begin(steps.scheme.clone(), system, context, work))
+    }
+
+    fn transformed_time(&self) -> Option<TimeTransformation> {
+        Some(self.0)
+    }
+}
+
+impl TransformedTime {
+    /// The parts of a problem in this time; `plain` if they are T(p) and U(q) without it.
+    ///
+    /// # Errors
+    /// A system that is split in another way, or whose U is not negative at its initial state.
+    pub(crate) fn of(time: TimeTransformation, problem: &InitialValueProblem, plain: bool) -> Result<Self, Refusal> {
+        if !plain {
+            return Err(Refusal::new(
+                "transformed time requires the parts T(p) and U(q): others have no explicit flows in it",
+                "remove [time], or write `parts = \"kinetic-potential\"`",
+            ));
+        }
+        match wrong_sign(problem) {
+            Some(message) => Err(Refusal::new(
+                message,
+                "remove [time]; transformed time is for attraction whose potential is 0 at infinity, as in gravity",
+            )),
+            None => Ok(TransformedTime(time)),
+        }
+    }
+}
+
+/// Why the initial state has no transformed time, in double precision.
+fn wrong_sign(problem: &InitialValueProblem) -> Option<String> {
+    let (q, _) = problem.initial::<f64>(&());
+    let potential = problem.potential::<f64>(&());
+    let mut scratch = vec![0.0; potential.scratch()];
+    potential.prepare(&mut scratch, &());
+    let mut energy = <f64 as Number>::zero(&());
+    potential.energy(&q, &mut energy, &mut scratch);
+    (energy >= 0.0).then(|| {
+        format!(
+            "transformed time requires U < 0 on the whole orbit, as time runs at a rate that is a function of -U; at t = 0 U is {}",
+            energy.to_text()
+        )
+    })
+}
+
+fn motion<N: Number + 'static, K: Kinetic<N> + 'static>(
+    time: TimeTransformation,
+    potential: Box<dyn Potential<N>>,
+    kinetic: K,
+    (q, p): (Vec<N>, Vec<N>),
+    compensated: bool,
+) -> Result<Boxed<N>, MotionError> {
+    let (potential, kinetic) = (TransformedPotential::new(time, potential), TransformedKinetic::new(time, kinetic));
+    Ok(Boxed::General(Box::new(Motion::new(potential, kinetic, q, p)?.compensated_if(compensated))))
+}
