@@ -6,11 +6,11 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use serde::Serialize;
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_stability::{CaseEntry, Finding, Row, Suite, entries, examine, files, names};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::output::Output;
 use crate::quantity::whole;

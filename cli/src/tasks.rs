@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use shadowstep_scenes::Temporary;
-use shadowstep_tasks::{Error, Observer, Progress};
+use shadowstep_studies::{Error, Observer, Progress};
 use tempfile::TempDir;
 
 use crate::interrupt::Interrupt;

@@ -10,7 +10,7 @@ use crate::measured::{Drift, Energies, Measure, Orbit};
 use crate::noise::{self, Block, Differences};
 use crate::run::{EXACT_FLOW, Run};
 use crate::states::Recorded;
-use shadowstep_tasks::{Task, Watcher};
+use shadowstep_studies::{Task, Watcher};
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
 const REVISION: u32 = 6;

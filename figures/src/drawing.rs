@@ -1,9 +1,9 @@
 //! The content of a figure: what the paper states, charts, results, and whether the results agree.
 
 use crate::Error;
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::page::{Picture, Section, Statement, Table};
-use shadowstep_report::verdict::Verdict;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::page::{Picture, Section, Statement, Table};
+use shadowstep_studies::verdict::Verdict;
 
 /// The axis of drifts over [0, 100].
 pub(crate) fn drift_axis() -> Axis {

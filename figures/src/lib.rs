@@ -45,4 +45,4 @@ mod run;
 mod states;
 
 pub use reproduction::{Request, Summary, names, reproduce};
-pub use shadowstep_tasks::{Error, Observer, Progress};
+pub use shadowstep_studies::{Error, Observer, Progress};

@@ -11,8 +11,8 @@ use crate::figure::Figure;
 use crate::figures::FIGURES;
 use crate::results::Results;
 use crate::{Error, Observer};
-use shadowstep_report::page::{Report, Section};
-use shadowstep_tasks::Store;
+use shadowstep_studies::Store;
+use shadowstep_studies::page::{Report, Section};
 
 /// Which figures are wanted, and where.
 #[derive(Clone, Debug)]

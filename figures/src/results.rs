@@ -17,8 +17,8 @@ use crate::noise::{Block, Differences};
 use crate::numbers::{Wide, log10, number};
 use crate::run::Run;
 use crate::{Error, Observer};
-use shadowstep_report::verdict::Coverage;
-use shadowstep_tasks::{self as tasks, Store};
+use shadowstep_studies::verdict::Coverage;
+use shadowstep_studies::{self as tasks, Store};
 
 /// The results of all figures.
 pub(crate) struct Results {

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use shadowstep::number::Rounded;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
-use shadowstep_tasks::{Task, Watcher};
+use shadowstep_studies::{Task, Watcher};
 
 use crate::finding::Finding;
 use crate::suite::Suite;

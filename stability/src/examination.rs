@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use shadowstep_scenes::Error;
+use shadowstep_studies::{Observer, Store, run};
 use shadowstep_symbolic::suggestion;
-use shadowstep_tasks::{Observer, Store, run};
 
 use crate::case::{Entry, Trial};
 use crate::cases::CASES;

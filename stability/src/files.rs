@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use shadowstep_report::page::{Picture, Report, Section, Statement};
-use shadowstep_report::verdict::Counts;
 use shadowstep_scenes::{Error, WholeFile};
-use shadowstep_tasks::Store;
+use shadowstep_studies::Store;
+use shadowstep_studies::page::{Picture, Report, Section, Statement};
+use shadowstep_studies::verdict::Counts;
 
 use crate::examination::{CaseEntry, names};
 use crate::finding::Finding;

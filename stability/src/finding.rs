@@ -1,8 +1,8 @@
 //! What a case has shown.
 
 use serde::Serialize;
-use shadowstep_report::chart::Chart;
-use shadowstep_report::verdict::Verdict;
+use shadowstep_studies::chart::Chart;
+use shadowstep_studies::verdict::Verdict;
 
 /// Rows with verdicts, charts, remarks.
 #[derive(Debug, Default)]

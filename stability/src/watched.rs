@@ -5,8 +5,8 @@ use shadowstep::number::Rounded;
 use shadowstep::problems::{ProblemMotion, Setup, problem};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::{Rational, Stepper};
-use shadowstep_report::verdict::Verdict as Agreement;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_studies::verdict::Verdict as Agreement;
 
 use crate::case::Continues;
 

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use shadowstep_scenes::family::Meaning;
 use shadowstep_scenes::{Error, WholeFile};
-use shadowstep_tasks::{Observer, Progress};
+use shadowstep_studies::{Observer, Progress};
 use std::io::Write;
 
 use crate::axes::Axes;

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use shadowstep_scenes::Error;
 use shadowstep_scenes::family::Parsed;
-use shadowstep_tasks::{Observer, Progress};
+use shadowstep_studies::{Observer, Progress};
 
 use crate::chunk::{self, Chunk, Header};
 use crate::manifest::{Manifest, VERSION};

@@ -9,7 +9,7 @@ use shadowstep::exact_flow::has_exact_flow;
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_tasks::{Observer, Store};
+use shadowstep_studies::{Observer, Store};
 
 use crate::best::cost_of;
 use crate::calculation::{Calculation, Outcome};

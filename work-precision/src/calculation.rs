@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_tasks::{Task, Watcher};
+use shadowstep_studies::{Task, Watcher};
 
 use crate::problem::Problem;
 use crate::reference::Reference;

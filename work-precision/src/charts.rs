@@ -1,6 +1,6 @@
 //! Work–precision diagrams: errors against cost, a curve for each scheme.
 
-use shadowstep_report::chart::{Axis, Chart, Curve};
+use shadowstep_studies::chart::{Axis, Chart, Curve};
 
 use crate::best::{self, cost_of};
 use crate::of::Of;

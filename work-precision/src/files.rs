@@ -3,9 +3,9 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use shadowstep_report::page::{self, Report, Section};
 use shadowstep_scenes::{Error, WholeFile};
-use shadowstep_tasks::Store;
+use shadowstep_studies::Store;
+use shadowstep_studies::page::{self, Report, Section};
 
 use crate::study::Study;
 

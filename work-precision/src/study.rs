@@ -7,7 +7,7 @@ use num_integer::Integer;
 use shadowstep::Scheme;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_tasks::{Observer, Store, run};
+use shadowstep_studies::{Observer, Store, run};
 
 use crate::best::{Curve, cost_of};
 use crate::calculation::{Calculation, Outcome};

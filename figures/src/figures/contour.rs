@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use crate::drawing::Drawing;
 use crate::figure::Figure;
 use crate::results::Results;
-use shadowstep_report::chart::{Axis, Curve, Marker};
+use shadowstep_studies::chart::{Axis, Curve, Marker};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "contour",

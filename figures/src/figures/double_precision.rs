@@ -5,8 +5,8 @@ use crate::figure::Figure;
 use crate::noise::{Block, Differences};
 use crate::numbers::scientific;
 use crate::results::Results;
-use shadowstep_report::chart::{Axis, Curve};
-use shadowstep_report::verdict::Coverage;
+use shadowstep_studies::chart::{Axis, Curve};
+use shadowstep_studies::verdict::Coverage;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "double-precision", title: "The noise floor of double precision", of_paper: "", draw };

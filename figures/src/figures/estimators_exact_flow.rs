@@ -8,7 +8,7 @@ use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::EXACT_FLOW;
-use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_studies::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "estimators-exact-flow", title: "Estimators on the exact flow", of_paper: "", draw };

@@ -9,7 +9,7 @@ use crate::fit::logarithms;
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, SCHEMES};
-use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_studies::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "estimators-schemes", title: "Estimators on schemes", of_paper: "", draw };

@@ -7,7 +7,7 @@ use crate::figure::Figure;
 use crate::fit::logarithms;
 use crate::numbers::{decimal, power};
 use crate::results::Results;
-use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_studies::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "henon-heiles-bilinear", title: "Hénon–Heiles by the bilinear estimator", of_paper: "", draw };

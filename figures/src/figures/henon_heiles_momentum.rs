@@ -5,8 +5,8 @@ use crate::drawing::{Drawing, drift_axis};
 use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::results::Results;
-use shadowstep_report::chart::{Axis, Curve, Mark};
-use shadowstep_report::verdict::Verdict;
+use shadowstep_studies::chart::{Axis, Curve, Mark};
+use shadowstep_studies::verdict::Verdict;
 
 pub(super) const FIGURE: Figure = Figure {
     name: "henon-heiles-momentum",

@@ -8,8 +8,8 @@ use crate::fit::{DECAY_HEADER, ExponentialDecay, Ratio, decay, decay_row, logari
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::SCHEMES;
-use shadowstep_report::chart::{Axis, Curve};
-use shadowstep_report::verdict::Verdict;
+use shadowstep_studies::chart::{Axis, Curve};
+use shadowstep_studies::verdict::Verdict;
 
 pub(super) const FIGURE: Figure = Figure {
     name: "henon-heiles-step",

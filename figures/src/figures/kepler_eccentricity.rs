@@ -8,8 +8,8 @@ use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
-use shadowstep_report::chart::{Axis, Curve, Mark};
-use shadowstep_report::verdict::{Coverage, Verdict};
+use shadowstep_studies::chart::{Axis, Curve, Mark};
+use shadowstep_studies::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "kepler-eccentricity",

@@ -10,8 +10,8 @@ use crate::measured::Energies;
 use crate::numbers::{Wide, number, power};
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, SCHEMES};
-use shadowstep_report::chart::{Axis, Curve, Mark, power_of_ten};
-use shadowstep_report::verdict::Verdict;
+use shadowstep_studies::chart::{Axis, Curve, Mark, power_of_ten};
+use shadowstep_studies::verdict::Verdict;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "kepler-energies", title: "Kepler: the modified energy in time", of_paper: "figure 4", draw };

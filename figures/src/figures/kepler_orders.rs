@@ -11,7 +11,7 @@ use crate::interval::Interval;
 use crate::measured::Energies;
 use crate::numbers::{Wide, number, power};
 use crate::results::Results;
-use shadowstep_report::chart::{Axis, Curve, Marker};
+use shadowstep_studies::chart::{Axis, Curve, Marker};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "kepler-orders",

@@ -8,7 +8,7 @@ use crate::fit::{DECAY_HEADER, Ratio, decay_row, logarithms, same_rates};
 use crate::interval::Interval;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, SCHEMES};
-use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_studies::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "kepler-schemes",

@@ -12,7 +12,7 @@ use crate::fit::{DECAY_HEADER, against_aliasing, decay_row, theory_row};
 use crate::numbers::{Wide, number, power};
 use crate::results::Results;
 use crate::run::EXACT_FLOW;
-use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_studies::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "kepler-step", title: "Kepler: drift against the step size", of_paper: "figure 3, left", draw };

@@ -13,8 +13,8 @@ use crate::fit::{DECAY_HEADER, ROUND_OFF, decay, decay_row, logarithms, theory_r
 use crate::numbers::{decimal, power};
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, Run};
-use shadowstep_report::chart::{Axis, Curve};
-use shadowstep_report::verdict::{Coverage, Verdict};
+use shadowstep_studies::chart::{Axis, Curve};
+use shadowstep_studies::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "pendulum-bilinear", title: "The pendulum by the bilinear estimator", of_paper: "", draw };

@@ -8,7 +8,7 @@ use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
 use shadowstep::problems::Problem;
-use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_studies::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "pendulum-momentum",

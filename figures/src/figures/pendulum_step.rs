@@ -13,8 +13,8 @@ use crate::fit::{DECAY_HEADER, ROUND_OFF, against_aliasing, decay, decay_row, th
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
-use shadowstep_report::chart::{Axis, Curve};
-use shadowstep_report::verdict::{Coverage, Verdict};
+use shadowstep_studies::chart::{Axis, Curve};
+use shadowstep_studies::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "pendulum-step", title: "The pendulum: drift against the step size", of_paper: "figure 1", draw };

@@ -8,8 +8,8 @@ use crate::fit::{DECAY_HEADER, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, FORCES, SCHEMES};
-use shadowstep_report::chart::{Axis, Curve};
-use shadowstep_report::verdict::{Coverage, Verdict};
+use shadowstep_studies::chart::{Axis, Curve};
+use shadowstep_studies::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "permanent-change", title: "The permanent change of the schemes", of_paper: "", draw };

@@ -11,7 +11,7 @@ use crate::measured::Energies;
 use crate::numbers::{Wide, number};
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, Run};
-use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_studies::chart::{Axis, Curve};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "reliability", title: "Estimated errors against true errors", of_paper: "", draw };

@@ -10,7 +10,7 @@ use crate::fit::{DECAY_HEADER, decay, decay_row};
 use crate::numbers::{Wide, power};
 use crate::results::Results;
 use crate::run::Run;
-use shadowstep_report::chart::{Axis, Curve, Marker};
+use shadowstep_studies::chart::{Axis, Curve, Marker};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "scattering",

@@ -2,9 +2,9 @@
 
 use shadowstep::{Rational, Scheme};
 use shadowstep_analysis::stability::Stability;
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::System;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::finding::Finding;
 use crate::long_run::{LongCase, LongRun, Stayed};

@@ -7,9 +7,9 @@ use shadowstep::number::Rounded;
 use shadowstep::pairs::{Ends, Pairs};
 use shadowstep::problems::CubicSpring;
 use shadowstep::{Motion, Potential, Rational, Scheme, Stepper, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;

@@ -9,9 +9,9 @@ use rand_pcg::rand_core::{RngCore, SeedableRng};
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
-use shadowstep_report::chart::{Axis, Chart, Curve, Marker};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
+use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::case::{Case, Continues};

@@ -9,10 +9,10 @@ use shadowstep::linear_part::LinearPart;
 use shadowstep::number::Rounded;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Number, Rational, Stepper};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_schemes::MapKind;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;

@@ -8,12 +8,12 @@ use shadowstep::number::Rounded;
 use shadowstep::problems::Kepler;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Rational, Stepper, System, UnitMasses, exact};
-use shadowstep_report::chart::{Axis, Chart, Curve, Marker};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::proof::Order;
+use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;

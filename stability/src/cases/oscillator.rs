@@ -8,10 +8,10 @@ use shadowstep::problems::HarmonicOscillator;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Number, Rational, Stepper, System, UnitMasses, exact};
 use shadowstep_analysis::stability::Stability;
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;

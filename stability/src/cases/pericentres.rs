@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 use shadowstep::Scheme;
 use shadowstep::number::Rounded;
-use shadowstep_report::chart::{Axis, Chart, Curve, Mark};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::chart::{Axis, Chart, Curve, Mark};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;

@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::number::{Limbs, Rounded};
 use shadowstep::{Number, Ordered, Rational, Stepper};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::case::{Case, Continues};

@@ -7,9 +7,9 @@ use shadowstep::problems::Kepler;
 use shadowstep::tables::TableScheme;
 use shadowstep::wisdom_holman::{Jacobi, WisdomHolman};
 use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;

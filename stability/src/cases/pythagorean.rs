@@ -3,9 +3,9 @@
 use serde::Serialize;
 use shadowstep::Scheme;
 use shadowstep::number::Rounded;
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;

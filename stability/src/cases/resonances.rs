@@ -8,10 +8,10 @@ use shadowstep::formula::FormulaPotential;
 use shadowstep::number::Rounded;
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as Said};
 use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;

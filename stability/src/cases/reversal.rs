@@ -5,9 +5,9 @@ use shadowstep::number::Rounded;
 use shadowstep::problems::{Kepler, ProblemMotion};
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Ordered, Rational, Scheme, StepSize, Stepper, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;

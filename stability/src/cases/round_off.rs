@@ -9,10 +9,10 @@ use shadowstep::problems::Kepler;
 use shadowstep::shadow::{Bilinear, ShadowEnergy};
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;

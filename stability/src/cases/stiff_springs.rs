@@ -2,8 +2,8 @@
 
 use shadowstep::{Number, Rational, exact};
 use shadowstep_analysis::stability::Stability;
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::finding::Finding;

@@ -12,11 +12,11 @@ use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as Said};
 use shadowstep::tables::{First, TableScheme};
 use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::{Motion, Number, Rational, Stepper, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{NamedScheme, scheme_from};
 use shadowstep_schemes::MapKind;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::verdict::Verdict;
 
 use crate::case::{Case, Continues};
 use crate::finding::Finding;

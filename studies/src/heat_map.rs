@@ -13,7 +13,7 @@
 //! does not contain. Each of these has an entry in the legend, with the number of its cells.
 //!
 //! ```
-//! use shadowstep_report::heat_map::{CellAxis, Colour, HeatMap, Panel};
+//! use shadowstep_studies::heat_map::{CellAxis, Colour, HeatMap, Panel};
 //!
 //! let map = HeatMap::new(
 //!     "Kepler, 100 periods",
@@ -27,7 +27,7 @@
 //! );
 //! let svg = map.svg()?;
 //! assert!(svg.starts_with("<svg ") && svg.contains("no value: 1 cell"));
-//! # Ok::<(), shadowstep_report::Error>(())
+//! # Ok::<(), shadowstep_studies::Error>(())
 //! ```
 //!
 //! Up to 10 000 cells of at least two pixels are rectangles, of which neighbours with one colour are one. Others are an image within the

@@ -1,4 +1,4 @@
-//! Tasks on all cores. Each outcome is saved when its task is done, so that an interrupted computation can be resumed.
+//! Studies: calculations on all cores whose outcomes are saved one by one, and what is made of them: charts, verdicts, a page of HTML.
 //!
 //! | file | what it is |
 //! | --- | --- |
@@ -7,12 +7,28 @@
 //! | `threads` | groups of tasks on all cores |
 //! | `progress` | how much is done |
 //! | `store` | the file of outcomes |
+//! | [`chart`] | curves → SVG |
+//! | [`heat_map`] | cells over two quantities, coloured by a third → SVG |
+//! | [`verdict`] | whether results agree with a statement |
+//! | [`page`] | sections with charts, tables and statements → HTML, which needs neither scripts nor a network |
+//! | `indices` | subscripts in texts |
+//! | `labels` | widths of texts, labels without overlaps |
+//! | `picture` | what all pictures have in common: sizes of texts, colours on dark screens |
+//! | `ticks` | round numbers and decades on an axis |
 
+pub mod chart;
+pub mod heat_map;
+mod indices;
+mod labels;
 mod observer;
+pub mod page;
+mod picture;
 mod progress;
 mod store;
 mod task;
 mod threads;
+mod ticks;
+pub mod verdict;
 
 use std::collections::HashMap;
 
