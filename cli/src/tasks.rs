@@ -60,7 +60,7 @@ impl Terminal {
 impl Observer for Terminal {
     fn progress(&mut self, progress: Progress) {
         self.bar.get_or_insert_with(Bar::new).show(progress);
-        if progress.done == progress.tasks {
+        if progress.done == progress.all {
             self.bar = None;
         }
     }
@@ -113,9 +113,9 @@ impl Bar {
         Bar { bar, expected }
     }
 
-    fn show(&self, Progress { done, tasks, fraction }: Progress) {
+    fn show(&self, Progress { done, all, fraction }: Progress) {
         *self.expected.lock().unwrap_or_else(PoisonError::into_inner) = in_all(self.bar.elapsed(), fraction);
-        self.bar.set_prefix(format!("{done} of {tasks} calculations"));
+        self.bar.set_prefix(format!("{done} of {all} calculations"));
         self.bar.set_position((fraction * Self::LENGTH) as u64);
     }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use shadowstep_scenes::Error;
-use shadowstep_studies::{Observer, Store, run};
+use shadowstep_studies::{Observer, Store};
 use shadowstep_symbolic::suggestion;
 
 use crate::case::{Entry, Trial};
@@ -65,9 +65,7 @@ pub fn examine(
     let by_case: Vec<Vec<Trial<'_>>> = cases.iter().map(|case| case.0.trials(suite)).collect();
     let counts: Vec<usize> = by_case.iter().map(Vec::len).collect();
     let trials: Vec<Trial<'_>> = by_case.into_iter().flatten().collect();
-    let found = run(&trials, &mut store, observer)?;
-    found.failures.iter().for_each(|(_, error)| observer.failed(error));
-    let mut results = found.outcomes.into_iter();
+    let mut results = store.compute(&trials, observer)?.into_iter();
     let finding = |(case, count): (&CaseEntry, usize)| {
         let own = results.by_ref().take(count).collect();
         (*case, case.0.finding(suite, own))

@@ -6,9 +6,8 @@ use shadowstep::problems::{ProblemMotion, Setup, problem};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::{Rational, Stepper};
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_studies::Continues;
 use shadowstep_studies::verdict::Verdict as Agreement;
-
-use crate::case::Continues;
 
 /// The monitor's estimator is E_8 with its error: 9 states a window.
 const MONITOR_ORDER: u32 = 8;

@@ -1,51 +1,75 @@
-//! Groups of tasks on all cores.
+//! Groups of calculations on all cores.
 
+use std::cell::Cell;
+use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::progress::Reporter;
-use super::store::Store;
-use super::task::{Task, Watcher};
-use crate::{Error, Observer};
+use crate::progress::Reporter;
+use crate::{Calculation, Error, Observer};
 
-/// Tasks that one thread computes together.
-#[derive(Debug, Default)]
-pub(super) struct Group {
-    /// Their places in the list of all tasks.
-    pub(super) places: Vec<usize>,
-    pub(super) cost: f64,
+/// Keeps the outcome, as JSON, of the calculation at a place, and the time that it took.
+pub(crate) type Keep<'a> = dyn FnMut(usize, String, Duration) -> Result<(), Error> + Send + 'a;
+
+/// Calculations that one thread makes together.
+#[derive(Debug)]
+struct Group {
+    /// Their places in the list of all calculations.
+    places: Vec<usize>,
+    cost: f64,
 }
 
 impl Group {
-    pub(super) fn members<'a, T>(&self, tasks: &'a [T]) -> Vec<&'a T> {
-        self.places.iter().map(|&place| &tasks[place]).collect()
+    fn members<'a, C>(&self, calculations: &'a [C]) -> Vec<&'a C> {
+        self.places.iter().map(|&place| &calculations[place]).collect()
     }
 }
 
-/// Computes the groups in their order; each idle thread takes the next one.
-pub(super) fn compute<T: Task>(
-    tasks: &[T],
-    keys: &[String],
-    groups: &[Group],
-    store: &mut Store,
+/// The calculations at these places that are made together; the most expensive groups first.
+fn groups<C: Calculation>(calculations: &[C], due: &[usize]) -> Vec<Group> {
+    let mut together: HashMap<String, usize> = HashMap::new();
+    let mut groups: Vec<Group> = Vec::new();
+    for &place in due {
+        let next = groups.len();
+        let at = calculations[place].group().map_or(next, |group| *together.entry(group).or_insert(next));
+        if at == next {
+            groups.push(Group { places: Vec::new(), cost: 0.0 });
+        }
+        groups[at].places.push(place);
+    }
+    for group in &mut groups {
+        let members = group.members(calculations);
+        let own: f64 = members.iter().map(|calculation| calculation.cost()).sum();
+        group.cost = (C::cost_of_shared(&members) + own).max(0.0);
+    }
+    groups.sort_by(|a, b| b.cost.total_cmp(&a.cost));
+    groups
+}
+
+/// Makes the calculations at these places, the most expensive first; each idle thread takes the next group. Returns the failures, each
+/// with the place of its calculation.
+pub(crate) fn compute<C: Calculation>(
+    calculations: &[C],
+    due: &[usize],
+    keep: &mut Keep<'_>,
     observer: &mut dyn Observer,
 ) -> Result<Vec<(usize, Error)>, Error> {
+    let groups = &groups(calculations, due);
     let reporter = Mutex::new(Reporter::new(observer, groups.iter().map(|group| (group.places.len(), group.cost))));
     let next = AtomicUsize::new(0);
     let stop = AtomicBool::new(false);
-    let store = Mutex::new(store);
+    let keep = Mutex::new(keep);
     let failures = Mutex::new(Vec::new());
     let broken = Mutex::new(None);
     rayon::broadcast(|_| {
         while let Some((number, group)) = next_of(groups, &next).filter(|_| !stop.load(Ordering::Relaxed)) {
-            let (store, failures, broken) = (&store, &failures, &broken);
-            let (begin, stop, reporter) = (Mutex::new(Instant::now()), &stop, &reporter);
-            let watcher = InThread { group, number, keys, begin, stop, store, failures, broken, reporter };
-            T::compute(&group.members(tasks), &watcher);
+            let (keep, failures, broken) = (&keep, &failures, &broken);
+            let (stop, reporter) = (&stop, &reporter);
+            InThread { group, number, stop, keep, failures, broken, reporter }.compute(&group.members(calculations));
             locked(reporter).group_done(number);
         }
     });
@@ -68,22 +92,47 @@ fn next_of<'a, G>(groups: &'a [G], next: &AtomicUsize) -> Option<(usize, &'a G)>
 }
 
 /// Saves the outcomes of a group, and reports its progress.
-struct InThread<'a, 'o> {
+struct InThread<'a, 'k, 'o> {
     group: &'a Group,
     number: usize,
-    keys: &'a [String],
-    /// When the present task began.
-    begin: Mutex<Instant>,
     stop: &'a AtomicBool,
-    store: &'a Mutex<&'a mut Store>,
+    keep: &'a Mutex<&'a mut Keep<'k>>,
     failures: &'a Mutex<Vec<(usize, Error)>>,
     /// Why outcomes cannot be saved.
     broken: &'a Mutex<Option<Error>>,
     reporter: &'a Mutex<Reporter<'o>>,
 }
 
-impl<O: Serialize + DeserializeOwned> Watcher<O> for InThread<'_, '_> {
-    fn continues(&self, part: f64) -> bool {
+impl InThread<'_, '_, '_> {
+    /// Computes what the group shares and then each calculation, until it is stopped.
+    fn compute<C: Calculation>(&self, members: &[&C]) {
+        let mut begin = Instant::now();
+        let mut done = C::cost_of_shared(members);
+        let shared = C::share(members, &|part| self.continues(part * done));
+        for (&place, calculation) in self.group.places.iter().zip(members) {
+            let (cost, stopped) = (calculation.cost(), Cell::new(false));
+            let continues = |part: f64| {
+                let continues = self.continues(done + part * cost);
+                stopped.set(stopped.get() || !continues);
+                continues
+            };
+            if !continues(0.0) {
+                return;
+            }
+            let outcome = calculation.compute(&shared, &continues);
+            // a part of a calculation has no outcome
+            if stopped.get() {
+                return;
+            }
+            let took = std::mem::replace(&mut begin, Instant::now()).elapsed();
+            self.take(place, outcome, took);
+            done += cost;
+        }
+    }
+
+    /// So much of the cost of the group is done: whether it is to continue.
+    fn continues(&self, done: f64) -> bool {
+        let part = done / self.group.cost.max(f64::MIN_POSITIVE);
         let continues = !self.stop.load(Ordering::Relaxed) && locked(self.reporter).continues(self.number, part);
         if !continues {
             self.stop.store(true, Ordering::Relaxed);
@@ -91,21 +140,20 @@ impl<O: Serialize + DeserializeOwned> Watcher<O> for InThread<'_, '_> {
         continues
     }
 
-    fn take(&self, place: usize, outcome: Result<O, Error>) {
-        let place = self.group.places[place];
-        let took = std::mem::replace(&mut *locked(&self.begin), Instant::now()).elapsed();
+    fn take<O: Serialize + DeserializeOwned>(&self, place: usize, outcome: Result<O, Error>, took: Duration) {
         match outcome.and_then(|outcome| json(&outcome)) {
             Ok(outcome) => {
-                if let Err(error) = locked(self.store).keep(&self.keys[place], outcome, took) {
+                let keep = &mut *locked(self.keep);
+                if let Err(error) = keep(place, outcome, took) {
                     self.stop.store(true, Ordering::Relaxed);
                     *locked(self.broken) = Some(error);
                 }
             }
-            // it was stopped, and has not failed
+            // others have stopped it, and it may have failed for that
             Err(_) if self.stop.load(Ordering::Relaxed) => return,
             Err(error) => locked(self.failures).push((place, error)),
         }
-        locked(self.reporter).task_done();
+        locked(self.reporter).calculation_done();
     }
 }
 

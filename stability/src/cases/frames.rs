@@ -5,10 +5,11 @@ use shadowstep::formula::FormulaPotential;
 use shadowstep::number::Rounded;
 use shadowstep::{DiagonalMasses, Motion, Rational, Scheme, Stepper};
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
+use crate::case::Case;
 use crate::finding::Finding;
 use crate::suite::{Examined, Suite};
 

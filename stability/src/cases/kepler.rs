@@ -10,11 +10,12 @@ use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
 use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::case::{Case, Continues};
+use crate::case::Case;
 use crate::finding::Finding;
 use crate::suite::Suite;
 use crate::watched::{Next, Watched, setup, watched};

@@ -11,10 +11,11 @@ use shadowstep::tables::TableScheme;
 use shadowstep::{Number, Rational, Stepper};
 use shadowstep_scenes::Error;
 use shadowstep_schemes::MapKind;
+use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
+use crate::case::Case;
 use crate::finding::Finding;
 use crate::growth::{TOLERANCE, growth, size, steps_to_see};
 use crate::suite::{Examined, Suite};

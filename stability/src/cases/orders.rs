@@ -12,10 +12,11 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::proof::Order;
+use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
+use crate::case::Case;
 use crate::finding::Finding;
 use crate::suite::{Examined, Suite};
 

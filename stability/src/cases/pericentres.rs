@@ -6,10 +6,11 @@ use serde::Serialize;
 use shadowstep::Scheme;
 use shadowstep::number::Rounded;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Mark};
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
+use crate::case::Case;
 use crate::finding::Finding;
 use crate::scene_run::{Said, digits, run_scene};
 use crate::suite::Suite;

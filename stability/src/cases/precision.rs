@@ -6,11 +6,12 @@ use shadowstep::{Number, Ordered, Rational, Stepper};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::from_text;
 
-use crate::case::{Case, Continues};
+use crate::case::Case;
 use crate::finding::Finding;
 use crate::suite::Suite;
 use crate::watched::setup;

@@ -4,10 +4,11 @@ use serde::Serialize;
 use shadowstep::Scheme;
 use shadowstep::number::Rounded;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
+use crate::case::Case;
 use crate::finding::Finding;
 use crate::scene_run::{Ended, Said, digits, run_scene};
 use crate::suite::{Examined, Suite};

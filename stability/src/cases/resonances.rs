@@ -10,10 +10,11 @@ use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as Said};
 use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
+use crate::case::Case;
 use crate::finding::Finding;
 use crate::linear_step::LinearStep;
 use crate::suite::{Examined, Suite};

@@ -6,10 +6,11 @@ use shadowstep::problems::{Kepler, ProblemMotion};
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Ordered, Rational, Scheme, StepSize, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
+use crate::case::Case;
 use crate::finding::Finding;
 use crate::suite::Suite;
 use crate::watched::setup;

@@ -11,10 +11,11 @@ use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
+use crate::case::Case;
 use crate::finding::Finding;
 use crate::suite::{Examined, Suite};
 

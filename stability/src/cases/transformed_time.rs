@@ -15,10 +15,11 @@ use shadowstep::{Motion, Number, Rational, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{NamedScheme, scheme_from};
 use shadowstep_schemes::MapKind;
+use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
+use crate::case::Case;
 use crate::finding::Finding;
 use crate::suite::{Examined, Suite};
 
