@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use shadowstep_scenes::Temporary;
+use shadowstep_studies::files::refuse_foreign;
 use shadowstep_studies::{Error, Observer, Progress};
 use tempfile::TempDir;
 
@@ -42,6 +43,22 @@ impl Folder {
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
+}
+
+/// Makes a study in the folder of `--out`, or in one that is removed afterwards, and shows its progress; returns what it has found, and the
+/// worst that has happened. Files of these names that others wrote are refused, unless it is forced.
+pub(crate) fn study_in<T>(
+    out: Option<&Path>,
+    force: bool,
+    written: impl Iterator<Item = String>,
+    study: impl FnOnce(&Path, &mut Terminal) -> Result<T, Error>,
+) -> Result<(T, Status), Error> {
+    if let Some(folder) = out.filter(|_| !force) {
+        refuse_foreign(folder, written)?;
+    }
+    let mut terminal = Terminal::listen(out.map_or(NOT_SAVED, |_| SAVED));
+    let folder = Folder::of(out)?;
+    Ok((study(folder.path(), &mut terminal)?, terminal.status))
 }
 
 /// What can be done after an interruption.

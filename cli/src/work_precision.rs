@@ -3,7 +3,7 @@
 mod table;
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
@@ -11,7 +11,7 @@ use shadowstep::Rational;
 use shadowstep_scenes::library::{self, NamedScheme, scheme};
 use shadowstep_scenes::{Error, Parts, System};
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_work_precision::files::{Title, refuse_foreign, write};
+use shadowstep_work_precision::files::{Title, write, written};
 use shadowstep_work_precision::schemes::default_schemes;
 use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::study::Request;
@@ -22,7 +22,7 @@ use crate::output::Output;
 use crate::posed::{Posed, PosedArguments};
 use crate::quantity;
 use crate::report::{self, Status};
-use crate::tasks::{SAVED, Terminal};
+use crate::tasks::{Terminal, study_in};
 use table::readable;
 
 const EXAMPLE: &str = "\
@@ -68,16 +68,14 @@ const REFERENCE: f64 = 10.0;
 /// Makes the runs, and writes charts and data.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let posed = Posed::read(&arguments.posed)?;
-    if !arguments.force {
-        refuse_foreign(&arguments.out)?;
-    }
     let problem = posed.problem();
     let schemes = schemes(&arguments.schemes, &posed)?;
     let range = range(arguments, &posed.until)?;
-    let mut terminal = Terminal::listen(SAVED);
     let reference_time = Duration::from_secs_f64(REFERENCE * arguments.seconds);
-    let request = Request { problem, schemes: &schemes, range, reference_time, folder: arguments.out.clone() };
-    let study = request.study(&mut terminal)?;
+    let study = |folder: &Path, terminal: &mut Terminal| {
+        Request { problem, schemes: &schemes, range, reference_time, folder: folder.to_owned() }.study(terminal)
+    };
+    let (study, status) = study_in(Some(&arguments.out), arguments.force, written(), study)?;
     let (title, command) = (posed.title(), command());
     let title = Title { title: &title, hamiltonian: &posed.described.hamiltonian, command: &command };
     let report = write(&study, title, &arguments.out)?;
@@ -85,7 +83,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     write!(output, "{}", readable(&posed, &study, on_stdout()))?;
     writeln!(output, "{}", report.display())?;
     output.finish()?;
-    Ok(terminal.status)
+    Ok(status)
 }
 
 /// The command line as it was given, for the head of the files.

@@ -6,9 +6,9 @@ use serde_json::{Value, json};
 use shadowstep::number::Rounded;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+use shadowstep_studies::finding::Finding;
 use shadowstep_studies::{Calculation, Continues};
 
-use crate::finding::Finding;
 use crate::suite::Suite;
 
 /// A hard case: what theory predicts, what is computed to see it, and whether it holds.
@@ -71,7 +71,7 @@ impl Entry {
 
     /// What their results, in the same order, show.
     pub(crate) fn finding(&self, suite: &Suite, results: Vec<Option<Value>>) -> Finding {
-        (self.finding)(suite, results)
+        Finding { stated: vec![self.theory.to_owned()], ..(self.finding)(suite, results) }
     }
 }
 

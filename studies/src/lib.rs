@@ -8,8 +8,11 @@
 //! | `observer` | how a caller follows it |
 //! | [`chart`] | curves → SVG |
 //! | [`heat_map`] | cells over two quantities, coloured by a third → SVG |
+//! | `named` | the parts of a study by their names |
+//! | [`finding`] | what a part of a study has shown: charts, results, statements, tables |
 //! | [`verdict`] | whether results agree with a statement |
-//! | [`page`] | sections with charts, tables and statements → HTML, which needs neither scripts nor a network |
+//! | [`files`] | the files in the folder of a study |
+//! | [`page`] | findings → HTML, which needs neither scripts nor a network |
 //! | `indices` | subscripts in texts |
 //! | `labels` | widths of texts, labels without overlaps |
 //! | `picture` | what all pictures have in common: sizes of texts, colours on dark screens |
@@ -17,9 +20,12 @@
 
 mod calculation;
 pub mod chart;
+pub mod files;
+pub mod finding;
 pub mod heat_map;
 mod indices;
 mod labels;
+mod named;
 mod observer;
 pub mod page;
 mod picture;
@@ -30,6 +36,7 @@ mod ticks;
 pub mod verdict;
 
 pub use calculation::{Calculation, Continues};
+pub use named::named;
 pub use observer::{Observer, Progress};
 pub use shadowstep_scenes::Error;
 pub use store::Store;

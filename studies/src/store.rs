@@ -59,7 +59,7 @@ impl Store {
     }
 
     /// Whether a folder has such a file.
-    pub fn is_in(folder: &Path) -> bool {
+    pub(crate) fn is_in(folder: &Path) -> bool {
         folder.join(NAME).exists()
     }
 

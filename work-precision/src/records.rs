@@ -1,6 +1,8 @@
 //! The results as rows: CSV, and JSON lines with the same keys.
 
 use serde::Serialize;
+use shadowstep_scenes::Error;
+use shadowstep_studies::files;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::run::{Measurement, PositionError};
@@ -43,12 +45,8 @@ impl Study<'_> {
     ///
     /// # Errors
     /// None but those of the CSV writer, which does not fail on texts.
-    pub fn csv(&self, head: &[String]) -> Result<String, csv::Error> {
-        let lines: String = head.iter().map(|line| format!("# {line}\n")).collect();
-        let mut csv = csv::Writer::from_writer(lines.into_bytes());
-        self.records().try_for_each(|record| csv.serialize(record))?;
-        let bytes = csv.into_inner().map_err(|error| error.into_error())?;
-        Ok(String::from_utf8(bytes).expect("CSV of texts is a text"))
+    pub fn csv(&self, head: &[String]) -> Result<String, Error> {
+        files::csv(head, self.records())
     }
 
     /// All runs as JSON objects, a line each.

@@ -8,10 +8,10 @@ use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
-use crate::finding::Finding;
 use crate::suite::{Examined, Suite};
 use crate::watched::{Next, Watched, setup, watched};
 
@@ -102,7 +102,7 @@ impl Case for Fput {
                 found.watched.verdict
             );
             let recurs = (RECURS.0..RECURS.1).contains(&time) && back > BACK && least < SPREAD;
-            finding.row(name, what, Verdict::of_all([Verdict::from(recurs), found.watched.is_fine()]));
+            finding.check(name, what, Verdict::of_all([Verdict::from(recurs), found.watched.is_fine()]));
             curves.push(Curve::line(name.clone(), found.first_mode.clone(), i));
         }
         let (x, y) = (Axis::linear("t"), Axis::linear("part of its initial energy").over(0.0, 1.05));

@@ -6,10 +6,10 @@ use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
-use crate::finding::Finding;
 use crate::suite::{Examined, Suite};
 use crate::watched::{Next, Watched, setup, watched};
 
@@ -156,7 +156,7 @@ impl Case for HenonHeiles {
             };
             let kind = format!("{:?}", trial.kind).to_lowercase();
             let name = &suite.scheme(&trial.scheme).name;
-            finding.row(name, format!("{kind}: {found}"), verdict);
+            finding.check(name, format!("{kind}: {found}"), verdict);
             if trial.kind != Kind::Escaping && curves.len() < MOST_CURVES {
                 curves.push(Curve::line(format!("{name}, {kind}"), one.growing.clone(), curves.len()));
             }

@@ -2,8 +2,8 @@
 
 use shadowstep::Rational;
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_studies::finding::Finding;
 
-use crate::finding::Finding;
 use crate::long_run::{LongCase, LongRun, Stayed, staying};
 use crate::suite::Suite;
 

@@ -6,10 +6,10 @@ use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
-use crate::finding::Finding;
 use crate::suite::{Examined, Suite};
 use crate::watched::{Next, Watched, setup, watched};
 
@@ -104,7 +104,7 @@ impl Case for Pendulum {
             let largest = all.iter().map(|(_, moved)| moved.energy_error).fold(0.0, f64::max);
             let found = format!("{}; error of H {largest:.1e} at most", parts.join(", "));
             let name = &suite.scheme(&all[0].0.scheme).name;
-            finding.row(name, found, Verdict::of_all(verdicts));
+            finding.check(name, found, Verdict::of_all(verdicts));
             let point = |(trial, moved): &(Trial, Moved)| (momentum(trial.momentum), moved.energy_error.log10());
             curves.push(Curve::marked(name.clone(), all.iter().map(point).collect(), curves.len()));
         }

@@ -12,10 +12,10 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
-use crate::finding::Finding;
 use crate::linear_step::LinearStep;
 use crate::suite::{Examined, Suite};
 
@@ -105,7 +105,7 @@ impl Case for Resonances {
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let (found, verdict) = compared(all);
             let name = &suite.scheme(&all[0].0.scheme).name;
-            finding.row(name, found, verdict);
+            finding.check(name, found, verdict);
             let point = |(trial, variation): &(Trial, Variation)| {
                 Some(((1.0 + trial.off) / f64::from(trial.n), (variation.ratio? - 1.0).log10()))
             };
