@@ -8,7 +8,7 @@ use shadowstep_figures::{Error, Request, reproduce, written};
 
 use crate::output::Output;
 use crate::report::Status;
-use crate::tasks::{Terminal, study_in};
+use crate::terminal::{Terminal, study_in};
 
 const EXAMPLE: &str = "\
 Examples:

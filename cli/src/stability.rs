@@ -14,10 +14,11 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::output::Output;
+use crate::posed::check_digits;
 use crate::quantity::whole;
 use crate::readable::wrapped_to;
 use crate::report::{self, Status};
-use crate::tasks::{Terminal, study_in};
+use crate::terminal::{Terminal, study_in};
 
 const EXAMPLE: &str = "\
 Examples:
@@ -94,8 +95,7 @@ fn suite(arguments: &Arguments) -> Result<Suite, Error> {
     let mut schemes: Vec<NamedScheme> = Vec::new();
     for word in &arguments.schemes {
         let named = scheme(word)?;
-        let suits = arithmetic.suits(&named);
-        suits.map(drop).map_err(|error| Error::usage(error.to_string(), format!("use --digits {}", error.most)))?;
+        check_digits(&named, arithmetic)?;
         named.note().iter().for_each(report::note);
         if !schemes.iter().any(|other| other.name == named.name) {
             schemes.push(named);

@@ -19,10 +19,10 @@ use shadowstep_work_precision::study::Request;
 use crate::colour::on_stdout;
 use crate::invocation;
 use crate::output::Output;
-use crate::posed::{Posed, PosedArguments};
+use crate::posed::{Posed, PosedArguments, check_digits};
 use crate::quantity;
 use crate::report::{self, Status};
-use crate::tasks::{Terminal, study_in};
+use crate::terminal::{Terminal, study_in};
 use table::readable;
 
 const EXAMPLE: &str = "\
@@ -149,8 +149,7 @@ fn is_valid(scheme: &NamedScheme, system: &System, posed: &Posed) -> Result<(), 
         _ => Ok(()),
     };
     valid.map_err(|(message, hint)| Error::usage(message, hint))?;
-    let suits = posed.arithmetic.suits(scheme);
-    suits.map(drop).map_err(|error| Error::usage(error.to_string(), format!("use --digits {}", error.most)))
+    check_digits(scheme, posed.arithmetic)
 }
 
 /// The steps: those of the flag, or chosen for each scheme.

@@ -55,7 +55,7 @@ impl Report {
     }
 
     /// The text of the page: first what was found, then how.
-    pub fn html(&self) -> String {
+    pub(crate) fn html(&self) -> String {
         let page = html! {
             (DOCTYPE)
             html lang="en" {

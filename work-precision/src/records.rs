@@ -50,10 +50,7 @@ impl Study<'_> {
     }
 
     /// All runs as JSON objects, a line each.
-    ///
-    /// # Errors
-    /// A time that is not finite, which clocks do not give.
-    pub fn json_lines(&self) -> Result<String, serde_json::Error> {
+    pub(crate) fn json_lines(&self) -> Result<String, Error> {
         self.records().map(|record| Ok(serde_json::to_string(&record)? + "\n")).collect()
     }
 

@@ -12,7 +12,7 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
-use crate::suite::{Examined, Suite};
+use crate::suite::{Examined, OF_ORDERS_2_TO_8, Suite};
 use crate::watched::{Next, Watched, setup, watched};
 
 /// The case.
@@ -41,7 +41,6 @@ const STEPS_A_UNIT: i64 = 10;
 const RECURS: (f64, f64) = (9_800.0, 10_700.0);
 const BACK: f64 = 0.95;
 const SPREAD: f64 = 0.3;
-const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
 impl Case for Fput {
     const NAME: &'static str = "fput";
@@ -55,7 +54,7 @@ impl Case for Fput {
     type Measured = Recurrence;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let schemes = suite.schemes_or(&SCHEMES);
+        let schemes = suite.schemes_or(&OF_ORDERS_2_TO_8);
         schemes.iter().map(|scheme: &&Examined| Trial { scheme: scheme.identity.clone(), until: 12_000 }).collect()
     }
 

@@ -10,7 +10,7 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
-use crate::suite::{Examined, Suite};
+use crate::suite::{Examined, OF_ORDERS_2_TO_8, Suite};
 use crate::watched::{Next, Watched, setup, watched};
 
 /// The case.
@@ -58,7 +58,6 @@ const NEAR: f64 = 1e-10;
 const SAMPLES: u64 = 200;
 /// Curves that can be told apart.
 const MOST_CURVES: usize = 12;
-const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
 impl Kind {
     /// The initial state: H = 0.005; H = 1/8 from the chaotic sea; H = 0.2, above 1/6.
@@ -92,7 +91,7 @@ impl Case for HenonHeiles {
                 steps: steps / evaluations,
             })
         };
-        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+        suite.schemes_or(&OF_ORDERS_2_TO_8).iter().flat_map(of).collect()
     }
 
     fn seconds(suite: &Suite, trial: &Trial) -> f64 {

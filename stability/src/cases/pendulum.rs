@@ -10,7 +10,7 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
-use crate::suite::{Examined, Suite};
+use crate::suite::{Examined, OF_ORDERS_2_TO_8, Suite};
 use crate::watched::{Next, Watched, setup, watched};
 
 /// The case.
@@ -39,7 +39,6 @@ pub(super) struct Moved {
 const MOMENTA: [&str; 7] = ["1.9", "1.99", "1.999999", "2", "2.000001", "2.01", "2.1"];
 /// Steps of 1/20 for each evaluation of the force.
 const STEPS_A_UNIT: i64 = 20;
-const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
 impl Case for Pendulum {
     const NAME: &'static str = "pendulum";
@@ -56,7 +55,7 @@ impl Case for Pendulum {
         let steps = suite.thorough(300_000, 20_000);
         let of =
             |scheme: &&Examined| MOMENTA.map(|momentum| Trial { scheme: scheme.identity.clone(), momentum, steps });
-        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+        suite.schemes_or(&OF_ORDERS_2_TO_8).iter().flat_map(of).collect()
     }
 
     fn seconds(suite: &Suite, trial: &Trial) -> f64 {

@@ -1,4 +1,4 @@
-//! Tasks of very different costs on a terminal: how far they are, notes and failures, Ctrl-C.
+//! Studies on a terminal: how far their calculations are, notes and failures, Ctrl-C; the folder of what is saved.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use crate::report::{self, Status};
 
 /// Shows on stderr what happens, and ends on Ctrl-C.
 pub(crate) struct Terminal {
-    /// While there are tasks.
+    /// While there are calculations.
     bar: Option<Bar>,
     /// The worst that has happened.
     pub(crate) status: Status,
@@ -100,10 +100,10 @@ impl Observer for Terminal {
     }
 }
 
-/// A bar on stderr, if that is a terminal; its length is the cost of all tasks, not their number.
+/// A bar on stderr, if that is a terminal; its length is the cost of all calculations, not their number.
 struct Bar {
     bar: ProgressBar,
-    /// The time that all tasks take together, as estimated from what is done.
+    /// The time that all calculations take together, as estimated from what is done.
     expected: Arc<Mutex<Option<Duration>>>,
 }
 
@@ -137,7 +137,7 @@ impl Bar {
     }
 }
 
-/// The time of all tasks if a fraction of their cost took `elapsed`; `None` while that cannot be estimated: the first
+/// The time of all calculations if a fraction of their cost took `elapsed`; `None` while that cannot be estimated: the first
 /// calculations may be cheaper or more expensive than those that follow.
 fn in_all(elapsed: Duration, fraction: f64) -> Option<Duration> {
     if elapsed < Duration::from_secs(3) || fraction < 0.05 {
@@ -156,7 +156,7 @@ impl Drop for Bar {
 mod tests {
     use super::*;
 
-    /// Nine tenths of the cost are done, however many tasks that is: a ninth of the time is left.
+    /// Nine tenths of the cost are done, however many calculations that is: a ninth of the time is left.
     #[test]
     fn time_is_estimated_from_costs() {
         assert_eq!(in_all(Duration::from_secs(90), 0.9), Some(Duration::from_secs(100)));
