@@ -40,7 +40,8 @@ pub fn written() -> impl Iterator<Item = String> {
 /// Computes what the folder does not have yet, and writes charts, data and the report.
 ///
 /// Each figure `name` gets `name.svg`, or `name-1.svg` and so on, and its results as CSV. The report keeps the figures of
-/// earlier calls whose results are complete. A failed calculation is reported to the observer and stops no other.
+/// earlier calls whose results are complete. A failed calculation is reported to the observer and stops no other. Files of the names
+/// that [`written`] gives are replaced.
 ///
 /// # Errors
 /// An unknown figure; a folder that cannot be written, or that another process uses.
