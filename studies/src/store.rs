@@ -121,7 +121,8 @@ impl Store {
         calculations: &[C],
         observer: &mut dyn Observer,
     ) -> Result<Vec<Option<C::Outcome>>, Error> {
-        let (outcomes, failures) = self.outcomes(calculations, observer)?;
+        let mut failures = Vec::new();
+        let outcomes = self.outcomes(calculations, &mut failures, observer)?;
         failures.iter().for_each(|error| observer.failed(error));
         Ok(outcomes)
     }
@@ -135,7 +136,8 @@ impl Store {
         calculation: C,
         observer: &mut dyn Observer,
     ) -> Result<C::Outcome, Error> {
-        let (mut outcomes, mut failures) = self.outcomes(&[calculation], observer)?;
+        let mut failures = Vec::new();
+        let mut outcomes = self.outcomes(&[calculation], &mut failures, observer)?;
         match failures.pop() {
             Some(error) => Err(error),
             None => Ok(outcomes.pop().flatten().expect("what does not fail has an outcome")),
@@ -152,12 +154,13 @@ impl Store {
         serde_json::from_str(self.outcomes.get(key)?).ok()
     }
 
-    /// The outcomes, and the failures in the order of the calculations.
+    /// The outcomes; adds the failures in the order of the calculations.
     fn outcomes<C: Calculation>(
         &mut self,
         calculations: &[C],
+        failures: &mut Vec<Error>,
         observer: &mut dyn Observer,
-    ) -> Result<(Vec<Option<C::Outcome>>, Vec<Error>), Error> {
+    ) -> Result<Vec<Option<C::Outcome>>, Error> {
         let keys = calculations.iter().map(key).collect::<Result<Vec<_>, _>>()?;
         // equal calculations are made at the first of their places
         let first: HashMap<&str, usize> =
@@ -166,12 +169,14 @@ impl Store {
             |place: &usize| first[keys[*place].as_str()] == *place && self.kept_one::<C>(&keys[*place]).is_none();
         let due: Vec<usize> = (0..keys.len()).filter(is_due).collect();
         let mut keep = |place: usize, outcome, took| self.keep(&keys[place], outcome, took);
-        let failures = compute(calculations, &due, &mut keep, observer)?;
-        let outcome = |key: &String| match failures.iter().any(|(place, _)| *place == first[key.as_str()]) {
+        let failed = compute(calculations, &due, &mut keep, observer)?;
+        let outcome = |key: &String| match failed.iter().any(|(place, _)| *place == first[key.as_str()]) {
             true => None,
             false => self.kept_one::<C>(key),
         };
-        Ok((keys.iter().map(outcome).collect(), failures.into_iter().map(|(_, error)| error).collect()))
+        let outcomes = keys.iter().map(outcome).collect();
+        failures.extend(failed.into_iter().map(|(_, error)| error));
+        Ok(outcomes)
     }
 
     /// Adds an outcome, also to the file. After an error, the last line of the file may be incomplete.

@@ -36,8 +36,7 @@ pub fn write(study: &Study<'_>, title: Title<'_>, folder: &Path) -> Result<PathB
     let reference = study.reference.described();
     let version = format!("shadowstep {}", env!("CARGO_PKG_VERSION"));
     let size = format!("The largest coordinate of the reference is {:.3e}.", study.reference.size());
-    let head =
-        [version, format!("command: {}", title.command), title.title.to_owned(), reference.clone(), size];
+    let head = [version, format!("command: {}", title.command), title.title.to_owned(), reference.clone(), size];
     write_file(folder, DATA, &study.csv(&head)?)?;
     write_file(folder, LINES, &study.json_lines()?)?;
     write_file(folder, SCRIPT, PLOT)?;

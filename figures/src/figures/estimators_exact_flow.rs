@@ -36,7 +36,7 @@ fn draw(results: &Results) -> Finding {
         ));
         finding.chart(
             Chart::new(
-                &format!("Exact flow, Kepler, e = 0.6, h = 1/{n}"),
+                format!("Exact flow, Kepler, e = 0.6, h = 1/{n}"),
                 Axis::log10(STATES),
                 Axis::log10("max − min of the estimates"),
                 vec![

@@ -30,12 +30,12 @@ fn draw(results: &Results) -> Finding {
             curves.iter().map(|curve| Curve { points: logarithms(&curve.points, &control), ..curve.clone() }).collect();
         curves.push(Curve::dashed("exact flow", control, 8));
         finding.chart(
-            Chart::new(&format!("{title}, h = 1/20"), Axis::log10(STATES), drift_axis(), curves),
+            Chart::new(format!("{title}, h = 1/20"), Axis::log10(STATES), drift_axis(), curves),
             "All estimates are of the same states.",
         );
         finding.chart(
             Chart::new(
-                &format!("{title}, relative to the exact flow, h = 1/20"),
+                format!("{title}, relative to the exact flow, h = 1/20"),
                 Axis::log10(STATES),
                 Axis::log10("drift / drift of the exact flow"),
                 relative,

@@ -177,7 +177,7 @@ fn staircase(finding: &mut Finding, (label, colour): (&str, usize), values: &[(f
     points.push((shown[shown.len() - 1].0, relative(&shown[shown.len() - 1].1)));
     let chart = finding.chart(
         Chart::new(
-            &format!("The staircase of the modified energy, h = 1/10, {label}"),
+            format!("The staircase of the modified energy, h = 1/10, {label}"),
             Axis::linear("time t"),
             Axis::linear(&format!("change since the first apocentre / {}", power_of_ten(decade as i64))),
             vec![Curve::line(label, points, colour)],

@@ -99,7 +99,7 @@ fn with_orders(finding: &mut Finding, label: &str, found: &Energies) {
         Chart {
             second_y: Some(Axis::linear("m")),
             ..Chart::new(
-                &format!("Störmer–Verlet, h = 1/20, e = 0.6, {label}"),
+                format!("Störmer–Verlet, h = 1/20, e = 0.6, {label}"),
                 Axis::linear("time t"),
                 Axis::log10("change of the modified energy"),
                 vec![

@@ -61,12 +61,14 @@ fn draw(results: &Results) -> Finding {
     let mut curves: Vec<_> =
         curves.map(|(i, (m, points))| Curve::line(format!("m = {m}"), against(points), i + 1)).collect();
     curves.push(Curve::thick("limit", against(&limit), 0));
-    finding.chart(Chart::new("Störmer–Verlet, pendulum, q(0) = 0, p(0) = 1", Axis::linear("1/h"), drift_axis(), curves), &format!(
-            "The limit is taken at m = 3 ρ²/h², but at least 200. It is not known at {} of {} steps, where that is above {}.",
-            steps.len() - limits.len(),
-            steps.len(),
-            largest(results.quick)
-        ));
+    let caption = format!(
+        "The limit is taken at m = 3 ρ²/h², but at least 200. It is not known at {} of {} steps, where that is above {}.",
+        steps.len() - limits.len(),
+        steps.len(),
+        largest(results.quick)
+    );
+    let title = "Störmer–Verlet, pendulum, q(0) = 0, p(0) = 1";
+    finding.chart(Chart::new(title, Axis::linear("1/h"), drift_axis(), curves), caption);
     check_convergence(results, &mut finding);
     check_orders(&mut finding, &fixed, results.coverage());
     check_limit(&mut finding, &limit);

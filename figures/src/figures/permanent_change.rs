@@ -36,7 +36,16 @@ fn drift_and_change(results: &Results, finding: &mut Finding, changes: &[Curve])
         .collect();
     curves.push(Curve::thick("drift, exact flow", control, 8));
     curves.extend(changes.iter().cloned().map(|curve| Curve { label: format!("change, {}", curve.label), ..curve }));
-    finding.chart(Chart::new("The paper's drift, and the permanent change", Axis::linear("1/h"), Axis::log10("modified energy over [0, 100]"), curves), "Above, the drift by the best m, of four schemes and of the exact flow, whose energy does not change. Below, the permanent change.");
+    finding.chart(
+        Chart::new(
+            "The paper's drift, and the permanent change",
+            Axis::linear("1/h"),
+            Axis::log10("modified energy over [0, 100]"),
+            curves,
+        ),
+        "Above, the drift by the best m, of four schemes and of the exact flow, whose energy does not change. Below, the permanent \
+         change.",
+    );
 }
 
 /// How far the changes are below the drifts, their rates, and the place of the drifts in each other's order.

@@ -109,7 +109,7 @@ fn along_an_orbit(results: &Results, finding: &mut Finding, label: &str, estimat
     let known = |sizes: &[Option<f64>]| against(sizes.iter().map(|size| size.unwrap_or(f64::NAN)).collect());
     finding.chart(
         Chart::new(
-            &format!("Exact flow, Kepler, e = 0.6, h = 1/20, {label}"),
+            format!("Exact flow, Kepler, e = 0.6, h = 1/20, {label}"),
             Axis::linear("time t"),
             Axis::log10("error"),
             vec![
