@@ -18,7 +18,7 @@ use crate::output::Output;
 use crate::posed::{Posed, PosedArguments};
 use crate::quantity;
 use crate::report::Status;
-use crate::tasks::{Folder, NOT_SAVED, SAVED, Terminal};
+use crate::terminal::{Folder, NOT_SAVED, SAVED, Terminal};
 use crate::work_precision::{schemes, seconds};
 
 const EXAMPLE: &str = "\

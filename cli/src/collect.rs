@@ -9,7 +9,7 @@ use shadowstep_sweeps::{Collected, Missing, TableFormat, collect};
 
 use crate::output::Output;
 use crate::report::{self, Status};
-use crate::tasks::Terminal;
+use crate::terminal::Terminal;
 
 const EXAMPLE: &str = "\
 If chunks are missing, their numbers are on stdout, as `sbatch --array=` takes them, and the exit code is 1:

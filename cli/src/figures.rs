@@ -1,14 +1,14 @@
 //! `shadowstep figures`: the figures of Moan and Niesen's paper, and additional ones.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use shadowstep_figures::{Error, Request, reproduce};
+use shadowstep_figures::{Error, Request, reproduce, written};
 
 use crate::output::Output;
 use crate::report::Status;
-use crate::tasks::{SAVED, Terminal};
+use crate::terminal::{Terminal, study_in};
 
 const EXAMPLE: &str = "\
 Examples:
@@ -39,11 +39,12 @@ pub(crate) struct Arguments {
 /// Computes what is missing, and writes charts, data and the report.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let Arguments { names, quick, out, force } = arguments;
-    let request = Request { names: names.clone(), quick: *quick, folder: out.clone(), force: *force };
-    let mut terminal = Terminal::listen(SAVED);
-    let summary = reproduce(&request, &mut terminal)?;
+    let study = |folder: &Path, terminal: &mut Terminal| {
+        reproduce(&Request { names: names.clone(), quick: *quick, folder: folder.to_owned() }, terminal)
+    };
+    let (summary, status) = study_in(Some(out), *force, written(), study)?;
     let mut output = Output::stdout();
     writeln!(output, "{}\n{}", summary.report.display(), summary.verdicts)?;
     output.finish()?;
-    Ok(terminal.status)
+    Ok(status)
 }

@@ -16,7 +16,7 @@
 //! | `run_arguments`, `quantity` | the flags of runs; exact numbers |
 //! | `selection`, `system`, `posed` | flags → schemes and steps; flags → the system; with end and number type |
 //! | `plot` | charts of runs |
-//! | `readable`, `output`, `progress`, `tasks` | tables, lines and bars |
+//! | `readable`, `output`, `progress`, `terminal` | tables, lines and bars |
 //! | `invocation` | how the program was called |
 //! | `report`, `colour`, `interrupt` | messages on stderr and the exit status; colours; Ctrl-C |
 
@@ -47,7 +47,7 @@ mod report;
 mod run_arguments;
 mod selection;
 mod system;
-mod tasks;
+mod terminal;
 
 use std::ffi::OsString;
 use std::path::PathBuf;

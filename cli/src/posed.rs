@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::Args;
 use shadowstep::Rational;
 use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
+use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::{Error, Scene};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::problem::Problem;
@@ -98,4 +99,10 @@ impl Posed {
         let Posed { described, until, arithmetic } = self;
         format!("{}, t = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
     }
+}
+
+/// Whether the weights of a scheme have the digits of the runs.
+pub(crate) fn check_digits(scheme: &NamedScheme, arithmetic: Arithmetic) -> Result<(), Error> {
+    let suits = arithmetic.suits(scheme);
+    suits.map(drop).map_err(|error| Error::usage(error.to_string(), format!("use --digits {}", error.most)))
 }

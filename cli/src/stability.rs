@@ -1,22 +1,24 @@
 //! `shadowstep stability`: hard cases with what theory predicts of them, on any scheme.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use serde::Serialize;
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
 use shadowstep_scenes::library::{NamedScheme, scheme};
-use shadowstep_stability::{CaseEntry, Finding, Row, Suite, entries, examine, files, names};
+use shadowstep_stability::{CaseEntry, Suite, entries, examine, files, names};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
 use crate::output::Output;
+use crate::posed::check_digits;
 use crate::quantity::whole;
 use crate::readable::wrapped_to;
 use crate::report::{self, Status};
-use crate::tasks::{Folder, NOT_SAVED, SAVED, Terminal};
+use crate::terminal::{Terminal, study_in};
 
 const EXAMPLE: &str = "\
 Examples:
@@ -59,22 +61,19 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let cases = entries(&arguments.cases)?;
     let suite = suite(arguments)?;
-    if let Some(folder) = arguments.out.as_ref().filter(|_| !arguments.force) {
-        files::refuse_foreign(folder)?;
-    }
-    let mut terminal = Terminal::listen(arguments.out.as_ref().map_or(NOT_SAVED, |_| SAVED));
-    let folder = Folder::of(arguments.out.as_deref())?;
-    let findings = examine(&suite, &cases, folder.path(), &mut terminal)?;
+    let out = arguments.out.as_deref();
+    let study = |folder: &Path, terminal: &mut Terminal| examine(&suite, &cases, folder, terminal);
+    let (findings, status) = study_in(out, arguments.force, files::written(), study)?;
     let mut output = Output::stdout();
     for (case, finding) in &findings {
         match arguments.json {
-            true => finding.rows.iter().try_for_each(|row| output.json(&Record { case: case.name(), row }))?,
+            true => records(*case, finding).try_for_each(|record| output.json(&record))?,
             false => write!(output, "{}", readable(*case, finding))?,
         }
     }
     let counts = files::counts(&findings);
-    if let Some(folder) = &arguments.out {
-        let report = files::write(&findings, &command(arguments), folder)?;
+    if let Some(folder) = out {
+        let report = files::write(findings, &command(arguments), folder)?;
         if !arguments.json {
             writeln!(output, "{}", report.display())?;
         }
@@ -83,8 +82,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         writeln!(output, "{counts}")?;
     }
     output.finish()?;
-    let differs = findings.iter().flat_map(|(_, finding)| &finding.rows).any(|row| row.verdict == Verdict::Differs);
-    Ok(if differs { terminal.status.max(Status::NegativeAnswer) } else { terminal.status })
+    Ok(if counts.differ > 0 { status.max(Status::NegativeAnswer) } else { status })
 }
 
 fn suite(arguments: &Arguments) -> Result<Suite, Error> {
@@ -97,8 +95,7 @@ fn suite(arguments: &Arguments) -> Result<Suite, Error> {
     let mut schemes: Vec<NamedScheme> = Vec::new();
     for word in &arguments.schemes {
         let named = scheme(word)?;
-        let suits = arithmetic.suits(&named);
-        suits.map(drop).map_err(|error| Error::usage(error.to_string(), format!("use --digits {}", error.most)))?;
+        check_digits(&named, arithmetic)?;
         named.note().iter().for_each(report::note);
         if !schemes.iter().any(|other| other.name == named.name) {
             schemes.push(named);
@@ -122,11 +119,22 @@ fn command(arguments: &Arguments) -> String {
     words.join(" ")
 }
 
+/// A row as an object.
 #[derive(Serialize)]
 struct Record<'a> {
     case: &'a str,
-    #[serde(flatten)]
-    row: &'a Row,
+    subject: &'a str,
+    found: &'a str,
+    verdict: &'a str,
+}
+
+fn records(case: CaseEntry, finding: &Finding) -> impl Iterator<Item = Record<'_>> {
+    finding.statements.iter().map(move |row| Record {
+        case: case.name(),
+        subject: &row.statement,
+        found: &row.found,
+        verdict: row.verdict.word(),
+    })
 }
 
 /// The columns of a terminal, and the margin behind a verdict.
@@ -136,8 +144,8 @@ const MARGIN: &str = "               ";
 /// A case: its heading, its rows, its remarks.
 fn readable(case: CaseEntry, finding: &Finding) -> String {
     let mut text = format!("{}: {}\n", case.name(), case.title());
-    for row in &finding.rows {
-        let line = format!("{}: {}", row.subject, row.found);
+    for row in &finding.statements {
+        let line = format!("{}: {}", row.statement, row.found);
         let word = match row.verdict {
             Verdict::Agrees => "agrees",
             Verdict::Differs => "DIFFERS",
@@ -146,7 +154,7 @@ fn readable(case: CaseEntry, finding: &Finding) -> String {
         let lines = wrapped_to(&line, MARGIN, WIDTH);
         text += &format!("  {word:<11}  {}\n", lines.trim());
     }
-    for remark in &finding.remarks {
+    for remark in &finding.found {
         text += &format!("{}\n", wrapped_to(remark, "  ", WIDTH).trim_end());
     }
     text + "\n"

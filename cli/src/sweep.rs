@@ -13,7 +13,7 @@ use shadowstep_sweeps::{Chunk, Computed, Manifest, Plan, chunk_of_task, compute,
 use crate::collect::{Format, collected};
 use crate::output::Output;
 use crate::report::{self, Status};
-use crate::tasks::{SAVED, Terminal};
+use crate::terminal::{SAVED, Terminal};
 use slurm::SlurmArguments;
 
 const EXAMPLE: &str = "\

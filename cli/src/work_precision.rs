@@ -3,7 +3,7 @@
 mod table;
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
@@ -12,7 +12,7 @@ use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::propagator::for_system;
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_work_precision::files::{Title, refuse_foreign, write};
+use shadowstep_work_precision::files::{Title, write, written};
 use shadowstep_work_precision::schemes::default_schemes;
 use shadowstep_work_precision::series::StepRange;
 use shadowstep_work_precision::study::Request;
@@ -20,10 +20,10 @@ use shadowstep_work_precision::study::Request;
 use crate::colour::on_stdout;
 use crate::invocation;
 use crate::output::Output;
-use crate::posed::{Posed, PosedArguments};
+use crate::posed::{Posed, PosedArguments, check_digits};
 use crate::quantity;
 use crate::report::{self, Status};
-use crate::tasks::{SAVED, Terminal};
+use crate::terminal::{Terminal, study_in};
 use table::readable;
 
 const EXAMPLE: &str = "\
@@ -69,16 +69,14 @@ const REFERENCE: f64 = 10.0;
 /// Makes the runs, and writes charts and data.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let posed = Posed::read(&arguments.posed)?;
-    if !arguments.force {
-        refuse_foreign(&arguments.out)?;
-    }
     let problem = posed.problem();
     let schemes = schemes(&arguments.schemes, &posed)?;
     let range = range(arguments, &posed.until)?;
-    let mut terminal = Terminal::listen(SAVED);
     let reference_time = Duration::from_secs_f64(REFERENCE * arguments.seconds);
-    let request = Request { problem, schemes: &schemes, range, reference_time, folder: arguments.out.clone() };
-    let study = request.study(&mut terminal)?;
+    let study = |folder: &Path, terminal: &mut Terminal| {
+        Request { problem, schemes: &schemes, range, reference_time, folder: folder.to_owned() }.study(terminal)
+    };
+    let (study, status) = study_in(Some(&arguments.out), arguments.force, written(), study)?;
     let (title, command) = (posed.title(), command());
     let title = Title { title: &title, hamiltonian: &posed.described.hamiltonian, command: &command };
     let report = write(&study, title, &arguments.out)?;
@@ -86,7 +84,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     write!(output, "{}", readable(&posed, &study, on_stdout()))?;
     writeln!(output, "{}", report.display())?;
     output.finish()?;
-    Ok(terminal.status)
+    Ok(status)
 }
 
 /// The command line as it was given, for the head of the files.
@@ -147,8 +145,7 @@ pub(crate) fn schemes(words: &[String], posed: &Posed) -> Result<Vec<NamedScheme
 
 fn is_valid(scheme: &NamedScheme, system: &System, posed: &Posed) -> Result<(), Error> {
     for_system(scheme.clone(), system)?;
-    let suits = posed.arithmetic.suits(scheme);
-    suits.map(drop).map_err(|error| Error::usage(error.to_string(), format!("use --digits {}", error.most)))
+    check_digits(scheme, posed.arithmetic)
 }
 
 /// The steps: those of the flag, or chosen for each scheme.

@@ -10,7 +10,7 @@ use crate::measured::{Drift, Energies, Measure, Orbit};
 use crate::noise::{self, Block, Differences};
 use crate::run::{EXACT_FLOW, Run};
 use crate::states::Recorded;
-use shadowstep_tasks::{Task, Watcher};
+use shadowstep_studies::{self as studies, Continues};
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
 const REVISION: u32 = 6;
@@ -100,7 +100,7 @@ impl Quantity {
     }
 
     /// What it measures; an exact flow may have been recorded.
-    fn compute(&self, flow: Option<&Recorded>, continues: &dyn Fn(f64) -> bool) -> Result<Outcome, Error> {
+    fn compute(&self, flow: Option<&Recorded>, continues: Continues<'_>) -> Result<Outcome, Error> {
         let of = |run| Measure { run, flow, continues };
         let settings = || self.settings().expect("it has an estimator");
         match self {
@@ -117,51 +117,39 @@ impl Quantity {
     }
 }
 
-impl Task for Calculation {
+impl studies::Calculation for Calculation {
     type Outcome = Outcome;
+    /// The exact flow, if they need one.
+    type Shared = Option<Result<Recorded, Error>>;
 
     /// All that needs one exact flow, whose states cost more than what is done with them.
     fn group(&self) -> Option<String> {
         self.quantity.flow().map(|run| serde_json::to_string(&run).expect("a run can be written as JSON"))
     }
 
-    fn cost(group: &[&Self]) -> f64 {
-        flow_cost(group) + group.iter().map(|calculation| calculation.quantity.own_cost()).sum::<f64>()
+    fn share(group: &[&Self], continues: Continues<'_>) -> Self::Shared {
+        let run = group[0].quantity.flow()?;
+        let settings = group.iter().filter_map(|calculation| calculation.quantity.settings());
+        let reach = settings.map(|settings| estimator::most_reach(&settings)).max().unwrap_or(0);
+        Some(Measure { run: &run, flow: None, continues }.recorded(reach))
     }
 
-    fn compute(group: &[&Self], watcher: &dyn Watcher<Outcome>) {
-        let (all, mut done) = (Self::cost(group), 0.0);
-        let part = |cost: f64| move |part: f64| (done + cost * part) / all;
-        let flow = shared_flow(group).map(|(run, reach)| {
-            let part = part(flow_cost(group));
-            Measure { run: &run, flow: None, continues: &|done| watcher.continues(part(done)) }.recorded(reach)
-        });
-        done += flow_cost(group);
-        for (place, calculation) in group.iter().enumerate() {
-            let own = calculation.quantity.own_cost();
-            let continues = |part: f64| watcher.continues((done + own * part) / all);
-            if !continues(0.0) {
-                return;
-            }
-            let outcome = match &flow {
-                Some(Err(error)) => Err(Error::run(error.to_string(), "try a shorter time")),
-                flow => calculation.quantity.compute(flow.as_ref().and_then(|flow| flow.as_ref().ok()), &continues),
-            };
-            watcher.take(place, outcome);
-            done += own;
+    fn cost_of_shared(group: &[&Self]) -> f64 {
+        let Some(run) = group[0].quantity.flow() else { return 0.0 };
+        let states =
+            group.iter().filter_map(|calculation| Some(estimator::states(calculation.quantity.estimated()?.1)));
+        (run.steps() as f64 + states.fold(0.0, f64::max)) * run.exact_step_cost()
+    }
+
+    fn cost(&self) -> f64 {
+        self.quantity.own_cost()
+    }
+
+    fn compute(&self, flow: &Self::Shared, continues: Continues<'_>) -> Result<Outcome, Error> {
+        match flow {
+            Some(Err(error)) => Err(Error::run(error.to_string(), "try a shorter time")),
+            Some(Ok(flow)) => self.quantity.compute(Some(flow), continues),
+            None => self.quantity.compute(None, continues),
         }
     }
-}
-
-/// The exact flow of a group, and how many states before 0 and after the end its estimators need.
-fn shared_flow(group: &[&Calculation]) -> Option<(Run, usize)> {
-    let run = group[0].quantity.flow()?;
-    let all = group.iter().filter_map(|calculation| calculation.quantity.settings());
-    Some((run, all.map(|settings| estimator::most_reach(&settings)).max().unwrap_or(0)))
-}
-
-fn flow_cost(group: &[&Calculation]) -> f64 {
-    let states = group.iter().filter_map(|calculation| Some(estimator::states(calculation.quantity.estimated()?.1)));
-    let run = group[0].quantity.flow();
-    run.map_or(0.0, |run| (run.steps() as f64 + states.fold(0.0, f64::max)) * run.exact_step_cost())
 }

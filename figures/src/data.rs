@@ -1,6 +1,9 @@
 //! Results as CSV: every run that a figure shows, with all digits, after lines with # that give version and command.
 
+use std::collections::HashSet;
+
 use shadowstep::shadow::{EstimatorSettings, StoppingRule};
+use shadowstep_studies::files;
 
 use crate::Error;
 use crate::measured::Permanent;
@@ -74,15 +77,9 @@ fn row<const N: usize>(run: &Run, estimator: Option<&EstimatorSettings>, last: [
 
 /// The CSV text. Results that a figure uses twice are written once.
 fn text(command: &str, rows: &[Vec<String>]) -> Result<String, Error> {
-    let mut written = std::collections::HashSet::new();
-    let mut csv = csv::Writer::from_writer(
-        format!("# shadowstep: {}\n# command: {command}\n", env!("CARGO_PKG_VERSION")).into_bytes(),
-    );
-    for row in rows.iter().filter(|row| written.insert(*row)) {
-        csv.write_record(row)?;
-    }
-    let bytes = csv.into_inner().map_err(|error| error.into_error())?;
-    Ok(String::from_utf8(bytes).expect("CSV of texts is a text"))
+    let mut written = HashSet::new();
+    let head = [format!("shadowstep: {}", env!("CARGO_PKG_VERSION")), format!("command: {command}")];
+    files::csv(&head, rows.iter().filter(|row| written.insert(*row)))
 }
 
 /// The order, or where it is searched for.

@@ -1,7 +1,7 @@
 //! A figure of the list.
 
-use crate::drawing::Drawing;
 use crate::results::Results;
+use shadowstep_studies::finding::Finding;
 
 /// A figure by its name.
 pub(crate) struct Figure {
@@ -11,5 +11,5 @@ pub(crate) struct Figure {
     pub(crate) of_paper: &'static str,
     /// Requests the results that it needs, and draws those that are there. It is called again until none is missing, so
     /// that it may request more depending on those.
-    pub(crate) draw: fn(&Results) -> Drawing,
+    pub(crate) draw: fn(&Results) -> Finding,
 }

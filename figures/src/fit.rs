@@ -4,7 +4,7 @@ use std::f64::consts::LOG10_E;
 use std::fmt;
 
 use crate::interval::Interval;
-use shadowstep_report::verdict::Verdict;
+use shadowstep_studies::verdict::Verdict;
 
 /// y = intercept + slope · x, which minimises the sum of (y − intercept − slope · x)².
 #[derive(Clone, Debug, PartialEq)]

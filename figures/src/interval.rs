@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::numbers::decimal;
-use shadowstep_report::verdict::Verdict;
+use shadowstep_studies::verdict::Verdict;
 
 /// A value with the interval that contains the true one with 95 % confidence.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,7 +7,7 @@
 //! ```no_run
 //! use shadowstep_figures::{Request, reproduce};
 //!
-//! let request = Request { names: vec!["scattering".to_owned()], quick: true, folder: "figures".into(), force: false };
+//! let request = Request { names: vec!["scattering".to_owned()], quick: true, folder: "figures".into() };
 //! let summary = reproduce(&request, &mut ())?;
 //! println!("{}\n{}", summary.report.display(), summary.verdicts);
 //! # Ok::<(), shadowstep_figures::Error>(())
@@ -19,7 +19,7 @@
 //! | --- | --- |
 //! | `reproduction` | from a request to the files |
 //! | `figures` | the list of all figures, and one file for each |
-//! | `figure`, `drawing` | a figure of the list; its charts, tables and statements |
+//! | `figure`, `drawing` | a figure of the list; what several drawings need |
 //! | `results` | the results that figures request |
 //! | `calculation`, `run`, `estimator` | the calculations, and the runs and estimators that they are of |
 //! | `measured`, `states`, `escape`, `noise` | what is measured along runs at many digits, and in double precision |
@@ -44,5 +44,5 @@ mod results;
 mod run;
 mod states;
 
-pub use reproduction::{Request, Summary, names, reproduce};
-pub use shadowstep_tasks::{Error, Observer, Progress};
+pub use reproduction::{Request, Summary, reproduce, written};
+pub use shadowstep_studies::{Error, Observer, Progress};

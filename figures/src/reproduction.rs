@@ -1,18 +1,15 @@
 //! From a request to the files: results are computed until no figure lacks any, then charts, data and report are written.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
-
-use shadowstep_scenes::WholeFile;
-use shadowstep_symbolic::suggestion;
 
 use crate::data;
 use crate::figure::Figure;
 use crate::figures::FIGURES;
 use crate::results::Results;
 use crate::{Error, Observer};
-use shadowstep_report::page::{Report, Section};
-use shadowstep_tasks::Store;
+use shadowstep_studies::files::{PAGE, write_charts, write_file, write_page};
+use shadowstep_studies::page::{Report, Section};
+use shadowstep_studies::{Store, named};
 
 /// Which figures are wanted, and where.
 #[derive(Clone, Debug)]
@@ -23,8 +20,6 @@ pub struct Request {
     pub quick: bool,
     /// The folder for `report.html`, SVG and CSV files, and for the results, `results.jsonl`.
     pub folder: PathBuf,
-    /// Whether files of the folder are replaced that are not from this program.
-    pub force: bool,
 }
 
 /// What was written.
@@ -36,25 +31,22 @@ pub struct Summary {
     pub verdicts: String,
 }
 
-const REPORT: &str = "report.html";
-
-/// The names of all figures, in the order of the report.
-pub fn names() -> impl Iterator<Item = &'static str> {
-    FIGURES.iter().map(|figure| figure.name)
+/// The names of all files that are written, in which a `*` stands for any characters.
+pub fn written() -> impl Iterator<Item = String> {
+    let of_figure = |figure: &Figure| [format!("{}*.svg", figure.name), format!("{}*.csv", figure.name)];
+    [PAGE.to_owned()].into_iter().chain(FIGURES.iter().flat_map(of_figure))
 }
 
 /// Computes what the folder does not have yet, and writes charts, data and the report.
 ///
 /// Each figure `name` gets `name.svg`, or `name-1.svg` and so on, and its results as CSV. The report keeps the figures of
-/// earlier calls whose results are complete. A failed calculation is reported to the observer and stops no other.
+/// earlier calls whose results are complete. A failed calculation is reported to the observer and stops no other. Files of the names
+/// that [`written`] gives are replaced.
 ///
 /// # Errors
-/// An unknown figure; a folder that cannot be written, that another process uses, or that has other files of these names.
+/// An unknown figure; a folder that cannot be written, or that another process uses.
 pub fn reproduce(request: &Request, observer: &mut dyn Observer) -> Result<Summary, Error> {
-    let requested = requested(&request.names)?;
-    if !request.force {
-        refuse_foreign_files(&request.folder)?;
-    }
+    let requested = named(FIGURES, |figure| figure.name, "figure", &request.names)?;
     let mut store = Store::open(&request.folder, observer)?;
     let mut results = Results::new(request.quick);
     loop {
@@ -74,27 +66,7 @@ pub fn reproduce(request: &Request, observer: &mut dyn Observer) -> Result<Summa
         }
     }
     let report = report(request, sections, &earlier);
-    write(&request.folder, REPORT, &report.html())?;
-    Ok(Summary { report: request.folder.join(REPORT), verdicts: report.verdicts() })
-}
-
-/// A report of this program has its results beside it. Without them, files of the same names are not replaced.
-fn refuse_foreign_files(folder: &Path) -> Result<(), Error> {
-    if Store::is_in(folder) {
-        return Ok(());
-    }
-    let names = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
-    let Some(name) = names.filter_map(|name| name.into_string().ok()).find(|name| is_written(name)) else {
-        return Ok(());
-    };
-    let message = format!("{} exists, without results of this program beside it", folder.join(name).display());
-    Err(Error::usage(message, "give another folder, or replace its files with --force"))
-}
-
-/// Whether a report or a figure has a file of this name.
-fn is_written(name: &str) -> bool {
-    let of_figure = |figure: &str| name.starts_with(figure) && (name.ends_with(".svg") || name.ends_with(".csv"));
-    name == REPORT || names().any(of_figure)
+    Ok(Summary { report: write_page(&request.folder, &report)?, verdicts: report.verdicts() })
 }
 
 /// The results of a figure that is not requested, if it has some and earlier runs left all of them: of the full grid, or of the
@@ -115,43 +87,22 @@ fn kept(figure: &Figure, store: &Store) -> Option<Results> {
     })
 }
 
-fn requested(wanted: &[String]) -> Result<Vec<&'static Figure>, Error> {
-    let known: Vec<&str> = names().collect();
-    if let Some(name) = wanted.iter().find(|name| !known.contains(&name.as_str())) {
-        return Err(Error::usage(format!("there is no figure `{name}`"), suggestion(name, &known)));
-    }
-    let is_wanted = |figure: &&Figure| wanted.is_empty() || wanted.iter().any(|name| name == figure.name);
-    Ok(FIGURES.iter().filter(is_wanted).collect())
-}
-
 fn flag(quick: bool) -> &'static str {
     if quick { " --quick" } else { "" }
 }
 
 /// Writes charts and data of one figure; returns its section of the report.
 fn write_figure(figure: &Figure, results: &Results, folder: &Path) -> Result<Section, Error> {
-    let drawing = (figure.draw)(results);
-    let svgs = drawing.svgs()?;
-    let mut files = Vec::new();
-    for (i, svg) in svgs.iter().enumerate() {
-        let name =
-            if svgs.len() == 1 { format!("{}.svg", figure.name) } else { format!("{}-{}.svg", figure.name, i + 1) };
-        write(folder, &name, svg)?;
-        files.push(name);
-    }
+    let finding = (figure.draw)(results);
+    let (svgs, mut files) = write_charts(folder, figure.name, &finding.charts)?;
     let command = format!("shadowstep figures {}{}", figure.name, flag(results.quick));
     for (kind, text) in data::csv(&command, &results.take_used())? {
         let name = format!("{}{kind}.csv", figure.name);
-        write(folder, &name, &text)?;
+        write_file(folder, &name, &text)?;
         files.push(name);
     }
-    Ok(drawing.section(figure.title, figure.of_paper, svgs, files))
-}
-
-fn write(folder: &Path, name: &str, text: &str) -> Result<(), Error> {
-    let mut file = WholeFile::create(&folder.join(name), "the file")?;
-    file.write_all(text.as_bytes())?;
-    file.finish()
+    let of_paper = (!figure.of_paper.is_empty()).then(|| figure.of_paper.to_owned());
+    Ok(Section { title: figure.title.to_owned(), of_paper, finding, svgs, files })
 }
 
 const INTRODUCTION: [&str; 4] = [
@@ -175,19 +126,15 @@ const QUICK: &str = "A quick report: with fewer step sizes, eccentricities and o
 fn report(request: &Request, sections: Vec<Section>, earlier: &[String]) -> Report {
     let names: String = request.names.iter().map(|name| format!(" {name}")).collect();
     let command = format!("shadowstep figures{names}{} --out {}", flag(request.quick), request.folder.display());
-    let mut made_with = vec![
-        ("program".to_owned(), format!("shadowstep {}", env!("CARGO_PKG_VERSION"))),
-        ("command".to_owned(), command),
-        ("digits".to_owned(), "120, unless stated otherwise".to_owned()),
-    ];
-    if !earlier.is_empty() {
-        made_with.push(("from earlier runs".to_owned(), earlier.join(", ")));
-    }
-    Report {
-        title: "The modified energy of splitting schemes".to_owned(),
+    let mut report = Report {
         remark: request.quick.then(|| QUICK.to_owned()),
         introduction: INTRODUCTION.map(str::to_owned).to_vec(),
-        made_with,
         sections,
+        ..Report::new("The modified energy of splitting schemes", &command)
+    };
+    report.made_with.push(("digits".to_owned(), "120, unless stated otherwise".to_owned()));
+    if !earlier.is_empty() {
+        report.made_with.push(("from earlier runs".to_owned(), earlier.join(", ")));
     }
+    report
 }

@@ -17,8 +17,8 @@ use crate::noise::{Block, Differences};
 use crate::numbers::{Wide, log10, number};
 use crate::run::Run;
 use crate::{Error, Observer};
-use shadowstep_report::verdict::Coverage;
-use shadowstep_tasks::{self as tasks, Store};
+use shadowstep_studies::Store;
+use shadowstep_studies::verdict::Coverage;
 
 /// The results of all figures.
 pub(crate) struct Results {
@@ -56,17 +56,15 @@ impl Results {
     /// Computes the missing results; returns whether there were any.
     pub(crate) fn compute(&mut self, store: &mut Store, observer: &mut dyn Observer) -> Result<bool, Error> {
         let missing = self.missing.take();
-        let found = tasks::run(&missing, store, observer)?;
-        found.failures.iter().for_each(|(_, error)| observer.failed(error));
-        let keys = missing.iter().map(key);
-        self.known.extend(keys.zip(found.outcomes));
+        let found = store.compute(&missing, observer)?;
+        self.known.extend(missing.iter().map(key).zip(found));
         Ok(!missing.is_empty())
     }
 
     /// Takes the missing results from the store; returns whether there were any, or `None` if the store lacks one.
     pub(crate) fn take_kept(&mut self, store: &Store) -> Option<bool> {
         let missing = self.missing.take();
-        let found = tasks::kept(&missing, store)?;
+        let found = store.kept(&missing)?;
         self.known.extend(missing.iter().map(key).zip(found.into_iter().map(Some)));
         Some(!missing.is_empty())
     }

@@ -9,7 +9,7 @@ use std::time::Duration;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use shadowstep_scenes::Observer;
-use shadowstep_tasks::Progress;
+use shadowstep_studies::Progress;
 
 /// Signals are asked for this often.
 const SIGNALS: Duration = Duration::from_millis(40);
@@ -31,7 +31,7 @@ impl Watched {
     }
 
     /// An observer of tasks on all cores.
-    pub(crate) fn observer_of_tasks(&self) -> impl shadowstep_tasks::Observer + '_ {
+    pub(crate) fn observer_of_tasks(&self) -> impl shadowstep_studies::Observer + '_ {
         Watching(self)
     }
 
@@ -59,7 +59,7 @@ impl Observer for Watching<'_> {
     }
 }
 
-impl shadowstep_tasks::Observer for Watching<'_> {
+impl shadowstep_studies::Observer for Watching<'_> {
     fn progress(&mut self, progress: Progress) {
         // in thousandths of the work
         self.0.reaches((progress.fraction * 1000.0) as i64);

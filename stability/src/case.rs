@@ -1,6 +1,4 @@
-//! What a case is, and its trials as tasks whose results are saved.
-
-use std::cell::Cell;
+//! What a case is, and its trials as calculations whose outcomes are saved.
 
 use serde::de::DeserializeOwned;
 use serde::{Serialize, Serializer};
@@ -8,13 +6,10 @@ use serde_json::{Value, json};
 use shadowstep::number::Rounded;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Computation, Numbers};
-use shadowstep_tasks::{Task, Watcher};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::{Calculation, Continues};
 
-use crate::finding::Finding;
 use crate::suite::Suite;
-
-/// Asked during a trial with the part of it that is done: whether it is to continue.
-pub(crate) type Continues<'a> = &'a dyn Fn(f64) -> bool;
 
 /// A hard case: what theory predicts, what is computed to see it, and whether it holds.
 pub(crate) trait Case {
@@ -76,7 +71,7 @@ impl Entry {
 
     /// What their results, in the same order, show.
     pub(crate) fn finding(&self, suite: &Suite, results: Vec<Option<Value>>) -> Finding {
-        (self.finding)(suite, results)
+        Finding { stated: vec![self.theory.to_owned()], ..(self.finding)(suite, results) }
     }
 }
 
@@ -139,28 +134,15 @@ impl Serialize for Trial<'_> {
     }
 }
 
-impl Task for Trial<'_> {
+impl Calculation for Trial<'_> {
     type Outcome = Value;
+    type Shared = ();
 
-    fn cost(group: &[&Self]) -> f64 {
-        group.iter().map(|trial| trial.seconds).sum()
+    fn cost(&self) -> f64 {
+        self.seconds
     }
 
-    fn compute(group: &[&Self], watcher: &dyn Watcher<Value>) {
-        for (place, trial) in group.iter().enumerate() {
-            let stopped = Cell::new(false);
-            let continues = |part| {
-                let continues = watcher.continues(part);
-                stopped.set(stopped.get() || !continues);
-                continues
-            };
-            let measured = (trial.measure)(&continues);
-            // a part of a trial is no result
-            let measured = measured.and_then(|measured| match stopped.get() {
-                true => Err(Error::run("the trial was stopped", "the same command makes it again")),
-                false => Ok(measured),
-            });
-            watcher.take(place, measured);
-        }
+    fn compute(&self, (): &(), continues: Continues<'_>) -> Result<Value, Error> {
+        (self.measure)(continues)
     }
 }

@@ -3,12 +3,11 @@
 use std::path::Path;
 
 use shadowstep_scenes::Error;
-use shadowstep_symbolic::suggestion;
-use shadowstep_tasks::{Observer, Store, run};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::{Observer, Store, named};
 
 use crate::case::{Entry, Trial};
 use crate::cases::CASES;
-use crate::finding::Finding;
 use crate::suite::Suite;
 
 /// A case of the list.
@@ -42,12 +41,7 @@ pub fn names() -> Vec<&'static str> {
 /// # Errors
 /// An unknown name.
 pub fn entries(requested: &[String]) -> Result<Vec<CaseEntry>, Error> {
-    let known = names();
-    if let Some(name) = requested.iter().find(|name| !known.contains(&name.as_str())) {
-        return Err(Error::usage(format!("there is no case `{name}`"), suggestion(name, &known)));
-    }
-    let is_requested = |entry: &&Entry| requested.is_empty() || requested.iter().any(|name| name == entry.name);
-    Ok(CASES.iter().filter(is_requested).map(CaseEntry).collect())
+    Ok(named(CASES, |entry| entry.name, "case", requested)?.into_iter().map(CaseEntry).collect())
 }
 
 /// Makes the trials that the folder does not have yet, all cases together, and gives what each case has shown. A failed trial
@@ -65,9 +59,7 @@ pub fn examine(
     let by_case: Vec<Vec<Trial<'_>>> = cases.iter().map(|case| case.0.trials(suite)).collect();
     let counts: Vec<usize> = by_case.iter().map(Vec::len).collect();
     let trials: Vec<Trial<'_>> = by_case.into_iter().flatten().collect();
-    let found = run(&trials, &mut store, observer)?;
-    found.failures.iter().for_each(|(_, error)| observer.failed(error));
-    let mut results = found.outcomes.into_iter();
+    let mut results = store.compute(&trials, observer)?.into_iter();
     let finding = |(case, count): (&CaseEntry, usize)| {
         let own = results.by_ref().take(count).collect();
         (*case, case.0.finding(suite, own))

@@ -11,7 +11,7 @@
 //! let suite = Suite::new(vec![scheme("yoshida4")?], Arithmetic::DOUBLE, true);
 //! let folder = tempfile::tempdir()?;
 //! let findings = examine(&suite, &entries(&["oscillator".to_owned()])?, folder.path(), &mut ())?;
-//! println!("{}", findings[0].1.rows[0].found);
+//! println!("{}", findings[0].1.statements[0].found);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -22,7 +22,7 @@
 //! | `examination` | from a request to the findings |
 //! | [`Suite`], [`files`] | what is examined; the page, the charts and the table that are written |
 //! | `cases` | the list of all cases, and one file for each |
-//! | `case`, `finding` | what a case is; what it has shown |
+//! | `case` | what a case is |
 //! | `linear_step`, `growth` | a step of the oscillator as a matrix; how fast a linear system grows |
 //! | `watched`, `long_run`, `scene_run` | a run with a monitor; long runs of shipped problems; a run of a scene with its summary |
 
@@ -30,7 +30,6 @@ mod case;
 mod cases;
 mod examination;
 pub mod files;
-mod finding;
 mod growth;
 mod linear_step;
 mod long_run;
@@ -39,5 +38,4 @@ mod suite;
 mod watched;
 
 pub use examination::{CaseEntry, entries, examine, names};
-pub use finding::{Finding, Row};
 pub use suite::Suite;

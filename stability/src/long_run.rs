@@ -3,14 +3,15 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Number, Rational, Scheme};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::suite::{Examined, Suite};
 use crate::watched::{Next, Watched, setup, watched};
 
@@ -184,7 +185,7 @@ pub(crate) fn staying(
         );
         let bounded = Verdict::from(stayed.is_bounded(SAME) && stayed.farthest <= stays);
         let verdict = Verdict::of_all([bounded, stayed.watched.is_fine()]);
-        finding.row(&suite.scheme(&run.scheme).name, found, verdict);
+        finding.check(&suite.scheme(&run.scheme).name, found, verdict);
     }
     let runs = measured.iter().map(|(run, stayed)| (suite.scheme(&run.scheme).name.clone(), stayed));
     finding.chart(envelopes(title, unit, runs), "Each point is the largest error in a 60th of the run.");

@@ -4,8 +4,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::tables::Source;
 use shadowstep_scenes::arithmetic::{Arithmetic, DigitsLabel};
 use shadowstep_scenes::{Error, Observer, Scene, Summary};
-
-use crate::case::Continues;
+use shadowstep_studies::Continues;
 
 /// What a run said at its end.
 #[derive(Serialize, Deserialize)]

@@ -7,6 +7,9 @@ use shadowstep::tables::shipped_names;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 
+/// The schemes of several cases: of the orders 2, 4, 4 and 8.
+pub(crate) const OF_ORDERS_2_TO_8: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
+
 /// What is examined.
 #[derive(Debug)]
 pub struct Suite {

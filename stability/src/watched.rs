@@ -5,10 +5,9 @@ use shadowstep::number::Rounded;
 use shadowstep::problems::{ProblemMotion, Setup, problem};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::{Rational, Stepper};
-use shadowstep_report::verdict::Verdict as Agreement;
 use shadowstep_scenes::library::NamedScheme;
-
-use crate::case::Continues;
+use shadowstep_studies::Continues;
+use shadowstep_studies::verdict::Verdict as Agreement;
 
 /// The monitor's estimator is E_8 with its error: 9 states a window.
 const MONITOR_ORDER: u32 = 8;

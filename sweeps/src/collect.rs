@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use shadowstep_scenes::family::Meaning;
 use shadowstep_scenes::{Error, WholeFile};
-use shadowstep_tasks::{Observer, Progress};
+use shadowstep_studies::{Observer, Progress};
 use std::io::Write;
 
 use crate::axes::Axes;
@@ -78,7 +78,7 @@ pub fn collect(folder: &Path, format: TableFormat, observer: &mut dyn Observer) 
             return Err(Error::run("interrupted: nothing is written", "the same command collects the results"));
         }
         let fraction = chunk.number as f64 / manifest.chunks as f64;
-        observer.progress(Progress { done: chunk.number as usize, tasks: manifest.chunks as usize, fraction });
+        observer.progress(Progress { done: chunk.number as usize, all: manifest.chunks as usize, fraction });
     }
     if !damaged.is_empty() {
         return Ok(Collected::Incomplete(damaged));

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use shadowstep_scenes::Error;
 use shadowstep_scenes::family::Parsed;
-use shadowstep_tasks::{Observer, Progress};
+use shadowstep_studies::{Observer, Progress};
 
 use crate::chunk::{self, Chunk, Header};
 use crate::manifest::{Manifest, VERSION};
@@ -117,7 +117,7 @@ fn attend<I>(
             // what was saved before took no time
             let fraction = made as f64 / (all - saved).max(1) as f64;
             let count = |runs: u64| usize::try_from(runs).unwrap_or(usize::MAX);
-            observer.progress(Progress { done: count(made + saved), tasks: count(all), fraction });
+            observer.progress(Progress { done: count(made + saved), all: count(all), fraction });
         }
     }
 }

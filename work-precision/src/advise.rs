@@ -9,7 +9,7 @@ use shadowstep::exact_flow::has_exact_flow;
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_tasks::{Observer, Store};
+use shadowstep_studies::{Observer, Store};
 
 use crate::best::cost_of;
 use crate::calculation::{Calculation, Outcome};
@@ -19,7 +19,7 @@ use crate::problem::{Problem, most_samples};
 use crate::run::Measurement;
 use crate::series::{End, StepRange, Target, stable_step};
 use crate::size::Size;
-use crate::study::{Cost, Request, Studied, Study, only, proved_order};
+use crate::study::{Cost, Request, Studied, Study, proved_order};
 use crate::timing::time_of_steps;
 
 /// What is wanted.
@@ -247,9 +247,9 @@ impl<'a> Question<'a> {
             false => Calculation::halved(problem, choice.scheme, (samples, 2 * choice.steps)),
         };
         let mut store = Store::open(&self.folder, observer)?;
-        let Some(Outcome::Reference(reference)) = only(&[wanted], &mut store, observer)? else { return Ok(None) };
+        let Outcome::Reference(reference) = store.compute_one(wanted, observer)? else { return Ok(None) };
         let wanted = Calculation::series(problem, choice.scheme, &reference, &StepRange::Given(vec![choice.steps]));
-        let Some(Outcome::Series(series)) = only(&[wanted], &mut store, observer)? else { return Ok(None) };
+        let Outcome::Series(series) = store.compute_one(wanted, observer)? else { return Ok(None) };
         let error = series.runs.first().and_then(|run| self.of.error(run));
         let half = if is_known || self.of != Of::Position { 0.0 } else { (-self.order(choice.scheme)).exp2() };
         Ok(error.map(|error| error.times_power_of_ten(-(1.0 - half).log10())))

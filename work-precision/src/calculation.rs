@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_tasks::{Task, Watcher};
+use shadowstep_studies::{self as studies, Continues};
 
 use crate::problem::Problem;
 use crate::reference::Reference;
@@ -86,8 +86,23 @@ impl<'a> Calculation<'a> {
     ) -> Self {
         Calculation { revision: REVISION, on: problem.fingerprint(), quantity, problem, schemes, reference }
     }
+}
 
-    fn outcome(&self, continues: &dyn Fn(f64) -> bool) -> Result<Outcome, Error> {
+impl studies::Calculation for Calculation<'_> {
+    type Outcome = Outcome;
+    type Shared = ();
+
+    fn cost(&self) -> f64 {
+        match &self.quantity {
+            Quantity::Reference { seconds, .. }
+            | Quantity::Series { range: StepRange::Automatic { seconds, .. }, .. } => *seconds,
+            Quantity::Halved { steps, .. } => *steps as f64 * 1e-6,
+            Quantity::Series { range: StepRange::Given(steps), .. } => steps.iter().sum::<u64>() as f64 * 1e-6,
+            Quantity::Times { schemes } => schemes.len() as f64 * 0.1,
+        }
+    }
+
+    fn compute(&self, (): &(), continues: Continues<'_>) -> Result<Outcome, Error> {
         match &self.quantity {
             Quantity::Reference { samples, seconds } => {
                 let time = Duration::from_secs_f64(*seconds);
@@ -99,34 +114,12 @@ impl<'a> Calculation<'a> {
             Quantity::Series { range, .. } => {
                 let reference = self.reference.expect("a series has one");
                 let series_of = SeriesOf { problem: self.problem, scheme: self.schemes[0], reference, range };
-                let stopped = || Error::run("the calculation was stopped", "the same command resumes it");
-                series_of.make(continues)?.map(Outcome::Series).ok_or_else(stopped)
+                series_of.make(continues).map(Outcome::Series)
             }
             Quantity::Times { schemes } => {
                 let steps = self.schemes.iter().copied().zip(schemes.iter().map(|(_, steps)| *steps));
                 time_of_steps(self.problem, &steps.collect::<Vec<_>>()).map(Outcome::Times)
             }
-        }
-    }
-}
-
-impl Task for Calculation<'_> {
-    type Outcome = Outcome;
-
-    fn cost(group: &[&Self]) -> f64 {
-        let seconds = |calculation: &&Self| match &calculation.quantity {
-            Quantity::Reference { seconds, .. }
-            | Quantity::Series { range: StepRange::Automatic { seconds, .. }, .. } => *seconds,
-            Quantity::Halved { steps, .. } => *steps as f64 * 1e-6,
-            Quantity::Series { range: StepRange::Given(steps), .. } => steps.iter().sum::<u64>() as f64 * 1e-6,
-            Quantity::Times { schemes } => schemes.len() as f64 * 0.1,
-        };
-        group.iter().map(seconds).sum()
-    }
-
-    fn compute(group: &[&Self], watcher: &dyn Watcher<Outcome>) {
-        for (place, calculation) in group.iter().enumerate() {
-            watcher.take(place, calculation.outcome(&|part| watcher.continues(part)));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Work–precision diagrams: errors against cost, a curve for each scheme.
 
-use shadowstep_report::chart::{Axis, Chart, Curve};
+use shadowstep_studies::chart::{Axis, Chart, Curve};
 
 use crate::best::{self, cost_of};
 use crate::of::Of;
@@ -14,7 +14,10 @@ const MOST_CURVES: usize = 12;
 /// A scheme that does not meet an error counts as one that needs so many times the least.
 const NOT_MET: f64 = 100.0;
 
-/// A chart with the end of its file's name and its caption.
+/// The names of the charts' files.
+pub(crate) const PICTURES: [&str; 4] = ["position-forces", "position-time", "energy-forces", "energy-time"];
+
+/// A chart with the name of its file and its caption.
 pub(crate) struct Picture {
     pub(crate) name: &'static str,
     pub(crate) caption: &'static str,
@@ -24,24 +27,23 @@ pub(crate) struct Picture {
 impl Study<'_> {
     /// The errors of the position and of H, against evaluations and against time.
     pub(crate) fn pictures(&self, title: &str) -> Vec<Picture> {
-        let chart = |name, of, cost, caption| Picture { name, caption, chart: self.chart(title, of, cost) };
-        vec![
-            chart(
-                "position-forces",
+        let each = [
+            (
                 Of::Position,
                 Cost::Evaluations,
                 "The error of the position at the end, |q − q of the reference|, against the evaluations of the gradient. Points are runs; \
                  schemes have them at equal numbers of evaluations, as nearly as whole steps allow.",
             ),
-            chart("position-time", Of::Position, Cost::Seconds, "The same against the time of the steps alone."),
-            chart(
-                "energy-forces",
+            (Of::Position, Cost::Seconds, "The same against the time of the steps alone."),
+            (
                 Of::Energy,
                 Cost::Evaluations,
                 "The largest |H(t) − H(0)|, as a part of |H(0)| unless that is 0, against the evaluations of the gradient.",
             ),
-            chart("energy-time", Of::Energy, Cost::Seconds, "The same against the time of the steps alone."),
-        ]
+            (Of::Energy, Cost::Seconds, "The same against the time of the steps alone."),
+        ];
+        let picture = |(name, (of, cost, caption))| Picture { name, caption, chart: self.chart(title, of, cost) };
+        PICTURES.into_iter().zip(each).map(picture).collect()
     }
 
     fn chart(&self, title: &str, of: Of, cost: Cost) -> Chart {

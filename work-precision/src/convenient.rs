@@ -11,19 +11,9 @@ const PREFERENCE: f64 = 1.09;
 /// The largest convenient step size that is not larger than h: a number of up to three digits, or 1 divided by a whole one. One of which
 /// the time is a multiple is preferred, if it is about as large.
 ///
-/// ```
-/// use shadowstep_work_precision::convenient::convenient_step;
-/// use shadowstep::exact;
-///
-/// let step = |h: f64, time: &str| convenient_step(h, &exact(time).unwrap());
-/// assert_eq!(step(0.0526, "100"), exact("1/20").unwrap());
-/// assert_eq!(step(0.72, "100"), exact("7/10").unwrap());
-/// assert_eq!(step(47.0, "20000"), exact("45").unwrap());
-/// ```
-///
 /// # Panics
 /// If h is not positive and finite.
-pub fn convenient_step(h: f64, time: &Rational) -> Rational {
+pub(crate) fn convenient_step(h: f64, time: &Rational) -> Rational {
     assert!(h > 0.0 && h.is_finite(), "a step size is positive");
     // a last place off is the same step
     let most = h * (1.0 + 1e-12);
@@ -62,7 +52,14 @@ fn scaled((digits, zeros): (i64, i32)) -> Rational {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shadowstep::Number;
+    use shadowstep::{Number, exact};
+
+    #[test]
+    fn convenient_steps_divide_the_time_or_are_short() {
+        for (h, time, expected) in [(0.0526, "100", "1/20"), (0.72, "100", "7/10"), (47.0, "20000", "45")] {
+            assert_eq!(convenient_step(h, &exact(time).unwrap()), exact(expected).unwrap(), "{h}");
+        }
+    }
 
     #[test]
     fn convenient_steps_are_a_little_smaller() {

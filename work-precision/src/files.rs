@@ -1,19 +1,18 @@
 //! The files of a study.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use shadowstep_report::page::{self, Report, Section};
-use shadowstep_scenes::{Error, WholeFile};
-use shadowstep_tasks::Store;
+use shadowstep_scenes::Error;
+use shadowstep_studies::files::{PAGE, write_charts, write_file, write_page};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::page::{Report, Section};
 
+use crate::charts::{PICTURES, Picture};
 use crate::study::Study;
 
 const DATA: &str = "work-precision.csv";
 const LINES: &str = "work-precision.jsonl";
-
 const SCRIPT: &str = "plot.py";
-const REPORT: &str = "report.html";
 
 /// Makes PDF of the CSV, or PGF.
 const PLOT: &str = include_str!("plot.py");
@@ -37,68 +36,33 @@ pub fn write(study: &Study<'_>, title: Title<'_>, folder: &Path) -> Result<PathB
     let reference = study.reference.described();
     let version = format!("shadowstep {}", env!("CARGO_PKG_VERSION"));
     let size = format!("The largest coordinate of the reference is {:.3e}.", study.reference.size());
-    let head =
-        [version.clone(), format!("command: {}", title.command), title.title.to_owned(), reference.clone(), size];
+    let head = [version, format!("command: {}", title.command), title.title.to_owned(), reference.clone(), size];
     write_file(folder, DATA, &study.csv(&head)?)?;
     write_file(folder, LINES, &study.json_lines()?)?;
     write_file(folder, SCRIPT, PLOT)?;
-    let mut pictures = Vec::new();
+    let (mut charts, mut svgs) = (Vec::new(), Vec::new());
     let mut files = [DATA, LINES, SCRIPT].map(str::to_owned).to_vec();
-    for picture in study.pictures(title.title) {
-        let [name, for_print] = ["", "-print"].map(|kind| format!("{}{kind}.svg", picture.name));
-        let svg = picture.chart.svg()?;
-        write_file(folder, &name, &svg)?;
-        write_file(folder, &for_print, &picture.chart.svg_for_print()?)?;
-        pictures.push(page::Picture { svg, caption: picture.caption.to_owned() });
-        files.extend([name, for_print]);
+    for Picture { name, caption, chart } in study.pictures(title.title) {
+        let (chart, for_print) = ([(chart, caption.to_owned())], format!("{name}-print.svg"));
+        let (svg, file) = write_charts(folder, name, &chart)?;
+        write_file(folder, &for_print, &chart[0].0.svg_for_print()?)?;
+        svgs.extend(svg);
+        files.extend(file.into_iter().chain([for_print]));
+        charts.extend(chart);
     }
-    let section = Section {
-        title: title.title.to_owned(),
-        of_paper: None,
-        stated: Vec::new(),
-        pictures,
-        findings: Vec::new(),
-        found: [format!("H = {}.", title.hamiltonian), reference, TIMES.to_owned()]
-            .into_iter()
-            .chain(study.remark_on_times())
-            .collect(),
-        statements: Vec::new(),
-        tables: study.tables(),
-        files,
-    };
-    let made_with = [("program", version), ("command", title.command.to_owned())];
-    let page = Report {
-        title: "Speed against error".to_owned(),
-        introduction: Vec::new(),
-        remark: None,
-        made_with: made_with.map(|(name, value)| (name.to_owned(), value)).to_vec(),
-        sections: vec![section],
-    };
-    write_file(folder, REPORT, &page.html())?;
-    Ok(folder.join(REPORT))
+    let hamiltonian = format!("H = {}.", title.hamiltonian);
+    let found = [hamiltonian, reference, TIMES.to_owned()].into_iter().chain(study.remark_on_times()).collect();
+    let finding = Finding { charts, found, tables: study.tables(), ..Finding::default() };
+    let sections = vec![Section { title: title.title.to_owned(), of_paper: None, finding, svgs, files }];
+    write_page(folder, &Report { sections, ..Report::new("Speed against error", title.command) })
 }
 
 const TIMES: &str = "Times are those of the bare steps of tables that are read at run time, in one thread: medians of nine repeats, all \
                      schemes by turns. Orders are slopes of the largest range of steps in which no error is off the line by more than 0.1 \
                      decades.";
 
-fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Error> {
-    let mut file = WholeFile::create(&folder.join(name), "the file")?;
-    file.write_all(text.as_bytes())?;
-    file.finish()
-}
-
-/// Files of this program have its results beside them. Without them, files of the same names are not replaced.
-///
-/// # Errors
-/// Such a file.
-pub fn refuse_foreign(folder: &Path) -> Result<(), Error> {
-    let foreign = [DATA, LINES, SCRIPT, REPORT].into_iter().map(|name| folder.join(name)).find(|path| path.exists());
-    match foreign.filter(|_| !Store::is_in(folder)) {
-        None => Ok(()),
-        Some(path) => {
-            let message = format!("{} exists, without results of this program beside it", path.display());
-            Err(Error::usage(message, "give another folder, or replace its files with --force"))
-        }
-    }
+/// The names of all files that are written.
+pub fn written() -> impl Iterator<Item = String> {
+    let charts = PICTURES.into_iter().flat_map(|name| [format!("{name}.svg"), format!("{name}-print.svg")]);
+    [DATA, LINES, SCRIPT, PAGE].into_iter().map(str::to_owned).chain(charts)
 }

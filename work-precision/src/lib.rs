@@ -10,7 +10,7 @@
 //! | [`run`] | one run: errors of position and energy, the modified energy |
 //! | [`timing`] | the time of a step |
 //! | [`of`], [`order`], `best` | which error; the measured order; the scheme that needs the least for an error |
-//! | [`advise`], [`convenient`] | advice on scheme and step size; step sizes that are easy to write |
+//! | [`advise`], `convenient` | advice on scheme and step size; step sizes that are easy to write |
 //! | [`schemes`] | the schemes that are compared if none are named |
 //! | [`files`] | what is written: data, charts, a page |
 //! | `charts` | work–precision diagrams |
@@ -22,7 +22,7 @@ pub mod advise;
 mod best;
 mod calculation;
 mod charts;
-pub mod convenient;
+mod convenient;
 pub mod files;
 pub mod of;
 pub mod order;

@@ -9,7 +9,7 @@ use shadowstep_scenes::start::{Begin, Steps};
 use shadowstep_symbolic::decimal::to_text;
 
 /// Errors along a run are taken at so many times at most.
-pub const MOST_SAMPLES: u64 = 64;
+pub(crate) const MOST_SAMPLES: u64 = 64;
 
 /// A system from t = 0 to `until` in a number type.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +40,7 @@ impl Problem<'_> {
     }
 
     /// Whether the runs go forward in time.
-    pub fn is_forward(&self) -> bool {
+    pub(crate) fn is_forward(&self) -> bool {
         self.until.is_positive()
     }
 

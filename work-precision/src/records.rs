@@ -1,6 +1,8 @@
 //! The results as rows: CSV, and JSON lines with the same keys.
 
 use serde::Serialize;
+use shadowstep_scenes::Error;
+use shadowstep_studies::files;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::run::{Measurement, PositionError};
@@ -43,19 +45,12 @@ impl Study<'_> {
     ///
     /// # Errors
     /// None but those of the CSV writer, which does not fail on texts.
-    pub fn csv(&self, head: &[String]) -> Result<String, csv::Error> {
-        let lines: String = head.iter().map(|line| format!("# {line}\n")).collect();
-        let mut csv = csv::Writer::from_writer(lines.into_bytes());
-        self.records().try_for_each(|record| csv.serialize(record))?;
-        let bytes = csv.into_inner().map_err(|error| error.into_error())?;
-        Ok(String::from_utf8(bytes).expect("CSV of texts is a text"))
+    pub fn csv(&self, head: &[String]) -> Result<String, Error> {
+        files::csv(head, self.records())
     }
 
     /// All runs as JSON objects, a line each.
-    ///
-    /// # Errors
-    /// A time that is not finite, which clocks do not give.
-    pub fn json_lines(&self) -> Result<String, serde_json::Error> {
+    pub(crate) fn json_lines(&self) -> Result<String, Error> {
         self.records().map(|record| Ok(serde_json::to_string(&record)? + "\n")).collect()
     }
 

@@ -12,6 +12,7 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_studies::Continues;
 
 use crate::of::Of;
 use crate::problem::Problem;
@@ -82,29 +83,24 @@ pub(crate) struct SeriesOf<'a> {
 }
 
 impl SeriesOf<'_> {
-    /// Makes the runs until `continues` with the part that is done returns false: then there is no series.
-    pub(crate) fn make(&self, continues: &dyn Fn(f64) -> bool) -> Result<Option<Series>, Error> {
+    /// Makes the runs, which end where `continues` with the part that is done returns false.
+    pub(crate) fn make(&self, continues: Continues<'_>) -> Result<Series, Error> {
         match self.range {
             StepRange::Automatic { seconds, target } => self.automatic(*seconds, *target, continues),
             StepRange::Given(steps) => {
                 let mut runs = Vec::new();
                 for (done, &steps) in steps.iter().enumerate() {
                     if !continues(done as f64 / self.range.len() as f64) {
-                        return Ok(None);
+                        break;
                     }
                     runs.push(self.measure(steps)?);
                 }
-                Ok(Some(Series { runs, end: End::Complete }))
+                Ok(Series { runs, end: End::Complete })
             }
         }
     }
 
-    fn automatic(
-        &self,
-        seconds: f64,
-        target: Option<Target>,
-        continues: &dyn Fn(f64) -> bool,
-    ) -> Result<Option<Series>, Error> {
+    fn automatic(&self, seconds: f64, target: Option<Target>, continues: Continues<'_>) -> Result<Series, Error> {
         let begin = CpuTime::begin();
         let mut runs: Vec<Measurement> = Vec::new();
         let mut end = End::Time;
@@ -114,7 +110,7 @@ impl SeriesOf<'_> {
                 continue;
             }
             if !continues((begin.elapsed().as_secs_f64() / seconds).min(1.0)) {
-                return Ok(None);
+                break;
             }
             let this = CpuTime::begin();
             runs.push(self.measure(steps)?);
@@ -130,7 +126,7 @@ impl SeriesOf<'_> {
                 break;
             }
         }
-        Ok(Some(Series { runs, end }))
+        Ok(Series { runs, end })
     }
 
     /// The number of steps of the run with this index: the scheme's evaluations are about samples · 2^(index/2), and the samples are at states.

@@ -17,7 +17,7 @@ impl Size {
     pub const ZERO: Size = Size { log10: f64::NEG_INFINITY };
 
     /// Larger than all others: of what is not finite.
-    pub const INFINITE: Size = Size { log10: f64::MAX };
+    pub(crate) const INFINITE: Size = Size { log10: f64::MAX };
 
     /// |x|; infinite where x is infinite or NaN.
     pub fn of<N: Ordered>(x: &N) -> Size {
@@ -41,7 +41,7 @@ impl Size {
 
     /// The size times 10^log10.
     #[must_use]
-    pub fn times_power_of_ten(self, log10: f64) -> Size {
+    pub(crate) fn times_power_of_ten(self, log10: f64) -> Size {
         Size { log10: self.log10 + log10 }
     }
 }

@@ -7,7 +7,7 @@ use num_integer::Integer;
 use shadowstep::Scheme;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_tasks::{Observer, Store, run};
+use shadowstep_studies::{Observer, Store};
 
 use crate::best::{Curve, cost_of};
 use crate::calculation::{Calculation, Outcome};
@@ -81,16 +81,15 @@ impl<'a> Request<'a> {
         let mut store = Store::open(&self.folder, observer)?;
         let problem = self.problem;
         let wanted = Calculation::reference(problem, self.samples(), self.reference_time);
-        let Some(Outcome::Reference(reference)) = only(&[wanted], &mut store, observer)? else {
-            return Err(Error::run("there is no reference", "use a shorter time"));
+        let Outcome::Reference(reference) = store.compute_one(wanted, observer)? else {
+            unreachable!("a reference was requested")
         };
         let series = |scheme| Calculation::series(problem, scheme, &reference, &self.range);
-        let found = run(&self.schemes.iter().map(series).collect::<Vec<_>>(), &mut store, observer)?;
-        found.failures.iter().for_each(|(_, error)| observer.failed(error));
+        let found = store.compute(&self.schemes.iter().map(series).collect::<Vec<_>>(), observer)?;
         let all: Vec<(&NamedScheme, Series)> = self
             .schemes
             .iter()
-            .zip(found.outcomes)
+            .zip(found)
             .filter_map(|(scheme, outcome)| match outcome {
                 Some(Outcome::Series(series)) => Some((scheme, series)),
                 _ => None,
@@ -98,9 +97,7 @@ impl<'a> Request<'a> {
             .collect();
         let timed = all.iter().map(|(scheme, series)| (*scheme, series.runs.last().map_or(1, |run| run.steps)));
         let wanted = Calculation::times(problem, &timed.collect::<Vec<_>>());
-        let Some(Outcome::Times(times)) = only(&[wanted], &mut store, observer)? else {
-            return Err(Error::run("the steps were not timed", "run the command again"));
-        };
+        let Outcome::Times(times) = store.compute_one(wanted, observer)? else { unreachable!("times were requested") };
         let schemes = all.into_iter().zip(times);
         let schemes = schemes.map(|((scheme, series), time)| Studied { scheme, series, time }).collect();
         Ok(Study { problem, reference, schemes })
@@ -125,19 +122,6 @@ impl<'a> Request<'a> {
 pub(crate) fn proved_order(scheme: &NamedScheme, problem: Problem<'_>) -> u32 {
     let summary = scheme.scheme.summary();
     if problem.system.has_general_kinetic() { summary.order } else { summary.order_quadratic }
-}
-
-/// The outcome of a single task; its failure is an error.
-pub(crate) fn only(
-    task: &[Calculation<'_>; 1],
-    store: &mut Store,
-    observer: &mut dyn Observer,
-) -> Result<Option<Outcome>, Error> {
-    let mut found = run(task, store, observer)?;
-    match found.failures.pop() {
-        Some((_, error)) => Err(error),
-        None => Ok(found.outcomes.pop().flatten()),
-    }
 }
 
 impl Study<'_> {

@@ -1,6 +1,6 @@
 //! What schemes need for an error, and the orders that they show.
 
-use shadowstep_report::page::Table;
+use shadowstep_studies::finding::Table;
 
 use crate::of::Of;
 use crate::order::MeasuredOrder;

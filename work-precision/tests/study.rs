@@ -9,6 +9,7 @@ use shadowstep::tables::Source;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::{Formula, InitialValueProblem, PotentialEnergy, System};
+use shadowstep_studies::Observer;
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::reference::Origin;
@@ -131,6 +132,32 @@ fn results_are_kept() {
     assert_eq!((again(), std::fs::read(folder.path().join("results.jsonl")).unwrap()), (first.clone(), bytes));
     let rows: Vec<&str> = first.lines().collect();
     assert!(rows.len() == 5 && rows[1].starts_with("stormer-verlet,2,1/10,50,50,"), "{first}");
+}
+
+/// Asks to stop from some question on.
+struct Stops {
+    questions: u32,
+}
+
+impl Observer for Stops {
+    fn stops(&mut self) -> bool {
+        self.questions = self.questions.saturating_sub(1);
+        self.questions == 0
+    }
+}
+
+/// Two runs make a reference, but not as accurate a one as the time allows: it is computed again.
+#[test]
+fn an_interrupted_reference_is_not_kept() {
+    let (system, until, folder) = (system("henon-heiles"), until(5), tempfile::tempdir().unwrap());
+    let schemes = schemes(&["yoshida4"]);
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
+    let (range, reference_time) = (StepRange::Given(vec![50]), Duration::from_secs(20));
+    let request = Request { problem, schemes: &schemes, range, reference_time, folder: folder.path().to_owned() };
+    let stopped = request.study(&mut Stops { questions: 4 }).unwrap_err();
+    assert!(stopped.to_string().starts_with("interrupted: 0 of 1 calculations are saved"), "{stopped}");
+    let saved = std::fs::read_to_string(folder.path().join("results.jsonl")).unwrap();
+    assert_eq!(saved.lines().count(), 1, "the header alone: {saved}");
 }
 
 /// A run whose states are not finite is kept as failed.

@@ -1,7 +1,7 @@
 //! Curves of runs → charts.
 
-use shadowstep_report::chart::{Axis, Chart, Curve, Marker};
 use shadowstep_scenes::plot::{Content, Distance, Orbit, Picture};
+use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
 
 use super::lines::{Lines, RunOfChart};
 

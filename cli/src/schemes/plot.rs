@@ -5,10 +5,10 @@ use shadowstep_analysis::Analysis;
 use shadowstep_analysis::oscillator::Oscillator;
 use shadowstep_analysis::stability::Stability;
 use shadowstep_analysis::trace::PhaseError;
-use shadowstep_report::chart::{Axis, Chart, Curve, Mark, log10_of, stacked};
 use shadowstep_scenes::Error;
 use shadowstep_schemes::map::MapKind;
 use shadowstep_schemes::{Proved, Rational};
+use shadowstep_studies::chart::{Axis, Chart, Curve, Mark, log10_of, stacked};
 
 /// Points of a curve over hω.
 const POINTS: usize = 1200;

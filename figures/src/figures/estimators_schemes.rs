@@ -2,20 +2,21 @@
 
 use super::estimators::{BEST_UP_TO, BILINEAR, Family, ORDERS, STATES, against_states, even};
 use super::kepler::run;
-use crate::drawing::{Drawing, drift_axis};
+use crate::drawing::{additional, drift_axis};
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::fit::logarithms;
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, SCHEMES};
-use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "estimators-schemes", title: "Estimators on schemes", of_paper: "", draw };
 
-fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::additional(
+fn draw(results: &Results) -> Finding {
+    let mut finding = additional(
         "The same estimators on schemes, Kepler, e = 0.6, h = 1/20, and the permanent change between low-error states.",
     );
     let orders = results.grid(&ORDERS, &[1, 3, 8, 24, 200]);
@@ -28,18 +29,17 @@ fn draw(results: &Results) -> Drawing {
         let relative =
             curves.iter().map(|curve| Curve { points: logarithms(&curve.points, &control), ..curve.clone() }).collect();
         curves.push(Curve::dashed("exact flow", control, 8));
-        drawing.chart(
-            &format!("{title}, h = 1/20"),
-            Axis::log10(STATES),
-            drift_axis(),
-            curves,
+        finding.chart(
+            Chart::new(format!("{title}, h = 1/20"), Axis::log10(STATES), drift_axis(), curves),
             "All estimates are of the same states.",
         );
-        drawing.chart(
-            &format!("{title}, relative to the exact flow, h = 1/20"),
-            Axis::log10(STATES),
-            Axis::log10("drift / drift of the exact flow"),
-            relative,
+        finding.chart(
+            Chart::new(
+                format!("{title}, relative to the exact flow, h = 1/20"),
+                Axis::log10(STATES),
+                Axis::log10("drift / drift of the exact flow"),
+                relative,
+            ),
             "At 1 an estimator shows of a scheme what it shows of a trajectory whose energy does not change.",
         );
     };
@@ -52,6 +52,6 @@ fn draw(results: &Results) -> Drawing {
         let permanent = bilinear.permanent.map_or("not resolved".to_owned(), |(change, _)| power(change));
         rows.push(vec![label.to_owned(), power(best.drift), power(bilinear.drift), permanent]);
     }
-    drawing.table("h = 1/20", &["", "drift by the best m ≤ 200", "drift by E_50", "permanent change"], rows);
-    drawing
+    finding.table("h = 1/20", &["", "drift by the best m ≤ 200", "drift by E_50", "permanent change"], rows);
+    finding
 }

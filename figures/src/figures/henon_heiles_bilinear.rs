@@ -1,19 +1,20 @@
 //! The Hénon–Heiles problem by the bilinear estimator.
 
 use super::henon_heiles::{FEW_STEPS, STEPS, drifts};
-use crate::drawing::{Drawing, drift_axis};
+use crate::drawing::{additional, drift_axis};
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::fit::logarithms;
 use crate::numbers::{decimal, power};
 use crate::results::Results;
-use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "henon-heiles-bilinear", title: "Hénon–Heiles by the bilinear estimator", of_paper: "", draw };
 
-fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::additional(
+fn draw(results: &Results) -> Finding {
+    let mut finding = additional(
         "The Hénon–Heiles problem, p₁(0) = 0.1, by the bilinear estimator E_k of k + 1 states and by central differences with the best m up to 200 \
          (401 states).",
     );
@@ -24,20 +25,17 @@ fn draw(results: &Results) -> Drawing {
     for (i, &k) in results.grid(&[8, 16, 40, 100], &[8, 16, 40]).iter().enumerate() {
         let [points, _] = drifts(results, "stormer-verlet", steps, &bilinear(k));
         if let Some((_, y)) = points.iter().find(|(n, _)| *n == 6.0) {
-            drawing.found(format!("At h = 1/6 the drift by E_{k} is {}.", power(*y)));
+            finding.found(format!("At h = 1/6 the drift by E_{k} is {}.", power(*y)));
         }
         gained.push(gain(k, &logarithms(&points, &best)));
         curves.push(Curve::line(format!("E_{k}"), points, i + 1));
     }
-    drawing.found(format!("Relative to the best m, where both are above the round-off: {}.", gained.join("; ")));
-    drawing.chart(
-        "Störmer–Verlet, Hénon–Heiles, p₁(0) = 0.1",
-        Axis::linear("1/h"),
-        drift_axis(),
-        curves,
+    finding.found(format!("Relative to the best m, where both are above the round-off: {}.", gained.join("; ")));
+    finding.chart(
+        Chart::new("Störmer–Verlet, Hénon–Heiles, p₁(0) = 0.1", Axis::linear("1/h"), drift_axis(), curves),
         "The exact flow of this problem is not known, so the estimator's own error is not shown.",
     );
-    drawing
+    finding
 }
 
 /// How many decades E_k shows less than the best m, and at how many steps.

@@ -1,15 +1,16 @@
 //! Kepler's problem: the drift against the eccentricity, and the eccentricities with which the body escapes.
 
 use super::kepler::run;
-use crate::drawing::{Drawing, drift_axis};
+use crate::drawing::{digits_held, drift_axis};
 use crate::escape::critical;
 use crate::estimator::BEST;
 use crate::figure::Figure;
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
-use shadowstep_report::chart::{Axis, Curve, Mark};
-use shadowstep_report::verdict::{Coverage, Verdict};
+use shadowstep_studies::chart::{Axis, Chart, Curve, Mark};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure = Figure {
     name: "kepler-eccentricity",
@@ -26,24 +27,24 @@ fn of(n: u32, e: u32) -> Run {
     run("stormer-verlet", n).with("eccentricity", format!("{e}/1000"))
 }
 
-fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::of_paper(&[
+fn draw(results: &Results) -> Finding {
+    let mut finding = Finding::on(&[
         "Almost circular orbits show much better preservation of the energy than highly elliptical ones.",
         "An instability occurs at a critical eccentricity which depends on the step size: the topology of the energy levels of the modified \
          energy changes, which leads to unbounded trajectories.",
     ]);
     let scans: Vec<Scan> = STEPS.iter().filter_map(|&n| Scan::of(results, n)).collect();
-    drifts(results, &mut drawing, &scans);
+    drifts(results, &mut finding, &scans);
     if !scans.is_empty() {
-        check_escapes(&mut drawing, &scans, results.coverage());
-        table(&mut drawing, &scans);
-        orbits(results, &mut drawing, &scans);
+        check_escapes(&mut finding, &scans, results.coverage());
+        table(&mut finding, &scans);
+        orbits(results, &mut finding, &scans);
     }
-    drawing.digits_held("the drift at h = 1/20, e = 0.8", results.digits_held(&of(20, 800), &BEST, 200));
-    drawing
+    digits_held(&mut finding, "the drift at h = 1/20, e = 0.8", results.digits_held(&of(20, 800), &BEST, 200));
+    finding
 }
 
-fn drifts(results: &Results, drawing: &mut Drawing, scans: &[Scan]) {
+fn drifts(results: &Results, finding: &mut Finding, scans: &[Scan]) {
     let all: Vec<u32> = (1..=19).map(|n| 50 * n).collect();
     let thousandths = results.grid(&all, &[50, 300, 600, 750, 900]);
     let mut curves = Vec::new();
@@ -51,19 +52,16 @@ fn drifts(results: &Results, drawing: &mut Drawing, scans: &[Scan]) {
         let points: Vec<_> =
             thousandths.iter().map(|&e| (f64::from(e) / 1000.0, results.log10_drift(&of(n, e), &BEST))).collect();
         if let (Some((first, least)), Some((at, middle))) = (points.first(), points.iter().find(|(e, _)| *e >= 0.6)) {
-            drawing.check(
-                &format!("h = 1/{n}: almost circular orbits preserve it much better."),
+            finding.check(
+                format!("h = 1/{n}: almost circular orbits preserve it much better."),
                 format!("{} at e = {first}, {} at e = {at}", power(*least), power(*middle)),
                 *least < middle - 3.0,
             );
         }
         curves.push(Curve::line(format!("h = 1/{n}"), points, i));
     }
-    let chart = drawing.chart(
-        "Störmer–Verlet, Kepler",
-        Axis::linear("eccentricity e"),
-        drift_axis(),
-        curves,
+    let chart = finding.chart(
+        Chart::new("Störmer–Verlet, Kepler", Axis::linear("eccentricity e"), drift_axis(), curves),
         "The best m of each state, up to 200. Marks: the first eccentricity with which the body escapes.",
     );
     let first = scans.iter().filter_map(|scan| Some((scan.n, scan.first()?)));
@@ -143,19 +141,19 @@ fn thousandths(e: u32) -> f64 {
     f64::from(e) / 1000.0
 }
 
-fn check_escapes(drawing: &mut Drawing, scans: &[Scan], coverage: Coverage) {
+fn check_escapes(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
     let ranges: Vec<_> = scans.iter().filter_map(|scan| Some((scan.n, scan.range()?))).collect();
     let list: Vec<_> = ranges.iter().map(|(n, (low, high))| format!("{low:.3} to {high:.3} at h = 1/{n}")).collect();
-    drawing.check(
+    finding.check(
         "An instability occurs at an eccentricity that depends on the step size.",
         format!("it begins at e = {}", list.join(", ")),
         depends_on_step(&scans.iter().map(Scan::range).collect::<Vec<_>>()),
     );
     for scan in scans {
         let (Some(verdict), Some(found)) = (scan.is_one_value(coverage), scan.described()) else { continue };
-        drawing.check(&format!("h = 1/{}: it is one critical eccentricity, to within 0.001.", scan.n), found, verdict);
+        finding.check(format!("h = 1/{}: it is one critical eccentricity, to within 0.001.", scan.n), found, verdict);
     }
-    topology(drawing, scans, coverage);
+    topology(finding, scans, coverage);
 }
 
 /// Ranges that are apart belong to different eccentricities; those that overlap, or are not known, allow both.
@@ -166,7 +164,7 @@ fn depends_on_step(ranges: &[Option<(f64, f64)>]) -> Verdict {
 
 /// A level set that is unbounded from the start is left on the first way out; an escape after a return needs a change of the
 /// modified energy itself.
-fn topology(drawing: &mut Drawing, scans: &[Scan], coverage: Coverage) {
+fn topology(finding: &mut Finding, scans: &[Scan], coverage: Coverage) {
     for scan in scans {
         let (all, late) =
             scan.escapes().fold((0, 0), |(all, late), (_, returns)| (all + 1, late + usize::from(returns > 0)));
@@ -185,15 +183,15 @@ fn topology(drawing: &mut Drawing, scans: &[Scan], coverage: Coverage) {
             "h = 1/{}: the trajectories are unbounded since the level sets of the modified energy are.",
             scan.n
         );
-        drawing.check(&statement, found, verdict);
+        finding.check(&statement, found, verdict);
     }
-    drawing.found(
+    finding.found(
         "A body has escaped when it is farther than 2, moves outward, and H̄ = H + h² (pᵀU_qq p/12 − |U_q|²/24), the modified energy up to \
          h², is at least 0: the level set then reaches infinity. |q| > 3 is not an escape: orbits of negative energy pass it and return.",
     );
 }
 
-fn table(drawing: &mut Drawing, scans: &[Scan]) {
+fn table(finding: &mut Finding, scans: &[Scan]) {
     let number = |e: Option<f64>| e.map_or("none".to_owned(), |e| format!("{e:.3}"));
     let rows = scans.iter().map(|scan| {
         let beyond = scan.found.iter().find(|(_, _, farthest)| *farthest > 3.0).map(|(e, ..)| thousandths(*e));
@@ -205,7 +203,7 @@ fn table(drawing: &mut Drawing, scans: &[Scan]) {
         .first()
         .zip(scans[0].found.last())
         .map_or((0, 0, 0), |(first, last)| (first.0, last.0, scans[0].found.len()));
-    drawing.table(
+    finding.table(
         &format!(
             "Escapes before t = 100, of {all} eccentricities from {} to {}",
             thousandths(first),
@@ -218,7 +216,7 @@ fn table(drawing: &mut Drawing, scans: &[Scan]) {
 
 /// The orbits on both sides of the instability, at h = 1/10: one that stays, the last that stays, the next, which escapes, and the
 /// first escape if that is before them.
-fn orbits(results: &Results, drawing: &mut Drawing, scans: &[Scan]) {
+fn orbits(results: &Results, finding: &mut Finding, scans: &[Scan]) {
     let Some(scan) = scans.iter().find(|scan| scan.n == 10) else { return };
     let bound = |below: u32| scan.found.iter().rev().find(|(e, returns, _)| *e < below && returns.is_none());
     let Some(last) = bound(u32::MAX).map(|(e, ..)| *e) else { return };
@@ -232,11 +230,13 @@ fn orbits(results: &Results, drawing: &mut Drawing, scans: &[Scan]) {
         let points = orbit.map_or_else(Vec::new, |orbit| orbit.x.into_iter().zip(orbit.y).collect());
         Curve::line(format!("e = {}, {label}", thousandths(*e)), points, i)
     };
-    drawing.chart(
-        "The orbits on both sides of the instability, h = 1/10",
-        Axis::linear("q₁").over(-30.0, 10.0),
-        Axis::linear("q₂").over(-16.0, 16.0),
-        shown.iter().enumerate().map(curve).collect(),
+    finding.chart(
+        Chart::new(
+            "The orbits on both sides of the instability, h = 1/10",
+            Axis::linear("q₁").over(-30.0, 10.0),
+            Axis::linear("q₂").over(-16.0, 16.0),
+            shown.iter().enumerate().map(curve).collect(),
+        ),
         "Störmer–Verlet, t ≤ 100; the states are joined by lines. The exact orbit reaches |q| = 1 + e.",
     );
 }

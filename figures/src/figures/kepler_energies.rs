@@ -3,15 +3,16 @@
 use shadowstep::Ordered;
 
 use super::kepler::{FAR, NEAR, apocentre, off, run};
-use crate::drawing::Drawing;
+use crate::drawing::digits_held;
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::measured::Energies;
 use crate::numbers::{Wide, number, power};
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, SCHEMES};
-use shadowstep_report::chart::{Axis, Curve, Mark, power_of_ten};
-use shadowstep_report::verdict::Verdict;
+use shadowstep_studies::chart::{Axis, Chart, Curve, Mark, power_of_ten};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "kepler-energies", title: "Kepler: the modified energy in time", of_paper: "figure 4", draw };
@@ -25,8 +26,8 @@ fn largest_off(energies: &Energies, at: impl Fn(f64) -> bool) -> f64 {
     points.filter(|(_, distance)| at(**distance)).map(|((_, y), _)| y).fold(f64::NEG_INFINITY, f64::max)
 }
 
-fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::of_paper(&[
+fn draw(results: &Results) -> Finding {
+    let mut finding = Finding::on(&[
         "The modified energy less the initial one, for several step sizes (Störmer–Verlet) and for the methods at h = 0.1. There \
          are peaks when the particle is near the singularity, and the energy essentially recovers its value after this point \
          before another close encounter.",
@@ -41,8 +42,8 @@ fn draw(results: &Results) -> Drawing {
         all.map(|(scheme, label)| (label.to_owned(), results.energies(&run(scheme, 10), &BEST))).collect();
     for (title, of) in [("Störmer–Verlet, several step sizes", &of_steps), ("h = 1/10, several schemes", &of_schemes)]
     {
-        in_time(&mut drawing, title, of, false);
-        in_time(&mut drawing, &format!("{title}, from the apocentre"), of, true);
+        in_time(&mut finding, title, of, false);
+        in_time(&mut finding, &format!("{title}, from the apocentre"), of, true);
     }
     let verlet = of_steps.iter().find(|(label, _)| label == "h = 1/20").and_then(|(_, energies)| energies.as_ref());
     if let Some(verlet) = verlet {
@@ -53,7 +54,7 @@ fn draw(results: &Results) -> Drawing {
             () if lost > -1.0 => Verdict::Differs,
             () => Verdict::NotDecided,
         };
-        drawing.check(
+        finding.check(
             "It essentially recovers its value after a close encounter (Störmer–Verlet, h = 1/20).",
             format!(
                 "the difference is up to {} where |q| < 0.8 and up to {} where |q| > 1.5",
@@ -63,15 +64,15 @@ fn draw(results: &Results) -> Drawing {
             verdict,
         );
     }
-    compare_schemes(&mut drawing, &of_schemes);
-    staircases(results, &mut drawing);
+    compare_schemes(&mut finding, &of_schemes);
+    staircases(results, &mut finding);
     let held = results.digits_held(&run("blanes-moan-srkn6b", 10), &BEST, 200);
-    drawing.digits_held("the drift of SRKN6b at h = 1/10", held);
-    drawing
+    digits_held(&mut finding, "the drift of SRKN6b at h = 1/10", held);
+    finding
 }
 
 /// A chart of differences from the first state, or from the first apocentre.
-fn in_time(drawing: &mut Drawing, title: &str, of: &Labelled, from_apocentre: bool) {
+fn in_time(finding: &mut Finding, title: &str, of: &Labelled, from_apocentre: bool) {
     let curves = of.iter().enumerate().filter_map(|(i, (label, energies))| {
         let energies = energies.as_ref()?;
         let points = off(energies, if from_apocentre { apocentre(energies) } else { 0 });
@@ -86,10 +87,10 @@ fn in_time(drawing: &mut Drawing, title: &str, of: &Labelled, from_apocentre: bo
     } else {
         ("|H̄ − H̄ at the start|", "t ≤ 40 of [0, 100]; the start is a pericentre.")
     };
-    drawing.chart(title, Axis::linear("time t"), Axis::log10(y), curves.collect(), caption);
+    finding.chart(Chart::new(title, Axis::linear("time t"), Axis::log10(y), curves.collect()), caption);
 }
 
-fn compare_schemes(drawing: &mut Drawing, of: &Labelled) {
+fn compare_schemes(finding: &mut Finding, of: &Labelled) {
     let change = |(label, energies): &(String, Option<Energies>)| {
         let energies = energies.as_ref()?;
         Some((label.clone(), largest_off(energies, |_| true), largest_off(energies, |r| r > FAR)))
@@ -100,7 +101,7 @@ fn compare_schemes(drawing: &mut Drawing, of: &Labelled) {
     let most = changes[..SCHEMES.len()].iter().map(|(_, peak, _)| *peak);
     let (least, largest) = (most.clone().fold(f64::INFINITY, f64::min), most.fold(f64::NEG_INFINITY, f64::max));
     let factor = 10_f64.powf(largest - least);
-    drawing.check(
+    finding.check(
         "The maximal variation is almost the same.",
         format!(
             "from {} to {} at h = 1/10, a factor of {factor:.1}; up to 2 counts as almost the same, more than 4 does not",
@@ -113,7 +114,7 @@ fn compare_schemes(drawing: &mut Drawing, of: &Labelled) {
             () => Verdict::NotDecided,
         },
     );
-    drawing.check(
+    finding.check(
         "Blanes and Moan's methods preserve it better after the encounter.",
         format!(
             "where |q| > 1.5 the difference is up to {} for S6, {} for SRKN6b and {} for Störmer–Verlet",
@@ -125,7 +126,7 @@ fn compare_schemes(drawing: &mut Drawing, of: &Labelled) {
     );
     let rows = changes.iter().map(|(label, peak, far)| vec![label.clone(), power(*peak), power(*far)]).collect();
     let header = ["", "at all times", "where |q| > 1.5"];
-    drawing.table("Largest difference from the first apocentre, h = 1/10, t ≤ 100", &header, rows);
+    finding.table("Largest difference from the first apocentre, h = 1/10, t ≤ 100", &header, rows);
 }
 
 /// The value at each apocentre, and the time.
@@ -138,14 +139,14 @@ fn at_apocentres(energies: &Energies) -> Vec<(f64, Wide)> {
 }
 
 /// The signed change of the modified energy from apocentre to apocentre, whose jumps are at the encounters.
-fn staircases(results: &Results, drawing: &mut Drawing) {
+fn staircases(results: &Results, finding: &mut Finding) {
     let mut columns: Vec<(&str, Vec<Wide>)> = Vec::new();
     for (i, (scheme, label)) in SCHEMES.into_iter().enumerate() {
         let Some(energies) = results.energies(&run(scheme, 10), &bilinear(24)) else { continue };
         let values = at_apocentres(&energies);
         let jumps: Vec<Wide> = values.windows(2).map(|pair| &pair[1].1 - &pair[0].1).collect();
         if !jumps.is_empty() {
-            staircase(drawing, (label, i), &values, &jumps);
+            staircase(finding, (label, i), &values, &jumps);
             columns.push((label, jumps));
         }
     }
@@ -156,11 +157,11 @@ fn staircases(results: &Results, drawing: &mut Drawing) {
     };
     let most = columns.iter().map(|(_, jumps)| jumps.len()).max().unwrap_or(0);
     let caption = "Jumps of the modified energy at the encounters, h = 1/10, by E_24 at the apocentres";
-    drawing.table(caption, &header, (0..most).map(row).collect());
+    finding.table(caption, &header, (0..most).map(row).collect());
 }
 
 /// t ≤ 40; the values between two encounters are those at the apocentre there.
-fn staircase(drawing: &mut Drawing, (label, colour): (&str, usize), values: &[(f64, Wide)], jumps: &[Wide]) {
+fn staircase(finding: &mut Finding, (label, colour): (&str, usize), values: &[(f64, Wide)], jumps: &[Wide]) {
     let decade = jumps.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max).floor();
     let relative = |value: &Wide| {
         let change = value - &values[0].1;
@@ -174,11 +175,13 @@ fn staircase(drawing: &mut Drawing, (label, colour): (&str, usize), values: &[(f
         points.extend([(middle(n), relative(&shown[n].1)), (middle(n), relative(&shown[n + 1].1))]);
     }
     points.push((shown[shown.len() - 1].0, relative(&shown[shown.len() - 1].1)));
-    let chart = drawing.chart(
-        &format!("The staircase of the modified energy, h = 1/10, {label}"),
-        Axis::linear("time t"),
-        Axis::linear(&format!("change since the first apocentre / {}", power_of_ten(decade as i64))),
-        vec![Curve::line(label, points, colour)],
+    let chart = finding.chart(
+        Chart::new(
+            format!("The staircase of the modified energy, h = 1/10, {label}"),
+            Axis::linear("time t"),
+            Axis::linear(&format!("change since the first apocentre / {}", power_of_ten(decade as i64))),
+            vec![Curve::line(label, points, colour)],
+        ),
         "At the apocentres, by E_24; marks: the jumps at the encounters.",
     );
     chart.marks = (0..shown.len() - 1).map(|n| Mark::at(middle(n), signed(&jumps[n]))).collect();

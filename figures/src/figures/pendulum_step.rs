@@ -6,15 +6,16 @@ use std::f64::consts::PI;
 use shadowstep::problems::Problem;
 
 use super::pendulum::{SCHEME, singularity};
-use crate::drawing::{Drawing, drift_axis};
+use crate::drawing::{digits_held, drift_axis};
 use crate::estimator::central;
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, ROUND_OFF, against_aliasing, decay, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::Run;
-use shadowstep_report::chart::{Axis, Curve};
-use shadowstep_report::verdict::{Coverage, Verdict};
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "pendulum-step", title: "The pendulum: drift against the step size", of_paper: "figure 1", draw };
@@ -40,8 +41,8 @@ fn limits(steps: &[u32], quick: bool) -> Vec<(u32, u32)> {
     steps.iter().map(|&n| (n, of_limit(n).max(200))).filter(|(_, m)| *m <= largest(quick)).collect()
 }
 
-fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::of_paper(&[
+fn draw(results: &Results) -> Finding {
+    let mut finding = Finding::on(&[
         "The drift, max − min of the modified energy over [0, 100], computed from T_{m,m} for m = 2, 5, 10, 15, 20, 30, 40. The \
          approximations T_{m,m} converge for this problem.",
         "The limit, the thick line, follows the exp(−c/h) behaviour that the theory predicts.",
@@ -60,53 +61,49 @@ fn draw(results: &Results) -> Drawing {
     let mut curves: Vec<_> =
         curves.map(|(i, (m, points))| Curve::line(format!("m = {m}"), against(points), i + 1)).collect();
     curves.push(Curve::thick("limit", against(&limit), 0));
-    drawing.chart(
-        "Störmer–Verlet, pendulum, q(0) = 0, p(0) = 1",
-        Axis::linear("1/h"),
-        drift_axis(),
-        curves,
-        &format!(
-            "The limit is taken at m = 3 ρ²/h², but at least 200. It is not known at {} of {} steps, where that is above {}.",
-            steps.len() - limits.len(),
-            steps.len(),
-            largest(results.quick)
-        ),
+    let caption = format!(
+        "The limit is taken at m = 3 ρ²/h², but at least 200. It is not known at {} of {} steps, where that is above {}.",
+        steps.len() - limits.len(),
+        steps.len(),
+        largest(results.quick)
     );
-    check_convergence(results, &mut drawing);
-    check_orders(&mut drawing, &fixed, results.coverage());
-    check_limit(&mut drawing, &limit);
-    drawing.digits_held("the drift at h = 1/10 by m = 20", results.digits_held(&run(10), &central(20), 200));
-    drawing
+    let title = "Störmer–Verlet, pendulum, q(0) = 0, p(0) = 1";
+    finding.chart(Chart::new(title, Axis::linear("1/h"), drift_axis(), curves), caption);
+    check_convergence(results, &mut finding);
+    check_orders(&mut finding, &fixed, results.coverage());
+    check_limit(&mut finding, &limit);
+    digits_held(&mut finding, "the drift at h = 1/10 by m = 20", results.digits_held(&run(10), &central(20), 200));
+    finding
 }
 
 /// The drifts by each m, which must not grow with m.
-fn check_orders(drawing: &mut Drawing, fixed: &[(u32, Vec<(f64, f64)>)], coverage: Coverage) {
+fn check_orders(finding: &mut Finding, fixed: &[(u32, Vec<(f64, f64)>)], coverage: Coverage) {
     let falls = fixed.windows(2).all(|pair| {
         pair[0].1.iter().zip(&pair[1].1).all(|((_, lower), (_, higher))| *higher < lower + 0.05 || *higher < ROUND_OFF)
     });
     let found = format!("{} of {} step sizes", if falls { "at all" } else { "not at all" }, fixed[0].1.len());
-    drawing.check("A larger m does not give a larger drift.", found, coverage.every(falls));
+    finding.check("A larger m does not give a larger drift.", found, coverage.every(falls));
 }
 
 /// The limit must decay exponentially; its rate, beside that of the theory.
-fn check_limit(drawing: &mut Drawing, limit: &[(f64, f64)]) {
+fn check_limit(finding: &mut Finding, limit: &[(f64, f64)]) {
     let fit = decay(limit, 0.5);
     if let Some(fit) = &fit {
-        drawing.check("The limit follows exp(−c/h).", fit.described(), fit.is_exponential());
+        finding.check("The limit follows exp(−c/h).", fit.described(), fit.is_exponential());
     }
     let theory = PI * singularity(1.0);
     if let Some(found) = against_aliasing(limit, theory) {
-        drawing.found(found);
+        finding.found(found);
     }
     let rows = vec![
         decay_row("limit", fit.as_ref()),
         theory_row("π ρ, from aliasing of differences of samples", format!("{theory:.4}")),
     ];
-    drawing.table("The rate of the limit", &DECAY_HEADER, rows);
+    finding.table("The rate of the limit", &DECAY_HEADER, rows);
 }
 
 /// The limit must be reached: drifts by m far larger than those of the figure.
-fn check_convergence(results: &Results, drawing: &mut Drawing) {
+fn check_convergence(results: &Results, finding: &mut Finding) {
     for n in [2_u32, 4, 6] {
         let run = Run::of(Problem::Pendulum, SCHEME, format!("1/{n}"));
         let orders = [40, 80, 160, 320, 640];
@@ -118,8 +115,8 @@ fn check_convergence(results: &Results, drawing: &mut Drawing) {
             () if changes.is_sorted() => Verdict::Differs,
             () => Verdict::NotDecided,
         };
-        drawing.check(
-            &format!("h = 1/{n}: T_{{m,m}} converge as m → ∞."),
+        finding.check(
+            format!("h = 1/{n}: T_{{m,m}} converge as m → ∞."),
             format!(
                 "{} by m = {}; the last change is by {last:.3} decades",
                 many.map(power).join(", "),

@@ -1,21 +1,22 @@
 //! The permanent change of the modified energy of the schemes, between low-error states.
 
 use super::kepler::{self, run};
-use crate::drawing::Drawing;
+use crate::drawing::{additional, digits_held};
 use crate::estimator::{BEST, bilinear};
 use crate::figure::Figure;
 use crate::fit::{DECAY_HEADER, decay_row, theory_row};
 use crate::numbers::power;
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, FORCES, SCHEMES};
-use shadowstep_report::chart::{Axis, Curve};
-use shadowstep_report::verdict::{Coverage, Verdict};
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::{Coverage, Verdict};
 
 pub(super) const FIGURE: Figure =
     Figure { name: "permanent-change", title: "The permanent change of the schemes", of_paper: "", draw };
 
 /// The paper's drift above, the permanent change below, and their rates; the drifts at the steps of their own figure.
-fn drift_and_change(results: &Results, drawing: &mut Drawing, changes: &[Curve]) {
+fn drift_and_change(results: &Results, finding: &mut Finding, changes: &[Curve]) {
     let steps = results.grid(&kepler::STEPS, &kepler::FEW_STEPS);
     let drifts = SCHEMES.map(|(scheme, _)| kepler::drifts(results, scheme, steps, &BEST));
     let control = kepler::drifts(results, EXACT_FLOW, steps, &BEST);
@@ -26,8 +27,8 @@ fn drift_and_change(results: &Results, drawing: &mut Drawing, changes: &[Curve])
     rows.push(row("drift, exact flow", &control));
     let rho = kepler::singularity(0.6) * std::f64::consts::PI;
     rows.push(theory_row("π ρ and 2π ρ", format!("{rho:.3} and {:.3}", 2.0 * rho)));
-    drawing.table("Rates over h ≤ 1/10", &DECAY_HEADER, rows);
-    findings(drawing, changes, &drifts, rho);
+    finding.table("Rates over h ≤ 1/10", &DECAY_HEADER, rows);
+    findings(finding, changes, &drifts, rho);
     let mut curves: Vec<_> = drifts
         .into_iter()
         .enumerate()
@@ -35,17 +36,20 @@ fn drift_and_change(results: &Results, drawing: &mut Drawing, changes: &[Curve])
         .collect();
     curves.push(Curve::thick("drift, exact flow", control, 8));
     curves.extend(changes.iter().cloned().map(|curve| Curve { label: format!("change, {}", curve.label), ..curve }));
-    drawing.chart(
-        "The paper's drift, and the permanent change",
-        Axis::linear("1/h"),
-        Axis::log10("modified energy over [0, 100]"),
-        curves,
-        "Above, the drift by the best m, of four schemes and of the exact flow, whose energy does not change. Below, the permanent change.",
+    finding.chart(
+        Chart::new(
+            "The paper's drift, and the permanent change",
+            Axis::linear("1/h"),
+            Axis::log10("modified energy over [0, 100]"),
+            curves,
+        ),
+        "Above, the drift by the best m, of four schemes and of the exact flow, whose energy does not change. Below, the permanent \
+         change.",
     );
 }
 
 /// How far the changes are below the drifts, their rates, and the place of the drifts in each other's order.
-fn findings(drawing: &mut Drawing, changes: &[Curve], drifts: &[Vec<(f64, f64)>; 4], rho: f64) {
+fn findings(finding: &mut Finding, changes: &[Curve], drifts: &[Vec<(f64, f64)>; 4], rho: f64) {
     let below = changes.iter().zip(drifts).flat_map(|(change, drift)| {
         let common = change.points.iter().filter_map(|(n, y)| Some((*y, drift.iter().find(|(m, _)| m == n)?.1)));
         common.filter(|(y, _)| y.is_finite()).map(|(y, drift)| drift - y).collect::<Vec<_>>()
@@ -54,7 +58,7 @@ fn findings(drawing: &mut Drawing, changes: &[Curve], drifts: &[Vec<(f64, f64)>;
     let (least, most) = below.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| (a.min(*y), b.max(*y)));
     let rates: Vec<_> = changes.iter().filter_map(|curve| Some(kepler::rate(&curve.points)?.c)).collect();
     let (slow, fast) = rates.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), c| (a.min(*c), b.max(*c)));
-    drawing.finding(format!(
+    finding.highlight(format!(
         "The permanent change of the modified energy, between states whose estimates are accurate, is {least:.1} to {most:.1} decades below the \
          paper's drift at the step sizes that both have. It falls like exp(−c/h) with c = {slow:.2} to {fast:.2} over h ≤ 1/10, near 2π ρ = {:.3}.",
         2.0 * rho
@@ -62,7 +66,7 @@ fn findings(drawing: &mut Drawing, changes: &[Curve], drifts: &[Vec<(f64, f64)>;
     let at = |scheme: usize, n: usize| drifts[scheme][n].1;
     let all = drifts[0].len();
     let first = (0..all).filter(|&n| at(2, n).min(at(3, n)) > at(0, n).max(at(1, n))).count();
-    drawing.found(format!("The drifts by the best m of S6 and SRKN6b are the two largest of the four schemes at {first} of {all} step sizes."));
+    finding.found(format!("The drifts by the best m of S6 and SRKN6b are the two largest of the four schemes at {first} of {all} step sizes."));
 }
 
 /// log₁₀ of the permanent change and of its largest jump, by E_24.
@@ -79,8 +83,8 @@ fn changes(results: &Results, steps: &[u32], x: impl Fn(f64, f64) -> f64) -> Vec
     curves.collect()
 }
 
-fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::additional(
+fn draw(results: &Results) -> Finding {
+    let mut finding = additional(
         "The permanent change of the modified energy over [0, 100], Kepler, e = 0.6: max − min over the low-error states, which are near the \
          apocentres; by E_24. It is the range of a sum of jumps, one per encounter. Each jump is a sinusoidal function of the position of the \
          encounter within a step, so the sum also depends on the start and on the ratio of the period to the step size.",
@@ -89,11 +93,11 @@ fn draw(results: &Results) -> Drawing {
     let steps = results.grid(&all, &[5, 7, 10, 14, 20, 30, 40]);
     let (equal_steps, equal_cost) = (changes(results, steps, |n, _| n), changes(results, steps, |n, cost| n * cost));
     let y = || Axis::log10("permanent change over [0, 100]");
-    drawing.chart("At equal step sizes", Axis::linear("1/h"), y(), equal_steps.clone(), "Lower is better.");
+    finding.chart(Chart::new("At equal step sizes", Axis::linear("1/h"), y(), equal_steps.clone()), "Lower is better.");
     let per_time = Axis::linear("force evaluations per unit of time");
-    drawing.chart("At equal cost", per_time, y(), equal_cost.clone(), "Lower is better.");
-    drift_and_change(results, &mut drawing, &equal_steps);
-    rank(&mut drawing, &equal_steps, &equal_cost, results.coverage());
+    finding.chart(Chart::new("At equal cost", per_time, y(), equal_cost.clone()), "Lower is better.");
+    drift_and_change(results, &mut finding, &equal_steps);
+    rank(&mut finding, &equal_steps, &equal_cost, results.coverage());
     let shown = |(change, jump)| format!("{} ({})", power(change), power(jump));
     let row = |n: &u32| {
         let cells = SCHEMES.map(|(scheme, _)| change(results, scheme, *n).map_or("not resolved".to_owned(), shown));
@@ -101,14 +105,14 @@ fn draw(results: &Results) -> Drawing {
     };
     let rows = steps.iter().filter(|n| [5, 10, 20, 40].contains(*n)).map(row).collect();
     let header: Vec<&str> = ["h"].into_iter().chain(SCHEMES.map(|(_, label)| label)).collect();
-    drawing.table("Permanent change (largest jump)", &header, rows);
+    finding.table("Permanent change (largest jump)", &header, rows);
     let held = results.digits_held(&run(SCHEMES[3].0, 20), &bilinear(24), 200);
-    drawing.digits_held("the drift of SRKN6b at h = 1/20 by E_24", held);
-    drawing
+    digits_held(&mut finding, "the drift of SRKN6b at h = 1/20 by E_24", held);
+    finding
 }
 
 /// Which schemes change less, at equal step sizes and at equal cost.
-fn rank(drawing: &mut Drawing, equal_steps: &[Curve], equal_cost: &[Curve], coverage: Coverage) {
+fn rank(finding: &mut Finding, equal_steps: &[Curve], equal_cost: &[Curve], coverage: Coverage) {
     let at = |scheme: usize| equal_steps[scheme].points.iter().map(|(_, y)| *y);
     let both = at(0).zip(at(1)).filter(|(verlet, yoshida)| verlet.is_finite() && yoshida.is_finite());
     let (larger, count) =
@@ -117,7 +121,7 @@ fn rank(drawing: &mut Drawing, equal_steps: &[Curve], equal_cost: &[Curve], cove
     let others: Vec<f64> = others.filter(|y| y.is_finite()).collect();
     let least = others.iter().filter(|y| **y < 0.0).count();
     let most = others.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    drawing.check(
+    finding.check(
         "At equal step sizes S6 and SRKN6b change least.",
         format!(
             "at {least} of {} step sizes at which all changes are resolved; by at most {:.2} times the smaller change of the others",
@@ -126,7 +130,7 @@ fn rank(drawing: &mut Drawing, equal_steps: &[Curve], equal_cost: &[Curve], cove
         ),
         of_counts(least, others.len(), coverage),
     );
-    drawing.found(format!(
+    finding.found(format!(
         "Störmer–Verlet changes more than Yoshida 4 at {larger} of {count} step sizes: which of the two changes more depends on the phases of the encounters."
     ));
     let verlet = &equal_cost[0].points;
@@ -134,7 +138,7 @@ fn rank(drawing: &mut Drawing, equal_steps: &[Curve], equal_cost: &[Curve], cove
         equal_cost[1..].iter().flat_map(|curve| &curve.points).filter_map(|(x, y)| Some(interpolated(verlet, *x)? - y));
     let behind: Vec<f64> = behind.filter(|y| y.is_finite()).collect();
     let least = behind.iter().filter(|y| **y < 0.0).count();
-    drawing.check(
+    finding.check(
         "At equal cost Störmer–Verlet changes least.",
         format!(
             "at {least} of {} points of the others where costs overlap; by at most {} times their change",

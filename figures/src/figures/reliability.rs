@@ -4,14 +4,15 @@ use shadowstep::problems::Problem;
 use shadowstep::shadow::{EstimatorSettings, StoppingRule};
 use shadowstep::{Number, Ordered};
 
-use crate::drawing::Drawing;
+use crate::drawing::additional;
 use crate::estimator::{best, bilinear, central};
 use crate::figure::Figure;
 use crate::measured::Energies;
 use crate::numbers::{Wide, number};
 use crate::results::Results;
 use crate::run::{EXACT_FLOW, Run};
-use shadowstep_report::chart::{Axis, Curve};
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
 
 pub(super) const FIGURE: Figure =
     Figure { name: "reliability", title: "Estimated errors against true errors", of_paper: "", draw };
@@ -58,12 +59,12 @@ fn shown(ratio: f64) -> String {
     if (0.01..1000.0).contains(&ratio) { format!("{ratio:.2}") } else { format!("{ratio:.0e}") }
 }
 
-fn draw(results: &Results) -> Drawing {
-    let mut drawing = Drawing::additional(
+fn draw(results: &Results) -> Finding {
+    let mut finding = additional(
         "On the exact flow of Kepler's problem the error of an estimate is known. The paper uses |T_{m,m} − T_{m−1,m−1}| as its estimate. Here the estimate is the largest of the differences of the estimates at a few states on either side, of their last terms, and of the last digit.",
     );
     for (label, estimator) in [&estimators()[2], &estimators()[4]] {
-        along_an_orbit(results, &mut drawing, label, estimator);
+        along_an_orbit(results, &mut finding, label, estimator);
     }
     let orbits = results.grid(&["0", "3/10", "6/10", "9/10"], &["0", "6/10", "9/10"]);
     let steps = results.grid(&["1/10", "3/31", "1/20", "1/40"], &["1/10", "1/20"]);
@@ -89,32 +90,34 @@ fn draw(results: &Results) -> Drawing {
         );
     }
     let list = |values: &[&str]| values.join(", ");
-    drawing.table(
+    finding.table(
         &format!("True error / estimated error over one orbit each of e = {}, h = {}", list(orbits), list(steps)),
         &["", "median", "95 %", "largest", "largest, by the last term", "largest, h = 2: three states a period"],
         rows,
     );
-    drawing.check(
+    finding.check(
         "The estimated errors are hardly ever smaller than the true ones, close encounters included.",
         format!("true/estimated is at most {worst_of_all:.2}"),
         results.coverage().every(worst_of_all < RELIABLE),
     );
-    drawing
+    finding
 }
 
-fn along_an_orbit(results: &Results, drawing: &mut Drawing, label: &str, estimator: &EstimatorSettings) {
+fn along_an_orbit(results: &Results, finding: &mut Finding, label: &str, estimator: &EstimatorSettings) {
     let Some(found) = results.energies(&run("6/10", "1/20", "7"), estimator) else { return };
     let against = |sizes: Vec<f64>| found.times.iter().copied().zip(sizes).collect::<Vec<_>>();
     let known = |sizes: &[Option<f64>]| against(sizes.iter().map(|size| size.unwrap_or(f64::NAN)).collect());
-    drawing.chart(
-        &format!("Exact flow, Kepler, e = 0.6, h = 1/20, {label}"),
-        Axis::linear("time t"),
-        Axis::log10("error"),
-        vec![
-            Curve::thick("true", against(true_errors(&found)), 0),
-            Curve::line("estimated", known(&found.errors), 1),
-            Curve::dashed("last term", known(&found.last_terms), 2),
-        ],
+    finding.chart(
+        Chart::new(
+            format!("Exact flow, Kepler, e = 0.6, h = 1/20, {label}"),
+            Axis::linear("time t"),
+            Axis::log10("error"),
+            vec![
+                Curve::thick("true", against(true_errors(&found)), 0),
+                Curve::line("estimated", known(&found.errors), 1),
+                Curve::dashed("last term", known(&found.last_terms), 2),
+            ],
+        ),
         "One orbit from pericentre to pericentre.",
     );
 }

@@ -2,11 +2,11 @@
 
 use shadowstep::{Rational, Scheme};
 use shadowstep_analysis::stability::Stability;
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::System;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::finding::Finding;
 use crate::long_run::{LongCase, LongRun, Stayed};
 use crate::suite::{Examined, Suite};
 use crate::watched::setup;
@@ -81,7 +81,7 @@ impl LongCase for Argon {
                 });
             }
             let found = format!("hω as a part of the limit {limit:.3}, ω = {omega:.0} per ns: {}", parts.join(", "));
-            finding.row(&named.name, found, Verdict::of_all(verdicts));
+            finding.check(&named.name, found, Verdict::of_all(verdicts));
             let points = all.iter().zip(STEPS).map(|((_, stayed), fs)| (fs as f64, stayed.energy_errors[3].log10()));
             let points: Vec<_> = points.filter(|(_, error)| *error <= LARGEST_DRAWN).collect();
             curves.push(Curve::marked(named.name.clone(), points, curves.len()));

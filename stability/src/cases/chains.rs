@@ -7,12 +7,13 @@ use shadowstep::number::Rounded;
 use shadowstep::pairs::{Ends, Pairs};
 use shadowstep::problems::CubicSpring;
 use shadowstep::{Motion, Potential, Rational, Scheme, Stepper, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::suite::{Examined, Suite};
 
 /// The case.
@@ -109,7 +110,7 @@ impl Case for Chains {
             let found = format!(
                 "from 100 to 100 000 bodies {least:.2} to {largest:.2} ns a body and evaluation; {numbers:.0} numbers a body at most"
             );
-            finding.row(name, found, Verdict::from(largest <= LINEAR * least && finite));
+            finding.check(name, found, Verdict::from(largest <= LINEAR * least && finite));
             let points =
                 all.iter().map(|(trial, cost)| ((trial.bodies as f64).log10(), cost.nanoseconds.log10())).collect();
             curves.push(Curve::marked(name.clone(), points, i));

@@ -5,12 +5,13 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 use shadowstep::Scheme;
 use shadowstep::number::Rounded;
-use shadowstep_report::chart::{Axis, Chart, Curve, Mark};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve, Mark};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::scene_run::{Said, digits, run_scene};
 use crate::suite::Suite;
 
@@ -104,7 +105,7 @@ impl Case for ClosePlanets {
                 verdicts.push(verdict);
                 points.extend(closest.map(|closest| (separation, closest.log10())));
             }
-            finding.row(name, parts.join("; "), Verdict::of_all(verdicts));
+            finding.check(name, parts.join("; "), Verdict::of_all(verdicts));
             curves.push(Curve::marked(name.clone(), points, curves.len()));
         }
         let (x, y) =

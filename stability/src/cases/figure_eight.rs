@@ -1,8 +1,8 @@
 //! Three bodies on a figure eight for 1000 periods.
 
 use shadowstep::Rational;
+use shadowstep_studies::finding::Finding;
 
-use crate::finding::Finding;
 use crate::long_run::{LongCase, LongRun, Stayed, staying};
 use crate::suite::Suite;
 

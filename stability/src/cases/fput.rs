@@ -5,13 +5,14 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
-use crate::suite::{Examined, Suite};
+use crate::case::Case;
+use crate::suite::{Examined, OF_ORDERS_2_TO_8, Suite};
 use crate::watched::{Next, Watched, setup, watched};
 
 /// The case.
@@ -40,7 +41,6 @@ const STEPS_A_UNIT: i64 = 10;
 const RECURS: (f64, f64) = (9_800.0, 10_700.0);
 const BACK: f64 = 0.95;
 const SPREAD: f64 = 0.3;
-const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
 impl Case for Fput {
     const NAME: &'static str = "fput";
@@ -54,7 +54,7 @@ impl Case for Fput {
     type Measured = Recurrence;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let schemes = suite.schemes_or(&SCHEMES);
+        let schemes = suite.schemes_or(&OF_ORDERS_2_TO_8);
         schemes.iter().map(|scheme: &&Examined| Trial { scheme: scheme.identity.clone(), until: 12_000 }).collect()
     }
 
@@ -101,7 +101,7 @@ impl Case for Fput {
                 found.watched.verdict
             );
             let recurs = (RECURS.0..RECURS.1).contains(&time) && back > BACK && least < SPREAD;
-            finding.row(name, what, Verdict::of_all([Verdict::from(recurs), found.watched.is_fine()]));
+            finding.check(name, what, Verdict::of_all([Verdict::from(recurs), found.watched.is_fine()]));
             curves.push(Curve::line(name.clone(), found.first_mode.clone(), i));
         }
         let (x, y) = (Axis::linear("t"), Axis::linear("part of its initial energy").over(0.0, 1.05));

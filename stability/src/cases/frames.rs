@@ -4,12 +4,13 @@ use serde::{Deserialize, Serialize};
 use shadowstep::formula::FormulaPotential;
 use shadowstep::number::Rounded;
 use shadowstep::{DiagonalMasses, Motion, Rational, Scheme, Stepper};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::suite::{Examined, Suite};
 
 /// The case.
@@ -157,7 +158,7 @@ impl Case for Frames {
                 parts.join(", ")
             );
             let name = &suite.scheme(&all[0].0.scheme).name;
-            finding.row(name, found, Verdict::of_all(verdicts));
+            finding.check(name, found, Verdict::of_all(verdicts));
             let point = |(trial, one): &(Trial, Measured)| match trial.frame {
                 Frame::Translated(distance) => Some((distance.log10(), one.distance(plain).log10())),
                 _ => None,

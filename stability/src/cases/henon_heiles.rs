@@ -3,13 +3,14 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Number, Rational, Scheme};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
-use crate::suite::{Examined, Suite};
+use crate::case::Case;
+use crate::suite::{Examined, OF_ORDERS_2_TO_8, Suite};
 use crate::watched::{Next, Watched, setup, watched};
 
 /// The case.
@@ -57,7 +58,6 @@ const NEAR: f64 = 1e-10;
 const SAMPLES: u64 = 200;
 /// Curves that can be told apart.
 const MOST_CURVES: usize = 12;
-const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
 impl Kind {
     /// The initial state: H = 0.005; H = 1/8 from the chaotic sea; H = 0.2, above 1/6.
@@ -91,7 +91,7 @@ impl Case for HenonHeiles {
                 steps: steps / evaluations,
             })
         };
-        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+        suite.schemes_or(&OF_ORDERS_2_TO_8).iter().flat_map(of).collect()
     }
 
     fn seconds(suite: &Suite, trial: &Trial) -> f64 {
@@ -155,7 +155,7 @@ impl Case for HenonHeiles {
             };
             let kind = format!("{:?}", trial.kind).to_lowercase();
             let name = &suite.scheme(&trial.scheme).name;
-            finding.row(name, format!("{kind}: {found}"), verdict);
+            finding.check(name, format!("{kind}: {found}"), verdict);
             if trial.kind != Kind::Escaping && curves.len() < MOST_CURVES {
                 curves.push(Curve::line(format!("{name}, {kind}"), one.growing.clone(), curves.len()));
             }

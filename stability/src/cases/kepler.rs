@@ -9,13 +9,14 @@ use rand_pcg::rand_core::{RngCore, SeedableRng};
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
-use shadowstep_report::chart::{Axis, Chart, Curve, Marker};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::suite::Suite;
 use crate::watched::{Next, Watched, setup, watched};
 
@@ -127,14 +128,10 @@ impl Case for Kepler {
         for scheme in &schemes {
             let own: Vec<_> = measured.iter().filter(|(trial, _)| trial.scheme == scheme.identity).collect();
             let counts = Counts::of(own.iter().map(|(_, orbit)| orbit));
-            finding.row(scheme.name(), counts.described(), counts.verdict());
+            finding.check(scheme.name(), counts.described(), counts.verdict());
         }
         let all = Counts::of(measured.iter().map(|(_, orbit)| orbit));
-        finding.remarks.push(format!(
-            "All {} orbits, drawn with the seed {SEED}: {}.",
-            measured.len(),
-            all.described()
-        ));
+        finding.found(format!("All {} orbits, drawn with the seed {SEED}: {}.", measured.len(), all.described()));
         finding.chart(chart(suite, measured), "Each orbit is at most 300 periods long, and starts at its apocentre.");
         finding
     }

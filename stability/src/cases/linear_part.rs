@@ -9,13 +9,14 @@ use shadowstep::linear_part::LinearPart;
 use shadowstep::number::Rounded;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Number, Rational, Stepper};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_schemes::MapKind;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::growth::{TOLERANCE, growth, size, steps_to_see};
 use crate::suite::{Examined, Suite};
 
@@ -160,7 +161,7 @@ impl Case for LinearPartCase {
             let named = suite.scheme(&all[0].0.scheme);
             let parts: Vec<_> = all.iter().map(|(trial, found)| found.described(trial.at)).collect();
             let verdict = Verdict::of_all(all.iter().map(|(trial, found)| found.verdict(trial.at)));
-            finding.row(&named.name, parts.join("; "), verdict);
+            finding.check(&named.name, parts.join("; "), verdict);
             curves.push(Curve::line(named.name.clone(), scan(&named.scheme), curves.len()));
         }
         let (x, y) = (Axis::linear("h"), Axis::log10("growth per step, from the eigenvalues"));

@@ -8,15 +8,16 @@ use shadowstep::number::Rounded;
 use shadowstep::problems::Kepler;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Rational, Stepper, System, UnitMasses, exact};
-use shadowstep_report::chart::{Axis, Chart, Curve, Marker};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::proof::Order;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::suite::{Examined, Suite};
 
 /// The case.
@@ -125,7 +126,7 @@ impl Case for Orders {
                 verdicts.push(errors.verdict(order));
                 points.push((f64::from(order.order), slope));
             }
-            finding.row(&named.name, found.join("; "), Verdict::of_all(verdicts));
+            finding.check(&named.name, found.join("; "), Verdict::of_all(verdicts));
         }
         let (x, y) = (Axis::linear("proved order"), Axis::linear("measured order"));
         finding.chart(

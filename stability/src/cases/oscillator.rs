@@ -8,13 +8,14 @@ use shadowstep::problems::HarmonicOscillator;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Number, Rational, Stepper, System, UnitMasses, exact};
 use shadowstep_analysis::stability::Stability;
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::growth::{TOLERANCE as GROWTH_TOLERANCE, growth, steps_to_see};
 use crate::linear_step::LinearStep;
 use crate::suite::Suite;
@@ -94,7 +95,7 @@ impl Case for Oscillator {
         let mut finding = Finding::default();
         for (trial, points) in measured {
             let (found, verdict) = compared(points);
-            finding.row(&suite.scheme(&trial.scheme).name, found, verdict);
+            finding.check(&suite.scheme(&trial.scheme).name, found, verdict);
         }
         let curves = measured.iter().take(MOST_CURVES).enumerate().map(|(i, (trial, points))| {
             let growing = points.iter().filter(|point| point.predicted > 0.0 && !point.too_slow);

@@ -2,17 +2,16 @@
 
 use shadowstep::Rational;
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_studies::finding::Finding;
 
-use crate::finding::Finding;
 use crate::long_run::{LongCase, LongRun, Stayed, staying};
-use crate::suite::Suite;
+use crate::suite::{OF_ORDERS_2_TO_8, Suite};
 
 /// The case.
 pub(super) struct OuterPlanets;
 
 /// The aphelion of Pluto is at 49.3 AU from the Sun; the largest coordinate at the start is Neptune's 25.7.
 const STAYS: f64 = 2.0;
-const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
 impl LongCase for OuterPlanets {
     const NAME: &'static str = "outer-planets";
@@ -25,7 +24,7 @@ impl LongCase for OuterPlanets {
     fn runs(suite: &Suite) -> Vec<LongRun> {
         let until = suite.thorough(1e8, 1e6);
         let h = Rational::from_integer(50.into());
-        let runs = LongRun::at_equal_cost(&suite.schemes_or(&SCHEMES), "outer-solar-system", &h, until);
+        let runs = LongRun::at_equal_cost(&suite.schemes_or(&OF_ORDERS_2_TO_8), "outer-solar-system", &h, until);
         // the published data have a barycentre that moves
         runs.into_iter().map(|run| LongRun { about: 3, ..run }).collect()
     }

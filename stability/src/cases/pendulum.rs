@@ -3,13 +3,14 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
-use crate::suite::{Examined, Suite};
+use crate::case::Case;
+use crate::suite::{Examined, OF_ORDERS_2_TO_8, Suite};
 use crate::watched::{Next, Watched, setup, watched};
 
 /// The case.
@@ -38,7 +39,6 @@ pub(super) struct Moved {
 const MOMENTA: [&str; 7] = ["1.9", "1.99", "1.999999", "2", "2.000001", "2.01", "2.1"];
 /// Steps of 1/20 for each evaluation of the force.
 const STEPS_A_UNIT: i64 = 20;
-const SCHEMES: [&str; 4] = ["stormer-verlet", "yoshida4", "blanes-moan-srkn6b", "kahan-li8"];
 
 impl Case for Pendulum {
     const NAME: &'static str = "pendulum";
@@ -55,7 +55,7 @@ impl Case for Pendulum {
         let steps = suite.thorough(300_000, 20_000);
         let of =
             |scheme: &&Examined| MOMENTA.map(|momentum| Trial { scheme: scheme.identity.clone(), momentum, steps });
-        suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
+        suite.schemes_or(&OF_ORDERS_2_TO_8).iter().flat_map(of).collect()
     }
 
     fn seconds(suite: &Suite, trial: &Trial) -> f64 {
@@ -103,7 +103,7 @@ impl Case for Pendulum {
             let largest = all.iter().map(|(_, moved)| moved.energy_error).fold(0.0, f64::max);
             let found = format!("{}; error of H {largest:.1e} at most", parts.join(", "));
             let name = &suite.scheme(&all[0].0.scheme).name;
-            finding.row(name, found, Verdict::of_all(verdicts));
+            finding.check(name, found, Verdict::of_all(verdicts));
             let point = |(trial, moved): &(Trial, Moved)| (momentum(trial.momentum), moved.energy_error.log10());
             curves.push(Curve::marked(name.clone(), all.iter().map(point).collect(), curves.len()));
         }

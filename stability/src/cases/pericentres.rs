@@ -5,12 +5,13 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 use shadowstep::Scheme;
 use shadowstep::number::Rounded;
-use shadowstep_report::chart::{Axis, Chart, Curve, Mark};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve, Mark};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::scene_run::{Said, digits, run_scene};
 use crate::suite::Suite;
 
@@ -100,7 +101,7 @@ impl Case for Pericentres {
             let alone = all.iter().filter(|(trial, _)| trial.alone);
             let largest = alone.map(|(_, said)| Outcome::of(said).error).fold(0.0, f64::max);
             let exact = Verdict::from(largest <= ROUND_OFF);
-            finding.row(name, format!("a planet alone, a step of P_f: error of H {largest:.0e} at most"), exact);
+            finding.check(name, format!("a planet alone, a step of P_f: error of H {largest:.0e} at most"), exact);
             for of_orbit in all.chunk_by(|(one, _), (other, _)| one.eccentricity == other.eccentricity) {
                 let orbits: Vec<_> = of_orbit.iter().filter(|(trial, _)| !trial.alone).collect();
                 let described = orbits.iter().map(|(trial, said)| Outcome::of(said).described(trial.passage));
@@ -112,7 +113,7 @@ impl Case for Pericentres {
                     of_orbit[0].0.eccentricity,
                     described.collect::<Vec<_>>().join("; ")
                 );
-                finding.row(name, found, Verdict::of_all(verdicts));
+                finding.check(name, found, Verdict::of_all(verdicts));
             }
         }
         finding.chart(chart(suite, measured), "Each mark is an orbit of 300 periods, 10 in a quick examination.");

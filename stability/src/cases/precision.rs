@@ -3,15 +3,16 @@
 use serde::{Deserialize, Serialize};
 use shadowstep::number::{Limbs, Rounded};
 use shadowstep::{Number, Ordered, Rational, Stepper};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::from_text;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::suite::Suite;
 use crate::watched::setup;
 
@@ -112,7 +113,7 @@ impl Case for Precision {
                 found += &format!("; {} digits are refused: {message}", trial.digits);
             }
             let holds = agree.iter().all(|(digits, agree)| *agree >= f64::from(*digits) - LOST);
-            finding.row(&named.name, found, if agree.is_empty() { Verdict::NotDecided } else { holds.into() });
+            finding.check(&named.name, found, if agree.is_empty() { Verdict::NotDecided } else { holds.into() });
             let points =
                 agree.iter().map(|(digits, agree)| (f64::from(*digits).log10(), f64::from(*digits) - agree)).collect();
             curves.push(Curve::marked(named.name.clone(), points, curves.len()));

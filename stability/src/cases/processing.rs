@@ -7,12 +7,13 @@ use shadowstep::problems::Kepler;
 use shadowstep::tables::TableScheme;
 use shadowstep::wisdom_holman::{Jacobi, WisdomHolman};
 use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::suite::{Examined, Suite};
 use crate::watched::setup;
 
@@ -110,7 +111,7 @@ impl Case for Processing {
         let (mut finding, mut points) = (Finding::default(), Vec::new());
         for (trial, outputs) in measured {
             let name = &suite.scheme(&trial.scheme).name;
-            finding.row(name, outputs.described(trial), outputs.verdict());
+            finding.check(name, outputs.described(trial), outputs.verdict());
             let largest = outputs.largest();
             points.push((outputs.in_kernel.log10(), largest.log10(), name.clone()));
         }

@@ -3,12 +3,13 @@
 use serde::Serialize;
 use shadowstep::Scheme;
 use shadowstep::number::Rounded;
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::scene_run::{Ended, Said, digits, run_scene};
 use crate::suite::{Examined, Suite};
 
@@ -83,7 +84,7 @@ impl Case for Pythagorean {
                     (what, Verdict::from(!lost || (!fine && named)))
                 }
             };
-            finding.row(
+            finding.check(
                 &suite.scheme(&trial.scheme).name,
                 format!("h = {evaluations}/{}: {what}", trial.inverse),
                 verdict,

@@ -8,13 +8,14 @@ use shadowstep::formula::FormulaPotential;
 use shadowstep::number::Rounded;
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as Said};
 use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::linear_step::LinearStep;
 use crate::suite::{Examined, Suite};
 
@@ -104,7 +105,7 @@ impl Case for Resonances {
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let (found, verdict) = compared(all);
             let name = &suite.scheme(&all[0].0.scheme).name;
-            finding.row(name, found, verdict);
+            finding.check(name, found, verdict);
             let point = |(trial, variation): &(Trial, Variation)| {
                 Some(((1.0 + trial.off) / f64::from(trial.n), (variation.ratio? - 1.0).log10()))
             };

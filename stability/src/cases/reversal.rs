@@ -5,12 +5,13 @@ use shadowstep::number::Rounded;
 use shadowstep::problems::{Kepler, ProblemMotion};
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Ordered, Rational, Scheme, StepSize, Stepper, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::suite::Suite;
 use crate::watched::setup;
 
@@ -147,7 +148,7 @@ impl Case for Reversal {
                     format!("{:.1e} ε from the start", back.to_start[0])
                 };
                 let found = format!("{} in fixed point, {} steps: {end}", trial.problem, trial.longest());
-                finding.row(&named.name, found, same);
+                finding.check(&named.name, found, same);
                 continue;
             }
             let (steps, to_start) = (trial.longest() as f64, *back.to_start.last().expect("there are some"));
@@ -162,7 +163,7 @@ impl Case for Reversal {
                 if same { "the inverse, bit for bit" } else { "another map" },
             );
             let verdict = Verdict::from(to_start <= FACTOR * steps.powf(1.5) && same == symmetric);
-            finding.row(&named.name, found, verdict);
+            finding.check(&named.name, found, verdict);
         }
         let curve = |(i, (trial, back)): (usize, &(Trial, Back))| {
             let points = trial.steps.iter().zip(&back.to_start).filter(|(_, to_start)| **to_start > 0.0);

@@ -9,13 +9,14 @@ use shadowstep::problems::Kepler;
 use shadowstep::shadow::{Bilinear, ShadowEnergy};
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::suite::{Examined, Suite};
 
 /// The case.
@@ -142,7 +143,7 @@ impl Case for RoundOff {
                 .collect();
             for (sums, found) in &wanders {
                 let label = format!("{name}, {}", format!("{sums:?}").to_lowercase());
-                finding.row(&label, found.described(), found.verdict());
+                finding.check(&label, found.described(), found.verdict());
                 let points = found.rms.iter().map(|(n, rms)| (n.log10(), rms.log10())).collect();
                 curves.push(Curve::marked(label, points, curves.len()));
             }
@@ -151,7 +152,7 @@ impl Case for RoundOff {
                 // two root mean squares of so many values each
                 let uncertain = 2.0 * (1.0 / f64::from(PHASES)).sqrt();
                 let found = format!("compensated sums wander {gain:.0} times less (± {:.0} %)", 100.0 * uncertain);
-                finding.row(name, found, gained(gain, uncertain));
+                finding.check(name, found, gained(gain, uncertain));
             }
         }
         let (x, y) = (Axis::log10("steps"), Axis::log10("change as a part of H, rms of 32 phases"));

@@ -2,11 +2,11 @@
 
 use shadowstep::{Number, Rational, exact};
 use shadowstep_analysis::stability::Stability;
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::finding::Finding;
 use crate::long_run::{LongCase, LongRun, Stayed};
 use crate::suite::{Examined, Suite};
 
@@ -71,7 +71,7 @@ impl LongCase for StiffSprings {
                 verdicts.push(Verdict::from(as_predicted && (bounded || !stayed.watched.fine)));
             }
             let found = format!("parts of the limit, before a gap of {first_gap:.1e}: {}", parts.join("; "));
-            finding.row(&named.name, found, Verdict::of_all(verdicts));
+            finding.check(&named.name, found, Verdict::of_all(verdicts));
             let of_limit = |part: &str| exact(part).map_or(f64::NAN, |part| <f64 as Number>::from_rational(&part, &()));
             let points =
                 all.iter().zip(PARTS).map(|((_, stayed), part)| (of_limit(part), stayed.energy_errors[0].log10()));

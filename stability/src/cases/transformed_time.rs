@@ -12,14 +12,15 @@ use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as Said};
 use shadowstep::tables::{First, TableScheme};
 use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::{Motion, Number, Rational, Stepper, UnitMasses};
-use shadowstep_report::chart::{Axis, Chart, Curve};
-use shadowstep_report::verdict::Verdict;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::{NamedScheme, scheme_from};
 use shadowstep_schemes::MapKind;
+use shadowstep_studies::Continues;
+use shadowstep_studies::chart::{Axis, Chart, Curve};
+use shadowstep_studies::finding::Finding;
+use shadowstep_studies::verdict::Verdict;
 
-use crate::case::{Case, Continues};
-use crate::finding::Finding;
+use crate::case::Case;
 use crate::suite::{Examined, Suite};
 
 /// The case.
@@ -111,7 +112,7 @@ impl Case for TransformedTime {
                 largest(|orbit| orbit.time),
             ];
             let [energy, momentum, position, time] = worst;
-            finding.row(
+            finding.check(
                 name,
                 format!(
                     "8 orbits of {} steps: H′ at most {energy:.1} ε√N, L {momentum:.1} ε√N/L; off the closed form by {position:.1e} ε N^(3/2) in place, \

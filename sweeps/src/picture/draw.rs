@@ -1,9 +1,9 @@
 //! Drawing: a heat map, or curves.
 
-use shadowstep_report::chart::{Axis as ChartAxis, Chart, Curve, log10_of};
-use shadowstep_report::heat_map::{CellAxis, Colour, HeatMap, Panel};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::family::Meaning;
+use shadowstep_studies::chart::{Axis as ChartAxis, Chart, Curve, log10_of};
+use shadowstep_studies::heat_map::{CellAxis, Colour, HeatMap, Panel};
 
 use super::cells::{Cells, Value, double};
 use super::drawn::{OfSeveral, Picture, Scale};

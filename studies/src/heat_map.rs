@@ -13,7 +13,7 @@
 //! does not contain. Each of these has an entry in the legend, with the number of its cells.
 //!
 //! ```
-//! use shadowstep_report::heat_map::{CellAxis, Colour, HeatMap, Panel};
+//! use shadowstep_studies::heat_map::{CellAxis, Colour, HeatMap, Panel};
 //!
 //! let map = HeatMap::new(
 //!     "Kepler, 100 periods",
@@ -27,7 +27,7 @@
 //! );
 //! let svg = map.svg()?;
 //! assert!(svg.starts_with("<svg ") && svg.contains("no value: 1 cell"));
-//! # Ok::<(), shadowstep_report::Error>(())
+//! # Ok::<(), shadowstep_studies::Error>(())
 //! ```
 //!
 //! Up to 10 000 cells of at least two pixels are rectangles, of which neighbours with one colour are one. Others are an image within the
@@ -84,12 +84,12 @@ pub struct CellAxis {
     /// The quantity, with its unit.
     pub label: String,
     /// In the order of the cells.
-    pub values: Values,
+    pub(crate) values: Values,
 }
 
 /// The values of an axis.
 #[derive(Clone, Debug)]
-pub enum Values {
+pub(crate) enum Values {
     /// Different numbers in any order; they are drawn from left to right, and upwards.
     Linear(Vec<f64>),
     /// Different positive numbers in any order, drawn by their logarithms.
@@ -105,7 +105,7 @@ pub struct Panel {
     /// Above the panel.
     pub title: String,
     /// Row by row: of nx values of x and ny of y, the value at (i, j) is `cells[i + nx·j]`. `None` and NaN are cells without a value, such
-    /// as those of failed runs. With [`ColourScale::Words`], the number of the word, from 0.
+    /// as those of failed runs. With [`Colour::words`], the number of the word, from 0.
     pub cells: Vec<Option<f64>>,
 }
 
@@ -115,7 +115,7 @@ pub struct Colour {
     /// The quantity, with its unit.
     pub label: String,
     /// From numbers to colours.
-    pub scale: ColourScale,
+    pub(crate) scale: ColourScale,
     /// The values at the ends of the colour bar; `None` for the smallest and the largest one. Where values of both signs occur, the bar
     /// is extended to be the same on both sides of 0. Cells beyond have the colours of the ends, and are counted in the legend.
     pub range: Option<(f64, f64)>,
@@ -123,7 +123,7 @@ pub struct Colour {
 
 /// From numbers to colours.
 #[derive(Clone, Debug)]
-pub enum ColourScale {
+pub(crate) enum ColourScale {
     /// The values themselves.
     Linear,
     /// log₁₀ of the values. Zero and negative values are shown in colours of their own.
@@ -167,7 +167,7 @@ impl CellAxis {
 
 impl Values {
     /// The number of columns or rows.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         match self {
             Values::Linear(values) | Values::Logarithmic(values) => values.len(),
             Values::Words(words) => words.len(),
@@ -179,11 +179,6 @@ impl Panel {
     /// Cells row by row.
     pub fn new(title: impl Into<String>, cells: Vec<Option<f64>>) -> Self {
         Panel { title: title.into(), cells }
-    }
-
-    /// Cells row by row, each with the number of its word, from 0.
-    pub fn of_words(title: impl Into<String>, cells: impl IntoIterator<Item = Option<usize>>) -> Self {
-        Panel::new(title, cells.into_iter().map(|cell| cell.map(|word| word as f64)).collect())
     }
 }
 

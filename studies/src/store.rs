@@ -1,6 +1,6 @@
-//! The file of outcomes: a header, and one line per task that is done.
+//! The file of outcomes: a header, and one line per calculation that is done.
 //!
-//! A line is written as soon as its task is done, so that all lines but the last are complete however the program ends. It has a
+//! A line is written as soon as its calculation is done, so that all lines but the last are complete however the program ends. It has a
 //! hash, so that a damaged one is refused. The process holds a lock on the file, which the system releases when the process ends.
 
 use std::collections::HashMap;
@@ -10,13 +10,14 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use shadowstep_scenes::lock::{LockError, open_locked};
 use shadowstep_scenes::not_written;
 
-use crate::{Error, Observer};
+use crate::threads::compute;
+use crate::{Calculation, Error, Observer};
 
 /// The most bytes of the file.
 const LARGEST: u64 = 1 << 30;
@@ -27,7 +28,7 @@ const MISSING: &str = "run the command again: it computes what is not saved yet"
 /// The name of the file in its folder.
 const NAME: &str = "results.jsonl";
 
-/// Outcomes by the JSON of their tasks.
+/// The outcomes in a folder by the JSON of their calculations.
 #[derive(Debug)]
 pub struct Store {
     path: PathBuf,
@@ -52,13 +53,13 @@ impl Store {
     ///
     /// A file of another version of the program is renamed. An incomplete last line, from an interrupted program, is dropped.
     /// # Errors
-    /// Another process has the file; a line is not an outcome of a task.
+    /// Another process has the file; a line is not an outcome of a calculation.
     pub fn open(folder: &Path, observer: &mut dyn Observer) -> Result<Store, Error> {
         Store::open_as(folder, env!("CARGO_PKG_VERSION"), observer)
     }
 
     /// Whether a folder has such a file.
-    pub fn is_in(folder: &Path) -> bool {
+    pub(crate) fn is_in(folder: &Path) -> bool {
         folder.join(NAME).exists()
     }
 
@@ -107,13 +108,79 @@ impl Store {
         Ok(Store { path, file, outcomes })
     }
 
-    /// The JSON of the outcome of a task.
-    pub(super) fn outcome(&self, task: &str) -> Option<&str> {
-        self.outcomes.get(task).map(String::as_str)
+    /// Makes the calculations whose outcomes the store lacks, the most expensive first, and returns all outcomes in the order of the
+    /// calculations; `None` for one that fails, which is reported to the observer and stops no other.
+    ///
+    /// It uses all threads of the current rayon pool: one per core, or the number of `RAYON_NUM_THREADS` or of the caller's pool.
+    /// Outcomes are always read back from their JSON, so that they depend neither on the threads nor on earlier calls.
+    ///
+    /// # Errors
+    /// A store that cannot be written; an observer that stops the computation.
+    pub fn compute<C: Calculation>(
+        &mut self,
+        calculations: &[C],
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<Option<C::Outcome>>, Error> {
+        let mut failures = Vec::new();
+        let outcomes = self.outcomes(calculations, &mut failures, observer)?;
+        failures.iter().for_each(|error| observer.failed(error));
+        Ok(outcomes)
+    }
+
+    /// The outcome of one calculation, which is made if the store lacks it.
+    ///
+    /// # Errors
+    /// As above; the failure of the calculation.
+    pub fn compute_one<C: Calculation>(
+        &mut self,
+        calculation: C,
+        observer: &mut dyn Observer,
+    ) -> Result<C::Outcome, Error> {
+        let mut failures = Vec::new();
+        let mut outcomes = self.outcomes(&[calculation], &mut failures, observer)?;
+        match failures.pop() {
+            Some(error) => Err(error),
+            None => Ok(outcomes.pop().flatten().expect("what does not fail has an outcome")),
+        }
+    }
+
+    /// All outcomes if the store has them; nothing is computed.
+    pub fn kept<C: Calculation>(&self, calculations: &[C]) -> Option<Vec<C::Outcome>> {
+        calculations.iter().map(|calculation| self.kept_one::<C>(&key(calculation).ok()?)).collect()
+    }
+
+    /// One outcome if the store has it; in another form it is none.
+    fn kept_one<C: Calculation>(&self, key: &str) -> Option<C::Outcome> {
+        serde_json::from_str(self.outcomes.get(key)?).ok()
+    }
+
+    /// The outcomes; adds the failures in the order of the calculations.
+    fn outcomes<C: Calculation>(
+        &mut self,
+        calculations: &[C],
+        failures: &mut Vec<Error>,
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<Option<C::Outcome>>, Error> {
+        let keys = calculations.iter().map(key).collect::<Result<Vec<_>, _>>()?;
+        // equal calculations are made at the first of their places
+        let first: HashMap<&str, usize> =
+            keys.iter().enumerate().rev().map(|(place, key)| (key.as_str(), place)).collect();
+        let is_due =
+            |place: &usize| first[keys[*place].as_str()] == *place && self.kept_one::<C>(&keys[*place]).is_none();
+        let due: Vec<usize> = (0..keys.len()).filter(is_due).collect();
+        let mut keep = |place: usize, outcome, took| self.keep(&keys[place], outcome, took);
+        let failed = compute(calculations, &due, &mut keep, observer)?;
+        let outcome = |key: &String| match failed.iter().any(|(place, _)| *place == first[key.as_str()]) {
+            true => None,
+            false => self.kept_one::<C>(key),
+        };
+        let outcomes = keys.iter().map(outcome).collect();
+        failures.extend(failed.into_iter().map(|(_, error)| error));
+        Ok(outcomes)
     }
 
     /// Adds an outcome, also to the file. After an error, the last line of the file may be incomplete.
-    pub(super) fn keep(&mut self, task: &str, outcome: String, took: Duration) -> Result<(), Error> {
+    fn keep(&mut self, task: &str, outcome: String, took: Duration) -> Result<(), Error> {
         let seconds = (took.as_secs_f64() * 1e3).round() / 1e3;
         // one write, so that only the system can split it
         let task_and_outcome = format!("{{\"task\":{task},\"outcome\":{outcome}");
@@ -124,6 +191,11 @@ impl Store {
         self.outcomes.insert(task.to_owned(), outcome);
         Ok(())
     }
+}
+
+/// The JSON of a calculation; a `Value` is written in one way only.
+fn key<C: Serialize>(calculation: &C) -> Result<String, Error> {
+    Ok(serde_json::to_value(calculation)?.to_string())
 }
 
 /// The file, locked for this process; writes append to it.
@@ -177,3 +249,6 @@ fn damaged(path: &Path, line: usize, error: impl Display) -> Error {
     let message = format!("{}:{line}: not an outcome of a task: {error}", path.display());
     Error::usage(message, "delete the line; its task is then computed again")
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,7 +9,7 @@
 //! [`log10_of`] takes logarithms of plain numbers.
 //!
 //! ```
-//! use shadowstep_report::chart::{Axis, Chart, Curve, log10_of};
+//! use shadowstep_studies::chart::{Axis, Chart, Curve, log10_of};
 //!
 //! let verlet = [(1e3, 2.1e-2), (2e3, 5.3e-3), (4e3, 1.3e-3)];
 //! let yoshida = [(3e3, 4.0e-3), (6e3, 2.6e-4), (12e3, 1.6e-5)];
@@ -23,7 +23,7 @@
 //!     ],
 //! );
 //! assert!(chart.svg()?.starts_with("<svg "));
-//! # Ok::<(), shadowstep_report::Error>(())
+//! # Ok::<(), shadowstep_studies::Error>(())
 //! ```
 //!
 //! | file | what it is |

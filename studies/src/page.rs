@@ -4,6 +4,7 @@ mod subscripts;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::finding::{Finding, Statement, Table};
 use crate::verdict::{Counts, Verdict};
 use subscripts::set;
 
@@ -22,65 +23,39 @@ pub struct Report {
     pub sections: Vec<Section>,
 }
 
-/// The section of one figure or study.
+/// The section of one figure, case or problem.
 #[derive(Clone, Debug)]
 pub struct Section {
     /// Its heading.
     pub title: String,
     /// The paper's figure; none for an additional one.
     pub of_paper: Option<String>,
-    /// What the paper states, or theory in a report without a paper, in paragraphs.
-    pub stated: Vec<String>,
-    /// Charts with captions.
-    pub pictures: Vec<Picture>,
-    /// Results for the first page.
-    pub findings: Vec<String>,
-    /// The results, in paragraphs.
-    pub found: Vec<String>,
-    /// Statements with their verdicts.
-    pub statements: Vec<Statement>,
-    /// After the text.
-    pub tables: Vec<Table>,
+    /// What it shows.
+    pub finding: Finding,
+    /// Its charts as `<svg>` elements without `id`s, as [`Chart::svg`](crate::chart::Chart::svg) gives them. They are not escaped.
+    pub svgs: Vec<String>,
     /// Names of the files beside the page: SVG, CSV.
     pub files: Vec<String>,
-}
-
-/// A picture and its caption.
-#[derive(Clone, Debug)]
-pub struct Picture {
-    /// An `<svg>` element without `id`s, as [`Chart::svg`](crate::chart::Chart::svg) gives it. It is not escaped.
-    pub svg: String,
-    /// Below it.
-    pub caption: String,
-}
-
-/// A statement, what was found, and whether that agrees with it.
-#[derive(Clone, Debug)]
-pub struct Statement {
-    /// What is stated; or, in a report without a paper, the name of what it is about.
-    pub statement: String,
-    /// The result.
-    pub found: String,
-    /// Whether it agrees.
-    pub verdict: Verdict,
-}
-
-/// A table of numbers or short texts. Each row has as many cells as the header.
-#[derive(Clone, Debug)]
-pub struct Table {
-    /// Above it.
-    pub caption: String,
-    /// The names of the columns.
-    pub header: Vec<String>,
-    /// The cells.
-    pub rows: Vec<Vec<String>>,
 }
 
 const STYLE: &str = include_str!("page.css");
 
 impl Report {
+    /// A page without sections, which this command of this version of the program makes.
+    pub fn new(title: &str, command: &str) -> Self {
+        let made_with =
+            [("program", format!("shadowstep {}", env!("CARGO_PKG_VERSION"))), ("command", command.to_owned())];
+        Report {
+            title: title.to_owned(),
+            introduction: Vec::new(),
+            remark: None,
+            made_with: made_with.map(|(name, value)| (name.to_owned(), value)).to_vec(),
+            sections: Vec::new(),
+        }
+    }
+
     /// The text of the page: first what was found, then how.
-    pub fn html(&self) -> String {
+    pub(crate) fn html(&self) -> String {
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -92,7 +67,7 @@ impl Report {
                 }
                 body {
                     h1 { (self.title) }
-                    (self.findings())
+                    (self.highlights())
                     @if self.is_of_paper() { (self.counts()) } @else if self.count(false).all() > 0 { p { (self.count(false)) "." } }
                     @if let Some(remark) = &self.remark { p { (set(remark)) } }
                     @if self.sections.len() > 1 { nav aria-label="Figures" { (self.contents()) } }
@@ -121,16 +96,16 @@ impl Report {
 
     fn count(&self, of_paper: bool) -> Counts {
         let sections = self.sections.iter().filter(|figure| figure.of_paper.is_some() == of_paper);
-        Counts::of(sections.flat_map(|figure| &figure.statements).map(|statement| statement.verdict))
+        Counts::of(sections.flat_map(|figure| &figure.finding.statements).map(|statement| statement.verdict))
     }
 
     /// The results that matter most, each with a link to its section.
-    fn findings(&self) -> Markup {
+    fn highlights(&self) -> Markup {
         html! {
             @for (n, figure) in self.sections.iter().enumerate() {
-                @for finding in &figure.findings {
+                @for highlight in &figure.finding.highlights {
                     p class="finding" {
-                        (set(finding)) " " a href={ "#figure-" (n + 1) } { "→ " (set(&figure.title)) }
+                        (set(highlight)) " " a href={ "#figure-" (n + 1) } { "→ " (set(&figure.title)) }
                     }
                 }
             }
@@ -162,7 +137,7 @@ impl Report {
                         a href={ "#figure-" (n + 1) } { (set(&figure.title)) }
                         @if let Some(of_paper) = &figure.of_paper { " (" (of_paper) ")" }
                         " "
-                        @if self.is_of_paper() { (figure.badge()) } @else if !figure.statements.is_empty() { "– " (figure.all_counts()) }
+                        @if self.is_of_paper() { (figure.badge()) } @else if !figure.finding.statements.is_empty() { "– " (figure.all_counts()) }
                     }
                 }
             }
@@ -175,13 +150,13 @@ impl Section {
     fn word(&self) -> &'static str {
         match &self.of_paper {
             None => "additional",
-            Some(_) if self.statements.is_empty() => "not reproduced",
-            Some(_) => Verdict::of_all(self.statements.iter().map(|statement| statement.verdict)).word(),
+            Some(_) if self.finding.statements.is_empty() => "not reproduced",
+            Some(_) => Verdict::of_all(self.finding.statements.iter().map(|statement| statement.verdict)).word(),
         }
     }
 
     fn all_counts(&self) -> Counts {
-        Counts::of(self.statements.iter().map(|statement| statement.verdict))
+        Counts::of(self.finding.statements.iter().map(|statement| statement.verdict))
     }
 
     fn badge(&self) -> Markup {
@@ -204,20 +179,22 @@ impl Section {
                         @if counts.all() > 0 { "Statements: " (counts) "." }
                     }
                 }
-                @if !self.stated.is_empty() {
+                @if !self.finding.stated.is_empty() {
                     div class="stated" {
                         h3 { @if in_report_of_paper { "The paper states" } @else { "Theory" } }
-                        (paragraphs(&self.stated))
+                        (paragraphs(&self.finding.stated))
                     }
                 }
-                @if !self.pictures.is_empty() {
-                    div class="pictures" { @for picture in &self.pictures { (picture.figure()) } }
+                @if !self.svgs.is_empty() {
+                    div class="pictures" {
+                        @for (svg, (_, caption)) in self.svgs.iter().zip(&self.finding.charts) { (picture(svg, caption)) }
+                    }
                 }
-                @if !self.findings.is_empty() || !self.found.is_empty() { h3 { "Results" } }
-                (paragraphs(&self.findings))
-                (paragraphs(&self.found))
-                @if !self.statements.is_empty() { (statements(&self.statements, in_report_of_paper)) }
-                @for table in &self.tables { (table.markup()) }
+                @if !self.finding.highlights.is_empty() || !self.finding.found.is_empty() { h3 { "Results" } }
+                (paragraphs(&self.finding.highlights))
+                (paragraphs(&self.finding.found))
+                @if !self.finding.statements.is_empty() { (statements(&self.finding.statements, in_report_of_paper)) }
+                @for of_finding in &self.finding.tables { (table(of_finding)) }
                 @if !self.files.is_empty() {
                     p { "Files: " @for (i, file) in self.files.iter().enumerate() {
                         @if i > 0 { ", " }
@@ -234,23 +211,19 @@ fn badge(word: &str) -> Markup {
     html! { span class={ "verdict " (word.replace(' ', "-")) } { (word) } }
 }
 
-impl Picture {
-    fn figure(&self) -> Markup {
-        // focusable, so that on a narrow screen it can be scrolled with keys
-        html! { figure { div class="scroll" tabindex="0" { (PreEscaped(&self.svg)) } figcaption { (set(&self.caption)) } } }
-    }
+fn picture(svg: &str, caption: &str) -> Markup {
+    // focusable, so that on a narrow screen it can be scrolled with keys
+    html! { figure { div class="scroll" tabindex="0" { (PreEscaped(svg)) } figcaption { (set(caption)) } } }
 }
 
-impl Table {
-    fn markup(&self) -> Markup {
-        html! {
-            // focusable, so that a wide table can be scrolled with keys
-            div class="wide" tabindex="0" {
-                table {
-                    caption { (set(&self.caption)) }
-                    thead { tr { @for name in &self.header { th scope="col" { (set(name)) } } } }
-                    tbody { @for row in &self.rows { tr { @for cell in row { td { (set(cell)) } } } } }
-                }
+fn table(Table { caption, header, rows }: &Table) -> Markup {
+    html! {
+        // focusable, so that a wide table can be scrolled with keys
+        div class="wide" tabindex="0" {
+            table {
+                caption { (set(caption)) }
+                thead { tr { @for name in header { th scope="col" { (set(name)) } } } }
+                tbody { @for row in rows { tr { @for cell in row { td { (set(cell)) } } } } }
             }
         }
     }
@@ -277,17 +250,15 @@ fn paragraphs(texts: &[String]) -> Markup {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::samples;
+    use crate::chart::{Chart, samples};
 
     fn texts<const N: usize>(texts: [&str; N]) -> Vec<String> {
         texts.map(str::to_owned).to_vec()
     }
 
     fn figure(title: &str, of_paper: Option<&str>, verdicts: &[Verdict], charts: usize) -> Section {
-        let pictures = samples().into_iter().take(charts).map(|(_, chart)| Picture {
-            svg: chart.svg().unwrap(),
-            caption: format!("{} (computed at 120 digits)", chart.title),
-        });
+        let charts: Vec<_> = samples().into_iter().take(charts).map(|(_, chart)| chart).collect();
+        let caption = |chart: &Chart| format!("{} (computed at 120 digits)", chart.title);
         let row = |n: i32| vec![format!("1/{}", 10 << n), format!("{}.31e-{}", n + 1, 20 * n), (n + 2).to_string()];
         let statement = |&verdict: &Verdict| Statement {
             statement: "The drift falls with h.".to_owned(),
@@ -297,16 +268,19 @@ mod tests {
         Section {
             title: title.to_owned(),
             of_paper: of_paper.map(str::to_owned),
-            stated: texts(["The drift is exponentially small: log₁₀ is about −c/h, with c ≈ 4.2."]),
-            pictures: pictures.collect(),
-            findings: texts(["The drift is the estimator's."]),
-            found: texts(["c = 4.19 ± 0.03 for h from 1/80 to 1/10.", "A second paragraph."]),
-            statements: verdicts.iter().map(statement).collect(),
-            tables: vec![Table {
-                caption: "Drift by step".to_owned(),
-                header: texts(["h", "drift", "m"]),
-                rows: (0..4).map(row).collect(),
-            }],
+            svgs: charts.iter().map(|chart| chart.svg().unwrap()).collect(),
+            finding: Finding {
+                stated: texts(["The drift is exponentially small: log₁₀ is about −c/h, with c ≈ 4.2."]),
+                charts: charts.iter().map(|chart| (chart.clone(), caption(chart))).collect(),
+                highlights: texts(["The drift is the estimator's."]),
+                found: texts(["c = 4.19 ± 0.03 for h from 1/80 to 1/10.", "A second paragraph."]),
+                statements: verdicts.iter().map(statement).collect(),
+                tables: vec![Table {
+                    caption: "Drift by step".to_owned(),
+                    header: texts(["h", "drift", "m"]),
+                    rows: (0..4).map(row).collect(),
+                }],
+            },
             files: texts(["drifts.svg", "drifts.csv"]),
         }
     }
@@ -356,15 +330,17 @@ mod tests {
         for text in [&mut page.title, &mut page.introduction[0]] {
             *text = nasty.to_owned();
         }
-        let Statement { statement, found, .. } = &mut figure.statements[0];
+        let Statement { statement, found, .. } = &mut figure.finding.statements[0];
         for text in [statement, found] {
             *text = nasty.to_owned();
         }
-        let table = &mut figure.tables[0];
-        for text in [&mut figure.title, &mut figure.stated[0], &mut figure.findings[0], &mut figure.files[0]] {
+        let table = &mut figure.finding.tables[0];
+        for text in
+            [&mut figure.title, &mut figure.finding.stated[0], &mut figure.finding.highlights[0], &mut figure.files[0]]
+        {
             *text = nasty.to_owned();
         }
-        for text in [&mut table.caption, &mut table.header[0], &mut table.rows[0][0], &mut figure.pictures[0].caption] {
+        for text in [&mut table.caption, &mut table.header[0], &mut table.rows[0][0], &mut figure.finding.charts[0].1] {
             *text = nasty.to_owned();
         }
         let html = page.html();

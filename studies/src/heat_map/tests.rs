@@ -20,6 +20,11 @@ fn words(words: &[&str]) -> Vec<String> {
     words.iter().map(|&word| word.to_owned()).collect()
 }
 
+/// Cells row by row, each with the number of its word.
+fn of_words(title: &str, cells: impl IntoIterator<Item = Option<usize>>) -> Panel {
+    Panel::new(title, cells.into_iter().map(|cell| cell.map(|word| word as f64)).collect())
+}
+
 /// Drifts of three schemes, of which some runs failed and some conserve the energy to the last digit.
 fn schemes() -> HeatMap {
     let (h, e) = (decades(0.01, 0.1, 19), even(0.05, 0.9, 18));
@@ -86,7 +91,7 @@ fn verdicts() -> HeatMap {
         CellAxis::logarithmic("step size h", h.to_vec()),
         CellAxis::words("scheme", words(&schemes)),
         Colour::words("verdict", words(&["fine", "near a resonance", "drifts", "too large", "undecided"])),
-        vec![Panel::of_words("", cells)],
+        vec![of_words("", cells)],
     )
 }
 
@@ -372,13 +377,7 @@ fn texts_are_escaped() {
     let axis = || CellAxis::words(nasty, words(&[nasty]));
     let map = HeatMap {
         notes: words(&[nasty]),
-        ..HeatMap::new(
-            nasty,
-            axis(),
-            axis(),
-            Colour::words(nasty, words(&[nasty])),
-            vec![Panel::of_words(nasty, [Some(0)])],
-        )
+        ..HeatMap::new(nasty, axis(), axis(), Colour::words(nasty, words(&[nasty])), vec![of_words(nasty, [Some(0)])])
     };
     let svg = map.svg().unwrap();
     assert!(!svg.contains("<b>") && !svg.contains("\"it\"") && svg.contains("&lt;b&gt;"));
@@ -466,7 +465,7 @@ fn a_small_picture() {
         CellAxis::words("scheme", words(&["Ruth 3", "Yoshida 4"])),
     );
     let colour = Colour::words("verdict", words(&["fine", "too large"]));
-    let panel = Panel::of_words("Kepler", [Some(0), Some(1), Some(0), None]);
+    let panel = of_words("Kepler", [Some(0), Some(1), Some(0), None]);
     let svg = HeatMap::new("Verdicts", axes.0, axes.1, colour, vec![panel]).svg_for_print().unwrap();
     insta::assert_snapshot!(svg.replace('>', ">\n"));
 }

@@ -1,4 +1,4 @@
-//! Tasks of very different costs on a terminal: how far they are, notes and failures, Ctrl-C.
+//! Studies on a terminal: how far their calculations are, notes and failures, Ctrl-C; the folder of what is saved.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,8 @@ use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use shadowstep_scenes::Temporary;
-use shadowstep_tasks::{Error, Observer, Progress};
+use shadowstep_studies::files::refuse_foreign;
+use shadowstep_studies::{Error, Observer, Progress};
 use tempfile::TempDir;
 
 use crate::interrupt::Interrupt;
@@ -15,7 +16,7 @@ use crate::report::{self, Status};
 
 /// Shows on stderr what happens, and ends on Ctrl-C.
 pub(crate) struct Terminal {
-    /// While there are tasks.
+    /// While there are calculations.
     bar: Option<Bar>,
     /// The worst that has happened.
     pub(crate) status: Status,
@@ -44,6 +45,22 @@ impl Folder {
     }
 }
 
+/// Makes a study in the folder of `--out`, or in one that is removed afterwards, and shows its progress; returns what it has found, and the
+/// worst that has happened. Files of these names that others wrote are refused, unless it is forced.
+pub(crate) fn study_in<T>(
+    out: Option<&Path>,
+    force: bool,
+    written: impl Iterator<Item = String>,
+    study: impl FnOnce(&Path, &mut Terminal) -> Result<T, Error>,
+) -> Result<(T, Status), Error> {
+    if let Some(folder) = out.filter(|_| !force) {
+        refuse_foreign(folder, written)?;
+    }
+    let mut terminal = Terminal::listen(out.map_or(NOT_SAVED, |_| SAVED));
+    let folder = Folder::of(out)?;
+    Ok((study(folder.path(), &mut terminal)?, terminal.status))
+}
+
 /// What can be done after an interruption.
 pub(crate) const SAVED: &str = "the same command computes what is not saved yet";
 
@@ -60,7 +77,7 @@ impl Terminal {
 impl Observer for Terminal {
     fn progress(&mut self, progress: Progress) {
         self.bar.get_or_insert_with(Bar::new).show(progress);
-        if progress.done == progress.tasks {
+        if progress.done == progress.all {
             self.bar = None;
         }
     }
@@ -83,10 +100,10 @@ impl Observer for Terminal {
     }
 }
 
-/// A bar on stderr, if that is a terminal; its length is the cost of all tasks, not their number.
+/// A bar on stderr, if that is a terminal; its length is the cost of all calculations, not their number.
 struct Bar {
     bar: ProgressBar,
-    /// The time that all tasks take together, as estimated from what is done.
+    /// The time that all calculations take together, as estimated from what is done.
     expected: Arc<Mutex<Option<Duration>>>,
 }
 
@@ -113,14 +130,14 @@ impl Bar {
         Bar { bar, expected }
     }
 
-    fn show(&self, Progress { done, tasks, fraction }: Progress) {
+    fn show(&self, Progress { done, all, fraction }: Progress) {
         *self.expected.lock().unwrap_or_else(PoisonError::into_inner) = in_all(self.bar.elapsed(), fraction);
-        self.bar.set_prefix(format!("{done} of {tasks} calculations"));
+        self.bar.set_prefix(format!("{done} of {all} calculations"));
         self.bar.set_position((fraction * Self::LENGTH) as u64);
     }
 }
 
-/// The time of all tasks if a fraction of their cost took `elapsed`; `None` while that cannot be estimated: the first
+/// The time of all calculations if a fraction of their cost took `elapsed`; `None` while that cannot be estimated: the first
 /// calculations may be cheaper or more expensive than those that follow.
 fn in_all(elapsed: Duration, fraction: f64) -> Option<Duration> {
     if elapsed < Duration::from_secs(3) || fraction < 0.05 {
@@ -139,7 +156,7 @@ impl Drop for Bar {
 mod tests {
     use super::*;
 
-    /// Nine tenths of the cost are done, however many tasks that is: a ninth of the time is left.
+    /// Nine tenths of the cost are done, however many calculations that is: a ninth of the time is left.
     #[test]
     fn time_is_estimated_from_costs() {
         assert_eq!(in_all(Duration::from_secs(90), 0.9), Some(Duration::from_secs(100)));

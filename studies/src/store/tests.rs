@@ -7,7 +7,7 @@ use tempfile::TempDir;
 use std::sync::Mutex;
 
 use super::*;
-use crate::Progress;
+use crate::{Continues, Progress};
 
 /// Sums 1/k² up to n: the last bits depend on every term. Odd numbers above 1000 fail.
 #[derive(Serialize)]
@@ -28,39 +28,49 @@ impl Sum<'_> {
     }
 }
 
-impl Task for Sum<'_> {
+impl Calculation for Sum<'_> {
     type Outcome = f64;
+    type Shared = ();
 
     /// Multiples of a hundred are computed together.
     fn group(&self) -> Option<String> {
         self.n.is_multiple_of(100).then(|| "hundreds".to_owned())
     }
 
-    fn cost(group: &[&Self]) -> f64 {
-        group.iter().map(|sum| f64::from(sum.n)).sum()
+    fn cost(&self) -> f64 {
+        f64::from(self.n)
     }
 
-    fn compute(group: &[&Self], watcher: &dyn Watcher<f64>) {
-        let (all, mut done) = (Self::cost(group), 0.0);
-        for (place, sum) in group.iter().enumerate() {
-            if !watcher.continues(done / all) {
-                return;
-            }
-            watcher.take(place, sum.sum());
-            done += f64::from(sum.n);
-        }
+    fn compute(&self, (): &(), _: Continues<'_>) -> Result<f64, Error> {
+        self.sum()
+    }
+}
+
+/// Keeps failures.
+#[derive(Default)]
+struct Failures(Vec<String>);
+
+impl Observer for Failures {
+    fn failed(&mut self, error: &Error) {
+        self.0.push(error.to_string());
     }
 }
 
 /// Runs the sums in a folder; returns the outcomes, and which were computed, in the order in which they began.
-fn sums(folder: &Path, threads: usize, numbers: &[u32]) -> (Outcomes<f64>, Vec<u32>) {
+fn sums(folder: &Path, threads: usize, numbers: &[u32]) -> (Found, Vec<u32>) {
     let begun = Mutex::new(Vec::new());
-    let tasks: Vec<_> = numbers.iter().map(|&n| Sum { n, begun: &begun }).collect();
-    let mut store = Store::open(folder, &mut ()).unwrap();
+    let sums: Vec<_> = numbers.iter().map(|&n| Sum { n, begun: &begun }).collect();
+    let (mut store, mut failures) = (Store::open(folder, &mut ()).unwrap(), Failures::default());
     let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    let outcomes = pool.install(|| run(&tasks, &mut store, &mut ())).unwrap();
-    drop(tasks);
-    (outcomes, begun.into_inner().unwrap())
+    let outcomes = pool.install(|| store.compute(&sums, &mut failures)).unwrap();
+    drop(sums);
+    (Found { outcomes, failures: failures.0 }, begun.into_inner().unwrap())
+}
+
+/// The outcomes and failures of sums.
+struct Found {
+    outcomes: Vec<Option<f64>>,
+    failures: Vec<String>,
 }
 
 fn file(folder: &Path) -> String {
@@ -139,10 +149,8 @@ fn failures_are_reported_and_the_others_are_done() {
     let folder = TempDir::new().unwrap();
     let (found, _) = sums(folder.path(), 2, &[10, 1001, 13, 20, 1001]);
     assert_eq!(found.outcomes.iter().map(Option::is_some).collect::<Vec<_>>(), [true, false, false, true, false]);
-    let places: Vec<_> = found.failures.iter().map(|(place, _)| *place).collect();
-    assert_eq!(places, [1, 2]);
-    let messages: Vec<_> = found.failures.iter().map(|(_, error)| format!("{error:?}")).collect();
-    assert!(messages[0].contains("1001 is odd") && messages[1].contains("cannot be read back"), "{messages:?}");
+    let [odd, infinite] = &found.failures[..] else { panic!("{:?}", found.failures) };
+    assert!(odd.contains("1001 is odd") && infinite.contains("cannot be read back"), "{odd} {infinite}");
     // they are tried again, and only they
     let (_, mut begun) = sums(folder.path(), 2, &[10, 1001, 13, 20]);
     begun.sort_unstable();
@@ -170,18 +178,18 @@ impl Observer for Impatient {
 fn what_is_done_is_saved_when_it_is_stopped() {
     let folder = TempDir::new().unwrap();
     let begun = Mutex::new(Vec::new());
-    let tasks: Vec<_> = NUMBERS.iter().map(|&n| Sum { n, begun: &begun }).collect();
+    let due: Vec<_> = NUMBERS.iter().map(|&n| Sum { n, begun: &begun }).collect();
     let mut observer = Impatient { questions: 3, seen: Vec::new() };
     let pool = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let mut store = Store::open(folder.path(), &mut ()).unwrap();
-    let stopped = pool.install(|| run(&tasks, &mut store, &mut observer)).unwrap_err();
+    let stopped = pool.install(|| store.compute(&due, &mut observer)).unwrap_err();
     assert_eq!(
         stopped.to_string(),
         "interrupted: 2 of 6 calculations are saved\n  hint: the same command computes the others"
     );
     // within the group of 500, 2000 and 400, of 3008 in all
     let last = observer.seen.last().unwrap();
-    assert_eq!((last.done, last.tasks), (2, 6));
+    assert_eq!((last.done, last.all), (2, 6));
     let fractions: Vec<_> = observer.seen.iter().map(|progress| progress.fraction).collect();
     assert!(fractions.is_sorted() && (last.fraction - 500.0 / 3008.0).abs() < 1e-9, "{fractions:?}");
     drop(store);

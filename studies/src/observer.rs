@@ -2,9 +2,9 @@
 
 use crate::Error;
 
-/// Receives what happens while tasks are computed; `()` ignores it. Calls come from several threads, one at a time.
+/// Receives what happens during calculations; `()` ignores it. Calls come from several threads, one at a time.
 pub trait Observer: Send {
-    /// Some tasks are due, or one of them is done.
+    /// Some calculations are due, or one of them is done.
     fn progress(&mut self, progress: Progress) {
         let _ = progress;
     }
@@ -27,13 +27,13 @@ pub trait Observer: Send {
 
 impl Observer for () {}
 
-/// How many of the tasks that are due are done, and how much of their cost, that of unfinished ones included.
+/// How many of the calculations that are due are done, and how much of their cost, that of unfinished ones included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// The number of tasks that are done.
+    /// The number of calculations that are done.
     pub done: usize,
-    /// The number of all tasks.
-    pub tasks: usize,
-    /// The part of the estimated cost of all tasks that is done, from 0 to 1.
+    /// The number of all calculations.
+    pub all: usize,
+    /// The part of the estimated cost of all calculations that is done, from 0 to 1.
     pub fraction: f64,
 }

@@ -1,0 +1,42 @@
+//! Studies: calculations on all cores whose outcomes are saved one by one, and what is made of them: charts, verdicts, a page of HTML.
+//!
+//! | file | what it is |
+//! | --- | --- |
+//! | `calculation` | what calculations are |
+//! | `store` | the file of outcomes, and the calculations that it lacks |
+//! | `threads`, `progress` | groups of calculations on all cores; how much is done |
+//! | `observer` | how a caller follows it |
+//! | [`chart`] | curves → SVG |
+//! | [`heat_map`] | cells over two quantities, coloured by a third → SVG |
+//! | `named` | the parts of a study by their names |
+//! | [`finding`] | what a part of a study has shown: charts, results, statements, tables |
+//! | [`verdict`] | whether results agree with a statement |
+//! | [`files`] | the files in the folder of a study |
+//! | [`page`] | findings → HTML, which needs neither scripts nor a network |
+//! | `indices` | subscripts in texts |
+//! | `labels` | widths of texts, labels without overlaps |
+//! | `picture` | what all pictures have in common: sizes of texts, colours on dark screens |
+//! | `ticks` | round numbers and decades on an axis |
+
+mod calculation;
+pub mod chart;
+pub mod files;
+pub mod finding;
+pub mod heat_map;
+mod indices;
+mod labels;
+mod named;
+mod observer;
+pub mod page;
+mod picture;
+mod progress;
+mod store;
+mod threads;
+mod ticks;
+pub mod verdict;
+
+pub use calculation::{Calculation, Continues};
+pub use named::named;
+pub use observer::{Observer, Progress};
+pub use shadowstep_scenes::Error;
+pub use store::Store;
