@@ -18,7 +18,7 @@ use crate::system::{Described, is_file};
 pub(crate) struct PosedArguments {
     #[command(flatten)]
     system: SystemArguments,
-    /// The time at which runs end, exact, such as 100 [default: that of the scene]
+    /// The time at which runs end, exact, such as 100; of a scene with [time], the fictitious time s [default: that of the scene]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: Option<String>,
     /// Decimal digits of all numbers, such as 50 [default: those of the scene, else double precision]

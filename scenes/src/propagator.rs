@@ -31,7 +31,7 @@ impl Propagator {
         if word != EXACT_FLOW {
             return Ok(Propagator::Scheme(Box::new(library::scheme(word)?)));
         }
-        shadowstep::exact_flow::has_exact_flow(setup).map_err(|error| {
+        exact_flow::has_exact_flow(setup).map_err(|error| {
             let hint = match error {
                 ExactFlowError::NoSolution { .. } => "use a scheme, or one of these problems",
                 _ => "choose another initial state with --set",
@@ -47,7 +47,7 @@ impl Propagator {
     /// As [`Propagator::read`]; a scheme for quadratic T only where T is not.
     pub fn of_system(word: &str, system: &System) -> Result<Self, Error> {
         if word == EXACT_FLOW {
-            return match system.setup() {
+            return match in_ordinary_time(system) {
                 Some(setup) => Propagator::read(word, &setup),
                 None => {
                     let known: Vec<_> = exact_flow::problems().map(Problem::name).collect();
@@ -128,6 +128,15 @@ impl Propagator {
             Propagator::ExactFlow => take_all(exact_flow(setup, run, settings, context)?, run, take),
         }
     }
+}
+
+/// The shipped problem at its initial state, if its exact flow is known at the times of the steps; not in transformed time, whose steps end at others.
+pub fn with_exact_flow(system: &System) -> Option<Setup> {
+    in_ordinary_time(system).filter(|setup| exact_flow::has_exact_flow(setup).is_ok())
+}
+
+fn in_ordinary_time(system: &System) -> Option<Setup> {
+    system.setup().filter(|_| system.transformed_time().is_none())
 }
 
 /// The stepper of a run.
