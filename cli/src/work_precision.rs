@@ -8,8 +8,9 @@ use std::time::Duration;
 
 use clap::Args;
 use shadowstep::Rational;
-use shadowstep_scenes::library::{self, NamedScheme, scheme};
-use shadowstep_scenes::{Error, Parts, System};
+use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::propagator::for_system;
+use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::files::{Title, refuse_foreign, write};
 use shadowstep_work_precision::schemes::default_schemes;
@@ -132,27 +133,26 @@ pub(crate) fn schemes(words: &[String], posed: &Posed) -> Result<Vec<NamedScheme
         if word.trim().is_empty() {
             return Err(Error::usage("--schemes has an empty value", "write --schemes yoshida4,+mine.toml"));
         }
-        let scheme = scheme(word)?;
-        let is_valid = is_valid(&scheme, system, posed);
-        if found.iter().any(|other| other.name == scheme.name) || (all && is_valid.is_err()) {
+        let scheme = valid(scheme(word)?, system, posed);
+        if all && scheme.is_err() {
             continue;
         }
-        is_valid?;
+        let scheme = scheme?;
+        if found.iter().any(|other| other.name == scheme.name) {
+            continue;
+        }
         scheme.note().iter().for_each(report::note);
         found.push(scheme);
     }
     Ok(found)
 }
 
-fn is_valid(scheme: &NamedScheme, system: &System, posed: &Posed) -> Result<(), Error> {
-    let valid = match system.parts {
-        Parts::Formulas(_) => library::for_many_parts(scheme).map(drop),
-        _ if system.has_general_kinetic() => library::check_general(scheme),
-        _ => Ok(()),
-    };
-    valid.map_err(|(message, hint)| Error::usage(message, hint))?;
-    let suits = posed.arithmetic.suits(scheme);
-    suits.map(drop).map_err(|error| Error::usage(error.to_string(), format!("use --digits {}", error.most)))
+/// The scheme with steps for the system, whose weights have the digits of the runs.
+fn valid(scheme: NamedScheme, system: &System, posed: &Posed) -> Result<NamedScheme, Error> {
+    let scheme = for_system(scheme, system)?;
+    let suits = posed.arithmetic.suits(&scheme);
+    suits.map_err(|error| Error::usage(error.to_string(), format!("use --digits {}", error.most)))?;
+    Ok(scheme)
 }
 
 /// The steps: those of the flag, or chosen for each scheme.

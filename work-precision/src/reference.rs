@@ -14,7 +14,7 @@ use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::{NamedScheme, scheme};
-use shadowstep_scenes::propagator::with_exact_flow;
+use shadowstep_scenes::propagator::{for_system, with_exact_flow};
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::positions::{Positions, square_distance};
@@ -206,7 +206,7 @@ fn of_scheme(
         ));
     }
     let arithmetic = precise(digits)?;
-    let (target, named) = (f64::from(problem.arithmetic.digits() + 2), scheme(SCHEME)?);
+    let (target, named) = (f64::from(problem.arithmetic.digits() + 2), for_system(scheme(SCHEME)?, problem.system)?);
     let problem = Problem { arithmetic, ..problem };
     arithmetic.compute(ByHalving { problem, named, digits, target, samples, time, continues })
 }
