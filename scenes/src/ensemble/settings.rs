@@ -8,7 +8,7 @@ use shadowstep_schemes::document::{Reader, document};
 
 use crate::arithmetic::Arithmetic;
 use crate::error::Error;
-use crate::scene::{Format, Parts, Scene};
+use crate::scene::{Format, Scene};
 
 /// Energies of the trajectories.
 #[derive(Clone, Copy, Debug)]
@@ -65,10 +65,6 @@ fn refuse_outputs(reader: &mut Reader<'_>, scene: &Scene) {
     if scene.system.transformed_time().is_some() {
         let at = place(reader.source, "time", "transform");
         reader.fault(&at, "an ensemble has no transformed time: its steps end at different times", "remove [time]");
-    }
-    if matches!(scene.system.parts, Parts::Formulas(_)) {
-        let at = place(reader.source, "problem", "parts");
-        reader.fault(&at, "an ensemble has no formulas of parts", "make a sweep of the scene instead");
     }
     let Some((file, at)) = &output.file else { return };
     if output.format == Format::JsonLines {
