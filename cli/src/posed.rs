@@ -101,6 +101,7 @@ impl Posed {
     /// The problem, the time and the number type in a line.
     pub(crate) fn title(&self) -> String {
         let Posed { described, until, arithmetic } = self;
-        format!("{}, t = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
+        let time = if described.system.transformed_time().is_some() { "s" } else { "t" };
+        format!("{}, {time} = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
     }
 }

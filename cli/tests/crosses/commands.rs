@@ -173,17 +173,21 @@ fn of_ensemble(table: &Table) -> Result<(), String> {
     expect(errors.len() == 2 && errors.iter().all(|error| *error < 0.1), || format!("{errors:?}"))
 }
 
-/// The first row has the state at the end of the scene's run, but for the last bits of functions in lanes.
-fn has_state_of_run(scene: &Scene, table: &Table) -> Result<(), String> {
+/// The first row has the state at the end of the scene's run, with its time and energy where it has these; but for the last bits of functions in lanes
+/// and of H in other coordinates.
+fn has_end_of_run(scene: &Scene, table: &Table) -> Result<(), String> {
     let folder = folder();
     let output = running(scene, folder.path(), "").arg("--no-summary").output().unwrap();
     expect(output.status.success(), || String::from_utf8_lossy(&output.stderr).into_owned())?;
     let run = Table::read(&folder.path().join("out.csv"))?;
-    let others = ["n", "t", "energy", "modified_energy", "estimate", "order"];
-    for name in run.names.iter().filter(|name| !others.contains(&name.as_str())) {
-        let (alone, here) = (run.column(name)?.last().copied(), table.column(name)?.first().copied());
-        let (Some(alone), Some(here)) = (alone, here) else { return Err(format!("{name}: {alone:?}, {here:?}")) };
-        expect((alone - here).abs() <= 1e-12 * alone.abs().max(1.0), || format!("{name}: {here}, alone {alone}"))?;
+    let state = run.names.iter().map(String::as_str).filter(|name| table.names.iter().any(|known| known == name));
+    let ends = [("energy", "end_energy"), ("t", "end_t")]
+        .into_iter()
+        .filter(|(_, name)| table.names.contains(&(*name).to_owned()));
+    for (name, column) in state.map(|name| (name, name)).chain(ends) {
+        let (alone, here) = (run.column(name)?.last().copied(), table.column(column)?.first().copied());
+        let (Some(alone), Some(here)) = (alone, here) else { return Err(format!("{column}: {alone:?}, {here:?}")) };
+        expect((alone - here).abs() <= 1e-12 * alone.abs().max(1.0), || format!("{column}: {here}, alone {alone}"))?;
     }
     Ok(())
 }
@@ -313,7 +317,7 @@ fn advise(scene: &Scene, folder: &Path) -> Outcome {
 }
 
 const SWEPT: &str = "[axes]\nh = [\"STEP\", \"(STEP)/2\"]\nx0 = [\"A\", \"B\"]\n\
-                     [keep]\nstate = true\nvalues = [\"energy_error\", \"drift\"]\nat_end = { energy_at_end = \"E\" }\n";
+                     [keep]\nstate = true\nvalues = [\"energy_error\", \"drift\"]\nat_end = { end_energy = \"E\", end_t = \"t\" }\n";
 
 fn axes(scene: &Scene, [a, b]: [&str; 2]) -> String {
     SWEPT.replace("STEP", scene.step()).replace("\"A\"", &format!("\"{a}\"")).replace("\"B\"", &format!("\"{b}\""))
@@ -344,11 +348,11 @@ fn sweep_of_a_file(scene: &Scene, folder: &Path) -> Outcome {
 fn results_are_plausible(scene: &Scene, folder: &Path) -> Result<(), String> {
     let table = Table::read(&folder.join("out/results.csv"))?;
     expect(table.rows.len() == 4, || format!("{} runs", table.rows.len()))?;
-    for name in ["energy_error", "drift", "energy_at_end"] {
+    for name in ["energy_error", "drift"] {
         let column = table.column(name)?;
         expect(column.len() == 4 && column.iter().all(|value| value.is_finite()), || format!("{name}: {column:?}"))?;
     }
-    has_state_of_run(scene, &table)
+    has_end_of_run(scene, &table)
 }
 
 fn ensemble(scene: &Scene, folder: &Path) -> Outcome {
@@ -362,6 +366,6 @@ fn ensemble(scene: &Scene, folder: &Path) -> Outcome {
     ended(scene, shadowstep(folder, "run scene.toml"), |_| {
         let table = Table::read(&folder.join("out.csv"))?;
         of_ensemble(&table)?;
-        has_state_of_run(scene, &table)
+        has_end_of_run(scene, &table)
     })
 }
