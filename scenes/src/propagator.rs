@@ -195,3 +195,24 @@ pub fn for_system(named: NamedScheme, system: &System) -> Result<NamedScheme, Er
     }
     Ok(named)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::Arithmetic;
+    use shadowstep::tables::Source;
+
+    #[test]
+    fn the_exact_flow_is_not_that_of_the_steps_of_transformed_time() {
+        let system = |time: &str| {
+            let text = format!("problem.name = \"kepler\"\n{time}");
+            let source = Source { path: "test.toml".to_owned(), text };
+            System::read(&source, Arithmetic::Double).unwrap_or_else(|faults| panic!("{faults}")).0
+        };
+        let (plain, transformed) = (system(""), system("time.transform = \"logarithmic\""));
+        assert!(with_exact_flow(&plain).is_some() && Propagator::of_system(EXACT_FLOW, &plain).is_ok());
+        assert!(with_exact_flow(&transformed).is_none());
+        let refused = Propagator::of_system(EXACT_FLOW, &transformed).unwrap_err().to_string();
+        assert!(refused.starts_with("no exact flow of this system is known"), "{refused}");
+    }
+}
