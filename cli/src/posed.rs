@@ -6,7 +6,8 @@ use clap::Args;
 use shadowstep::Rational;
 use shadowstep_scenes::arithmetic::{Arithmetic, MOST_DIGITS};
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::{Error, Scene};
+use shadowstep_scenes::{Error, Scene, source};
+use shadowstep_schemes::document::document;
 use shadowstep_symbolic::decimal::to_text;
 use shadowstep_work_precision::problem::Problem;
 
@@ -19,7 +20,7 @@ use crate::system::{Described, is_file};
 pub(crate) struct PosedArguments {
     #[command(flatten)]
     system: SystemArguments,
-    /// The time at which runs end, exact, such as 100 [default: that of the scene]
+    /// The time at which runs end, exact, such as 100; of a scene with [time], the fictitious time s [default: that of the scene]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: Option<String>,
     /// Decimal digits of all numbers, such as 50 [default: those of the scene, else double precision]
@@ -51,6 +52,11 @@ impl PosedArguments {
     }
 }
 
+/// Whether the scene has a section [run], whose number type is that of the runs.
+fn has_run(path: &str) -> Result<bool, Error> {
+    Ok(document(&source(Path::new(path))?).0.is_some_and(|document| document.contains_key("run")))
+}
+
 /// A system with the end of the runs and the number type.
 #[derive(Debug)]
 pub(crate) struct Posed {
@@ -63,11 +69,10 @@ impl Posed {
     pub(crate) fn read(arguments: &PosedArguments) -> Result<Self, Error> {
         let path = arguments.system.problem().filter(|word| is_file(word));
         let is_complete = arguments.until.is_some() && (arguments.named().is_some() || arguments.digits.is_some());
-        // without [run], a scene is only a system
-        let scene = path.filter(|_| !is_complete).map(|path| Scene::open(Path::new(path)));
-        let scene = match (scene, &arguments.until) {
-            (Some(Err(error)), None) => return Err(error),
-            (scene, _) => scene.and_then(Result::ok),
+        let scene = match path.filter(|_| !is_complete) {
+            Some(path) if arguments.until.is_none() || has_run(path)? => Some(Scene::open(Path::new(path))?),
+            // without [run], a scene is only a system
+            _ => None,
         };
         let arithmetic = match (arguments.digits, &scene) {
             (Some(digits), _) => {
@@ -97,7 +102,8 @@ impl Posed {
     /// The problem, the time and the number type in a line.
     pub(crate) fn title(&self) -> String {
         let Posed { described, until, arithmetic } = self;
-        format!("{}, t = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
+        let time = if described.system.transformed_time().is_some() { "s" } else { "t" };
+        format!("{}, {time} = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
     }
 }
 

@@ -131,21 +131,25 @@ pub(crate) fn schemes(words: &[String], posed: &Posed) -> Result<Vec<NamedScheme
         if word.trim().is_empty() {
             return Err(Error::usage("--schemes has an empty value", "write --schemes yoshida4,+mine.toml"));
         }
-        let scheme = scheme(word)?;
-        let is_valid = is_valid(&scheme, system, posed);
-        if found.iter().any(|other| other.name == scheme.name) || (all && is_valid.is_err()) {
+        let scheme = valid(scheme(word)?, system, posed);
+        if all && scheme.is_err() {
             continue;
         }
-        is_valid?;
+        let scheme = scheme?;
+        if found.iter().any(|other| other.name == scheme.name) {
+            continue;
+        }
         scheme.note().iter().for_each(report::note);
         found.push(scheme);
     }
     Ok(found)
 }
 
-fn is_valid(scheme: &NamedScheme, system: &System, posed: &Posed) -> Result<(), Error> {
-    for_system(scheme.clone(), system)?;
-    check_digits(scheme, posed.arithmetic)
+/// The scheme with steps for the system, whose weights have the digits of the runs.
+fn valid(scheme: NamedScheme, system: &System, posed: &Posed) -> Result<NamedScheme, Error> {
+    let scheme = for_system(scheme, system)?;
+    check_digits(&scheme, posed.arithmetic)?;
+    Ok(scheme)
 }
 
 /// The steps: those of the flag, or chosen for each scheme.

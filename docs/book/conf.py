@@ -22,6 +22,7 @@ CHAPTERS = {
         "docs/sweeps",
         "docs/clusters",
         "docs/emit",
+        "docs/what-works-with-what",
         "docs/book/rust-api",
     ],
     "The modified energy": ["docs/the-modified-energy", "docs/monitor", "docs/recorded-trajectories"],

@@ -11,7 +11,7 @@ use shadowstep::kinetic::Quadratic;
 use shadowstep::pairs::{Ends, PairPotential, Pairs};
 use shadowstep::problems::{CubicSpring, HenonHeiles, Kepler, LennardJones};
 use shadowstep::shadow::{Bilinear, ShadowEnergy};
-use shadowstep::{Coordinates, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, potential, splitting_scheme};
+use shadowstep::{Coordinates, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, potential, splitting_scheme, ValidFor};
 
 use timing::{Contestant, compare, head, measure};
 
@@ -38,7 +38,7 @@ type Run<V, P> = Motion<f64, V, P, UnitMasses>;
 
 fn steps<'a, A, V, P>(name: &'static str, (scheme, h): (A, &str), mut motion: Run<V, P>) -> Contestant<'a>
 where
-    A: Scheme + 'a,
+    A: Scheme + ValidFor<Quadratic> + 'a,
     V: Coordinates<f64> + 'a,
     P: System<V> + 'a,
     UnitMasses: Kinetic<f64, Class = Quadratic>,
@@ -56,7 +56,7 @@ where
 /// What each step adds is stored, as an estimator would: what nobody reads would not be computed.
 fn augmented<'a, A, V, P>(name: &'static str, (scheme, h): (A, &str), mut motion: Run<V, P>) -> Contestant<'a>
 where
-    A: Scheme + 'a,
+    A: Scheme + ValidFor<Quadratic> + 'a,
     V: Coordinates<f64> + 'a,
     P: System<V> + 'a,
 {
@@ -80,7 +80,7 @@ fn watched<'a, A, V, P>(
     (settings, every): (&Bilinear, u64),
 ) -> Contestant<'a>
 where
-    A: Scheme + 'a,
+    A: Scheme + ValidFor<Quadratic> + 'a,
     V: Coordinates<f64> + 'a,
     P: System<V> + 'a,
 {
@@ -96,7 +96,7 @@ where
 }
 
 /// Plain steps, steps with β, and a monitor with E_8.
-fn compare_all<A: Scheme + Copy, V: Coordinates<f64>, P: System<V>>(
+fn compare_all<A: Scheme + ValidFor<Quadratic> + Copy, V: Coordinates<f64>, P: System<V>>(
     title: &str,
     scheme: (A, &str),
     start: &Run<V, P>,

@@ -4,9 +4,10 @@ mod timing;
 
 use std::hint::black_box;
 
+use shadowstep::kinetic::Quadratic;
 use shadowstep::number::{DoubleDouble, Float, Precision};
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::{Motion, Number, Potential, Scheme, Stepper, UnitMasses, exact, potential, splitting_scheme};
+use shadowstep::{Motion, Number, Potential, Scheme, Stepper, UnitMasses, exact, potential, splitting_scheme, ValidFor};
 
 use timing::{Contestant, compare};
 
@@ -29,7 +30,7 @@ type Start<const D: usize> = ([&'static str; D], [&'static str; D]);
 
 fn steps<N: Number + 'static, const D: usize>(
     name: &'static str,
-    scheme: impl Scheme + 'static,
+    scheme: impl Scheme + ValidFor<Quadratic> + 'static,
     potential: impl Potential<N> + 'static,
     (q, p): Start<D>,
     context: &N::Context,
@@ -48,7 +49,7 @@ fn steps<N: Number + 'static, const D: usize>(
 
 fn number_types<P, const D: usize>(
     title: &str,
-    scheme: impl Scheme + Copy + 'static,
+    scheme: impl Scheme + ValidFor<Quadratic> + Copy + 'static,
     potential: fn() -> P,
     start: Start<D>,
 ) where

@@ -12,7 +12,7 @@ use shadowstep::problems::{Gravity, HenonHeiles, Kepler, LennardJones, problem};
 use shadowstep::summation::Summation;
 use shadowstep::{
     Coordinates, DiagonalMasses, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, splitting_scheme,
-};
+, ValidFor};
 
 use timing::{Contestant, compare};
 
@@ -30,7 +30,7 @@ fn contestant<'a, A, V, P, K, S>(
     (scheme, h): (A, &str),
 ) -> Contestant<'a>
 where
-    A: Scheme + 'a,
+    A: Scheme + ValidFor<Quadratic> + 'a,
     V: Coordinates<f64> + 'a,
     P: Potential<f64> + 'a,
     K: Kinetic<f64, Class = Quadratic> + 'a,
@@ -43,7 +43,7 @@ where
 #[inline(never)]
 fn steps<A, V, P, K, S>(motion: &mut Motion<f64, V, P, K, S>, stepper: &Stepper<A, f64>, repetitions: u32)
 where
-    A: Scheme,
+    A: Scheme + ValidFor<Quadratic>,
     V: Coordinates<f64>,
     P: Potential<f64>,
     K: Kinetic<f64, Class = Quadratic>,
@@ -58,7 +58,7 @@ where
 /// The same system with each kind of sums; the ranges are 16 times the largest coordinate and momentum at the start.
 fn compared<A, V, P, K>(title: &str, (potential, kinetic): (P, K), (q, p): (V, V), scheme: (A, &str), repetitions: u32)
 where
-    A: Scheme + Copy,
+    A: Scheme + ValidFor<Quadratic> + Copy,
     V: Coordinates<f64>,
     P: Potential<f64> + Clone,
     K: Kinetic<f64, Class = Quadratic> + Clone,

@@ -61,11 +61,13 @@ pub trait Scheme {
 )]
 pub trait ValidFor<Class> {}
 
-/// No kinetic energy is of this class. From a single implementation the compiler would conclude which class is meant,
-/// and report types that differ instead of a scheme that is not valid.
-enum NoClass {}
+/// No system is of these classes. From a single implementation the compiler would conclude which class is meant, and report types that differ instead of
+/// a scheme that is not valid.
+enum NoClass<const FIRST: bool> {}
 
-impl<S: Scheme> ValidFor<NoClass> for S {}
+impl<S: Scheme> ValidFor<NoClass<true>> for S {}
+
+impl<S: Scheme> ValidFor<NoClass<false>> for S {}
 
 /// Name and proved properties of a scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Ensembles: a scene with a section \[ensemble\], whose columns have a number for each trajectory.
 //!
-//! All numbers of the scene can contain the names of the columns, as they contain parameters. The trajectories are computed in lanes and on
-//! all cores ([`shadowstep::ensemble`]): each has the bits that it has alone, but for exp, log, sin and cos.
+//! All numbers of the scene can contain the names of the columns, as they contain parameters. The trajectories are computed on all cores, those of
+//! T(p) and U(q) in lanes ([`shadowstep::ensemble`]): each has the bits that it has alone, but for exp, log, sin and cos.
 //!
 //! ```
 //! use shadowstep::tables::Source;
@@ -30,6 +30,7 @@
 //! # Ok::<(), shadowstep_scenes::Error>(())
 //! ```
 
+mod alone;
 mod columns;
 mod rows;
 mod settings;
@@ -46,7 +47,7 @@ use crate::error::Error;
 use crate::family::{Family, Parsed};
 use crate::keys::ENSEMBLE;
 use crate::lanes::Together;
-use crate::scene::Scene;
+use crate::scene::{Parts, Scene};
 use columns::Columns;
 use settings::{Observed, settings};
 
@@ -96,10 +97,6 @@ impl Ensemble {
     fn of(source: Source, columns: Columns) -> Result<Ensemble, Error> {
         let family = Family::new(source, &[ENSEMBLE.name]);
         let first = family.scene(&columns.values(0)).map_err(|faults| columns.with_trajectory(faults, 0))?;
-        if first.displaced {
-            let message = "ensembles have no gradient kicks by displaced forces";
-            return Err(Error::usage(message, "leave `gradient_kicks` out, or use a sweep"));
-        }
         let observed = settings(family.source(), &first)?;
         Ok(Ensemble { family, columns, first, observed })
     }
@@ -124,6 +121,10 @@ impl Ensemble {
     /// Values of a trajectory that the scene cannot have; an end.
     pub fn outcomes(&self, continues: impl Fn() -> bool + Sync) -> Result<Vec<Outcome>, Error> {
         let parsed = self.family.parsed()?;
+        if !self.has_lanes() {
+            let one = |t| alone::outcome(&self.scene(&parsed, t)?, self.observed, &continues);
+            return alone::on_all_cores(self.columns.trajectories(), one);
+        }
         let compensated = self.first.arithmetic.is_compensated();
         let scheme = self.first.scheme.scheme.clone();
         let outcomes = if self.first.system.has_general_kinetic() {
@@ -142,6 +143,11 @@ impl Ensemble {
         })
     }
 
+    /// Whether there are steps in lanes.
+    fn has_lanes(&self) -> bool {
+        matches!(self.first.system.parts, Parts::KineticAndPotential) && !self.first.displaced
+    }
+
     fn trajectories(&self) -> ensemble::Ensemble {
         let Observed { every, modified_energy } = self.observed;
         let (trajectories, steps) = (self.columns.trajectories(), self.first.steps());
@@ -154,18 +160,19 @@ impl Ensemble {
 
     /// The system of some lanes.
     fn together(&self, parsed: &Parsed<'_>, block: &Block<LANES>) -> Result<Together<LANES>, Error> {
-        let mut scenes = Vec::with_capacity(LANES);
-        for t in block.trajectories() {
-            let scene =
-                parsed.scene(&self.columns.values(t)).map_err(|faults| self.columns.with_trajectory(faults, t))?;
-            self.refuse_other_steps(&scene, t)?;
-            scenes.push(scene);
-        }
+        let scenes = block.trajectories().map(|t| self.scene(parsed, t)).collect::<Result<Vec<Scene>, Error>>()?;
         let systems = std::array::from_fn(|lane| &scenes[lane].system);
         Together::of(&systems).ok_or_else(|| {
             let fault = self.columns.fault(self.family.source(), "trajectories differ in more than numbers");
             Faults(vec![fault.hint("use the names of columns in numbers and formulas only")]).into()
         })
+    }
+
+    /// The scene of a trajectory.
+    fn scene(&self, parsed: &Parsed<'_>, t: usize) -> Result<Scene, Error> {
+        let scene = parsed.scene(&self.columns.values(t)).map_err(|faults| self.columns.with_trajectory(faults, t))?;
+        self.refuse_other_steps(&scene, t)?;
+        Ok(scene)
     }
 
     fn refuse_other_steps(&self, scene: &Scene, t: usize) -> Result<(), Error> {

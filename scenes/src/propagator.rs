@@ -31,7 +31,7 @@ impl Propagator {
         if word != EXACT_FLOW {
             return Ok(Propagator::Scheme(Box::new(library::scheme(word)?)));
         }
-        shadowstep::exact_flow::has_exact_flow(setup).map_err(|error| {
+        exact_flow::has_exact_flow(setup).map_err(|error| {
             let hint = match error {
                 ExactFlowError::NoSolution { .. } => "use a scheme, or one of these problems",
                 _ => "choose another initial state with --set",
@@ -47,7 +47,7 @@ impl Propagator {
     /// As [`Propagator::read`]; a scheme for quadratic T only where T is not.
     pub fn of_system(word: &str, system: &System) -> Result<Self, Error> {
         if word == EXACT_FLOW {
-            return match system.setup() {
+            return match in_ordinary_time(system) {
                 Some(setup) => Propagator::read(word, &setup),
                 None => {
                     let known: Vec<_> = exact_flow::problems().map(Problem::name).collect();
@@ -74,6 +74,15 @@ impl Propagator {
             Propagator::ExactFlow => None,
         }
     }
+}
+
+/// The shipped problem at its initial state, if its exact flow is known at the times of the steps; not in transformed time, whose steps end at others.
+pub fn with_exact_flow(system: &System) -> Option<Setup> {
+    in_ordinary_time(system).filter(|setup| exact_flow::has_exact_flow(setup).is_ok())
+}
+
+fn in_ordinary_time(system: &System) -> Option<Setup> {
+    system.setup().filter(|_| system.transformed_time().is_none())
 }
 
 /// The stepper of a run.
@@ -109,4 +118,25 @@ pub fn motion<N: Number + 'static>(setup: &Setup, context: &N::Context) -> Probl
 /// in transformed time.
 pub fn for_system(named: NamedScheme, system: &System) -> Result<NamedScheme, Error> {
     Ok(system.needs().scheme(named, &Schemes::default())?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::Arithmetic;
+    use shadowstep::tables::Source;
+
+    #[test]
+    fn the_exact_flow_is_not_that_of_the_steps_of_transformed_time() {
+        let system = |time: &str| {
+            let text = format!("problem.name = \"kepler\"\n{time}");
+            let source = Source { path: "test.toml".to_owned(), text };
+            System::read(&source, Arithmetic::Double).unwrap_or_else(|faults| panic!("{faults}")).0
+        };
+        let (plain, transformed) = (system(""), system("time.transform = \"logarithmic\""));
+        assert!(with_exact_flow(&plain).is_some() && Propagator::of_system(EXACT_FLOW, &plain).is_ok());
+        assert!(with_exact_flow(&transformed).is_none());
+        let refused = Propagator::of_system(EXACT_FLOW, &transformed).unwrap_err().to_string();
+        assert!(refused.starts_with("no exact flow of this system is known"), "{refused}");
+    }
 }

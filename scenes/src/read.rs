@@ -86,6 +86,7 @@ pub(crate) struct Names<'a> {
 
 /// The scene of a document.
 pub(crate) fn read(source: &Source, document: &DeTable<'_>, names: Names<'_>) -> Result<Scene, Faults> {
+    refuse_ensemble(source, document, names.others)?;
     let mut reader = Reader::new(source);
     reader.known.extend(names.numbers.iter().cloned());
     reader.names = names.numbers;
@@ -128,6 +129,7 @@ impl System {
     pub fn read(source: &Source, arithmetic: Arithmetic) -> Result<(System, Vec<Note>), Faults> {
         let (document, faults) = document(source);
         let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults)) };
+        refuse_ensemble(source, &document, &[])?;
         let mut reader = Reader::new(source);
         reader.arithmetic = arithmetic;
         refuse_unknown_sections(&mut reader, &document, &["problem"], &[]);
@@ -175,16 +177,22 @@ fn sections(
     Some((system?, steps?, output?))
 }
 
+/// Refuses the section of an ensemble where there is to be one scene, and nothing else: its numbers contain names without values.
+fn refuse_ensemble(source: &Source, root: &DeTable<'_>, others: &[&str]) -> Result<(), Faults> {
+    match root.get_key_value(ENSEMBLE.name).filter(|_| !others.contains(&ENSEMBLE.name)) {
+        Some((key, _)) => {
+            let fault = source.fault(&key.span(), "an ensemble is computed by `shadowstep run` only");
+            Err(Faults(vec![fault.hint("remove [ensemble], or give one trajectory's values")]))
+        }
+        None => Ok(()),
+    }
+}
+
 fn refuse_unknown_sections(reader: &mut Reader<'_>, root: &DeTable<'_>, required: &[&str], others: &[&str]) {
     let names: Vec<&str> = SECTIONS.iter().map(|section| section.name).filter(|name| !name.contains('.')).collect();
     let is_known = |name: &str| names.contains(&name) || others.contains(&name);
     for key in root.keys().filter(|key| !is_known(key.get_ref())) {
         let word: &str = key.get_ref();
-        if word == ENSEMBLE.name {
-            let help = "remove [ensemble], or give one trajectory's values";
-            reader.toml.fault(&key.span(), "an ensemble is computed by `shadowstep run` only", help);
-            continue;
-        }
         let help = match (keys::section_with(word), nearest(word, names.iter().copied())) {
             (Some(section), _) => format!("`{word}` is a key of {section}"),
             (None, Some(near)) => format!("did you mean [{near}]?"),

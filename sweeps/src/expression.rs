@@ -3,9 +3,9 @@
 use std::cmp::Ordering;
 
 use shadowstep::formula::{FormulaError, FormulaPotential};
-use shadowstep::number::{Lanes, Number};
-use shadowstep::{Ordered, Potential, Rational};
-use shadowstep_scenes::{Shown, System};
+use shadowstep::number::{Lanes, Number, Rounded};
+use shadowstep::{Potential, Rational};
+use shadowstep_scenes::{EnergyAt, Shown, System};
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::{Exact, Expression as Syntax, Kind, parse};
 
@@ -120,6 +120,16 @@ pub(crate) struct Evaluator<N> {
     has_energy: bool,
     /// Converts states, where formulas are in other coordinates than the steps.
     shown: Option<Shown<N>>,
+    /// H, where the steps follow another Hamiltonian: in transformed time, where t is a coordinate.
+    energy: Option<EnergyAt<N>>,
+}
+
+impl<N: Rounded + 'static> Evaluator<N> {
+    /// For the states of a run, also in transformed time.
+    pub(crate) fn of_run(expression: &Expression, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
+        let energy = system.transformed_time().map(|_| system.energy(context));
+        Ok(Evaluator { energy, ..Evaluator::new(expression, system, context)? })
+    }
 }
 
 impl<N: Number + 'static> Evaluator<N> {
@@ -145,7 +155,7 @@ impl<N: Number + 'static> Evaluator<N> {
         formula.prepare(&mut scratch, context);
         let (has_time, has_energy) = (expression.has_time, expression.has_energy);
         let (point, shown) = (vec![zero.clone(); names.len()], system.shown(context));
-        Ok(Evaluator { formula, scratch, point, value: zero, shown, has_time, has_energy })
+        Ok(Evaluator { formula, scratch, point, value: zero, shown, has_time, has_energy, energy: None })
     }
 
     /// The value at a state.
@@ -154,18 +164,23 @@ impl<N: Number + 'static> Evaluator<N> {
         system: &mut M,
         time: impl Fn() -> Rational,
     ) -> &N {
-        let dimension = system.q().len();
-        let (state, rest) = self.point.split_at_mut(2 * dimension);
         let (q, p) = match &mut self.shown {
             Some(shown) => shown.of_state(system.q(), system.p()),
             None => (system.q(), system.p()),
         };
+        let (state, rest) = self.point.split_at_mut(2 * q.len());
         state.iter_mut().zip(q.iter().chain(p)).for_each(|(own, value)| own.assign(value));
         if self.has_time {
-            rest[0] = N::from_rational(&time(), &self.value.context());
+            rest[0] = match (&self.energy, system.q().last()) {
+                (Some(_), Some(t)) => t.clone(),
+                _ => N::from_rational(&time(), &self.value.context()),
+            };
         }
         if self.has_energy {
-            rest[1].assign(&system.energy());
+            rest[1] = match &mut self.energy {
+                Some(energy) => energy(system.q(), system.p()),
+                None => system.energy(),
+            };
         }
         self.formula.energy(&self.point, &mut self.value, &mut self.scratch);
         &self.value
@@ -186,9 +201,9 @@ pub(crate) struct Test<N> {
     zero: N,
 }
 
-impl<N: Ordered + 'static> Test<N> {
+impl<N: Rounded + 'static> Test<N> {
     pub(crate) fn new(condition: &Condition, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
-        let difference = Evaluator::new(&condition.difference, system, context)?;
+        let difference = Evaluator::of_run(&condition.difference, system, context)?;
         Ok(Test { difference, met: condition.met, zero: N::zero(context) })
     }
 

@@ -25,7 +25,7 @@ use crate::record::{Record, measured};
 const OTHERS: &[&str] = &["scene", "axes", "zip", "keep", "picture"];
 
 /// The sections of a scene.
-const OF_SCENE: [&str; 4] = ["problem", "initial", "run", "output"];
+const OF_SCENE: [&str; 7] = ["problem", "body", "initial", "time", "run", "output", "ensemble"];
 
 /// Many runs of a scene: its text, the axes, and what is kept of each run.
 ///

@@ -11,7 +11,7 @@ use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::start::{Begin, Steps, Work};
 use shadowstep_scenes::watch::{Energies, Watch};
-use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, Shown, Summary};
+use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, Shown, Summary, System};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::expression::{Evaluator, Test};
@@ -219,11 +219,12 @@ where
 /// What is kept, as far as the states have come.
 struct Following<'a, S: Scheme, N: Ordered> {
     run: Run<'a>,
+    described: &'a System,
     stepper: Stepper<S, N>,
     keep: &'a Keep,
     watch: Option<Watch<S, N>>,
-    /// The conditions, each with the n of the first state that meets it.
-    tests: Vec<(Test<N>, Option<i64>)>,
+    /// The conditions, each with the time of the first state that meets it.
+    tests: Vec<(Test<N>, Option<String>)>,
     at_end: Vec<Evaluator<N>>,
     /// The n of the last state: that of the run, or the one at which a condition ends it.
     last: i64,
@@ -263,10 +264,12 @@ impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
             .first_time
             .iter()
             .map(|(_, condition)| (Test::new(condition, &scene.system, context).expect(CHECKED), None));
-        let at_end = keep.at_end.iter().map(|(_, text)| Evaluator::new(text, &scene.system, context).expect(CHECKED));
+        let at_end =
+            keep.at_end.iter().map(|(_, text)| Evaluator::of_run(text, &scene.system, context).expect(CHECKED));
         let last = i64::try_from(scene.steps()).unwrap_or(i64::MAX);
         Ok(Following {
             run: scene.as_run(),
+            described: &scene.system,
             stepper: stepper.clone(),
             keep,
             watch,
@@ -304,7 +307,8 @@ impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
         self.stepper.at_output(system, |system| {
             for (test, met) in &mut self.tests {
                 if met.is_none() && test.is_met(system, || run.time(n)) {
-                    *met = Some(n);
+                    let physical = self.described.time_of(system.q());
+                    *met = Some(physical.map_or_else(|| to_text(&run.time(n)), N::to_text));
                 }
             }
             if self.keep.stop.iter().any(|&place| self.tests[place].1.is_some()) {
@@ -334,7 +338,7 @@ impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
         let summary = watch.and_then(|watch| watch.summary(run));
         let found = Found { energy: energy.as_ref(), summary: summary.as_ref(), ended, last };
         let values = keep.values.iter().map(|kept| found.value(*kept));
-        let times = tests.iter().map(|(_, met)| met.map(|n| to_text(&run.time(n))));
+        let times = tests.into_iter().map(|(_, met)| met);
         Ok(values.chain(times).chain(end.expressions).chain(end.state).collect())
     }
 }

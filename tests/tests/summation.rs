@@ -135,7 +135,7 @@ fn a_long_sum_is_exact_to_the_size_of_its_increments() {
 fn all_steps_of_a_kind_have_the_same_bits() {
     let stepper = stepper::<f64>("yoshida4", "1/20", &());
     fn same<A: System<Number = f64, Class = Quadratic>, B: System<Number = f64, Class = Quadratic>>(
-        stepper: &Stepper<impl Scheme, f64>,
+        stepper: &Stepper<impl Scheme + ValidFor<Quadratic>, f64>,
         mut plain: A,
         mut augmented: B,
     ) -> Vec<u64> {

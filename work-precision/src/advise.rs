@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use num_traits::ToPrimitive;
-use shadowstep::exact_flow::has_exact_flow;
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::library::NamedScheme;
+use shadowstep_scenes::propagator::with_exact_flow;
 use shadowstep_studies::{Observer, Store};
 
 use crate::best::cost_of;
@@ -241,7 +241,7 @@ impl<'a> Question<'a> {
         let until = &choice.step * Rational::from_integer(choice.steps.into());
         let problem = Problem { until: &until, ..self.problem };
         let samples = most_samples(choice.steps);
-        let is_known = problem.system.setup().is_some_and(|setup| has_exact_flow(&setup).is_ok());
+        let is_known = with_exact_flow(problem.system).is_some();
         let wanted = match is_known {
             true => Calculation::reference(problem, samples, Duration::ZERO),
             false => Calculation::halved(problem, choice.scheme, (samples, 2 * choice.steps)),

@@ -13,7 +13,7 @@ use crate::series::{Series, SeriesOf, StepRange};
 use crate::timing::{StepTime, time_of_steps};
 
 /// Outcomes of another revision are computed again; a change of what is computed needs a new one.
-const REVISION: u32 = 3;
+const REVISION: u32 = 4;
 
 /// A calculation with what it needs.
 #[derive(Serialize)]

@@ -5,14 +5,16 @@ use std::time::Duration;
 
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
-use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
+use shadowstep::exact_flow::ExactFlow;
 use shadowstep::number::Rounded;
+use shadowstep::problems::Setup;
 use shadowstep::run::States;
 use shadowstep::{Ordered, StepSize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::{NamedScheme, scheme};
+use shadowstep_scenes::propagator::{for_system, with_exact_flow};
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::positions::{Positions, square_distance};
@@ -67,8 +69,8 @@ impl Reference {
         time: Duration,
         continues: &dyn Fn() -> bool,
     ) -> Result<Reference, Error> {
-        match problem.system.setup().filter(|setup| has_exact_flow(setup).is_ok()) {
-            Some(_) => of_exact_flow(problem, samples),
+        match with_exact_flow(problem.system) {
+            Some(setup) => of_exact_flow(problem, &setup, samples),
             None => of_scheme(problem, samples, time, continues),
         }
     }
@@ -155,14 +157,16 @@ fn precise(digits: u32) -> Result<Arithmetic, Error> {
     Arithmetic::with_digits(digits).map_err(|error| Error::usage(error.to_string(), "use fewer digits"))
 }
 
-fn of_exact_flow(problem: Problem<'_>, samples: u64) -> Result<Reference, Error> {
-    let positions = precise(problem.arithmetic.digits() + MORE_DIGITS)?.compute(ExactTexts { problem, samples })?;
+fn of_exact_flow(problem: Problem<'_>, setup: &Setup, samples: u64) -> Result<Reference, Error> {
+    let digits = problem.arithmetic.digits() + MORE_DIGITS;
+    let positions = precise(digits)?.compute(ExactTexts { problem, setup, samples })?;
     Ok(Reference { errors: vec![Size::ZERO; positions.len()], positions, origin: Origin::ExactFlow })
 }
 
 /// The positions of the exact flow as texts.
 struct ExactTexts<'a> {
     problem: Problem<'a>,
+    setup: &'a Setup,
     samples: u64,
 }
 
@@ -170,13 +174,12 @@ impl Computation for ExactTexts<'_> {
     type Output = Result<Vec<Vec<String>>, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
-        let ExactTexts { problem, samples } = self;
-        let setup = problem.system.setup().expect("the caller has checked it");
+        let ExactTexts { problem, setup, samples } = self;
         let h = StepSize::try_from(&problem.step_size(samples)).expect("the run has a nonzero length");
         let failed =
             |error: String| Error::run(format!("the exact flow cannot be followed: {error}"), "use a shorter time");
         let mut flow =
-            ExactFlow::<N>::new(&setup, &h, samples, 0, context).map_err(|error| failed(error.to_string()))?;
+            ExactFlow::<N>::new(setup, &h, samples, 0, context).map_err(|error| failed(error.to_string()))?;
         let mut positions = Vec::new();
         while let Some(state) = flow.advance().map_err(|error| failed(error.to_string()))? {
             if state.n > 0 {
@@ -203,7 +206,7 @@ fn of_scheme(
         ));
     }
     let arithmetic = precise(digits)?;
-    let (target, named) = (f64::from(problem.arithmetic.digits() + 2), scheme(SCHEME)?);
+    let (target, named) = (f64::from(problem.arithmetic.digits() + 2), for_system(scheme(SCHEME)?, problem.system)?);
     let problem = Problem { arithmetic, ..problem };
     arithmetic.compute(ByHalving { problem, named, digits, target, samples, time, continues })
 }

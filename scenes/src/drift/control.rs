@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use shadowstep::Rational;
 use shadowstep::StepSize;
-use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
+use shadowstep::exact_flow::ExactFlow;
 use shadowstep::number::Rounded;
 use shadowstep::problems::Setup;
 use shadowstep::run::States;
@@ -21,7 +21,7 @@ use crate::cpu_time::CpuTime;
 use crate::error::Error;
 use crate::estimates::Estimates;
 use crate::library::EXACT_FLOW;
-use crate::propagator::Propagator;
+use crate::propagator::{Propagator, with_exact_flow};
 use crate::run::Run;
 
 /// It is made in any case if it takes no longer than this.
@@ -79,7 +79,7 @@ impl Controls {
         seconds: Duration,
         follower: &mut dyn Follower,
     ) -> Found {
-        let setup = estimates.system.setup().filter(|setup| has_exact_flow(setup).is_ok());
+        let setup = with_exact_flow(estimates.system);
         let Some(setup) = setup.filter(|_| self.wanted != Wanted::Never) else { return Found::Nothing };
         let limit = (self.wanted == Wanted::IfFast).then(|| seconds.max(SHORT));
         // a slower scheme may allow what a faster one did not

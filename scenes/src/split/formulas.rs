@@ -18,17 +18,7 @@ pub struct Formulas(pub(crate) Vec<Formula<PartFormula>>);
 
 impl Split for Formulas {
     fn needs(&self, _: &InitialValueProblem) -> Needs {
-        Needs {
-            no_compensated_sums: Some(Refusal::new(
-                "formulas of parts have no compensated sums",
-                "use digits = \"double\"",
-            )),
-            no_ensembles: Some(Refusal::new(
-                "an ensemble has no formulas of parts",
-                "make a sweep of the scene instead",
-            )),
-            ..Needs::of_class(Class::ManyParts)
-        }
+        Needs::of_class(Class::ManyParts)
     }
 
     fn metadata(&self) -> Option<(&'static str, Value)> {

@@ -26,14 +26,7 @@ const MOST_COORDINATES: usize = 100;
 
 impl Split for Linear {
     fn needs(&self, _: &InitialValueProblem) -> Needs {
-        Needs {
-            no_compensated_sums: Some(Refusal::new("a linear part has no compensated sums", CHANGE)),
-            no_ensembles: Some(Refusal::new(
-                "an ensemble has no linear part",
-                "remove `parts`, or make a sweep of the scene instead",
-            )),
-            ..Needs::of_class(Class::Quadratic)
-        }
+        Needs::of_class(Class::Quadratic)
     }
 
     fn metadata(&self) -> Option<(&'static str, Value)> {

@@ -47,18 +47,13 @@ pub(crate) type OfPlanets = Box<dyn FnMut(&[f64]) -> Vec<f64>>;
 
 impl Split for Planets {
     fn needs(&self, _: &InitialValueProblem) -> Needs {
-        let no_ensembles = Some(Refusal::new(
-            "an ensemble has no orbits of planets as parts",
-            "write parts = \"kinetic-potential\", or make a sweep of the scene instead",
-        ));
         match self.coordinates {
-            Canonical::Jacobi => Needs { no_ensembles, ..Needs::of_class(Class::Quadratic) },
+            Canonical::Jacobi => Needs::of_class(Class::Quadratic),
             Canonical::DemocraticHeliocentric => Needs {
                 no_gradient_kicks: Some(NoGradientKicks {
                     reason: "but in heliocentric coordinates the kicks depend on the momenta, so that [B,[A,B]] is no kick",
                     hint: "write parts = \"wisdom-holman\" for Jacobi coordinates, or use a scheme such as abah864",
                 }),
-                no_ensembles,
                 ..Needs::of_class(Class::EveryKinetic)
             },
         }

@@ -1,0 +1,171 @@
+//! Trajectories one by one: of systems that are not computed in lanes.
+
+use std::num::NonZero;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::thread;
+
+use shadowstep::ensemble::Outcome;
+use shadowstep::shadow::{BuildEstimator, Estimator, FixedBilinear};
+use shadowstep::{Scheme, Stepper, System, ValidFor};
+
+use super::settings::Observed;
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::start::{Begin, Steps, Work};
+
+type EstimatorOf = <FixedBilinear as BuildEstimator<f64>>::Estimator;
+
+/// The interruption is looked for after so many steps.
+const AT_ONCE: u64 = 128;
+
+/// The outcomes of so many trajectories in their order, whichever thread computes them.
+pub(super) fn on_all_cores(
+    trajectories: usize,
+    one: impl Fn(usize) -> Result<Outcome, Error> + Sync,
+) -> Result<Vec<Outcome>, Error> {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get).min(trajectories);
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let taken = std::iter::repeat_with(|| next.fetch_add(1, Relaxed)).take_while(|t| *t < trajectories);
+        taken.map(|t| (t, one(t))).collect::<Vec<_>>()
+    };
+    let mut all = match threads {
+        0 | 1 => work(),
+        _ => thread::scope(|scope| {
+            let threads: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+            let found = threads.into_iter().map(|thread| thread.join());
+            found.flat_map(|found| found.unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
+        }),
+    };
+    all.sort_by_key(|(t, _)| *t);
+    all.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+/// What becomes of the trajectory of a scene; `continues` is asked now and then.
+pub(super) fn outcome(scene: &Scene, observed: Observed, continues: &dyn Fn() -> bool) -> Result<Outcome, Error> {
+    let steps = Steps {
+        scheme: &scene.scheme.scheme,
+        h: &scene.h,
+        compensated: scene.arithmetic.is_compensated(),
+        displaced: scene.displaced,
+        begin: Begin::InitialState,
+    };
+    let start = scene.system.start::<f64>(&());
+    let mut outcome = scene
+        .system
+        .with(steps, start, &(), Following { steps: scene.steps(), observed, continues })
+        .map_err(|error| Error::usage(error.to_string(), "check the initial state"))??;
+    if let Some(mut shown) = scene.system.shown::<f64>(&()) {
+        let (q, p) = shown.of_state(&outcome.q, &outcome.p);
+        (outcome.q, outcome.p) = (q.to_vec(), p.to_vec());
+    }
+    Ok(outcome)
+}
+
+/// A trajectory from its beginning to its end.
+struct Following<'a> {
+    steps: u64,
+    observed: Observed,
+    continues: &'a dyn Fn() -> bool,
+}
+
+impl Work<f64> for Following<'_> {
+    type Output = Result<Outcome, Error>;
+
+    fn with<S, M>(self, stepper: &Stepper<S, f64>, mut system: M) -> Self::Output
+    where
+        S: Scheme + Clone + ValidFor<M::Class> + 'static,
+        M: System<Number = f64> + 'static,
+    {
+        let Following { steps, observed: Observed { every, modified_energy }, continues } = self;
+        let estimator =
+            modified_energy.map(|k| FixedBilinear::new(k).build(stepper.step_size(), system.q().len(), &()));
+        let estimator = estimator.transpose();
+        let estimator = estimator.map_err(|error| Error::usage(error.to_string(), "give another order"))?;
+        let mut seen = Seen::new(stepper.at_output(&mut system, M::energy), estimator);
+        let mut window_end = 0;
+        for n in 0..steps {
+            if n % every == 0 {
+                // the states from here on up to the end of the window go to the estimator
+                window_end = seen.begin_window(&system, n, window_end);
+            }
+            if n < window_end {
+                stepper.step_augmented(&mut system);
+                seen.push(&system);
+            } else {
+                stepper.step(&mut system);
+            }
+            let made = n + 1;
+            if made % every == 0 || made == steps {
+                stepper.at_output(&mut system, |system| seen.look(system, made));
+            }
+            if made % AT_ONCE == 0 && !continues() {
+                return Err(Error::run("the ensemble was interrupted", "run it again"));
+            }
+        }
+        stepper.postprocess(&mut system);
+        Ok(seen.outcome(&system))
+    }
+}
+
+/// What is seen of a trajectory.
+struct Seen {
+    initial: f64,
+    largest_error: f64,
+    not_finite: Option<u64>,
+    /// Without states, and with those of the present window.
+    estimator: Option<EstimatorOf>,
+    window: Option<EstimatorOf>,
+    /// The least and the largest modified energy; NaN before the first one.
+    modified: [f64; 2],
+}
+
+impl Seen {
+    fn new(initial: f64, estimator: Option<EstimatorOf>) -> Self {
+        let not_finite = (!initial.is_finite()).then_some(0);
+        Seen { initial, largest_error: 0.0, not_finite, estimator, window: None, modified: [f64::NAN; 2] }
+    }
+
+    /// Looks at the state after n steps.
+    fn look<M: System<Number = f64>>(&mut self, system: &mut M, n: u64) {
+        let energy = system.energy();
+        let is_finite = energy.is_finite() && system.q().iter().chain(system.p()).all(|x| x.is_finite());
+        if self.not_finite.is_none() && !is_finite {
+            self.not_finite = Some(n);
+        }
+        if self.not_finite.is_none() {
+            self.largest_error = self.largest_error.max((energy - self.initial).abs());
+        }
+    }
+
+    /// A window of states for the modified energy begins at the present one, or the present window goes on; the n at which it ends.
+    fn begin_window<M: System<Number = f64>>(&mut self, system: &M, n: u64, window_end: u64) -> u64 {
+        let Some(estimator) = &self.estimator else { return 0 };
+        let states = estimator.states() as u64;
+        if n >= window_end {
+            self.window = Some(estimator.clone());
+            self.push(system);
+        }
+        n + states - 1
+    }
+
+    fn push<M: System<Number = f64>>(&mut self, system: &M) {
+        let Some(window) = &mut self.window else { return };
+        let Some(estimate) = window.push(system.q(), system.p(), system.increments()) else { return };
+        if estimate.value.is_finite() {
+            // `min` and `max` ignore NaN
+            self.modified = [self.modified[0].min(*estimate.value), self.modified[1].max(*estimate.value)];
+        }
+    }
+
+    fn outcome<M: System<Number = f64>>(&self, system: &M) -> Outcome {
+        let drift = self.modified[1] - self.modified[0];
+        Outcome {
+            q: system.q().to_vec(),
+            p: system.p().to_vec(),
+            energy_error: self.largest_error / self.initial.abs(),
+            modified_drift: Some(drift).filter(|drift| drift.is_finite()),
+            not_finite: self.not_finite,
+        }
+    }
+}
