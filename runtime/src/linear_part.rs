@@ -116,11 +116,11 @@ impl<N: Rounded, P: Potential<N>> LinearPart<N, P> {
         })
     }
 
-    /// The same system with [compensated sums](crate::summation::Compensated): the round-off of a kick or drift is ε times the increment, in place of ε
+    /// The same system with [compensated sums](crate::summation::Compensated) if `compensated` is true, else with plain ones: the round-off of a kick or drift is ε times the increment, in place of ε
     /// times the coordinate.
     #[must_use]
-    pub fn compensated(mut self) -> Self {
-        self.state = self.state.compensated_if(true);
+    pub fn compensated_if(mut self, compensated: bool) -> Self {
+        self.state = self.state.compensated_if(compensated);
         self
     }
 

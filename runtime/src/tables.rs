@@ -145,25 +145,15 @@ impl ValidFor<General> for TableScheme<General> {}
 
 impl ValidFor<ManyParts> for TableScheme<ManyParts> {}
 
+/// For code in which the class of a system is known at run time only, and checked there. Steps of a system of two parts panic: see
+/// [`System::middle_parts`](crate::System::middle_parts).
 impl From<TableScheme<ManyParts>> for TableScheme {
     fn from(scheme: TableScheme<ManyParts>) -> Self {
         TableScheme { proved: scheme.proved, class: PhantomData }
     }
 }
 
-/// The class of systems whose makers check that a scheme is valid for them, as where the kind of a system is known at run time only. No system of this library is
-/// of this class.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CheckedByCaller {}
-
-impl ValidFor<CheckedByCaller> for TableScheme<CheckedByCaller> {}
-
 impl<Class> TableScheme<Class> {
-    /// The scheme for systems of the class [`CheckedByCaller`].
-    pub fn for_checked_systems(self) -> TableScheme<CheckedByCaller> {
-        TableScheme { proved: self.proved, class: PhantomData }
-    }
-
     /// The exact scheme with its proof.
     pub fn proved(&self) -> &Proved {
         &self.proved

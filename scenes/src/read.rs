@@ -153,8 +153,7 @@ fn system(
     let bodies = planets::given(reader, root);
     let time = time::section(reader, root);
     let system = problem::system(reader, problem, initial, &bodies);
-    let system = time::transformed(reader, &time, system)?;
-    parts::with_sums(reader, root, system)
+    time::transformed(reader, &time, system)
 }
 
 fn sections(

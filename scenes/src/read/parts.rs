@@ -52,12 +52,3 @@ pub(super) fn split(
         }
     }
 }
-
-/// The system, if its sums can be compensated where the scene wants that.
-pub(super) fn with_sums(reader: &mut Reader<'_>, root: &DeTable<'_>, system: System) -> Option<System> {
-    let refusal = system.needs().no_compensated_sums.filter(|_| reader.arithmetic.is_compensated());
-    let Some(Refusal { message, hint }) = refusal else { return Some(system) };
-    let (section, key) = system.parts.key();
-    let value = root.get(section).and_then(|section| section.get_ref().as_table()?.get(key));
-    reader.toml.wrong(&value.map_or(0..0, |value| value.span()), message, hint)
-}

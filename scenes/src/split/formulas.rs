@@ -27,7 +27,7 @@ impl Split for Formulas {
 
     fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
         let state = problem.initial(context);
-        let mut system = self.system(problem, &state, context).expect("the dimensions were read with the system");
+        let mut system = self.system(problem, &state, false, context).expect("the dimensions were read with the system");
         Box::new(move |q, p| system.energy_at(q, p))
     }
 
@@ -39,7 +39,7 @@ impl Split for Formulas {
         context: &N::Context,
         work: W,
     ) -> Result<W::Output, MotionError> {
-        let system = self.system(problem, &state, context)?;
+        let system = self.system(problem, &state, steps.compensated, context)?;
         Ok(steps.begin(in_many_parts(steps.scheme), system, context, work))
     }
 
@@ -54,6 +54,7 @@ impl Formulas {
         &self,
         problem: &InitialValueProblem,
         (q, p): &State<N>,
+        compensated: bool,
         context: &N::Context,
     ) -> Result<Boxed<N>, MotionError> {
         let dimension = problem.coordinates.len();
@@ -63,7 +64,7 @@ impl Formulas {
         let parts = self.0.iter().map(|formula| formula.meaning().in_numbers(context));
         let parts = parts.map(|part| Ok(Box::new(part.map_err(|_| MotionError::Digits)?) as Box<dyn Part<N>>));
         let system = SystemOfParts::new(parts.collect::<Result<_, MotionError>>()?, q, p)?;
-        Ok(Boxed::ManyParts(Box::new(system)))
+        Ok(Boxed::ManyParts(Box::new(system.compensated_if(compensated))))
     }
 }
 

@@ -12,8 +12,6 @@ pub struct Needs {
     pub no_gradient_kicks: Option<NoGradientKicks>,
     /// Why its schemes are not processed, if they are not.
     pub no_processor: Option<NoProcessor>,
-    /// Why its sums are not compensated, if they are not.
-    pub no_compensated_sums: Option<Refusal>,
     /// Why there are no ensembles of it, if there are none.
     pub no_ensembles: Option<Refusal>,
 }
@@ -32,7 +30,7 @@ pub enum Class {
 impl Needs {
     /// No more than that a scheme is of this class.
     pub(crate) fn of_class(class: Class) -> Self {
-        Needs { class, no_gradient_kicks: None, no_processor: None, no_compensated_sums: None, no_ensembles: None }
+        Needs { class, no_gradient_kicks: None, no_processor: None, no_ensembles: None }
     }
 
     /// The scheme with the steps that are needed: for many parts, those of many parts. The schemes that have been read keep these.
