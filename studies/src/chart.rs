@@ -44,7 +44,8 @@ mod looks;
 mod stack;
 mod thin;
 
-pub use crate::ticks::{Scale, power_of_ten};
+use crate::ticks::Scale;
+pub use crate::ticks::power_of_ten;
 pub use stack::stacked;
 
 /// The content of one picture.
@@ -106,7 +107,7 @@ pub struct Axis {
     /// The quantity, with its unit.
     pub label: String,
     /// Linear or logarithmic.
-    pub scale: Scale,
+    pub(crate) scale: Scale,
     /// The smallest and the largest value; `None` for those of the curves with a margin.
     pub range: Option<(f64, f64)>,
 }
@@ -143,9 +144,9 @@ pub struct Curve {
     /// In the order of the line; NaN and infinite values are missing points, which interrupt the line.
     pub points: Vec<(f64, f64)>,
     /// How it is drawn.
-    pub look: Look,
+    pub(crate) look: Look,
     /// Which vertical axis it belongs to.
-    pub side: Side,
+    pub(crate) side: Side,
     /// The number of its colour, markers, and dashes. There are 9 colours, also of dashes, and 12 markers; a line with markers is
     /// dashed from the tenth on, so that 12 curves differ in print as well.
     pub colour: usize,
@@ -185,7 +186,7 @@ impl Curve {
 
 /// How a curve is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Look {
+pub(crate) enum Look {
     /// A line; a few of its points are marked if there are other curves.
     Line,
     /// A line with all points marked.
@@ -229,7 +230,7 @@ pub enum Marker {
 
 /// Which vertical axis a curve belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub(crate) enum Side {
     /// The left one.
     First,
     /// [`Chart::second_y`]; without one, the first.

@@ -2,7 +2,7 @@
 
 /// The scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
+pub(crate) enum Scale {
     /// The values themselves.
     Linear,
     /// log₁₀ of the values, so that 1e-400 is −400 instead of 0.

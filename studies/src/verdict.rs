@@ -101,7 +101,7 @@ impl Counts {
     }
 
     /// How many there are in all.
-    pub fn all(&self) -> usize {
+    pub(crate) fn all(&self) -> usize {
         self.agree + self.differ + self.not_decided
     }
 }

@@ -151,7 +151,7 @@ impl Observer for Stops {
 fn an_interrupted_reference_is_not_kept() {
     let (system, until, folder) = (system("henon-heiles"), until(5), tempfile::tempdir().unwrap());
     let schemes = schemes(&["yoshida4"]);
-    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::Double };
+    let problem = Problem { system: &system, until: &until, arithmetic: Arithmetic::with_digits(60).unwrap() };
     let (range, reference_time) = (StepRange::Given(vec![50]), Duration::from_secs(20));
     let request = Request { problem, schemes: &schemes, range, reference_time, folder: folder.path().to_owned() };
     let stopped = request.study(&mut Stops { questions: 4 }).unwrap_err();

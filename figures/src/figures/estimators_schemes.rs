@@ -26,8 +26,14 @@ fn draw(results: &Results) -> Finding {
             curves.push(Curve::line(label, against_states(results, &run(scheme, 20), family, orders), i));
         }
         let control = against_states(results, &run(EXACT_FLOW, 20), family, orders);
-        let relative =
-            curves.iter().map(|curve| Curve { points: logarithms(&curve.points, &control), ..curve.clone() }).collect();
+        let relative = curves
+            .iter()
+            .cloned()
+            .map(|mut curve| {
+                curve.points = logarithms(&curve.points, &control);
+                curve
+            })
+            .collect();
         curves.push(Curve::dashed("exact flow", control, 8));
         finding.chart(
             Chart::new(format!("{title}, h = 1/20"), Axis::log10(STATES), drift_axis(), curves),

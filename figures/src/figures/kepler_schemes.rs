@@ -141,7 +141,10 @@ fn compare_coordinates(results: &Results, finding: &mut Finding) {
             Axis::log10("largest |q − q of the exact flow|"),
             curves
                 .into_iter()
-                .map(|curve| Curve { points: curve.points.iter().map(|(x, y)| (x.log10(), *y)).collect(), ..curve })
+                .map(|mut curve| {
+                    curve.points.iter_mut().for_each(|(x, _)| *x = x.log10());
+                    curve
+                })
                 .collect(),
         ),
         "Kepler, e = 0.6, over [0, 100].",

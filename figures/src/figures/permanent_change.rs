@@ -35,7 +35,10 @@ fn drift_and_change(results: &Results, finding: &mut Finding, changes: &[Curve])
         .map(|(i, points)| Curve::dashed(format!("drift, {}", SCHEMES[i].1), points, i))
         .collect();
     curves.push(Curve::thick("drift, exact flow", control, 8));
-    curves.extend(changes.iter().cloned().map(|curve| Curve { label: format!("change, {}", curve.label), ..curve }));
+    curves.extend(changes.iter().cloned().map(|mut curve| {
+        curve.label.insert_str(0, "change, ");
+        curve
+    }));
     finding.chart(
         Chart::new(
             "The paper's drift, and the permanent change",

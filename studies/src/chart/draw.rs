@@ -42,7 +42,7 @@ impl Chart {
     /// The SVG text, for a separate file or as a part of an HTML page.
     ///
     /// It has no `id`s and no scripts; text stays text, and on dark screens the picture is dark. Of a line, at most four points are
-    /// written for each column of a pixel; of [`Look::Points`], all.
+    /// written for each column of a pixel; of [`Curve::dots`], all.
     ///
     /// # Errors
     /// The picture cannot be drawn.
