@@ -11,7 +11,9 @@ use shadowstep::kinetic::Quadratic;
 use shadowstep::pairs::{Ends, PairPotential, Pairs};
 use shadowstep::problems::{CubicSpring, HenonHeiles, Kepler, LennardJones};
 use shadowstep::shadow::{Bilinear, ShadowEnergy};
-use shadowstep::{Coordinates, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, potential, splitting_scheme, ValidFor};
+use shadowstep::{
+    Coordinates, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, potential, splitting_scheme,
+};
 
 use timing::{Contestant, compare, head, measure};
 

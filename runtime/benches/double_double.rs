@@ -7,7 +7,9 @@ use std::hint::black_box;
 use shadowstep::kinetic::Quadratic;
 use shadowstep::number::{DoubleDouble, Float, Precision};
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::{Motion, Number, Potential, Scheme, Stepper, UnitMasses, exact, potential, splitting_scheme, ValidFor};
+use shadowstep::{
+    Motion, Number, Potential, Scheme, Stepper, UnitMasses, ValidFor, exact, potential, splitting_scheme,
+};
 
 use timing::{Contestant, compare};
 

@@ -7,12 +7,12 @@ mod timing;
 use std::hint::black_box;
 
 use rug::Float;
-use shadowstep::kinetic::Quadratic;
 use shadowstep::formula::FormulaPotential;
+use shadowstep::kinetic::Quadratic;
 use shadowstep::number::{Number, Precision};
 use shadowstep::problems::Kepler;
 use shadowstep::shadow::{BuildEstimator, Central, Estimator, StoppingRule};
-use shadowstep::{Motion, Potential, Scheme, Stepper, UnitMasses, exact, splitting_scheme, ValidFor, tables};
+use shadowstep::{Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, exact, splitting_scheme, tables};
 
 use timing::{Contestant, compare, head, measure};
 
@@ -36,7 +36,13 @@ fn big<P: Potential<Float>>(potential: P, q: [&str; 2], p: [&str; 2]) -> Big<P> 
     Motion::new(potential, UnitMasses, q.map(number), p.map(number)).expect("the dimensions agree")
 }
 
-fn steps<'a, S: Scheme + ValidFor<Quadratic> + 'a, N: shadowstep::Ordered + 'a, P: Potential<N> + 'a, const D: usize>(
+fn steps<
+    'a,
+    S: Scheme + ValidFor<Quadratic> + 'a,
+    N: shadowstep::Ordered + 'a,
+    P: Potential<N> + 'a,
+    const D: usize,
+>(
     name: &'static str,
     scheme: S,
     mut motion: Motion<N, [N; D], P, UnitMasses>,
@@ -51,7 +57,11 @@ fn steps<'a, S: Scheme + ValidFor<Quadratic> + 'a, N: shadowstep::Ordered + 'a, 
     (name, Box::new(run))
 }
 
-fn augmented<'a, S: Scheme + ValidFor<Quadratic> + 'a>(name: &'static str, scheme: S, mut motion: Big<Kepler>) -> Contestant<'a> {
+fn augmented<'a, S: Scheme + ValidFor<Quadratic> + 'a>(
+    name: &'static str,
+    scheme: S,
+    mut motion: Big<Kepler>,
+) -> Contestant<'a> {
     let stepper = Stepper::with_context(scheme, "1/100", &digits()).expect("h is not 0");
     let run = move |repetitions| {
         for _ in 0..repetitions {

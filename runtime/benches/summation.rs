@@ -11,8 +11,8 @@ use shadowstep::pairs::Pairs;
 use shadowstep::problems::{Gravity, HenonHeiles, Kepler, LennardJones, problem};
 use shadowstep::summation::Summation;
 use shadowstep::{
-    Coordinates, DiagonalMasses, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, splitting_scheme,
-, ValidFor};
+    Coordinates, DiagonalMasses, Kinetic, Motion, Potential, Scheme, Stepper, UnitMasses, ValidFor, splitting_scheme,
+};
 
 use timing::{Contestant, compare};
 

@@ -47,7 +47,7 @@ use crate::error::Error;
 use crate::family::{Family, Parsed};
 use crate::keys::ENSEMBLE;
 use crate::lanes::Together;
-use crate::scene::{Parts, Scene};
+use crate::scene::Scene;
 use columns::Columns;
 use settings::{Observed, settings};
 
@@ -145,7 +145,7 @@ impl Ensemble {
 
     /// Whether there are steps in lanes.
     fn has_lanes(&self) -> bool {
-        matches!(self.first.system.parts, Parts::KineticAndPotential) && !self.first.displaced
+        self.first.system.parts.is_kinetic_and_potential() && !self.first.displaced
     }
 
     fn trajectories(&self) -> ensemble::Ensemble {

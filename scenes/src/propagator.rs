@@ -131,7 +131,7 @@ mod tests {
         let system = |time: &str| {
             let text = format!("problem.name = \"kepler\"\n{time}");
             let source = Source { path: "test.toml".to_owned(), text };
-            System::read(&source, Arithmetic::Double).unwrap_or_else(|faults| panic!("{faults}")).0
+            System::read(&source, Arithmetic::DOUBLE).unwrap_or_else(|faults| panic!("{faults}")).0
         };
         let (plain, transformed) = (system(""), system("time.transform = \"logarithmic\""));
         assert!(with_exact_flow(&plain).is_some() && Propagator::of_system(EXACT_FLOW, &plain).is_ok());

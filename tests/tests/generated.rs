@@ -87,12 +87,22 @@ fn unrolled_steps_have_the_bits_of_their_twins_at_120_digits() {
 fn arrays_and_vectors_have_the_same_bits() {
     struct Storages;
     impl shadowstep_tests::shipped::Visitor for Storages {
-        fn visit<S: Scheme + ValidFor<Quadratic> + Copy>(&mut self, name: &str, _: Option<shadowstep_schemes::First>, scheme: &'static S) {
+        fn visit<S: Scheme + ValidFor<Quadratic> + Copy>(
+            &mut self,
+            name: &str,
+            _: Option<shadowstep_schemes::First>,
+            scheme: &'static S,
+        ) {
             compare::<S, f64, _>(name, *scheme, Kepler, &());
             compare::<S, Float, _>(name, *scheme, HenonHeiles, &precision(120));
         }
     }
-    fn compare<S: Scheme + ValidFor<Quadratic>, N: Bits, P: Potential<N> + Clone>(name: &str, scheme: S, potential: P, context: &N::Context) {
+    fn compare<S: Scheme + ValidFor<Quadratic>, N: Bits, P: Potential<N> + Clone>(
+        name: &str,
+        scheme: S,
+        potential: P,
+        context: &N::Context,
+    ) {
         let stepper = Stepper::with_context(scheme, STEP, context).unwrap();
         let [q, p] = [["0.4", "0.1"], ["0.2", "-1.3"]].map(|texts| numbers::<N>(&texts, context));
         let array = |v: &[N]| [v[0].clone(), v[1].clone()];

@@ -2,12 +2,12 @@
 //! steps, bits that are those of the merged maps one by one, in all lanes and vector instructions.
 
 use proptest::prelude::*;
-use shadowstep::kinetic::Quadratic;
 use shadowstep::instructions::Instructions;
+use shadowstep::kinetic::Quadratic;
 use shadowstep::number::counting::{Counting, Operations, count};
 use shadowstep::number::{Float, Fused, Lanes, Limbs, Number, Ordered};
 use shadowstep::problems::HenonHeiles;
-use shadowstep::{Carried, Motion, Rational, Scheme, Stepper, System, UnitMasses, splitting_scheme, ValidFor, tables};
+use shadowstep::{Carried, Motion, Rational, Scheme, Stepper, System, UnitMasses, ValidFor, splitting_scheme, tables};
 use shadowstep_schemes::First;
 use shadowstep_tests::shipped::{Visitor, for_each};
 use shadowstep_tests::{log10_largest_distance, precision, rational, same_bits};
@@ -32,7 +32,11 @@ fn start<N: Number>(context: &N::Context) -> Star<N> {
 }
 
 /// The states after so many merged steps, and after as many one by one.
-fn both<S: Scheme + ValidFor<Quadratic>, N: Number>(stepper: &Stepper<S, N>, start: &Star<N>, steps: u64) -> [Vec<N>; 2] {
+fn both<S: Scheme + ValidFor<Quadratic>, N: Number>(
+    stepper: &Stepper<S, N>,
+    start: &Star<N>,
+    steps: u64,
+) -> [Vec<N>; 2] {
     let [mut merged, mut one_by_one] = [start.clone(), start.clone()];
     stepper.merged_steps(std::slice::from_mut(&mut merged), steps);
     (0..steps).for_each(|_| stepper.step(&mut one_by_one));

@@ -232,10 +232,7 @@ fn every_system_has_compensated_sums() {
         let (q, p) = ([0.1, -0.3].map(&number), [0.2, 0.1].map(&number));
         LinearPart::new(HenonHeiles, &[one.clone(), one], &stiffness, &q, &p).unwrap().compensated_if(compensated)
     }
-    fn in_parts<N: Rounded<Context = ()> + 'static>(
-        number: impl Fn(f64) -> N,
-        compensated: bool,
-    ) -> SystemOfParts<N> {
+    fn in_parts<N: Rounded<Context = ()> + 'static>(number: impl Fn(f64) -> N, compensated: bool) -> SystemOfParts<N> {
         let formulas = ["(px^2 + py^2)/2", "(x*py - y*px)/4 + (x^2 + y^2)/32", "cos(x) + cos(y)"];
         let parts = parts::<N>(&formulas, (&["x", "y"], &["px", "py"]), &[], &()).unwrap();
         let (q, p) = ([0.3, 0.1].map(&number), [0.5, -0.2].map(&number));

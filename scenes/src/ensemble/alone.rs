@@ -151,7 +151,7 @@ impl Seen {
 
     fn push<M: System<Number = f64>>(&mut self, system: &M) {
         let Some(window) = &mut self.window else { return };
-        let Some(estimate) = window.push(system.q(), system.p(), system.increments()) else { return };
+        let Some(estimate) = window.push(system.q(), system.p(), system.state().increments()) else { return };
         if estimate.value.is_finite() {
             // `min` and `max` ignore NaN
             self.modified = [self.modified[0].min(*estimate.value), self.modified[1].max(*estimate.value)];

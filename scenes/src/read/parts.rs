@@ -2,7 +2,7 @@
 
 use shadowstep::wisdom_holman::Bodies;
 use shadowstep_schemes::document::{Section, Value};
-use toml::de::{DeTable, DeValue};
+use toml::de::DeValue;
 
 use super::given::Given;
 use super::reader::Reader;

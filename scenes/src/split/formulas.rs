@@ -8,7 +8,6 @@ use shadowstep::{MotionError, System as _};
 
 use super::{Class, Needs, Split, State};
 use crate::boxed::Boxed;
-use crate::refusal::Refusal;
 use crate::scene::{EnergyAt, Formula, InitialValueProblem};
 use crate::start::{Steps, Work};
 
@@ -27,7 +26,8 @@ impl Split for Formulas {
 
     fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
         let state = problem.initial(context);
-        let mut system = self.system(problem, &state, false, context).expect("the dimensions were read with the system");
+        let mut system =
+            self.system(problem, &state, false, context).expect("the dimensions were read with the system");
         Box::new(move |q, p| system.energy_at(q, p))
     }
 

@@ -45,7 +45,12 @@ impl Split for Linear {
         if let Some(displacements) = steps.displacements(context) {
             system = system.displaced(displacements);
         }
-        Ok(steps.begin(steps.scheme.clone(), Boxed::Quadratic(Box::new(system.compensated_if(steps.compensated))), context, work))
+        Ok(steps.begin(
+            steps.scheme.clone(),
+            Boxed::Quadratic(Box::new(system.compensated_if(steps.compensated))),
+            context,
+            work,
+        ))
     }
 }
 
