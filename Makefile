@@ -16,12 +16,15 @@ format:
 lint:
 	cargo clippy --workspace --features mpfr --all-targets --locked -- -D warnings
 
-# all tests and doc tests; and those of the library and the command line without GMP and MPFR. One reads the licences of all dependencies, also of those
-# that other systems need.
+# All tests and doc tests; then what is different without GMP and MPFR: the messages of the command line, and the exact flow, which computes with other
+# numbers. The rest of the library, scenes and command line without them is compiled and linted. One test reads the licences of all dependencies, also of those that other
+# systems need.
 check:
 	cargo fetch --locked
 	cargo test --workspace --features mpfr --locked
-	cargo test -p shadowstep -p shadowstep-scenes -p shadowstep-cli --locked
+	cargo clippy -p shadowstep -p shadowstep-scenes -p shadowstep-cli --all-targets --locked -- -D warnings
+	cargo test -p shadowstep-cli --test command_line --locked digits
+	cargo test -p shadowstep --lib --locked exact_flow
 
 # The library and scenes compile for WebAssembly; skipped without that target of rustc.
 wasm:

@@ -59,12 +59,11 @@ impl<const D: usize> Setting<'_, D> {
         let problem = self.problem;
         let h = number(f64::from_rational(&exact(self.h).expect("a number"), &()));
         let stepper = Stepper::<S, f64>::new(of, self.h).expect("h is not 0");
-        let (count, maps) = stepper.scheme().maps();
-        let (kicks, drifts) = stepper.weights().split_at(count);
-        let of_kind = |wanted, weights: &[f64]| -> Vec<f64> {
-            maps.iter().filter(|(kind, _)| *kind == wanted).map(|(_, index)| weights[*index]).collect()
+        let (maps, weights) = (stepper.scheme().sequence().maps, stepper.weights());
+        let of_kind = |wanted| -> Vec<f64> {
+            maps.iter().filter(|(kind, _)| *kind == wanted).map(|(kind, index)| weights.of(*kind)[*index]).collect()
         };
-        let (kicks, drifts) = (of_kind(MapKind::Kick, kicks), of_kind(MapKind::Drift, drifts));
+        let (kicks, drifts) = (of_kind(MapKind::Kick), of_kind(MapKind::Drift));
         assert_eq!(kicks.len(), drifts.len() + 1, "kicks at both ends");
         move |steps: u32, q: &mut [f64; D], p: &mut [f64; D]| {
             let (steps, q, p) = (i64::from(steps), q.as_mut_ptr(), p.as_mut_ptr());
@@ -104,7 +103,7 @@ impl<const D: usize> Setting<'_, D> {
     fn ours<'a, N, S, P, K>(&self, names: [&'static str; 3], of: S, potential: P, masses: K) -> [Contestant<'a>; 3]
     where
         N: Ordered + Number<Context = ()> + Copy + 'a,
-        S: Scheme + Copy + 'a,
+        S: Scheme + ValidFor<Quadratic> + Copy + 'a,
         P: Potential<N> + Clone + 'a,
         K: Kinetic<N, Class = Quadratic> + Clone + 'a,
     {
@@ -134,7 +133,7 @@ impl<const D: usize> Setting<'_, D> {
 
 fn small<'a, const D: usize, S, P>(of: S, setting: &Setting<'_, D>, potential: P) -> Vec<Contestant<'a>>
 where
-    S: Scheme + Copy + 'a,
+    S: Scheme + ValidFor<Quadratic> + Copy + 'a,
     P: Potential<f64> + Potential<Fused> + Copy + 'a,
 {
     let plain = setting.ours::<f64, _, _, _>(["f64, step", "f64, steps", "f64, merged"], of, potential, UnitMasses);
@@ -144,7 +143,7 @@ where
 
 fn against<const D: usize, S, P>(title: &str, of: S, setting: &Setting<'_, D>, potential: P)
 where
-    S: Scheme + Copy + 'static,
+    S: Scheme + ValidFor<Quadratic> + Copy + 'static,
     P: Potential<f64> + Potential<Fused> + Copy,
 {
     let mut contestants = vec![setting.by_gcc(of)];

@@ -173,7 +173,7 @@ struct RunAll<'a, M> {
 impl<M: System<Class = Quadratic, Number = Lanes<WIDTH>>> WithScheme for RunAll<'_, M> {
     type Result = Answer;
 
-    fn with<S: Scheme>(self, scheme: S) -> Answer {
+    fn with<S: Scheme + ValidFor<Quadratic>>(self, scheme: S) -> Answer {
         let RunAll { request, mut systems } = self;
         let h = step_size(request.until, request.steps());
         let stepper = Stepper::with_context(scheme, h, &()).expect("a step size");
@@ -195,7 +195,7 @@ struct Run<'a, M> {
 impl<M: System<Class = Quadratic, Number: Ordered>> WithScheme for Run<'_, M> {
     type Result = Answer;
 
-    fn with<S: Scheme>(self, scheme: S) -> Answer {
+    fn with<S: Scheme + ValidFor<Quadratic>>(self, scheme: S) -> Answer {
         let Run { request, mut system } = self;
         let h = step_size(request.until, request.steps());
         let stepper = Stepper::with_context(scheme, h, &system.context()).expect("a step size");
@@ -218,7 +218,7 @@ struct RunPlanets<'a> {
 impl WithScheme for RunPlanets<'_> {
     type Result = Answer;
 
-    fn with<S: Scheme>(self, scheme: S) -> Answer {
+    fn with<S: Scheme + ValidFor<Quadratic>>(self, scheme: S) -> Answer {
         let RunPlanets { request, mut system } = self;
         let stepper = Stepper::new(scheme, step_size(request.until, request.steps())).expect("a step size");
         let mut answer = Answer::default();

@@ -1,13 +1,13 @@
 //! The schemes that take part, compiled from their tables.
 
-use shadowstep::kinetic::General;
+use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::{Scheme, ValidFor};
 
 /// What is done with a scheme once its type is known.
 pub trait WithScheme {
     type Result;
 
-    fn with<S: Scheme>(self, scheme: S) -> Self::Result;
+    fn with<S: Scheme + ValidFor<Quadratic>>(self, scheme: S) -> Self::Result;
 }
 
 /// Störmer–Verlet that begins with a drift.
