@@ -138,7 +138,7 @@ impl Table {
     fn conserves_energy(&self) -> Result<(), String> {
         let energy = self.column("energy")?;
         let first = *energy.first().ok_or("no energy")?;
-        let far = energy.iter().find(|energy| !((*energy - first).abs() < 0.1 * first.abs()));
+        let far = energy.iter().find(|energy| (*energy - first).abs() >= 0.1 * first.abs());
         far.map_or(Ok(()), |energy| Err(format!("H changes from {first} to {energy}")))
     }
 }

@@ -1,0 +1,178 @@
+"""Every function that takes a scene, with the rows of cli/tests/crosses: each cell works, or is refused by one sentence. docs/what-works-with-what.md has the cells of the program."""
+
+import warnings
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import shadowstep
+from shadowstep import InputError, Monitor, Problem, advise, drift, integrate, run, sweep, work_precision
+
+FOLDER = Path(__file__).resolve().parents[2] / "cli/tests/crosses"
+
+
+class Row:
+    """Lines ``# key: value``, of which the first is a title, and a part of a scene."""
+
+    def __init__(self, path):
+        lines = path.read_text(encoding="utf-8").splitlines()
+        self.name = path.stem
+        self.keys = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
+        self.text = "\n".join(line for line in lines if not line.startswith("#")) + "\n"
+
+    def value(self, key):
+        """A value of [run]."""
+        return next(line for line in self.text.splitlines() if line.startswith(f"{key} = ")).split(" = ")[1].strip('"')
+
+    def faulty(self):
+        right, wrong = self.keys["wrong"].split(" => ")
+        row = object.__new__(Row)
+        row.name, row.keys, row.text = self.name, self.keys, self.text.replace(right, wrong, 1)
+        return row
+
+
+SYSTEMS = {row.name: row for row in map(Row, sorted((FOLDER / "systems").glob("*.toml")))}
+RUNS = {row.name: row for row in map(Row, sorted((FOLDER / "runs").glob("*.toml")))}
+STEPS = 8
+
+
+def step(system, way):
+    return way.value("step").replace("h", system.keys["step"])
+
+
+def end(system, way):
+    return f"{STEPS}*({step(system, way)})"
+
+
+def scene(system, way):
+    text = way.text.replace('"h"', f'"{system.keys["step"]}"').replace("-h", f"-{system.keys['step']}").replace("*h", f"*{system.keys['step']}")
+    return system.text + (text.replace("trajectory = { every = 2 }\n", "") if is_ensemble(system) else text)
+
+
+def is_ensemble(system):
+    return "varied" not in system.keys
+
+
+def problem(system, folder):
+    path = folder / "scene.toml"
+    path.write_text(system.text)
+    return Problem.from_scene(path)
+
+
+def scheme(way):
+    name = way.value("scheme")
+    return str(FOLDER / name) if name.endswith(".toml") else name
+
+
+def digits(way):
+    flags = way.keys["numbers"].split()
+    return flags[1] if flags[0] == "--digits" else flags[0].removeprefix("--")
+
+
+def estimator(way):
+    """The flags of the command line as keywords."""
+    words = way.keys["estimator"].split()
+    flags = {"estimator": "central"} | {flag.removeprefix("--").replace("-", "_"): value for flag, value in zip(words[::2], words[1::2])}
+    return {name: int(value) if value.isdigit() else value for name, value in flags.items()}
+
+
+def finite(values):
+    assert len(values) > 0 and np.all(np.isfinite(np.asarray(values, dtype=float))), values
+
+
+def integrated(system, way, folder):
+    found = integrate(
+        problem(system, folder), scheme(way), step(system, way), steps=STEPS, digits=digits(way), mpfr="--mpfr" in way.keys["numbers"], **estimator(way)
+    )
+    finite(found.modified_energy)
+    energy = found.energy.astype(float)
+    assert np.all(np.abs(energy - energy[0]) < 0.1 * abs(energy[0]))
+
+
+def drifted(system, way, folder):
+    mpfr = "--mpfr" in way.keys["numbers"]
+    found = drift(problem(system, folder), scheme(way), step(system, way), end(system, way), digits=digits(way), mpfr=mpfr, **estimator(way))
+    finite([found["drift"]])
+
+
+def monitored(system, way, folder):
+    monitor = Monitor(problem(system, folder), scheme(way), step(system, way), order=4, every=1, digits=digits(way))
+    monitor.step(40)
+    finite([monitor.energy, monitor.report().modified])
+    assert monitor.report().steps == 40
+
+
+def compared(system, way, folder):
+    [curve] = work_precision(problem(system, folder), end(system, way), [scheme(way)], steps=[8, 32], digits=digits(way))
+    coarse, fine = (measured.energy_error for measured in curve.runs)
+    assert fine < max(coarse, 1e-13)
+
+
+def advised(system, way, folder):
+    advice = advise(problem(system, folder), end(system, way), 1e-2, schemes=[scheme(way)], digits=digits(way), seconds=0.05)
+    assert advice.verified <= 1e-2
+
+
+def ran(system, way, folder):
+    table = FOLDER / "own-scheme.toml"
+    (folder / table.name).write_text(table.read_text())
+    path = folder / "scene.toml"
+    path.write_text(scene(system, way))
+    columns = run(path).columns
+    finite(columns["modified_drift" if is_ensemble(system) else "t"])
+
+
+def swept(system, way, folder):
+    table = FOLDER / "own-scheme.toml"
+    (folder / table.name).write_text(table.read_text())
+    path = folder / "sweep.toml"
+    axis = f'[axes]\nh = ["{system.keys["step"]}", "{Fraction(system.keys["step"]) / 2}"]\n[keep]\nvalues = ["energy_error"]\n'
+    path.write_text(system.text + way.text + axis)
+    found = sweep(path, folder / "out")
+    finite(found["energy_error"])
+    assert len(found["energy_error"]) == 2
+
+
+FUNCTIONS = {"integrate": integrated, "drift": drifted, "Monitor": monitored, "work_precision": compared, "advise": advised, "run": ran, "sweep": swept}
+
+# Of [run] these read a scheme by its name or table only, and the last two no `mpfr`.
+OF_PROBLEMS = ["integrate", "drift", "Monitor", "work_precision", "advise"]
+LONG = "double-double", "digits", "mpfr", "many-digits"
+REFUSED = {("ensemble", function) for function in [*OF_PROBLEMS, "sweep"]} | {(way, "Monitor") for way in LONG}
+REFUSED |= {("many-digits", function) for function in ("work_precision", "advise")}
+WITHOUT_MPFR = {"mpfr", "many-digits"}
+NOT_TAKEN = {(way, function) for way in ("drift-first", "displaced") for function in OF_PROBLEMS}
+NOT_TAKEN |= {("mpfr", function) for function in ("work_precision", "advise")}
+
+
+def has_mpfr():
+    try:
+        integrate(Problem("pendulum"), "stormer-verlet", "1/10", steps=1, digits=320)
+    except InputError:
+        return False
+    return True
+
+
+CELLS = [(system, "double", function) for system in SYSTEMS for function in FUNCTIONS]
+CELLS += [("formula", way, function) for way in RUNS for function in FUNCTIONS if (way, function) not in NOT_TAKEN]
+
+
+@pytest.mark.parametrize("system, way, function", CELLS)
+@pytest.mark.filterwarnings("ignore")
+def test_every_cell_works_or_says_why(system, way, function, tmp_path):
+    refused = (system, function) in REFUSED or (way, function) in REFUSED or (way in WITHOUT_MPFR and not has_mpfr())
+    if not refused:
+        FUNCTIONS[function](SYSTEMS[system], RUNS[way], tmp_path)
+        return
+    with pytest.raises(InputError) as refusal:
+        FUNCTIONS[function](SYSTEMS[system], RUNS[way], tmp_path)
+    assert str(refusal.value).strip()
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+@pytest.mark.parametrize("function", FUNCTIONS)
+def test_every_fault_is_refused_with_its_place(system, function, tmp_path):
+    with pytest.raises(InputError, match=r"\.toml:\d+:\d+: "), warnings.catch_warnings():
+        FUNCTIONS[function](SYSTEMS[system].faulty(), RUNS["double"], tmp_path)
