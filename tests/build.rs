@@ -32,7 +32,7 @@ fn main() {
         "/// Shows a visitor every shipped scheme; with the roles of kick and drift exchanged too, where the\n\
          /// order claimed survives that.\n\
          pub fn for_each(visitor: &mut impl Visitor) {{\n{visits}}}\n\n\
-         /// Likewise, but only those whose order holds for every T(p).\n\
+         /// The same for schemes whose order holds for every T(p).\n\
          pub fn for_each_for_every_kinetic(visitor: &mut impl Visitor<General>) {{\n{visits_for_every_kinetic}}}\n"
     )
     .unwrap();

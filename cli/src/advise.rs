@@ -63,7 +63,7 @@ enum Which {
     Position,
     /// The largest |H(t) - H(0)|, as a part of |H(0)| unless that is 0
     Energy,
-    /// A permanent change of the modified energy, likewise
+    /// The same for a permanent change of the modified energy
     Permanent,
 }
 

@@ -59,7 +59,7 @@ pub(crate) struct Plots {
 }
 
 impl PlotArguments {
-    /// The charts of so many runs, and their files; `None` without `--plot`.
+    /// The charts of a number of runs, and their files; `None` without `--plot`.
     pub(crate) fn read(
         &self,
         system: &System,

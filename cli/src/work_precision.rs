@@ -63,7 +63,7 @@ pub(crate) struct Arguments {
     force: bool,
 }
 
-/// The reference may take so many times the time of a scheme.
+/// The reference may take this multiple of the time of a scheme.
 const REFERENCE: f64 = 10.0;
 
 /// Makes the runs, and writes charts and data.

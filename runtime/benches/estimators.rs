@@ -59,7 +59,7 @@ fn float(x: &Number7, precision: Precision) -> Float {
     if x.is_sign_negative() { -size } else { size }
 }
 
-/// A run over all states, as often as it takes for so many of them.
+/// A run over all states, repeated until a given number of them is reached.
 fn contestant<'a, N: Ordered + 'static>(
     name: &'static str,
     settings: &'a EstimatorSettings,

@@ -114,7 +114,7 @@ pub fn widest<R>(work: impl FnOnce() -> R) -> R {
 /// From this number of turns on the choice of instructions costs less than it gains.
 const LONG: usize = 64;
 
-/// [`widest`] for a loop of so many turns that is long, of numbers several of which fit into a vector; else the work as it is.
+/// [`widest`] for a long loop of `turns` turns, with numbers several of which fit into a vector; else the work as it is.
 #[inline(always)]
 pub(crate) fn widest_if_long<R>(in_vectors: bool, turns: usize, work: impl FnOnce() -> R) -> R {
     if in_vectors && turns >= LONG { widest(work) } else { work() }

@@ -6,7 +6,7 @@ use crate::number::{AnyLimbs, LimbCount, Number, Rounded};
 /// A matrix, row by row.
 pub(crate) type Matrix<N> = Vec<Vec<N>>;
 
-/// So many flows are kept; a caller with more times than that has others.
+/// At most this number of flows is kept; for a caller with more times the oldest are computed again.
 pub(crate) const MOST_KEPT: usize = 256;
 
 /// With terms that fall by 16 and more, fewer make the digits of 17 limbs.

@@ -216,14 +216,14 @@ pub trait Number: Clone + fmt::Debug {
         self.assign_sum(product, c);
     }
 
-    /// x ← c − a b, likewise
+    /// x ← c − a b, with the same rounding
     #[inline(always)]
     fn assign_difference_with_product(&mut self, c: &Self, product: &Self, a: &Self, b: &Self) {
         let _ = (a, b);
         self.assign_difference(c, product);
     }
 
-    /// x ← x + c, where x is a b, rounded, likewise
+    /// x ← x + c, where x is a b, rounded, with the same rounding
     #[inline(always)]
     fn add_to_product(&mut self, c: &Self, a: &Self, b: &Self) {
         let _ = (a, b);

@@ -48,7 +48,7 @@ pub struct Pairs<P, const D: usize> {
     alike: bool,
 }
 
-/// From so many bodies on there are blocks.
+/// Sums of this number of bodies and more have blocks.
 const LEAST_BODIES: usize = 2 * BLOCK;
 
 /// The pairs that interact.

@@ -48,7 +48,7 @@ fn estimates<N: Ordered + 'static>(
     found
 }
 
-/// The same number, where it has so many bits.
+/// The same number, if it fits into these bits.
 fn float<const L: usize>(x: &Limbs<L>, bits: u32) -> Float {
     let Some(exponent) = x.exponent() else { return Float::with_val(bits, x.to_f64()) };
     let mantissa = Float::with_val(bits, Integer::from_digits(x.mantissa(), Order::Lsf));

@@ -481,7 +481,7 @@ fn wrong_input_is_refused() {
     assert_eq!(q[0], Lanes::all(1.0));
 }
 
-/// Energy, angular momentum and the angle of the pericentre, relative to their first values, of orbits after so many drifts.
+/// Energy, angular momentum and the angle of the pericentre, relative to their first values, of orbits after a number of drifts.
 fn wander(orbits: u64, drifts: u64) -> Vec<[f64; 3]> {
     let mut kepler = new::<f64>();
     let of_orbit = |seed| {

@@ -75,7 +75,7 @@ pub enum Numbers {
 /// Numbers of many digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Digits {
-    /// So many limbs of 64 bits: [`AnyLimbs`].
+    /// This number of limbs of 64 bits: [`AnyLimbs`].
     Limbs(LimbCount),
     /// MPFR's numbers: `Float`.
     #[cfg(feature = "mpfr")]

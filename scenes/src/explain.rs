@@ -18,7 +18,7 @@ pub fn explain() -> String {
     explanation(INTRODUCTION, SECTIONS.iter().chain([&ENSEMBLE]), KEYS.iter().chain(&ENSEMBLE_KEYS))
 }
 
-/// The keys of several sections, likewise, after an introduction.
+/// The keys of several sections in the same form, after an introduction.
 pub fn explanation<'a>(
     introduction: &str,
     sections: impl IntoIterator<Item = &'a Section>,

@@ -64,7 +64,7 @@ pub struct Samples<N> {
     pub t: Vec<N>,
     /// Positions, one state after the other.
     pub q: Vec<N>,
-    /// Momenta, likewise.
+    /// Momenta, in the same form.
     pub p: Vec<N>,
     /// H
     pub energy: Vec<N>,
@@ -156,7 +156,7 @@ impl<N: Ordered + 'static> Work<N> for Keeper<'_, N> {
 /// The observer is asked about as often as this.
 const ASKED: Duration = Duration::from_millis(10);
 
-/// So many steps are made at once at most.
+/// At most this number of steps is made at once.
 const MOST_AT_ONCE: u64 = 1 << 16;
 
 impl<N: Ordered + 'static> Keeper<'_, N> {

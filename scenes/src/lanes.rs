@@ -108,7 +108,7 @@ fn lanes_of<'a, const W: usize>(exact: impl Fn(usize) -> &'a Exact) -> Lanes<W> 
     Lanes(std::array::from_fn(|lane| f64::from_rational(&exact(lane).value, &())))
 }
 
-/// A list of each system, likewise.
+/// The same for a list of each system.
 fn in_lanes<'a, const W: usize>(list: impl Fn(usize) -> &'a [Exact]) -> Vec<Lanes<W>> {
     (0..list(0).len()).map(|i| lanes_of(|lane| &list(lane)[i])).collect()
 }

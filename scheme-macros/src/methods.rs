@@ -77,7 +77,7 @@ impl Methods<'_> {
         self.block_body(&self.programs.energy, 0, lane, outputs)
     }
 
-    /// U_q, likewise.
+    /// U_q, in the same form.
     pub(crate) fn gradient_of_block(&self, lane: &Ident, outputs: &[(Ident, Ident)]) -> TokenStream {
         self.block_body(&self.programs.gradient, self.programs.energy.kept, lane, outputs)
     }

@@ -99,7 +99,7 @@ impl Step for OfFamily<'_> {
     }
 }
 
-/// Kicks, drifts and the weights of the middle parts between them, and the conditions of so many parts.
+/// Kicks, drifts and the weights of the middle parts between them, and the conditions for this number of parts.
 struct OfParts<'a>((&'a [Map], &'a [Rational]), usize);
 
 impl Step for OfParts<'_> {
@@ -119,7 +119,7 @@ pub(crate) fn evaluated(maps: &[Map], held: Held, family: Family, highest: u32) 
     evaluated_of(&OfFamily(maps, family), held, highest)
 }
 
-/// The conditions of a step of so many parts with the weights of their middle maps, likewise.
+/// The conditions of a step for this number of parts, with the weights of their middle maps, in the same form.
 pub(crate) fn evaluated_of_parts(
     step: (&[Map], &[Rational]),
     held: Held,

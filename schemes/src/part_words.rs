@@ -61,7 +61,7 @@ struct Prefix {
     parent: Option<usize>,
 }
 
-/// The conditions of orders 1..=`highest` for so many parts, of low orders first, and their values for a step.
+/// The conditions of orders 1..=`highest` for this number of parts, of low orders first, and their values for a step.
 pub(crate) fn conditions<A: Arithmetic>(
     maps: &[(PartMap, A::Value)],
     parts: usize,
@@ -135,7 +135,7 @@ fn letter(part: usize) -> char {
     u8::try_from(part).map_or('?', |part| char::from(b'A' + part))
 }
 
-/// The Lyndon words on so many letters, of at most `longest` of them (Duval's algorithm), in lexicographic order.
+/// The Lyndon words on this number of letters, of at most `longest` of them (Duval's algorithm), in lexicographic order.
 fn lyndon_words(letters: usize, longest: usize) -> Vec<Vec<usize>> {
     let mut words = Vec::new();
     let mut word = vec![0];

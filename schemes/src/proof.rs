@@ -132,7 +132,7 @@ fn order_up_to(maps: &[Map], held: Held, family: Family, highest: u32) -> Order 
     order_by(evaluated(maps, held, family, highest), highest)
 }
 
-/// The order of a step of so many parts, with the weights of their middle maps.
+/// The order of a step for this number of parts, with the weights of their middle maps.
 pub(crate) fn order_of_parts(step: (&[Map], &[Rational]), held: Held, parts: usize, highest: u32) -> Order {
     order_by(evaluated_of_parts(step, held, parts, highest), highest)
 }

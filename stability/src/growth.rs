@@ -14,7 +14,7 @@ pub(crate) const TOLERANCE: f64 = 5e-4;
 /// The steps of some turns.
 const TURN: u64 = 300;
 
-/// After so many steps a part that grows with this rate is separated from the others. The rate is measured over as many more.
+/// After this number of steps a part that grows with this rate is separated from the others. The rate is measured over as many more.
 pub(crate) fn steps_to_see(rate: f64) -> u64 {
     (SEPARATED / rate).ceil() as u64
 }

@@ -39,11 +39,11 @@ pub(crate) struct Stayed {
     pub(crate) farthest: f64,
 }
 
-/// The monitor has about so many windows.
+/// The monitor has about this number of windows.
 const WINDOWS: u64 = 256;
-/// Charts have the largest error of H in so many parts of a run.
+/// Charts have the largest error of H in each of this number of parts of a run.
 const PARTS: usize = 60;
-/// H is computed at so many states.
+/// H is computed at this number of states.
 const ENERGIES: u64 = 20_000;
 /// How much the error of H may differ between the first and the last fourth, if it is the same oscillation.
 const SAME: f64 = 1.5;

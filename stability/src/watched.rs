@@ -11,7 +11,7 @@ use shadowstep_studies::verdict::Verdict as Agreement;
 
 /// The monitor's estimator is E_8 with its error: 9 states a window.
 const MONITOR_ORDER: u32 = 8;
-/// The verdict is asked for after so many parts of the steps so far.
+/// The verdict is asked for again when the number of steps has grown by this part.
 const REPORTS: u64 = 50;
 /// Whether to continue is asked so often at most.
 const QUESTIONS: u64 = 64;
@@ -64,7 +64,7 @@ pub(crate) fn setup(name: &str, set: &[(&str, String)]) -> Setup {
     problem(name).and_then(|problem| problem.setup(&set, 140)).expect("cases use valid problems")
 }
 
-/// Makes `steps` steps of size h, of which the monitor has a window every so many; `each` gets every state with its number from 1 on.
+/// Makes `steps` steps of size h, with a window of the monitor every `every` steps; `each` gets every state with its number from 1 on.
 pub(crate) fn watched<N: Rounded + 'static>(
     (scheme, h): (&NamedScheme, &Rational),
     every: u64,

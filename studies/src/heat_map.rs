@@ -95,7 +95,7 @@ pub(crate) enum Values {
     /// Different positive numbers in any order, drawn by their logarithms.
     Logarithmic(Vec<f64>),
     /// Names, such as those of schemes; they are drawn from left to right, and downwards, in cells of one size. If there are
-    /// too many for labels beside each other, only every so many cells have one.
+    /// too many for labels beside each other, only every n-th cell has one.
     Words(Vec<String>),
 }
 

@@ -184,7 +184,7 @@ pub(crate) fn signed_power_of_ten(is_negative: bool, n: i64) -> String {
     format!("{}{}", if is_negative { "−" } else { "" }, power_of_ten(n))
 }
 
-/// A number rounded to so many significant digits, without trailing zeros: 0.3, −1.25×10⁻⁷.
+/// A number rounded to this number of significant digits, without trailing zeros: 0.3, −1.25×10⁻⁷.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     let scientific = format!("{:.*e}", digits.saturating_sub(1), value.abs());
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));

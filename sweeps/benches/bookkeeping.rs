@@ -19,7 +19,7 @@ use shadowstep_sweeps::{Collected, Manifest, Plan, TableFormat, collect, compute
 /// A run of about 1 ms.
 const STEPS: u64 = 32_000;
 
-/// Of so many scenes the steps are made alone, again and again.
+/// The steps of this number of scenes are made alone, again and again.
 const SCENES: u64 = 500;
 
 fn main() {
@@ -75,7 +75,7 @@ fn scenes(plan: &Plan) -> Vec<Scene> {
     (0..SCENES).map(|k| plan.scene(k * runs / SCENES).expect("the scene is valid")).collect()
 }
 
-/// The steps of so many runs on all cores, without anything else.
+/// The steps of a number of runs on all cores, without anything else.
 fn steps_alone(scenes: &[Scene], runs: u64) {
     let next = AtomicU64::new(0);
     rayon::broadcast(|_| {

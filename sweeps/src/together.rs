@@ -25,7 +25,7 @@ pub(crate) const LANES: usize = 16;
 /// The most steps of runs that are computed together: all of them are lost where a call is stopped.
 const MOST_STEPS: u64 = 1_000_000;
 
-/// So many steps are made at once where only the last state is of interest.
+/// This number of steps is made at once where only the last state is of interest.
 const STEPS_AT_ONCE: u64 = 50;
 
 const CHECKED: &str = "the formulas were checked with the sweep";

@@ -18,7 +18,7 @@ pub struct Separable<'a> {
 }
 
 impl Separable<'_> {
-    /// The flow over a time h: the error of the leapfrog rule has even powers of the step only, of which so many
+    /// The flow over a time h: the error of the leapfrog rule has even powers of the step only, of which a number
     /// columns leave about h^(2 columns + 1).
     pub fn flow(self, start: &[Float], h: &Float, columns: u32) -> State {
         let mut row: Vec<State> = Vec::new();

@@ -56,7 +56,7 @@ fn printed(name: &str) -> String {
     fs::read_to_string(format!("{ANALYSIS_TESTS}/published/{name}.toml")).expect(name)
 }
 
-/// The same with a claim of so many digits.
+/// The same with a claim of this number of digits.
 fn printed_with_digits(name: &str, digits: u32) -> String {
     let text = printed(name);
     let at = text.find("kinetic").unwrap();

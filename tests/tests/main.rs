@@ -17,6 +17,7 @@ mod gradient_kicks;
 mod gradient_kicks_of_parts;
 mod grammar;
 mod hard_cases;
+mod language;
 mod licences;
 mod linear_part;
 mod many_parts;

@@ -31,7 +31,7 @@ fn start<N: Number>(context: &N::Context) -> Star<N> {
     Motion::new(HenonHeiles, UnitMasses, [number("0.1"), number("0.2")], [number("0.1"), number("-0.05")]).unwrap()
 }
 
-/// The states after so many merged steps, and after as many one by one.
+/// The states after a number of merged steps, and after as many one by one.
 fn both<S: Scheme + ValidFor<Quadratic>, N: Number>(
     stepper: &Stepper<S, N>,
     start: &Star<N>,
@@ -109,7 +109,7 @@ proptest! {
 // ---------------------------------------------------------------------------------------------------------------
 // The maps
 
-/// So many times the operations.
+/// A multiple of the operations.
 fn times(count: u64, operations: Operations) -> [u64; 3] {
     [operations.additions, operations.multiplications, operations.divisions].map(|of_kind| count * of_kind)
 }

@@ -107,11 +107,11 @@ pub enum Advice<'a> {
 
 /// A run over the part of the time takes about this part of the time of a scheme.
 const PART_OF_TIME: f64 = 0.125;
-/// The reference may take so many times the time of a scheme.
+/// The reference may take this multiple of the time of a scheme.
 const REFERENCE: f64 = 5.0;
-/// Where the time was over, errors are extrapolated by the proved order to so many times the steps at most.
+/// Where the time was over, errors are extrapolated by the proved order to at most this multiple of the steps.
 const MOST_EXTRAPOLATED: f64 = 100.0;
-/// A run with a small error has about so many evaluations in a turn of the fastest oscillation.
+/// A run with a small error has about this number of evaluations in a turn of the fastest oscillation.
 const EVALUATIONS_PER_TURN: f64 = 400.0;
 /// The predicted error is to be this part of the tolerance, log₁₀: predictions are that accurate.
 const MARGIN: f64 = -0.1;

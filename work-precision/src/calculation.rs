@@ -35,11 +35,11 @@ pub(crate) struct Calculation<'a> {
 enum Quantity {
     /// The reference, with a limit in seconds.
     Reference { samples: u64, seconds: f64 },
-    /// The same from a run of this scheme with so many steps, of which the errors of others are estimated by Richardson's rule.
+    /// The same from a run of this scheme with a number of steps, of which the errors of others are estimated by Richardson's rule.
     Halved { scheme: String, samples: u64, steps: u64 },
     /// The runs of a scheme, which is identified by its weights.
     Series { scheme: String, samples: u64, range: StepRange },
-    /// The time of a step of each scheme, with so many steps to the end.
+    /// The time of a step of each scheme, with a number of steps to the end.
     Times { schemes: Vec<(String, u64)> },
 }
 

@@ -9,9 +9,9 @@ use crate::study::{Cost, Study};
 
 /// log₁₀ of the largest error that is drawn, as a part of the positions' size or of H: what is larger is lost.
 const LARGEST: f64 = 1.0;
-/// So many curves can be told apart.
+/// At most this number of curves can be distinguished.
 const MOST_CURVES: usize = 12;
-/// A scheme that does not meet an error counts as one that needs so many times the least.
+/// A scheme that does not meet an error counts as one that needs this multiple of the least.
 const NOT_MET: f64 = 100.0;
 
 /// The names of the charts' files.

@@ -8,7 +8,7 @@ use shadowstep_scenes::library::{NamedScheme, fingerprint};
 use shadowstep_scenes::start::{Begin, Steps};
 use shadowstep_symbolic::decimal::to_text;
 
-/// Errors along a run are taken at so many times at most.
+/// Errors along a run are taken at this number of times at most.
 pub(crate) const MOST_SAMPLES: u64 = 64;
 
 /// A system from t = 0 to `until` in a number type.
@@ -51,7 +51,7 @@ impl Problem<'_> {
     }
 }
 
-/// The most samples that are at states of a run with so many steps.
+/// The most samples that are at states of a run with this number of steps.
 pub(crate) fn most_samples(steps: u64) -> u64 {
     (1..=MOST_SAMPLES).rev().find(|samples| steps.is_multiple_of(*samples)).unwrap_or(1)
 }

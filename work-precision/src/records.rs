@@ -31,7 +31,7 @@ struct Record<'a> {
     /// The largest |H − H(0)| and that at the end, as parts of |H(0)| unless that is 0.
     energy_error: Option<String>,
     energy_error_at_end: Option<String>,
-    /// Of the modified energy, likewise.
+    /// The same of the modified energy.
     modified_energy_drift: Option<String>,
     modified_energy_change: Option<String>,
     permanent_change_excluded_above: Option<String>,

@@ -216,7 +216,7 @@ struct ByHalving<'a> {
     problem: Problem<'a>,
     named: NamedScheme,
     digits: u32,
-    /// The error is to be below the largest coordinate by so many digits.
+    /// The error is to be below the largest coordinate by this number of digits.
     target: f64,
     samples: u64,
     time: Duration,
@@ -266,7 +266,7 @@ impl Computation for ByHalving<'_> {
     }
 }
 
-/// So many steps that the fastest oscillation turns by about a radian in each; one a sample where none is known.
+/// The number of steps for which the fastest oscillation turns by about a radian in each; one a sample where none is known.
 fn first_steps(problem: Problem<'_>, samples: u64) -> u64 {
     let omega = problem.system.fastest_frequency().map_or(0.0, |frequency| frequency.omega);
     let per_sample = (omega * problem.duration() / samples as f64).ceil().to_u64().unwrap_or(1);

@@ -11,9 +11,9 @@ use crate::size::Size;
 
 /// The monitor's estimator is E_8 with its error, in a window of 9 states.
 const MONITOR_ORDER: u32 = 8;
-/// The monitor has about so many windows.
+/// The monitor has about this number of windows.
 const WINDOWS: u64 = 256;
-/// An error is known if it is so many times as large as that of the reference; log₁₀.
+/// An error is known if it is larger than the error of the reference by this factor; log₁₀.
 const KNOWN: f64 = 0.7;
 
 /// What a run with some number of steps has shown.
@@ -29,11 +29,11 @@ pub struct Measurement {
     pub largest_position: PositionError,
     /// The largest |H(t) − H(0)| at the states, as a part of |H(0)| unless that is 0.
     pub energy: Size,
-    /// |H − H(0)| at the end, likewise.
+    /// |H − H(0)| at the end, in the same form.
     pub energy_at_end: Size,
     /// The largest error of the position and of H in the first half of the run.
     pub in_first_half: (PositionError, Size),
-    /// The modified energy H̄, likewise; `None` where the run is too short for an estimate.
+    /// The modified energy H̄, in the same form; `None` where the run is too short for an estimate.
     pub modified: Option<Modified>,
     /// The verdict of the monitor on the step size.
     pub verdict: String,
@@ -77,7 +77,7 @@ pub struct Modified {
     pub bound: Option<Size>,
 }
 
-/// Makes a run of so many steps and measures it.
+/// Makes a run and measures it.
 pub(crate) struct Measuring<'a> {
     pub(crate) steps: u64,
     pub(crate) reference: &'a Reference,

@@ -22,9 +22,9 @@ use crate::size::Size;
 
 /// Evaluations grow by the factor 2^(1/2) from run to run.
 const RUNS_PER_DOUBLING: f64 = 2.0;
-/// The first step is so many times the stability limit.
+/// The first step is this multiple of the stability limit.
 const BEYOND: f64 = 1.5;
-/// Round-off is reached where so many runs, each with more evaluations, have improved neither error.
+/// Round-off is reached where this number of runs, each with more evaluations, have improved neither error.
 const WITHOUT_GAIN: usize = 6;
 /// A run has some precision if the error of H is below this, log₁₀.
 const SOME_PRECISION: f64 = -1.0;

@@ -20,10 +20,10 @@ use crate::series::{Series, StepRange, coarsest};
 use crate::size::Size;
 use crate::timing::StepTime;
 
-/// The coarsest run has so many steps between samples, so that rounding to samples changes the number of steps little.
+/// The coarsest run has this number of steps between samples, so that rounding to samples changes the number of steps little.
 const STEPS_PER_SAMPLE: u64 = 8;
 
-/// Medians of times are so many times the shortest repeat at most, on a machine without other load.
+/// Medians of times are at most this multiple of the shortest repeat, on a machine without other load.
 const LARGEST_SPREAD: f64 = 1.3;
 
 /// What is compared, and where the outcomes are saved.

@@ -30,7 +30,7 @@ pub struct StepTime {
     pub most: f64,
 }
 
-/// The time of a step of each scheme, with so many steps to the end.
+/// The time of a step of each scheme, with a number of steps to the end.
 pub(crate) fn time_of_steps(problem: Problem<'_>, schemes: &[(&NamedScheme, u64)]) -> Result<Vec<StepTime>, Error> {
     let steps =
         |(scheme, steps): &(&NamedScheme, u64)| problem.arithmetic.compute(Steps { problem, scheme, steps: *steps });
@@ -49,10 +49,10 @@ pub(crate) fn time_of_steps(problem: Problem<'_>, schemes: &[(&NamedScheme, u64)
     Ok(times.into_iter().map(StepTime::of).collect())
 }
 
-/// Makes so many steps, and returns the time that they took.
+/// Makes a number of steps, and returns the time that they took.
 type Repeat = Box<dyn FnMut(u32) -> Duration>;
 
-/// So many steps that they take long enough to be timed.
+/// The number of steps that take long enough to be timed.
 fn enough(repeat: &mut Repeat) -> u32 {
     let mut count = 1;
     while repeat(count) < SHORTEST && count < 1 << 30 {

@@ -1,6 +1,6 @@
 //! Points of long runs: what a picture can show of them, in little memory.
 
-/// A run has so many columns in time; a picture is less wide.
+/// A run has at most this number of columns in time; a picture is less wide.
 const COLUMNS: u64 = 4096;
 
 /// An orbit of more points is drawn as dots of every n-th state.
@@ -15,7 +15,7 @@ pub(super) struct InTime {
 }
 
 impl InTime {
-    /// Takes the point of the n-th of so many steps; a value that is not finite is left out.
+    /// Takes the point of the n-th step; a value that is not finite is left out.
     pub(super) fn take(&mut self, n: u64, steps: u64, point: (f64, f64)) {
         let column = (u128::from(n) * u128::from(COLUMNS) / u128::from(steps.max(1))) as u64;
         if column != self.column {

@@ -6,7 +6,7 @@ use rustix::time::{ClockId, clock_gettime};
 
 const ROUNDS: usize = 21;
 
-/// A contestant: its name and a run of so many repetitions.
+/// A contestant: its name, and a run of a given number of repetitions.
 pub(crate) type Contestant<'a> = (&'static str, Box<dyn FnMut(u32) + 'a>);
 
 /// Medians over the rounds.

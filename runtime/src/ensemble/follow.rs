@@ -23,10 +23,10 @@ pub struct Outcome {
     pub not_finite: Option<u64>,
 }
 
-/// So many steps are made at once at most, as the caller may want to end them.
+/// At most this number of steps is made at once, as the caller may want to end them.
 const AT_ONCE: u64 = 128;
 
-/// The outcomes of all lanes of the systems after so many steps, merged or not, whose energy is looked at every so many; `None` where
+/// The outcomes of all lanes of the systems after `steps` steps, merged or not, whose energy is looked at every `every` steps; `None` where
 /// `continues` returns false.
 pub(super) fn follow<const W: usize, S, M>(
     stepper: &Stepper<S, Lanes<W>>,

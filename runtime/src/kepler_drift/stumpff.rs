@@ -37,7 +37,7 @@ pub(super) enum Terms {
 }
 
 impl<N: Number> Stumpff<N> {
-    /// For numbers of so many bits.
+    /// For numbers of this number of bits.
     pub(super) fn new(bits: u32, context: &N::Context) -> Self {
         let largest: f64 = if bits <= 53 { 0.9 } else { 1.0 / 16.0 };
         let rational =

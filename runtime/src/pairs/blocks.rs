@@ -28,7 +28,7 @@ impl<N: Number, const D: usize> Room<N, D> {
         Room { difference: std::array::from_fn(|_| zeros()), squared: zeros(), slope: zeros(), summand: zeros() }
     }
 
-    /// The forces and summands with so many of the first bodies become 0.
+    /// The forces and summands with this number of the first bodies become 0.
     #[inline(always)]
     fn clear(&mut self, count: usize) {
         for l in 0..BLOCK {
@@ -219,7 +219,7 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         }
     }
 
-    /// Adds one pair, likewise.
+    /// Adds one pair in the same way.
     #[inline(always)]
     fn add_one<N: Number, const FORCES: bool, const SUM: bool>(
         &self,

@@ -15,7 +15,7 @@ pub(super) struct Few<'a, P, const D: usize> {
     pub(super) bodies: usize,
 }
 
-/// The sum of so many bodies, by groups of pairs: the body i, the first other one, and how many. The compiler does not unroll loops of this size.
+/// The sum of a fixed number of bodies, by groups of pairs: the body i, the first other one, and how many. The compiler does not unroll loops of this size.
 macro_rules! unrolled {
     ($few:ident, $q:ident, $gradient:ident, $total:ident, $scratch:ident, $bodies:literal: $($i:literal $j:literal $width:literal),*) => {{
         const BODIES: &str = "there are as many bodies";

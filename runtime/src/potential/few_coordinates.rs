@@ -35,12 +35,12 @@ impl<N: Number> FewCoordinates<'_, N> {
     /// Whether registers hold such numbers: of others these steps are not even compiled.
     const FIT: bool = size_of::<N>() <= 16 && !needs_drop::<N>();
 
-    /// Whether this makes the steps of a system with so many coordinates.
+    /// Whether this makes the steps of a system of this dimension.
     pub(crate) fn can_hold(dimension: usize) -> bool {
         Self::FIT && (1..=MOST).contains(&dimension)
     }
 
-    /// Makes the steps of a potential of so many coordinates; `evaluate` computes the gradient.
+    /// Makes the steps of a potential of this dimension; `evaluate` computes the gradient.
     ///
     /// # Panics
     /// If there are more than three.

@@ -17,7 +17,7 @@ const MEAN: [f64; 9] = {
 const LAG: usize = 8;
 /// The standard deviation of a normal distribution as a multiple of the median size.
 const NORMAL: f64 = 1.482_602_218_505_602;
-/// A jump is a change of the size of so many usual ones.
+/// A change is a jump if it is larger than the usual ones by this factor.
 const JUMP: f64 = 6.0;
 
 /// Estimates E_8 without errors, of all states that have one: n and the value.

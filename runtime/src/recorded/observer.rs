@@ -87,7 +87,7 @@ impl Observer {
         Self::with_window(h, masses, Window::default())
     }
 
-    /// The same with windows of so many states.
+    /// The same with windows of this number of states.
     ///
     /// # Errors
     /// As [`Observer::new`].

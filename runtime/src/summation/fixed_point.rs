@@ -9,7 +9,7 @@ use crate::state::Remainders;
 
 /// q and p as whole multiples of powers of two, in 64 bits.
 ///
-/// A kick adds −weight·gradient, rounded to a multiple, to p; a drift likewise to q. The sums are exact, and an increment depends on the
+/// A kick adds −weight·gradient, rounded to a multiple, to p; a drift adds to q in the same way. The sums are exact, and an increment depends on the
 /// other half of the state only: the kick or drift with the negative weight takes away the same number, and
 /// [`Stepper::step_back`](crate::Stepper::step_back) undoes a step to the last bit, whatever the scheme.
 ///

@@ -15,10 +15,10 @@ use crate::start::{Begin, Steps, Work};
 
 type EstimatorOf = <FixedBilinear as BuildEstimator<f64>>::Estimator;
 
-/// The interruption is looked for after so many steps.
+/// The interruption is looked for after this number of steps.
 const AT_ONCE: u64 = 128;
 
-/// The outcomes of so many trajectories in their order, whichever thread computes them.
+/// The outcomes of all trajectories in their order, whichever thread computes them.
 pub(super) fn on_all_cores(
     trajectories: usize,
     one: impl Fn(usize) -> Result<Outcome, Error> + Sync,

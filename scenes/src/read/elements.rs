@@ -36,7 +36,7 @@ const ELLIPSE: [&str; 5] = [
     "sqrt(mu/a)*sqrt(1 - e^2)*cos(E)/(1 - e*cos(E))",
 ];
 
-/// A hyperbola, likewise.
+/// The same for a hyperbola.
 const HYPERBOLA: [&str; 5] = [
     "E - (e*sinh(E) - E - M)/(e*cosh(E) - 1)",
     "a*(cosh(E) - e)",
@@ -73,7 +73,7 @@ impl Elements {
         }
     }
 
-    /// Position and velocity for a gravitational parameter μ, to so many digits.
+    /// Position and velocity for a gravitational parameter μ, to this number of digits.
     ///
     /// # Errors
     /// A computation that takes too long.

@@ -18,7 +18,7 @@ use crate::suite::Suite;
 /// The case.
 pub(super) struct ClosePlanets;
 
-/// Two planets on circles whose radii differ by so many mutual Hill radii.
+/// Two planets on circles whose radii differ by a number of mutual Hill radii.
 #[derive(Serialize)]
 pub(super) struct Trial {
     scheme: String,
@@ -36,7 +36,7 @@ const STABLE: f64 = 3.464;
 const CHAOTIC: f64 = 2.4;
 /// Planets that are nearer than a Hill radius have a close encounter.
 const ENCOUNTER: f64 = 1.0;
-/// Steps of so many kicks a period of the inner planet.
+/// Steps with this number of kicks a period of the inner planet.
 const KICKS: f64 = 30.0;
 /// An error of H that is lost in an encounter, as a part of H: it oscillates by 1e-6 without.
 const LOST: f64 = 1e-4;

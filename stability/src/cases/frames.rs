@@ -196,7 +196,7 @@ impl Frame {
         }
     }
 
-    /// The part of H that so many roundings of coordinates change over this time, by Brouwer's law with the largest force.
+    /// The part of H that a number of roundings of coordinates changes over this time, by Brouwer's law with the largest force.
     fn round_off(self, roundings: f64, duration: f64) -> f64 {
         let size = match self {
             Frame::Translated(distance) => distance,

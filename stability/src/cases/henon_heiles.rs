@@ -54,7 +54,7 @@ const OUTSIDE: f64 = 2.0;
 const CHAOTIC: f64 = 5.0;
 const BOUNDED: f64 = 1.5;
 const NEAR: f64 = 1e-10;
-/// The growth is kept at so many times.
+/// The growth is kept at this number of times.
 const SAMPLES: u64 = 200;
 /// Curves that can be told apart.
 const MOST_CURVES: usize = 12;

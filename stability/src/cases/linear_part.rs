@@ -56,7 +56,7 @@ pub(super) struct Found {
     predicted: f64,
     /// How fast log|(q, p)| grows a step; or, where no growth is predicted, log of the largest |(q, p)| in the second half of the steps beside that of the first.
     found: f64,
-    /// The growth is too slow to be seen in so many steps.
+    /// The growth is too slow to be seen in this number of steps.
     too_slow: bool,
 }
 

@@ -53,7 +53,7 @@ pub(super) struct Errors([f64; 3]);
 const DIGITS: u32 = 100;
 /// How far a measured order may be from the proved one: the next term of the error is smaller by h, and h is 2⁻⁸ or so.
 const TOLERANCE: f64 = 0.15;
-/// Errors within so many digits of those of the weights say nothing.
+/// Errors within this number of digits of the errors of the weights decide nothing.
 const MARGIN: f64 = 4.0;
 /// ε of A + εB: its square does not show.
 const EPSILON: &str = "1e-40";

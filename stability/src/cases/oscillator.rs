@@ -39,7 +39,7 @@ pub(super) struct Point {
     predicted: f64,
     /// How fast log|(q, p)| grows, per step; or, where it is bounded, largest |q| beside the predicted one, less 1.
     found: f64,
-    /// The growth is too slow to be seen in so many steps.
+    /// The growth is too slow to be seen in this number of steps.
     too_slow: bool,
 }
 

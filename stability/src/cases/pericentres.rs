@@ -31,7 +31,7 @@ pub(super) struct Trial {
 
 const ECCENTRICITIES: [&str; 5] = ["0.5", "0.8", "0.9", "0.95", "0.98"];
 const STEPS: [u32; 6] = [1, 2, 4, 8, 16, 32];
-/// From so many steps on the pericentre is resolved.
+/// With this number of steps and more the pericentre is resolved.
 const RESOLVED: u32 = 16;
 /// An error of H that stays: its largest in the last fourth of the run beside that of the first.
 const SAME: f64 = 2.0;
@@ -163,7 +163,7 @@ impl Outcome {
         format!("{steps}: {:.0e}{grows}, {}", self.error, self.word)
     }
 
-    /// With so many steps in P_f, beside the error of steps that resolve it.
+    /// With a number of steps in P_f, beside the error of steps that resolve it.
     fn verdict(&self, steps: u32, resolved: f64) -> Verdict {
         match steps {
             1 => Verdict::from(self.error > f64::from(RESOLVED * RESOLVED) * resolved),

@@ -16,7 +16,7 @@ use crate::suite::{Examined, Suite};
 /// The case.
 pub(super) struct Pythagorean;
 
-/// A run with a step of so many evaluations, each 1/`inverse`.
+/// A run with a step of this number of evaluations, each 1/`inverse`.
 #[derive(Serialize)]
 pub(super) struct Trial {
     scheme: String,

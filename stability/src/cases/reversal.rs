@@ -39,7 +39,7 @@ pub(super) struct Back {
     to_negative: f64,
 }
 
-/// Steps of −h are compared after so many.
+/// Steps of −h are compared after this number of steps.
 const SHORT: u64 = 1000;
 /// Each step changes the actions of a regular motion by a few ε, which drives its phases apart like n^{3/2}: a step
 /// of 17 evaluations on an eccentric orbit makes 1.3 times that.

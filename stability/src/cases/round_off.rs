@@ -58,7 +58,7 @@ const ORDER: u32 = 16;
 const WANDERS: (f64, f64) = (0.35, 0.65);
 /// Compensated sums wander less by this factor at least.
 const GAIN: f64 = 10.0;
-/// A drift of the mean over the phases is seen beyond so many of its standard errors.
+/// A drift of the mean over the phases is seen beyond this multiple of its standard error.
 const SEEN: f64 = 3.0;
 const SCHEMES: [&str; 3] = ["stormer-verlet", "blanes-moan-srkn6b", "kahan-li8"];
 
@@ -149,7 +149,7 @@ impl Case for RoundOff {
             }
             if let [(_, plain), (_, compensated)] = &wanders[..] {
                 let gain = plain.last() / compensated.last();
-                // two root mean squares of so many values each
+                // two root mean squares of as many values each
                 let uncertain = 2.0 * (1.0 / f64::from(PHASES)).sqrt();
                 let found = format!("compensated sums wander {gain:.0} times less (± {:.0} %)", 100.0 * uncertain);
                 finding.check(name, found, gained(gain, uncertain));
@@ -233,7 +233,7 @@ impl Wander {
         let mean = at(last).sum::<f64>() / phases;
         let variance = at(last).map(|change| (change - mean).powi(2)).sum::<f64>() / (phases - 1.0);
         // of each phase the exponent between the first and the last number of steps is not defined, that of the rms is: its error is that
-        // of two root mean squares of so many values, 1/√(2 phases) each
+        // of two root mean squares of `phases` values, 1/√(2 phases) each
         let decades = (rms[last].0 / rms[0].0).ln();
         let exponent = (rms[last].1 / rms[0].1).ln() / decades;
         let exponent_error = (1.0 / phases).sqrt() / decades;

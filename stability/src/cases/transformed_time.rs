@@ -52,7 +52,7 @@ pub(super) struct Orbit {
     verdict: String,
 }
 
-/// The round-off of a leapfrog may be so many ε: steps of schemes of high order are long, and some of their leapfrogs longer still.
+/// The round-off of a leapfrog may be this multiple of ε: steps of schemes of high order are long, and some of their leapfrogs longer still.
 const MOST: f64 = 100.0;
 /// A step of so much for each force evaluation.
 const STEP: f64 = 0.05;

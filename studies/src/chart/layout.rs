@@ -35,7 +35,7 @@ impl Span {
         Span { range, ticks: Ticks::new(axis.scale, range) }
     }
 
-    /// The span that is so many times as long, with the same middle.
+    /// The span that is longer by this factor, with the same middle.
     fn widened(self, times: f64, scale: Scale) -> Span {
         let (middle, half) = (f64::midpoint(self.range.0, self.range.1), (self.range.1 - self.range.0) / 2.0);
         let range = (middle - times * half, middle + times * half);

@@ -17,7 +17,7 @@ const NARROWEST: f64 = 2.0;
 /// Pixels of the image for each unit of the picture, where cells have different sizes.
 const FINENESS: f64 = 4.0;
 
-/// Whether a picture of so many cells on panels like this has images.
+/// Whether a picture of this number of cells on panels like this has images.
 pub(super) fn is_needed(cells: usize, (columns, rows): (usize, usize), place: Place) -> bool {
     let narrowest = (place.width / columns as f64).min(place.height / rows as f64);
     cells > MOST_RECTANGLES || narrowest < NARROWEST

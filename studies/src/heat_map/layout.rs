@@ -14,7 +14,7 @@ const LEGEND: f64 = 440.0;
 const WIDTHS: (f64, f64) = (660.0, 800.0);
 /// Of a picture of few cells; the title and the legend need some room.
 const LEAST_WIDTH: f64 = 420.0;
-/// The greatest width of a single panel, if it has so many columns.
+/// The greatest width of a single panel, if it has this number of columns.
 const WIDEST: f64 = 800.0;
 /// The greatest size of a cell.
 const LARGEST_CELL: (f64, f64) = (64.0, 44.0);
@@ -58,7 +58,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// For panels of these cells, and so many cells of each colour.
+    /// For panels of these cells, and a number of cells of each colour.
     pub(super) fn of(map: &HeatMap, (x, y): (&Strip, &Strip), shades: &Shades<'_>, counts: &[usize; 256]) -> Layout {
         let columns = columns(map.panels.len());
         let (size, x, y) = panel_size(map, (x, y), columns);

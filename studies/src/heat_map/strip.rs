@@ -5,10 +5,10 @@ use crate::labels::{lines, width};
 use crate::picture::{LINE, TEXT};
 use crate::ticks::{Scale, Ticks, has_ticks, significant};
 
-/// Each cell has a label if there are at most so many.
+/// Each cell has a label if there are at most this number of cells.
 const MOST_LABELLED: usize = 12;
 
-/// And if the labels have at most so many characters.
+/// And if the labels have at most this number of characters.
 const LONGEST_NUMBER: usize = 7;
 
 /// More characters of a word are cut.
@@ -213,7 +213,7 @@ fn words_across(words: &[String], strip: &Strip, length: f64) -> Labels {
     one_line(words, strip, every, Direction::Tilted)
 }
 
-/// Every word, or of many narrow cells every so many.
+/// Every word, or of many narrow cells every n-th.
 fn one_line(words: &[String], strip: &Strip, every: usize, direction: Direction) -> Labels {
     let of_cells = strip.order.iter().zip(&strip.centres).step_by(every.max(1));
     let labelled = of_cells.map(|(&i, &at)| (strip.part(at), vec![shortened(&words[i])])).collect();

@@ -1,6 +1,6 @@
 use super::*;
 
-/// So many numbers from a to b, evenly.
+/// Evenly spaced numbers from a to b.
 fn even(a: f64, b: f64, count: usize) -> Vec<f64> {
     (0..count).map(|n| a + (b - a) * n as f64 / (count - 1).max(1) as f64).collect()
 }

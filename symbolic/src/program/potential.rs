@@ -40,7 +40,7 @@ impl Graph {
     }
 }
 
-/// A pair's energy is computed in place of its rate if that saves so many operations a pair. qᵀU_q takes two operations a pair for seven bodies
+/// A pair's energy is computed in place of its rate if that saves at least this number of operations a pair. qᵀU_q takes two operations a pair for seven bodies
 /// in space, less for more bodies, and more for fewer.
 const WORTH_AN_ENERGY: u64 = 2;
 

@@ -7,7 +7,7 @@ use shadowstep::{System, ValidFor};
 potential! { struct Space; U(x, y, z) = -1/sqrt(x^2 + y^2 + z^2) }
 potential! { struct Plane; U(x, y) = (x^2 + y^2)/2 }
 
-/// A window in so many steps, in a run of so many, by E_k.
+/// A window every `every` steps of a run, by E_k.
 #[derive(Clone, Copy, Debug)]
 struct Windows {
     every: u64,

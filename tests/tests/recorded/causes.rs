@@ -109,7 +109,7 @@ fn cutoffs_are_found() {
     }
 }
 
-/// A list of the pairs within the cutoff that is renewed in so many steps.
+/// A list of the pairs within the cutoff that is renewed every `every` steps.
 fn late(every: usize) -> impl FnMut(usize, &[f64], &mut [f64]) -> f64 {
     let fluid = fluid();
     let mut pairs: Vec<[usize; 2]> = Vec::new();

@@ -27,7 +27,7 @@ pub(in crate::shadow) struct Rows {
 }
 
 impl Rows {
-    /// So many rows, for numbers with so many limbs.
+    /// The number of rows, for numbers with this number of limbs.
     pub(in crate::shadow) fn new(limbs: usize, count: usize) -> Self {
         let size = limbs + 1;
         Rows { size, low: vec![ZERO; count], limbs: vec![0; count * size] }

@@ -138,7 +138,7 @@ impl Level {
         }
     }
 
-    /// At least so many limbs.
+    /// At least this number of limbs.
     fn widen(&mut self, len: usize) {
         let old = self.len;
         if len > old {

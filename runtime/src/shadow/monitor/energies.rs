@@ -22,9 +22,9 @@ pub(super) struct Energies<N> {
     checks: u64,
 }
 
-/// The rate is checked in so many windows, and then in one of so many; of windows that overlap, in those that have no state in common.
+/// The rate is checked in this number of windows, then in one window of as many; of windows that overlap, in windows that have no state in common.
 const CHECKS: u64 = 8;
-/// There one of so many is enough: they are as many states as those of windows with plain steps between them.
+/// There a part of the windows is enough: they have as many states as windows with plain steps between them.
 const CHECKS_OF_OVERLAPPING: u64 = 64;
 
 impl<N: Number> Energies<N> {

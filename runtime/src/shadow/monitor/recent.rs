@@ -17,9 +17,9 @@ use crate::system::System;
 
 /// The states that are kept, with second differences.
 const KEPT: usize = 3;
-/// After so many windows a part of them is enough, for all but the comparison of states with their increments.
+/// After this number of windows a part of them is enough, for all but the comparison of states with their increments.
 const ALL_WINDOWS: u64 = 256;
-/// A fourth difference of p is off by less than so many last places of p: rms by √(20 s) · 0.2123, s the stages of a step.
+/// A fourth difference of p is off by less than this number of last places of p: rms by √(20 s) · 0.2123, s the stages of a step.
 const LAST_PLACES: f64 = 10.0;
 
 /// The newest states of a window, and sums over windows.
@@ -119,7 +119,7 @@ impl<N: Ordered> Recent<N> {
         })
     }
 
-    /// A step has at most so many stages, whatever is evaluated between steps.
+    /// A step has at most this number of stages, whatever is evaluated between steps.
     pub(super) fn with_most_stages(self, most_stages: u64) -> Self {
         Recent { most_stages, ..self }
     }

@@ -122,7 +122,7 @@ pub enum Missing {
 /// What would decide an undecided verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Advice {
-    /// So many windows, in a longer run or more often.
+    /// At least this number of windows, in a longer run or more often.
     pub windows: u64,
     /// An estimator of this order k or m: from the fall of its errors with the order where the second harmonic of the fastest
     /// motion dominates. `None` where no order up to 64 would do.
@@ -142,7 +142,7 @@ const LINEAR_MOVE: f64 = 1e-3;
 /// The range of H − H̄ may be off 0 by this part of θ²T (up to 1/12 was measured), or of the energy error.
 const OFFSET_PER_TURNING: f64 = 1.0 / 6.0;
 const OFFSET_LIMIT: f64 = 0.5;
-/// H − H̄ is compared with the energy error from so many turns of the fastest motion on: on a short arc H hardly varies. In correct
+/// H − H̄ is compared with the energy error after at least this number of turns of the fastest motion: on a short arc H hardly varies. In correct
 /// loops H − H̄ was too large for that up to 0.64 turns, with symplectic Euler.
 const LEAST_TURNS: f64 = 1.0;
 /// Steps with their increments move H̄ by less than this part of the energy error.

@@ -1,0 +1,96 @@
+//! Protects plain language: the phrases that the page of language forbids are in no comment and on no page.
+
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+/// A phrase that is wrong wherever it stands, in lower case, and what to write instead.
+struct Forbidden {
+    phrase: String,
+    instead: String,
+}
+
+/// The list of the page: lines such as ``- `so many`: a number of``.
+fn forbidden(page: &str) -> Vec<Forbidden> {
+    let (_, list) = page.split_once("\n## Not to be used\n").expect("the page has the list");
+    let list = list.split_once("\n## ").map_or(list, |(list, _)| list);
+    let lines = list.lines().filter_map(|line| line.strip_prefix("- `")?.split_once("`: "));
+    lines.map(|(phrase, instead)| Forbidden { phrase: phrase.to_lowercase(), instead: instead.to_owned() }).collect()
+}
+
+/// Whether a text has the phrase as whole words.
+fn has(text: &str, phrase: &str) -> bool {
+    let text = text.to_lowercase();
+    let is_outside = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
+    text.match_indices(phrase).any(|(at, _)| {
+        is_outside(text[..at].chars().next_back()) && is_outside(text[at + phrase.len()..].chars().next())
+    })
+}
+
+/// The comment of a line of Rust. A `//` within a text counts as one, unless it follows a colon as in an address.
+fn comment(line: &str) -> Option<&str> {
+    line.match_indices("//").find(|(at, _)| !line[..*at].ends_with(':')).map(|(at, _)| &line[at..])
+}
+
+/// `line: phrase; write …` for each phrase in the prose of a file.
+fn faults(text: &str, is_rust: bool, forbidden: &[Forbidden]) -> Vec<String> {
+    let lines = (1..).zip(text.lines()).filter_map(|(number, line)| {
+        let prose = if is_rust { comment(line)? } else { line };
+        Some((number, prose))
+    });
+    let faults = lines.flat_map(|(number, prose)| {
+        let found = forbidden.iter().filter(|Forbidden { phrase, .. }| has(prose, phrase));
+        found.map(move |Forbidden { phrase, instead }| format!("{number}: \"{phrase}\"; write {instead}"))
+    });
+    faults.collect()
+}
+
+/// All files below a folder with one of these endings, without build folders and hidden ones.
+fn files(folder: &Path, into: &mut Vec<PathBuf>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if path.is_dir() {
+            if !name.starts_with('.') && !["target", "corpus", "node_modules"].contains(&name.as_str()) {
+                files(&path, into)?;
+            }
+        } else if path.extension().is_some_and(|ending| ending == "rs" || ending == "md") {
+            into.push(path);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn no_forbidden_phrase_is_used() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the tests are in a folder of the project");
+    let page = root.join("docs/language.md");
+    let forbidden = forbidden(&fs::read_to_string(&page).unwrap());
+    assert!(forbidden.len() >= 5, "the page has a list");
+    let mut all = Vec::new();
+    files(root, &mut all).unwrap();
+    assert!(all.len() > 500, "the files of the project");
+    let exempt = [page, root.join("CHANGELOG.md"), root.join("tests/tests/language.rs")];
+    let mut found = Vec::new();
+    for path in all.into_iter().filter(|path| !exempt.contains(path)) {
+        let is_rust = path.extension().is_some_and(|ending| ending == "rs");
+        let name = path.strip_prefix(root).unwrap_or(&path).display().to_string();
+        let text = fs::read_to_string(&path).unwrap();
+        found.extend(faults(&text, is_rust, &forbidden).into_iter().map(|fault| format!("{name}:{fault}")));
+    }
+    assert!(found.is_empty(), "see docs/language.md:\n{}", found.join("\n"));
+}
+
+#[test]
+fn a_fault_is_found_where_it_stands() {
+    let list = forbidden(
+        "# Page\n\n## Not to be used\n\n- `so many`: a number of\n- `Likewise`: in the same way\n\n## Style\n- `x`: y\n",
+    );
+    assert_eq!(list.len(), 2);
+    let rust = "let so_many = 1; // Of so many steps\nlet text = \"so many\";\n/// The same, likewise.\n// so manyfold";
+    assert_eq!(
+        faults(rust, true, &list),
+        ["1: \"so many\"; write a number of", "3: \"likewise\"; write in the same way"]
+    );
+    assert_eq!(faults("So many\nhttps://so many", false, &list).len(), 2);
+    assert!(faults("see https://example.org/so many", true, &list).is_empty());
+}
