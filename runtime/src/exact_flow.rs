@@ -23,12 +23,12 @@ mod points;
 pub(crate) mod solution;
 pub(crate) mod solver;
 
+use crate::increments::OwnedIncrements;
 use crate::number::{Number, Rounded};
 use crate::problems::{PROBLEMS, Problem, Setup};
 use crate::run::{RunError, ShadowRun, States, TrajectoryState, last};
 use crate::shadow::{BuildEstimator, Estimator};
 use crate::step_size::StepSize;
-use crate::system::OwnedIncrements;
 use points::Points;
 use solution::Request;
 use solver::Solver;

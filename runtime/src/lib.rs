@@ -83,6 +83,7 @@ pub mod ensemble;
 pub mod exact_flow;
 pub mod formula;
 mod gradient_kicks;
+mod increments;
 pub mod instructions;
 mod interpreter;
 pub mod kepler_drift;
@@ -118,6 +119,8 @@ pub mod wisdom_holman;
 #[doc(inline)]
 pub use coordinates::Coordinates;
 #[doc(inline)]
+pub use increments::{Carried, Increments, OwnedIncrements};
+#[doc(inline)]
 pub use kinetic::{DiagonalMasses, FullMasses, Kinetic, UnitMasses};
 #[doc(inline)]
 pub use motion::{Motion, MotionError};
@@ -134,10 +137,12 @@ pub use shadowstep_macros::{kinetic, potential, splitting_scheme};
 #[doc(inline)]
 pub use shadowstep_symbolic::{Rational, exact};
 #[doc(inline)]
-pub use state::{Remainders, State, VectorState};
+pub use state::{State, VectorState};
 #[doc(inline)]
 pub use step_size::{StepSize, StepSizeError};
 #[doc(inline)]
 pub use stepper::Stepper;
 #[doc(inline)]
-pub use system::{Carried, Increments, OwnedIncrements, System};
+pub use summation::Remainders;
+#[doc(inline)]
+pub use system::System;

@@ -13,6 +13,7 @@ mod rotation;
 use crate::Rational;
 use crate::displaced::Displacements;
 use crate::gradient_kicks::{Curvature, GradientKicks, Place};
+use crate::increments::Carried;
 use crate::kept::Kept;
 use crate::kinetic::{DiagonalMasses, Kinetic, Quadratic};
 use crate::matrix::precision;
@@ -21,7 +22,7 @@ use crate::number::{Number, Rounded};
 use crate::potential::Potential;
 use crate::state::{State, VectorState};
 use crate::summation::{Compensated, Half};
-use crate::system::{Carried, System};
+use crate::system::System;
 use rotation::Rotations;
 
 /// A system with a linear part that drifts solve exactly, at a state.

@@ -43,12 +43,13 @@ mod quadratic;
 pub use formula::{FormulaPart, PartError, PartFormula, parts};
 pub use part::{FlowState, Part};
 
+use crate::increments::Carried;
 use crate::maps::PartOrder;
 use crate::motion::MotionError;
 use crate::number::Number;
 use crate::state::{State, VectorState};
 use crate::summation::Compensated;
-use crate::system::{Carried, System};
+use crate::system::System;
 
 /// The class of H = H_1 + … + H_n. Schemes for two parts do not advance its systems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,13 +9,13 @@ use thiserror::Error;
 
 use crate::coordinates::Coordinates;
 use crate::displaced::Displacements;
+use crate::increments::Increments;
 use crate::kept::Kept;
 use crate::kinetic::{Kinetic, MassError};
 use crate::number::Number;
 use crate::potential::Potential;
 use crate::state::State;
 use crate::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
-use crate::system::Increments;
 
 use curved::Curved;
 use hamiltonian::{Evaluated, Hamiltonian};

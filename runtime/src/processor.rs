@@ -1,10 +1,11 @@
 //! The pre-map and the post-map of a processed scheme, with a step size.
 
 use crate::Rational;
+use crate::increments::Carried;
 use crate::maps::{Flows, MapKind};
 use crate::number::Number;
 use crate::scheme::Scheme;
-use crate::system::{Carried, Carrying, System};
+use crate::system::{Carrying, System};
 
 /// χ and χ⁻¹ of a processed scheme χ⁻¹ ∘ kernelⁿ ∘ χ, their weights times h; both are the identity for other schemes.
 #[derive(Clone, Debug)]

@@ -13,6 +13,10 @@ pub use crate::weights::{WeightLists, Weights};
 /// A scheme with a step size is a [`Stepper`](crate::Stepper), which makes the steps: it alone has the weights of a step and the flows of a system, so
 /// weights of another scheme or step size cannot be used by mistake.
 pub trait Scheme {
+    /// Whether [`forward`](Scheme::forward) is inlined wherever it is called, as generated code of a short step: then many steps are made by it, else by
+    /// a loop over the [`sequence`](Scheme::sequence).
+    const IS_INLINED: bool = false;
+
     /// Holds the weights of a step, each rounded once.
     type Weights<N: Number>: WeightLists<N>;
 

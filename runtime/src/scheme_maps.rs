@@ -34,6 +34,12 @@ impl<'a, S: Scheme, N: Number> Maps<'a, S, N> {
 impl<S: Scheme, N: Number> MapSequence<N> for Maps<'_, S, N> {
     #[inline(always)]
     fn each(&self, steps: Range<u64>, _: u64, flows: &mut impl Flows<Number = N>) {
+        if S::IS_INLINED {
+            return steps.for_each(
+                #[inline(always)]
+                |_| self.scheme.forward(self.weights, flows),
+            );
+        }
         for _ in steps {
             for (index, &map) in self.scheme.sequence().maps.iter().enumerate() {
                 flows.apply(map.0, self.weight(map), self.middle_weight(index));

@@ -1,11 +1,11 @@
 //! The state of a system: q and p with the sums by which they change, and what the last augmented step added.
 
 use crate::coordinates::Coordinates;
+use crate::increments::{Carried, Increments, OwnedIncrements};
 use crate::instructions;
 use crate::kinetic::Kinetic;
 use crate::number::Number;
-use crate::summation::{Compensated, Half, Plain, Summation};
-use crate::system::{Carried, Increments, OwnedIncrements};
+use crate::summation::{Compensated, Half, Plain, Remainders, Summation};
 
 /// q and p, [how increments are added](crate::summation) to them, the [increments](Increments) of the last augmented step, and the number of evaluations
 /// of the gradient.
@@ -19,21 +19,6 @@ pub struct State<N, V = Vec<N>, S = Plain> {
     /// Those of q and p only if the numbers keep them.
     pub(crate) increments: OwnedIncrements<N, V>,
     pub(crate) evaluations: u64,
-}
-
-/// What a state has beyond q and p: numbers of the size of their last places, or nothing.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Remainders<N> {
-    /// Beyond q: one for each coordinate, or none.
-    pub q: Vec<N>,
-    /// Beyond p: one for each momentum, or none.
-    pub p: Vec<N>,
-}
-
-impl<N> Default for Remainders<N> {
-    fn default() -> Self {
-        Remainders { q: Vec::new(), p: Vec::new() }
-    }
 }
 
 impl<N: Number, V: Coordinates<N>> State<N, V> {

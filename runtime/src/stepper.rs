@@ -2,6 +2,7 @@
 
 use crate::Rational;
 use crate::displaced::{DisplacementError, Displacements};
+use crate::increments::Carried;
 use crate::maps::MapKind;
 use crate::number::{Number, Ordered};
 use crate::processor::Processor;
@@ -9,7 +10,7 @@ use crate::scheme::{Scheme, ValidFor};
 use crate::scheme_maps::{Maps, MergedMaps};
 use crate::state::Saved;
 use crate::step_size::{StepSize, StepSizeError};
-use crate::system::{Carried, Carrying, System};
+use crate::system::{Carrying, System};
 use crate::weights::{WeightLists, Weights};
 
 /// A scheme, its step size h and its weights h·a_s, h·b_s and 2h³·c_s of gradient kicks, each an exact product rounded once to the number

@@ -17,7 +17,6 @@ pub use fixed_point::{FixedPoint, RangeError};
 
 use crate::kinetic::Kinetic;
 use crate::number::Number;
-use crate::state::Remainders;
 
 /// How increments are added to q and p.
 ///
@@ -74,6 +73,21 @@ pub trait Summation<N: Number>: Clone {
     /// Whether increments are added as by [`Plain`]; by default they are not.
     fn is_plain(&self) -> bool {
         false
+    }
+}
+
+/// What a state has beyond q and p: numbers of the size of their last places, or nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remainders<N> {
+    /// Beyond q: one for each coordinate, or none.
+    pub q: Vec<N>,
+    /// Beyond p: one for each momentum, or none.
+    pub p: Vec<N>,
+}
+
+impl<N> Default for Remainders<N> {
+    fn default() -> Self {
+        Remainders { q: Vec::new(), p: Vec::new() }
     }
 }
 

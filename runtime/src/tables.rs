@@ -11,7 +11,7 @@ use thiserror::Error;
 use crate::Rational;
 use crate::kinetic::{General, Quadratic};
 use crate::many_parts::ManyParts;
-use crate::maps::{Flows, Sequence};
+use crate::maps::{Flows, PartOrder, Sequence};
 use crate::number::Number;
 use crate::scheme::{Scheme, Summary, ValidFor};
 use crate::weights::Weights;
@@ -195,14 +195,30 @@ impl<Class> Scheme for TableScheme<Class> {
     }
 
     fn forward<F: Flows>(&self, weights: &Weights<Vec<F::Number>>, flows: &mut F) {
-        let Sequence { maps, middle_parts } = self.sequence();
-        let mut middle = middle_parts.iter().map(|place| &weights.middle_parts[*place]);
-        maps.iter().for_each(|&(kind, place)| flows.apply(kind, &weights.view().of(kind)[place], middle.next()));
+        apply(self.plan().maps.iter(), self.plan().middle.iter(), weights.view(), flows);
     }
 
     fn back<F: Flows>(&self, weights: &Weights<Vec<F::Number>>, flows: &mut F) {
-        let Sequence { maps, middle_parts } = self.sequence();
-        let mut middle = middle_parts.iter().rev().map(|place| &weights.middle_parts[*place]);
-        maps.iter().rev().for_each(|&(kind, place)| flows.apply(kind, &weights.view().of(kind)[place], middle.next()));
+        apply(self.plan().maps.iter().rev(), self.plan().middle.iter().rev(), weights.view(), flows);
+    }
+}
+
+/// Applies maps one after the other, with the middle parts between them.
+#[inline(always)]
+fn apply<'a, F: Flows>(
+    maps: impl Iterator<Item = &'a (MapKind, usize)>,
+    mut middle: impl Iterator<Item = &'a usize>,
+    weights: Weights<&[F::Number]>,
+    flows: &mut F,
+) {
+    for &(kind, place) in maps {
+        match kind {
+            MapKind::Kick => flows.kick(&weights.kicks[place]),
+            MapKind::Drift => flows.drift(&weights.drifts[place]),
+            MapKind::GradientKick => flows.gradient_kick(&weights.gradient_kicks[place]),
+        }
+        if let Some(&place) = middle.next() {
+            flows.middle_parts(&weights.middle_parts[place], PartOrder::after(kind));
+        }
     }
 }

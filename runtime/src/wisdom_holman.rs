@@ -25,11 +25,12 @@ pub use orbits::Orbits;
 
 use crate::displaced::Displacements;
 use crate::gradient_kicks::{Curvature, GradientKicks, Place};
+use crate::increments::Carried;
 use crate::kept::Kept;
 use crate::number::Number;
 use crate::state::{State, VectorState};
 use crate::summation::{Compensated, Half};
-use crate::system::{Carried, System};
+use crate::system::System;
 
 /// Canonical coordinates in which a planetary system is a sum of Kepler orbits and interactions.
 ///

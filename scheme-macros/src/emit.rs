@@ -24,6 +24,8 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
     let summary = summary(proved);
     let sequence = sequence(plan);
     let maps = Maps { maps: plan.maps.clone(), middle: plan.middle.clone() };
+    // the default is false
+    let is_inlined = maps.are_few().then(|| quote! { const IS_INLINED: bool = true; });
     let (forward, back) = (maps.function("forward", &weights), maps.inverse(&weights));
     let processor = processor(proved);
     let classes = match &proved.proof.many_parts {
@@ -39,6 +41,7 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
         #watched
 
         impl ::shadowstep::Scheme for #ident {
+            #is_inlined
             type Weights<N: ::shadowstep::Number> = #in_arrays;
 
             fn summary(&self) -> ::shadowstep::Summary<'_> {
@@ -202,6 +205,10 @@ struct Maps {
 }
 
 impl Maps {
+    fn are_few(&self) -> bool {
+        self.maps.len() + self.middle.len() <= MOST_INLINED
+    }
+
     /// The maps in the opposite order; for a symmetric scheme these are the same, and are not written twice.
     fn inverse(&self, weights: &Weights<'_>) -> TokenStream {
         let reversed = Maps {
@@ -234,7 +241,7 @@ impl Maps {
             quote! { flows.#map(#weight); #middle }
         });
         // inlined into a loop, a short step can hold its state in registers
-        let inline = match self.maps.len() + self.middle.len() <= MOST_INLINED {
+        let inline = match self.are_few() {
             true => quote! { #[inline(always)] },
             false => quote! { #[inline] },
         };

@@ -1,14 +1,14 @@
-//! A step takes no plain array of numbers as its weights, nor those of a stepper, which are a slice.
+//! The steps of a scheme take its weights, not an array of numbers nor the view that a stepper gives.
 
-use shadowstep::problems::Pendulum;
+use shadowstep::problems::Kepler;
 use shadowstep::{Motion, Scheme, Stepper, UnitMasses, splitting_scheme};
 
 #[splitting_scheme("stormer-verlet.toml")]
-pub struct StormerVerlet;
+struct StormerVerlet;
 
 fn main() {
-    let mut motion = Motion::new(Pendulum, UnitMasses, [0.0], [1.0]).unwrap();
-    let stepper = Stepper::new(StormerVerlet, "1/10").unwrap();
-    StormerVerlet.step(&[0.05, 0.1], &mut motion);
-    StormerVerlet.step(stepper.weights(), &mut motion);
+    let stepper = Stepper::<_, f64>::new(StormerVerlet, "1/10").unwrap();
+    let mut motion = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]).unwrap();
+    StormerVerlet.forward(&[0.05, 0.1], &mut motion);
+    StormerVerlet.forward(stepper.weights(), &mut motion);
 }

@@ -1,13 +1,14 @@
-//! Weights of a step are made by a stepper only.
+//! Weights of one's own move no system: only a stepper has its flows.
 
 use shadowstep::problems::Pendulum;
-use shadowstep::{Motion, Scheme, StepWeights, UnitMasses, splitting_scheme};
+use shadowstep::scheme::Weights;
+use shadowstep::{Motion, Scheme, UnitMasses, splitting_scheme};
 
 #[splitting_scheme("stormer-verlet.toml")]
 pub struct StormerVerlet;
 
 fn main() {
     let mut motion = Motion::new(Pendulum, UnitMasses, [0.0], [1.0]).unwrap();
-    let weights = StepWeights { forward: [0.05, 0.1], back: [-0.05, -0.1] };
-    StormerVerlet.step(&weights, &mut motion);
+    let weights = Weights { kicks: [0.05], drifts: [0.1], middle_parts: [], gradient_kicks: [] };
+    StormerVerlet.forward(&weights, &mut motion);
 }

@@ -3,9 +3,9 @@
 use std::fmt;
 
 use super::solution::{Point, Solution};
+use crate::increments::OwnedIncrements;
 use crate::number::value::Value;
 use crate::number::{Reference, Rounded};
-use crate::system::OwnedIncrements;
 
 /// Points at the times n h.
 pub(super) trait Points<N>: fmt::Debug {

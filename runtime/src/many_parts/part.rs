@@ -1,9 +1,9 @@
 //! A part of H with its flow, and the state that it moves.
 
+use crate::increments::Carried;
 use crate::number::Number;
 use crate::state::VectorState;
 use crate::summation::Half;
-use crate::system::Carried;
 
 /// A part A of H = H_1 + … + H_n whose flow is known.
 pub trait Part<N: Number> {

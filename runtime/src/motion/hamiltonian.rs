@@ -3,6 +3,7 @@
 use super::curved::{Curved, Parts};
 use crate::coordinates::Coordinates;
 use crate::gradient_kicks::Place;
+use crate::increments::Carried;
 use crate::kept::Kept;
 use crate::kinetic::Kinetic;
 use crate::maps::{Flows, MapKind, MapSequence, PartOrder};
@@ -11,7 +12,6 @@ use crate::partial_sums::{LONG, add_sum};
 use crate::potential::{FewCoordinates, Potential, Repeated};
 use crate::state::State;
 use crate::summation::Summation;
-use crate::system::Carried;
 
 /// A state, and what is kept of the potential at its q.
 #[derive(Clone, Debug)]

@@ -3,6 +3,7 @@
 use super::hamiltonian::Evaluated;
 use super::{Motion, turns};
 use crate::coordinates::Coordinates;
+use crate::increments::Carried;
 use crate::kept::Kept;
 use crate::kinetic::Kinetic;
 use crate::maps::MapSequence;
@@ -11,7 +12,7 @@ use crate::partial_sums::add_sum;
 use crate::potential::Potential;
 use crate::state::State;
 use crate::summation::Summation;
-use crate::system::{Carried, Carrying, System};
+use crate::system::{Carrying, System};
 
 impl<N, V, P, K, S> System for Motion<N, V, P, K, S>
 where
@@ -62,20 +63,27 @@ where
     }
 
     fn advance(motions: &mut [Self], maps: &impl MapSequence<N>, count: u64, carried: Carried) {
-        N::in_widest_instructions(
-            #[inline(always)]
-            || match motions {
-                [Motion { hamiltonian, at }] if carried == Carried::Nothing => hamiltonian.advance(at, maps, count),
-                many if carried == Carried::Nothing => turns::advance(many, maps, count),
-                all => all.iter_mut().for_each(
-                    #[inline(always)]
-                    |motion| {
+        // two functions: in one of both the compiler would no longer inline the gradient, which has to be compiled for these instructions
+        if carried == Carried::Nothing {
+            N::in_widest_instructions(
+                #[inline(always)]
+                || match motions {
+                    // numbers of a few bytes, of which registers hold a state
+                    [Motion { hamiltonian, at }] if size_of::<N>() <= 16 => hamiltonian.advance(at, maps, count),
+                    many => turns::advance(many, maps, count),
+                },
+            );
+        } else {
+            N::in_widest_instructions(
+                #[inline(always)]
+                || {
+                    for motion in motions {
                         motion.clear_increments();
                         maps.each(0..count, count, &mut Carrying { system: motion, carried: Carried::Increments });
-                    },
-                ),
-            },
-        );
+                    }
+                },
+            );
+        }
     }
 
     /// Where the gradient and the rate are kept, U = ½(qᵀU_q − rate) costs no evaluation.

@@ -8,6 +8,7 @@ use std::mem::{needs_drop, take};
 use super::Motion;
 use super::hamiltonian::{Evaluated, FEW, Hamiltonian, kicks_and_drifts};
 use crate::coordinates::Coordinates;
+use crate::increments::Carried;
 use crate::kept::Kept;
 use crate::kinetic::Kinetic;
 use crate::maps::{MapKind, MapSequence};
@@ -15,7 +16,7 @@ use crate::number::Number;
 use crate::potential::{Potential, Repeated};
 use crate::state::State;
 use crate::summation::Summation;
-use crate::system::{Carried, Each};
+use crate::system::Each;
 
 /// `count` plain steps of each motion.
 #[inline(always)]

@@ -2,11 +2,12 @@
 
 use super::error::RecordedError;
 use super::misfit::{Differences, Misfit};
+use crate::increments::Increments;
 use crate::run::{RunError, ShadowRun, States, TrajectoryState, check_stepper};
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::{BuildEstimator, Estimator};
 use crate::stepper::Stepper;
-use crate::system::{Increments, System};
+use crate::system::System;
 
 /// The states q, p that another program has computed by a scheme, n = 0, 1, …: from each the step is made again by the same scheme, which gives
 /// its increments of q, p and β.

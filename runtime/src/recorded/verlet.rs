@@ -3,10 +3,10 @@
 use super::error::RecordedError;
 use super::log::{Derivatives, Logged};
 use super::misfit::{Differences, Misfit};
+use crate::increments::{Increments, OwnedIncrements};
 use crate::number::Number;
 use crate::run::{RunError, TrajectoryState};
 use crate::step_size::StepSize;
-use crate::system::{Increments, OwnedIncrements};
 
 /// What steps of velocity Verlet added to q, p and β, from logged states and gradients:
 ///

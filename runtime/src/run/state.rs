@@ -1,9 +1,10 @@
 //! States in the order of time, wherever they come from.
 
+use crate::increments::Increments;
 use crate::instructions;
 use crate::number::Ordered;
 use crate::run::error::{Quantity, RunError, check_value};
-use crate::system::{Increments, System};
+use crate::system::System;
 
 /// A state of a trajectory.
 #[derive(Clone, Copy, Debug)]

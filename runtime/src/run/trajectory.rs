@@ -1,12 +1,13 @@
 //! The states of a trajectory in the order of time, with those that an estimator needs on both sides.
 
+use crate::increments::OwnedIncrements;
 use crate::number::Ordered;
 use crate::run::error::{RunError, check_energy, check_stepper};
 use crate::run::state::{States, TrajectoryState, last};
 use crate::scheme::{Scheme, ValidFor};
 use crate::state::Saved;
 use crate::stepper::Stepper;
-use crate::system::{OwnedIncrements, System};
+use crate::system::System;
 
 /// The states of a trajectory in the order of time: for an estimator n = −reach, …, steps + reach with the increments of each
 /// step, or [plain](Trajectory::plain) ones without them.

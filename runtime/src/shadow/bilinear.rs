@@ -6,6 +6,7 @@ use num_traits::Signed;
 use shadowstep_symbolic::decimal::to_significant;
 
 use crate::Rational;
+use crate::increments::Increments;
 use crate::number::{Number, Ordered};
 use crate::shadow::best_bilinear::BestOrder;
 use crate::shadow::estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
@@ -14,7 +15,6 @@ use crate::shadow::form::{Form, Products};
 use crate::shadow::lagged::LaggedEstimator;
 use crate::shadow::options::EstimatorOptions;
 use crate::step_size::StepSize;
-use crate::system::Increments;
 
 /// The bilinear estimator E_k of order 2k from the newest k + 1 states, 1 ≤ k ≤ 256.
 ///

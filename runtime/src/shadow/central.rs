@@ -3,6 +3,7 @@
 use num_traits::Zero;
 
 use crate::Rational;
+use crate::increments::Increments;
 use crate::number::{Number, Ordered};
 use crate::shadow::differences::AllOrders;
 use crate::shadow::differences::{SelectionRule, StoppingRule};
@@ -13,7 +14,6 @@ use crate::shadow::options::{EstimatorOptions, HIGHEST_ORDER};
 use crate::shadow::weights::central;
 use crate::shadow::window::Window;
 use crate::step_size::StepSize;
-use crate::system::Increments;
 
 /// Central differences (Moan & Niesen): T_{m,m} = ½(−qᵀD_m p + pᵀD_m q − D_m β).
 ///

@@ -2,9 +2,9 @@
 
 use thiserror::Error;
 
+use crate::increments::Increments;
 use crate::number::Number;
 use crate::step_size::StepSize;
-use crate::system::Increments;
 
 /// Settings of an estimator, from which it is built for a step size, a dimension and a number type.
 pub trait BuildEstimator<N: Number> {

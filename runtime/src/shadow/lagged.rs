@@ -12,11 +12,11 @@ mod long;
 mod products;
 
 use crate::Rational;
+use crate::increments::Increments;
 use crate::instructions::copy;
 use crate::number::Number;
 use crate::shadow::error_estimate::{ErrorEstimate, Point, around};
 use crate::shadow::estimator::Estimate;
-use crate::system::Increments;
 use form::LaggedForm;
 use products::LaggedProducts;
 
@@ -156,10 +156,10 @@ impl<N: Number> LaggedEstimator<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::increments::OwnedIncrements;
     use crate::number::Limbs;
     use crate::shadow::form::{Form, Products};
     use crate::shadow::weights::bilinear;
-    use crate::system::OwnedIncrements;
     use crate::{Stepper, exact, problems, tables::shipped};
 
     /// Numbers between −1/2 and 1/2 that look random.

@@ -44,12 +44,13 @@ use self::rate::RateCheck;
 use self::recent::Recent;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
+use crate::increments::Increments;
 use crate::number::Ordered;
 use crate::run::{Quantity, RunError, TrajectoryState, check_energy, check_stepper, check_value};
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
 use crate::stepper::Stepper;
-use crate::system::{Increments, System};
+use crate::system::System;
 
 /// Follows the modified energy H̄ of the trajectory that a loop computes.
 ///

@@ -1,10 +1,9 @@
 //! Compensated sums: each coordinate with the remainder of its last sum.
 
-use super::{Half, Summation};
+use super::{Half, Remainders, Summation};
 use crate::coordinates::Coordinates;
 use crate::kinetic::Kinetic;
 use crate::number::Number;
-use crate::state::Remainders;
 
 /// q and p with the remainder of each sum, which is added to the next increment.
 ///

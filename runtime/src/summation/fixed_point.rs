@@ -2,10 +2,9 @@
 
 use thiserror::Error;
 
-use super::{Half, Summation};
+use super::{Half, Remainders, Summation};
 use crate::coordinates::Coordinates;
 use crate::kinetic::Kinetic;
-use crate::state::Remainders;
 
 /// q and p as whole multiples of powers of two, in 64 bits.
 ///

@@ -1,10 +1,11 @@
 //! The last step of a run in transformed time: to a given physical time.
 
+use crate::increments::Carried;
 use crate::number::{Number, Ordered};
 use crate::scheme::{Scheme, ValidFor};
 use crate::scheme_maps::Maps;
 use crate::stepper::Stepper;
-use crate::system::{Carried, System};
+use crate::system::System;
 use crate::weights::WeightLists;
 
 /// More iterations than any number type needs: bisections alone find double precision in 60.

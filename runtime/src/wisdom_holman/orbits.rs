@@ -1,11 +1,11 @@
 //! A: the free motion of the centre of mass, and a Kepler orbit for each planet.
 
 use crate::Rational;
+use crate::increments::Carried;
 use crate::kepler_drift::KeplerDrift;
 use crate::number::Number;
 use crate::state::VectorState;
 use crate::summation::Half;
-use crate::system::Carried;
 
 /// The masses and attractions of A = P₀²/2M + Σ (P_i²/2m_i′ − κ_i/|Q_i|).
 #[derive(Clone, Debug)]

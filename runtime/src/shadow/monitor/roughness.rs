@@ -5,11 +5,11 @@
 //! second one of them, as if the step were 2h.
 
 use super::arithmetic::{integer, quotient, root};
+use crate::increments::{Increments, OwnedIncrements};
 use crate::number::Ordered;
 use crate::shadow::bilinear::{Bilinear, BilinearEstimator};
 use crate::shadow::estimator::{BuildEstimator, Estimator, EstimatorError};
 use crate::step_size::StepSize;
-use crate::system::{Increments, OwnedIncrements};
 
 /// The largest k; windows of 17 states and more have it.
 const LARGEST_K: usize = 8;
