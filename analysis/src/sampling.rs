@@ -31,7 +31,7 @@ const POINTS: u32 = 4000;
 const REFINEMENTS: u32 = 40;
 
 impl SamplingError {
-    /// That of a symmetric scheme; `None` for other ones, which are not reversible in time. Of a processed scheme it is that of the kernel.
+    /// The error of a symmetric scheme; `None` for other ones, which are not reversible in time. For a processed scheme it is the kernel's.
     pub fn of(proved: &Proved, stability: Option<&Stability>) -> Option<SamplingError> {
         if !proved.proof.symmetric {
             return None;

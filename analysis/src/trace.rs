@@ -90,7 +90,7 @@ impl PhaseError {
             .expect("a step is not a cosine")
     }
 
-    /// The first of the terms of the trace that differs from that of the cosine.
+    /// The first of the terms of the trace that differs from the same term of the cosine.
     fn among(terms: Range<usize>, maps: &[Map], held: Held) -> Option<PhaseError> {
         let trace = Trace::up_to(maps, terms.end);
         let slopes = slopes(maps, terms.end);

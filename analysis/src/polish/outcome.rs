@@ -13,7 +13,7 @@ pub struct Polished {
     pub proved: Proved,
     /// Its decimals, in the order of the text.
     pub weights: Vec<PolishedWeight>,
-    /// Whether the conditions are those of a composition in its γ's.
+    /// Whether the conditions are polynomials in the γ's of a composition.
     pub in_gamma: bool,
     /// How many conditions were looked at.
     pub conditions: usize,

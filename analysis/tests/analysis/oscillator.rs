@@ -210,7 +210,7 @@ fn composition(base: &str, order: u32, gamma: &[&str]) -> Proved {
     read(&source, &|name, _| shipped(name)).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// The trace of n equal steps passes ±2 where that of one does; elsewhere it touches ±2, at double roots.
+/// The trace of n equal steps passes ±2 where the trace of one step does; elsewhere it touches ±2, at double roots.
 #[test]
 fn equal_steps_are_stable_where_one_of_them_is() {
     for (base, order, steps) in [("blanes-moan-s6", 4, 4), ("suzuki-umeno8", 8, 2), ("hairer10-33", 10, 40)] {
