@@ -91,7 +91,7 @@ pub(crate) fn end(scheme: &TableScheme) -> State {
     run(scheme, HALVINGS, STEPS)
 }
 
-/// The state after so many steps of size 2^−halvings from the pericentre.
+/// The state after `steps` steps of size 2^−halvings from the pericentre.
 fn run(scheme: &TableScheme, halvings: u32, steps: u32) -> State {
     let stepper = Stepper::new(scheme.clone(), fraction(1, halvings)).expect("the step size is a power of two");
     let mut motion = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]).expect("the state has two dimensions");
