@@ -5,9 +5,9 @@ use std::cmp::Ordering;
 use std::fmt;
 use std::ops::{AddAssign, DivAssign, MulAssign, Neg, SubAssign};
 
-/// A number of 2 to 17 limbs, as many as it is made with.
+/// A number of 2 to 17 limbs; the number of limbs is chosen when it is made.
 ///
-/// It has the bits of [`Limbs`] of so many limbs, whose operations this chooses at run time. A program that offers any number of digits
+/// It has the bits of [`Limbs`] with as many limbs, whose operations this chooses at run time. A program that offers any number of digits
 /// compiles what it computes for this one type; the operations are compiled in this crate.
 ///
 /// ```
@@ -31,7 +31,7 @@ impl LimbCount {
     /// 17 limbs.
     pub const MOST: LimbCount = LimbCount(17);
 
-    /// The fewest limbs with so many bits; none beyond 17 limbs, 1088 bits.
+    /// The fewest limbs with `bits` bits; `None` beyond 17 limbs, 1088 bits.
     pub const fn of_bits(bits: u32) -> Option<LimbCount> {
         match bits.div_ceil(u64::BITS) as usize {
             0..=2 => Some(LimbCount(2)),
@@ -45,7 +45,7 @@ impl LimbCount {
         self.0
     }
 
-    /// The bits of so many limbs.
+    /// The number of bits.
     pub const fn bits(self) -> u32 {
         u64::BITS * self.0 as u32
     }
@@ -70,7 +70,7 @@ macro_rules! define {
         }
 
         impl AnyLimbs {
-            /// 0 of so many limbs.
+            /// 0 with `count` limbs.
             pub const fn zero(count: LimbCount) -> AnyLimbs {
                 match count.0 {
                     $($limbs => AnyLimbs(Any::$Size(Limbs::ZERO)),)+
@@ -204,7 +204,7 @@ impl AnyLimbs {
         same_size!(x = &self.0 => x.mantissa())
     }
 
-    /// The nearest number of so many limbs.
+    /// The nearest number with `count` limbs.
     #[must_use]
     pub fn resized(&self, count: LimbCount) -> AnyLimbs {
         match self.exponent() {

@@ -17,7 +17,7 @@ struct Scaled {
     error: Option<u64>,
 }
 
-/// n 10^k 2^exponent, to so many limbs at least.
+/// n 10^k 2^exponent, to at least `limbs` limbs.
 fn scaled(n: &[u64], k: i64, exponent: i64, limbs: usize) -> Scaled {
     let (power, power_exponent, power_is_exact) = power_of_five(k.unsigned_abs(), limbs);
     let (m, exponent, is_exact) = if k >= 0 {
@@ -33,7 +33,7 @@ fn scaled(n: &[u64], k: i64, exponent: i64, limbs: usize) -> Scaled {
     Scaled { m, exponent, error: (!is_exact).then_some(error) }
 }
 
-/// 5^k, k < 2^31, and whether it is exact: m 2^exponent with m of at most so many limbs, too small by less than 2^34 parts of
+/// 5^k, k < 2^31, and whether it is exact: m 2^exponent with m of at most `limbs` limbs, too small by less than 2^34 parts of
 /// 2^(64 limbs − 64), as each of some 60 roundings is raised to at most the power k.
 fn power_of_five(k: u64, limbs: usize) -> (Vec<u64>, i64, bool) {
     let (mut m, mut exponent, mut is_exact) = (vec![1], 0, true);
@@ -108,7 +108,7 @@ impl<const L: usize> Limbs<L> {
     /// How many decimal digits of a text survive being read and written: ⌊(64 L − 1) log₁₀2⌋.
     pub const DIGITS: u32 = ((64 * L as u64 - 1) * 30_102_999_566 / 100_000_000_000) as u32;
 
-    /// The decimal digits d₁d₂… of |x| = 0.d₁d₂… 10^point, correctly rounded to so many significant ones, and the point; none of 0,
+    /// The decimal digits d₁d₂… of |x| = 0.d₁d₂… 10^point, correctly rounded to `count` significant ones, and the point; `None` for 0,
     /// infinities and NaN.
     ///
     /// ```
@@ -122,7 +122,7 @@ impl<const L: usize> Limbs<L> {
         Some((natural::digits(integer), point))
     }
 
-    /// 10^(count − point) |x|, rounded to an integer of so many digits, and the point.
+    /// 10^(count − point) |x|, rounded to an integer of `count` digits, and the point.
     fn integer_of_digits(&self, count: u32) -> Option<(Vec<u64>, i64)> {
         let (significand, exponent) = (self.to_f64_exponent().0.abs(), self.exponent()?);
         let size = significand.log10() + f64::from(exponent) * LOG10_2;
@@ -279,7 +279,7 @@ impl<const L: usize> FromStr for Limbs<L> {
     }
 }
 
-/// An exponent, of a magnitude of at most 10^15, which is beyond that of all numbers.
+/// An exponent, of a magnitude of at most 10^15, which is beyond the exponents of all numbers.
 fn read_exponent(text: &str) -> Result<i64, ParseError> {
     let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
     if digits.is_empty() || !digits.bytes().all(|c| c.is_ascii_digit()) {

@@ -91,7 +91,7 @@ fn reduced<const W: usize>(x: &Limbs<W>) -> (u64, Limbs<W>) {
     (quadrant, &part * &number(&top(&QUARTER_PI), 1))
 }
 
-/// The integer k nearest to 2 x/π, modulo 4, and 2 x/π − k from so many limbs after the point, of which so many bits are 0.
+/// The integer k nearest to 2 x/π, modulo 4; 2 x/π − k from `limbs` limbs after the point; and how many of their leading bits are 0.
 #[inline(always)]
 fn quarters<const W: usize>(x: &Limbs<W>, limbs: usize) -> (u64, Limbs<W>, u32) {
     let (up, bits) = (x.exponent as usize / 64, x.exponent as u32 % 64);
