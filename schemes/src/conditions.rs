@@ -14,7 +14,7 @@ use crate::order::{Condition, lyndon_words, weighed, word_conditions};
 use crate::part_words::{self, part_maps};
 use crate::scheme::Held;
 
-/// Bits beyond those of the exact values, for the growth of the error.
+/// Bits beyond the bits of the exact values, for the growth of the error.
 const MARGIN_BITS: u32 = 64;
 
 /// The most bits for weights that are held to some digits: the bounds of the errors grow by far fewer.
@@ -23,9 +23,9 @@ const MOST_BITS: u32 = 8000;
 /// Conditions that a claim needs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Family {
-    /// Those of a class of kinetic energies.
+    /// The conditions of a class of kinetic energies.
     Kinetic(Kinetic),
-    /// Those of a power of ε.
+    /// The conditions of a power of ε.
     Power(Power),
 }
 
@@ -99,7 +99,7 @@ impl Step for OfFamily<'_> {
     }
 }
 
-/// Kicks, drifts and the weights of the middle parts between them, and the conditions of so many parts.
+/// Kicks, drifts and the weights of the middle parts between them, and the number of parts.
 struct OfParts<'a>((&'a [Map], &'a [Rational]), usize);
 
 impl Step for OfParts<'_> {
@@ -119,7 +119,7 @@ pub(crate) fn evaluated(maps: &[Map], held: Held, family: Family, highest: u32) 
     evaluated_of(&OfFamily(maps, family), held, highest)
 }
 
-/// The conditions of a step of so many parts with the weights of their middle maps, likewise.
+/// The conditions of a step of `parts` parts with the weights of their middle maps, low orders first, with their values.
 pub(crate) fn evaluated_of_parts(
     step: (&[Map], &[Rational]),
     held: Held,

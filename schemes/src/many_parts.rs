@@ -96,7 +96,7 @@ impl Proved {
     }
 }
 
-/// The order of a scheme's steps for so many parts, up to `highest`, by the words on as many letters.
+/// The order of a scheme's steps for `parts` parts, up to `highest`, by the words on as many letters.
 ///
 /// # Panics
 /// With gradient kicks, and for fewer than two parts.
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(plan.evaluations, 1);
     }
 
-    /// Orders for three parts are those for every A + B, and likewise for two and four.
+    /// Orders for two, three and four parts equal the order for every A + B.
     #[test]
     fn orders_are_those_for_two_parts() {
         for name in ["symplectic-euler", "ruth3", "suzuki4", "yoshida4", "pefrl", "blanes-moan-s6", "saba2"] {
@@ -157,7 +157,7 @@ mod tests {
         }
     }
 
-    /// 27/20 in place of 1.3512…; the value is that of an independent program (exact fractions in Python).
+    /// 27/20 in place of 1.3512…; the value is from an independent program (exact fractions in Python).
     #[test]
     fn a_wrong_weight_fails_at_a_named_word() {
         let text =

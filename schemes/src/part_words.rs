@@ -1,7 +1,7 @@
 //! Order conditions of H = H_1 + … + H_n: words on n letters.
 //!
 //! A step is a product of the exponentials of the Lie derivatives A, B, C, … of the parts' flows, the exact flow is exp(h (A + B + C + …)). Both are
-//! group-like, so the coefficients of Lyndon words decide, as for [two letters](crate::order); that of a word of m letters in the exact flow is 1/m!.
+//! group-like, so the coefficients of Lyndon words decide, as for [two letters](crate::order); the coefficient of a word of m letters in the exact flow is 1/m!.
 
 use std::collections::HashMap;
 
@@ -61,7 +61,7 @@ struct Prefix {
     parent: Option<usize>,
 }
 
-/// The conditions of orders 1..=`highest` for so many parts, of low orders first, and their values for a step.
+/// The conditions of orders 1..=`highest` for `parts` parts, low orders first, and their values for a step.
 pub(crate) fn conditions<A: Arithmetic>(
     maps: &[(PartMap, A::Value)],
     parts: usize,
@@ -135,7 +135,7 @@ fn letter(part: usize) -> char {
     u8::try_from(part).map_or('?', |part| char::from(b'A' + part))
 }
 
-/// The Lyndon words on so many letters, of at most `longest` of them (Duval's algorithm), in lexicographic order.
+/// The Lyndon words on `letters` letters, of length at most `longest` (Duval's algorithm), in lexicographic order.
 fn lyndon_words(letters: usize, longest: usize) -> Vec<Vec<usize>> {
     let mut words = Vec::new();
     let mut word = vec![0];
@@ -157,7 +157,7 @@ fn lyndon_words(letters: usize, longest: usize) -> Vec<Vec<usize>> {
 mod tests {
     use super::*;
 
-    /// The values are those of an independent program: the product of exponentials in the free algebra, in exact fractions (Python).
+    /// The values are from an independent program: the product of exponentials in the free algebra, in exact fractions (Python).
     #[test]
     fn coefficients_are_those_of_the_free_algebra() {
         use MapKind::{Drift, Kick};

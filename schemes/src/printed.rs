@@ -208,7 +208,7 @@ impl Cells<'_> {
         }
     }
 
-    /// The values of a list of cells, after those of the constants.
+    /// The values of a list of cells, after the values of the constants.
     fn list(&mut self, name: &str, cells: &[Cell]) -> Option<Vec<Sloped>> {
         if self.exact.is_empty() {
             for (name, cell) in &self.table.constants {

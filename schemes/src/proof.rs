@@ -47,13 +47,13 @@ pub struct Proof {
     pub near_integrable: Vec<Order>,
     /// The step is a palindrome, exactly.
     pub symmetric: bool,
-    /// The effective orders of a processed scheme; the others are those of its kernel.
+    /// The effective orders of a processed scheme; the others are the kernel's.
     pub effective: Option<Effective>,
     /// For H of three parts and more, by the words on three letters; only [where it is asked for](crate::many_parts).
     pub many_parts: Option<Order>,
 }
 
-/// The effective orders of a processed scheme: those of χ⁻¹ ∘ kernel ∘ χ, so of χ⁻¹ ∘ kernelⁿ ∘ χ after any number n of steps.
+/// The effective orders of a processed scheme: the orders of χ⁻¹ ∘ kernel ∘ χ, and so of χ⁻¹ ∘ kernelⁿ ∘ χ after any number n of steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Effective {
     /// For every T(p).
@@ -132,7 +132,7 @@ fn order_up_to(maps: &[Map], held: Held, family: Family, highest: u32) -> Order 
     order_by(evaluated(maps, held, family, highest), highest)
 }
 
-/// The order of a step of so many parts, with the weights of their middle maps.
+/// The order of a step of `parts` parts, with the weights of their middle maps.
 pub(crate) fn order_of_parts(step: (&[Map], &[Rational]), held: Held, parts: usize, highest: u32) -> Order {
     order_by(evaluated_of_parts(step, held, parts, highest), highest)
 }
@@ -242,7 +242,7 @@ fn effective_findings<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Find
 
 fn near_integrable_findings<'a>(of: Of, claim: Option<&'a NearIntegrable>, proved: &'a [Order]) -> Vec<Finding<'a>> {
     let mut findings = Vec::new();
-    // an order cannot be claimed higher than those of lower powers of ε
+    // an order cannot be claimed higher than the orders of lower powers of ε
     let mut least = u32::MAX;
     for ((claimed, power), proved) in claim.into_iter().flat_map(NearIntegrable::powers).zip(proved) {
         let family = Family::Power(power);
