@@ -1,6 +1,6 @@
 //! Exact rationals.
 //!
-//! Comparisons, hashes and the search for common divisors are not those of `num_rational`: the first two recurse along continued
+//! Comparisons, hashes and the search for common divisors are not taken from `num_rational`: the first two recurse along continued
 //! fractions, for long numbers beyond the end of the stack, and the last takes a pass over the numbers for every bit.
 
 use std::cmp::Ordering;

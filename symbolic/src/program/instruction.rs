@@ -68,7 +68,7 @@ pub enum Instruction<P = Place> {
     SubtractProduct(P, P, P),
     /// x ← c + t, where t is a b, with c, t, a and b in this order
     AssignSumWithProduct(P, P, P, P, P),
-    /// x ← c − t, where t is a b, likewise
+    /// x ← c − t, where t is a b, with the same order
     AssignDifferenceWithProduct(P, P, P, P, P),
     /// x ← x + c, where x is a b, with c, a and b in this order
     AddToProduct(P, P, P, P),
