@@ -44,17 +44,17 @@ use follow::follow;
 
 pub use follow::Outcome;
 
-/// What is computed of each of so many trajectories.
+/// Trajectories, and what is computed of each.
 ///
 /// A trajectory has the bits that it has alone: they depend neither on the other trajectories, nor on the number of lanes and threads, nor on
-/// the processor's vector instructions. (Elementary functions are those of [`Lanes`].)
+/// the processor's vector instructions. (Elementary functions are taken from [`Lanes`].)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ensemble {
     /// How many trajectories there are.
     pub trajectories: usize,
     /// Steps of each.
     pub steps: u64,
-    /// The energy is looked at after every so many steps, at the beginning and at the end; at least 1.
+    /// The energy is computed every `every` steps, at the beginning and at the end; at least 1.
     pub every: u64,
     /// The k of [E_k](FixedBilinear), where the drift of the modified energy is computed: from the k + 1 states that begin with each state
     /// whose energy is looked at.

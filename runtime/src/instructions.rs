@@ -22,7 +22,7 @@
 //! ```
 //!
 //! What is not inlined into the loop is compiled for the processors that the program is built for, and is slower there. So functions on the way
-//! are `#[inline(always)]`: those of this crate and of [`potential!`](crate::potential!) are; a potential of your own should be.
+//! are `#[inline(always)]`: in this crate and from [`potential!`](crate::potential!) they are; in a custom potential they should be.
 
 use std::cell::Cell;
 
@@ -114,7 +114,7 @@ pub fn widest<R>(work: impl FnOnce() -> R) -> R {
 /// From this number of turns on the choice of instructions costs less than it gains.
 const LONG: usize = 64;
 
-/// [`widest`] for a loop of so many turns that is long, of numbers several of which fit into a vector; else the work as it is.
+/// [`widest`] if the loop is long and several of its numbers fit into a vector; else the work as it is.
 #[inline(always)]
 pub(crate) fn widest_if_long<R>(in_vectors: bool, turns: usize, work: impl FnOnce() -> R) -> R {
     if in_vectors && turns >= LONG { widest(work) } else { work() }

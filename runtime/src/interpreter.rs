@@ -47,7 +47,7 @@ struct Layout {
 }
 
 impl<N: Number> Interpreter<N> {
-    /// For the programs of a function of so many properties of bodies, with the values of its parameters.
+    /// For the programs of a function of `properties` properties of bodies, with the values of its parameters.
     pub(crate) fn new(programs: &PotentialPrograms, parameters: Vec<N>, properties: usize) -> Self {
         let layout = Layout::of(programs, parameters.len(), properties);
         let PotentialPrograms { energy, gradient, gradient_and_rate, .. } = programs;

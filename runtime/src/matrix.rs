@@ -6,13 +6,13 @@ use crate::number::{AnyLimbs, LimbCount, Number, Rounded};
 /// A matrix, row by row.
 pub(crate) type Matrix<N> = Vec<Vec<N>>;
 
-/// So many flows are kept; a caller with more times than that has others.
+/// The most flows that are kept; when there would be one more, all are dropped.
 pub(crate) const MOST_KEPT: usize = 256;
 
 /// With terms that fall by 16 and more, fewer make the digits of 17 limbs.
 pub(crate) const MOST_TERMS: i32 = 300;
 
-/// Bits beyond those of the run: doubling t k times may lose 2k of them.
+/// Bits beyond the bits of the run: doubling t k times may lose 2k of them.
 const GUARD_BITS: u32 = 128;
 
 /// The numbers in which flows are computed; `None` if the run has more digits than they.

@@ -1,4 +1,4 @@
-//! Ensembles: the outcomes are those of each trajectory alone, whatever computes them.
+//! Ensembles: each trajectory has the outcome that it has alone, whatever computes it.
 
 use std::num::NonZero;
 

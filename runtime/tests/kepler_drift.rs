@@ -128,7 +128,7 @@ fn terms_of_a_step_that_cancel_by_chance() {
     assert!((found[0] / expected[0].to_f64() - 1.0).abs() < 1e-13, "{found:?}");
 }
 
-/// Orbits and times as those of `kepler_drift/reference.py`.
+/// Orbits and times as in `kepler_drift/reference.py`.
 struct Orbits(Pcg64Mcg);
 
 impl Orbits {
@@ -306,7 +306,7 @@ fn mpfr_has_the_digits_of_limbs_and_any_precision_ends() {
             let u = 2_f64.powi(-(bits as i32));
             let found = drift(&mut kepler, input.map(|x| Float::with_val(bits, x)));
             let [q, v] = errors(&found, &input, &expected, u);
-            // beyond the precision of the input the condition is no measure of such coarse numbers
+            // beyond the precision of the input the condition does not bound the error of such coarse numbers
             assert!(bits < 53 || q < 150.0 && v < 150.0, "{bits} bits, {input:?}: {q}, {v}");
         }
     }
@@ -481,7 +481,7 @@ fn wrong_input_is_refused() {
     assert_eq!(q[0], Lanes::all(1.0));
 }
 
-/// Energy, angular momentum and the angle of the pericentre, relative to their first values, of orbits after so many drifts.
+/// Energy, angular momentum and the angle of the pericentre, relative to their first values, of orbits after `drifts` drifts.
 fn wander(orbits: u64, drifts: u64) -> Vec<[f64; 3]> {
     let mut kepler = new::<f64>();
     let of_orbit = |seed| {

@@ -6,14 +6,14 @@ use rustix::time::{ClockId, clock_gettime};
 
 const ROUNDS: usize = 21;
 
-/// A contestant: its name and a run of so many repetitions.
+/// A contestant: its name and a run of the given number of repetitions.
 pub(crate) type Contestant<'a> = (&'static str, Box<dyn FnMut(u32) + 'a>);
 
 /// Medians over the rounds.
 pub(crate) struct Measured {
     /// Of the time of a repetition.
     pub(crate) nanoseconds: f64,
-    /// Of its ratio to that of the first contestant in the same round.
+    /// Of its ratio to the time of the first contestant in the same round.
     pub(crate) ratio: f64,
 }
 

@@ -11,7 +11,7 @@ type EstimatorOf<const W: usize> = <FixedBilinear as BuildEstimator<Lanes<W>>>::
 /// What became of a trajectory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// Positions at the end; of a processed scheme those of the trajectory, as all that is looked at.
+    /// Positions at the end; for a processed scheme the trajectory's, not the kernel's, as in all results.
     pub q: Vec<f64>,
     /// Momenta at the end.
     pub p: Vec<f64>,
@@ -23,10 +23,10 @@ pub struct Outcome {
     pub not_finite: Option<u64>,
 }
 
-/// So many steps are made at once at most, as the caller may want to end them.
+/// The most steps that are made at once, as the caller may want to end them.
 const AT_ONCE: u64 = 128;
 
-/// The outcomes of all lanes of the systems after so many steps, merged or not, whose energy is looked at every so many; `None` where
+/// The outcomes of all lanes of the systems after `steps` steps, merged or not, with the energy computed every `every` steps; `None` where
 /// `continues` returns false.
 pub(super) fn follow<const W: usize, S, M>(
     stepper: &Stepper<S, Lanes<W>>,

@@ -13,7 +13,7 @@ pub(super) trait Points<N>: fmt::Debug {
     fn assign(&mut self, n: i64, q: &mut [N], p: &mut [N], increments: &mut OwnedIncrements<N>);
 }
 
-/// Those of a solution in numbers of type R.
+/// The points of a solution in numbers of type R.
 #[derive(Debug)]
 pub(super) struct PointsOf<R> {
     solution: Box<dyn Solution<R>>,

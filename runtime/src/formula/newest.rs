@@ -53,7 +53,7 @@ static NEWEST: Mutex<VecDeque<(Text, Arc<Derived>)>> = Mutex::new(VecDeque::new(
 /// The programs of a formula, which `derive` makes unless they are there.
 ///
 /// # Errors
-/// Those of `derive`.
+/// The errors of `derive`.
 pub(super) fn derived<E>(text: Text, derive: impl FnOnce(&Text) -> Result<Derived, E>) -> Result<Arc<Derived>, E> {
     let newest = || NEWEST.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, derived)) = newest().iter().find(|(known, _)| *known == text) {

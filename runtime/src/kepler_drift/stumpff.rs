@@ -15,7 +15,7 @@ use crate::number::scaled;
 pub(super) struct Stumpff<N> {
     /// c₀ … c₃ of the last z.
     pub(super) c: [N; 4],
-    /// Those of lanes that are done, while z of other lanes is divided more often.
+    /// c₀ … c₃ of lanes that are done, while z of other lanes is divided more often.
     done: [N; 4],
     /// 120 (−1)ᵏ/(2k + 7)! of an even k and the next one, and 720 (−1)ᵏ/(2k + 8)! of both; the highest k first.
     coefficients: Vec<[N; 4]>,
@@ -37,7 +37,7 @@ pub(super) enum Terms {
 }
 
 impl<N: Number> Stumpff<N> {
-    /// For numbers of so many bits.
+    /// For numbers of `bits` bits.
     pub(super) fn new(bits: u32, context: &N::Context) -> Self {
         let largest: f64 = if bits <= 53 { 0.9 } else { 1.0 / 16.0 };
         let rational =

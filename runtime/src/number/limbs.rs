@@ -305,7 +305,7 @@ number_of_limbs! { [] AnyLimbs {
     }
 } }
 
-/// |value| as an integer of more than so many bits, rounded down, times a power of 2, and whether it is exact.
+/// |value| as an integer of more than `bits` bits, rounded down, times a power of 2, and whether it is exact.
 fn quotient(value: &Rational, bits: u32) -> (Vec<u64>, i64, bool) {
     let (n, d) = (value.numer().magnitude(), value.denom().magnitude());
     let shift = (u64::from(bits) + 2 + d.bits()).saturating_sub(n.bits());

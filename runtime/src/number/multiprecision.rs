@@ -243,7 +243,7 @@ fn integer(value: &BigInt) -> Integer {
     if value.is_negative() { -magnitude } else { magnitude }
 }
 
-/// So many significant digits, but no zeros at the end, laid out as Rust does for an `f64`.
+/// `digits` significant digits, but no zeros at the end, laid out as Rust does for an `f64`.
 fn decimal(value: &Float, digits: u32) -> String {
     let (negative, digits, point) = value.to_sign_string_exp(10, Some(digits as usize));
     let point = point.expect("neither infinite nor NaN");

@@ -60,7 +60,7 @@ impl Precision {
         Precision { bits }
     }
 
-    /// The precision of numbers of so many limbs of 64 bits.
+    /// The precision of numbers of `limbs` limbs of 64 bits.
     pub const fn of_limbs(limbs: usize) -> Precision {
         Precision { bits: u64::BITS * limbs as u32 }
     }

@@ -4,13 +4,13 @@ use super::{AnyLimbs, LimbCount, Ordered};
 
 /// A number type whose numbers can be rounded to any other.
 pub trait Reference: Ordered + 'static {
-    /// What makes numbers of at least so many bits; `None` if the type has none.
+    /// The context of numbers of at least `bits` bits; `None` if the type has no such numbers.
     fn context_of(bits: u32) -> Option<Self::Context>;
 
     /// The bits of the significand.
     fn bits(&self) -> u32;
 
-    /// This number with so many bits at least, rounded once where it had more.
+    /// This number with at least `bits` bits, rounded once where it had more.
     ///
     /// # Panics
     /// The type has no such numbers.

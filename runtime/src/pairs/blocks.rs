@@ -28,7 +28,7 @@ impl<N: Number, const D: usize> Room<N, D> {
         Room { difference: std::array::from_fn(|_| zeros()), squared: zeros(), slope: zeros(), summand: zeros() }
     }
 
-    /// The forces and summands with so many of the first bodies become 0.
+    /// The forces and summands with the first `count` bodies become 0.
     #[inline(always)]
     fn clear(&mut self, count: usize) {
         for l in 0..BLOCK {
@@ -62,7 +62,7 @@ pub(super) struct Blocks<'a, P, const D: usize> {
 }
 
 impl<P, const D: usize> Blocks<'_, P, D> {
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `axes` is the scratch space of blocks, `pair` that of the pair.
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `axes` is the scratch space of blocks, `pair` the scratch space of the pair.
     pub(super) fn sum<N: Number>(
         &self,
         (q, gradient): (&[N], &mut [N]),
@@ -219,7 +219,7 @@ impl<P, const D: usize> Blocks<'_, P, D> {
         }
     }
 
-    /// Adds one pair, likewise.
+    /// Adds the forces and summand of one pair.
     #[inline(always)]
     fn add_one<N: Number, const FORCES: bool, const SUM: bool>(
         &self,

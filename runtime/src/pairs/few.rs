@@ -15,7 +15,7 @@ pub(super) struct Few<'a, P, const D: usize> {
     pub(super) bodies: usize,
 }
 
-/// The sum of so many bodies, by groups of pairs: the body i, the first other one, and how many. The compiler does not unroll loops of this size.
+/// The sum over a fixed number of bodies, by groups of pairs: the body i, the first other one, and how many. The compiler does not unroll loops of this size.
 macro_rules! unrolled {
     ($few:ident, $q:ident, $gradient:ident, $total:ident, $scratch:ident, $bodies:literal: $($i:literal $j:literal $width:literal),*) => {{
         const BODIES: &str = "there are as many bodies";
@@ -29,7 +29,7 @@ macro_rules! unrolled {
 }
 
 impl<P, const D: usize> Few<'_, P, D> {
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `scratch` is that of the pair.
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `scratch` is the scratch space of the pair.
     #[inline(always)]
     pub(super) fn sum<N: Number>(&self, (q, gradient): (&[N], &mut [N]), total: Option<&mut N>, scratch: &mut [N])
     where

@@ -49,7 +49,7 @@ pub trait PairPotential<N: Number>: Pair {
         }
     }
 
-    /// The slopes, likewise.
+    /// The slopes of the body i with the bodies j, j + 1, …, one x for each.
     #[inline(always)]
     fn slopes<const W: usize>(&self, i: usize, j: usize, x: &[N; W], slopes: &mut [N; W], scratch: &mut [N]) {
         for l in 0..W {

@@ -12,7 +12,7 @@ use crate::summation::{Plain, Summation};
 /// Steps of H = ½pᵀM⁻¹p + U(q) with at most three coordinates and a diagonal M, for [`Potential::advance_few`](super::Potential::advance_few).
 ///
 /// A step in which the potential and the masses are each behind a `dyn` passes q, p and U_q through memory between its maps. Here one call
-/// makes many steps, compiled for the type of the potential, so that these stay in registers. The bits are those of the maps one by one.
+/// makes many steps, compiled for the type of the potential, so that these stay in registers. The bits are the same as with the maps one by one.
 #[derive(Debug)]
 pub struct FewCoordinates<'a, N> {
     /// q, p and U_q.
@@ -35,12 +35,12 @@ impl<N: Number> FewCoordinates<'_, N> {
     /// Whether registers hold such numbers: of others these steps are not even compiled.
     const FIT: bool = size_of::<N>() <= 16 && !needs_drop::<N>();
 
-    /// Whether this makes the steps of a system with so many coordinates.
+    /// Whether this makes the steps of a system with `dimension` coordinates.
     pub(crate) fn can_hold(dimension: usize) -> bool {
         Self::FIT && (1..=MOST).contains(&dimension)
     }
 
-    /// Makes the steps of a potential of so many coordinates; `evaluate` computes the gradient.
+    /// Makes the steps of a potential of `dimension` coordinates; `evaluate` computes the gradient.
     ///
     /// # Panics
     /// If there are more than three.

@@ -17,7 +17,7 @@ const MEAN: [f64; 9] = {
 const LAG: usize = 8;
 /// The standard deviation of a normal distribution as a multiple of the median size.
 const NORMAL: f64 = 1.482_602_218_505_602;
-/// A jump is a change of the size of so many usual ones.
+/// A jump is a change of more than this many times the usual size.
 const JUMP: f64 = 6.0;
 
 /// Estimates E_8 without errors, of all states that have one: n and the value.
@@ -59,7 +59,7 @@ impl Changes {
         changes.filter(|(_, steps, _)| *steps >= LAG as u64)
     }
 
-    /// Changes from state to state, or from window to window where these have one estimate each, as those of one step that add up like noise.
+    /// Changes from state to state, or from window to window where these have one estimate each; the latter are reduced to one step as if they added up like noise.
     fn sizes(&self) -> Vec<f64> {
         match self.is_of_single_estimates() {
             true => self.between().map(|(_, steps, change)| change.abs() / seen(steps).sqrt()).collect(),

@@ -75,7 +75,7 @@ pub struct Diagnosis {
     /// The mean square of what H̄ changes by in a step, as a multiple of what errors of the forces would make that are independent from step to step and
     /// of the size of their differences, h²Σ(σv)²: 1 for noise of the forces.
     pub excess: Option<f64>,
-    /// The rms of what H̄ changes by from state to state, as a multiple of that of a normal distribution with the same median: 1 for noise, large where H̄
+    /// The rms of what H̄ changes by from state to state, as a multiple of the rms of a normal distribution with the same median: 1 for noise, large where H̄
     /// changes at few states only.
     pub isolation: f64,
     /// These states, with the largest change first.
@@ -103,10 +103,10 @@ pub struct Diagnosis {
 /// | forces not smooth | the exponent is from 2 to 4 |
 /// | not decided | none of these, or no gradients are logged |
 ///
-/// The excess, the isolation and the exponent are those of the [`Diagnosis`]. `docs/recorded-trajectories.md` has what they are in an experiment.
+/// The excess, the isolation and the exponent are defined at [`Diagnosis`]; `docs/recorded-trajectories.md` has measured values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cause {
-    /// The states are not those of velocity Verlet with these masses, gradients and step size: a thermostat, a constraint, another integrator.
+    /// The states are not from velocity Verlet with these masses, gradients and step size: a thermostat, a constraint, another integrator.
     OtherSteps,
     /// Nothing that is resolved: H̄ is conserved.
     Nothing,
@@ -154,7 +154,7 @@ impl Cause {
         }
     }
 
-    /// Of noise, that of the forces; of jumps of U, that of the energy.
+    /// For noise, the size in the forces; for jumps of U, the size in the energy.
     pub fn size(self) -> Option<f64> {
         match self {
             Cause::Jumps { size } | Cause::EnergyNotSmooth { size } | Cause::Noise { size } => Some(size),

@@ -3,7 +3,7 @@
 /// The differences r = x_{n+1} − x_n − Δx of logged states x, q or p, from the increments Δx of the steps between them.
 #[derive(Clone, Debug)]
 pub(super) struct Misfit {
-    /// Those of the newest step.
+    /// The differences of the newest step.
     newest: Vec<f64>,
     /// Whether the step before it has some.
     follows: bool,

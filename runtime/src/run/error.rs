@@ -34,7 +34,7 @@ pub enum RunError {
     Dimension {
         /// Its coordinates.
         coordinates: usize,
-        /// Those of the system at the start.
+        /// The coordinates of the system at the start.
         begun: usize,
     },
     /// The weights of the stepper have another precision than the numbers of the system.

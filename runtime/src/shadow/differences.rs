@@ -2,7 +2,7 @@
 //!
 //! T_{m,m} is the sum of the first m terms of Stirling's series, and term k needs ∇^{2k−1} of (q, p, β) at the states
 //! n + k and n + k − 1 only. The table of backward differences of the newest state is updated with 2M vector
-//! subtractions a step; with that of the state before it completes one term of each of M states: of those whose search for the best m
+//! subtractions a step; with the table of the state before, it completes one term of each of M states whose search for the best m
 //! has not ended before.
 
 use crate::Rational;

@@ -27,7 +27,7 @@ pub(super) struct LaggedEstimator<N> {
     /// k, or a larger number for which there is a loop of fixed length.
     lags: usize,
     products: LaggedProducts<N>,
-    /// Those of the newest states, each in turn, and once more: so the newest ones follow one another wherever they begin.
+    /// The products of the newest states in a ring that is stored twice, so that the newest ones are contiguous wherever they begin.
     kept: Vec<N>,
     value: LaggedForm<N>,
     /// Without it no error is computed.
@@ -265,7 +265,7 @@ mod tests {
         }
     }
 
-    /// The error of E_k by round-off, rms, by lags and by pairs of states, for the same states and increments: the right value is that of
+    /// The error of E_k by round-off, rms, by lags and by pairs of states, for the same states and increments: the right value is computed with
     /// four limbs.
     fn round_off(k: u32, problem: &str, h: &str) -> [f64; 2] {
         const STEPS: u32 = 500;

@@ -53,7 +53,7 @@ use crate::system::{Increments, System};
 
 /// Follows the modified energy H̄ of the trajectory that a loop computes.
 ///
-/// It takes all states, and keeps those of *windows*: as many as the estimator needs, at every step or
+/// It takes all states, and keeps the states of *windows*: as many as the estimator needs, at every step or
 /// [every n steps](ShadowEnergy::every). Only the steps within windows are augmented; the others are plain steps, with the same
 /// bits and cost. Of the windows it keeps extremes, sums and 64 estimates, however
 /// long the run: nothing is allocated after the beginning.
@@ -279,7 +279,7 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
     ///
     /// # Errors
     /// A state of a window, or its energy or modified energy, that is not finite. What is not finite stays so: between the
-    /// windows it is found by the next one. A system of another dimension than that of the start.
+    /// windows it is found by the next one. A system of another dimension than at the start.
     #[inline]
     pub fn observe<M: System<Number = N>>(&mut self, system: &mut M) -> Result<Option<Sample<'_, N>>, RunError> {
         self.n += 1;

@@ -5,13 +5,13 @@ use std::collections::VecDeque;
 use crate::Rational;
 use crate::number::{Number, epsilon};
 
-/// Second differences need so many states.
+/// The states that second differences need.
 const STATES: usize = 3;
 
 /// The walk that round-off is expected to make, √(Σ kick²), by Brouwer's law: errors of the states are independent, so that the
 /// energy goes like the square root of the number of steps (D. Brouwer, Astron. J. 46 (1937) 149).
 ///
-/// A step rounds q and p by c ε|q| and c ε|p| at least, which moves H by U_q δq and T_p δp; T_p is Δq/h, and U_q is −Δp/h. Of
+/// A step rounds q and p by c ε|q| and c ε|p| at least, which moves H by U_q δq and T_p δp; T_p is Δq/h, and U_q is −Δp/h. In
 /// compensated sums the increments are rounded.
 #[derive(Clone, Debug)]
 pub(crate) struct Walk<N> {
@@ -84,7 +84,7 @@ pub(super) fn add_squares<N: Number>(sum: &mut N, [q0, q1]: [&[N]; 2], [p0, p1]:
     }
 }
 
-/// Adds Σ (2 (Δq Δp)² + (δ²q p)² + (δ²p q)²), likewise: Δq and Δp are rounded by cε of them, and the force is that at q rounded by
+/// Adds Σ (2 (Δq Δp)² + (δ²q p)² + (δ²p q)²) in the same way: Δq and Δp are rounded by cε of them, and the force is evaluated at q rounded by
 /// cε|q|, which changes it by h U_qq cε q, with h U_qq Δq = −δ²p; so does the drift with p.
 pub(super) fn add_squares_of_increments<N: Number>(
     sum: &mut N,

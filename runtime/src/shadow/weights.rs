@@ -45,7 +45,7 @@
 //! $$F = \tfrac12 \, d \, G(e^{-s}) - \tfrac12 \int_0^d (1-X)^k \, (1-Y)^k \, dd' .$$
 //!
 //! The second term is of degree $2k + 1$ in $h$. The first is the mean of $\frac12 (x - y)$, the derivative in
-//! $\frac12 h (q' \cdot p - q \cdot p')$, at the states $i$ with the weights $C(k,i)^2$. So, as $G(1) = C(2k,k)$, and likewise for
+//! $\frac12 h (q' \cdot p - q \cdot p')$, at the states $i$ with the weights $C(k,i)^2$. So, as $G(1) = C(2k,k)$, and with the same for
 //! $\beta$, whose weights are $\sum_j P_{ij}$,
 //!
 //! $$E_k = \sum_i \frac{C(k,i)^2}{C(2k,k)} \cdot \tfrac12 \bigl( q' \cdot p - q \cdot p' - \beta' \bigr)(\text{state } i) + O(h^{2k}) :$$

@@ -1,6 +1,6 @@
 //! exp, log, sin and cos of several `f64` at once: without branches, so that the compiler makes vector operations of the loops.
 //!
-//! Polynomials and reductions are those of fdlibm (Copyright (C) 1993 by Sun Microsystems, Inc.; permission to use, copy, modify, and distribute is
+//! Polynomials and reductions are taken from fdlibm (Copyright (C) 1993 by Sun Microsystems, Inc.; permission to use, copy, modify, and distribute is
 //! freely granted, provided that this notice is preserved), with every case of an argument computed and the right one selected. No operation
 //! is fused: the bits are the same on all processors.
 
@@ -157,7 +157,7 @@ pub(super) fn cos(x: f64) -> f64 {
     selected(n.wrapping_add(1), sin_of_reduced(r), cos_of_reduced(r))
 }
 
-/// The sine of n π/2 + r, from those of r; the last two bits of n are used.
+/// The sine of n π/2 + r, from the sine and cosine of r; the last two bits of n are used.
 #[inline(always)]
 fn selected(n: u64, sin: f64, cos: f64) -> f64 {
     let cos_is_it = (n & 1).wrapping_neg();

@@ -12,7 +12,7 @@ use super::{
 use crate::number::{LimbAccess, Number, Parts};
 use crate::system::Increments;
 
-/// Those of q and p, which are about 1 in most units; and that of their products and of β.
+/// The offset of q and p, which are about 1 in most units; and the offset of their products and of β.
 const OFFSET: Offset = 16;
 const OFFSET_OF_PRODUCTS: Offset = 2 * OFFSET;
 
@@ -138,7 +138,7 @@ impl Level {
         }
     }
 
-    /// At least so many limbs.
+    /// Makes room for at least `len` limbs.
     fn widen(&mut self, len: usize) {
         let old = self.len;
         if len > old {

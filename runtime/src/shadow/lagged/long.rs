@@ -3,9 +3,9 @@
 use crate::instructions;
 use crate::number::Number;
 
-/// Coordinates are added up in so many sums that do not wait for one another, on all machines.
+/// The number of sums in which coordinates are added up, which do not wait for one another; the same on all machines.
 const LANES: usize = 8;
-/// So many lags take turns.
+/// The number of lags that take turns.
 const AT_ONCE: usize = 4;
 
 /// Some of what a step added to q and p. Each is a line of a processor's cache, which vectors of `f64` then do not cross.

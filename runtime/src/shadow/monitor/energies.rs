@@ -22,9 +22,9 @@ pub(super) struct Energies<N> {
     checks: u64,
 }
 
-/// The rate is checked in so many windows, and then in one of so many; of windows that overlap, in those that have no state in common.
+/// The rate is checked in this many windows, and then in one of this many; overlapping windows count only if they have no common state.
 const CHECKS: u64 = 8;
-/// There one of so many is enough: they are as many states as those of windows with plain steps between them.
+/// For overlapping windows one of this many is enough: it takes as many states as for windows with plain steps between them.
 const CHECKS_OF_OVERLAPPING: u64 = 64;
 
 impl<N: Number> Energies<N> {

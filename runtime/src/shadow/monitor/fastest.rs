@@ -4,7 +4,7 @@ use super::turning::{STATES, Sums, Turning, assign_second_difference, turning};
 use crate::instructions;
 use crate::number::{Ordered, epsilon};
 
-/// So many coordinates of a long state are computed at once.
+/// The number of coordinates of a long state that are computed at once.
 const LANES: usize = 8;
 
 /// A second difference of fewer last places of p than this is round-off.

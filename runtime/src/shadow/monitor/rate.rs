@@ -3,7 +3,7 @@
 use crate::number::{Ordered, epsilon};
 use crate::system::System;
 
-/// Both are rounded; a difference of so many last places of |H| + T is not.
+/// Both are rounded; a difference of this many last places of |H| + T is more than round-off.
 const LARGEST_ROUNDING: i32 = 1_000_000_000;
 
 /// Room for the comparison, and its result.

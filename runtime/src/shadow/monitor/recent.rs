@@ -17,9 +17,9 @@ use crate::system::System;
 
 /// The states that are kept, with second differences.
 const KEPT: usize = 3;
-/// After so many windows a part of them is enough, for all but the comparison of states with their increments.
+/// After this many windows a part of them is enough, for all but the comparison of states with their increments.
 const ALL_WINDOWS: u64 = 256;
-/// A fourth difference of p is off by less than so many last places of p: rms by √(20 s) · 0.2123, s the stages of a step.
+/// A fourth difference of p is off by less than this many last places of p: rms by √(20 s) · 0.2123, s the stages of a step.
 const LAST_PLACES: f64 = 10.0;
 
 /// The newest states of a window, and sums over windows.
@@ -33,19 +33,19 @@ pub(super) struct Recent<N> {
     evaluations: [u64; 2],
     /// The most of them that are counted as stages of a step.
     most_stages: u64,
-    /// Whether round-off is that of the increments.
+    /// Whether round-off comes from the increments only.
     compensated: bool,
     /// (c ε/h)²
     factor: N,
     /// States that are still to be skipped, and those since then.
     skipped: u64,
     taken: usize,
-    /// Windows that ended, and those of them that were not skipped, over which all sums are.
+    /// Windows that ended, and how many of them were not skipped; all sums are over the latter.
     ended: u64,
     windows: u64,
     /// Σ T
     kinetic: N,
-    /// Σ kick², and that of the newest window.
+    /// Σ kick² over these windows, and kick² of the newest.
     kicks: N,
     square_kick: N,
     /// Over these windows, and in the newest.
@@ -119,7 +119,7 @@ impl<N: Ordered> Recent<N> {
         })
     }
 
-    /// A step has at most so many stages, whatever is evaluated between steps.
+    /// A step has at most `most_stages` stages, whatever is evaluated between steps.
     pub(super) fn with_most_stages(self, most_stages: u64) -> Self {
         Recent { most_stages, ..self }
     }
@@ -328,7 +328,7 @@ impl<'a, N> Kept<'a, N> {
 
 /// Whether a state differs from the one before plus its increments, by more than 1/1000 of these and 1000 ε of its numbers: of q, or of p.
 ///
-/// Increments that a plain step left behind are those of an earlier step, or 0.
+/// Increments that a plain step left behind belong to an earlier step, or are 0.
 #[inline(always)]
 fn differ<N: Ordered>(
     [before, after, added]: [&[N]; 3],

@@ -34,10 +34,10 @@ use super::turning::Turning;
 /// **What it cannot detect:**
 /// - linear trends below 1e-3 of the energy error: slow oscillations of the outer planets' H̄ look like one, and make up to 1e-4;
 /// - what happens later: a slow instability, or an encounter that has not come yet;
-/// - resonances of slow motions, and of oscillations with a small part of the momentum: the angle θ is that of the second
+/// - resonances of slow motions, and of oscillations with a small part of the momentum: the angle θ is computed from the second
 ///   differences of p, over all coordinates at once;
 /// - what happens between windows without a lasting effect;
-/// - whether a light body is resolved, unless it turned fast in the first five states and no longer does: its energy is no part of the whole.
+/// - whether a light body is resolved, unless it turned fast in the first five states and no longer does: its energy is a negligible part of the whole.
 ///   The report names [the coordinate that turns fastest](super::Report::fastest_coordinate) where the steps hardly resolve it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
@@ -122,7 +122,7 @@ pub enum Missing {
 /// What would decide an undecided verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Advice {
-    /// So many windows, in a longer run or more often.
+    /// The number of windows, in a longer run or more often.
     pub windows: u64,
     /// An estimator of this order k or m: from the fall of its errors with the order where the second harmonic of the fastest
     /// motion dominates. `None` where no order up to 64 would do.
@@ -142,7 +142,7 @@ const LINEAR_MOVE: f64 = 1e-3;
 /// The range of H − H̄ may be off 0 by this part of θ²T (up to 1/12 was measured), or of the energy error.
 const OFFSET_PER_TURNING: f64 = 1.0 / 6.0;
 const OFFSET_LIMIT: f64 = 0.5;
-/// H − H̄ is compared with the energy error from so many turns of the fastest motion on: on a short arc H hardly varies. In correct
+/// H − H̄ is compared with the energy error from this many turns of the fastest motion on: on a short arc H hardly varies. In correct
 /// loops H − H̄ was too large for that up to 0.64 turns, with symplectic Euler.
 const LEAST_TURNS: f64 = 1.0;
 /// Steps with their increments move H̄ by less than this part of the energy error.
@@ -203,9 +203,9 @@ pub(super) struct Evidence {
     pub(super) offset: f64,
     /// The root mean square of the errors.
     pub(super) error_rms: f64,
-    /// That of H − H̄ with the H̄ of the same window, as a part of it.
+    /// The root mean square of H − H̄ with the H̄ of the same window, as a part of this.
     pub(super) distance: f64,
-    /// That of the last terms as a part of it.
+    /// The root mean square of the last terms, as a part of this.
     pub(super) last_term: f64,
     /// The energy error as a part of the mean kinetic energy.
     pub(super) of_kinetic: f64,
