@@ -1,4 +1,4 @@
-//! A step takes no plain array of numbers as its weights, nor those of a stepper, which are a slice.
+//! A step takes neither a plain array of numbers as its weights nor the weights of a stepper, which are a slice.
 
 use shadowstep::problems::Pendulum;
 use shadowstep::{Motion, Scheme, Stepper, UnitMasses, splitting_scheme};

@@ -118,7 +118,7 @@ impl Problem {
         }
     }
 
-    /// U_q, likewise.
+    /// U_q.
     pub fn gradient(self, q: &[Float]) -> Vec<Float> {
         let x = || q[0].clone();
         match self {

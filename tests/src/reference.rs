@@ -18,8 +18,8 @@ pub struct Separable<'a> {
 }
 
 impl Separable<'_> {
-    /// The flow over a time h: the error of the leapfrog rule has even powers of the step only, of which so many
-    /// columns leave about h^(2 columns + 1).
+    /// The flow over a time h: the error of the leapfrog rule has even powers of the step only, of which
+    /// `columns` columns leave about h^(2 columns + 1).
     pub fn flow(self, start: &[Float], h: &Float, columns: u32) -> State {
         let mut row: Vec<State> = Vec::new();
         for k in 1..=columns {

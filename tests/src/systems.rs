@@ -77,7 +77,7 @@ pub enum Masses<N> {
 }
 
 impl<N: Ordered> Masses<N> {
-    /// One of each kind, all different from each other, for so many coordinates.
+    /// One of each kind, all different from each other, for `dimension` coordinates.
     pub fn all(dimension: usize, context: &N::Context) -> [Masses<N>; 3] {
         let diagonal: Vec<_> = [rational("4/3"), rational("0.7")][..dimension].to_vec();
         let full = [[rational("1.1"), rational("-1/4")], [rational("-1/4"), rational("2/3")]];

@@ -105,7 +105,7 @@ fn weights_are_those_of_the_printed_tables() {
     }
 }
 
-/// Added up over the positions of a pair in the window, the weights are those of D_k.
+/// Added up over the positions of a pair in the window, the weights are the weights of D_k.
 #[test]
 fn weights_of_each_lag_sum_to_those_of_central_differences() {
     for k in (1..=30).chain([100]) {

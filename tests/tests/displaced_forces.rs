@@ -196,7 +196,7 @@ fn displaced_forces_are_symplectic_with_one_degree_of_freedom_only() {
     assert!(exact < -36.0 && one < -36.0 && displaced > -9.0, "10^{exact}, 10^{displaced}, 10^{one}");
 }
 
-/// β is that of a potential whose gradient differs from the force by δ², so that the modified energy is known to so much: of planets ε³h⁴.
+/// β belongs to a potential whose gradient differs from the force by δ², which limits the modified energy: to ε³h⁴ for planets.
 #[test]
 fn the_modified_energy_is_known_to_the_square_of_the_displacement() {
     let drift = |h: &str, steps: u64, displaced: bool| {

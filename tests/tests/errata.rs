@@ -56,7 +56,7 @@ fn printed(name: &str) -> String {
     fs::read_to_string(format!("{ANALYSIS_TESTS}/published/{name}.toml")).expect(name)
 }
 
-/// The same with a claim of so many digits.
+/// The same with a claim of `digits` digits.
 fn printed_with_digits(name: &str, digits: u32) -> String {
     let text = printed(name);
     let at = text.find("kinetic").unwrap();
@@ -118,7 +118,7 @@ fn every_table_has_its_message_below() {
     says(&format!("A test of the sums alone would have found {sums} of the {tables} tables that are refused above."));
 }
 
-/// The first table's orders, claimed and proved, are those of the messages.
+/// The first table's orders, claimed and proved, agree with the messages.
 #[test]
 fn the_overview_agrees_with_the_messages() {
     for (name, row) in [

@@ -182,7 +182,7 @@ impl<N: Number, K: Kinetic<N>> Kinetic<N> for WrongSign<K> {
     }
 }
 
-/// Over the time 20 with steps of 1/n; differences with so many terms.
+/// Over the time 20 with steps of 1/n, by D_m.
 fn drift_of<K: Kinetic<Float>>(problem: Problem, kinetic: K, name: &str, n: u64, m: u32) -> EnergyDrift<Float>
 where
     TableScheme<General>: ValidFor<K::Class>,

@@ -589,7 +589,7 @@ fn a_composition_of_absurd_size() {
     assert!(faults.ends_with("hint: at most 2000 are allowed"), "{faults}");
 }
 
-/// A constant that stands below, or is the one being defined, is no unknown name.
+/// A constant that stands below, or is the one being defined, is not reported as an unknown name.
 #[test]
 fn constants_from_below() {
     let table = |x: &str, y: &str| {

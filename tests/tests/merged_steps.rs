@@ -1,5 +1,5 @@
 //! Protects steps whose ends are made as one map: the same states up to round-off for every table and number type, n + 1 kicks for n
-//! steps, bits that are those of the merged maps one by one, in all lanes and vector instructions.
+//! steps, the bits of the merged maps one by one, in all lanes and vector instructions.
 
 use proptest::prelude::*;
 use shadowstep::instructions::Instructions;
@@ -30,7 +30,7 @@ fn start<N: Number>(context: &N::Context) -> Star<N> {
     Motion::new(HenonHeiles, UnitMasses, [number("0.1"), number("0.2")], [number("0.1"), number("-0.05")]).unwrap()
 }
 
-/// The states after so many merged steps, and after as many one by one.
+/// The states after `steps` merged steps, and after as many one by one.
 fn both<S: Scheme, N: Number>(stepper: &Stepper<S, N>, start: &Star<N>, steps: u64) -> [Vec<N>; 2] {
     let [mut merged, mut one_by_one] = [start.clone(), start.clone()];
     stepper.merged_steps(std::slice::from_mut(&mut merged), steps);
@@ -104,7 +104,7 @@ proptest! {
 // ---------------------------------------------------------------------------------------------------------------
 // The maps
 
-/// So many times the operations.
+/// `count` times the operations.
 fn times(count: u64, operations: Operations) -> [u64; 3] {
     [operations.additions, operations.multiplications, operations.divisions].map(|of_kind| count * of_kind)
 }

@@ -110,7 +110,7 @@ fn same<N: Bits>(one: &[N], other: &[N]) {
     }
 }
 
-/// Of so many bodies that sums in `f64` are in blocks.
+/// With enough bodies that sums in `f64` are in blocks.
 fn compiled_and_read_are_the_same_of_many<N: Bits>(context: &N::Context) {
     const BODIES: usize = 21;
     let texts = |count: usize, divisor: usize| -> Vec<String> {

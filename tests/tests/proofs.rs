@@ -188,7 +188,7 @@ fn schemes_for_quadratic_kinetic_energy() {
     }
 }
 
-/// Where T is quadratic, kick and drift are no equals: exchanging them loses orders, which is proved again.
+/// Where T is quadratic, kick and drift are not interchangeable: exchanging them loses orders, which is proved again.
 #[test]
 fn exchanging_kick_and_drift_loses_orders() {
     for (name, [kick, drift], digits, first, (claimed, left)) in [
@@ -216,7 +216,7 @@ fn a_wrong_digit_costs_the_digits_behind_it() {
     assert!(held(&gammas) <= 18, "{}", held(&gammas));
 }
 
-/// A claim below the truth is no fault, but is remarked.
+/// A claim below the truth is not a fault, but is noted.
 #[test]
 fn a_modest_claim_is_remarked() {
     let found = proved(&composition(4, 20, YOSHIDA_6A));

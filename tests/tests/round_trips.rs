@@ -1,4 +1,4 @@
-//! Protects what is written and read back: settings of estimators, weights of tables, values of scenes. Those of exact numbers are in
+//! Protects what is written and read back: settings of estimators, weights of tables, values of scenes. Round trips of exact numbers are in
 //! `symbolic/tests/decimal.rs`.
 
 use proptest::prelude::*;

@@ -7,7 +7,7 @@ use shadowstep::{System, ValidFor};
 potential! { struct Space; U(x, y, z) = -1/sqrt(x^2 + y^2 + z^2) }
 potential! { struct Plane; U(x, y) = (x^2 + y^2)/2 }
 
-/// A window in so many steps, in a run of so many, by E_k.
+/// A window every `every` steps, in a run of `steps` steps, by E_k.
 #[derive(Clone, Copy, Debug)]
 struct Windows {
     every: u64,
@@ -108,7 +108,7 @@ fn circular_orbits_of_several_bodies() {
     }
 }
 
-/// A derivative of the potential jumps, by so little that H − H̄ still is that of a circle.
+/// A derivative of the potential jumps, by so little that H − H̄ is still as on a circle.
 #[test]
 fn circles_with_forces_that_are_not_smooth() {
     for (m, c) in [(1, 1e-4), (1, 1e-6), (2, 1e-3), (2, 1e-5), (3, 1e-3)] {

@@ -1,4 +1,4 @@
-//! What a monitor costs and changes, which is nothing; its values are those of a run; its numbers against closed forms.
+//! What a monitor costs and changes, which is nothing; its values equal a run's; its numbers against closed forms.
 
 use super::*;
 

@@ -109,7 +109,7 @@ fn cutoffs_are_found() {
     }
 }
 
-/// A list of the pairs within the cutoff that is renewed in so many steps.
+/// A list of the pairs within the cutoff that is renewed every `every` steps.
 fn late(every: usize) -> impl FnMut(usize, &[f64], &mut [f64]) -> f64 {
     let fluid = fluid();
     let mut pairs: Vec<[usize; 2]> = Vec::new();
@@ -209,7 +209,7 @@ fn states_with_few_digits_are_not_accused() {
     }
 }
 
-/// Windows of 17 states with gaps between them: the estimates are those of the whole trajectory.
+/// Windows of 17 states with gaps between them: the estimates equal those from the whole trajectory.
 #[test]
 fn windows_with_gaps_give_the_same_values_and_causes() {
     let logged = Logged::new(&fluid(), &[1.0; 81], 0.004, fluid().start(), 600);
