@@ -58,7 +58,7 @@ impl Monitor {
         Ok(Monitor { followed, problem })
     }
 
-    /// So many steps.
+    /// Makes `count` steps.
     fn step(&mut self, py: Python<'_>, count: u64) -> PyResult<()> {
         const SIGNALS: u64 = 4096;
         let mut left = count;

@@ -40,7 +40,7 @@ impl Watched {
         !self.stop.load(Ordering::Relaxed)
     }
 
-    /// It has reached the state n, or so many tasks; returns whether it is to go on.
+    /// It has reached the state n, or n tasks; returns whether it is to go on.
     pub(crate) fn reaches(&self, n: i64) -> bool {
         self.n.store(n, Ordering::Relaxed);
         self.continues()

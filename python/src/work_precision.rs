@@ -75,7 +75,7 @@ pub(crate) fn work_precision(
     folder: PathBuf,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    /// The reference may take so many times the time of a scheme.
+    /// The reference may take this many times the time of a scheme.
     const REFERENCE: f64 = 10.0;
     let compared = Compared::of(py, problem, until, &schemes, digits)?;
     let range = match steps {

@@ -6,10 +6,10 @@ use crate::number::Number;
 /// In how many partial sums the coordinates of a long state are added up, which do not wait for one another: as many on all machines.
 const LANES: usize = 8;
 
-/// From so many coordinates on [`add_sum`] adds numbers that [keep increments](Number::KEEPS_INCREMENTS) in partial sums.
+/// From this many coordinates on [`add_sum`] adds numbers that [keep increments](Number::KEEPS_INCREMENTS) in partial sums.
 pub(crate) const LONG: usize = 64;
 
-/// sum ← sum + what `add` adds for each coordinate, which gets that of each of these vectors.
+/// sum ← sum + what `add` adds for each coordinate, which gets the coordinate of each of these vectors.
 #[inline(always)]
 pub(crate) fn add_sum<N: Number, const V: usize>(
     sum: &mut N,

@@ -57,7 +57,7 @@ impl Answer {
         result
     }
 
-    /// The time of one trajectory of so many that were computed at once.
+    /// The time of one of `trajectories` trajectories that were computed at once.
     #[allow(dead_code, reason = "the other crates compute one trajectory at a time")]
     pub fn divide_time(&mut self, trajectories: u32) {
         self.time /= trajectories;

@@ -26,7 +26,7 @@ impl Newton {
         acceleration.iter_mut().zip(&self.initial.masses).for_each(|(a, m)| *a /= -m);
     }
 
-    /// Integrates one sample after the other; `integrate` goes from the state (q, v) to its end over so many units of time.
+    /// Integrates one sample after the other; `integrate` goes from the state (q, v) to its end over the given time.
     fn samples(&self, request: &Request, mut integrate: impl FnMut(Vec<f64>, f64) -> Vec<f64>) -> Answer {
         let mut state = self.initial.positions_and_velocities();
         let mut answer = Answer::default();

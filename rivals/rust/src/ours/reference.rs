@@ -9,7 +9,7 @@ use shadowstep::{Stepper, tables};
 use crate::integrate::step_size;
 use crate::problems::setup;
 
-/// Prints q at the end: of the exact flow where it is known, else of a scheme of order 10 with so many steps.
+/// Prints q at the end: of the exact flow where it is known, else of a scheme of order 10 with `steps` steps.
 pub fn print(problem: &str, until: &str, steps: &str) {
     let setup = setup(problem);
     let digits = Precision::digits(40).expect("40 digits are allowed");
