@@ -7,7 +7,7 @@
 //! ρ(h) = (B + C)²/(2(1 − A²)) = (B + C)²/(−2BC).
 //!
 //! Their schemes minimise its maximum over 0 < h < h̄, where h̄ is the number of evaluations of the forces: a step of Störmer–Verlet per
-//! unit of time costs as much. Of independent oscillators with frequencies ω, hω stands for h.
+//! unit of time costs as much. For independent oscillators with frequencies ω, hω stands for h.
 
 use num_traits::ToPrimitive;
 use shadowstep_schemes::Proved;

@@ -45,7 +45,7 @@ impl Weight {
         literal(self.double())
     }
 
-    /// The exact number where that is short, else more digits of it; `None` if they say no more than the literal.
+    /// The exact number where that is short, else more digits of it; `None` if they add nothing to the literal.
     pub(crate) fn comment(&self) -> Option<String> {
         let text = to_text(&self.exact);
         if text == self.literal() {

@@ -57,9 +57,9 @@ pub struct Ensemble {
     /// The energy is computed every `every` steps, at the beginning and at the end; at least 1.
     pub every: u64,
     /// The k of [E_k](FixedBilinear), where the drift of the modified energy is computed: from the k + 1 states that begin with each state
-    /// whose energy is looked at.
+    /// whose energy is computed.
     pub modified_energy: Option<u32>,
-    /// Whether, between states that are looked at, the last map of a step and the first of the next are made as one: faster, with the
+    /// Whether, between states whose energy is computed, the last map of a step and the first of the next are made as one: faster, with the
     /// bits of [`Stepper::merged_steps`] in stretches of 128 steps at most. By default they are not.
     pub merged: bool,
     /// Threads; `None` means as many as the processor has.
@@ -114,7 +114,7 @@ pub enum EnsembleError<E> {
     /// It was stopped before its end.
     #[error("the ensemble was stopped")]
     Stopped,
-    /// The energy cannot be looked at every 0 steps.
+    /// The energy cannot be computed every 0 steps.
     #[error("the energy can be looked at every 1 step or more, not every 0 steps")]
     EveryZero,
 }

@@ -77,7 +77,7 @@ pub struct KeplerDrift<N> {
     equation: Equation<N>,
     gauss: [N; 4],
     increment: [N; 2],
-    /// Of all coordinates, where a lane passes the centre.
+    /// The increments of all coordinates, where a lane passes the centre.
     increments: Vec<[N; 2]>,
     passage: Option<Passage>,
 }

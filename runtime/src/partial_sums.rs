@@ -141,7 +141,7 @@ mod tests {
     use super::*;
     use crate::number::Lanes;
 
-    /// Of multiples of 1/1024 every sum is exact, so that nothing may be missing or twice.
+    /// Sums of multiples of 1/1024 are exact, so that nothing may be missing or twice.
     #[test]
     fn every_coordinate_is_added_once() {
         for length in [1, 7, 8, LONG - 1, LONG, LONG + 1, 10 * LONG + 5] {

@@ -27,7 +27,7 @@ use crate::potential::Potential;
 ///   directions.
 ///
 /// A comparison costs some 120 evaluations of the energy at a state, whatever the dimension, and 80 log₂ d more to find a coordinate.
-/// States in which forces act, and no symmetry makes them vanish, say most. Where forces are not smooth, as at a cutoff, the
+/// States in which forces act, and no symmetry makes them vanish, test most. Where forces are not smooth, as at a cutoff, the
 /// differences have large errors and the comparison is undecided.
 ///
 /// ```

@@ -222,7 +222,7 @@ fn errors_of_random_orbits() {
     }
 }
 
-/// What the documentation says: `cargo test --release -p shadowstep --test kepler_drift -- --ignored --nocapture`
+/// The numbers in the documentation: `cargo test --release -p shadowstep --test kepler_drift -- --ignored --nocapture`
 #[test]
 #[ignore = "some minutes"]
 fn errors_of_a_hundred_thousand_random_orbits() {
@@ -521,7 +521,7 @@ fn round_off_wanders() {
     }
 }
 
-/// What the documentation says, as above.
+/// The numbers in the documentation, as above.
 #[test]
 #[ignore = "some minutes"]
 fn ten_million_drifts_wander() {

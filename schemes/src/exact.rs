@@ -184,7 +184,7 @@ impl Cells<'_> {
         }
     }
 
-    /// The fault of a name that is one of the constants, but is not known yet.
+    /// The fault of a constant's name that is used before its definition ends.
     fn constant_below(&self, at: &Range<usize>) -> Option<Fault> {
         let word = self.table.source.text.get(at.clone())?;
         let defined = self.table.constants.iter().any(|(name, _)| name.value == word);

@@ -22,7 +22,7 @@ pub struct Plan {
     pub gradient_kicks: Vec<Rational>,
     /// What is done: the kind of the map and the index of its weight among the weights of its kind.
     pub maps: Vec<(MapKind, usize)>,
-    /// Of [many parts](crate::many_parts): between each map and the next the index of the weight of the middle parts, which flow from H_2 to H_(n−1)
+    /// For [many parts](crate::many_parts): between each map and the next the index of the weight of the middle parts, which flow from H_2 to H_(n−1)
     /// after a kick, and from H_(n−1) to H_2 after a drift.
     pub middle: Vec<usize>,
     /// Evaluations of the gradient per step, the first step of a run not counted.

@@ -17,7 +17,7 @@ use crate::order::{Condition, Functional};
 use crate::rounding::{Linearised, Unexplained};
 use crate::scheme::{ExactScheme, Held};
 
-/// Digits that sums of products of good weights lose without a note, where the decimals themselves are not looked at; the
+/// Digits that sums of products of good weights lose without a note, where the decimals themselves are not examined; the
 /// worst of the shipped tables loses 3.
 const MOST_DIGITS_LOST: u32 = 5;
 
@@ -177,7 +177,7 @@ pub(crate) enum Finding<'a> {
 }
 
 impl Finding<'_> {
-    /// Whether the claim is refused; the other claims are true, and say less than the truth.
+    /// Whether the claim is refused; the other claims are true, but below what is proved.
     pub(crate) fn is_refused(&self) -> bool {
         let refused = matches!(self, Finding::Sum { .. } | Finding::LowerOrder { .. } | Finding::NotSymmetric { .. });
         refused || matches!(self, Finding::Unexplained { refused: true, .. })

@@ -207,7 +207,7 @@ fn first_value<P: Potential<Float>>(
     estimate.value.clone()
 }
 
-/// E_k is off by c h^{2k}, so halving h shows 2k: for a palindrome, and for schemes that are none.
+/// E_k is off by c h^{2k}, so halving h shows 2k: for a palindrome, and for schemes that are not.
 #[test]
 fn the_order_is_2k() {
     const DIGITS: u32 = 100;

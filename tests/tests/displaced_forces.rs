@@ -37,7 +37,7 @@ fn oscillators(context: &<Float as Number>::Context) -> LinearPart<Float, HenonH
     LinearPart::new(HenonHeiles, &["3", "1/2"].map(rational), &stiffness, &q, &p).expect("the dimensions agree")
 }
 
-/// Of Chin's 4A with h = 1/3, whose kick in the middle has a = 2/3 and c = 1/72: p −= h a B_q(q′), q′ = q − δ M⁻¹B_q(q), δ = 2h²c/a; and
+/// The formula for Chin's 4A with h = 1/3, whose kick in the middle has a = 2/3 and c = 1/72: p −= h a B_q(q′), q′ = q − δ M⁻¹B_q(q), δ = 2h²c/a; and
 /// β += h a (qᵀB_q − 2B) at q′.
 fn is_the_formula(mut system: impl System<Number = Float>, inverse_masses: &[Float]) {
     let number = |text: &str| Float::from_rational(&rational(text), &precision(DIGITS));

@@ -68,7 +68,7 @@ fn exchanged(name: &str, first: First) -> String {
     read_first(&source, &|base, _| shipped(base), Some(first)).expect_err("roles matter here").to_string()
 }
 
-/// What is said of a table.
+/// The message about a table.
 fn message(name: &str) -> String {
     match name {
         "blanes-moan-srkn14a" => exchanged(name, First::Kick),

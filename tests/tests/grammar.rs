@@ -135,7 +135,7 @@ mine.toml:14:39: a weight of 5000 is too large
     );
 }
 
-/// The keys that say more of a scheme than it needs to be one.
+/// The keys that a scheme does not need.
 #[test]
 fn all_faults_of_names_free_parameters_and_near_integrable_orders() {
     assert_refused(

@@ -117,7 +117,7 @@ fn an_escape_ends_with_its_step() {
 // ---------------------------------------------------------------------------------------------------------------
 // Close encounters
 
-/// Steps that cannot resolve the pericentre: the run goes on, and its drift says that nothing is conserved.
+/// Steps that cannot resolve the pericentre: the run goes on, and its drift shows that nothing is conserved.
 #[test]
 fn eccentric_orbits_run_through() {
     for (gap, least) in [("0.1", 1e-3), ("0.01", 1e-1)] {

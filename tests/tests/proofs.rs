@@ -205,7 +205,7 @@ fn exchanging_kick_and_drift_loses_orders() {
 }
 
 /// One weight off by 2e-18, as a copy of this table has it: the order still holds as closely as 20 digits and the many
-/// products of fifteen stages can tell, but the digits that hold say that something is wrong.
+/// products of fifteen stages can tell, but the digits that hold show that something is wrong.
 #[test]
 fn a_wrong_digit_costs_the_digits_behind_it() {
     let mut gammas: Vec<&str> = SUZUKI_UMENO_8.iter().map(|gamma| &gamma[..gamma.len() - 20]).collect();

@@ -30,7 +30,7 @@ pub(super) struct Solution {
     pub(super) x: Vec<Rational>,
     /// The unknowns that were solved for.
     pub(super) moving: Vec<usize>,
-    /// Of the derivatives at the solution.
+    /// The condition number of the derivatives at the solution.
     pub(super) condition_number: f64,
 }
 
@@ -39,7 +39,7 @@ pub(super) struct Solution {
 pub(super) struct Failure {
     /// log10 of the least residual.
     pub(super) residual: f64,
-    /// Of the derivatives where the iteration ended.
+    /// The condition number of the derivatives where the iteration ended.
     pub(super) condition_number: f64,
     /// How many unknowns were solved for.
     pub(super) moving: usize,

@@ -15,7 +15,7 @@ const LONGEST: usize = 4096;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Text {
     pub(super) formula: String,
-    /// Of coordinates, momenta or properties.
+    /// The names of coordinates, momenta or properties.
     pub(super) variables: Vec<String>,
     pub(super) parameters: Vec<String>,
     pub(super) role: Role,

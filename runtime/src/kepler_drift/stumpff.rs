@@ -27,7 +27,7 @@ pub(super) struct Stumpff<N> {
     sums: [N; 4],
 }
 
-/// What of the series is summed.
+/// Which terms of the series are summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Terms {
     /// All that matter.

@@ -52,7 +52,7 @@ pub use machine::Machine;
 /// in `f64`.
 ///
 /// Errors of products are found by a fused multiply-add where the processor has it, else from halves of 26 bits (Dekker). Both are exact, so that
-/// the bits are the same on every machine, but where 2⁻⁹⁶⁹ is above the product. Of the functions, atan, asin, acos and roots of
+/// the bits are the same on every machine, but where 2⁻⁹⁶⁹ is above the product. Among the functions, atan, asin, acos and roots of
 /// an order above 2 begin with the platform's `f64`.
 ///
 /// ```

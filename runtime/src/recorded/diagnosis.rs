@@ -15,7 +15,7 @@ const SINGLE: f64 = 2.4e-7;
 const ROUNDED: f64 = -0.3;
 /// H̄ moved if its range is this part of the energy error or more, beyond errors on both sides.
 const MOVED: f64 = 0.1;
-/// H̄ is not known well enough to say that it did not, if its error is this part of the energy error or more.
+/// H̄ is not known well enough to exclude a change, if its error is this part of the energy error or more.
 const UNKNOWN: f64 = 0.25;
 /// An estimate may be wrong by this many times its error.
 const ERROR_FACTOR: f64 = 3.0;
@@ -133,7 +133,7 @@ pub enum Cause {
     ForcesNotSmooth,
     /// The time step: forces are smooth, and the steps do not resolve the motion.
     TimeStep,
-    /// The states do not tell.
+    /// Not decided by these states.
     Undecided,
 }
 

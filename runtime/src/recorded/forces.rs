@@ -63,7 +63,7 @@ impl Window {
 
 /// Sums of squares of what the filters of a window leave of the gradients.
 ///
-/// The mean square S of what a filter leaves, divided by Σ weights², is σ² for noise of variance σ². Of eighth differences it doubles with the
+/// The mean square S of what a filter leaves, divided by Σ weights², is σ² for noise of variance σ². For eighth differences it doubles with the
 /// distance where U' jumps, as twice as many jumps are seen; where U'' jumps it is 2³ times as large. Where the forces are smooth and the steps
 /// resolve the motion, it is 2¹⁶ times as large.
 #[derive(Clone, Debug)]

@@ -181,7 +181,7 @@ impl Observer {
         &self.values
     }
 
-    /// What moves the energy, as far as the states so far tell.
+    /// What moves the energy, as far as the states so far show.
     pub fn diagnosis(&self) -> Diagnosis {
         Diagnosis::of(&Evidence {
             window: self.window,

@@ -34,7 +34,7 @@ pub enum StoppingRule {
 /// The number of successive terms in the early stopping rule.
 const STOP_WINDOW: usize = 11;
 
-/// The rule that selects the best m, by the sizes e_j = |T_{j,j} − T_{j−1,j−1}| of the terms. Of equal ones it is the first.
+/// The rule that selects the best m, by the sizes e_j = |T_{j,j} − T_{j−1,j−1}| of the terms. Among equal ones it is the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SelectionRule {
     /// The smallest e_m (Moan & Niesen), which reproduces their results. A term may be small by chance, far from the m where the

@@ -5,7 +5,7 @@
 //! | `schedule` | which states belong to windows |
 //! | `energies` | H and T at the middles of windows |
 //! | `blocks` | the most accurate estimates and the means of the parts of a run, in fixed memory |
-//! | `change`, `trend` | what these say: a permanent change and its uncertainty; constant, random walk or line |
+//! | `change`, `trend` | what these show: a permanent change and its uncertainty; constant, random walk or line |
 //! | `statistics` | extremes and sums over the windows |
 //! | `recent` | round-off, turning and consistency, from the newest states of a window |
 //! | `turning` | the angle of a step, from differences of momenta |
@@ -55,7 +55,7 @@ use crate::system::{Increments, System};
 ///
 /// It takes all states, and keeps the states of *windows*: as many as the estimator needs, at every step or
 /// [every n steps](ShadowEnergy::every). Only the steps within windows are augmented; the others are plain steps, with the same
-/// bits and cost. Of the windows it keeps extremes, sums and 64 estimates, however
+/// bits and cost. From the windows it keeps extremes, sums and 64 estimates, however
 /// long the run: nothing is allocated after the beginning.
 ///
 /// The [`Report`] splits the energy error into the method's part H − H̄, the range of H̄ beside the expected effect of round-off,

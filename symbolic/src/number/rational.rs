@@ -46,7 +46,7 @@ impl Rational {
         }
     }
 
-    /// numerator/denominator without a search for common divisors, of which there must be none; the denominator must be
+    /// numerator/denominator without a search for common divisors; there must be none, and the denominator must be
     /// positive.
     pub(crate) fn new_raw(numerator: BigInt, denominator: BigInt) -> Self {
         Rational(BigRational::new_raw(numerator, denominator))

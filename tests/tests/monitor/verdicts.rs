@@ -78,7 +78,7 @@ fn many_bodies() {
     }
 }
 
-/// A body that nothing pulls has an energy error of 0, of which nothing is a part.
+/// A body without forces has an energy error of 0, so that nothing can be compared with it.
 #[test]
 fn free_motion_is_fine() {
     potential! { struct Nothing; U(x) = 0*x }

@@ -184,7 +184,7 @@ fn other_steps_are_found() {
     for found in (Run { h: 0.002, steps: 1000, evaluate: of(Cutoff::Smooth), after, store: |x| x }).observe(0.002) {
         assert_eq!(found.cause, Cause::OtherSteps, "{found}");
     }
-    // another step size than is said
+    // another step size than stated
     let run = Run { h: 0.002, steps: 1000, evaluate: of(Cutoff::Smooth), after: |_: &mut [f64]| (), store: |x| x };
     for found in run.observe(0.00201) {
         assert_eq!(found.cause, Cause::OtherSteps, "{found}");

@@ -60,7 +60,7 @@ pub(super) fn sin_cos_each<const W: usize>(x: &mut [f64; W], cos: &mut [f64; W])
     cos_each(cos);
 }
 
-/// Of large angles and those that are not finite, the platform's function.
+/// Replaces the values at large angles, and at angles that are not finite, by the platform's function.
 #[inline]
 fn replace_large<const W: usize>(values: &mut [f64; W], angles: &[f64; W], function: impl Fn(f64) -> f64) {
     let is_large = |x: &f64| x.abs() > LARGEST_ANGLE;
@@ -120,7 +120,7 @@ pub(super) fn log(x: f64) -> f64 {
         1.531383769920937332e-01,
         1.479819860511658591e-01,
     ];
-    /// Of √½, in its first 32 bits.
+    /// The first 32 bits of √½.
     const ROOT_OF_HALF: u64 = 0x3fe6_a09e_0000_0000;
     const MANTISSA: u64 = (1 << 52) - 1;
     const TWO_52: f64 = 4_503_599_627_370_496.0;

@@ -44,7 +44,7 @@ pub(super) struct Blocks<N> {
 }
 
 impl<N: Ordered> Blocks<N> {
-    /// Of a run that begins with the energy `origin`.
+    /// The blocks of a run that begins with the energy `origin`.
     pub(super) fn new(origin: &N) -> Self {
         let context = origin.context();
         Blocks {
