@@ -6,7 +6,7 @@
 //! it. In the dictionary the letter of which there are more comes first, K where there are as many of both; brackets end
 //! in that letter and the other one. So K and D are treated alike: for every odd n the basis is its own image when K and
 //! D are exchanged, and a scheme has the same error coefficients whether it begins with a kick or with a drift. Up to
-//! n = 5 the brackets are those of the papers, up to the order and the sign.
+//! n = 5 the brackets are the papers' brackets, up to the order and the sign.
 //!
 //! For quadratic T a bracket of k kicks and d drifts is a polynomial of degree d − k + 1 in p, so that all with k ≥ d + 2
 //! vanish, and with them the ideal that they generate. It is spanned by the right-nested brackets in which some inner
@@ -94,7 +94,7 @@ struct Basis {
 }
 
 impl Basis {
-    /// That of the brackets with k kicks, whose Lyndon words these are; computed once for each k, number of letters and kinetic energy.
+    /// The basis of the brackets with k kicks, whose Lyndon words are given; computed once for each k, number of letters and kinetic energy.
     fn known(words: &[Word], k: usize, kinetic: Kinetic) -> Arc<Basis> {
         type Known = BTreeMap<(usize, usize, bool), Arc<Basis>>;
         static KNOWN: Mutex<Known> = Mutex::new(BTreeMap::new());
@@ -123,7 +123,7 @@ impl Basis {
     }
 }
 
-/// The basis of the brackets with k kicks and d drifts; for quadratic T with that of the ideal before it.
+/// The basis of the brackets with k kicks and d drifts; for quadratic T the basis of the ideal comes first.
 fn basis(words: &[Word], k: usize, d: usize, kinetic: Kinetic) -> Vec<Bracket> {
     let mut candidates = candidates(k, d);
     if kinetic == Kinetic::Quadratic {

@@ -17,7 +17,7 @@ use shadowstep_schemes::claims::Kinetic;
 use shadowstep_schemes::map::{Map, MapKind};
 use shadowstep_schemes::order::{Word, lyndon_words, prefix_coefficients};
 
-/// Digits behind the point of the words' coefficients. They are at least 1e-8 or so before those of the exact flow
+/// Digits behind the point of the words' coefficients. They are about 1e-8 or larger before the coefficients of the exact flow
 /// are subtracted, and the difference is needed to the 16 digits of f64.
 const DIGITS: u32 = 60;
 
@@ -90,10 +90,10 @@ fn words(length: usize) -> Vec<Word> {
 
 /// X = exp(h a_1 K) exp(h b_1 D) … exp(−h (K + D)) − 1
 struct Excess {
-    /// Those of the product of the maps, in units.
+    /// The coefficients of the product of the maps, in units.
     coefficients: HashMap<Word, BigInt>,
     unit: BigInt,
-    /// Of the words with fewer letters X has none.
+    /// X has no words with fewer letters.
     least: usize,
 }
 
@@ -122,7 +122,7 @@ impl Excess {
         cuts.map(|cut| self.value(&word[..cut]) * self.power(&word[cut..], r - 1) / &self.unit).sum()
     }
 
-    /// The coefficient of a word in X, by Horner's rule: the sum over its cuts of the maps' coefficient of the first part times that of
+    /// The coefficient of a word in X, by Horner's rule: the sum over its cuts of the maps' coefficient of the first part times the coefficient of
     /// the second, of n letters, in exp(−h (K + D)), which is (−1)ⁿ/n!.
     fn value(&self, word: &[MapKind]) -> BigInt {
         let mut sum = self.unit.clone();

@@ -9,7 +9,7 @@
 //! | `unknowns`, `palindrome` | table → its decimals as unknowns, and the weights as functions of them |
 //! | `formulas` | what the cells name |
 //! | `printed` | what holds of the table as printed |
-//! | `equations`, `composition` | which conditions must hold; those of compositions in the γ's alone |
+//! | `equations`, `composition` | which conditions must hold; for compositions, conditions in the γ's alone |
 //! | `dual` | values with their derivatives, in fixed point |
 //! | `least_squares`, `newton` | linear algebra; the choice of what stays as printed; the iteration |
 //! | `rounded` | the values as they are written, with sums of exactly 1 |

@@ -96,7 +96,7 @@ fn product<A: Arithmetic>(arithmetic: &A, a: &[A::Value], b: &[A::Value]) -> Vec
     product
 }
 
-/// The quotient of a division that leaves nothing, from the lowest term on; `constant` is that of the divisor, exactly.
+/// The quotient of a division that leaves nothing, from the lowest term on; `constant` is the constant term of the divisor, exactly.
 pub(crate) fn quotient<A: Arithmetic>(
     arithmetic: &A,
     dividend: &[A::Value],

@@ -7,7 +7,7 @@
 //! ρ(h) = (B + C)²/(2(1 − A²)) = (B + C)²/(−2BC).
 //!
 //! Their schemes minimise its maximum over 0 < h < h̄, where h̄ is the number of evaluations of the forces: a step of Störmer–Verlet per
-//! unit of time costs as much. Of independent oscillators with frequencies ω, hω stands for h.
+//! unit of time costs as much. For independent oscillators with frequencies ω, hω stands for h.
 
 use num_traits::ToPrimitive;
 use shadowstep_schemes::Proved;
@@ -31,7 +31,7 @@ const POINTS: u32 = 4000;
 const REFINEMENTS: u32 = 40;
 
 impl SamplingError {
-    /// That of a symmetric scheme; `None` for other ones, which are not reversible in time. Of a processed scheme it is that of the kernel.
+    /// The error of a symmetric scheme; `None` for other ones, which are not reversible in time. For a processed scheme it is the kernel's.
     pub fn of(proved: &Proved, stability: Option<&Stability>) -> Option<SamplingError> {
         if !proved.proof.symmetric {
             return None;

@@ -16,7 +16,7 @@ use shadowstep_schemes::arithmetic::{Arithmetic, Fixed, FixedPoint, Sensitivity}
 use shadowstep_schemes::map::{Map, MapKind};
 use shadowstep_schemes::scheme::Held;
 
-/// Terms of the trace beyond the order that are looked at first for the error of the phase.
+/// Terms of the trace beyond the order that are computed first for the error of the phase.
 const FEW_TERMS: usize = 8;
 
 /// The trace polynomial, with integers over powers of one denominator: reducing each fraction would cost far more.
@@ -90,7 +90,7 @@ impl PhaseError {
             .expect("a step is not a cosine")
     }
 
-    /// The first of the terms of the trace that differs from that of the cosine.
+    /// The first of the terms of the trace that differs from the same term of the cosine.
     fn among(terms: Range<usize>, maps: &[Map], held: Held) -> Option<PhaseError> {
         let trace = Trace::up_to(maps, terms.end);
         let slopes = slopes(maps, terms.end);

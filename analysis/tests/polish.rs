@@ -88,7 +88,7 @@ fn published_digits_become_those_of_the_shipped_tables() {
     let decimal = |name: &&str| {
         let printed = |held| matches!(held, Held::Digits(digits) if digits < 300);
         let scheme = &shipped_proved(name).unwrap().scheme;
-        // those of processors are not polished by this
+        // the decimals of processors are not polished here
         printed(scheme.held) && scheme.processor.is_none()
     };
     let mut names: BTreeSet<_> = shipped_names().into_iter().filter(decimal).map(str::to_owned).collect();
@@ -329,7 +329,7 @@ fn the_order_that_holds_as_printed_is_told() {
     let near = source.text.replace("near_integrable = [8, 6, 4]", "near_integrable = [6, 4]");
     let said = polished(&Source { text: near, ..source }, 60, &[]).unwrap().notes;
     assert!(said[0].starts_with("order 8 holds for the terms of ε as printed: claim it"), "{said:?}");
-    // five digits are no proof of order 6
+    // five digits do not prove order 6
     let short = "[composition]\nbase = \"stormer-verlet\"\n\
                  gamma = [0.78451, 0.23557, -1.1777, 1.3152, -1.1777, 0.23557, 0.78451]\n";
     assert!(polished(&table(4, short), 60, &[]).unwrap().notes.is_empty());
@@ -347,7 +347,7 @@ fn verlet_steps_typed_as_stages_are_told() {
     exchanged.0.rotate_right(1);
     let said = refusal(&table(6, &stages(&exchanged.0, &exchanged.1)), &[]);
     assert!(said.ends_with(&format!(": {steps}the kicks")), "{said}");
-    // others are no such steps: here the claim is wrong
+    // other schemes are not such steps: here the claim is wrong
     let other = &shipped_proved("blanes-moan-s6").unwrap().scheme;
     let said = refusal(&table(6, &stages(&other.stages.kick, &other.stages.drift)), &[]);
     assert!(!said.contains("Verlet"), "{said}");

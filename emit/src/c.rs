@@ -23,7 +23,7 @@ fn action(action: Action<'_>, direction: Direction) -> String {
         Action::Gradient => "s->gradient(s->n, q, g, s->context);".to_owned(),
         Action::Curvature => "SCHEME_curvature(s, q, g, v, w);".to_owned(),
         Action::Kick(weight) => format!("SCHEME_kick(s, {h} * SCHEME_{}, g, p);", weight.name),
-        // a processor has none, so that it never goes back
+        // a processor has no gradient kicks, so that they never go back
         Action::GradientKick(weight) => format!("SCHEME_kick(s, -2 * h * h * h * SCHEME_{}, w, p);", weight.name),
         Action::Drift(weight) => format!("SCHEME_drift(s, {h} * SCHEME_{}, p, v, q);", weight.name),
     }

@@ -122,7 +122,7 @@ pub struct UnknownTarget {
 pub struct Refusal {
     /// The scheme's name.
     pub scheme: String,
-    /// What follows the name: what of the scheme the target lacks.
+    /// What follows the name: which feature of the scheme the target does not support.
     pub reason: String,
     /// What would be right.
     pub hint: String,
@@ -155,7 +155,7 @@ pub fn emit(scheme: &TableScheme, target: Target) -> Result<String, Refusal> {
     })
 }
 
-/// What of a scheme a target lacks, and what would be right.
+/// Which feature of a scheme a target does not support, and what would be right.
 fn lacks(proved: &Proved, target: Target) -> Option<(String, &'static str)> {
     if proved.proof.many_parts.is_some() {
         return Some(("is made for H of three parts and more".to_owned(), "emit the scheme for two parts"));

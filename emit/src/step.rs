@@ -45,7 +45,7 @@ impl Weight {
         literal(self.double())
     }
 
-    /// The exact number where that is short, else more digits of it; `None` if they say no more than the literal.
+    /// The exact number where that is short, else more digits of it; `None` if they add nothing to the literal.
     pub(crate) fn comment(&self) -> Option<String> {
         let text = to_text(&self.exact);
         if text == self.literal() {
@@ -92,7 +92,7 @@ pub(crate) struct Step<'a> {
     pub(crate) proved: &'a Proved,
     /// The weights of the step, distinct ones once.
     pub(crate) weights: Vec<Weight>,
-    /// Those of the post-map.
+    /// The weights of the post-map.
     pub(crate) post_weights: Vec<Weight>,
     pub(crate) kept: Kept,
 }
@@ -151,13 +151,13 @@ impl<'a> Step<'a> {
         actions(&self.proved.scheme.maps(), &self.weights, self.kept)
     }
 
-    /// Those of the post-map.
+    /// The actions of the post-map.
     pub(crate) fn post(&self) -> Vec<Action<'_>> {
         let processor = self.proved.scheme.processor.as_ref();
         processor.map_or_else(Vec::new, |processor| actions(&processor.post, &self.post_weights, NOTHING))
     }
 
-    /// Those of the pre-map, whose weights are the negatives of the post-map's: these are named.
+    /// The actions of the pre-map, whose weights are the negatives of the post-map's; the latter are named.
     pub(crate) fn pre(&self) -> Vec<Action<'_>> {
         let Some(processor) = &self.proved.scheme.processor else { return Vec::new() };
         let backwards: Vec<_> = processor.post.iter().rev().cloned().collect();

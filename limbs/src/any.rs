@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use std::fmt;
 use std::ops::{AddAssign, DivAssign, MulAssign, Neg, SubAssign};
 
-/// A number of 2 to 17 limbs, as many as it is made with.
+/// A number of 2 to 17 limbs; the number of limbs is chosen when it is made.
 ///
 /// It has the bits of [`Limbs`] of as many limbs, whose operations this chooses at run time. A program that offers any number of digits
 /// compiles what it computes for this one type; the operations are compiled in this crate.

@@ -60,7 +60,7 @@ impl<const L: usize> Limbs<L> {
         integer as f64 * power(self.exponent - bits) * sign
     }
 
-    /// Significand in [1/2, 1) and exponent of 2, whose product is the number to 53 bits; those of 0, infinities and NaN with exponent 0.
+    /// Significand in [1/2, 1) and exponent of 2, whose product is the number to 53 bits; 0, infinities and NaN themselves with exponent 0.
     pub fn to_f64_exponent(&self) -> (f64, i32) {
         match self.exponent() {
             Some(exponent) => (Limbs { exponent: 0, ..*self }.to_f64(), exponent),

@@ -279,7 +279,7 @@ impl<const L: usize> FromStr for Limbs<L> {
     }
 }
 
-/// An exponent, of a magnitude of at most 10^15, which is beyond that of all numbers.
+/// An exponent, of a magnitude of at most 10^15, which is beyond the exponents of all numbers.
 fn read_exponent(text: &str) -> Result<i64, ParseError> {
     let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
     if digits.is_empty() || !digits.bytes().all(|c| c.is_ascii_digit()) {

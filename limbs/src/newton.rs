@@ -61,7 +61,7 @@ macro_rules! compiled {
     )*};
 }
 
-// the width, and that of the reciprocal that its square root starts from
+// the width, and the width of the reciprocal that its square root starts from
 compiled! {
     3: reciprocal_root_3 root_3 3,
     4: reciprocal_root_4 root_4 3,

@@ -103,7 +103,7 @@ fn all<T: States<Number = f64>, E: Estimator<f64>>(mut run: ShadowRun<T, E>) -> 
     Ok(all)
 }
 
-/// The momenta at the states of those of leapfrog between them: of rows before and after each state.
+/// The momenta at the states, from the momenta of leapfrog between them: rows before and after each state.
 #[pyfunction]
 pub(crate) fn momenta_of_half_steps(
     py: Python<'_>,
@@ -190,7 +190,7 @@ impl Observer {
         self.observer.states()
     }
 
-    /// Takes the next state; `half_step` if the momenta are those of leapfrog half a step before it.
+    /// Takes the next state; `half_step` if the momenta are leapfrog's, half a step before it.
     fn observe(
         &mut self,
         py: Python<'_>,

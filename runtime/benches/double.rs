@@ -55,7 +55,7 @@ where
     (name, Box::new(run))
 }
 
-/// What each step adds is stored, as an estimator would: what nobody reads would not be computed.
+/// What each step adds is stored, as an estimator would: the compiler would leave out what is never read.
 fn augmented<'a, A, V, P>(name: &'static str, (scheme, h): (A, &str), mut motion: Run<V, P>) -> Contestant<'a>
 where
     A: Scheme + ValidFor<Quadratic> + 'a,

@@ -167,7 +167,7 @@ fn kepler_by_hand() -> Contestant<'static> {
     ("by hand", Box::new(run))
 }
 
-/// Takes a state a repetition; the states are those of Störmer–Verlet on Kepler, made before.
+/// Takes a state a repetition; the states are from Störmer–Verlet on Kepler, made before.
 fn estimates<'a>(name: &'static str, settings: Central) -> Contestant<'a> {
     let mut motion = big(Kepler, ["0.4", "0"], ["0", "2"]);
     let stepper = Stepper::with_context(StormerVerlet, "1/20", &digits()).expect("h is not 0");

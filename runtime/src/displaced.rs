@@ -16,7 +16,7 @@ use crate::scheme::Scheme;
 /// which agrees with the exact one, p −= h a (U_q − δ U_qq M⁻¹U_q), but for h a δ². It takes a force in place of a Hessian–vector product, and
 /// **is not exactly symplectic**: U_q(q′) as a function of q has a curl of order δ², but for one degree of freedom. So the modified energy drifts.
 ///
-/// In the run of steps, the gradient kick adds h a (U_q(q) − U_q(q′)) to the kick. To β the two add h a times the rate qᵀU_q − 2U at q′: it is that of the
+/// In the run of steps, the gradient kick adds h a (U_q(q) − U_q(q′)) to the kick. To β the two add h a times the rate qᵀU_q − 2U at q′: the rate of the
 /// potential W = U(q′) + (δ/2) U_q(q)ᵀM⁻¹U_q(q′), with U_q(q′) in the place of W_q, from which it differs by order δ².
 ///
 /// [`Stepper::displacements`](crate::Stepper::displacements) computes them; a system takes them where it is made, as

@@ -47,7 +47,7 @@ pub use follow::Outcome;
 /// What is computed of each of a number of trajectories.
 ///
 /// A trajectory has the bits that it has alone: they depend neither on the other trajectories, nor on the number of lanes and threads, nor on
-/// the processor's vector instructions. (Elementary functions are those of [`Lanes`].)
+/// the processor's vector instructions. (Elementary functions are taken from [`Lanes`].)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ensemble {
     /// How many trajectories there are.
@@ -57,9 +57,9 @@ pub struct Ensemble {
     /// The energy is looked at every `every` steps, at the beginning and at the end; at least 1.
     pub every: u64,
     /// The k of [E_k](FixedBilinear), where the drift of the modified energy is computed: from the k + 1 states that begin with each state
-    /// whose energy is looked at.
+    /// whose energy is computed.
     pub modified_energy: Option<u32>,
-    /// Whether, between states that are looked at, the last map of a step and the first of the next are made as one: faster, with the
+    /// Whether, between states whose energy is computed, the last map of a step and the first of the next are made as one: faster, with the
     /// bits of [`Stepper::merged_steps`] in stretches of 128 steps at most. By default they are not.
     pub merged: bool,
     /// Threads; `None` means as many as the processor has.
@@ -114,7 +114,7 @@ pub enum EnsembleError<E> {
     /// It was stopped before its end.
     #[error("the ensemble was stopped")]
     Stopped,
-    /// The energy cannot be looked at every 0 steps.
+    /// The energy cannot be computed every 0 steps.
     #[error("the energy can be looked at every 1 step or more, not every 0 steps")]
     EveryZero,
 }

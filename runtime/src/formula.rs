@@ -36,7 +36,7 @@ pub struct FormulaPotential<N> {
     interpreter: Interpreter<N>,
     parameters: Vec<N>,
     derived: Arc<Derived>,
-    /// Of the second derivatives, made when gradient kicks ask for them.
+    /// The interpreter of the second derivatives, made when gradient kicks need them.
     second: OnceLock<Interpreter<N>>,
 }
 
@@ -46,7 +46,7 @@ pub enum FormulaError {
     /// The text is not a formula.
     #[error(transparent)]
     Syntax(#[from] SyntaxError),
-    /// The formula is none of these coordinates and parameters, or not smooth.
+    /// The formula is invalid for these coordinates and parameters, or not smooth.
     #[error("{}", .0.fault)]
     Meaning(SemanticError),
     /// A coordinate or parameter has the name of another.

@@ -22,7 +22,7 @@
 //! ```
 //!
 //! What is not inlined into the loop is compiled for the processors that the program is built for, and is slower there. So functions on the way
-//! are `#[inline(always)]`: those of this crate and of [`potential!`](crate::potential!) are; a potential of your own should be.
+//! are `#[inline(always)]`: in this crate and from [`potential!`](crate::potential!) they are; in a custom potential they should be.
 
 use std::cell::Cell;
 

@@ -239,7 +239,7 @@ impl<N: Ordered> DiagonalMasses<N> {
 }
 
 impl<const W: usize> DiagonalMasses<Lanes<W>> {
-    /// Masses that differ in the trajectories of an [ensemble](crate::ensemble): those of one in each lane, with the bits that they have
+    /// Masses that differ in the trajectories of an [ensemble](crate::ensemble): the masses of one in each lane, with the bits that they have
     /// alone.
     ///
     /// ```
@@ -364,7 +364,7 @@ impl<N: Ordered> FullMasses<N> {
 }
 
 impl<const W: usize> FullMasses<Lanes<W>> {
-    /// Matrices that differ in the trajectories: that of one in each lane, with the bits that it has alone.
+    /// Matrices that differ in the trajectories: the matrix of one in each lane, with the bits that it has alone.
     ///
     /// # Errors
     /// Matrices of different dimensions.
@@ -493,7 +493,7 @@ pub enum MassError {
     Dimensions {
         /// The coordinates of the first trajectory.
         first: usize,
-        /// Those of another.
+        /// The coordinates of another.
         other: usize,
     },
 }

@@ -12,7 +12,7 @@ pub(crate) const MOST_KEPT: usize = 256;
 /// With terms that fall by 16 and more, fewer make the digits of 17 limbs.
 pub(crate) const MOST_TERMS: i32 = 300;
 
-/// Bits beyond those of the run: doubling t k times may lose 2k of them.
+/// Bits beyond the bits of the run: doubling t k times may lose 2k of them.
 const GUARD_BITS: u32 = 128;
 
 /// The numbers in which flows are computed; `None` if the run has more digits than they.

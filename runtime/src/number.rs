@@ -251,13 +251,13 @@ pub trait Number: Clone + fmt::Debug {
     /// x ← NaN where x is finite, but not r² of two points in space with such a coordinate a: |a| > 3.8e153 in `f64`.
     fn make_nan_where_square_overflows(&mut self, a: &Self);
 
-    /// The number in a lane as m 2ⁿ, rounded to 53 bits, for decisions that depend on sizes. n is 0 unless the exponents are beyond those of `f64`.
+    /// The number in a lane as m 2ⁿ, rounded to 53 bits, for decisions that depend on sizes. n is 0 unless the exponents are beyond the range of `f64`.
     fn lane(&self, lane: usize) -> (f64, i64);
 
     /// The number in a lane ← m 2ⁿ
     fn set_lane(&mut self, lane: usize, m: f64, n: i64);
 
-    /// The number in a lane ← that of a
+    /// The number in a lane ← the number in this lane of a
     fn assign_lane(&mut self, lane: usize, a: &Self);
 
     /// Whether x is neither infinite nor NaN; of several numbers in lanes, whether all are so.

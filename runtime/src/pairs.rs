@@ -22,7 +22,7 @@ use few::Few;
 
 /// The potential U = Σ u over pairs of bodies in D dimensions.
 ///
-/// The coordinates are those of the first body, then those of the second, and so on.
+/// The coordinates of the first body come first, then the second's, and so on.
 ///
 /// ```
 /// use shadowstep::{DiagonalMasses, Motion, Rational, pairs::Pairs, potential};
@@ -227,7 +227,7 @@ impl<P, const D: usize> Pairs<P, D> {
         N::KEEPS_INCREMENTS && self.is_in_blocks()
     }
 
-    /// The place of a pair in its block; none, if it is one of those that are left over. The last bodies are in a block with some that had
+    /// The place of a pair in its block; `None` for the pairs that are left over. The last bodies are in a block with some that had
     /// their turn, if there are as many after the body i.
     fn place_in_block(&self, i: usize, j: usize) -> Option<usize> {
         let (place, count) = match self.which {
@@ -247,7 +247,7 @@ impl<P, const D: usize> Pairs<P, D> {
         if in_blocks { blocks::scratch(self.bodies, D) } else { 0 }
     }
 
-    /// The scratch space of blocks and that of the pair, where the sum is over blocks.
+    /// The scratch space of blocks and of the pair, where the sum is over blocks.
     fn blocks<'a, N: Number>(&self, scratch: &'a mut [N]) -> Option<(&'a mut [N], &'a mut [N])> {
         let size = self.scratch_of_blocks::<N>();
         (size > 0).then(|| {

@@ -9,7 +9,7 @@ const LANES: usize = 8;
 /// For this number of coordinates and more, [`add_sum`] adds numbers that [keep increments](Number::KEEPS_INCREMENTS) in partial sums.
 pub(crate) const LONG: usize = 64;
 
-/// sum ← sum + what `add` adds for each coordinate, which gets that of each of these vectors.
+/// sum ← sum + what `add` adds for each coordinate, which gets the coordinate of each of these vectors.
 #[inline(always)]
 pub(crate) fn add_sum<N: Number, const V: usize>(
     sum: &mut N,
@@ -141,7 +141,7 @@ mod tests {
     use super::*;
     use crate::number::Lanes;
 
-    /// Of multiples of 1/1024 every sum is exact, so that nothing may be missing or twice.
+    /// Sums of multiples of 1/1024 are exact, so that nothing may be missing or twice.
     #[test]
     fn every_coordinate_is_added_once() {
         for length in [1, 7, 8, LONG - 1, LONG, LONG + 1, 10 * LONG + 5] {

@@ -27,7 +27,7 @@ use crate::potential::Potential;
 ///   directions.
 ///
 /// A comparison costs some 120 evaluations of the energy at a state, whatever the dimension, and 80 log₂ d more to find a coordinate.
-/// States in which forces act, and no symmetry makes them vanish, say most. Where forces are not smooth, as at a cutoff, the
+/// States in which forces act, and no symmetry makes them vanish, test most. Where forces are not smooth, as at a cutoff, the
 /// differences have large errors and the comparison is undecided.
 ///
 /// ```
@@ -48,7 +48,7 @@ use crate::potential::Potential;
 /// ```
 ///
 /// # Errors
-/// A state whose dimension is not that of the potential, or no state.
+/// A state whose dimension differs from the potential's, or no state.
 pub fn check_potential<N, P, Q>(potential: &mut P, states: &[Q]) -> Result<PotentialCheck<N>, MotionError>
 where
     N: Ordered,
@@ -284,7 +284,7 @@ mod tests {
         assert!(check_potential::<f64, _, [f64; 2]>(&mut Kepler, &[]).is_err());
     }
 
-    /// A rate from images: the pair's part is that of the nearest image, not of the coordinates.
+    /// A rate from images: the pair's part is computed from the nearest image, not from the coordinates.
     #[test]
     fn a_virial_of_images_is_not_the_rate() {
         #[derive(Clone, Copy)]

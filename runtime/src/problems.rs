@@ -1,4 +1,4 @@
-//! Problems with their parameters and initial states: those of the paper, then systems of many bodies.
+//! Problems with their parameters and initial states: first the paper's, then systems of many bodies.
 //!
 //! A problem is a file in `problems/` that implements `Definition`: its formula, parameters and their defaults, initial
 //! state, source and, where a solution is known, its exact flow. It is registered by its `mod` line and its line of the
@@ -62,7 +62,7 @@ macro_rules! registry {
             $(#[doc = concat!("Defined in `problems/", stringify!($module), ".rs`.")] $Name,)+
         }
 
-        /// All problems: those of the paper in its order, then those of many bodies.
+        /// All problems: first the paper's in its order, then systems of many bodies.
         pub const PROBLEMS: &[Problem] = &[$(Problem::$Name,)+];
 
         impl Problem {
@@ -205,7 +205,7 @@ impl Setup {
         Some((Bodies::new(self.values.value("g").clone(), masses.collect()).ok()?, dimensions))
     }
 
-    /// The potential energy of several trajectories of one problem, whose parameters may differ: those of one in each lane.
+    /// The potential energy of several trajectories of one problem, whose parameters may differ: each lane has the parameters of one.
     ///
     /// # Panics
     /// If they are not all of one problem.

@@ -26,8 +26,8 @@
 //! # Errors
 //!
 //! The last term of a series, |T_{m,m} − T_{m−1,m−1}| or |E_k − E_{k−1}|, is not an estimate of its error: near a close encounter the
-//! differences alias, and a term may be small by chance. With the values at a few states on either side it is one: the largest of
-//! their spread max − min, of their last terms, and of the last place of the value. The true error divided by this estimate, and for
+//! differences alias, and a term may be small by chance. Combined with the values at a few states on either side, it becomes one: the largest of
+//! their range max − min, of their last terms, and of the last place of the value. The true error divided by this estimate, and for
 //! comparison by the last term alone, on the exact flow of Kepler's problem, where the modified energy is −1/2 (orbits of
 //! eccentricity 0, 0.3, 0.6 and 0.9, h = 1/10, 3/31, 2/21, 1/20 and 1/40, 160 digits, all states of an orbit):
 //!

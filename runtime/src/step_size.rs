@@ -16,7 +16,7 @@ use crate::{Rational, exact};
 /// | `0.05_f64` | the double itself, which is 0.05000000000000000277… |
 /// | a [`Rational`] | itself |
 ///
-/// The difference between `"0.05"` and `0.05` is that of the decimal and the double nearest to it. In `f64` both give weights that
+/// `"0.05"` and `0.05` differ as the decimal and the double nearest to it do. In `f64` both give weights that
 /// differ by at most their rounding; with more digits `0.05` is a step size that differs from 1/20 in the 18th digit.
 ///
 /// ```

@@ -1,4 +1,4 @@
-//! Ensembles: the outcomes are those of each trajectory alone, whatever computes them.
+//! Ensembles: each trajectory has the outcome that it has alone, whatever computes it.
 
 use std::num::NonZero;
 
@@ -113,7 +113,7 @@ fn outcomes_do_not_depend_on_lanes_threads_or_instructions() {
     }
 }
 
-/// Only the steps between states that are looked at are merged.
+/// Only the steps between states whose energy is computed are merged.
 #[test]
 fn merged_outcomes_are_those_of_merged_steps() {
     let merged = Ensemble { merged: true, modified_energy: None, threads: NonZero::new(1), ..ENSEMBLE };

@@ -128,7 +128,7 @@ fn terms_of_a_step_that_cancel_by_chance() {
     assert!((found[0] / expected[0].to_f64() - 1.0).abs() < 1e-13, "{found:?}");
 }
 
-/// Orbits and times as those of `kepler_drift/reference.py`.
+/// Orbits and times as in `kepler_drift/reference.py`.
 struct Orbits(Pcg64Mcg);
 
 impl Orbits {
@@ -306,7 +306,7 @@ fn mpfr_has_the_digits_of_limbs_and_any_precision_ends() {
             let u = 2_f64.powi(-(bits as i32));
             let found = drift(&mut kepler, input.map(|x| Float::with_val(bits, x)));
             let [q, v] = errors(&found, &input, &expected, u);
-            // beyond the precision of the input the condition is no measure of such coarse numbers
+            // beyond the precision of the input the condition does not bound the error of such coarse numbers
             assert!(bits < 53 || q < 150.0 && v < 150.0, "{bits} bits, {input:?}: {q}, {v}");
         }
     }
@@ -521,7 +521,7 @@ fn round_off_wanders() {
     }
 }
 
-/// What the documentation says, as above.
+/// The numbers in the documentation, as above.
 #[test]
 #[ignore = "some minutes"]
 fn ten_million_drifts_wander() {

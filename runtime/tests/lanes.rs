@@ -16,7 +16,7 @@ pub struct Yoshida4;
 #[splitting_scheme("blanes-moan-srkn6b.toml")]
 pub struct BlanesMoan;
 
-/// The coordinates of a lane: those of the first one, a little changed.
+/// The coordinates of a lane: the first one's, a little changed.
 fn disturbed(x: f64, index: usize, lane: usize) -> f64 {
     x * (1.0 + 1e-3 * lane as f64) + 1e-4 * (lane * (index + 1)) as f64
 }
@@ -130,7 +130,7 @@ fn after_five_steps<N: Number<Context = ()> + 'static>(problem: Problem, start: 
 }
 
 /// exp, log, sin and cos are functions of lanes, not the platform's: the bits do not depend on the lanes and the instructions, and are
-/// close to those of f64.
+/// close to the bits in f64.
 #[test]
 fn problems_with_elementary_functions() {
     for problem in PROBLEMS.iter().copied().filter(|problem| !is_algebraic(problem)) {

@@ -14,7 +14,7 @@ use crate::order::{Condition, lyndon_words, weighed, word_conditions};
 use crate::part_words::{self, part_maps};
 use crate::scheme::Held;
 
-/// Bits beyond those of the exact values, for the growth of the error.
+/// Bits beyond the bits of the exact values, for the growth of the error.
 const MARGIN_BITS: u32 = 64;
 
 /// The most bits for weights that are held to some digits: the bounds of the errors grow by far fewer.
@@ -23,9 +23,9 @@ const MOST_BITS: u32 = 8000;
 /// Conditions that a claim needs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Family {
-    /// Those of a class of kinetic energies.
+    /// The conditions of a class of kinetic energies.
     Kinetic(Kinetic),
-    /// Those of a power of ε.
+    /// The conditions of a power of ε.
     Power(Power),
 }
 

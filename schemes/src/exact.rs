@@ -39,8 +39,8 @@ const MOST_UNMERGED: usize = 10 * MOST_STAGES;
 /// The most compositions within each other: a chain of `../a/b` need not come back to a path it has had.
 const MOST_NESTED: usize = 20;
 
-/// Reads a table and evaluates its cells; nothing is proved yet. The faults are those of the text and of the cells, for
-/// a composition those of its base as well; without a fault in the cells there is a scheme.
+/// Reads a table and evaluates its cells; nothing is proved yet. The faults are in the text and the cells, for
+/// a composition also in its base; without a fault in the cells there is a scheme.
 pub fn scheme(source: &Source, library: Library<'_>) -> (Option<ExactScheme>, Vec<Fault>) {
     scheme_within(source, library, &[])
 }
@@ -184,7 +184,7 @@ impl Cells<'_> {
         }
     }
 
-    /// The fault of a name that is one of the constants, but is not known yet.
+    /// The fault of a constant's name that is used before its definition ends.
     fn constant_below(&self, at: &Range<usize>) -> Option<Fault> {
         let word = self.table.source.text.get(at.clone())?;
         let defined = self.table.constants.iter().any(|(name, _)| name.value == word);

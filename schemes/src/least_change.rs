@@ -9,7 +9,7 @@ const LINEAR: f64 = 1e-3;
 /// Iterations after which the size of the least change counts as undecided.
 const MOST_STEPS: usize = 300;
 
-/// The solutions δ of A δ = b, where A may have more rows than rank: those of Q δ = y with orthonormal rows.
+/// The solutions δ of A δ = b, where A may have more rows than rank; they are the solutions of Q δ = y with orthonormal rows.
 pub(crate) struct LeastChange {
     q: Vec<Vec<f64>>,
     y: Vec<f64>,

@@ -157,7 +157,7 @@ mod tests {
         }
     }
 
-    /// 27/20 in place of 1.3512…; the value is that of an independent program (exact fractions in Python).
+    /// 27/20 in place of 1.3512…; the value is from an independent program (exact fractions in Python).
     #[test]
     fn a_wrong_weight_fails_at_a_named_word() {
         let text =

@@ -29,7 +29,7 @@ pub enum MapKind {
 }
 
 impl MapKind {
-    /// The other one of kick and drift; a gradient kick has none, and stays.
+    /// The other one of kick and drift; a gradient kick remains one.
     pub fn other(self) -> MapKind {
         match self {
             MapKind::Kick => MapKind::Drift,
@@ -116,7 +116,7 @@ impl Stages {
         stages
     }
 
-    /// Those of a step γ_1 h, a step γ_2 h, ….
+    /// The stages of a step γ_1 h, a step γ_2 h, ….
     pub fn repeated(&self, gamma: &[Rational]) -> Stages {
         let scaled = |weights: &[Rational], power: u32| {
             gamma.iter().flat_map(|g| weights.iter().map(move |w| g.pow(power as i32) * w)).collect()

@@ -1,7 +1,7 @@
 //! Order conditions of H = H_1 + … + H_n: words on n letters.
 //!
 //! A step is a product of the exponentials of the Lie derivatives A, B, C, … of the parts' flows, the exact flow is exp(h (A + B + C + …)). Both are
-//! group-like, so the coefficients of Lyndon words decide, as for [two letters](crate::order); that of a word of m letters in the exact flow is 1/m!.
+//! group-like, so the coefficients of Lyndon words decide, as for [two letters](crate::order); the coefficient of a word of m letters in the exact flow is 1/m!.
 
 use std::collections::HashMap;
 
@@ -157,7 +157,7 @@ fn lyndon_words(letters: usize, longest: usize) -> Vec<Vec<usize>> {
 mod tests {
     use super::*;
 
-    /// The values are those of an independent program: the product of exponentials in the free algebra, in exact fractions (Python).
+    /// The values are from an independent program: the product of exponentials in the free algebra, in exact fractions (Python).
     #[test]
     fn coefficients_are_those_of_the_free_algebra() {
         use MapKind::{Drift, Kick};

@@ -22,7 +22,7 @@ pub struct Proved {
     pub proof: Proof,
     /// The plan of its step.
     pub plan: Plan,
-    /// Claims that say less than the truth, with their places.
+    /// Claims below what is proved, with their places.
     pub notes: Vec<Fault>,
 }
 
@@ -32,7 +32,7 @@ impl Proved {
         self.proof.for_kinetic(self.scheme.table.kinetic)
     }
 
-    /// Whether the order claimed holds for every T(p), whatever kinetic energies the table is meant for. Of gradient kicks it does not:
+    /// Whether the order claimed holds for every T(p), whatever kinetic energies the table is meant for. With gradient kicks it does not:
     /// they contain M⁻¹.
     pub fn holds_for_every_kinetic(&self) -> bool {
         self.order_for_every_kinetic().is_some_and(|order| order.order >= self.scheme.table.order.value)
@@ -47,7 +47,7 @@ impl Proved {
 /// Reads a table and proves what it claims.
 ///
 /// # Errors
-/// All faults of the text, of the cells and of the claims; claims are looked at once the cells have values.
+/// All faults of the text, of the cells and of the claims; claims are judged once the cells have values.
 pub fn read(source: &Source, library: Library<'_>) -> Result<Proved, Faults> {
     read_first(source, library, None)
 }

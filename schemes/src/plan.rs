@@ -20,9 +20,9 @@ pub struct Plan {
     pub middle_weights: Vec<Rational>,
     /// Distinct weights of the gradient kicks, in the order of their first use.
     pub gradient_kicks: Vec<Rational>,
-    /// What is done: the kind of the map and the index of its weight among those of its kind.
+    /// What is done: the kind of the map and the index of its weight among the weights of its kind.
     pub maps: Vec<(MapKind, usize)>,
-    /// Of [many parts](crate::many_parts): between each map and the next the index of the weight of the middle parts, which flow from H_2 to H_(n−1)
+    /// For [many parts](crate::many_parts): between each map and the next the index of the weight of the middle parts, which flow from H_2 to H_(n−1)
     /// after a kick, and from H_(n−1) to H_2 after a drift.
     pub middle: Vec<usize>,
     /// Evaluations of the gradient per step, the first step of a run not counted.
@@ -91,7 +91,7 @@ impl Plan {
         self.kicks.iter().chain(&self.drifts).chain(&self.middle_weights).chain(&self.gradient_kicks)
     }
 
-    /// The evaluations of a step, Hessian–vector products counted like those of the gradient. It is the degree in (hω)² of the harmonic
+    /// The evaluations of a step, Hessian–vector products counted like gradients. It is the degree in (hω)² of the harmonic
     /// oscillator's trace.
     pub fn degree(&self) -> usize {
         self.evaluations + self.hessian_products

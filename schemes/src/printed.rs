@@ -91,7 +91,7 @@ pub(crate) struct Printed {
 /// How far an exchange of digits may be from what is needed to be named, in units of the last of the claimed digits.
 const CLOSE: f64 = 5.0;
 
-/// The most decimals that are looked at: the work grows with their square.
+/// The most decimals that are examined: the work grows with their square.
 const MOST_DECIMALS: usize = 200;
 
 /// The most products of maps and decimals: a long composition has few decimals, or few maps.
@@ -208,7 +208,7 @@ impl Cells<'_> {
         }
     }
 
-    /// The values of a list of cells, after those of the constants.
+    /// The values of a list of cells, after the values of the constants.
     fn list(&mut self, name: &str, cells: &[Cell]) -> Option<Vec<Sloped>> {
         if self.exact.is_empty() {
             for (name, cell) in &self.table.constants {

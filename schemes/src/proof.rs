@@ -17,7 +17,7 @@ use crate::order::{Condition, Functional};
 use crate::rounding::{Linearised, Unexplained};
 use crate::scheme::{ExactScheme, Held};
 
-/// Digits that sums of products of good weights lose without a note, where the decimals themselves are not looked at; the
+/// Digits that sums of products of good weights lose without a note, where the decimals themselves are not examined; the
 /// worst of the shipped tables loses 3.
 const MOST_DIGITS_LOST: u32 = 5;
 
@@ -47,13 +47,13 @@ pub struct Proof {
     pub near_integrable: Vec<Order>,
     /// The step is a palindrome, exactly.
     pub symmetric: bool,
-    /// The effective orders of a processed scheme; the others are those of its kernel.
+    /// The effective orders of a processed scheme; the others are the kernel's.
     pub effective: Option<Effective>,
     /// For H of three parts and more, by the words on three letters; only [where it is asked for](crate::many_parts).
     pub many_parts: Option<Order>,
 }
 
-/// The effective orders of a processed scheme: those of χ⁻¹ ∘ kernel ∘ χ, so of χ⁻¹ ∘ kernelⁿ ∘ χ after any number n of steps.
+/// The effective orders of a processed scheme: the orders of χ⁻¹ ∘ kernel ∘ χ, and so of χ⁻¹ ∘ kernelⁿ ∘ χ after any number n of steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Effective {
     /// For every T(p).
@@ -177,7 +177,7 @@ pub(crate) enum Finding<'a> {
 }
 
 impl Finding<'_> {
-    /// Whether the claim is refused; the other claims are true, and say less than the truth.
+    /// Whether the claim is refused; the other claims are true, but below what is proved.
     pub(crate) fn is_refused(&self) -> bool {
         let refused = matches!(self, Finding::Sum { .. } | Finding::LowerOrder { .. } | Finding::NotSymmetric { .. });
         refused || matches!(self, Finding::Unexplained { refused: true, .. })
@@ -242,7 +242,7 @@ fn effective_findings<'a>(scheme: &'a ExactScheme, proof: &'a Proof) -> Vec<Find
 
 fn near_integrable_findings<'a>(of: Of, claim: Option<&'a NearIntegrable>, proved: &'a [Order]) -> Vec<Finding<'a>> {
     let mut findings = Vec::new();
-    // an order cannot be claimed higher than those of lower powers of ε
+    // an order cannot be claimed higher than the orders of lower powers of ε
     let mut least = u32::MAX;
     for ((claimed, power), proved) in claim.into_iter().flat_map(NearIntegrable::powers).zip(proved) {
         let family = Family::Power(power);

@@ -49,7 +49,7 @@ pub(crate) struct Linearised {
 }
 
 impl Linearised {
-    /// Those of a scheme whose table prints decimals; `None` where it does not, or where there are too many.
+    /// The derivatives of a scheme whose table prints decimals; `None` where it prints none, or too many.
     pub(crate) fn of(scheme: &ExactScheme) -> Option<Linearised> {
         scheme.claimed_digits()?;
         let Printed { decimals, maps } = Printed::of(scheme)?;

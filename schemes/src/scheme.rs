@@ -35,7 +35,7 @@ pub struct ExactScheme {
     pub held: Held,
     /// The base of a composition.
     pub base: Option<Box<ExactScheme>>,
-    /// The processor, if it is a processed scheme; the weights are those of its kernel.
+    /// The processor, if it is a processed scheme; the weights are the kernel's.
     pub processor: Option<ExactProcessor>,
 }
 

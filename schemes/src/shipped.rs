@@ -36,7 +36,7 @@ pub(crate) fn index(name: &str) -> Option<usize> {
     exact.or_else(|| NAMES.get(&spelling(name)).copied())
 }
 
-/// What to say to someone who asked for a table that is not there: names that begin alike or are spelt most like it.
+/// The hint for a table that does not exist: names that begin alike or are spelt most like it.
 pub fn shipped_hint(name: &str) -> String {
     let (names, word) = (shipped_names(), spelling(name));
     if index(name).is_some() {

@@ -32,7 +32,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// The numbers of operations of `instructions`, without those of `prepare`.
+    /// The numbers of operations of `instructions`, without the operations of `prepare`.
     pub fn cost(&self) -> Operations {
         Operations::of(&self.instructions)
     }
@@ -71,7 +71,7 @@ impl Program {
     }
 }
 
-/// One instruction a line, first those of `prepare`.
+/// One instruction a line, first the instructions of `prepare`.
 impl fmt::Display for Program {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.prepare.iter().chain(&self.instructions).try_for_each(|instruction| writeln!(f, "{instruction}"))

@@ -3,7 +3,7 @@
 //! `cargo bench -p shadowstep-tests --bench round_off` prints the tables of `docs/round-off.md`; `-- STEPS PHASES NAME` sets the length of the
 //! runs, how many there are, and the cases whose names contain NAME, such as `-- 1e8 8 yoshida4`.
 //!
-//! The modified energy is that of the state in `f64` with its remainders, by steps of 50 digits around it, so that no round-off of
+//! The modified energy is computed at the state in `f64` with its remainders, by steps of 50 digits around it, so that no round-off of
 //! the estimate is in the results.
 
 use std::sync::Mutex;

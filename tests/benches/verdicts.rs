@@ -24,18 +24,18 @@ struct Case<'a> {
     part: f64,
 }
 
-/// What long runs say.
+/// What long runs show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Truth {
     Bounded,
     Borderline,
-    /// As it does with half the step, where it is smaller by the power of h that the order says: the trajectory comes to other places.
+    /// As it does with half the step, where it shrinks with h as the order predicts: the trajectory comes to other places.
     GrowsAtHalf,
     Grows,
     RoundOff,
 }
 
-/// What a monitor says.
+/// What a monitor reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Said {
     Fine,

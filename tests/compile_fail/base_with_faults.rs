@@ -1,4 +1,4 @@
-//! The fault is in the base of the composition, and told with its own path.
+//! The fault is in the base of the composition, and reported with its own path.
 
 use shadowstep::problems::Pendulum;
 use shadowstep::{Motion, Scheme, Stepper, UnitMasses, splitting_scheme};

@@ -1,4 +1,4 @@
-//! A momentum that there is none of.
+//! A momentum that does not exist.
 
 use shadowstep::kinetic;
 

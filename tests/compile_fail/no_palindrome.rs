@@ -1,4 +1,4 @@
-//! A palindrome is claimed that is none.
+//! The table claims to be a palindrome, and is not.
 
 use shadowstep::problems::Pendulum;
 use shadowstep::{Motion, Scheme, Stepper, UnitMasses, splitting_scheme};

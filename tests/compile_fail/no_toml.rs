@@ -1,4 +1,4 @@
-//! The text is no TOML.
+//! The text is not TOML.
 
 use shadowstep::problems::Pendulum;
 use shadowstep::{Motion, Scheme, Stepper, UnitMasses, splitting_scheme};

@@ -1,4 +1,4 @@
-//! The formula says whose mass it means.
+//! The formula must state whose mass it means.
 
 shadowstep::potential! {
     struct Gravity;

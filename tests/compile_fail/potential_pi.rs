@@ -1,4 +1,4 @@
-//! A constant is no parameter.
+//! A constant is not a parameter.
 
 shadowstep::potential! {
     struct Circle { pi }

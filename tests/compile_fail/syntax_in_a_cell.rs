@@ -1,4 +1,4 @@
-//! A cell is no formula.
+//! A cell is not a formula.
 
 use shadowstep::problems::Pendulum;
 use shadowstep::{Motion, Scheme, Stepper, UnitMasses, splitting_scheme};

@@ -1,4 +1,4 @@
-//! Weights that are no exact numbers.
+//! Weights that are not exact numbers.
 
 use shadowstep::problems::Pendulum;
 use shadowstep::{Motion, Scheme, Stepper, UnitMasses, splitting_scheme};

@@ -138,7 +138,7 @@ impl Potential<f64> for Fluid {
                 gradient[3 * j + axis] -= slope * d[axis];
             }
         });
-        // not the virial of the images: positions are those of the particles
+        // not the virial of the images: positions are of the particles themselves
         *rate = q.iter().zip(gradient).map(|(q, g)| q * *g).sum::<f64>() - 2.0 * energy;
     }
 }

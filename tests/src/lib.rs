@@ -1,5 +1,5 @@
 //! What the tests of the whole system share: numbers from texts, distances, every shipped scheme as generated code, a
-//! solution to compare with, what the compiler says of a table.
+//! solution to compare with, what the compiler reports about a table.
 
 pub mod catalogue_page;
 pub mod general;

@@ -116,7 +116,7 @@ fn shipped_problem(name: &'static str, set: &[(&str, &str)], limit: f64) -> Scen
     Scene { name: label, limit, steps: 20_000, smooth: true, start: Box::new(start) }
 }
 
-/// Kepler's problem: the limit is that of the frequency at the pericentre.
+/// Kepler's problem: the limit follows from the frequency at the pericentre.
 fn kepler(e: &'static str) -> Scene {
     let x: f64 = e.parse().expect("a number");
     shipped_problem("kepler", &[("eccentricity", e)], 2.0 * (1.0 - x).powf(1.5) / (1.0 + x).sqrt())

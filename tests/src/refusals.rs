@@ -1,8 +1,8 @@
-//! Tables of a test's own and what the compiler says of them.
+//! Tables made by a test and what the compiler reports about them.
 
 use shadowstep_schemes::{Faults, Proved, Source, read, shipped};
 
-/// Reads a table of one's own, whose base may be a shipped one.
+/// Reads a custom table, whose base may be a shipped one.
 ///
 /// # Errors
 /// All its faults.

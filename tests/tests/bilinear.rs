@@ -105,7 +105,7 @@ fn weights_are_those_of_the_printed_tables() {
     }
 }
 
-/// Added up over the positions of a pair in the window, the weights are those of D_k.
+/// Added up over the positions of a pair in the window, the weights are the weights of D_k.
 #[test]
 fn weights_of_each_lag_sum_to_those_of_central_differences() {
     for k in (1..=30).chain([100]) {
@@ -207,7 +207,7 @@ fn first_value<P: Potential<Float>>(
     estimate.value.clone()
 }
 
-/// E_k is off by c h^{2k}, so halving h shows 2k: for a palindrome, and for schemes that are none.
+/// E_k is off by c h^{2k}, so halving h shows 2k: for a palindrome, and for schemes that are not.
 #[test]
 fn the_order_is_2k() {
     const DIGITS: u32 = 100;

@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::{First, Proved, read, read_first, shipped, shipped_names};
 
-/// From the publications, except for the order for every T(p) of schemes for quadratic T, where they say nothing.
+/// From the publications, except for the order for every T(p) of schemes for quadratic T, which they do not state.
 /// Columns: name; order for every T(p) and for quadratic T; evaluations per step, and Hessian–vector products of gradient kicks; palindrome;
-/// first map; near-integrable orders; of a processed scheme, whose other columns are those of its kernel, the effective orders for every T(p), for
+/// first map; near-integrable orders; of a processed scheme, whose other columns belong to its kernel, the effective orders for every T(p), for
 /// quadratic T and the near-integrable ones.
 const CATALOGUE: &str = "
 aba104                    4  4   7  yes  drift  10,4

@@ -85,7 +85,7 @@ fn estimates_of_states(h: &str, steps: u64, settings: &impl BuildEstimator<f64>,
     all
 }
 
-/// The round-off of states is divided by h in an estimate; that of increments is not.
+/// The round-off of states is divided by h in an estimate; the round-off of increments is not.
 #[test]
 fn increments_keep_the_round_off_of_states_out_of_small_steps() {
     fn check(settings: &(impl BuildEstimator<f64> + std::fmt::Debug)) {

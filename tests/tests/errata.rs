@@ -68,7 +68,7 @@ fn exchanged(name: &str, first: First) -> String {
     read_first(&source, &|base, _| shipped(base), Some(first)).expect_err("roles matter here").to_string()
 }
 
-/// What is said of a table.
+/// The message about a table.
 fn message(name: &str) -> String {
     match name {
         "blanes-moan-srkn14a" => exchanged(name, First::Kick),
@@ -118,7 +118,7 @@ fn every_table_has_its_message_below() {
     says(&format!("A test of the sums alone would have found {sums} of the {tables} tables that are refused above."));
 }
 
-/// The first table's orders, claimed and proved, are those of the messages.
+/// The first table's orders, claimed and proved, agree with the messages.
 #[test]
 fn the_overview_agrees_with_the_messages() {
     for (name, row) in [

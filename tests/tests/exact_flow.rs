@@ -132,7 +132,7 @@ fn the_state_0_is_the_start_and_states_do_not_depend_on_the_way_to_them() {
     }
 }
 
-/// The derivatives are those of the equations of motion and β' = qᵀU_q − 2U: differences at 40 digits, D_30 of steps far below
+/// The derivatives satisfy the equations of motion and β' = qᵀU_q − 2U: differences at 40 digits, D_30 of steps far below
 /// the distance of the nearest singularity, 0.03 for e = 0.9 and 0.3 for e = 0.6.
 #[test]
 fn derivatives_are_those_of_the_system_and_of_beta() {

@@ -1,5 +1,5 @@
-//! Protects the code that the attribute writes: for every shipped table it does what the table says, bit for bit what
-//! the same table does when it is read at run time, and costs what its documentation says.
+//! Protects the code that the attribute writes: for every shipped table it does what the table states, bit for bit what
+//! the same table does when it is read at run time, and costs what its documentation states.
 
 use num_traits::{One, Signed};
 use rug::Float;
@@ -350,7 +350,7 @@ fn weights_sum_to_one() {
     }
 }
 
-/// A table that nobody compiled would be tested by nothing here.
+/// A table that is not compiled would not be tested here.
 #[test]
 fn every_shipped_table_is_among_them() {
     let compiled = all::<f64>(&rational(STEP), &());

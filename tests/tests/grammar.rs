@@ -135,7 +135,7 @@ mine.toml:14:39: a weight of 5000 is too large
     );
 }
 
-/// The keys that say more of a scheme than it needs to be one.
+/// The keys that a scheme does not need.
 #[test]
 fn all_faults_of_names_free_parameters_and_near_integrable_orders() {
     assert_refused(
@@ -589,7 +589,7 @@ fn a_composition_of_absurd_size() {
     assert!(faults.ends_with("hint: at most 2000 are allowed"), "{faults}");
 }
 
-/// A constant that stands below, or is the one being defined, is no unknown name.
+/// A constant that stands below, or is the one being defined, is not reported as an unknown name.
 #[test]
 fn constants_from_below() {
     let table = |x: &str, y: &str| {

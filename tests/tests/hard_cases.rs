@@ -56,7 +56,7 @@ fn a_head_on_collision_names_its_step() {
     assert_eq!(step, 2, "the same at 120 digits");
 }
 
-/// r² overflows, so 1/r is 0: the energy would be that of a free body.
+/// r² overflows, so 1/r is 0: the energy would be a free body's.
 #[test]
 fn positions_whose_squares_overflow_are_refused() {
     let start = |x: &str| state::<_, f64>(Kepler, &[x, "0"], &["0", "1"], &());
@@ -117,7 +117,7 @@ fn an_escape_ends_with_its_step() {
 // ---------------------------------------------------------------------------------------------------------------
 // Close encounters
 
-/// Steps that cannot resolve the pericentre: the run goes on, and its drift says that nothing is conserved.
+/// Steps that cannot resolve the pericentre: the run goes on, and its drift shows that nothing is conserved.
 #[test]
 fn eccentric_orbits_run_through() {
     for (gap, least) in [("0.1", 1e-3), ("0.01", 1e-1)] {

@@ -131,7 +131,7 @@ fn stiff() -> (StiffFput<f64>, Vec<f64>, Vec<f64>) {
     (StiffFput { omega: 50.0 }, q, vec![1.0, 0.0, 0.0, 1.0, 0.0, 0.0])
 }
 
-/// Above hω = 2 Störmer–Verlet with T(p) and U(q) is unstable, and the monitor says so; with the oscillations solved exactly it is not.
+/// Above hω = 2 Störmer–Verlet with T(p) and U(q) is unstable, and the monitor reports it; with the oscillations solved exactly it is not.
 #[test]
 fn a_step_above_the_limit_of_the_stiff_springs_is_fine() {
     let stepper = stepper::<f64>("stormer-verlet", "1/20", &());

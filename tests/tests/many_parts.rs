@@ -1,6 +1,6 @@
 //! Protects Hamiltonians of three parts and more: the flow and β of each kind of part, the orders, the modified energy, and steps that are steps.
 //!
-//! Yardstick: Gragg's extrapolated midpoint rule on the equations of motion of the formulas, which knows of no parts.
+//! Yardstick: Gragg's extrapolated midpoint rule on the equations of motion of the formulas, which does not depend on the split.
 
 use rug::Float;
 use shadowstep::formula::FormulaPotential;
@@ -75,7 +75,7 @@ impl Equations {
         Equations { formulas: formulas.iter().map(formula).collect(), dimension: q.len() }
     }
 
-    /// Of q, p and β.
+    /// The time derivatives of q, p and β.
     fn slope(&mut self, x: &[Float]) -> Vec<Float> {
         let (state, beta) = x.split_at(2 * self.dimension);
         let zero = Float::zero(&beta[0].context());

@@ -352,7 +352,7 @@ fn early_stop_is_its_rule_written_out() {
     assert!(stopped > 0, "the rule never stopped anything, so nothing is shown");
 }
 
-/// The paper's claim about the early stop: its results are nearly those of the full search.
+/// The paper's claim about the early stop: its results nearly equal the results of the full search.
 #[test]
 fn early_stop_is_nearly_as_good_as_the_full_search() {
     let context = precision(120);

@@ -1,5 +1,5 @@
-//! Protects the monitor of the modified energy: it changes no bit and costs nothing between its windows; its values are those of
-//! a run; its numbers against closed forms; its verdicts on problems, hard cases and wrong forces, and on runs that were held out; its errors and words.
+//! Protects the monitor of the modified energy: it changes no bit and costs nothing between its windows; its values equal
+//! a run's; its numbers against closed forms; its verdicts on problems, hard cases and wrong forces, and on runs that were held out; its errors and words.
 
 mod correct_loops;
 mod forces;

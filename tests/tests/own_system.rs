@@ -1,8 +1,8 @@
 //! Protects the trait `System` for systems with flows of their own: all schemes that are valid for every T(p) advance
 //! one, and runs and the monitor follow its modified energy.
 //!
-//! H = A + B with A = (q² + p²)²/4, which is no T(p), and B = q³/10. The flow of A turns (q, p) by the angle r²t, r² = q² + p². Along it
-//! β grows by qA_q + pA_p − 2A = 2A, as A is of degree 4; along that of B by qB_q − 2B = B.
+//! H = A + B with A = (q² + p²)²/4, which is not a T(p), and B = q³/10. The flow of A turns (q, p) by the angle r²t, r² = q² + p². Along it
+//! β grows by qA_q + pA_p − 2A = 2A, as A is of degree 4; along the flow of B by qB_q − 2B = B.
 
 use rug::Float;
 use shadowstep::kinetic::General;

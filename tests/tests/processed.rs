@@ -44,7 +44,7 @@ fn a_changed_digit_of_the_processor_is_refused_by_a_named_condition() {
     assert!(faults.contains("effective order 18 is claimed, effective order 2 holds for the terms of ε: the condition of the word KDD fails"), "{faults}");
     let faults = refused("wisdom-corrector-7", "near_integrable = [8, 2]", "near_integrable = [10, 2]");
     assert!(faults.contains("effective order 10 is claimed, effective order 8 holds for the terms of ε"), "{faults}");
-    // the kernel's own claims are those of the kernel
+    // the kernel's own claims concern the kernel
     let faults = refused("wisdom-corrector-7", "order = 2", "order = 4");
     assert!(faults.contains("order 4 is claimed, order 2 holds for every T(p)"), "{faults}");
 }

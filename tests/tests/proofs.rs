@@ -188,7 +188,7 @@ fn schemes_for_quadratic_kinetic_energy() {
     }
 }
 
-/// Where T is quadratic, kick and drift are no equals: exchanging them loses orders, which is proved again.
+/// Where T is quadratic, kick and drift are not interchangeable: exchanging them loses orders, which is proved again.
 #[test]
 fn exchanging_kick_and_drift_loses_orders() {
     for (name, [kick, drift], digits, first, (claimed, left)) in [
@@ -205,7 +205,7 @@ fn exchanging_kick_and_drift_loses_orders() {
 }
 
 /// One weight off by 2e-18, as a copy of this table has it: the order still holds as closely as 20 digits and the many
-/// products of fifteen stages can tell, but the digits that hold say that something is wrong.
+/// products of fifteen stages can tell, but the digits that hold show that something is wrong.
 #[test]
 fn a_wrong_digit_costs_the_digits_behind_it() {
     let mut gammas: Vec<&str> = SUZUKI_UMENO_8.iter().map(|gamma| &gamma[..gamma.len() - 20]).collect();
@@ -216,7 +216,7 @@ fn a_wrong_digit_costs_the_digits_behind_it() {
     assert!(held(&gammas) <= 18, "{}", held(&gammas));
 }
 
-/// A claim below the truth is no fault, but is remarked.
+/// A claim below the truth is not a fault, but is noted.
 #[test]
 fn a_modest_claim_is_remarked() {
     let found = proved(&composition(4, 20, YOSHIDA_6A));

@@ -119,7 +119,7 @@ fn an_edited_table_rebuilds_its_user() {
     project.write("src/base.toml", &EULER.replace("kick = [1]", "kick = [\"2/1 - 1 - 1/0\"]"));
     project.fails(&["base.toml:7:22: division by zero"]);
 
-    // a name that is almost that of a shipped table, one that is almost that of a file beside, and one like nothing
+    // a name close to a shipped table's, one close to a file beside, and one like nothing
     project.name_table("yoshda4.toml");
     let beside = fs::canonicalize(project.path("src")).expect("it exists").display().to_string();
     project.fails(&["there is no table \"yoshda4.toml\"; looked", &beside, "did you mean \"yoshida4.toml\"?"]);

@@ -1,5 +1,5 @@
-//! Protects the modified energy of recorded trajectories: of one of ours it is what the run itself gives, of an oscillator what theory
-//! says; and logs that cannot be used are refused.
+//! Protects the modified energy of recorded trajectories: of one of ours it equals the run's own, of an oscillator the theoretical
+//! value; and logs that cannot be used are refused.
 
 mod causes;
 mod input;

@@ -1,4 +1,4 @@
-//! Protects what is written and read back: settings of estimators, weights of tables, values of scenes. Those of exact numbers are in
+//! Protects what is written and read back: settings of estimators, weights of tables, values of scenes. Round trips of exact numbers are in
 //! `symbolic/tests/decimal.rs`.
 
 use proptest::prelude::*;
@@ -9,7 +9,7 @@ use shadowstep_scenes::Scene;
 use shadowstep_schemes::exact;
 use shadowstep_symbolic::decimal::to_text;
 
-/// Of few digits or many, also beyond those that become decimals.
+/// A number of few digits or many, also beyond the numbers that become decimals.
 fn number() -> impl Strategy<Value = Rational> {
     let denominator =
         prop_oneof![1..100_i128, 1..i128::MAX, (0..40_u32).prop_map(|n| 2_i128.pow(n) * 5_i128.pow(n / 2))];

@@ -222,7 +222,7 @@ where
     })
 }
 
-/// The flow is that of the same system in 32 steps of order (10, 6, 4): its error is 32^−4 of the largest error measured here, or less.
+/// The flow is approximated by 32 steps of order (10, 6, 4) of the same system: its error is 32^−4 of the largest error measured here, or less.
 fn orders_in_epsilon<C>(names: &[&str])
 where
     C: PlanetaryCoordinates<Fine, 2>,

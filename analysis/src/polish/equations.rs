@@ -22,7 +22,7 @@ pub(super) struct Equations {
     family: Family,
     /// The words of near-integrable orders that are not conditions of the family.
     near_integrable: Vec<order::Word>,
-    /// A palindrome meets the conditions of even order if it meets those of odd order.
+    /// A palindrome meets the conditions of even order if it meets the conditions of odd order.
     odd_only: bool,
     /// Whether the cubes of the kicks must sum to 0.
     split_kicks: bool,
@@ -66,7 +66,7 @@ impl Equations {
         Equations { family, near_integrable, odd_only, split_kicks }
     }
 
-    /// Whether the conditions are those of the γ's.
+    /// Whether the conditions are polynomials in the γ's.
     pub(super) fn are_in_gamma(&self) -> bool {
         matches!(self.family, Family::Composition(_)) && self.near_integrable.is_empty()
     }

@@ -68,7 +68,7 @@ impl NewTable {
     }
 }
 
-/// The faults are those of a text that nobody has seen.
+/// The faults are in a text that nobody has seen.
 fn not_proved(faults: &Faults, digits: u32) -> NotPolished {
     if digits < ENOUGH_TO_PROVE {
         let verb = if digits == 1 { "is" } else { "are" };

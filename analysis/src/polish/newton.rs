@@ -3,7 +3,7 @@
 //! Where there are more decimals than conditions, some stay as printed: those that a pivoted QR decomposition of the
 //! derivatives does not need, decimals with few digits (chosen, not computed) before the others. Where there
 //! are more conditions than decimals, as for Nyström trees and for weights with more structure than their conditions
-//! use, the steps are those of least squares (Gauss–Newton), and all conditions must be met at the end.
+//! use, the steps solve least-squares problems (Gauss–Newton), and all conditions must be met at the end.
 
 use shadowstep_symbolic::Rational;
 
@@ -30,7 +30,7 @@ pub(super) struct Solution {
     pub(super) x: Vec<Rational>,
     /// The unknowns that were solved for.
     pub(super) moving: Vec<usize>,
-    /// Of the derivatives at the solution.
+    /// The condition number of the derivatives at the solution.
     pub(super) condition_number: f64,
 }
 
@@ -39,7 +39,7 @@ pub(super) struct Solution {
 pub(super) struct Failure {
     /// log10 of the least residual.
     pub(super) residual: f64,
-    /// Of the derivatives where the iteration ended.
+    /// The condition number of the derivatives where the iteration ended.
     pub(super) condition_number: f64,
     /// How many unknowns were solved for.
     pub(super) moving: usize,
@@ -74,7 +74,7 @@ struct Linear {
 }
 
 impl Problem<'_> {
-    /// Solves for the unknowns that need it, with those of `held` as printed.
+    /// Solves for the unknowns that need it, with the unknowns in `held` as printed.
     pub(super) fn solve(&self, held: &[usize], digits: u32) -> Result<Solution, Failure> {
         let printed = self.model.printed();
         let most_digits = self.model.unknowns.iter().map(|u| u.decimal.significant).max().unwrap_or(1);

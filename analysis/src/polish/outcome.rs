@@ -13,9 +13,9 @@ pub struct Polished {
     pub proved: Proved,
     /// Its decimals, in the order of the text.
     pub weights: Vec<PolishedWeight>,
-    /// Whether the conditions are those of a composition in its γ's.
+    /// Whether the conditions are polynomials in the γ's of a composition.
     pub in_gamma: bool,
-    /// How many conditions were looked at.
+    /// How many conditions were evaluated.
     pub conditions: usize,
     /// The condition number of their derivatives (rows of length 1) along the decimals that were solved for.
     pub condition_number: f64,

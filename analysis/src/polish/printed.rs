@@ -28,7 +28,7 @@ pub(super) fn higher_orders(table: &Table, proof: &Proof) -> Vec<String> {
     };
     let order = proof.for_kinetic(table.kinetic).order;
     let mut higher = Vec::from_iter((order > table.order.value).then(|| say(order, "")));
-    // a term may be claimed to no higher order than those of lower powers of ε
+    // a term may be claimed to no higher order than the terms of lower powers of ε
     let mut least = u32::MAX;
     let claims = table.near_integrable.iter().flat_map(|claim| claim.powers());
     for ((claimed, power), order) in claims.zip(&proof.near_integrable) {

@@ -135,7 +135,7 @@ impl Model {
         self.unknowns.iter().position(|u| u.name == name).or_else(|| self.names.get(name).copied())
     }
 
-    /// Whether a name is that of a constant or weight without a decimal of its own.
+    /// Whether this is the name of a constant or weight without a decimal of its own.
     pub(super) fn is_exact(&self, name: &str) -> bool {
         self.constants.iter().any(|(constant, _)| constant == name) || self.exact.iter().any(|place| place == name)
     }
@@ -145,7 +145,7 @@ impl Model {
         self.unknowns.iter().map(|u| u.decimal.value.clone()).collect()
     }
 
-    /// How many lists of weights there are with the sum 1: those of gradient kicks have none.
+    /// How many lists of weights have the sum 1: kicks and drifts, not gradient kicks.
     pub(super) fn lists_of_weights(&self) -> usize {
         self.lists.len().min(2)
     }

@@ -162,7 +162,7 @@ fn limits_and_gaps_are_where_the_trace_passes_two() {
             let at = 2.0 * *evaluations as f64 * f64::from(i) / 5_000.0;
             let unstable = gaps.iter().any(|(from, to)| (from..to).contains(&&at));
             let (trace, error) = trace(&maps, at * at);
-            // near ±2 f64 does not tell
+            // near ±2 f64 does not decide
             assert!((trace.abs() - 2.0).abs() < error || (trace.abs() > 2.0) == unstable, "{name} at {at}: {trace}");
         }
     }
@@ -210,7 +210,7 @@ fn composition(base: &str, order: u32, gamma: &[&str]) -> Proved {
     read(&source, &|name, _| shipped(name)).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// The trace of n equal steps passes ±2 where that of one does; elsewhere it touches ±2, at double roots.
+/// The trace of n equal steps passes ±2 where the trace of one step does; elsewhere it touches ±2, at double roots.
 #[test]
 fn equal_steps_are_stable_where_one_of_them_is() {
     for (base, order, steps) in [("blanes-moan-s6", 4, 4), ("suzuki-umeno8", 8, 2), ("hairer10-33", 10, 40)] {
@@ -223,7 +223,7 @@ fn equal_steps_are_stable_where_one_of_them_is() {
     }
 }
 
-/// Far beyond the limit the trace of a composition passes from −2 to 2 within fewer digits than are looked at first.
+/// Far beyond the limit the trace of a composition passes from −2 to 2 within fewer digits than are computed first.
 #[test]
 fn steep_passages_are_parted() {
     let proved = composition("hairer10-33", 10, &["1/4", "1/2", "1/4"]);

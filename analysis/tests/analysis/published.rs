@@ -1,4 +1,4 @@
-//! Error coefficients, against what papers say of them.
+//! Error coefficients, against the values in papers.
 
 use shadowstep_analysis::Analysis;
 use shadowstep_schemes::{First, Kinetic, to_text};

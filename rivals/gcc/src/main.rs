@@ -1,4 +1,4 @@
-//! Steps in `f64` and `Fused` beside those of C by gcc -O3 -march=native, in one process: ratios to C.
+//! Steps in `f64` and `Fused` beside steps in C by gcc -O3 -march=native, in one process: ratios to C.
 //!
 //! `cargo run --release`, for any processor of the architecture; `RUSTFLAGS="-C target-cpu=native" cargo run --release`, for this one.
 

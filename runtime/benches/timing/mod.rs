@@ -11,9 +11,9 @@ pub(crate) type Contestant<'a> = (&'static str, Box<dyn FnMut(u32) + 'a>);
 
 /// Medians over the rounds.
 pub(crate) struct Measured {
-    /// Of the time of a repetition.
+    /// The time of a repetition.
     pub(crate) nanoseconds: f64,
-    /// Of its ratio to that of the first contestant in the same round.
+    /// The ratio of this time to the first contestant's in the same round.
     pub(crate) ratio: f64,
 }
 

@@ -11,7 +11,7 @@ type EstimatorOf<const W: usize> = <FixedBilinear as BuildEstimator<Lanes<W>>>::
 /// What became of a trajectory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// Positions at the end; of a processed scheme those of the trajectory, as all that is looked at.
+    /// Positions at the end; for a processed scheme the trajectory's, not the kernel's, as in all results.
     pub q: Vec<f64>,
     /// Momenta at the end.
     pub p: Vec<f64>,

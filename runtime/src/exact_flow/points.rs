@@ -13,7 +13,7 @@ pub(super) trait Points<N>: fmt::Debug {
     fn assign(&mut self, n: i64, q: &mut [N], p: &mut [N], increments: &mut OwnedIncrements<N>);
 }
 
-/// Those of a solution in numbers of type R.
+/// The points of a solution in numbers of type R.
 #[derive(Debug)]
 pub(super) struct PointsOf<R> {
     solution: Box<dyn Solution<R>>,
@@ -45,7 +45,7 @@ fn assign_rounded<N: Rounded, R: Reference>(numbers: &mut [N], values: &[Value<R
     numbers.iter_mut().zip(values).for_each(|(own, value)| own.assign_rounded(&value.0));
 }
 
-/// The differences, each rounded once; of a number type that keeps no increments there are none.
+/// The differences, each rounded once; empty for a number type that keeps no increments.
 fn assign_differences<N: Rounded, R: Reference>(increments: &mut [N], next: &[Value<R>], last: &[Value<R>]) {
     for ((own, next), last) in increments.iter_mut().zip(next).zip(last) {
         own.assign_rounded(&(next.clone() - last).0);

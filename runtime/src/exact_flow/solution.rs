@@ -10,7 +10,7 @@ use crate::number::{Ordered, Reference};
 use crate::problems::values::Values;
 use crate::shadow::EstimatorError;
 
-/// 20 digits beyond those of the run.
+/// 20 digits more than the run has.
 const GUARD_BITS: f64 = 67.0;
 
 /// A problem, initial state or time for which the exact flow cannot be computed.

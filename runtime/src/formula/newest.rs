@@ -16,7 +16,7 @@ const LONGEST: usize = 4096;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Text {
     pub(super) formula: String,
-    /// Of coordinates, momenta or properties.
+    /// The names of coordinates, momenta or properties.
     pub(super) variables: Vec<String>,
     pub(super) parameters: Vec<String>,
     pub(super) role: Role,
@@ -59,7 +59,7 @@ static NEWEST: Mutex<VecDeque<(Text, Arc<Derived>)>> = Mutex::new(VecDeque::new(
 /// The programs of a formula, which `derive` makes unless they are there.
 ///
 /// # Errors
-/// Those of `derive`.
+/// The errors of `derive`.
 pub(super) fn derived<E>(text: Text, derive: impl FnOnce(&Text) -> Result<Derived, E>) -> Result<Arc<Derived>, E> {
     let newest = || NEWEST.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, derived)) = newest().iter().find(|(known, _)| *known == text) {

@@ -33,7 +33,7 @@ pub struct FormulaPair<N> {
     interpreter: Interpreter<N>,
     parameters: Vec<N>,
     derived: Arc<Derived>,
-    /// Of the second derivatives, made when gradient kicks ask for them.
+    /// The interpreter of the second derivatives, made when gradient kicks need them.
     second: OnceLock<Interpreter<N>>,
 }
 

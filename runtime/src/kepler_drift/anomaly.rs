@@ -193,7 +193,7 @@ mod tests {
         low + (high - low) * (random.next_u64() >> 11) as f64 * 2_f64.powi(-53)
     }
 
-    /// Of any eccentricity, from any point, also nearly or exactly radial ones; r₀ = 1 and the larger of the squared velocities is 1.
+    /// An orbit of any eccentricity, from any point, also a nearly or exactly radial one; r₀ = 1 and the larger of the squared velocities is 1.
     fn orbit(random: &mut Pcg64Mcg) -> Orbit {
         let mu = 10_f64.powf(number(random, -6.0, 0.0).max(-5.0));
         let square = if mu < 1.0 { number(random, 0.0, 2.0) } else { 0.0 } + 2.0 * number(random, 0.0, 1.0).powi(8);

@@ -42,7 +42,7 @@ pub(super) struct Equation<N> {
     /// Whole revolutions that the time is without.
     revolutions: N,
     has_revolutions: bool,
-    /// s with that of whole revolutions.
+    /// s with whole revolutions included.
     anomaly: N,
     /// Whether the step is long in some lane.
     is_long: bool,
@@ -220,7 +220,7 @@ impl<N: Number> Equation<N> {
             && step.abs() <= 1e-2 * s.abs()
     }
 
-    /// s of a lane ← that of an `f64`, and the time without whole revolutions.
+    /// s of a lane ← s computed in `f64`, and the time without whole revolutions.
     #[cold]
     #[inline(never)]
     fn begin(&mut self, lane: usize) {
@@ -386,7 +386,7 @@ impl<N: Number> Equation<N> {
             && exponent(self.alpha.lane(lane)) < 250
     }
 
-    /// s of a lane ← that of an `f64`
+    /// s of a lane ← an `f64`
     pub(super) fn set_anomaly(&mut self, lane: usize, s: f64) {
         self.anomaly.set_lane(lane, s, 0);
     }

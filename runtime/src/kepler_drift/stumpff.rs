@@ -15,7 +15,7 @@ use crate::number::scaled;
 pub(super) struct Stumpff<N> {
     /// c₀ … c₃ of the last z.
     pub(super) c: [N; 4],
-    /// Those of lanes that are done, while z of other lanes is divided more often.
+    /// c₀ … c₃ of lanes that are done, while z of other lanes is divided more often.
     done: [N; 4],
     /// 120 (−1)ᵏ/(2k + 7)! of an even k and the next one, and 720 (−1)ᵏ/(2k + 8)! of both; the highest k first.
     coefficients: Vec<[N; 4]>,
@@ -27,7 +27,7 @@ pub(super) struct Stumpff<N> {
     sums: [N; 4],
 }
 
-/// What of the series is summed.
+/// Which terms of the series are summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Terms {
     /// All that matter.

@@ -5,7 +5,7 @@ use crate::Rational;
 use std::cell::Cell;
 use std::fmt;
 
-/// Numbers of operations on [`Counting`] numbers: what a program of `shadowstep-symbolic` says that it costs is counted in
+/// Numbers of operations on [`Counting`] numbers: the stated cost of a program of `shadowstep-symbolic` is counted in
 /// the same way.
 pub use shadowstep_symbolic::Operations;
 

@@ -19,7 +19,7 @@ pub use machine::Machine;
 
 /// A number of about 32 digits: the sum of two machine numbers, of which the second is at most half a last place of the first.
 ///
-/// The machine number is `f64`, or lanes of it. The arithmetic is that of double words whose bounds are proved; with u = 2⁻⁵³, the
+/// The machine number is `f64`, or lanes of it. The arithmetic is double-word arithmetic whose bounds are proved; with u = 2⁻⁵³, the
 /// relative errors are at most
 ///
 /// | operation | algorithm | bound | largest found |
@@ -43,16 +43,16 @@ pub use machine::Machine;
 /// Sources: M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of double-word
 /// arithmetic", ACM Trans. Math. Softw. 44 (2017) 15; the bound of products from J.-M. Muller, L. Rideau, "Formalization of double-word
 /// arithmetic …", ibid. 48 (2022) 9; the root from V. Lefèvre, N. Louvet, J.-M. Muller, J. Picot, L. Rideau, "Accurate calculation of
-/// Euclidean norms using double-word arithmetic", ibid. 49 (2023) 1. The bounds of functions are sums of those of their operations. All
+/// Euclidean norms using double-word arithmetic", ibid. 49 (2023) 1. The bounds of functions are sums of the bounds of their operations. All
 /// are tested against MPFR; the last column is from `cargo test --release --features mpfr -p shadowstep --lib double_double -- --ignored --nocapture`, 10⁷ random and
 /// adversarial cases.
 ///
 /// The bounds hold where neither the result nor a product of high parts, nor half of it, nor its last place underflows or overflows: for
 /// numbers and results between 2⁻⁹⁰⁰ and 2¹⁰²². Below, digits are lost; near 1.8e308 a result may be NaN. Beyond, it is infinite, as
-/// that of `f64`.
+/// in `f64`.
 ///
 /// Errors of products are found by a fused multiply-add where the processor has it, else from halves of 26 bits (Dekker). Both are exact, so that
-/// the bits are the same on every machine, but where 2⁻⁹⁶⁹ is above the product. Of the functions, atan, asin, acos and roots of
+/// the bits are the same on every machine, but where 2⁻⁹⁶⁹ is above the product. Among the functions, atan, asin, acos and roots of
 /// an order above 2 begin with the platform's `f64`.
 ///
 /// ```

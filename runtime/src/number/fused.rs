@@ -10,7 +10,7 @@ use crate::instructions;
 
 /// An `f64` whose sums with a product, such as [`add_product`](Number::add_product), round once, as [`f64::mul_add`] does.
 ///
-/// Results have other bits than those of `f64`, the same on all machines apart from elementary functions.
+/// Results have other bits than in `f64`, the same on all machines apart from elementary functions.
 ///
 /// The instruction of the processor is used by [`Stepper::steps`](crate::Stepper::steps), wherever the program runs, and by all loops in a program
 /// that is built for such a processor (`-C target-cpu=native`) or for ARM64. Elsewhere, as in a loop of
@@ -56,7 +56,7 @@ impl DerefMut for Copied {
     }
 }
 
-/// Methods that are those of `f64`.
+/// Methods taken from `f64`.
 macro_rules! delegate {
     ($($method:ident($($operand:ident),*);)*) => {$(
         #[inline(always)]

@@ -15,9 +15,9 @@ use std::ops::{Deref, DerefMut};
 /// compiler makes vector operations of them, the widest that a function may use: see [`instructions`](crate::instructions).
 ///
 /// **Bits.** A lane has the bits that `f64` has in its place, for arithmetic and roots and for tan, sinh, cosh, tanh, arctan, arcsin and arccos, which are the
-/// platform's. exp, log, sin and cos are functions of vectors of this crate: they have the same bits on every processor, but not always those of
+/// platform's. exp, log, sin and cos are functions of vectors of this crate: they have the same bits on every processor, but not always the bits of
 /// the platform's functions, which `f64` has. Their errors are below 0.9 units in the last place, and below 1.01 where exp is
-/// subnormal; beyond |x| = 1 647 099, which is 2²⁰·π/2, sin and cos are the platform's. A number does not depend on those in other lanes, nor
+/// subnormal; beyond |x| = 1 647 099, which is 2²⁰·π/2, sin and cos are the platform's. A number does not depend on the numbers in other lanes, nor
 /// on the instructions.
 ///
 /// Lanes are aligned to 64 bytes, so that four lanes take the memory of eight.

@@ -26,9 +26,9 @@ pub trait Reference: Ordered + 'static {
 pub struct ScaledInteger {
     /// Whether the sign is −.
     pub negative: bool,
-    /// The lowest limb first; none of 0.
+    /// The lowest limb first; empty for 0.
     pub magnitude: Vec<u64>,
-    /// Of 2.
+    /// The exponent of 2.
     pub exponent: i64,
 }
 

@@ -62,7 +62,7 @@ pub(super) struct Blocks<'a, P, const D: usize> {
 }
 
 impl<P, const D: usize> Blocks<'_, P, D> {
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `axes` is the scratch space of blocks, `pair` that of the pair.
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `axes` is the scratch space of blocks, `pair` the scratch space of the pair.
     pub(super) fn sum<N: Number>(
         &self,
         (q, gradient): (&[N], &mut [N]),

@@ -1,13 +1,13 @@
 //! The sum over the neighbours in a chain on a line, for numbers of a few bytes: blocks of springs at once, in vectors of the processor.
 //!
-//! A body's gradient is the slope of the spring before it, which is carried on, less that of the one after it: the bits of the plain loop.
+//! A body's gradient is the slope of the spring before it, which is carried on, less the slope of the spring after it: the bits of the plain loop.
 
 use super::pair::{BLOCK, Ends, PairPotential};
 use crate::instructions;
 use crate::number::Number;
 use shadowstep_symbolic::Separation;
 
-/// The chain's sums: that of the summands of pairs is one for each place in a block.
+/// The chain's sums; the sum of the summands of pairs is split by places in a block.
 struct Sums<N> {
     /// What the springs before a body add to its gradient.
     carried: N,

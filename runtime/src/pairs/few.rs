@@ -29,7 +29,7 @@ macro_rules! unrolled {
 }
 
 impl<P, const D: usize> Few<'_, P, D> {
-    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `scratch` is that of the pair.
+    /// gradient ← U_q, and the sum of the summands of pairs where it is wanted; `scratch` is the scratch space of the pair.
     #[inline(always)]
     pub(super) fn sum<N: Number>(&self, (q, gradient): (&[N], &mut [N]), total: Option<&mut N>, scratch: &mut [N])
     where

@@ -6,7 +6,7 @@ use crate::number::Number;
 use crate::potential::HessianProduct;
 use shadowstep_symbolic::Separation;
 
-/// The scratch space of a call, behind which that of the pair is: differences of positions and of the vector, their product, x and what the
+/// The scratch space of a call, followed by the pair's: differences of positions and of the vector, their product, x and what the
 /// pair computes of it.
 struct Scratch<'a, N, const D: usize> {
     difference: &'a mut [N; D],
@@ -125,7 +125,7 @@ impl<P, const D: usize> Pairs<P, D> {
     }
 }
 
-/// difference ← that of j less that of i
+/// difference ← the vector of j less the vector of i
 fn difference<N: Number, const D: usize>(i: End<'_, N, D>, j: End<'_, N, D>, difference: &mut [N; D]) {
     for (axis, difference) in difference.iter_mut().enumerate() {
         match (i, j) {

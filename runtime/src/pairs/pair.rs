@@ -33,7 +33,7 @@ pub trait PairPotential<N: Number>: Pair {
     /// slope ← u'(d) or 2u'(r²), so that ∂u/∂q_j = slope or slope·(q_j − q_i)
     fn slope(&self, i: usize, j: usize, x: &N, slope: &mut N, scratch: &mut [N]);
 
-    /// The slope, and summand ← what [`Pair::summand`] says: d u'(d) − 2u or 2r²u'(r²) − 2u, or u(x)
+    /// The slope, and summand ← what [`Pair::summand`] names: d u'(d) − 2u or 2r²u'(r²) − 2u, or u(x)
     fn slope_and_summand(&self, i: usize, j: usize, x: &N, slope: &mut N, summand: &mut N, scratch: &mut [N]);
 
     /// Its second derivatives, which gradient kicks need; the default has none.

@@ -12,7 +12,7 @@ use crate::summation::{Plain, Summation};
 /// Steps of H = ½pᵀM⁻¹p + U(q) with at most three coordinates and a diagonal M, for [`Potential::advance_few`](super::Potential::advance_few).
 ///
 /// A step in which the potential and the masses are each behind a `dyn` passes q, p and U_q through memory between its maps. Here one call
-/// makes many steps, compiled for the type of the potential, so that these stay in registers. The bits are those of the maps one by one.
+/// makes many steps, compiled for the type of the potential, so that these stay in registers. The bits are the same as with the maps one by one.
 #[derive(Debug)]
 pub struct FewCoordinates<'a, N> {
     /// q, p and U_q.

@@ -5,7 +5,7 @@ use crate::number::Number;
 /// The Hessian–vector product U_qq v of a potential.
 ///
 /// With v = M⁻¹U_q it is the force of a gradient kick, p += 2h³ c U_qq M⁻¹U_q. A formula of [`crate::potential!`] has it, derived; a
-/// potential of one's own implements this and returns itself from [`Potential::hessian`](crate::Potential::hessian).
+/// custom potential implements this and returns itself from [`Potential::hessian`](crate::Potential::hessian).
 ///
 /// ```
 /// use shadowstep::potential::HessianProduct;

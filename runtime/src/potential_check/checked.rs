@@ -33,7 +33,7 @@ impl<'a, N: Ordered, P: Potential<N> + ?Sized> Checked<'a, N, P> {
         rounding
     }
 
-    /// Of the coordinate where they differ most.
+    /// The comparison at the coordinate where they differ most.
     pub(super) fn check_alike(&self, with_rate: &[N], gradient: &[N]) -> Comparison<N> {
         let mut size = N::zero(&self.epsilon.context());
         let (mut worst, mut most) = (0, size.clone());

@@ -56,7 +56,7 @@ impl Definition for Entry {
         hamiltonian: "sum_i |p_i|^2/(2 m_i) - g sum_(i<j) m_i m_j/|q_i - q_j|",
         parameters: &[
             Parameter::positive("g", "2.95912208286e-4", "gravitational constant"),
-            // the Sun's mass includes those of the inner planets
+            // the Sun's mass includes the inner planets
             mass("m_sun", "1.00000597682"),
             mass("m_jupiter", "0.000954786104043"),
             mass("m_saturn", "0.000285583733151"),

@@ -59,7 +59,7 @@ impl Changes {
         changes.filter(|(_, steps, _)| *steps >= LAG as u64)
     }
 
-    /// Changes from state to state, or from window to window where these have one estimate each, as those of one step that add up like noise.
+    /// Changes from state to state, or from window to window where these have one estimate each; the latter are reduced to one step as if they added up like noise.
     fn sizes(&self) -> Vec<f64> {
         match self.is_of_single_estimates() {
             true => self.between().map(|(_, steps, change)| change.abs() / seen(steps).sqrt()).collect(),

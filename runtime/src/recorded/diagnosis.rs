@@ -15,7 +15,7 @@ const SINGLE: f64 = 2.4e-7;
 const ROUNDED: f64 = -0.3;
 /// H̄ moved if its range is this part of the energy error or more, beyond errors on both sides.
 const MOVED: f64 = 0.1;
-/// H̄ is not known well enough to say that it did not, if its error is this part of the energy error or more.
+/// H̄ is not known well enough to exclude a change, if its error is this part of the energy error or more.
 const UNKNOWN: f64 = 0.25;
 /// An estimate may be wrong by this many times its error.
 const ERROR_FACTOR: f64 = 3.0;
@@ -75,7 +75,7 @@ pub struct Diagnosis {
     /// The mean square of what H̄ changes by in a step, as a multiple of what errors of the forces would make that are independent from step to step and
     /// of the size of their differences, h²Σ(σv)²: 1 for noise of the forces.
     pub excess: Option<f64>,
-    /// The rms of what H̄ changes by from state to state, as a multiple of that of a normal distribution with the same median: 1 for noise, large where H̄
+    /// The rms of what H̄ changes by from state to state, as a multiple of the rms of a normal distribution with the same median: 1 for noise, large where H̄
     /// changes at few states only.
     pub isolation: f64,
     /// These states, with the largest change first.
@@ -103,10 +103,10 @@ pub struct Diagnosis {
 /// | forces not smooth | the exponent is from 2 to 4 |
 /// | not decided | none of these, or no gradients are logged |
 ///
-/// The excess, the isolation and the exponent are those of the [`Diagnosis`]. `docs/recorded-trajectories.md` has what they are in an experiment.
+/// The excess, the isolation and the exponent are defined at [`Diagnosis`]; `docs/recorded-trajectories.md` has measured values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cause {
-    /// The states are not those of velocity Verlet with these masses, gradients and step size: a thermostat, a constraint, another integrator.
+    /// The states are not from velocity Verlet with these masses, gradients and step size: a thermostat, a constraint, another integrator.
     OtherSteps,
     /// Nothing that is resolved: H̄ is conserved.
     Nothing,
@@ -133,7 +133,7 @@ pub enum Cause {
     ForcesNotSmooth,
     /// The time step: forces are smooth, and the steps do not resolve the motion.
     TimeStep,
-    /// The states do not tell.
+    /// Not decided by these states.
     Undecided,
 }
 
@@ -154,7 +154,7 @@ impl Cause {
         }
     }
 
-    /// Of noise, that of the forces; of jumps of U, that of the energy.
+    /// For noise, the size in the forces; for jumps of U, the size in the energy.
     pub fn size(self) -> Option<f64> {
         match self {
             Cause::Jumps { size } | Cause::EnergyNotSmooth { size } | Cause::Noise { size } => Some(size),

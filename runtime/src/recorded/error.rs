@@ -68,7 +68,7 @@ pub enum RecordedError {
         /// The rows of the matrix.
         vectors: [[f64; 3]; 3],
     },
-    /// Coordinates that are not those of particles in space.
+    /// Coordinates that are not of particles in space.
     #[error("a periodic box needs three coordinates for each particle, and there are {dimension}")]
     NotInSpace {
         /// The number of coordinates.

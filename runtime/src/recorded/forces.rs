@@ -63,21 +63,21 @@ impl Window {
 
 /// Sums of squares of what the filters of a window leave of the gradients.
 ///
-/// The mean square S of what a filter leaves, divided by Σ weights², is σ² for noise of variance σ². Of eighth differences it doubles with the
+/// The mean square S of what a filter leaves, divided by Σ weights², is σ² for noise of variance σ². For eighth differences it doubles with the
 /// distance where U' jumps, as twice as many jumps are seen; where U'' jumps it is 2³ times as large. Where the forces are smooth and the steps
 /// resolve the motion, it is 2¹⁶ times as large.
 #[derive(Clone, Debug)]
 pub(super) struct ForceDifferences {
     window: Window,
     dimension: usize,
-    /// The newest gradients, that of the state n in place n mod their number.
+    /// The newest gradients, the gradient at the state n in place n mod their number.
     ring: Vec<f64>,
     /// States since the sequence began, and components of all windows.
     pushed: usize,
     count: u64,
     /// Σ of squares by the filters.
     squares: [f64; 2],
-    /// Σ of the first times those of the velocities.
+    /// Σ of the first filter of the gradients times the same filter of the velocities.
     powers: f64,
     gradients: f64,
 }
@@ -153,12 +153,12 @@ impl ForceDifferences {
 pub struct Smoothness {
     /// The root mean square of U_q.
     pub gradient: f64,
-    /// That of its differences in time, of noise of a component its size: of eighth differences, divided by √C(16, 8); in windows of nine states, of
-    /// the coefficients of the orthogonal polynomials of degree 7 and 8.
+    /// The root mean square of its differences in time, which for noise is the size of the noise in a component: of eighth differences, divided by
+    /// √C(16, 8); in windows of nine states, of the coefficients of the orthogonal polynomials of degree 7 and 8.
     pub differences: f64,
     /// 0 for noise, 1 where U′ jumps, 3 where U″ does, large where the forces are smooth and the steps resolve the motion. It is log₂ of how many times
     /// as large the squares of the differences are where the distance of the states is doubled, then 16 at most; in windows of nine states it follows
-    /// from the ratio of the squares of the coefficients of degree 5 and 6 to those of degree 7 and 8.
+    /// from the ratio of the squares of the coefficients of degree 5 and 6 to the squares of the coefficients of degree 7 and 8.
     pub exponent: f64,
 }
 

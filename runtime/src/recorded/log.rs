@@ -7,7 +7,7 @@ use super::error::RecordedError;
 pub struct Logged<'a> {
     /// Positions, unwrapped: see [`Unwrapping`](super::Unwrapping).
     pub q: &'a [f64],
-    /// Momenta at the time of the positions: see [`integer_momenta`](super::integer_momenta) for those of leapfrog.
+    /// Momenta at the time of the positions: see [`integer_momenta`](super::integer_momenta) for momenta of leapfrog.
     pub p: &'a [f64],
     /// U(q)
     pub energy: f64,

@@ -1,9 +1,9 @@
-//! By how much logged states differ from the steps that are said to have made them.
+//! By how much logged states differ from the steps that are supposed to have made them.
 
 /// The differences r = x_{n+1} − x_n − Δx of logged states x, q or p, from the increments Δx of the steps between them.
 #[derive(Clone, Debug)]
 pub(super) struct Misfit {
-    /// Those of the newest step.
+    /// The differences of the newest step.
     newest: Vec<f64>,
     /// Whether the step before it has some.
     follows: bool,
@@ -16,7 +16,7 @@ pub(super) struct Misfit {
     largest: Option<Largest>,
 }
 
-/// The largest difference of a logged state from the step that is said to have made it.
+/// The largest difference of a logged state from the step that is supposed to have made it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Largest {
     /// n of the state after the step.

@@ -61,7 +61,7 @@ pub struct Observer {
     /// States of the present window.
     pushed: usize,
     states: u64,
-    /// H of the newest states, that of the state n in place n mod their number.
+    /// H of the newest states, the state n in place n mod their number.
     energies: [f64; MOST],
     kinetic: f64,
 }
@@ -118,7 +118,7 @@ impl Observer {
     /// A new window begins: the next state is the state n, which does not follow the newest by a step.
     ///
     /// # Errors
-    /// An n that is not larger than that of the newest state.
+    /// An n that is not larger than the newest state's.
     pub fn begin(&mut self, n: i64) -> Result<(), RecordedError> {
         self.steps.begin(n)?;
         self.forces.begin();
@@ -181,7 +181,7 @@ impl Observer {
         &self.values
     }
 
-    /// What moves the energy, as far as the states so far tell.
+    /// What moves the energy, as far as the states so far show.
     pub fn diagnosis(&self) -> Diagnosis {
         Diagnosis::of(&Evidence {
             window: self.window,

@@ -34,13 +34,13 @@ pub enum RunError {
     Dimension {
         /// Its coordinates.
         coordinates: usize,
-        /// Those of the system at the start.
+        /// The coordinates of the system at the start.
         begun: usize,
     },
     /// The weights of the stepper have another precision than the numbers of the system.
     #[error("the weights of the stepper have another precision than the system: make both with the same context")]
     Precision,
-    /// The scheme has gradient kicks, and the system has none.
+    /// The scheme has gradient kicks, which the system does not support.
     #[error(
         "{scheme} has gradient kicks, which this system has not: its potential needs a Hessian–vector product (write it as a formula, or implement \
          `Potential::hessian`), or displaced forces in its place (`Stepper::displacements`)"

@@ -56,7 +56,7 @@ impl<N: Number> DifferenceTable<N> {
     }
 }
 
-/// β's is always its increment; those of q and p are where these are known.
+/// For β it is always the increment, for q and p where increments are known.
 fn set_first_differences<N: Number>(differences: &mut [N], Increments { q, p, beta }: Increments<'_, N>) {
     let (last, others) = differences.split_last_mut().expect("β is there");
     others.iter_mut().zip(q.iter().chain(p)).for_each(|(own, increment)| own.assign(increment));

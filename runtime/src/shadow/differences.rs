@@ -2,7 +2,7 @@
 //!
 //! T_{m,m} is the sum of the first m terms of Stirling's series, and term k needs ∇^{2k−1} of (q, p, β) at the states
 //! n + k and n + k − 1 only. The table of backward differences of the newest state is updated with 2M vector
-//! subtractions a step; with that of the state before it completes one term of each of M states: of those whose search for the best m
+//! subtractions a step; with the table of the state before, it completes one term of each of M states whose search for the best m
 //! has not ended before.
 
 use crate::Rational;
@@ -34,7 +34,7 @@ pub enum StoppingRule {
 /// The number of successive terms in the early stopping rule.
 const STOP_WINDOW: usize = 11;
 
-/// The rule that selects the best m, by the sizes e_j = |T_{j,j} − T_{j−1,j−1}| of the terms. Of equal ones it is the first.
+/// The rule that selects the best m, by the sizes e_j = |T_{j,j} − T_{j−1,j−1}| of the terms. Among equal ones it is the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SelectionRule {
     /// The smallest e_m (Moan & Niesen), which reproduces their results. A term may be small by chance, far from the m where the

@@ -56,7 +56,7 @@ impl<N: Number> ErrorEstimate<N> {
         self.around
     }
 
-    /// The place for the next value, that of the oldest one.
+    /// The place for the next value, which is the oldest value's.
     pub(super) fn next(&mut self) -> &mut Point<N> {
         let oldest = if self.is_complete() { self.points.pop_front() } else { None };
         let zero = || N::zero(&self.error.context());

@@ -11,14 +11,14 @@ use crate::shadow::fixed::{IntegerWeights, OfLag, Rows, Sums};
 use crate::shadow::weights::BilinearWeights;
 use crate::shadow::window::Window;
 
-/// The newest states, and the products of each with those before it.
+/// The newest states, and the products of each with the states before it.
 #[derive(Clone, Debug)]
 pub(super) struct Products<N> {
     window: Window<N>,
     /// The number of states in the window.
     states: usize,
     pairs: Pairs<N>,
-    /// Those of the newest state.
+    /// The products of the newest state.
     of_newest: Vec<N>,
 }
 
@@ -82,7 +82,7 @@ pub(super) struct Form<N> {
     pub(super) error_estimate: ErrorEstimate<N>,
 }
 
-/// Those of the value and of the last term; the latter are empty, or none, where no error is computed, and for k = 1.
+/// The weights of the value and of the last term; the latter are empty or `None` where no error is computed, and for k = 1.
 #[derive(Clone, Debug)]
 enum Weights<N> {
     Numbers {
@@ -198,7 +198,7 @@ fn weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> Vec<Vec<N>>
     })
 }
 
-/// The same of P_{j+ℓ,j} of E_k less those of the mean of E_{k−1} over its two windows within.
+/// The same for P_{j+ℓ,j} of E_k less the mean of E_{k−1} over its two windows within.
 fn last_term_weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> Vec<Vec<N>> {
     let [of_k, before] = [k, k - 1].map(BilinearWeights::new);
     of_halves(k, |lag, j| {
@@ -211,14 +211,14 @@ fn last_term_weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> V
     })
 }
 
-/// C(k,j+ℓ) C(k,j) and 1/(h C(2k,k)), whose products with (−1)^ℓ/ℓ are those.
+/// C(k,j+ℓ) C(k,j) and 1/(h C(2k,k)), whose products with (−1)^ℓ/ℓ are these weights.
 fn integer_weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> (IntegerWeights, N) {
     let of_k = BilinearWeights::new(k);
     let factor = (h * Rational::from_integer(of_k.of_2k().clone())).recip();
     (IntegerWeights::new(&of_halves(k, |lag, j| of_k.product(lag, j))), N::from_rational(&factor, context))
 }
 
-/// The same of the last term, with C(2k,k) = C(2k−2,k−1) 2(2k − 1)/k: k times those of E_k less 2k − 1 times those of E_{k−1} at two places.
+/// The same for the last term, with C(2k,k) = C(2k−2,k−1) 2(2k − 1)/k: k times the integers of E_k less 2k − 1 times the ones of E_{k−1} at two places.
 fn integer_last_term_weights<N: Number>(k: u32, h: &Rational, context: &N::Context) -> (IntegerWeights, N) {
     let [of_k, before] = [k, k - 1].map(BilinearWeights::new);
     let factor = (h * Rational::from_integer(of_k.of_2k() * k)).recip();
@@ -261,7 +261,7 @@ mod tests {
     use crate::exact;
     use crate::shadow::weights::bilinear;
 
-    /// By the definition: rows of exact weights, and those of E_{k−1} at two places subtracted.
+    /// By the definition: rows of exact weights, with the weights of E_{k−1} at two places subtracted.
     #[test]
     fn weights_are_those_of_the_definition() {
         let h = exact("-3/7").unwrap();

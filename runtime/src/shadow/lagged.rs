@@ -27,7 +27,7 @@ pub(super) struct LaggedEstimator<N> {
     /// k, or a larger number for which there is a loop of fixed length.
     lags: usize,
     products: LaggedProducts<N>,
-    /// Those of the newest states, each in turn, and once more: so the newest ones follow one another wherever they begin.
+    /// The products of the newest states in a ring that is stored twice, so that the newest ones are contiguous wherever they begin.
     kept: Vec<N>,
     value: LaggedForm<N>,
     /// Without it no error is computed.
@@ -46,7 +46,7 @@ pub(super) struct LaggedEstimator<N> {
 }
 
 impl<N: Number> LaggedEstimator<N> {
-    /// Of larger windows the round-off of the weights, which is alike in all windows of a circular orbit, is more than the estimated error.
+    /// In larger windows the round-off of the weights, which is alike in all windows of a circular orbit, is more than the estimated error.
     pub(super) const LARGEST_K: u32 = 8;
 
     pub(super) fn new(k: u32, with_error: bool, h: &Rational, dimension: usize, context: &N::Context) -> Self {
@@ -113,7 +113,7 @@ impl<N: Number> LaggedEstimator<N> {
         kept[place + K] = products;
     }
 
-    /// Of the first state of all the step is unknown, and has no part in a value.
+    /// The step to the first state of all is unknown, and does not affect a value.
     #[cold]
     fn products_by_differences<const K: usize>(&mut self, place: usize, [q, p]: [&[N]; 2], beta: &N) -> [N; K] {
         let before = &self.states[self.place * 2 * self.dimension..];
@@ -211,7 +211,7 @@ mod tests {
         sum / (2.0 * h)
     }
 
-    /// Of short and long states, with increments of q and p and without.
+    /// For short and long states, with increments of q and p and without.
     #[test]
     fn values_are_those_of_the_definition() {
         for (k, dimension) in (1..=8).flat_map(|k| [(k, 1), (k, 3), (k, 8), (k, 69)]) {
@@ -265,7 +265,7 @@ mod tests {
         }
     }
 
-    /// The error of E_k by round-off, rms, by lags and by pairs of states, for the same states and increments: the right value is that of
+    /// The error of E_k by round-off, rms, by lags and by pairs of states, for the same states and increments: the right value is computed with
     /// four limbs.
     fn round_off(k: u32, problem: &str, h: &str) -> [f64; 2] {
         const STEPS: u32 = 500;

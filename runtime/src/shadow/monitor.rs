@@ -5,7 +5,7 @@
 //! | `schedule` | which states belong to windows |
 //! | `energies` | H and T at the middles of windows |
 //! | `blocks` | the most accurate estimates and the means of the parts of a run, in fixed memory |
-//! | `change`, `trend` | what these say: a permanent change and its uncertainty; constant, random walk or line |
+//! | `change`, `trend` | what these show: a permanent change and its uncertainty; constant, random walk or line |
 //! | `statistics` | extremes and sums over the windows |
 //! | `recent` | round-off, turning and consistency, from the newest states of a window |
 //! | `turning` | the angle of a step, from differences of momenta |
@@ -54,9 +54,9 @@ use crate::system::System;
 
 /// Follows the modified energy H̄ of the trajectory that a loop computes.
 ///
-/// It takes all states, and keeps those of *windows*: as many as the estimator needs, at every step or
+/// It takes all states, and keeps the states of *windows*: as many as the estimator needs, at every step or
 /// [every n steps](ShadowEnergy::every). Only the steps within windows are augmented; the others are plain steps, with the same
-/// bits and cost. Of the windows it keeps extremes, sums and 64 estimates, however
+/// bits and cost. From the windows it keeps extremes, sums and 64 estimates, however
 /// long the run: nothing is allocated after the beginning.
 ///
 /// The [`Report`] splits the energy error into the method's part H − H̄, the range of H̄ beside the expected effect of round-off,
@@ -280,7 +280,7 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
     ///
     /// # Errors
     /// A state of a window, or its energy or modified energy, that is not finite. What is not finite stays so: between the
-    /// windows it is found by the next one. A system of another dimension than that of the start.
+    /// windows it is found by the next one. A system of another dimension than at the start.
     #[inline]
     pub fn observe<M: System<Number = N>>(&mut self, system: &mut M) -> Result<Option<Sample<'_, N>>, RunError> {
         self.n += 1;

@@ -17,7 +17,7 @@ const LARGEST_ACCURACY: i32 = 100;
 
 /// Options that select an estimator; omitted ones have their defaults.
 ///
-/// The names of the fields are those of the keys of a scene and, with hyphens, of the flags.
+/// The fields have the names of the keys of a scene and, with hyphens, of the flags.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct EstimatorOptions {
     /// The m of D_m or the k of E_k; `None` for the best one of each state (`auto`).

@@ -11,7 +11,7 @@ const STATES: usize = 3;
 /// The walk that round-off is expected to make, √(Σ kick²), by Brouwer's law: errors of the states are independent, so that the
 /// energy goes like the square root of the number of steps (D. Brouwer, Astron. J. 46 (1937) 149).
 ///
-/// A step rounds q and p by c ε|q| and c ε|p| at least, which moves H by U_q δq and T_p δp; T_p is Δq/h, and U_q is −Δp/h. Of
+/// A step rounds q and p by c ε|q| and c ε|p| at least, which moves H by U_q δq and T_p δp; T_p is Δq/h, and U_q is −Δp/h. In
 /// compensated sums the increments are rounded.
 #[derive(Clone, Debug)]
 pub(crate) struct Walk<N> {

@@ -11,7 +11,7 @@ pub(super) struct Window<N> {
     pushed: usize,
     /// The increments added up.
     sum: OwnedIncrements<N>,
-    /// The pairs that are being summed, in separate places: those of `f64` stay in registers of the processor.
+    /// The pairs that are being summed, in separate places: in `f64` these stay in registers of the processor.
     places: [N; AT_ONCE],
 }
 

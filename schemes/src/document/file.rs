@@ -10,7 +10,7 @@ pub const LARGEST_TABLE: u64 = 1 << 20;
 /// Reads a text of at most `most` bytes in UTF-8.
 ///
 /// # Errors
-/// Those of the file system; `FileTooLarge` for a longer file, of which no more is read; `InvalidData` for a file that is not
+/// Errors of the file system; `FileTooLarge` for a longer file, of which no more is read; `InvalidData` for a file that is not
 /// in UTF-8.
 ///
 /// ```

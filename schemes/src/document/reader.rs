@@ -261,7 +261,7 @@ impl Reader<'_> {
         self.members(value, what, read).into_iter().flat_map(|members| members.value).flatten().collect()
     }
 
-    /// Whether a list has at most this many members; adds the fault of one that has more, of which none is read. `what` is
+    /// Whether a list has at most this many members; adds a fault if it has more, and then none is read. `what` is
     /// what they are: `weights`.
     pub fn has_at_most(&mut self, value: &Value<'_>, most: usize, what: &str) -> bool {
         let count = match value.get_ref() {

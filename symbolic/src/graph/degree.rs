@@ -23,7 +23,7 @@ impl Graph {
         degrees
     }
 
-    /// The degree of a node from those of its parts.
+    /// The degree of a node from the degrees of its parts.
     fn degree_by_rule(&self, node: Node, known: &HashMap<Node, Option<Rational>>) -> Option<Rational> {
         match self.form(node) {
             Form::Number(_) | Form::Parameter(_) | Form::Property(_) => Some(Rational::zero()),

@@ -68,7 +68,7 @@ pub struct NoFlow {
 }
 
 impl Graph {
-    /// The flows of which that of a Hamiltonian consists, which commute with each other.
+    /// The commuting flows that the flow of a Hamiltonian consists of.
     ///
     /// It has no parameters; see [`Graph::replaced`]. What is found is exact: formulas that the rules do not simplify far enough are refused.
     ///
@@ -94,7 +94,7 @@ impl Graph {
         if self.commutes(hamiltonian, freedoms) {
             return Ok(vec![self.commuting(hamiltonian)]);
         }
-        // those of commuting variables are computed together
+        // the flows of commuting variables are computed together
         let mut together = Vec::new();
         let mut flows = Vec::new();
         for (of, term) in self.components(hamiltonian, freedoms) {

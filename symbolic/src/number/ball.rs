@@ -1,4 +1,4 @@
-//! Fixed-point numbers with error bounds: every operation adds its own error to those of its operands.
+//! Fixed-point numbers with error bounds: every operation adds its own error to the errors of its operands.
 
 use num_bigint::BigInt;
 use num_integer::Integer;

@@ -11,7 +11,7 @@ use num_traits::{One, ToPrimitive, Zero};
 /// Numbers of these bits need no allocation.
 const SHORT: u64 = 128;
 
-/// Of numbers that differ in length by more bits than these, a division takes less than subtractions.
+/// For numbers whose lengths differ by more bits than this, a division takes less time than subtractions.
 const MUCH_LONGER: u64 = 32;
 
 /// The bits of both numbers that decide the next quotients.
@@ -36,7 +36,7 @@ pub(crate) fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
     }
 }
 
-/// Of a number and one that is not larger.
+/// The greatest common divisor of a number and one that is not larger.
 fn of_long(mut a: BigUint, mut b: BigUint) -> BigUint {
     while b.bits() > SHORT {
         #[cfg(test)]

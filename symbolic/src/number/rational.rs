@@ -1,6 +1,6 @@
 //! Exact rationals.
 //!
-//! Comparisons, hashes and the search for common divisors are not those of `num_rational`: the first two recurse along continued
+//! Comparisons, hashes and the search for common divisors are not taken from `num_rational`: the first two recurse along continued
 //! fractions, for long numbers beyond the end of the stack, and the last takes a pass over the numbers for every bit.
 
 use std::cmp::Ordering;
@@ -46,7 +46,7 @@ impl Rational {
         }
     }
 
-    /// numerator/denominator without a search for common divisors, of which there must be none; the denominator must be
+    /// numerator/denominator without a search for common divisors; there must be none, and the denominator must be
     /// positive.
     pub(crate) fn new_raw(numerator: BigInt, denominator: BigInt) -> Self {
         Rational(BigRational::new_raw(numerator, denominator))

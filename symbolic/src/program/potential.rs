@@ -12,7 +12,7 @@ use crate::program::Program;
 pub enum Summand {
     /// A pair's own rate, d u'(d) − 2u or 2r²u'(r²) − 2u: the sum of these is the rate.
     Rate,
-    /// A pair's energy u: the rate is qᵀU_q − 2 Σ u. Its round-off grows with q, as that of other products with q in estimates does.
+    /// A pair's energy u: the rate is qᵀU_q − 2 Σ u. Its round-off grows with q, as it does for other products with q in estimates.
     Energy,
 }
 
@@ -21,7 +21,7 @@ pub enum Summand {
 pub struct PotentialPrograms {
     /// One output: U.
     pub energy: Program,
-    /// An output per coordinate: U_q. The operations are those of `gradient_and_rate`, so that a trajectory has the same
+    /// An output per coordinate: U_q. The operations are the same as in `gradient_and_rate`, so that a trajectory has the same
     /// bits whether qᵀU_q − 2U is computed or not; the constants are the same.
     pub gradient: Program,
     /// U_q, and as the last output qᵀU_q − 2U; of a pair its summand.
@@ -73,7 +73,7 @@ impl Graph {
     /// without others.
     ///
     /// - `energy` computes nothing;
-    /// - `gradient` has the Hessian–vector product U_qq v: one derivative of U_q, so that its cost grows as that of U_q;
+    /// - `gradient` has the Hessian–vector product U_qq v: one derivative of U_q, so that its cost grows like the cost of U_q;
     /// - `gradient_and_rate` has after it vᵀ∂(qᵀU_q − 2U)/∂q = qᵀU_qq v − vᵀU_q, derived from the simplified rate.
     pub fn hessian_product(&mut self, energy: Node, coordinates: usize) -> PotentialPrograms {
         let directional = |graph: &mut Graph, node| graph.derived(node, Derivation::Directional);
@@ -84,10 +84,10 @@ impl Graph {
         self.second_derivatives(&outputs)
     }
 
-    /// The programs of a pair's second derivatives, in place of those of [`Graph::hessian_product`].
+    /// The programs of a pair's second derivatives, in place of the programs of [`Graph::hessian_product`].
     ///
     /// `gradient` has the slope s of [`Graph::pair`] and a curvature t, `gradient_and_rate` after them a slope r of the rate. For u(r²), with
-    /// the difference d of the positions and that of a vector v, w = v_j − v_i, the pair adds s w + t (dᵀw) d to the product U_qq v of the
+    /// the differences d of the positions and w = v_j − v_i of a vector v, the pair adds s w + t (dᵀw) d to the product U_qq v of the
     /// body j, and r dᵀw to vᵀ∂(qᵀU_q − 2U)/∂q: t = 4u″(r²), r = 2∂(2r²u′ − 2u)/∂(r²). For u(d) it adds t w and r w: t = u″(d),
     /// r = ∂(d u′ − 2u)/∂d.
     pub fn pair_curvature(&mut self, energy: Node, separation: Separation) -> PotentialPrograms {
@@ -103,7 +103,7 @@ impl Graph {
         self.second_derivatives(&[slope, curvature, of_rate])
     }
 
-    /// Programs whose last output is that of the rate.
+    /// Programs whose last output belongs to the rate.
     fn second_derivatives(&mut self, outputs: &[Node]) -> PotentialPrograms {
         PotentialPrograms::new(Program::default(), self.program(outputs), Summand::Rate)
     }
@@ -115,7 +115,7 @@ impl PotentialPrograms {
         PotentialPrograms { energy, gradient, gradient_and_rate, summand }
     }
 
-    /// The number of kept constants: those of the energy, then those of the gradient.
+    /// The number of kept constants: first the constants of the energy, then the gradient's.
     pub fn kept(&self) -> usize {
         self.energy.kept + self.gradient_and_rate.kept
     }

@@ -25,7 +25,7 @@ pub struct NotANumber {
 
 /// Writes a rational with all its digits, such as `3`, `-7/24` or `0.6756035959798288170238437`.
 ///
-/// Denominators up to 10000 stay fractions. Of the others, those with at most 400 decimal places
+/// Denominators up to 10000 stay fractions. Among the others, numbers with at most 400 decimal places
 /// become decimals. [`from_text`] reads the text back to the same number, and so does
 /// [`exact`](crate::exact()) up to the length it allows.
 pub fn to_text(value: &Rational) -> String {

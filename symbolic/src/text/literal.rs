@@ -27,7 +27,7 @@ pub(crate) fn value(literal: &str) -> Option<Rational> {
     let literal = literal.replace('_', "");
     let (mantissa, exponent) = literal.split_once(['e', 'E']).unwrap_or((&literal, "0"));
     let exponent: i64 = exponent.parse().ok()?;
-    // not by |exponent|: that of the least i64 overflows
+    // not by |exponent|, which overflows for the least i64
     if !(-LARGEST_EXPONENT..=LARGEST_EXPONENT).contains(&exponent) {
         return None;
     }

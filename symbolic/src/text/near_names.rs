@@ -6,7 +6,7 @@ use strsim::osa_distance;
 /// and 1.
 ///
 /// The distance is the number of typing errors: letters missing, added, replaced, or swapped with their neighbours
-/// (optimal string alignment). Case does not matter. Of equally near words the first is chosen.
+/// (optimal string alignment). Case does not matter. Among equally near words the first is chosen.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = (word.chars().count() / 3).max(1);
     let with_distance = known.into_iter().map(|other| (distance(word, other), other));

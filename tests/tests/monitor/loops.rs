@@ -1,4 +1,4 @@
-//! Loops whose steps are not those of the monitor's stepper.
+//! Loops whose steps are not made by the monitor's stepper.
 
 use super::*;
 
@@ -86,7 +86,7 @@ fn a_weak_drag_is_a_drift() {
     assert_eq!(strong.verdict, Verdict::Inconsistent, "{strong}");
 }
 
-/// The slow oscillation of the planets' H̄ looks like a drift for a while: that is no push, but not called bounded either.
+/// The slow oscillation of the planets' H̄ looks like a drift for a while: this is not a push, but is not called bounded either.
 #[test]
 fn a_slow_oscillation_is_no_push() {
     for (h, steps) in

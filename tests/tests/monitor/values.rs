@@ -1,4 +1,4 @@
-//! What a monitor costs and changes, which is nothing; its values are those of a run; its numbers against closed forms.
+//! What a monitor costs and changes, which is nothing; its values equal a run's; its numbers against closed forms.
 
 use super::*;
 
@@ -146,7 +146,7 @@ fn the_parts_of_the_oscillator_are_in_closed_form() {
     assert!((report.steps_per_turn.unwrap() - turn).abs() < 1e-6 * turn && report.irregular.unwrap().abs() < 1e-6);
 }
 
-/// At many digits H̄ is closer to its closed form than an `f64` could say; smaller numbers than an `f64` has are printed.
+/// At many digits H̄ is closer to its closed form than an `f64` could show; smaller numbers than an `f64` has are printed.
 #[test]
 fn many_digits_are_kept() {
     const DIGITS: u32 = 400;
@@ -171,7 +171,7 @@ fn many_digits_are_kept() {
     assert!(printed.contains("e-40") && !printed.contains("e-324") && !printed.contains("inf"), "{printed}");
 }
 
-/// Where nothing else moves H̄, round-off does, and by what Brouwer's law says.
+/// Where nothing else moves H̄, round-off does, by as much as Brouwer's law predicts.
 #[test]
 fn round_off_walks_as_expected() {
     for (name, set, h) in [("kepler", "0.6", "1/40"), ("kepler", "0.1", "1/200"), ("kepler", "0.3", "1/20")] {

@@ -78,7 +78,7 @@ fn many_bodies() {
     }
 }
 
-/// A body that nothing pulls has an energy error of 0, of which nothing is a part.
+/// A body without forces has an energy error of 0, so that nothing can be compared with it.
 #[test]
 fn free_motion_is_fine() {
     potential! { struct Nothing; U(x) = 0*x }
@@ -153,7 +153,7 @@ fn a_light_planet_is_reported() {
     // hω = 1.43, 2 and 2.5: the planet is thrown out in the first steps
     for h in ["0.0452", "0.0632", "0.079"] {
         let lost = watch(1e-3, h, 4000);
-        // that of the planet, or of its star, which it moves
+        // a coordinate of the planet, or of its star, which it moves
         let (coordinate, steps) = lost.fastest_coordinate.unwrap();
         assert!([0, 1, 4, 5].contains(&coordinate) && steps < 6.0, "{coordinate}, {steps}: {lost}");
         assert!(!lost.verdict.is_fine() && lost.lost_coordinate.is_some(), "{lost}");

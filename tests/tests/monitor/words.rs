@@ -114,7 +114,7 @@ fn a_report_reads() {
     assert_eq!(trimmed(&printed.lines().collect::<Vec<_>>()), trimmed(&shown), "{printed}");
 }
 
-/// Every verdict says why, with numbers.
+/// Every verdict states why, with numbers.
 #[test]
 fn verdicts_say_why() {
     let cases = [

@@ -184,7 +184,7 @@ fn other_steps_are_found() {
     for found in (Run { h: 0.002, steps: 1000, evaluate: of(Cutoff::Smooth), after, store: |x| x }).observe(0.002) {
         assert_eq!(found.cause, Cause::OtherSteps, "{found}");
     }
-    // another step size than is said
+    // another step size than stated
     let run = Run { h: 0.002, steps: 1000, evaluate: of(Cutoff::Smooth), after: |_: &mut [f64]| (), store: |x| x };
     for found in run.observe(0.00201) {
         assert_eq!(found.cause, Cause::OtherSteps, "{found}");
@@ -209,7 +209,7 @@ fn states_with_few_digits_are_not_accused() {
     }
 }
 
-/// Windows of 17 states with gaps between them: the estimates are those of the whole trajectory.
+/// Windows of 17 states with gaps between them: the estimates equal those from the whole trajectory.
 #[test]
 fn windows_with_gaps_give_the_same_values_and_causes() {
     let logged = Logged::new(&fluid(), &[1.0; 81], 0.004, fluid().start(), 600);

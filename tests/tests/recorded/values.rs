@@ -31,7 +31,7 @@ fn of_our_own_trajectory_they_are_those_of_the_run() {
     }
 }
 
-/// Of H = p²/2m + mω²q²/2 the modified energy is ½(p²/m + (1 − x²) mω²q²) arcsin(x)/(x√(1 − x²)), x = hω/2.
+/// For H = p²/2m + mω²q²/2 the modified energy is ½(p²/m + (1 − x²) mω²q²) arcsin(x)/(x√(1 − x²)), x = hω/2.
 #[test]
 fn of_an_oscillator_they_are_what_theory_says() {
     let (omega, mass) = (1.7_f64, 2.5_f64);

@@ -21,7 +21,7 @@ enum Target {
     Elsewhere,
 }
 
-/// All imports of a crate. `mod child;` is none, and neither is a re-export of a name that the file does not use itself.
+/// All imports of a crate. `mod child;` is not an import, nor is a re-export of a name that the file does not use itself.
 pub(crate) fn imports(source: &Crate) -> Imports {
     let mut found = Imports::new();
     let mut take = |from: &Path, targets: Vec<Target>| {

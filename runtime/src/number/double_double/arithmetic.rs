@@ -1,4 +1,4 @@
-//! Sums, products, quotients and square roots. u = 2⁻⁵³; the table of bounds and sources is that of [`DoubleDouble`].
+//! Sums, products, quotients and square roots. u = 2⁻⁵³; the table of bounds and sources is at [`DoubleDouble`].
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -157,7 +157,7 @@ impl<T: Machine> Div for DoubleDouble<T> {
     }
 }
 
-/// The end of DWTimesFP1: the product with its error, and that of the low part.
+/// The end of DWTimesFP1: the product with its error, and the product of the low part.
 #[inline(always)]
 fn times_quotient<T: Machine>(product: T, error: T, low: T) -> (T, T) {
     let (high, rest) = fast_two_sum(product, low);

@@ -48,7 +48,7 @@ fn choose<const W: usize>(
     (each(pair.0, other.0), each(pair.1, other.1))
 }
 
-/// Products are those of halves: which instructions a loop is compiled for is not known here, and without those for fused
+/// Products are computed from halves: which instructions a loop is compiled for is not known here, and without fused
 /// multiply-adds a lane would call a function of the C library.
 impl<const W: usize> Machine for Lanes<W> {
     const LANES: usize = W;

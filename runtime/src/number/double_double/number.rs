@@ -37,7 +37,7 @@ impl<T: Machine> Number for DoubleDouble<T> {
     where
         T: 'a;
 
-    /// Of lanes; for one number the instruction for exact products is chosen where it is needed.
+    /// For lanes; for one number the instruction for exact products is chosen where it is needed.
     #[inline(always)]
     fn in_widest_instructions<R>(work: impl FnOnce() -> R) -> R {
         T::in_widest_instructions(work)

@@ -78,7 +78,7 @@ proptest! {
         prop_assert_eq!(number(&text).to_text(), x.to_text());
     }
 
-    /// High parts are those of `f64`, or next to them.
+    /// High parts are the results in `f64`, or next to them.
     #[test]
     fn results_are_near_those_of_the_machine(a in 1e-3..100.0, b in -1e3..1e3, c in -1e-3..1e60) {
         let [x, y, z] = [a, b, c].map(DoubleDouble::from);

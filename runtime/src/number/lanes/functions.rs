@@ -1,6 +1,6 @@
 //! exp, log, sin and cos of several `f64` at once: without branches, so that the compiler makes vector operations of the loops.
 //!
-//! Polynomials and reductions are those of fdlibm (Copyright (C) 1993 by Sun Microsystems, Inc.; permission to use, copy, modify, and distribute is
+//! Polynomials and reductions are taken from fdlibm (Copyright (C) 1993 by Sun Microsystems, Inc.; permission to use, copy, modify, and distribute is
 //! freely granted, provided that this notice is preserved), with every case of an argument computed and the right one selected. No operation
 //! is fused: the bits are the same on all processors.
 
@@ -60,7 +60,7 @@ pub(super) fn sin_cos_each<const W: usize>(x: &mut [f64; W], cos: &mut [f64; W])
     cos_each(cos);
 }
 
-/// Of large angles and those that are not finite, the platform's function.
+/// Replaces the values at large angles, and at angles that are not finite, by the platform's function.
 #[inline]
 fn replace_large<const W: usize>(values: &mut [f64; W], angles: &[f64; W], function: impl Fn(f64) -> f64) {
     let is_large = |x: &f64| x.abs() > LARGEST_ANGLE;
@@ -120,7 +120,7 @@ pub(super) fn log(x: f64) -> f64 {
         1.531383769920937332e-01,
         1.479819860511658591e-01,
     ];
-    /// Of √½, in its first 32 bits.
+    /// The first 32 bits of √½.
     const ROOT_OF_HALF: u64 = 0x3fe6_a09e_0000_0000;
     const MANTISSA: u64 = (1 << 52) - 1;
     const TWO_52: f64 = 4_503_599_627_370_496.0;
@@ -157,7 +157,7 @@ pub(super) fn cos(x: f64) -> f64 {
     selected(n.wrapping_add(1), sin_of_reduced(r), cos_of_reduced(r))
 }
 
-/// The sine of n π/2 + r, from those of r; the last two bits of n are used.
+/// The sine of n π/2 + r, from the sine and cosine of r; the last two bits of n are used.
 #[inline(always)]
 fn selected(n: u64, sin: f64, cos: f64) -> f64 {
     let cos_is_it = (n & 1).wrapping_neg();

@@ -60,7 +60,7 @@ impl<R: Reference> Ellipse<R> {
 
     /// x, sin x and 1 − cos x for ωt = `mean`.
     ///
-    /// Newton's method doubles the digits, so that only its last step needs a sine and a cosine of all digits; those of the final x
+    /// Newton's method doubles the digits, so that only its last step needs a sine and a cosine of all digits; the sine and cosine of the final x
     /// differ from them by the terms of a series in the last change.
     fn anomaly(&self, mean: &Value<R>) -> (Value<R>, Value<R>, Value<R>) {
         let all = self.sigma.bits();
@@ -100,7 +100,7 @@ struct Equation<R> {
     mean: Value<R>,
 }
 
-/// The bits of a first approximation beyond those of the angle before its point.
+/// The bits of a first approximation, in addition to the bits of the angle before its point.
 const ROUGH_BITS: u32 = 128;
 
 /// Bits that a step of Newton's method may lose where the equation is flat and curved.

@@ -32,7 +32,7 @@ pub(super) struct Addition<R> {
     start: State<R>,
     present: State<R>,
     n: i64,
-    /// Of these, `parts` are a step h; `None` at rest, where only β grows.
+    /// A step of which `parts` make up h; `None` at rest, where only β grows.
     step: Option<Step<R>>,
     parts: u32,
     /// 2h, which β grows by in a step at rest.

@@ -73,7 +73,7 @@ impl<R: Reference> Terms<R> {
         }
     }
 
-    /// From the coefficients to k those of k + 1.
+    /// Computes the next coefficients from the ones before.
     fn extend(&mut self) {
         let k = self.q.len();
         let last = |list: &[Value<R>]| list[k - 1].clone();

@@ -14,7 +14,7 @@ use crate::number::{LimbAccess, Parts};
 /// Pairs are numbers about 1 in most units.
 const OFFSET: Offset = 32;
 
-/// The most limbs of a sum: those of a row, one below, and one more than weights have, which is 9 for k ≤ 256.
+/// The most limbs of a sum: the limbs of a row, one below, and one more than weights have, which is 9 for k ≤ 256.
 const MOST_OF_SUM: usize = MOST_LIMBS + 1 + 11;
 
 /// Rows of pairs, by places.
@@ -91,7 +91,7 @@ impl IntegerWeights {
 pub(in crate::shadow) struct Sums<'a> {
     rows: &'a Rows,
     weights: [Option<&'a IntegerWeights>; 2],
-    /// That of the coarsest row, which the limb 1 is for.
+    /// `low` of the coarsest row, which the limb 1 is for.
     low: i64,
     limbs: [[u64; MOST_OF_SUM]; 2],
 }

@@ -12,7 +12,7 @@ use super::{
 use crate::increments::Increments;
 use crate::number::{LimbAccess, Number, Parts};
 
-/// Those of q and p, which are about 1 in most units; and that of their products and of β.
+/// The offset of q and p, which are about 1 in most units; and the offset of their products and of β.
 const OFFSET: Offset = 16;
 const OFFSET_OF_PRODUCTS: Offset = 2 * OFFSET;
 

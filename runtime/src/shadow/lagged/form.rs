@@ -7,7 +7,7 @@ use crate::shadow::weights::BilinearWeights;
 /// The weights of a form.
 #[derive(Clone, Debug)]
 pub(super) struct LaggedForm<N> {
-    /// For each state of a window, the newest first, those of its products with the steps before it, the oldest first.
+    /// For each state of a window, the newest first, the weights of its products with the steps before it, the oldest first.
     weights: Vec<N>,
 }
 
@@ -23,7 +23,7 @@ impl<N: Number> LaggedForm<N> {
         LaggedForm { weights }
     }
 
-    /// value ← the form at the window that a state ends, from its products and those of the states before it, the newest last.
+    /// value ← the form at the window that a state ends, from its products and the products of the states before it, the newest last.
     #[inline(always)]
     pub(super) fn evaluate<const K: usize>(&self, products: &[N; K], before: &[[N; K]; K], value: &mut N) {
         let weights: &[[N; K]; K] = self.weights.as_chunks().0.try_into().expect("as many states as lags");
@@ -40,13 +40,13 @@ impl<N: Number> LaggedForm<N> {
     }
 }
 
-/// Those of E_k.
+/// The weights of E_k.
 pub(super) fn value_weights(k: u32, h: &Rational) -> Vec<Vec<Rational>> {
     let of_k = BilinearWeights::new(k);
     of_steps(k, |lag, j| of_pair(&of_k, lag, j, h))
 }
 
-/// Those of E_k less the mean of E_{k−1} over its two windows within.
+/// The weights of E_k less the mean of E_{k−1} over its two windows within.
 pub(super) fn last_term_weights(k: u32, h: &Rational) -> Vec<Vec<Rational>> {
     let [of_k, before] = [k, k - 1].map(BilinearWeights::new);
     of_steps(k, |lag, j| {
@@ -66,7 +66,7 @@ fn of_pair(weights: &BilinearWeights, lag: usize, j: usize, h: &Rational) -> Rat
 }
 
 /// A pair is a sum over the steps between its states, so that the weight of the state j with the m-th step before it, m = 0, 1, …, is the
-/// sum of those of all pairs with a state j + ℓ before that step: ℓ > m.
+/// sum of the weights of all pairs with a state j + ℓ before that step: ℓ > m.
 fn of_steps(k: u32, weight: impl Fn(usize, usize) -> Rational) -> Vec<Vec<Rational>> {
     let of_state = |j: usize| {
         let mut sum = zero();

@@ -22,7 +22,7 @@ pub(super) struct LongRows<N> {
     lags: usize,
     /// The groups of a step.
     groups: usize,
-    /// Of all steps; the last group of a step is filled up with zeros.
+    /// The groups of all steps; the last group of a step is filled up with zeros.
     rows: Vec<Group<N>>,
     beta: Vec<N>,
     /// Partial sums, side by side in memory: the compiler makes vectors of them.

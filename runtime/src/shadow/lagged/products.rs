@@ -6,9 +6,9 @@ use crate::number::Number;
 /// What the newest steps added to β, q and p.
 #[derive(Clone, Debug)]
 pub(super) struct LaggedProducts<N> {
-    /// Of short states a row for each number: all steps in turn, and once more, so that the newest ones are together wherever they begin.
+    /// For short states, a row for each number: a ring of all steps that is stored twice, so that the newest ones are contiguous wherever they begin.
     short: Vec<N>,
-    /// Of long ones.
+    /// For long states.
     long: LongRows<N>,
 }
 

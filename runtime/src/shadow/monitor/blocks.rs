@@ -44,7 +44,7 @@ pub(super) struct Blocks<N> {
 }
 
 impl<N: Ordered> Blocks<N> {
-    /// Of a run that begins with the energy `origin`.
+    /// The blocks of a run that begins with the energy `origin`.
     pub(super) fn new(origin: &N) -> Self {
         let context = origin.context();
         Blocks {
@@ -101,7 +101,7 @@ impl<N: Ordered> Blocks<N> {
         self.size *= 2;
     }
 
-    /// The most accurate estimates in the order of time; that of the block that grows as soon as it is half full.
+    /// The most accurate estimates in the order of time; the growing block's as soon as it is half full.
     pub(super) fn best(&self) -> impl Iterator<Item = &Estimated<N>> + Clone {
         let growing = usize::from(2 * self.count >= self.size && self.count > 0);
         self.blocks[..self.full + growing].iter().map(|block| &block.best)

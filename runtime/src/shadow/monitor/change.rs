@@ -15,7 +15,7 @@ const LARGEST_CORRELATION: f64 = 0.95;
 impl Change {
     /// `None` for fewer than 16 numbers, or numbers that are not finite.
     ///
-    /// The standard error is that of independent residuals times √((1 + r)/(1 − r)), r the correlation of successive ones: a slow
+    /// The standard error for independent residuals is multiplied by √((1 + r)/(1 − r)), r the correlation of successive ones: a slow
     /// oscillation or a random walk is not known better for being sampled often.
     pub(super) fn of(series: &[f64]) -> Option<Change> {
         let count = series.len() as f64;

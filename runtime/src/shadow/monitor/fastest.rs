@@ -119,7 +119,7 @@ impl<N: Ordered> Fastest<N> {
         }
     }
 
-    /// Of a coordinate.
+    /// The sums of a coordinate.
     fn sums(&self, i: usize) -> Sums<N> {
         let of = |place: usize| self.sums[place * self.dimension() + i].clone();
         Sums { squares: of(0), products: of(1), fourths: of(2) }
@@ -139,7 +139,7 @@ impl<N: Ordered> Fastest<N> {
     }
 
     /// The angle by which a coordinate turned in the first five states, π where it turned by more than half a turn a step; `None` where
-    /// the second difference in the middle is small beside its neighbours or is round-off, so that it says nothing.
+    /// the second difference in the middle is small beside its neighbours or is round-off, so that it decides nothing.
     fn angle_at_start(&self, i: usize) -> Option<f64> {
         let p = |n: usize| &self.start[n][i];
         let [mut before, mut middle, mut after] = [(); 3].map(|()| self.x.clone());
@@ -154,7 +154,7 @@ impl<N: Ordered> Fastest<N> {
         says.then(|| ((before + after) / (2.0 * middle)).clamp(-1.0, 1.0).acos())
     }
 
-    /// Of p at the first states from the n-th on.
+    /// The second differences of p at the first states, from the n-th on.
     fn second_differences(&self, n: usize) -> Vec<N> {
         let mut differences = self.start[n].clone();
         for (i, own) in differences.iter_mut().enumerate() {

@@ -33,19 +33,19 @@ pub(super) struct Recent<N> {
     evaluations: [u64; 2],
     /// The most of them that are counted as stages of a step.
     most_stages: u64,
-    /// Whether round-off is that of the increments.
+    /// Whether round-off comes from the increments only.
     compensated: bool,
     /// (c ε/h)²
     factor: N,
     /// States that are still to be skipped, and those since then.
     skipped: u64,
     taken: usize,
-    /// Windows that ended, and those of them that were not skipped, over which all sums are.
+    /// Windows that ended, and how many of them were not skipped; all sums are over the latter.
     ended: u64,
     windows: u64,
     /// Σ T
     kinetic: N,
-    /// Σ kick², and that of the newest window.
+    /// Σ kick² over these windows, and kick² of the newest.
     kicks: N,
     square_kick: N,
     /// Over these windows, and in the newest.
@@ -328,7 +328,7 @@ impl<'a, N> Kept<'a, N> {
 
 /// Whether a state differs from the one before plus its increments, by more than 1/1000 of these and 1000 ε of its numbers: of q, or of p.
 ///
-/// Increments that a plain step left behind are those of an earlier step, or 0.
+/// Increments that a plain step left behind belong to an earlier step, or are 0.
 #[inline(always)]
 fn differ<N: Ordered>(
     [before, after, added]: [&[N]; 3],

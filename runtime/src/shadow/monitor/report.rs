@@ -59,7 +59,7 @@ pub struct Report<N> {
     /// A permanent change of the energy in these steps is excluded above this; `None` for fewer than 16 windows or parts of a run.
     ///
     /// It is the least of three: the range of the accurate H̄ and three times their errors; and |a| + 3 s of the linear change a and its
-    /// standard error s of the means of H, and of those of all H̄, in 32 to 63 parts of the run. The means of H do not depend on the
+    /// standard error s, for the means of H and for the means of all H̄, in 32 to 63 parts of the run. The means of H do not depend on the
     /// estimator.
     pub permanent_bound: Option<N>,
     /// How far H̄ moved where that is a permanent change: beyond errors and round-off, and not back and forth.
@@ -79,7 +79,7 @@ pub struct Report<N> {
     pub kick: N,
     /// The expected effect of round-off on H̄: √steps times the kick (Brouwer's law).
     ///
-    /// Where nothing else moves H̄, the range was 0.5 to 6.5 times this in `f64`; that of a random walk is 1.6 times its √n in the
+    /// Where nothing else moves H̄, the range was 0.5 to 6.5 times this in `f64`; the range of a random walk is 1.6 times its √n in the
     /// mean.
     pub round_off: N,
     /// In how many steps the fastest motion turns once; `None` where nothing turns, or windows have fewer than 5 states.

@@ -11,7 +11,7 @@ fn spread(n: u64, count: u64) -> u64 {
 
 /// Windows of up to this many states have their middles at the same states, where `every` is larger.
 ///
-/// The energies that are compared are those of the middles: so they do not depend on the estimator.
+/// The energies that are compared are taken at the middles, so that they do not depend on the estimator.
 const RESERVED: u64 = 64;
 
 /// One window of `states` states in every `every` steps.
@@ -83,7 +83,7 @@ impl Schedule {
         self.states as usize
     }
 
-    /// How many states there are in the n-th pause between windows, where one of four is looked at closely: those of three windows, or as many in
+    /// How many states there are in the n-th pause between windows, where one of four is looked at closely: the states of three windows, or as many in
     /// the mean where windows overlap, another number each time, as equal distances would see an oscillation always in the same phase.
     #[inline]
     pub(super) fn pause(&self, n: u64) -> u64 {
@@ -112,7 +112,7 @@ impl Schedule {
         if self.overlaps() {
             return self.states - 1;
         }
-        // the middle, or the state before it, is that of all windows that have as much room
+        // the middle, or the state before it, is the same for all windows that have as much room
         let middle = (self.reserved() - 1) / 2;
         middle + self.states / 2
     }

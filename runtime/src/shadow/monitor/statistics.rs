@@ -38,7 +38,7 @@ impl<N: Ordered> Range<N> {
 #[derive(Clone, Debug)]
 pub(super) struct Statistics<N> {
     pub(super) windows: u64,
-    /// H, that of the first state included.
+    /// H, at the first state too.
     pub(super) energy: Range<N>,
     /// H − H̄, where there has been a window.
     pub(super) method: Range<N>,
@@ -86,7 +86,7 @@ impl<N: Ordered> Statistics<N> {
         self.windows += 1;
     }
 
-    /// The root mean square of H − H̄ with the H̄ of the same window, as a part of that of the errors: small where H̄ changes with H
+    /// The root mean square of H − H̄ with the H̄ of the same window, as a part of the root mean square of the errors: small where H̄ changes with H
     /// from state to state. NaN without errors.
     pub(super) fn distance_of_error(&self) -> f64 {
         quotient(&self.distances, &self.errors).to_f64().sqrt()

@@ -98,7 +98,7 @@ impl<N: Ordered> Report<N> {
         })
     }
 
-    /// A coordinate with little energy that the steps hardly resolve, if there is one: the verdict is one on the energy.
+    /// A coordinate with little energy that the steps hardly resolve, if there is one: the verdict concerns the energy only.
     fn light_coordinate(&self) -> String {
         let others = self.steps_per_turn.unwrap_or(f64::INFINITY);
         let light = self.fastest_coordinate.filter(|(_, steps)| *steps < FEW_STEPS && 2.0 * steps < others);

@@ -9,7 +9,7 @@ pub(super) const STATES: usize = 5;
 
 /// Over the windows, and over the coordinates of each; δ²p and δ⁴p are second and fourth differences, centred at the same state.
 ///
-/// Of δ²p_0 + δ²p_2 = 2 cos θ δ²p_1 short steps would lose θ: it is δ⁴p that keeps it.
+/// With short steps, δ²p_0 + δ²p_2 = 2 cos θ δ²p_1 would lose θ; δ⁴p keeps it.
 #[derive(Clone, Debug)]
 pub(super) struct Sums<N> {
     /// Σ (δ²p)²

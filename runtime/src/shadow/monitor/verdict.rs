@@ -34,10 +34,10 @@ use super::turning::Turning;
 /// **What it cannot detect:**
 /// - linear trends below 1e-3 of the energy error: slow oscillations of the outer planets' H̄ look like one, and make up to 1e-4;
 /// - what happens later: a slow instability, or an encounter that has not come yet;
-/// - resonances of slow motions, and of oscillations with a small part of the momentum: the angle θ is that of the second
+/// - resonances of slow motions, and of oscillations with a small part of the momentum: the angle θ is computed from the second
 ///   differences of p, over all coordinates at once;
 /// - what happens between windows without a lasting effect;
-/// - whether a light body is resolved, unless it turned fast in the first five states and no longer does: its energy is no part of the whole.
+/// - whether a light body is resolved, unless it turned fast in the first five states and no longer does: its energy is a negligible part of the whole.
 ///   The report names [the coordinate that turns fastest](super::Report::fastest_coordinate) where the steps hardly resolve it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
@@ -65,11 +65,11 @@ pub enum Verdict {
     /// The states do not belong to the increments: plain steps were made where augmented ones were needed, or the state was changed
     /// between the steps.
     Inconsistent,
-    /// No modified energy is conserved well enough, or it says nothing about the energy.
+    /// No modified energy is conserved well enough, or it shows nothing about the energy.
     TooLarge(Criterion),
     /// The energy error is round-off, not the method's: a larger step size is sufficient, or more digits are needed.
     RoundOff,
-    /// The run does not tell.
+    /// Not decided by this run.
     Undecided(Missing),
 }
 
@@ -158,7 +158,7 @@ const LAST_TERM_LIMIT: f64 = 0.004;
 const LARGEST_DISTANCE: f64 = 3.0;
 /// A motion that turns by less than this angle a step is resolved by every scheme with a stable step.
 const SMALL_ANGLE: f64 = 0.35;
-/// Motions that turn by more than this angle a step are not resolved well enough to tell what the forces are.
+/// Motions that turn by more than this angle a step are not resolved well enough to judge the forces.
 const ANGLE_LIMIT: f64 = 0.6;
 /// An estimate may be wrong by this many times its error.
 const ERROR_FACTOR: f64 = 3.0;
@@ -174,7 +174,7 @@ const ROUND_OFF_FACTOR: f64 = 10.0;
 const KICKS_IN_AN_ESTIMATE: f64 = 10.0;
 /// The distance of a frequency from a resonance, in turns a step, at which it is taken for it.
 const RESONANCE_WIDTH: f64 = 0.006;
-/// H̄ must be known to this part of the energy error to say that a resonance moves it.
+/// H̄ must be known to this part of the energy error to conclude that a resonance moves it.
 const RESONANCE_ERROR: f64 = 0.1;
 /// Turns and steps of the resonances of low order, which are the strong ones.
 const RESONANCES: [(u32, u32); 5] = [(1, 3), (1, 4), (1, 5), (1, 6), (2, 5)];
@@ -203,9 +203,9 @@ pub(super) struct Evidence {
     pub(super) offset: f64,
     /// The root mean square of the errors.
     pub(super) error_rms: f64,
-    /// That of H − H̄ with the H̄ of the same window, as a part of it.
+    /// The root mean square of H − H̄ with the H̄ of the same window, as a part of this.
     pub(super) distance: f64,
-    /// That of the last terms as a part of it.
+    /// The root mean square of the last terms, as a part of this.
     pub(super) last_term: f64,
     /// The energy error as a part of the mean kinetic energy.
     pub(super) of_kinetic: f64,
@@ -360,7 +360,7 @@ impl Evidence {
         OFFSET_PER_TURNING * square / self.of_kinetic
     }
 
-    /// Of a motion that is not resolved by the steps H̄ may be anything.
+    /// Whether the steps resolve the motion; where they do not, H̄ may be anything.
     fn is_resolved(&self) -> bool {
         self.turns_little() && self.resolves_all() && (self.action.is_nan() || self.action >= RESOLVED_ACTION)
     }

@@ -129,7 +129,7 @@ struct Collector<'a> {
     quantities: Vec<Option<Quantity>>,
     /// The quantity c·node by the nodes of c and node.
     known: HashMap<(Node, Node), Id>,
-    /// The quantity −x by that of x.
+    /// The quantity −x by the quantity x.
     negated: HashMap<Id, Id>,
     /// Quantities to be defined as c·node.
     waiting: Vec<(Id, Rational, Node)>,

@@ -239,7 +239,7 @@ impl Sequencer {
         }
     }
 
-    /// The two values, first one at a place that is never written, so that it can be an operand twice. Of two such
+    /// The two values, first one at a place that is never written, so that it can be an operand twice. Among two such
     /// values the earlier coordinate is first: with vector registers it is in the lane of scalar operations.
     fn first_leaf(&self, a: Value, b: Value) -> Option<(Value, Value)> {
         match (&self.sequence.operations[a], &self.sequence.operations[b]) {
