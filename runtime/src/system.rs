@@ -88,7 +88,7 @@ pub trait System {
     /// those exchanged in the motion.
     fn assign_energies(
         &mut self,
-        at: Option<(&[Self::Number], &[Self::Number])>,
+        at: Option<Point<'_, Self::Number>>,
         energy: &mut Self::Number,
         kinetic: &mut Self::Number,
     );
@@ -119,6 +119,9 @@ pub trait System {
         energy
     }
 }
+
+/// Positions and momenta.
+pub type Point<'a, N> = (&'a [N], &'a [N]);
 
 /// The state of a system.
 pub type StateOf<M> = State<<M as System>::Number, <M as System>::Coordinates, <M as System>::Summation>;

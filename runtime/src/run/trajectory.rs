@@ -81,8 +81,7 @@ impl<'s, S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<
     /// Makes the states −reach, …, 0 from the present one, which is 0, and returns to it.
     pub(super) fn step_back(&mut self, reach: usize) -> Result<(), RunError> {
         let Trajectory { stepper, system, before, .. } = self;
-        let (start, saved) = (Stored::of(system), Saved::of(system.state()));
-        let mut later = start.clone();
+        let (mut later, saved) = (Stored::of(system), Saved::of(system.state()));
         for n in 1..=reach as i64 {
             stepper.step_back_augmented(system);
             TrajectoryState::of(system, -n).check()?;
