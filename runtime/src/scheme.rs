@@ -43,7 +43,7 @@ pub trait Scheme {
     fn back<F: Flows>(&self, weights: &Self::Weights<F::Number>, flows: &mut F);
 }
 
-/// Schemes whose claimed order is proved for a class of systems: of [`Quadratic`] or [`General`](crate::kinetic::General) kinetic energies, or of
+/// Schemes whose claimed order is proved for a class of systems: of [`Quadratic`](crate::kinetic::Quadratic) or [`General`](crate::kinetic::General) kinetic energies, or of
 /// [`ManyParts`](crate::many_parts::ManyParts).
 ///
 /// [`crate::splitting_scheme`] implements it for quadratic T, and for every T(p) where that is proved of the table, or with `parts = 3` for three parts and

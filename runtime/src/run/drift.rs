@@ -117,7 +117,7 @@ impl<N: Ordered> DriftRecorder<N> {
         DriftRecorder { h, compensated: false, found: None }
     }
 
-    /// Whether the steps are made by a [compensated](crate::System::is_compensated) system, whose round-off is smaller.
+    /// Whether the steps are made by a [compensated](crate::State::is_compensated) system, whose round-off is smaller.
     #[must_use]
     pub fn compensated_if(mut self, compensated: bool) -> Self {
         self.compensated = compensated;

@@ -91,7 +91,7 @@ impl<N: Ordered> LowErrorStates<N> {
         LowErrorStates { by_error: BTreeMap::new(), intervals, walk }
     }
 
-    /// Whether the steps are made by a [compensated](crate::System::is_compensated) system, whose round-off is smaller.
+    /// Whether the steps are made by a [compensated](crate::State::is_compensated) system, whose round-off is smaller.
     #[must_use]
     pub fn compensated_if(mut self, compensated: bool) -> Self {
         self.walk.set_compensated(compensated);

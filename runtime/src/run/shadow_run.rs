@@ -84,7 +84,7 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
         ShadowRun { states, estimator, h: h.clone(), reach: reach as i64, after: (missing - reach) as i64, missing }
     }
 
-    /// Whether the states are from [compensated](System::is_compensated) sums.
+    /// Whether the states are from [compensated](crate::State::is_compensated) sums.
     pub fn is_compensated(&self) -> bool {
         self.states.is_compensated()
     }
