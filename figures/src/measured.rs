@@ -8,7 +8,7 @@ use shadowstep::exact_flow::ExactFlow;
 use shadowstep::number::{AnyLimbs, LimbCount, Number, Ordered};
 use shadowstep::run::{Finding, RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::{BuildEstimator, Estimate, Estimator, EstimatorSettings};
-use shadowstep::{Rational, StepSize};
+use shadowstep::{Integrator as _, Rational, StepSize};
 use shadowstep_scenes::propagator::{Propagator, motion, stepper};
 use shadowstep_scenes::run::Run as Steps;
 
@@ -193,7 +193,7 @@ impl Measure<'_> {
         };
         let stepper = stepper(scheme, steps, &limbs);
         let start = motion::<AnyLimbs>(&setup, &limbs);
-        let states = Trajectory::new(&stepper, start, run.steps(), reach).map_err(failed)?;
+        let states = Trajectory::new(stepper.with(start), run.steps(), reach).map_err(failed)?;
         measure(&mut Watched { states, continues: watch(-(reach as i64)) }).map_err(failed)
     }
 
@@ -217,13 +217,14 @@ impl Measure<'_> {
         let propagator = Propagator::read(run.propagator, &setup)?;
         let stepper = stepper(propagator.scheme().expect("it is a scheme"), steps, &run.limbs());
         let start = motion::<AnyLimbs>(&setup, &run.limbs());
-        let states = Trajectory::plain(&stepper, start, 0, run.steps()).map_err(failed)?;
+        let states = Trajectory::plain(stepper.with(start), 0, run.steps()).map_err(failed)?;
         let mut states = Watched { states, continues: self.watch(0, run.steps() as f64) };
         while let Some(state) = states.advance().map_err(failed)? {
             take(state.q, state.p);
         }
-        let system = states.states.system();
-        Ok((system.q().to_vec(), system.p().to_vec()))
+        let integrator = &*states.states.integrator();
+        let state = integrator.state();
+        Ok((state.q().to_vec(), state.p().to_vec()))
     }
 }
 

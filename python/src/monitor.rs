@@ -3,11 +3,11 @@
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::run::RunError;
-use shadowstep::shadow::{Bilinear, Estimator, Report, ShadowEnergy};
-use shadowstep::{Scheme, Stepper, System, ValidFor};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Monitor as ShadowMonitor, Report};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::start::{Begin, Steps, Work};
+use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
 use crate::errors::exception;
 use crate::given::{Given, arithmetic, number};
@@ -17,7 +17,9 @@ use crate::scheme::Table;
 /// A system in double precision with its steps and its monitor.
 #[pyclass(unsendable, module = "shadowstep._shadowstep")]
 pub(crate) struct Monitor {
-    followed: Box<dyn Followed>,
+    integrator: SceneIntegrator<f64>,
+    monitor: ShadowMonitor<f64, <Bilinear as BuildEstimator<f64>>::Estimator>,
+    newest: Option<(u64, f64, Option<f64>, f64)>,
     problem: Py<Given>,
 }
 
@@ -49,12 +51,12 @@ impl Monitor {
         let compensated = arithmetic.is_compensated();
         let steps =
             Steps { scheme: &posed.scheme.scheme, h: &h, compensated, displaced: false, begin: Begin::InitialState };
-        let start = posed.system.start::<f64>(&());
-        let begun = posed.system.with(steps, start, &(), Begun { order, every });
+        let integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &());
+        let mut integrator = integrator.map_err(|error| failed(error.into()))?;
+        let monitor = ShadowMonitor::new(&mut *integrator, &Bilinear::with_error(order));
         given.raised(py)?;
-        let begun = begun.map_err(|error| failed(Error::usage(error.to_string(), "check the initial state")))?;
-        let followed = begun.map_err(|error| failed(of_run(&error)))?;
-        Ok(Monitor { followed, problem })
+        let monitor = monitor.map_err(|error| failed(of_run(&error)))?.every(every);
+        Ok(Monitor { integrator, monitor, newest: None, problem })
     }
 
     /// A number of steps.
@@ -63,7 +65,7 @@ impl Monitor {
         let mut left = count;
         while left > 0 {
             let now = left.min(SIGNALS);
-            let found = self.followed.steps(now);
+            let found = self.steps(now);
             self.problem.get().raised(py)?;
             found.map_err(|error| exception(py, of_run(&error)))?;
             left -= now;
@@ -75,29 +77,43 @@ impl Monitor {
     /// The number of the present state.
     #[getter]
     fn n(&self) -> u64 {
-        self.followed.n()
+        self.monitor.n()
     }
 
     /// q and p of the present state.
     fn state<'py>(&mut self, py: Python<'py>) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
-        let (q, p) = self.followed.state();
+        let state = |integrator: &mut VectorIntegrator<'_, f64>| {
+            (integrator.state().q().to_vec(), integrator.state().p().to_vec())
+        };
+        let (q, p) = at_output(&mut *self.integrator, state);
         (PyArray1::from_vec(py, q), PyArray1::from_vec(py, p))
     }
 
     /// H of the present state.
     fn energy(&mut self) -> f64 {
-        self.followed.energy()
+        at_output(&mut *self.integrator, |integrator| integrator.system().energy())
     }
 
     /// The newest estimate: n, the modified energy, its error and H, all of the middle of its window; `None` before the first.
     #[getter]
     fn newest(&self) -> Option<(u64, f64, Option<f64>, f64)> {
-        self.followed.newest()
+        self.newest
     }
 
     /// The report on the run so far.
     fn report<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        dictionary(py, &self.followed.report())
+        dictionary(py, &self.monitor.report())
+    }
+}
+
+impl Monitor {
+    fn steps(&mut self, count: u64) -> Result<(), RunError> {
+        for _ in 0..count {
+            if let Some(sample) = self.monitor.step(&mut *self.integrator)? {
+                self.newest = Some((sample.n, *sample.modified, sample.error.copied(), *sample.energy));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -136,76 +152,4 @@ fn dictionary<'py>(py: Python<'py>, report: &Report<f64>) -> PyResult<Bound<'py,
         all.set_item(name, number)?;
     }
     Ok(all)
-}
-
-/// A system of any kind with its monitor.
-trait Followed {
-    fn steps(&mut self, count: u64) -> Result<(), RunError>;
-    fn n(&self) -> u64;
-    fn state(&mut self) -> (Vec<f64>, Vec<f64>);
-    fn energy(&mut self) -> f64;
-    fn newest(&self) -> Option<(u64, f64, Option<f64>, f64)>;
-    fn report(&self) -> Report<f64>;
-}
-
-struct Following<S: Scheme, M, E> {
-    system: M,
-    monitor: ShadowEnergy<S, f64, E>,
-    newest: Option<(u64, f64, Option<f64>, f64)>,
-}
-
-impl<S, M, E> Followed for Following<S, M, E>
-where
-    S: Scheme + ValidFor<M::Class>,
-    M: System<Number = f64>,
-    E: Estimator<f64>,
-{
-    fn steps(&mut self, count: u64) -> Result<(), RunError> {
-        for _ in 0..count {
-            if let Some(sample) = self.monitor.step(&mut self.system)? {
-                self.newest = Some((sample.n, *sample.modified, sample.error.copied(), *sample.energy));
-            }
-        }
-        Ok(())
-    }
-
-    fn n(&self) -> u64 {
-        self.monitor.n()
-    }
-
-    fn state(&mut self) -> (Vec<f64>, Vec<f64>) {
-        let read = |system: &mut M| (system.q().to_vec(), system.p().to_vec());
-        self.monitor.stepper().at_output(&mut self.system, read)
-    }
-
-    fn energy(&mut self) -> f64 {
-        self.monitor.stepper().at_output(&mut self.system, M::energy)
-    }
-
-    fn newest(&self) -> Option<(u64, f64, Option<f64>, f64)> {
-        self.newest
-    }
-
-    fn report(&self) -> Report<f64> {
-        self.monitor.report()
-    }
-}
-
-/// Begins to follow a system.
-struct Begun {
-    order: u32,
-    every: u64,
-}
-
-impl Work<f64> for Begun {
-    type Output = Result<Box<dyn Followed>, RunError>;
-
-    fn with<S, M>(self, stepper: &Stepper<S, f64>, mut system: M) -> Self::Output
-    where
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: System<Number = f64> + 'static,
-    {
-        let monitor = ShadowEnergy::new(stepper.clone(), &mut system, &Bilinear::with_error(self.order))?;
-        Ok(Box::new(Following { monitor: monitor.every(self.every), system, newest: None }))
-    }
 }

@@ -3,16 +3,16 @@
 use numpy::{PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use shadowstep::StepSize;
 use shadowstep::recorded::{
     Derivatives, Diagnosis, Log, Logged, Recorded, RecordedError, Repeated, Unwrapping, Window, integer_momenta,
     integer_momenta_with_gradients,
 };
 use shadowstep::run::{ShadowRun, States};
 use shadowstep::shadow::{Bilinear, Estimator};
-use shadowstep::{Scheme, StepSize, Stepper, System, ValidFor};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
-use shadowstep_scenes::start::{Begin, Steps, Work};
+use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
 use crate::errors::{exception, usage};
 use crate::given::{Given, number};
@@ -67,30 +67,15 @@ pub(crate) fn energies_of_states(
     let posed = Posed::of(problem, &scheme.0, Arithmetic::DOUBLE).map_err(failed)?;
     let begin = Begin::InitialState;
     let steps = Steps { scheme: &posed.scheme.scheme, h: h.exact(), compensated: false, displaced: false, begin };
-    let start = posed.system.start::<f64>(&());
-    let again = Again { q: rows(&q)?, p: rows(&p)?, k };
-    let found = posed.system.with(steps, start, &(), again);
+    let integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &());
+    let integrator = integrator.map_err(|error| failed(Error::usage(error.to_string(), "check the problem")))?;
+    let found = again(integrator, &rows(&q)?, &rows(&p)?, k);
     problem.raised(py)?;
-    let found = found.map_err(|error| failed(Error::usage(error.to_string(), "check the problem")))?;
     found.map_err(|error| refused(py, &error))
 }
 
-struct Again {
-    q: Vec<f64>,
-    p: Vec<f64>,
-    k: u32,
-}
-
-impl Work<f64> for Again {
-    type Output = Result<Found, RecordedError>;
-
-    fn with<S, M>(self, stepper: &Stepper<S, f64>, system: M) -> Self::Output
-    where
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: System<Number = f64> + 'static,
-    {
-        all(Repeated::new(stepper, system, &self.q, &self.p)?.estimates(&Bilinear::with_error(self.k))?)
-    }
+fn again(mut integrator: SceneIntegrator<f64>, q: &[f64], p: &[f64], k: u32) -> Result<Found, RecordedError> {
+    all(Repeated::new(&mut *integrator, q, p)?.estimates(&Bilinear::with_error(k))?)
 }
 
 fn all<T: States<Number = f64>, E: Estimator<f64>>(mut run: ShadowRun<T, E>) -> Result<Found, RecordedError> {

@@ -40,7 +40,7 @@ fn states() -> Vec<Given<Number7>> {
     let number = |text| Number7::from_rational(&exact(text).expect("a number"), &());
     let (q, p) = (vec![number("2/5"), number("0")], vec![number("0"), number("2")]);
     let start = Motion::new(Kepler, UnitMasses, q, p).expect("the dimensions agree");
-    let mut states = Trajectory::new(&stepper, start, STATES, 0).expect("a finite start");
+    let mut states = Trajectory::new(stepper.with(start), STATES, 0).expect("a finite start");
     let mut all = Vec::new();
     while let Some(TrajectoryState { q, p, increments, .. }) = states.advance().expect("finite states") {
         all.push(Given { q: q.to_vec(), p: p.to_vec(), beta: *increments.beta });

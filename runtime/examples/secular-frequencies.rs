@@ -16,7 +16,7 @@ use shadowstep::shadow::Bilinear;
 use shadowstep::tables::{self, First, Source, TableScheme};
 use shadowstep::wisdom_holman::secular::{Frequency, eccentricities, main_frequency};
 use shadowstep::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
-use shadowstep::{Rational, Stepper, System, exact};
+use shadowstep::{Integrator as _, Rational, Stepper, exact};
 
 type Planets<N> = WisdomHolman<N, Jacobi<N, 3>, 3>;
 
@@ -108,14 +108,14 @@ fn begin<N: Ordered + Number<Context = ()>>(map: &Map, days: u64) -> Result<Begu
 /// max − min of H at outputs and of E_8, and the mean of E_8 − H, as parts of |H|.
 fn energies(map: &Map, days: u64) -> Result<[f64; 3], Box<dyn Error>> {
     let (stepper, planets) = begin::<Limbs<3>>(map, days)?;
-    let mut run = ShadowRun::new(&stepper, planets, STEPS_OF_ENERGIES, &Bilinear::new(8))?;
-    let start = run.system().energy();
+    let mut run = ShadowRun::new(stepper.with(planets), STEPS_OF_ENERGIES, &Bilinear::new(8))?;
+    let start = run.integrator().system().energy();
     let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
     let (mut sum, mut count) = (0.0, 0.0);
     while let Some((_, found)) = run.advance()? {
         let (mut q, mut p, modified) = (found.q.to_vec(), found.p.to_vec(), *found.value);
-        stepper.postprocess_state(run.system(), &mut q, &mut p);
-        let energies = [run.system().energy_at(&q, &p), modified].map(|mut energy| {
+        run.integrator().postprocess_state(&mut q, &mut p);
+        let energies = [run.integrator().system().energy_at(&q, &p), modified].map(|mut energy| {
             energy.subtract(&start);
             energy.to_f64()
         });

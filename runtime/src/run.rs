@@ -19,7 +19,7 @@ mod trajectory;
 
 pub use drift::{DriftRecorder, EnergyDrift, energy_drift};
 pub use error::{NotFinite, Quantity, RunError};
-pub(crate) use error::{check_energy, check_stepper, check_value};
+pub(crate) use error::{check_energy, check_value};
 pub use permanent::{Finding, LowErrorStates, PermanentChange};
 pub use shadow_run::{Estimated, ShadowRun};
 pub(crate) use state::last;

@@ -68,7 +68,9 @@ pub use bilinear::{Bilinear, BilinearEstimator, FixedBilinear, FixedBilinearEsti
 pub use central::{Central, CentralEstimator, FixedCentral, FixedCentralEstimator};
 pub use differences::{SelectionRule, StoppingRule};
 pub use estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
-pub use monitor::{Advice, Criterion, KINETIC_LIMIT, Missing, Report, Rough, Sample, ShadowEnergy, Trend, Verdict};
+pub use monitor::{
+    Advice, Criterion, KINETIC_LIMIT, Missing, Monitor, Report, Rough, Sample, ShadowEnergy, Trend, Verdict,
+};
 pub use options::{AccuracyError, EstimatorOptions, HIGHEST_ORDER, OptionConflict, UnknownWord, check_accuracy};
 pub use settings::EstimatorSettings;
 pub(crate) use walk::Walk;

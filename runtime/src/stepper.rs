@@ -3,9 +3,11 @@
 use crate::Rational;
 use crate::displaced::{DisplacementError, Displacements};
 use crate::increments::Carried;
+use crate::integrator::{Held, WithStepper};
 use crate::maps::MapKind;
 use crate::number::{Number, Ordered};
 use crate::processor::Processor;
+use crate::run::RunError;
 use crate::scheme::{Scheme, ValidFor};
 use crate::scheme_maps::{Maps, MergedMaps};
 use crate::state::Saved;
@@ -140,6 +142,34 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         Displacements::of(&self.scheme, self.h(), self.weights().gradient_kicks)
     }
 
+    /// The system with this stepper, as trajectories and estimates along them take it.
+    pub fn with<M: System<Number = N>>(&self, system: M) -> WithStepper<'_, S, M>
+    where
+        S: ValidFor<M::Class>,
+    {
+        WithStepper { stepper: Held::Borrowed(self), system }
+    }
+
+    /// The same for a stepper that is used for this system only.
+    pub fn into_integrator<M: System<Number = N>>(self, system: M) -> WithStepper<'static, S, M>
+    where
+        S: ValidFor<M::Class>,
+    {
+        WithStepper { stepper: Held::Owned(Box::new(self)), system }
+    }
+
+    /// Refuses a system whose numbers have another precision than the weights, or that has not the gradient kicks of the scheme.
+    pub(crate) fn check<M: System<Number = N> + ?Sized>(&self, system: &M) -> Result<(), RunError> {
+        let context = system.state().context();
+        if !self.weights().iter().all(|weight| weight.context() == context) {
+            return Err(RunError::Precision);
+        }
+        if !self.weights().gradient_kicks.is_empty() && !system.has_gradient_kicks() {
+            return Err(RunError::NoGradientKicks { scheme: self.scheme().summary().name.to_owned() });
+        }
+        Ok(())
+    }
+
     /// The maps of a step with their weights.
     fn maps(&self) -> Maps<'_, S, N> {
         Maps::new(&self.scheme, &self.forward)
@@ -190,19 +220,6 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         let found = read(system);
         saved.restore(system.state_mut());
         found
-    }
-
-    /// The state of the trajectory that belongs to a state q, p of the kernel, which the system need not be at: q and p become it.
-    pub fn postprocess_state<M: System<Number = N>>(&self, system: &mut M, q: &mut [N], p: &mut [N]) {
-        if !self.is_processed() {
-            return;
-        }
-        let saved = Saved::of(system.state());
-        system.state_mut().set(q, p);
-        self.postprocess(system);
-        q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
-        p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
-        saved.restore(system.state_mut());
     }
 
     /// `count` steps of each of several systems, with the bits that [`Stepper::step`] gives.

@@ -20,7 +20,9 @@ pub trait System {
     /// What is known of A and B: [`ManyParts`](crate::many_parts::ManyParts) if H has three parts and more, [`Quadratic`](crate::kinetic::Quadratic) if A = ½pᵀM⁻¹p + f(q) and B = U(q), else
     /// [`General`](crate::kinetic::General). Schemes whose order holds for quadratic T only do not advance the latter. (Their order holds with any f, as
     /// the brackets that vanish do so by their degree in p.)
-    type Class;
+    type Class
+    where
+        Self: Sized;
 
     /// What holds its positions, and its momenta: arrays or vectors.
     type Coordinates: Coordinates<Self::Number>;
@@ -122,6 +124,9 @@ pub trait System {
 
 /// Positions and momenta.
 pub type Point<'a, N> = (&'a [N], &'a [N]);
+
+/// A system of any class: it has energies and a state, and only a stepper that is valid for it makes steps.
+pub type AnySystem<'a, N, V, S> = dyn System<Number = N, Coordinates = V, Summation = S> + 'a;
 
 /// The state of a system.
 pub type StateOf<M> = State<<M as System>::Number, <M as System>::Coordinates, <M as System>::Summation>;

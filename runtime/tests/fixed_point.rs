@@ -116,7 +116,7 @@ fn all_settings(largest: u32) -> Vec<EstimatorSettings> {
 fn trajectory<const L: usize>(problem: Problem, h: &str, steps: u64) -> Vec<Given<Limbs<L>>> {
     let stepper = Stepper::new(shipped("stormer-verlet").unwrap(), h).unwrap();
     let start = problem.setup(&[], 120).unwrap().motion::<Limbs<L>>(&()).unwrap();
-    let mut states = Trajectory::new(&stepper, start, steps, 0).unwrap();
+    let mut states = Trajectory::new(stepper.with(start), steps, 0).unwrap();
     let mut all = Vec::new();
     while let Some(TrajectoryState { q, p, increments, .. }) = states.advance().unwrap() {
         all.push(Given { q: q.to_vec(), p: p.to_vec(), beta: *increments.beta });

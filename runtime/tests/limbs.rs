@@ -72,8 +72,8 @@ fn estimates_agree_with_mpfr() {
         let stepper = stepper::<N>("stormer-verlet", "1/20", context);
         let motion = || setup.motion::<N>(context).unwrap();
         [
-            energy_drift(&stepper, motion(), 30, &Bilinear::new(8)).unwrap().drift,
-            energy_drift(&stepper, motion(), 30, &Central::best(12, StoppingRule::Full)).unwrap().drift,
+            energy_drift(stepper.with(motion()), 30, &Bilinear::new(8)).unwrap().drift,
+            energy_drift(stepper.with(motion()), 30, &Central::best(12, StoppingRule::Full)).unwrap().drift,
         ]
     }
     let limbs = drift::<Seven>(&());

@@ -2,10 +2,11 @@
 
 use std::time::{Duration, Instant};
 
+use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::number::Rounded;
 use shadowstep::run::{RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::EstimatorSettings;
-use shadowstep::{MotionError, Ordered, Remainders, Scheme, Stepper, System, ValidFor};
+use shadowstep::{Integrator as _, MotionError, Ordered};
 
 use crate::error::Error;
 use crate::note::Note;
@@ -16,7 +17,7 @@ use crate::run::Run;
 use crate::scene::{CheckpointInterval, EnergyAt, Scene};
 use crate::snapshots::{Snapshot, Snapshots};
 use crate::split::Shown;
-use crate::start::{Begin, Steps, Work};
+use crate::start::Begin;
 use crate::summary::Summary;
 use crate::watch::{Energies, Watch};
 
@@ -48,12 +49,21 @@ pub(crate) fn follow<N: Rounded + 'static>(
     checkpoint: Option<&Checkpoint>,
     observer: &mut dyn Observer,
 ) -> Result<Ended, Error> {
-    let (mut state, mut remainders) = (scene.system.start::<N>(context), Remainders::default());
     let saved = checkpoint.and_then(|checkpoint| checkpoint.state.as_ref());
-    if let Some(saved) = saved {
-        (state, remainders) = saved.numbers(context).ok_or_else(|| unreadable(saved.n))?;
+    // the states of checkpoints are those of the steps
+    let (begin, state, remainders) = match saved {
+        None => (Begin::InitialState, scene.system.start::<N>(context), None),
+        Some(saved) => {
+            let (state, remainders) = saved.numbers(context).ok_or_else(|| unreadable(saved.n))?;
+            (Begin::Step, state, Some(remainders))
+        }
+    };
+    let integrator = scene.system.integrator(scene.steps_from(begin), state, context);
+    let mut integrator = integrator.map_err(|error| inconsistent(&error))?;
+    if let Some(remainders) = remainders {
+        integrator.system().state_mut().set_remainders(&remainders);
     }
-    let recorder = Recorder {
+    let mut recorder = Recorder {
         scene,
         run: scene.as_run(),
         context,
@@ -63,16 +73,13 @@ pub(crate) fn follow<N: Rounded + 'static>(
         last_state: Instant::now(),
         observer,
         from: saved.map(|saved| saved.n),
-        remainders,
         shown: scene.system.shown(context),
         energy_of: scene.system.energy_of_rows(context),
     };
-    let compensated = scene.arithmetic.is_compensated();
-    // the states of checkpoints are those of the steps
-    let begin = if saved.is_some() { Begin::Step } else { Begin::InitialState };
-    let displaced = scene.displaced;
-    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated, displaced, begin };
-    scene.system.with(steps, state, context, recorder).map_err(|error| inconsistent(&error))?
+    match &scene.output.modified_energy {
+        None => recorder.plain(&mut *integrator),
+        Some((settings, _)) => recorder.shadowed(&mut *integrator, settings),
+    }
 }
 
 /// Dimensions that do not agree, such as those of the state in a checkpoint.
@@ -100,46 +107,22 @@ struct Recorder<'a, 'r, N: Ordered> {
     observer: &'a mut dyn Observer,
     /// The state from which the run is resumed; `None` at its beginning.
     from: Option<i64>,
-    /// Those of that state.
-    remainders: Remainders<N>,
     /// Converts states for rows, where these have other coordinates than the steps.
     shown: Option<Shown<N>>,
     /// H for rows, where the steps conserve another function.
     energy_of: Option<EnergyAt<N>>,
 }
 
-impl<N: Ordered + 'static> Work<N> for Recorder<'_, '_, N> {
-    type Output = Result<Ended, Error>;
-
-    fn with<S, M>(mut self, stepper: &Stepper<S, N>, mut system: M) -> Self::Output
-    where
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: System<Number = N> + 'static,
-    {
-        if self.from.is_some() {
-            system.state_mut().set_remainders(&self.remainders);
-        }
-        match &self.scene.output.modified_energy {
-            None => self.plain(stepper, system, self.from.unwrap_or(0)),
-            Some((settings, _)) => self.shadowed(stepper, system, self.from, settings),
-        }
-    }
-}
-
 impl<N: Ordered + 'static> Recorder<'_, '_, N> {
     /// Follows the run for a summary, if the observer wants one.
-    fn watch<S, M>(&self, stepper: &Stepper<S, N>, system: &mut M) -> Result<Option<Watch<S, N>>, Error>
-    where
-        S: Scheme + Clone,
-        M: System<Number = N>,
-    {
+    fn watch(&self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Option<Watch<N>>, Error> {
         if !self.observer.summarises() {
             return Ok(None);
         }
         let (q, p) = self.scene.system.start(self.context);
-        let initial = system.energy_at(&q, &p);
+        let initial = integrator.system().energy_at(&q, &p);
         let first = (self.from.unwrap_or(0), initial);
-        let watch = Watch::begin(stepper, system, self.run, first, Energies::Windows, true);
+        let watch = Watch::begin(integrator, self.run, first, Energies::Windows, true);
         let watch = watch.map_err(|error| self.failed(&error))?;
         Ok(Some(watch.of_system(&self.scene.system)))
     }
@@ -158,65 +141,55 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
     }
 
     /// Without states beyond both ends; with increments only where a summary needs them.
-    fn plain<S, M>(&mut self, stepper: &Stepper<S, N>, mut system: M, from: i64) -> Result<Ended, Error>
-    where
-        S: Scheme + Clone + ValidFor<M::Class>,
-        M: System<Number = N>,
-    {
-        let steps = self.run.steps;
-        let mut watch = self.watch(stepper, &mut system)?;
-        let mut trajectory = Trajectory::plain(stepper, system, from, steps).map_err(|error| self.failed(&error))?;
+    fn plain(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Ended, Error> {
+        let (from, steps) = (self.from.unwrap_or(0), self.run.steps);
+        let mut watch = self.watch(integrator)?;
+        let mut trajectory = Trajectory::plain(integrator, from, steps).map_err(|error| self.failed(&error))?;
         loop {
             trajectory.set_augmented(watch.as_ref().is_some_and(Watch::needs_increments));
             let next = trajectory.advance().map_err(|error| self.failed(&error))?;
             let Some(n) = next.map(|state| state.n) else { break };
-            let system = trajectory.system();
+            let integrator = &mut **trajectory.integrator();
             if let Some(watch) = watch.as_mut().filter(|_| n > from) {
-                watch.include(n, system);
+                watch.include(n, integrator);
             }
             let [energy, state] =
                 [self.scene.output.energy, self.scene.output.trajectory].map(|every| self.is_due(every, n));
             if energy || state {
-                stepper.at_output(system, |system| {
-                    let energy = energy.then(|| self.energy(system));
-                    self.row(n, system.q(), system.p(), energy.as_ref(), None)
+                at_output(integrator, |integrator| {
+                    let energy = energy.then(|| self.energy(integrator));
+                    self.row(n, integrator.state().q(), integrator.state().p(), energy.as_ref(), None)
                 })?;
             } else {
                 self.observer.progress(n);
             }
-            if self.ends(n, || Some(Snapshot::of(n, system)))? {
+            if self.ends(n, || Some(Snapshot::of(n, integrator.state())))? {
                 return Ok((Outcome::Stopped { n }, None));
             }
         }
-        let system = trajectory.system();
-        let energy = stepper.at_output(system, M::energy);
-        let ended = (self.complete(&energy, system.state().evaluations())?, self.summary(watch, &energy));
-        let (q, p) = (system.q().to_vec(), system.p().to_vec());
-        self.end_at_time(stepper, system, (&q, &p))?;
+        let integrator = &mut **trajectory.integrator();
+        let energy = at_output(integrator, |integrator| integrator.system().energy());
+        let ended = (self.complete(&energy, integrator.state().evaluations())?, self.summary(watch, &energy));
+        let (q, p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
+        self.end_at_time(integrator, (&q, &p))?;
         Ok(ended)
     }
 
     /// With increments and an estimate at each state; resumed after the state `from`.
-    fn shadowed<S, M>(
+    fn shadowed(
         &mut self,
-        stepper: &Stepper<S, N>,
-        mut system: M,
-        from: Option<i64>,
+        integrator: &mut VectorIntegrator<'_, N>,
         settings: &EstimatorSettings,
-    ) -> Result<Ended, Error>
-    where
-        S: Scheme + Clone + ValidFor<M::Class>,
-        M: System<Number = N>,
-    {
-        let steps = self.run.steps;
+    ) -> Result<Ended, Error> {
+        let (from, steps) = (self.from, self.run.steps);
         let every = self.scene.output.modified_energy.as_ref().map(|(_, every)| *every);
-        let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
+        let (mut q, mut p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
         let settings = settings.clone().with_errors(true);
-        let mut watch = self.watch(stepper, &mut system)?;
-        let begin = from.map(|from| Snapshot::of(from, &system));
+        let mut watch = self.watch(integrator)?;
+        let begin = from.map(|from| Snapshot::of(from, integrator.state()));
         let mut shadow = match from {
-            None => ShadowRun::new(stepper, system, steps, &settings),
-            Some(from) => ShadowRun::resume(stepper, system, from, steps, &settings),
+            None => ShadowRun::new(integrator, steps, &settings),
+            Some(from) => ShadowRun::resume(integrator, from, steps, &settings),
         }
         .map_err(|error| self.failed(&error))?;
         let mut snapshots = Snapshots::new(shadow.reach());
@@ -224,9 +197,10 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         let own = from.unwrap_or(0)..i64::try_from(steps).unwrap_or(i64::MAX);
         while let Some((n, found)) = shadow
             .advance_with(|n, trajectory| {
-                snapshots.offer(n, trajectory.system());
+                let integrator = &mut **trajectory.integrator();
+                snapshots.offer(n, integrator.state());
                 if let Some(watch) = watch.as_mut().filter(|_| own.contains(&(n - 1))) {
-                    watch.include(n, trajectory.system());
+                    watch.include(n, integrator);
                 }
             })
             .map_err(|error| self.failed(&error))?
@@ -237,51 +211,54 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
             let [due, state] =
                 [self.scene.output.energy, self.scene.output.trajectory].map(|every| self.is_due(every, n));
             let modified = self.is_due(every, n).then(|| ModifiedEnergy::of(&found));
+            let integrator = &mut **shadow.integrator();
             if due || state || last {
-                stepper.postprocess_state(shadow.system(), &mut q, &mut p);
+                integrator.postprocess_state(&mut q, &mut p);
             }
-            let energy = due.then(|| self.energy_at(shadow.system(), (&q, &p)));
+            let energy = due.then(|| self.energy_at(integrator, (&q, &p)));
             self.row(n, &q, &p, energy.as_ref(), modified)?;
             if self.ends(n, || snapshots.for_those_after(n).cloned())? {
                 return Ok((Outcome::Stopped { n }, None));
             }
         }
-        let energy = shadow.system().energy_at(&q, &p);
-        let ended = (self.complete(&energy, shadow.system().state().evaluations())?, self.summary(watch, &energy));
-        self.end_at_time(stepper, shadow.system(), (&q, &p))?;
+        let integrator = &mut **shadow.integrator();
+        let energy = integrator.system().energy_at(&q, &p);
+        let ended = (self.complete(&energy, integrator.state().evaluations())?, self.summary(watch, &energy));
+        self.end_at_time(integrator, (&q, &p))?;
         Ok(ended)
     }
 
     /// H of a state for a row.
-    fn energy_at<M: System<Number = N>>(&mut self, system: &mut M, (q, p): (&[N], &[N])) -> N {
+    fn energy_at(&mut self, integrator: &mut VectorIntegrator<'_, N>, (q, p): (&[N], &[N])) -> N {
         match &mut self.energy_of {
             Some(energy_of) => energy_of(q, p),
-            None => system.energy_at(q, p),
+            None => integrator.system().energy_at(q, p),
         }
     }
 
     /// H of the present state for a row.
-    fn energy<M: System<Number = N>>(&mut self, system: &mut M) -> N {
+    fn energy(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> N {
         match &mut self.energy_of {
-            Some(energy_of) => energy_of(system.q(), system.p()),
-            None => system.energy(),
+            Some(energy_of) => energy_of(integrator.state().q(), integrator.state().p()),
+            None => integrator.system().energy(),
         }
     }
 
     /// Where time is transformed and the run ends at a physical time, makes the last step to it from a state, and its row.
-    fn end_at_time<S, M>(&mut self, stepper: &Stepper<S, N>, system: &mut M, state: (&[N], &[N])) -> Result<(), Error>
-    where
-        S: Scheme + Clone + ValidFor<M::Class>,
-        M: System<Number = N>,
-    {
+    fn end_at_time(&mut self, integrator: &mut VectorIntegrator<'_, N>, state: (&[N], &[N])) -> Result<(), Error> {
         let scene = self.scene;
         let Some(until) = scene.physical_end() else { return Ok(()) };
-        if !last_step(stepper, system, state, (self.run, until))? {
+        if !last_step(integrator, state, (self.run, until))? {
             return Ok(());
         }
         let n = i64::try_from(self.run.steps).unwrap_or(i64::MAX - 1) + 1;
-        let energy = scene.output.energy.is_some().then(|| self.energy(system));
-        self.write(n, (system.q(), system.p()), (energy.as_ref(), None), scene.output.trajectory.is_some())
+        let energy = scene.output.energy.is_some().then(|| self.energy(integrator));
+        self.write(
+            n,
+            (integrator.state().q(), integrator.state().p()),
+            (energy.as_ref(), None),
+            scene.output.trajectory.is_some(),
+        )
     }
 
     fn complete(&self, energy: &N, force_evaluations: u64) -> Result<Outcome, Error> {
@@ -290,7 +267,7 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
     }
 
     /// `energy` is that of the last state.
-    fn summary<S: Scheme + Clone>(&self, watch: Option<Watch<S, N>>, energy: &N) -> Option<Summary> {
+    fn summary(&self, watch: Option<Watch<N>>, energy: &N) -> Option<Summary> {
         let mut watch = watch?;
         watch.include_energy(i64::try_from(self.run.steps).unwrap_or(i64::MAX), energy);
         watch.summary(self.run)

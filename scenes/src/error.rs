@@ -3,6 +3,7 @@
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
+use shadowstep::MotionError;
 use shadowstep::tables::Faults;
 use thiserror::Error;
 
@@ -80,6 +81,13 @@ impl Error {
     /// A run that failed, and what may help.
     pub fn run(message: impl Into<String>, hint: impl Into<String>) -> Self {
         Error::Run { message: message.into(), hint: hint.into() }
+    }
+}
+
+/// A state of another dimension, or a potential that cannot be computed at it.
+impl From<MotionError> for Error {
+    fn from(error: MotionError) -> Self {
+        Error::usage(error.to_string(), "check the initial state")
     }
 }
 

@@ -1,15 +1,16 @@
 //! The modified energies along a run, one by one, and what the run shows.
 
-use shadowstep::number::{Ordered, Rounded};
+use shadowstep::Integrator as _;
+use shadowstep::integrator::VectorIntegrator;
+use shadowstep::number::Rounded;
 use shadowstep::run::{RunError, ShadowRun};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
-use shadowstep::{MotionError, Scheme, Stepper, ValidFor};
 
 use crate::error::Error;
 use crate::propagator::{Propagator, exact_flow};
 use crate::run::Run;
 use crate::scene::System;
-use crate::start::{Begin, Steps, Work};
+use crate::start::{Begin, Steps};
 use crate::summary::{EnergySummary, Summary};
 use crate::watch::{Energies, Watch};
 
@@ -59,11 +60,10 @@ impl Estimates<'_> {
         let Estimates { system, propagator, run, settings, .. } = self;
         match propagator {
             Propagator::Scheme(named) => {
-                let work = Following { estimates: self, take, context };
                 let (compensated, begin) = (self.compensated, Begin::InitialState);
                 let steps = Steps { scheme: &named.scheme, h: run.h, compensated, displaced: false, begin };
-                let found = system.with(steps, system.start(context), context, work);
-                found.map_err(|error: MotionError| Error::usage(error.to_string(), "check the initial state"))?
+                let mut integrator = system.integrator(steps, system.start(context), context)?;
+                self.along(&mut *integrator, context, take)
             }
             Propagator::ExactFlow => {
                 let setup = system.setup().expect("the exact flow was read for this system");
@@ -75,50 +75,37 @@ impl Estimates<'_> {
             }
         }
     }
-}
 
-/// A run of a scheme, in any class of kinetic energies.
-struct Following<'a, N: Ordered, F> {
-    estimates: Estimates<'a>,
-    take: F,
-    context: &'a N::Context,
-}
-
-impl<N, F> Work<N> for Following<'_, N, F>
-where
-    N: Ordered + 'static,
-    F: FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
-{
-    type Output = Result<Finished, Error>;
-
-    fn with<S, M>(mut self, stepper: &Stepper<S, N>, mut system: M) -> Self::Output
-    where
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: shadowstep::System<Number = N> + 'static,
-    {
-        let Estimates { system: described, run, settings, summarised, .. } = self.estimates;
+    /// Those of a scheme.
+    fn along<N: Rounded + 'static>(
+        self,
+        integrator: &mut VectorIntegrator<'_, N>,
+        context: &N::Context,
+        mut take: impl FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
+    ) -> Result<Finished, Error> {
+        let Estimates { system: described, run, settings, summarised, .. } = self;
         let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
-        let (q, p) = described.start(self.context);
-        let initial = system.energy_at(&q, &p);
-        let watch = Watch::begin(stepper, &mut system, run, (0, initial), Energies::All, summarised);
+        let (q, p) = described.start(context);
+        let initial = integrator.system().energy_at(&q, &p);
+        let watch = Watch::begin(integrator, run, (0, initial), Energies::All, summarised);
         let mut watch = watch.map_err(failed)?.of_system(described);
         let mut evaluations = Evaluations::default();
-        let mut shadow = ShadowRun::new(stepper, system, run.steps, settings).map_err(failed)?;
+        let mut shadow = ShadowRun::new(integrator, run.steps, settings).map_err(failed)?;
         let last = i64::try_from(run.steps).unwrap_or(i64::MAX);
         while let Some((n, estimate)) = shadow
             .advance_with(|n, trajectory| {
-                let system = trajectory.system();
-                evaluations.count(n, last, system);
+                let integrator = &mut **trajectory.integrator();
+                evaluations.count(n, last, integrator.state().evaluations());
                 if 0 < n && n <= last {
-                    watch.include(n, system);
+                    watch.include(n, integrator);
                 }
             })
             .map_err(failed)?
         {
-            (self.take)(n, estimate)?;
+            take(n, estimate)?;
         }
         Ok(Finished {
-            evaluations: shadow.system().state().evaluations(),
+            evaluations: shadow.integrator().state().evaluations(),
             own_evaluations: evaluations.at_last - evaluations.at_first,
             energy: Some(watch.energy()),
             summary: watch.summary(run),
@@ -134,12 +121,12 @@ struct Evaluations {
 }
 
 impl Evaluations {
-    fn count<M: shadowstep::System>(&mut self, n: i64, last: i64, system: &M) {
+    fn count(&mut self, n: i64, last: i64, evaluations: u64) {
         if n == 0 {
-            self.at_first = system.state().evaluations();
+            self.at_first = evaluations;
         }
         if n == last {
-            self.at_last = system.state().evaluations();
+            self.at_last = evaluations;
         }
     }
 }

@@ -22,21 +22,21 @@
 //! # Ok::<(), shadowstep_scenes::Error>(())
 //! ```
 
-use std::slice;
 use std::time::{Duration, Instant};
 
+use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::number::{Number, Rounded};
 use shadowstep::run::{NotFinite, Quantity, RunError, ShadowRun};
 use shadowstep::shadow::EstimatorSettings;
 use shadowstep::tables::TableScheme;
-use shadowstep::{MotionError, Ordered, Scheme, Stepper, System, ValidFor};
+use shadowstep::{Integrator as _, Ordered, VectorState};
 
 use crate::error::Error;
 use crate::observer::Observer;
 use crate::run::Run;
 use crate::scene::{self, EnergyAt};
 use crate::split::Shown;
-use crate::start::{Begin, Steps, Work};
+use crate::start::{Begin, Steps};
 
 /// A run whose states are kept.
 #[derive(Clone, Copy)]
@@ -100,7 +100,8 @@ impl Integration<'_> {
     ) -> Result<Samples<N>, Error> {
         let Integration { system, scheme, run, compensated, .. } = self;
         let steps = Steps { scheme, h: run.h, compensated, displaced: false, begin: Begin::InitialState };
-        let keeper = Keeper {
+        let mut integrator = system.integrator(steps, system.start(context), context)?;
+        let mut keeper = Keeper {
             integration: self,
             context,
             observer,
@@ -116,8 +117,12 @@ impl Integration<'_> {
                 evaluations: 0,
             },
         };
-        let found = system.with(steps, system.start(context), context, keeper);
-        found.map_err(|error: MotionError| Error::usage(error.to_string(), "check the initial state"))?
+        match self.estimator {
+            None => keeper.plain(&mut *integrator)?,
+            Some(settings) => keeper.shadowed(&mut *integrator, settings)?,
+        }
+        keeper.samples.evaluations = integrator.state().evaluations();
+        Ok(keeper.samples)
     }
 
     fn keeps(&self, n: u64) -> bool {
@@ -137,22 +142,6 @@ struct Keeper<'a, N: Number> {
     samples: Samples<N>,
 }
 
-impl<N: Ordered + 'static> Work<N> for Keeper<'_, N> {
-    type Output = Result<Samples<N>, Error>;
-
-    fn with<S, M>(mut self, stepper: &Stepper<S, N>, system: M) -> Self::Output
-    where
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: System<Number = N> + 'static,
-    {
-        match self.integration.estimator {
-            None => self.plain(stepper, system)?,
-            Some(settings) => self.shadowed(stepper, system, settings)?,
-        }
-        Ok(self.samples)
-    }
-}
-
 /// The observer is asked about as often as this.
 const ASKED: Duration = Duration::from_millis(10);
 
@@ -160,20 +149,16 @@ const ASKED: Duration = Duration::from_millis(10);
 const MOST_AT_ONCE: u64 = 1 << 16;
 
 impl<N: Ordered + 'static> Keeper<'_, N> {
-    fn plain<S, M>(&mut self, stepper: &Stepper<S, N>, mut system: M) -> Result<(), Error>
-    where
-        S: Scheme + ValidFor<M::Class>,
-        M: System<Number = N>,
-    {
+    fn plain(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
         let Integration { run, every, .. } = self.integration;
         let every = every.clamp(1, run.steps.max(1));
-        stepper.at_output(&mut system, |system| self.keep(0, system))?;
+        at_output(integrator, |integrator| self.keep(0, integrator))?;
         let (mut n, mut at_once, mut asked) = (0, 1, Instant::now());
         while n < run.steps {
             let next = (n / every + 1).saturating_mul(every).min(run.steps);
             while n < next {
                 let count = at_once.min(next - n);
-                stepper.steps(slice::from_mut(&mut system), count);
+                integrator.steps(count);
                 n += count;
                 // the time is asked for once in at_once steps, where states are kept at each of them, too
                 if count < at_once && n % at_once != 0 {
@@ -188,30 +173,30 @@ impl<N: Ordered + 'static> Keeper<'_, N> {
                 asked = Instant::now();
                 self.ask(n)?;
             }
-            stepper.at_output(&mut system, |system| self.keep(n, system))?;
+            at_output(integrator, |integrator| self.keep(n, integrator))?;
         }
-        self.samples.evaluations = system.state().evaluations();
         Ok(())
     }
 
-    fn shadowed<S, M>(&mut self, stepper: &Stepper<S, N>, system: M, settings: &EstimatorSettings) -> Result<(), Error>
-    where
-        S: Scheme + ValidFor<M::Class>,
-        M: System<Number = N>,
-    {
+    fn shadowed(
+        &mut self,
+        integrator: &mut VectorIntegrator<'_, N>,
+        settings: &EstimatorSettings,
+    ) -> Result<(), Error> {
         let Integration { run, system: described, .. } = self.integration;
         let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
         let settings = settings.clone().with_errors(true);
-        let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
-        let mut shadow = ShadowRun::new(stepper, system, run.steps, &settings).map_err(failed)?;
+        let (mut q, mut p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
+        let mut shadow = ShadowRun::new(integrator, run.steps, &settings).map_err(failed)?;
         let (mut asked, mut last) = (Instant::now(), None);
-        let keep_last = |n: i64, system: &M, last: &mut Option<(Vec<N>, Vec<N>)>| {
+        let keep_last = |n: i64, state: &VectorState<N>, last: &mut Option<(Vec<N>, Vec<N>)>| {
             if settings.is_between() && n.unsigned_abs() == run.steps {
-                *last = Some((system.q().to_vec(), system.p().to_vec()));
+                *last = Some((state.q().to_vec(), state.p().to_vec()));
             }
         };
-        while let Some((n, estimate)) =
-            shadow.advance_with(|n, trajectory| keep_last(n, trajectory.system(), &mut last)).map_err(failed)?
+        while let Some((n, estimate)) = shadow
+            .advance_with(|n, trajectory| keep_last(n, trajectory.integrator().state(), &mut last))
+            .map_err(failed)?
         {
             let n = n.unsigned_abs();
             if asked.elapsed() > ASKED {
@@ -225,15 +210,16 @@ impl<N: Ordered + 'static> Keeper<'_, N> {
             p.iter_mut().zip(estimate.p).for_each(|(own, p)| own.assign(p));
             let (value, error) = (estimate.value.clone(), estimate.error.cloned());
             self.samples.modified.push(Modified { value, error, order: estimate.order });
-            stepper.postprocess_state(shadow.system(), &mut q, &mut p);
-            self.keep_state(n, shadow.system(), (&q, &p))?;
+            let integrator = &mut **shadow.integrator();
+            integrator.postprocess_state(&mut q, &mut p);
+            self.keep_state(n, integrator, (&q, &p))?;
         }
         // the estimates between two states end before the last one
         if let Some((mut q, mut p)) = last {
-            stepper.postprocess_state(shadow.system(), &mut q, &mut p);
-            self.keep_state(run.steps, shadow.system(), (&q, &p))?;
+            let integrator = &mut **shadow.integrator();
+            integrator.postprocess_state(&mut q, &mut p);
+            self.keep_state(run.steps, integrator, (&q, &p))?;
         }
-        self.samples.evaluations = shadow.system().state().evaluations();
         Ok(())
     }
 
@@ -250,19 +236,24 @@ impl<N: Ordered + 'static> Keeper<'_, N> {
     }
 
     /// Keeps the present state.
-    fn keep<M: System<Number = N>>(&mut self, n: u64, system: &mut M) -> Result<(), Error> {
+    fn keep(&mut self, n: u64, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
         let energy = match &mut self.energy_of {
-            Some(energy_of) => energy_of(system.q(), system.p()),
-            None => system.energy(),
+            Some(energy_of) => energy_of(integrator.state().q(), integrator.state().p()),
+            None => integrator.system().energy(),
         };
-        self.push(n, (system.q(), system.p()), energy)
+        self.push(n, (integrator.state().q(), integrator.state().p()), energy)
     }
 
     /// Keeps a state that is not the present one of the system.
-    fn keep_state<M: System<Number = N>>(&mut self, n: u64, system: &mut M, (q, p): (&[N], &[N])) -> Result<(), Error> {
+    fn keep_state(
+        &mut self,
+        n: u64,
+        integrator: &mut VectorIntegrator<'_, N>,
+        (q, p): (&[N], &[N]),
+    ) -> Result<(), Error> {
         let energy = match &mut self.energy_of {
             Some(energy_of) => energy_of(q, p),
-            None => system.energy_at(q, p),
+            None => integrator.system().energy_at(q, p),
         };
         self.push(n, (q, p), energy)
     }

@@ -5,11 +5,11 @@ use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::number::{Lanes, Number};
 use shadowstep::problems::Setup;
 use shadowstep::summation::Compensated;
-use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Rational, Stepper, UnitMasses};
+use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Rational, UnitMasses};
 use shadowstep_symbolic::Exact;
 
 use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, PotentialEnergy, System};
-use crate::start::{Steps, Work};
+use crate::start::{SceneIntegrator, Steps};
 
 /// The systems of W trajectories as one, at their initial states.
 pub struct Together<const W: usize> {
@@ -45,17 +45,17 @@ impl<const W: usize> Together<W> {
         })
     }
 
-    /// Does some work with the system and a scheme that is valid for it.
+    /// The system with a stepper that is valid for it.
     ///
     /// # Panics
     /// If the step size is 0 or the scheme is not valid for T(p), which reading a scene excludes.
-    pub fn with<T: Work<Lanes<W>>>(self, Steps { scheme, h, compensated, .. }: Steps<'_>, work: T) -> T::Output {
-        const VALID: &str = "the scheme and the step size were read with the scene";
+    pub fn integrator(self, steps: Steps<'_>) -> SceneIntegrator<Lanes<W>> {
+        let scheme = steps.scheme.clone();
         if matches!(self.kinetic, ClassifiedKinetic::Quadratic(_)) {
-            return work.with(&Stepper::new(scheme.clone(), h.clone()).expect(VALID), self.quadratic(compensated));
+            return steps.integrator(scheme, self.quadratic(steps.compensated), &());
         }
-        let scheme = scheme.clone().for_every_kinetic().expect(VALID);
-        work.with(&Stepper::new(scheme, h.clone()).expect(VALID), self.general(compensated))
+        let scheme = scheme.for_every_kinetic().expect("the scheme was read for this T");
+        steps.integrator(scheme, self.general(steps.compensated), &())
     }
 
     pub(crate) fn quadratic(self, compensated: bool) -> MotionInLanes<W, Quadratic> {

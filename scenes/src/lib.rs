@@ -90,7 +90,6 @@
 //! | [`readable`], `error`, `refusal` | numbers and texts for people; what can go wrong |
 
 pub mod arithmetic;
-mod boxed;
 pub mod cpu_time;
 pub mod drift;
 mod engine;

@@ -1,14 +1,15 @@
 //! The end of a run in transformed time: how many steps fit before a physical time, and the last step to that time.
 
+use num_traits::Signed;
+use shadowstep::integrator::VectorIntegrator;
 use shadowstep::number::Rounded;
 use shadowstep::transformed_time::step_to_time;
-use shadowstep::{Number, Ordered, Rational, Scheme, Stepper, System, ValidFor};
+use shadowstep::{Carried, Integrator as _, Ordered, Rational};
 
 use crate::arithmetic::Computation;
 use crate::error::Error;
 use crate::run::Run;
 use crate::scene;
-use crate::start::{Begin, Steps, Work};
 use crate::steps::MOST_STEPS;
 
 impl scene::Scene {
@@ -27,16 +28,12 @@ impl scene::Scene {
     ///
     /// A step whose state is not finite counts, so that the run finds it.
     fn count_steps(&self, until: &Rational) -> u64 {
-        let compensated = self.arithmetic.is_compensated();
-        let (displaced, begin) = (self.displaced, Begin::InitialState);
-        let steps = Steps { scheme: &self.scheme.scheme, h: &self.h, compensated, displaced, begin };
-        self.arithmetic.compute(Counting { system: &self.system, steps, until })
+        self.arithmetic.compute(Counting { scene: self, until })
     }
 }
 
 struct Counting<'a> {
-    system: &'a scene::System,
-    steps: Steps<'a>,
+    scene: &'a scene::Scene,
     until: &'a Rational,
 }
 
@@ -44,29 +41,14 @@ impl Computation for Counting<'_> {
     type Output = u64;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> u64 {
-        let Counting { system, steps, until } = self;
-        let until = Until(N::from_rational(until, context));
-        system.with(steps, system.start(context), context, until).unwrap_or(0)
-    }
-}
-
-/// The physical time of the end.
-struct Until<N>(N);
-
-impl<N: Ordered> Work<N> for Until<N> {
-    type Output = u64;
-
-    fn with<S, M>(self, stepper: &Stepper<S, N>, mut system: M) -> u64
-    where
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: System<Number = N> + 'static,
-    {
-        let zero = N::zero(&system.state().context());
-        let forward = N::from_rational(stepper.h(), &system.state().context()) > zero;
+        let Counting { scene, until } = self;
+        let Ok(mut integrator) = scene.integrator::<N>(context) else { return 0 };
+        let until = N::from_rational(until, context);
+        let forward = scene.h.is_positive();
         for n in 1..=MOST_STEPS {
-            stepper.step(&mut system);
-            let Some(t) = system.q().last().filter(|t| t.is_finite()) else { return n };
-            if (forward && *t > self.0) || (!forward && *t < self.0) {
+            integrator.step(Carried::Nothing);
+            let Some(t) = integrator.state().q().last().filter(|t| t.is_finite()) else { return n };
+            if (forward && *t > until) || (!forward && *t < until) {
                 return n - 1;
             }
         }
@@ -78,22 +60,17 @@ impl<N: Ordered> Work<N> for Until<N> {
 ///
 /// # Errors
 /// A state that is not finite on the way.
-pub(crate) fn last_step<S, M>(
-    stepper: &Stepper<S, M::Number>,
-    system: &mut M,
-    (q, p): (&[M::Number], &[M::Number]),
+pub(crate) fn last_step<N: Ordered>(
+    integrator: &mut VectorIntegrator<'_, N>,
+    (q, p): (&[N], &[N]),
     (run, until): (Run<'_>, &Rational),
-) -> Result<bool, Error>
-where
-    S: Scheme + Clone + ValidFor<M::Class>,
-    M: System<Number: Ordered>,
-{
-    let until = <M::Number as Number>::from_rational(until, &system.state().context());
-    system.state_mut().set(q, p);
+) -> Result<bool, Error> {
+    let until = N::from_rational(until, &integrator.state().context());
+    integrator.system().state_mut().set(q, p);
     if q.last() == Some(&until) {
         return Ok(false);
     }
-    match step_to_time(stepper, system, &until) {
+    match step_to_time(integrator, &until) {
         Some(_) => Ok(true),
         None => {
             let message = format!("{}: no last step to t = {until} has a finite state", run.name());

@@ -21,7 +21,9 @@ pub use system::{Parts, System};
 
 use std::sync::OnceLock;
 
+use shadowstep::MotionError;
 use shadowstep::Rational;
+use shadowstep::number::Rounded;
 use shadowstep::tables::Source;
 
 use crate::arithmetic::Arithmetic;
@@ -29,6 +31,7 @@ use crate::estimator::order_setting;
 use crate::library::NamedScheme;
 use crate::note::Note;
 use crate::run::{OrderSetting, Run};
+use crate::start::{Begin, SceneIntegrator, Steps};
 
 /// A scene: the system, the scheme with its steps, and the output.
 #[derive(Debug)]
@@ -56,6 +59,20 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// The system at t = 0 with the stepper of the run.
+    ///
+    /// # Errors
+    /// A state of another dimension.
+    pub fn integrator<N: Rounded + 'static>(&self, context: &N::Context) -> Result<SceneIntegrator<N>, MotionError> {
+        self.system.integrator(self.steps_from(Begin::InitialState), self.system.start(context), context)
+    }
+
+    /// The steps of the run from this state on.
+    pub(crate) fn steps_from(&self, begin: Begin) -> Steps<'_> {
+        let (compensated, displaced) = (self.arithmetic.is_compensated(), self.displaced);
+        Steps { scheme: &self.scheme.scheme, h: &self.h, compensated, displaced, begin }
+    }
+
     /// The steps of the run, with the order of the estimator as the scene sets it.
     pub fn as_run(&self) -> Run<'_> {
         let setting = self.output.modified_energy.as_ref().and_then(|(settings, _)| order_setting(settings));

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use shadowstep::{Ordered, Remainders, System};
+use shadowstep::{Ordered, Remainders, VectorState};
 
 /// The state n with its remainders.
 #[derive(Clone, Debug)]
@@ -14,9 +14,8 @@ pub(crate) struct Snapshot<N> {
 }
 
 impl<N: Ordered> Snapshot<N> {
-    /// Of a system that is at the state n.
-    pub(crate) fn of(n: i64, system: &impl System<Number = N>) -> Self {
-        Snapshot { n, q: system.q().to_vec(), p: system.p().to_vec(), remainders: system.state().remainders() }
+    pub(crate) fn of(n: i64, state: &VectorState<N>) -> Self {
+        Snapshot { n, q: state.q().to_vec(), p: state.p().to_vec(), remainders: state.remainders() }
     }
 }
 
@@ -42,10 +41,10 @@ impl<N: Ordered> Snapshots<N> {
         self.kept.push_back(snapshot);
     }
 
-    /// Keeps the state n, at which the system is, if it is one of those to keep.
-    pub(crate) fn offer(&mut self, n: i64, system: &impl System<Number = N>) {
+    /// Keeps the state n if it is one of those to keep.
+    pub(crate) fn offer(&mut self, n: i64, state: &VectorState<N>) {
         if n >= 0 && n % self.reach.max(1) == 0 {
-            self.kept.push_back(Snapshot::of(n, system));
+            self.kept.push_back(Snapshot::of(n, state));
             if self.kept.len() > Self::KEPT {
                 self.kept.pop_front();
             }

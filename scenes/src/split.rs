@@ -30,7 +30,7 @@ use shadowstep::transformed_time::TimeTransformation;
 use shadowstep::{MotionError, Number};
 
 use crate::scene::{EnergyAt, InitialValueProblem};
-use crate::start::{Steps, Work};
+use crate::start::{SceneIntegrator, Steps};
 
 /// Positions and momenta.
 pub(crate) type State<N> = (Vec<N>, Vec<N>);
@@ -63,18 +63,17 @@ pub(crate) trait Split {
         problem.plain_energy(context)
     }
 
-    /// Does some work with the system at a state in the coordinates of the steps.
+    /// The system at a state in the coordinates of the steps, with its stepper.
     ///
     /// # Errors
     /// A state of another dimension.
-    fn with<N: Rounded + 'static, W: Work<N>>(
+    fn integrator<N: Rounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         steps: Steps<'_>,
         state: State<N>,
         context: &N::Context,
-        work: W,
-    ) -> Result<W::Output, MotionError>;
+    ) -> Result<SceneIntegrator<N>, MotionError>;
 
     /// H, where the parts alone give it.
     fn hamiltonian(&self) -> Option<String> {

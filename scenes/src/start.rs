@@ -1,7 +1,9 @@
-//! The steps of a run, and what is done with a system at a state and its stepper.
+//! The steps of a run: a system at its first state with its stepper.
 
 use shadowstep::displaced::Displacements;
+use shadowstep::integrator::VectorIntegrator;
 use shadowstep::number::Rounded;
+use shadowstep::summation::Compensated;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Number, Rational, Scheme, Stepper, System, ValidFor};
 
@@ -29,17 +31,10 @@ pub enum Begin {
     Step,
 }
 
-/// What is done with a system at a state and a stepper, whatever the class of its kinetic energy.
-pub trait Work<N: Number> {
-    /// Its result.
-    type Output;
-
-    /// Does it. For a processed scheme the system is at a state of its kernel: see [`Stepper::at_output`].
-    fn with<S, M>(self, stepper: &Stepper<S, N>, system: M) -> Self::Output
-    where
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: System<Number = N> + 'static;
-}
+/// A system with its stepper, whatever the kind of split and the scheme: what follows a run is compiled once for each number type.
+///
+/// For a processed scheme the system is at a state of its kernel: see [`at_output`](shadowstep::integrator::at_output).
+pub type SceneIntegrator<N> = Box<VectorIntegrator<'static, N>>;
 
 impl Steps<'_> {
     /// The displacements of the forces, where gradient kicks are made by them.
@@ -48,19 +43,18 @@ impl Steps<'_> {
         stepper.map(|stepper| stepper.displacements().expect("the scheme was read for displaced forces"))
     }
 
-    /// Does some work with a system at the first state, by the scheme as it is valid for the system.
-    pub(crate) fn begin<N, S, M, W>(self, scheme: S, mut system: M, context: &N::Context, work: W) -> W::Output
+    /// A system at the first state with its stepper, by the scheme as it is valid for the system.
+    pub(crate) fn integrator<N, S, M>(self, scheme: S, mut system: M, context: &N::Context) -> SceneIntegrator<N>
     where
-        N: Number,
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: System<Number = N> + 'static,
-        W: Work<N>,
+        N: Number + 'static,
+        S: Scheme + ValidFor<M::Class> + 'static,
+        M: System<Number = N, Coordinates = Vec<N>, Summation = Option<Compensated<N, Vec<N>>>> + 'static,
     {
         let stepper = stepper(scheme, self.h, context);
         if self.begin == Begin::InitialState {
             stepper.preprocess(&mut system);
         }
-        work.with(&stepper, system)
+        Box::new(stepper.into_integrator(system))
     }
 }
 

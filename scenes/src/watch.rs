@@ -4,9 +4,10 @@ pub(crate) mod approaches;
 pub(crate) mod encounters;
 mod energy;
 
+use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::run::RunError;
-use shadowstep::shadow::{Bilinear, BuildEstimator, Criterion, KINETIC_LIMIT, Missing, Report, ShadowEnergy, Verdict};
-use shadowstep::{Ordered, Scheme, Stepper, System};
+use shadowstep::shadow::{Bilinear, BuildEstimator, Criterion, KINETIC_LIMIT, Missing, Monitor, Report, Verdict};
+use shadowstep::{Integrator as _, Ordered};
 
 use self::approaches::Approaches;
 pub use self::approaches::{Approach, Interactions};
@@ -36,35 +37,33 @@ pub enum Energies {
 }
 
 /// Follows the states of a run in the order of time.
-pub struct Watch<S: Scheme, N: Ordered> {
+pub struct Watch<N: Ordered> {
     energies: Energies,
     energy: EnergyError<N>,
-    stepper: Stepper<S, N>,
     /// Whether H is that of transformed time, which is 0 but for round-off.
     transformed: bool,
     /// What a summary needs besides H; `None` where there is none.
-    observed: Option<Observed<S, N>>,
+    observed: Option<Observed<N>>,
     /// The n of the first state and of the last one so far.
     from: i64,
     n: i64,
 }
 
-struct Observed<S: Scheme, N: Ordered> {
-    monitor: ShadowEnergy<S, N, <Bilinear as BuildEstimator<N>>::Estimator>,
+struct Observed<N: Ordered> {
+    monitor: Monitor<N, <Bilinear as BuildEstimator<N>>::Estimator>,
     encounters: Encounters<N>,
     approaches: Option<Approaches>,
     /// The states between windows of the monitor.
     every: u64,
 }
 
-impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
+impl<N: Ordered> Watch<N> {
     /// Begins at the system's present state, which is number `from` of the run; `initial` is H at t = 0.
     ///
     /// # Errors
     /// A state or an energy that is not finite.
-    pub fn begin<M: System<Number = N>>(
-        stepper: &Stepper<S, N>,
-        system: &mut M,
+    pub fn begin(
+        integrator: &mut VectorIntegrator<'_, N>,
         run: Run<'_>,
         (from, initial): (i64, N),
         energies: Energies,
@@ -74,23 +73,15 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
         let every = (run.steps.saturating_sub(from.unsigned_abs()) / WINDOWS).max(1);
         let mut observed = None;
         if summarised {
-            let monitor = ShadowEnergy::new(stepper.clone(), system, &Bilinear::with_error(MONITOR_ORDER))?;
+            let monitor = Monitor::new(integrator, &Bilinear::with_error(MONITOR_ORDER))?;
             observed = Some(Observed {
                 monitor: monitor.every(every),
-                encounters: Encounters::new(system.p()),
+                encounters: Encounters::new(integrator.state().p()),
                 approaches: None,
                 every,
             });
         }
-        Ok(Watch {
-            energies,
-            energy: EnergyError::new(initial),
-            stepper: stepper.clone(),
-            transformed: false,
-            observed,
-            from,
-            n: from,
-        })
+        Ok(Watch { energies, energy: EnergyError::new(initial), transformed: false, observed, from, n: from })
     }
 
     /// Follows the planets of a system that has some, too; in transformed time H is H'.
@@ -110,26 +101,27 @@ impl<S: Scheme + Clone, N: Ordered> Watch<S, N> {
 
     /// Takes the state n, which a step has made: the one after the last one that it took. Of a processed scheme, the monitor and encounters
     /// follow the kernel; H is that of the trajectory.
-    pub fn include<M: System<Number = N>>(&mut self, n: i64, system: &mut M) {
+    pub fn include(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
         self.n = n;
         if self.energies == Energies::All {
-            let mut energy = N::zero(&system.state().context());
+            let mut energy = N::zero(&integrator.state().context());
             let mut kinetic = energy.clone();
-            self.stepper.at_output(system, |system| system.assign_energies(None, &mut energy, &mut kinetic));
+            at_output(integrator, |integrator| integrator.system().assign_energies(None, &mut energy, &mut kinetic));
             self.energy.include(n, &energy);
             self.energy.include_kinetic(&kinetic);
         }
         let Some(Observed { monitor, encounters, approaches, every }) = &mut self.observed else { return };
-        encounters.include(n, system.p());
+        let (q, p) = (integrator.state().q(), integrator.state().p());
+        encounters.include(n, p);
         if let Some(approaches) = approaches {
-            approaches.include(n, (system.q(), system.p()), n.unsigned_abs().is_multiple_of(*every));
+            approaches.include(n, (q, p), n.unsigned_abs().is_multiple_of(*every));
         }
         // what is not finite is found by the run as well, or by the verdict
-        if let Ok(Some(sample)) = monitor.observe(system)
+        if let Ok(Some(sample)) = monitor.observe(integrator.system())
             && self.energies == Energies::Windows
         {
-            if self.stepper.is_processed() {
-                self.energy.include(n, &self.stepper.at_output(system, M::energy));
+            if integrator.is_processed() {
+                self.energy.include(n, &at_output(integrator, |integrator| integrator.system().energy()));
             } else {
                 self.energy.include(self.from + i64::try_from(sample.n).unwrap_or(i64::MAX), sample.energy);
             }

@@ -72,6 +72,9 @@ impl Proved {
     /// # Errors
     /// A scheme with gradient kicks, with a processor, or whose order is for quadratic T only.
     pub fn for_many_parts(&self) -> Result<Proved, NotForManyParts> {
+        if self.proof.many_parts.is_some() {
+            return Ok(self.clone());
+        }
         let Proved { scheme, proof, .. } = self;
         let name = scheme.table.name.value.clone();
         if scheme.has_gradient_kicks() {

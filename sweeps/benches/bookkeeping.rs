@@ -11,9 +11,7 @@ use std::time::Instant;
 
 use shadowstep::run::Trajectory;
 use shadowstep::tables::Source;
-use shadowstep::{Ordered, Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::Scene;
-use shadowstep_scenes::start::{Begin, Steps, Work};
 use shadowstep_sweeps::{Collected, Manifest, Plan, TableFormat, collect, compute};
 
 /// A run of about 1 ms.
@@ -90,23 +88,10 @@ fn steps_alone(scenes: &[Scene], runs: u64) {
 }
 
 fn follow(scene: &Scene) {
-    struct Alone;
-    impl<N: Ordered> Work<N> for Alone {
-        type Output = ();
-
-        fn with<S, M>(self, stepper: &Stepper<S, N>, system: M)
-        where
-            S: Scheme + Clone + ValidFor<M::Class> + 'static,
-            M: System<Number = N> + 'static,
-        {
-            let mut trajectory = Trajectory::plain(stepper, system, 0, STEPS).expect("the state is finite");
-            trajectory.reach_the_end(|| true).expect("the states are finite");
-            black_box(trajectory.system().q());
-        }
-    }
-    let begin = Begin::InitialState;
-    let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated: false, displaced: false, begin };
-    scene.system.with(steps, scene.system.start::<f64>(&()), &(), Alone).expect("the dimensions agree");
+    let mut integrator = scene.integrator::<f64>(&()).expect("the dimensions agree");
+    let mut trajectory = Trajectory::plain(&mut *integrator, 0, STEPS).expect("the state is finite");
+    trajectory.reach_the_end(|| true).expect("the states are finite");
+    black_box(trajectory.integrator().state().q());
 }
 
 fn median(values: &[f64]) -> f64 {

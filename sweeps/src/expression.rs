@@ -159,7 +159,7 @@ impl<N: Number + 'static> Evaluator<N> {
     }
 
     /// The value at a state.
-    pub(crate) fn value<M: shadowstep::System<Number = N>>(
+    pub(crate) fn value<M: shadowstep::System<Number = N> + ?Sized>(
         &mut self,
         system: &mut M,
         time: impl Fn() -> Rational,
@@ -208,7 +208,7 @@ impl<N: Rounded + 'static> Test<N> {
     }
 
     /// Whether a state meets the condition; one whose expression has no value does not.
-    pub(crate) fn is_met<M: shadowstep::System<Number = N>>(
+    pub(crate) fn is_met<M: shadowstep::System<Number = N> + ?Sized>(
         &mut self,
         system: &mut M,
         time: impl Fn() -> Rational,
@@ -225,7 +225,7 @@ impl<const W: usize> Test<Lanes<W>> {
     }
 
     /// Whether the state in each lane meets the condition.
-    pub(crate) fn is_met_by_each<M: shadowstep::System<Number = Lanes<W>>>(
+    pub(crate) fn is_met_by_each<M: shadowstep::System<Number = Lanes<W>> + ?Sized>(
         &mut self,
         system: &mut M,
         time: impl Fn() -> Rational,

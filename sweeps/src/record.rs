@@ -3,13 +3,13 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
+use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::number::Rounded;
 use shadowstep::run::{DriftRecorder, EnergyDrift, Finding, RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::EstimatorSettings;
-use shadowstep::{Ordered, Scheme, Stepper, ValidFor};
+use shadowstep::{Integrator as _, Ordered};
 use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::run::Run;
-use shadowstep_scenes::start::{Begin, Steps, Work};
 use shadowstep_scenes::watch::{Energies, Watch};
 use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, Shown, Summary, System};
 use shadowstep_symbolic::decimal::to_text;
@@ -101,39 +101,15 @@ impl Computation for Measuring<'_> {
     type Output = Result<Option<Values>, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
-        let scene = self.scene;
-        let (compensated, displaced) = (scene.arithmetic.is_compensated(), scene.displaced);
-        let begin = Begin::InitialState;
-        let steps = Steps { scheme: &scene.scheme.scheme, h: &scene.h, compensated, displaced, begin };
-        let work = InNumbers::<N> { scene, keep: self.keep, stops: self.stops, context };
-        let found = scene.system.with(steps, scene.system.start(context), context, work);
-        found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))?
-    }
-}
-
-struct InNumbers<'a, N: Ordered> {
-    scene: &'a Scene,
-    keep: &'a Keep,
-    stops: &'a AtomicBool,
-    context: &'a N::Context,
-}
-
-impl<N: Rounded + 'static> Work<N> for InNumbers<'_, N> {
-    type Output = Result<Option<Values>, Error>;
-
-    fn with<S, M>(self, stepper: &Stepper<S, N>, mut system: M) -> Self::Output
-    where
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: shadowstep::System<Number = N> + 'static,
-    {
-        let InNumbers { scene, keep, stops, context } = self;
+        let Measuring { scene, keep, stops } = self;
+        let mut integrator = scene.integrator::<N>(context)?;
         let (run, described) = (scene.as_run(), &scene.system);
         let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
-        let mut following = Following::begin(scene, keep, stepper, &mut system, context).map_err(failed)?;
+        let mut following = Following::begin(scene, keep, &mut *integrator, context).map_err(failed)?;
         let settings = scene.output.modified_energy.as_ref().filter(|_| keep.needs(Need::Estimates));
         let ended = match settings {
-            None => plain(&mut following, stepper, system, run, stops),
-            Some((settings, _)) => estimated(&mut following, stepper, system, run, settings, stops),
+            None => plain(&mut following, &mut *integrator, run, stops),
+            Some((settings, _)) => estimated(&mut following, &mut *integrator, run, settings, stops),
         };
         let Some(ended) = ended.map_err(failed)? else { return Ok(None) };
         following.values(run, &ended).map(Some)
@@ -147,55 +123,45 @@ struct Ended<N> {
 }
 
 /// Follows the states of a run without estimates; `None` if it was stopped.
-fn plain<S, M>(
-    following: &mut Following<'_, S, M::Number>,
-    stepper: &Stepper<S, M::Number>,
-    system: M,
+fn plain<N: Rounded + 'static>(
+    following: &mut Following<'_, N>,
+    integrator: &mut VectorIntegrator<'_, N>,
     run: Run<'_>,
     stops: &AtomicBool,
-) -> Result<Option<Ended<M::Number>>, RunError>
-where
-    S: Scheme + Clone + ValidFor<M::Class>,
-    M: shadowstep::System<Number: Rounded + 'static>,
-{
-    let mut trajectory = Trajectory::plain(stepper, system, 0, run.steps)?;
+) -> Result<Option<Ended<N>>, RunError> {
+    let mut trajectory = Trajectory::plain(integrator, 0, run.steps)?;
     if !following.follows_all() {
         if !trajectory.reach_the_end(|| !stops.load(Ordering::Relaxed))? {
             return Ok(None);
         }
-        following.include(following.last, trajectory.system());
+        following.include(following.last, *trajectory.integrator());
     }
     while !following.is_over() {
         trajectory.set_augmented(following.needs_increments());
         let Some(n) = trajectory.advance()?.map(|state| state.n) else { break };
-        following.include(n, trajectory.system());
+        following.include(n, *trajectory.integrator());
         if stops.load(Ordering::Relaxed) {
             return Ok(None);
         }
     }
-    Ok(Some(Ended { drift: None, evaluations: trajectory.system().state().evaluations() }))
+    Ok(Some(Ended { drift: None, evaluations: trajectory.integrator().state().evaluations() }))
 }
 
 /// Follows the states of a run with an estimate at each of them; `None` if it was stopped.
-fn estimated<S, M>(
-    following: &mut Following<'_, S, M::Number>,
-    stepper: &Stepper<S, M::Number>,
-    system: M,
+fn estimated<N: Rounded + 'static>(
+    following: &mut Following<'_, N>,
+    integrator: &mut VectorIntegrator<'_, N>,
     run: Run<'_>,
     settings: &EstimatorSettings,
     stops: &AtomicBool,
-) -> Result<Option<Ended<M::Number>>, RunError>
-where
-    S: Scheme + Clone + ValidFor<M::Class>,
-    M: shadowstep::System<Number: Rounded + 'static>,
-{
+) -> Result<Option<Ended<N>>, RunError> {
     let settings = settings.clone().with_errors(true);
-    let mut shadow = ShadowRun::new(stepper, system, run.steps, &settings)?;
+    let mut shadow = ShadowRun::new(integrator, run.steps, &settings)?;
     let mut drift = DriftRecorder::new(shadow.step_size().clone()).compensated_if(shadow.is_compensated());
     loop {
         let next = shadow.advance_with(|n, trajectory| {
             if 0 <= n && n <= following.last {
-                following.include(n, trajectory.system());
+                following.include(n, *trajectory.integrator());
             }
         });
         let (n, estimate) = match next {
@@ -213,16 +179,15 @@ where
             return Ok(None);
         }
     }
-    Ok(Some(Ended { drift: drift.drift(), evaluations: shadow.system().state().evaluations() }))
+    Ok(Some(Ended { drift: drift.drift(), evaluations: shadow.integrator().state().evaluations() }))
 }
 
 /// What is kept, as far as the states have come.
-struct Following<'a, S: Scheme, N: Ordered> {
+struct Following<'a, N: Ordered> {
     run: Run<'a>,
     described: &'a System,
-    stepper: Stepper<S, N>,
     keep: &'a Keep,
-    watch: Option<Watch<S, N>>,
+    watch: Option<Watch<N>>,
     /// The conditions, each with the time of the first state that meets it.
     tests: Vec<(Test<N>, Option<String>)>,
     at_end: Vec<Evaluator<N>>,
@@ -241,12 +206,11 @@ struct End {
     has_energy: bool,
 }
 
-impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
-    fn begin<M: shadowstep::System<Number = N>>(
+impl<'a, N: Rounded + 'static> Following<'a, N> {
+    fn begin(
         scene: &'a Scene,
         keep: &'a Keep,
-        stepper: &Stepper<S, N>,
-        system: &mut M,
+        integrator: &mut VectorIntegrator<'_, N>,
         context: &N::Context,
     ) -> Result<Self, RunError> {
         let (energies, summarised) = (keep.needs(Need::Energies), keep.needs(Need::Summary));
@@ -254,9 +218,9 @@ impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
             false => None,
             true => {
                 let (q, p) = scene.system.start(context);
-                let initial = system.energy_at(&q, &p);
+                let initial = integrator.system().energy_at(&q, &p);
                 let energies = if energies { Energies::All } else { Energies::Windows };
-                Some(Watch::begin(stepper, system, scene.as_run(), (0, initial), energies, summarised)?)
+                Some(Watch::begin(integrator, scene.as_run(), (0, initial), energies, summarised)?)
             }
         };
         const CHECKED: &str = "the formulas were checked with the sweep";
@@ -270,7 +234,6 @@ impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
         Ok(Following {
             run: scene.as_run(),
             described: &scene.system,
-            stepper: stepper.clone(),
             keep,
             watch,
             tests: tests.collect(),
@@ -296,15 +259,16 @@ impl<'a, S: Scheme + Clone, N: Rounded + 'static> Following<'a, S, N> {
     }
 
     /// Takes the state n.
-    fn include<M: shadowstep::System<Number = N>>(&mut self, n: i64, system: &mut M) {
+    fn include(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
         if let Some(watch) = self.watch.as_mut().filter(|_| n > 0) {
-            watch.include(n, system);
+            watch.include(n, integrator);
         }
         if self.tests.is_empty() && n != self.last {
             return;
         }
         let run = self.run;
-        self.stepper.at_output(system, |system| {
+        at_output(integrator, |integrator| {
+            let system = integrator.system();
             for (test, met) in &mut self.tests {
                 if met.is_none() && test.is_met(system, || run.time(n)) {
                     let physical = self.described.time_of(system.q());

@@ -3,15 +3,15 @@
 //! What is kept of a run has the bytes that it has alone. A run whose state or energy is found to be infinite or NaN is left to be made alone,
 //! which gives the message.
 
-use std::slice::from_mut;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use shadowstep::integrator::VectorIntegrator;
 use shadowstep::number::counting::{Counting, count};
 use shadowstep::number::{Lanes, Number, Ordered};
-use shadowstep::{Scheme, Stepper, System, ValidFor};
+use shadowstep::{Carried, Scheme as _, System};
 use shadowstep_scenes::Scene;
 use shadowstep_scenes::lanes::Together;
-use shadowstep_scenes::start::{Begin, Steps, Work};
+use shadowstep_scenes::start::{Begin, Steps};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::expression::{Evaluator, Test};
@@ -62,7 +62,7 @@ pub(crate) fn measure(scenes: &[&Scene], keep: &Keep, stops: &AtomicBool) -> Vec
     // lanes without a run have the last one
     let of_lanes: [&Scene; LANES] = std::array::from_fn(|lane| scenes[lane.min(scenes.len() - 1)]);
     let Some(together) = Together::of(&of_lanes.map(|scene| &scene.system)) else { return vec![None; scenes.len()] };
-    let mut found = together.with(steps(scenes[0]), InLanes { scenes: &of_lanes, keep, stops });
+    let mut found = follow(&mut *together.integrator(steps(scenes[0])), &of_lanes, keep, stops);
     found.truncate(scenes.len());
     found
 }
@@ -79,60 +79,43 @@ fn steps(scene: &Scene) -> Steps<'_> {
 
 /// Counted in a step, an energy and all formulas.
 fn has_elementary_functions(scene: &Scene, keep: &Keep) -> bool {
-    struct OneStep<'a>(&'a Scene, &'a Keep);
-    impl Work<Counting<f64>> for OneStep<'_> {
-        type Output = ();
-
-        fn with<S, M>(self, stepper: &Stepper<S, Counting<f64>>, mut system: M)
-        where
-            S: Scheme + ValidFor<M::Class>,
-            M: System<Number = Counting<f64>>,
-        {
-            let OneStep(scene, keep) = self;
-            stepper.step(&mut system);
-            system.energy();
-            let conditions = keep.first_time.iter().map(|(_, condition)| condition.difference());
-            for expression in conditions.chain(keep.at_end.iter().map(|(_, end)| end)) {
-                let evaluator = Evaluator::new(expression, &scene.system, &());
-                evaluator.expect(CHECKED).value(&mut system, || scene.as_run().time(1));
-            }
-        }
-    }
     let start = scene.system.start(&());
-    let (_, operations) = count(|| scene.system.with(steps(scene), start, &(), OneStep(scene, keep)));
+    let (_, operations) = count(|| {
+        let integrator = scene.system.integrator::<Counting<f64>>(steps(scene), start, &());
+        let mut integrator = integrator.expect("the dimensions were read with the system");
+        integrator.step(Carried::Nothing);
+        let system = integrator.system();
+        system.energy();
+        let conditions = keep.first_time.iter().map(|(_, condition)| condition.difference());
+        for expression in conditions.chain(keep.at_end.iter().map(|(_, end)| end)) {
+            let evaluator = Evaluator::new(expression, &scene.system, &());
+            evaluator.expect(CHECKED).value(system, || scene.as_run().time(1));
+        }
+    });
     operations.elementary > 0
 }
 
-/// A run in each lane.
-struct InLanes<'a> {
-    scenes: &'a [&'a Scene; LANES],
-    keep: &'a Keep,
-    stops: &'a AtomicBool,
-}
-
-impl Work<Lanes<LANES>> for InLanes<'_> {
-    type Output = Vec<Option<Values>>;
-
-    fn with<S, M>(self, stepper: &Stepper<S, Lanes<LANES>>, mut system: M) -> Self::Output
-    where
-        S: Scheme + ValidFor<M::Class>,
-        M: System<Number = Lanes<LANES>>,
-    {
-        let mut following = Following::begin(self.scenes, self.keep, &mut system);
-        let at_once = if following.follows_all() { 1 } else { STEPS_AT_ONCE };
-        let (mut n, last) = (0, self.scenes[0].steps());
-        following.include(n, &mut system);
-        while n < last && following.goes_on() {
-            let count = at_once.min(last - n);
-            stepper.steps(from_mut(&mut system), count);
-            n += count;
-            following.include(n, &mut system);
-            if self.stops.load(Ordering::Relaxed) {
-                return vec![None; LANES];
-            }
+/// Follows a run in each lane.
+fn follow(
+    integrator: &mut VectorIntegrator<'_, Lanes<LANES>>,
+    scenes: &[&Scene; LANES],
+    keep: &Keep,
+    stops: &AtomicBool,
+) -> Vec<Option<Values>> {
+    let mut following = Following::begin(scenes, keep, integrator.system());
+    let at_once = if following.follows_all() { 1 } else { STEPS_AT_ONCE };
+    let (mut n, last) = (0, scenes[0].steps());
+    following.include(n, integrator.system());
+    while n < last && following.goes_on() {
+        let count = at_once.min(last - n);
+        integrator.steps(count);
+        n += count;
+        following.include(n, integrator.system());
+        if stops.load(Ordering::Relaxed) {
+            return vec![None; LANES];
         }
-        following.values.into_iter().collect()
     }
+    following.values.into_iter().collect()
 }
 
 /// What is kept, as far as the states have come.
@@ -159,7 +142,7 @@ struct Energies {
 impl<'a> Following<'a> {
     fn begin<M>(scenes: &[&'a Scene; LANES], keep: &'a Keep, system: &mut M) -> Self
     where
-        M: System<Number = Lanes<LANES>>,
+        M: System<Number = Lanes<LANES>> + ?Sized,
     {
         let systems = scenes.map(|scene| &scene.system);
         let tests = keep
@@ -189,7 +172,7 @@ impl<'a> Following<'a> {
     }
 
     /// Takes the state n.
-    fn include<M: System<Number = Lanes<LANES>>>(&mut self, n: u64, system: &mut M) {
+    fn include<M: System<Number = Lanes<LANES>> + ?Sized>(&mut self, n: u64, system: &mut M) {
         // a position that is not finite stays so
         for q in system.q() {
             self.active.iter_mut().zip(&q.0).for_each(|(active, q)| *active &= q.is_finite());
@@ -216,7 +199,7 @@ impl<'a> Following<'a> {
     }
 
     /// Some runs end at the state n.
-    fn end<M: System<Number = Lanes<LANES>>>(&mut self, n: u64, ended: &[bool; LANES], system: &mut M) {
+    fn end<M: System<Number = Lanes<LANES>> + ?Sized>(&mut self, n: u64, ended: &[bool; LANES], system: &mut M) {
         let run = self.scene.as_run();
         let energy = system.energy();
         let at_end: Vec<_> =

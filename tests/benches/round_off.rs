@@ -88,7 +88,7 @@ where
     let motion = Motion::new(potential, UnitMasses, with(system.q(), &rest.q), with(system.p(), &rest.p));
     let stepper = Stepper::with_context(scheme, h, &context).expect("a step size");
     let motion = motion.expect("the dimensions agree");
-    let mut run = ShadowRun::new(&stepper, motion, 0, &Bilinear::new(ORDER)).expect("finite states");
+    let mut run = ShadowRun::new(stepper.with(motion), 0, &Bilinear::new(ORDER)).expect("finite states");
     run.advance().expect("finite states").expect("an estimate").1.value.clone()
 }
 

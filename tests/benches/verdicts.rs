@@ -129,7 +129,7 @@ fn watch(case: Case<'_>, ks: &[u32], every: u64) -> Vec<Report<f64>> {
         // what is not finite stays so, and each monitor has to see it
         monitors.iter_mut().for_each(|monitor| drop(monitor.observe(&mut motion)));
     }
-    monitors.iter().map(ShadowEnergy::report).collect()
+    monitors.iter().map(|monitor| monitor.report()).collect()
 }
 
 /// The result of a case.

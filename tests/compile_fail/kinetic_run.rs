@@ -19,6 +19,6 @@ fn main() {
     let motion = || Motion::new(Spring, Relativistic, [1.0], [0.0]).unwrap();
     let checked = Stepper::new(yoshida.clone().for_every_kinetic().unwrap(), "1/20").unwrap();
     let unchecked = Stepper::new(yoshida, "1/20").unwrap();
-    let _ = energy_drift(&checked, motion(), 100, &Central::fixed(5));
-    let _ = energy_drift(&unchecked, motion(), 100, &Central::fixed(5));
+    let _ = energy_drift(checked.with(motion()), 100, &Central::fixed(5));
+    let _ = energy_drift(unchecked.with(motion()), 100, &Central::fixed(5));
 }

@@ -183,7 +183,7 @@ fn harmonic_oscillator_has_its_closed_form() {
 
         let motion = Motion::new(potential, UnitMasses, vec![q], vec![p]).unwrap();
         let verlet = stepper("stormer-verlet", step, &context);
-        let mut run = ShadowRun::new(&verlet, motion, 50, &Bilinear::new(k)).unwrap();
+        let mut run = ShadowRun::new(verlet.with(motion), 50, &Bilinear::new(k)).unwrap();
         let mut count = 0;
         while let Some((n, estimate)) = run.advance().unwrap() {
             // the remainder is of the size (hω/2)^{2k}, below 1e-120; round-off leaves 118 digits
@@ -202,7 +202,7 @@ fn first_value<P: Potential<Float>>(
     motion: Motion<Float, Vec<Float>, P, UnitMasses>,
     k: u32,
 ) -> Float {
-    let mut run = ShadowRun::new(stepper, motion, 1, &Bilinear::new(k)).unwrap();
+    let mut run = ShadowRun::new(stepper.with(motion), 1, &Bilinear::new(k)).unwrap();
     let (_, estimate) = run.advance().unwrap().unwrap();
     estimate.value.clone()
 }
@@ -237,7 +237,7 @@ fn the_modified_energy_of_kepler_is_conserved() {
     let [q, p] = [["0.4", "0"], ["0", "2"]].map(|texts| numbers::<Float>(&texts, &context));
     let motion = Motion::new(Kepler, UnitMasses, q, p).unwrap();
     let verlet = stepper("stormer-verlet", "1/20", &context);
-    let drift = |k| energy_drift(&verlet, motion.clone(), 400, &Bilinear::new(k)).unwrap().drift.to_f64();
+    let drift = |k| energy_drift(verlet.with(motion.clone()), 400, &Bilinear::new(k)).unwrap().drift.to_f64();
     let [four, eight, sixteen] = [4, 8, 16].map(drift);
     println!("{four:e} {eight:e} {sixteen:e}");
     assert!(sixteen < eight / 10.0 && eight < four / 10.0 && eight < 1e-8, "{four:e} {eight:e} {sixteen:e}");
@@ -250,7 +250,7 @@ fn the_error_is_its_rule_written_out() {
         let run = |settings: Bilinear| {
             let motion = Motion::new(Kepler, UnitMasses, vec![0.4, 0.0], vec![0.0, 2.0]).unwrap();
             let verlet = stepper("stormer-verlet", "1/20", &());
-            let mut run = ShadowRun::new(&verlet, motion, 60, &settings).unwrap();
+            let mut run = ShadowRun::new(verlet.with(motion), 60, &settings).unwrap();
             let mut all = BTreeMap::new();
             while let Some((n, found)) = run.advance().unwrap() {
                 all.insert(n, (*found.value, found.last_term.copied(), found.error.copied()));
@@ -286,9 +286,9 @@ fn the_error_is_its_rule_written_out() {
 fn the_first_orders_have_no_error() {
     let motion = || Motion::new(Kepler, UnitMasses, vec![1.0, 0.0], vec![0.0, 1.0]).unwrap();
     let verlet = stepper("stormer-verlet", "1/20", &());
-    let mut run = ShadowRun::new(&verlet, motion(), 10, &Bilinear::with_error(1)).unwrap();
+    let mut run = ShadowRun::new(verlet.with(motion()), 10, &Bilinear::with_error(1)).unwrap();
     assert!(run.advance().unwrap().unwrap().1.error.is_none());
-    let mut run = ShadowRun::new(&verlet, motion(), 10, &Central::fixed_with_error(1)).unwrap();
+    let mut run = ShadowRun::new(verlet.with(motion()), 10, &Central::fixed_with_error(1)).unwrap();
     assert!(run.advance().unwrap().unwrap().1.error.is_none());
 }
 

@@ -203,7 +203,7 @@ fn the_modified_energy_is_known_to_the_square_of_the_displacement() {
         let stepper: Stepper<_, Limbs<4>> = stepper("chin-4a", h, &());
         let motion = henon_heiles::<Limbs<4>>(&());
         let motion = if displaced { motion.displaced(stepper.displacements().expect("it has them")) } else { motion };
-        energy_drift(&stepper, motion, steps, &Bilinear::new(12)).expect("it is finite").drift.to_f64()
+        energy_drift(stepper.with(motion), steps, &Bilinear::new(12)).expect("it is finite").drift.to_f64()
     };
     let [coarse, fine] = [("1/4", 80), ("1/8", 160)].map(|(h, steps)| drift(h, steps, true));
     println!("displaced: {coarse:e}, {fine:e}; second derivatives: {:e}", drift("1/8", 160, false));

@@ -18,7 +18,7 @@ fn kepler() -> Double {
 /// The distance from the centre and the modified energy of every state n = 0..=steps.
 fn estimates(h: &str, steps: u64, settings: &impl BuildEstimator<f64>) -> Vec<(f64, f64)> {
     let verlet = stepper("stormer-verlet", h, &());
-    let mut run = ShadowRun::new(&verlet, kepler(), steps, settings).unwrap();
+    let mut run = ShadowRun::new(verlet.with(kepler()), steps, settings).unwrap();
     let mut all = Vec::new();
     while let Some((_, estimate)) = run.advance().unwrap() {
         all.push((estimate.q[0].hypot(estimate.q[1]), *estimate.value));
@@ -74,7 +74,7 @@ fn scatter_at_apocentre_is_below_2e_15_with_every_estimator() {
 fn estimates_of_states(h: &str, steps: u64, settings: &impl BuildEstimator<f64>, vectors: bool) -> Vec<(f64, f64)> {
     let verlet = stepper("stormer-verlet", h, &());
     let mut estimator = settings.build(verlet.step_size(), 2, &()).unwrap();
-    let mut trajectory = Trajectory::new(&verlet, kepler(), steps, estimator.states() / 2).unwrap();
+    let mut trajectory = Trajectory::new(verlet.with(kepler()), steps, estimator.states() / 2).unwrap();
     let mut all = Vec::new();
     while let Some(state) = trajectory.advance().unwrap() {
         let of_beta = Increments::of_beta(state.increments.beta);

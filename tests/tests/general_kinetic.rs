@@ -191,7 +191,7 @@ where
     let [q, p] = problem.start().map(|texts| numbers(texts, &context));
     let motion = Motion::new(problem.potential::<Float>(), kinetic, q, p).unwrap();
     let stepper = Stepper::with_context(for_every_kinetic(name), &*format!("1/{n}"), &context).unwrap();
-    energy_drift(&stepper, motion, 20 * n, &Central::fixed(m)).unwrap()
+    energy_drift(stepper.with(motion), 20 * n, &Central::fixed(m)).unwrap()
 }
 
 fn drift(problem: Problem, name: &str, n: u64, m: u32) -> f64 {
@@ -275,7 +275,7 @@ fn modified_energies<P: Potential<Float>, K: Kinetic<Float>, S: Scheme + ValidFo
     let [q, p] = [q, p].map(|text| vec![number(text, 60)]);
     let motion = Motion::new(potential, kinetic, q, p).unwrap();
     let stepper = Stepper::with_context(scheme, "1/20", &motion.context()).unwrap();
-    let mut run = ShadowRun::new(&stepper, motion, 50, &Central::fixed(8)).unwrap();
+    let mut run = ShadowRun::new(stepper.with(motion), 50, &Central::fixed(8)).unwrap();
     let mut all = Vec::new();
     while let Some((_, estimate)) = run.advance().unwrap() {
         all.push(estimate.value.clone());

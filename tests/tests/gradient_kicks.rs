@@ -234,7 +234,7 @@ fn the_modified_energy_of_gradient_kicks_converges() {
             let off = (energies.energy() - &start).to_f64();
             (least, most) = (least.min(off), most.max(off));
         }
-        let drift = |k| energy_drift(&stepper, motion(), 200, &Bilinear::new(k)).unwrap().drift.log10_abs();
+        let drift = |k| energy_drift(stepper.with(motion()), 200, &Bilinear::new(k)).unwrap().drift.log10_abs();
         let [eight, sixteen, thirty_two] = [8, 16, 32].map(drift);
         println!(
             "{name}: H varies by {:e}, E_8 by 10^{eight:.2}, E_16 by 10^{sixteen:.2}, E_32 by 10^{thirty_two:.2}",
@@ -271,7 +271,7 @@ fn a_potential_without_second_derivatives_says_so() {
     let stepper = Stepper::new(shipped("chin-4a").unwrap(), "1/20").unwrap();
     // runs and the monitor refuse it, a step alone panics
     let expected = RunError::NoGradientKicks { scheme: "chin-4a".to_owned() };
-    let drift = energy_drift(&stepper, motion.clone(), 10, &Bilinear::new(2)).unwrap_err();
+    let drift = energy_drift(stepper.with(motion.clone()), 10, &Bilinear::new(2)).unwrap_err();
     let monitor = ShadowEnergy::new(stepper.clone(), &mut motion.clone(), &Bilinear::with_error(8)).unwrap_err();
     assert_eq!([&drift, &monitor], [&expected; 2]);
     assert!(drift.to_string().starts_with("chin-4a has gradient kicks, which this system has not"), "{drift}");

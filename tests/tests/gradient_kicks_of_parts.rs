@@ -142,7 +142,10 @@ where
 {
     let stepper: Stepper<_, Limbs<4>> = stepper("chin-4a", h, &());
     let [k8, k16] = [8, 16].map(|k| {
-        energy_drift(&stepper, system.clone(), 100, &Bilinear::new(k)).expect("all states are finite").drift.to_f64()
+        energy_drift(stepper.with(system.clone()), 100, &Bilinear::new(k))
+            .expect("all states are finite")
+            .drift
+            .to_f64()
     });
     let energies = (0..100).map(|_| {
         stepper.step(&mut system);

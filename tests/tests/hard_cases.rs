@@ -28,7 +28,7 @@ fn drift<P: Potential<N>, K: Kinetic<N, Class = Quadratic>, N: Ordered>(
     m: u32,
 ) -> Result<EnergyDrift<N>, RunError> {
     let stepper = stepper(scheme, h, &motion.context());
-    energy_drift(&stepper, motion, steps, &Central::fixed(m))
+    energy_drift(stepper.with(motion), steps, &Central::fixed(m))
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -123,7 +123,7 @@ fn eccentric_orbits_run_through() {
     for (gap, least) in [("0.1", 1e-3), ("0.01", 1e-1)] {
         let start = kepler::<f64>(gap, &());
         let best = Central::best(30, StoppingRule::Full);
-        let found = energy_drift(&stepper("stormer-verlet", "1/20", &()), start, 2000, &best).unwrap();
+        let found = energy_drift(stepper("stormer-verlet", "1/20", &()).with(start), 2000, &best).unwrap();
         assert!(found.drift.is_finite() && found.drift > least, "1 − e = {gap}: {:e}", found.drift);
         assert!(found.minimum <= found.first && found.last <= found.maximum);
     }
@@ -195,7 +195,7 @@ fn negative_steps_go_back() {
     assert!(log10_largest_distance(motion.q(), start.q()) < -56.0);
 
     let [one, other] = [(start, &forth), (turned, &back)]
-        .map(|(motion, stepper)| energy_drift(stepper, motion, 100, &Central::fixed(15)).unwrap());
+        .map(|(motion, stepper)| energy_drift(stepper.with(motion), 100, &Central::fixed(15)).unwrap());
     // the same states in the other direction
     for (a, b) in [(&one.first, &other.last), (&one.last, &other.first), (&one.drift, &other.drift)] {
         let off = shadowstep_tests::log10_distance(a, b);
@@ -221,7 +221,7 @@ where
     let values = || -> Vec<(N, N, u32)> {
         let stepper = stepper("blanes-moan-s6", "1/20", context);
         let best = Central::best_with_error(20, StoppingRule::Early, SelectionRule::Least);
-        let mut run = ShadowRun::new(&stepper, kepler::<N>("0.4", context), 100, &best).unwrap();
+        let mut run = ShadowRun::new(stepper.with(kepler::<N>("0.4", context)), 100, &best).unwrap();
         let mut values = Vec::new();
         while let Some((_, estimate)) = run.advance().unwrap() {
             values.push((estimate.value.clone(), estimate.error.expect("it was asked for").clone(), estimate.order));
@@ -253,7 +253,7 @@ fn long_runs_keep_the_digits_of_beta() {
     const STEPS: u64 = 300_000;
     let stepper = stepper("stormer-verlet", "1/20", &());
     let start = state::<_, f64>(Pendulum, &["0"], &["1"], &());
-    let mut run = ShadowRun::new(&stepper, start, STEPS, &Central::fixed(10)).unwrap();
+    let mut run = ShadowRun::new(stepper.with(start), STEPS, &Central::fixed(10)).unwrap();
     let mut values = Vec::new();
     while let Some((_, estimate)) = run.advance().unwrap() {
         values.push(*estimate.value);

@@ -86,7 +86,7 @@ fn the_orders_are_those_proved() {
 /// max − min of H and of E_12.
 fn variations<N: shadowstep::number::Rounded>(system: LinearPart<N, HenonHeiles>, h: &str) -> [f64; 2] {
     let stepper = stepper::<N>("stormer-verlet", h, &system.state().context());
-    let found = energy_drift(&stepper, system.clone(), 400, &Bilinear::new(12)).expect("all states are finite");
+    let found = energy_drift(stepper.with(system.clone()), 400, &Bilinear::new(12)).expect("all states are finite");
     let mut system = system;
     let energies = (0..400).map(|_| {
         stepper.step(&mut system);

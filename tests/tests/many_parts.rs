@@ -232,7 +232,8 @@ fn the_modified_energy_converges() {
     let mut found = Vec::new();
     for h in ["1/10", "1/20", "1/40"] {
         let stepper = Stepper::with_context(many("stormer-verlet"), h, &context).unwrap();
-        let drift = energy_drift(&stepper, chain::<Float>(&context), 200, &Bilinear::new(8)).unwrap().drift.to_f64();
+        let drift =
+            energy_drift(stepper.with(chain::<Float>(&context)), 200, &Bilinear::new(8)).unwrap().drift.to_f64();
         let mut system = chain::<Float>(&context);
         let energies = (0..200).map(|_| {
             stepper.step(&mut system);

@@ -39,7 +39,7 @@ fn estimates<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>>(
     steps: u64,
     settings: &impl BuildEstimator<M::Number>,
 ) -> Vec<Estimated<M::Number>> {
-    let mut run = ShadowRun::new(stepper, system, steps, settings).expect("it can begin");
+    let mut run = ShadowRun::new(stepper.with(system), steps, settings).expect("it can begin");
     let mut all = Vec::new();
     while let Some((n, estimate)) = run.advance().expect("it can go on") {
         all.push((n, estimate.value.clone(), estimate.last_term.cloned(), estimate.order));
@@ -136,7 +136,7 @@ fn drift_over<P: Potential<Float>>(potential: P, q: &[&str], p: &[&str]) -> Ener
     let context = precision(40);
     let motion = Motion::new(potential, UnitMasses, numbers(q, &context), numbers(p, &context)).unwrap();
     let verlet = stepper("stormer-verlet", "1/20", &context);
-    energy_drift(&verlet, motion, 400, &Central::fixed(10)).unwrap()
+    energy_drift(verlet.with(motion), 400, &Central::fixed(10)).unwrap()
 }
 
 /// The first value is near H under both signs; only the drift tells them apart.
@@ -170,7 +170,7 @@ fn states<S: Scheme + ValidFor<M::Class>, M: System<Number = Float>>(
     steps: u64,
     reach: usize,
 ) -> Vec<State> {
-    let mut trajectory = Trajectory::new(stepper, system, steps, reach).unwrap();
+    let mut trajectory = Trajectory::new(stepper.with(system), steps, reach).unwrap();
     let mut all = Vec::new();
     while let Some(state) = trajectory.advance().unwrap() {
         all.push((state.q.to_vec(), state.p.to_vec(), state.increments.beta.clone()));
@@ -359,7 +359,7 @@ fn early_stop_is_nearly_as_good_as_the_full_search() {
     let verlet = stepper("stormer-verlet", "1/20", &context);
     let [full, early] = [StoppingRule::Full, StoppingRule::Early].map(|stop| {
         let best = Central::best(200, stop);
-        energy_drift(&verlet, kepler::<Float>(&context), 1000, &best).unwrap()
+        energy_drift(verlet.with(kepler::<Float>(&context)), 1000, &best).unwrap()
     });
     let ratio = early.drift.to_f64() / full.drift.to_f64();
     println!("drift: full {:e}, early {:e}", full.drift.to_f64(), early.drift.to_f64());
@@ -453,7 +453,7 @@ fn more_digits_give_the_same_values() {
 fn drift_in_double_precision_is_round_off() {
     fn drift<N: Ordered>(context: &N::Context) -> EnergyDrift<N> {
         let verlet = stepper("stormer-verlet", "1/20", context);
-        energy_drift(&verlet, pendulum::<N>(context), 1000, &Central::fixed(20)).unwrap()
+        energy_drift(verlet.with(pendulum::<N>(context)), 1000, &Central::fixed(20)).unwrap()
     }
     let (double, precise) = (drift::<f64>(&()), drift::<Float>(&precision(120)));
     println!("drift {:e} in double precision, {:e} at 120 digits", double.drift, precise.drift.to_f64());
@@ -477,7 +477,7 @@ fn kepler_drift_is_exponentially_small() {
         let verlet = stepper("stormer-verlet", &format!("1/{inverse}"), &context);
         energies.push(energy_variation(&verlet, kepler::<Float>(&context), 20 * inverse).ln());
         let best = Central::best(120, StoppingRule::Full);
-        let found = energy_drift(&verlet, kepler::<Float>(&context), 20 * inverse, &best).unwrap();
+        let found = energy_drift(verlet.with(kepler::<Float>(&context)), 20 * inverse, &best).unwrap();
         println!("h = 1/{inverse}: drift {:e}, m = {:?}", found.drift.to_f64(), found.orders);
         drifts.push(Ordered::log10_abs(&found.drift));
     }
@@ -502,7 +502,7 @@ fn schemes_that_are_no_palindromes_conserve_their_modified_energy() {
         let stepper = stepper(name, "1/40", &context);
         assert!(!stepper.scheme().summary().symmetric);
         let energy = energy_variation(&stepper, pendulum(&context), 400);
-        let found = energy_drift(&stepper, pendulum::<Float>(&context), 400, &Central::fixed(25)).unwrap();
+        let found = energy_drift(stepper.with(pendulum::<Float>(&context)), 400, &Central::fixed(25)).unwrap();
         println!("{name}: H varies by {energy:e}, the modified energy by {:e}", found.drift.to_f64());
         assert!(energy > least_variation, "{name}: {energy:e}");
         // D_25 is off by about (25!)² (h/ρ)^50 = 4e-47, ρ = 2.16 the distance of the singularities in complex time

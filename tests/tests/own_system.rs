@@ -9,7 +9,9 @@ use shadowstep::kinetic::General;
 use shadowstep::run::{ShadowRun, energy_drift};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Criterion, ShadowEnergy, Verdict};
 use shadowstep::summation::{Half, Plain};
-use shadowstep::{Carried, Number, Ordered, OwnedIncrements, State, Stepper, System, splitting_scheme};
+use shadowstep::{
+    Carried, Integrator as _, Number, Ordered, OwnedIncrements, State, Stepper, System, splitting_scheme,
+};
 use shadowstep_tests::shipped::all_for_every_kinetic;
 use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, precision, rational, same_bits};
 
@@ -263,7 +265,7 @@ fn the_modified_energy_is_conserved<N: Ordered>(context: &N::Context, most: f64)
         most: f64,
     ) {
         let energy = energy_variation(stepper, 1000, context);
-        let found = energy_drift(stepper, Rotor::<N>::new(START, context), 1000, settings).unwrap();
+        let found = energy_drift(stepper.with(Rotor::<N>::new(START, context)), 1000, settings).unwrap();
         println!("{settings:?}: H varies by {energy:e}, the modified energy by {:e}", found.drift.to_f64());
         assert!(energy > 1e-5 && found.drift.to_f64() < most, "{settings:?}: {energy:e}, {:e}", found.drift.to_f64());
         assert!((found.first.to_f64() - Rotor::<f64>::new(START, &()).energies()[0]).abs() < energy);
@@ -290,7 +292,7 @@ fn with_the_wrong_beta_it_is_not_conserved() {
     let energy = energy_variation::<f64>(&stepper, 1000, &());
     for degree in [2, 3, 5] {
         let wrong = Rotor { degree, ..Rotor::<f64>::new(START, &()) };
-        let found = energy_drift(&stepper, wrong, 1000, &Bilinear::new(12)).unwrap();
+        let found = energy_drift(stepper.with(wrong), 1000, &Bilinear::new(12)).unwrap();
         assert!(found.drift > 10.0 * energy, "degree {degree}: {:e}, and H itself {energy:e}", found.drift);
     }
 }
@@ -299,7 +301,7 @@ fn with_the_wrong_beta_it_is_not_conserved() {
 #[test]
 fn a_run_has_the_states_of_its_steps() {
     let stepper = Stepper::new(Yoshida4, STEP).unwrap();
-    let mut run = ShadowRun::new(&stepper, Rotor::<f64>::new(START, &()), 200, &Bilinear::new(8)).unwrap();
+    let mut run = ShadowRun::new(stepper.with(Rotor::<f64>::new(START, &())), 200, &Bilinear::new(8)).unwrap();
     let mut rotor = Rotor::<f64>::new(START, &());
     let mut n = 0;
     while let Some((found, estimate)) = run.advance().unwrap() {
@@ -309,7 +311,7 @@ fn a_run_has_the_states_of_its_steps() {
     }
     assert_eq!(n, 201);
     // 4 kicks a step, and 4 + 200 + 4 steps; the initial state is returned to without one
-    assert_eq!(run.system().state().evaluations(), 208 * 4);
+    assert_eq!(run.integrator().state().evaluations(), 208 * 4);
 }
 
 // ---------------------------------------------------------------------------------------------------------------

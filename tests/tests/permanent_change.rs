@@ -30,7 +30,7 @@ fn on_the_exact_flow(setup: &Setup, h: &str, settings: &impl BuildEstimator<Floa
 fn of(scheme: &str, setup: &Setup, h: &str, settings: &impl BuildEstimator<Float>) -> EnergyDrift<Float> {
     let context = precision(DIGITS);
     let (stepper, motion) = (stepper(scheme, h, &context), setup.motion(&context).unwrap());
-    energy_drift(&stepper, motion, steps(stepper.h()), settings).unwrap()
+    energy_drift(stepper.with(motion), steps(stepper.h()), settings).unwrap()
 }
 
 fn change(found: &EnergyDrift<Float>) -> (f64, f64) {

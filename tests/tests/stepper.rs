@@ -346,12 +346,12 @@ fn the_modified_energy_with_a_closure_is_conserved() {
     let energy = most - energies.iter().copied().fold(f64::MAX, f64::min);
     for (closure, formula) in [
         (
-            energy_drift(&stepper, henon_heiles(closure()), 1000, &Bilinear::new(10)),
-            energy_drift(&stepper, henon_heiles(HenonHeiles), 1000, &Bilinear::new(10)),
+            energy_drift(stepper.with(henon_heiles(closure())), 1000, &Bilinear::new(10)),
+            energy_drift(stepper.with(henon_heiles(HenonHeiles)), 1000, &Bilinear::new(10)),
         ),
         (
-            energy_drift(&stepper, henon_heiles(closure()), 1000, &Central::fixed(12)),
-            energy_drift(&stepper, henon_heiles(HenonHeiles), 1000, &Central::fixed(12)),
+            energy_drift(stepper.with(henon_heiles(closure())), 1000, &Central::fixed(12)),
+            energy_drift(stepper.with(henon_heiles(HenonHeiles)), 1000, &Central::fixed(12)),
         ),
     ] {
         let (closure, formula) = (closure.unwrap(), formula.unwrap());

@@ -11,7 +11,8 @@ use shadowstep::run::{ShadowRun, States, Trajectory, energy_drift};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::summation::RangeError;
 use shadowstep::{
-    Carried, Motion, Ordered, Rational, Remainders, Scheme, Stepper, System, UnitMasses, ValidFor, exact, tables,
+    Carried, Integrator as _, Motion, Ordered, Rational, Remainders, Scheme, Stepper, System, UnitMasses, ValidFor,
+    exact, tables,
 };
 use shadowstep_tests::general;
 use shadowstep_tests::shipped::{all, all_for_every_kinetic};
@@ -23,7 +24,7 @@ fn comet() -> Motion<f64, [f64; 2], Kepler, UnitMasses> {
     Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0]).unwrap()
 }
 
-fn all_bits<M: System<Number = f64>>(system: &M) -> Vec<u64> {
+fn all_bits<M: System<Number = f64> + ?Sized>(system: &M) -> Vec<u64> {
     let Remainders { q, p } = system.state().remainders();
     system.q().iter().chain(system.p()).chain(&q).chain(&p).map(|x| x.to_bits()).collect()
 }
@@ -188,15 +189,15 @@ fn a_run_from_a_state_with_remainders_has_the_states_of_the_steps() {
     let mut start = comet().compensated();
     (0..57).for_each(|_| stepper.step(&mut start));
     let mut steps = start.clone();
-    let mut run = ShadowRun::new(&stepper, start.clone(), 50, &Bilinear::new(8)).unwrap();
+    let mut run = ShadowRun::new(stepper.with(start.clone()), 50, &Bilinear::new(8)).unwrap();
     while let Some((_, estimate)) = run.advance().unwrap() {
         assert_eq!((estimate.q, estimate.p), (steps.q(), steps.p()));
         stepper.step(&mut steps);
     }
-    let mut trajectory = Trajectory::new(&stepper, start, 54, 0).unwrap();
+    let mut trajectory = Trajectory::new(stepper.with(start), 54, 0).unwrap();
     while trajectory.advance().unwrap().is_some() {}
     (0..3).for_each(|_| stepper.step(&mut steps));
-    assert_eq!(all_bits(trajectory.system()), all_bits(&steps));
+    assert_eq!(all_bits(trajectory.integrator().system()), all_bits(&steps));
 }
 
 /// Systems of other parts than T(p) and U(q): beside the same steps in double-double compensated sums are off by less than plain ones, and have remainders.
@@ -251,8 +252,8 @@ fn the_modified_energy_of_compensated_steps_is_conserved() {
     let stepper = stepper::<f64>("stormer-verlet", "1/20", &());
     let start = || Motion::new(HenonHeiles, UnitMasses, [0.1, -0.3], [0.2, 0.1]).unwrap();
     let [plain, compensated] = [
-        energy_drift(&stepper, start(), 2000, &Bilinear::new(12)).unwrap().drift,
-        energy_drift(&stepper, start().compensated(), 2000, &Bilinear::new(12)).unwrap().drift,
+        energy_drift(stepper.with(start()), 2000, &Bilinear::new(12)).unwrap().drift,
+        energy_drift(stepper.with(start().compensated()), 2000, &Bilinear::new(12)).unwrap().drift,
     ];
     println!("{plain:e}, {compensated:e}");
     assert!(compensated < 2e-16 && plain > 2.0 * compensated, "{plain:e}, {compensated:e}");
@@ -282,7 +283,7 @@ fn modified(h: &str, system: &impl System<Number = f64>) -> Float {
     };
     let motion = Motion::new(HenonHeiles, UnitMasses, with(system.q(), &q), with(system.p(), &p)).unwrap();
     let stepper = stepper("stormer-verlet", h, &context);
-    let mut run = ShadowRun::new(&stepper, motion, 0, &Bilinear::new(16)).unwrap();
+    let mut run = ShadowRun::new(stepper.with(motion), 0, &Bilinear::new(16)).unwrap();
     run.advance().unwrap().unwrap().1.value.clone()
 }
 
@@ -415,7 +416,7 @@ fn a_coordinate_that_leaves_its_range_is_not_finite() {
     stepper.step(&mut motion);
     assert!(motion.is_finite());
     let run = comet().fixed_point(&[0.5; 2], &[4.0; 2]).unwrap();
-    assert!(energy_drift(&stepper, run, 100, &Bilinear::new(4)).unwrap_err().to_string().contains("NaN"));
+    assert!(energy_drift(stepper.with(run), 100, &Bilinear::new(4)).unwrap_err().to_string().contains("NaN"));
 }
 
 #[test]

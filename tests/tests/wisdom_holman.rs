@@ -286,7 +286,8 @@ where
         Stepper::<_, Limbs<4>>::new(drift_first.for_every_kinetic().expect("it is"), h).expect("it is nonzero");
     let mut system = giants::<Limbs<4>, C>(&());
     let [k8, k24] = [8, 24].map(|k| {
-        let found = energy_drift(&stepper, system.clone(), steps, &Bilinear::new(k)).expect("all states are finite");
+        let found =
+            energy_drift(stepper.with(system.clone()), steps, &Bilinear::new(k)).expect("all states are finite");
         found.drift.to_f64()
     });
     let energies = (0..steps).map(|_| {

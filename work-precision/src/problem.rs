@@ -1,11 +1,12 @@
 //! What schemes are compared on: a system, an interval of time, a number type.
 
 use num_traits::Signed;
+use shadowstep::number::Rounded;
 use shadowstep::{Number, Rational};
-use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, fingerprint};
-use shadowstep_scenes::start::{Begin, Steps};
+use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
+use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
 
 /// Errors along a run are taken at this number of times at most.
@@ -33,10 +34,17 @@ impl Problem<'_> {
         self.until / Rational::from_integer(steps.into())
     }
 
-    /// The steps of a scheme.
-    pub(crate) fn steps<'a>(&self, named: &'a NamedScheme, h: &'a Rational) -> Steps<'a> {
-        let compensated = self.arithmetic.is_compensated();
-        Steps { scheme: &named.scheme, h, compensated, displaced: false, begin: Begin::InitialState }
+    /// The system at t = 0 with a scheme that makes this number of steps.
+    pub(crate) fn integrator<N: Rounded + 'static>(
+        &self,
+        named: &NamedScheme,
+        steps: u64,
+        context: &N::Context,
+    ) -> Result<SceneIntegrator<N>, Error> {
+        let (h, compensated) = (self.step_size(steps), self.arithmetic.is_compensated());
+        let (displaced, begin) = (false, Begin::InitialState);
+        let steps = Steps { scheme: &named.scheme, h: &h, compensated, displaced, begin };
+        Ok(self.system.integrator(steps, self.system.start(context), context)?)
     }
 
     /// Whether the runs go forward in time.

@@ -17,7 +17,7 @@ use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::propagator::{for_system, with_exact_flow};
 use shadowstep_symbolic::decimal::from_text;
 
-use crate::positions::{Positions, square_distance};
+use crate::positions::{at_samples, square_distance};
 use crate::problem::Problem;
 use crate::size::Size;
 
@@ -279,11 +279,8 @@ fn positions<N: Rounded + 'static>(
     (steps, samples): (u64, u64),
     context: &N::Context,
 ) -> Result<Vec<Vec<N>>, Error> {
-    let start = problem.system.start::<N>(context);
-    let work = Positions { steps, samples };
-    let h = problem.step_size(steps);
-    let found = problem.system.with(problem.steps(named, &h), start, context, work);
-    found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))
+    let mut integrator = problem.integrator(named, steps, context)?;
+    Ok(at_samples(&mut *integrator, steps, samples))
 }
 
 /// |a − b| of each sample.

@@ -1,10 +1,9 @@
 //! One run: the errors of its positions and of H, and its modified energy.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::scheme::MapKind;
-use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
-use shadowstep::{Ordered, Scheme, Stepper, System, ValidFor};
-use shadowstep_scenes::start::Work;
+use shadowstep::integrator::{VectorIntegrator, at_output};
+use shadowstep::shadow::{Bilinear, Monitor, Verdict};
+use shadowstep::{Integrator as _, Ordered};
 
 use crate::reference::Reference;
 use crate::size::Size;
@@ -77,39 +76,28 @@ pub struct Modified {
     pub bound: Option<Size>,
 }
 
-/// Makes a run and measures it.
-pub(crate) struct Measuring<'a> {
-    pub(crate) steps: u64,
-    pub(crate) reference: &'a Reference,
-}
-
-impl<N: Ordered> Work<N> for Measuring<'_> {
-    type Output = Measurement;
-
-    fn with<S, M>(self, stepper: &Stepper<S, N>, mut system: M) -> Measurement
-    where
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: System<Number = N> + 'static,
-    {
-        let Measuring { steps, reference } = self;
-        let of_output = stepper.scheme().processor().iter().filter(|(kind, _)| *kind == MapKind::Kick).count() as u64;
-        // with a pre-map at the beginning and a post-map at the end
-        let evaluations = steps * stepper.scheme().summary().evaluations as u64 + 2 * of_output;
+impl Measurement {
+    /// Makes a run of this number of steps, with as many evaluations, and measures it.
+    pub(crate) fn of<N: Ordered>(
+        integrator: &mut VectorIntegrator<'_, N>,
+        (steps, evaluations): (u64, u64),
+        reference: &Reference,
+    ) -> Measurement {
         let failed =
             |sample: usize| Measurement::failed(steps, evaluations, sample as f64 / reference.samples() as f64);
-        let monitor = ShadowEnergy::new(stepper.clone(), &mut system, &Bilinear::with_error(MONITOR_ORDER));
+        let monitor = Monitor::new(integrator, &Bilinear::with_error(MONITOR_ORDER));
         let Ok(monitor) = monitor else { return failed(0) };
         let mut monitor = monitor.every((steps / WINDOWS).max(1));
-        let mut energy = EnergyError::new(stepper.at_output(&mut system, M::energy));
+        let mut energy = EnergyError::new(at_output(integrator, |integrator| integrator.system().energy()));
         let (mut position, mut largest_position) = (PositionError::None, PositionError::None);
         let mut in_first_half = (PositionError::None, Size::ZERO);
-        for (sample, expected) in reference.in_two_parts::<N>(&system.state().context()).iter().enumerate() {
+        for (sample, expected) in reference.in_two_parts::<N>(&integrator.state().context()).iter().enumerate() {
             for _ in 0..steps / reference.samples() {
                 // what is not finite stays so, and is seen at the sample
-                let _ = monitor.step(&mut system);
-                energy.include(&stepper.at_output(&mut system, M::energy));
+                let _ = monitor.step(integrator);
+                energy.include(&at_output(integrator, |integrator| integrator.system().energy()));
             }
-            let distance = stepper.at_output(&mut system, |system| distance(system.q(), expected));
+            let distance = at_output(integrator, |integrator| distance(integrator.state().q(), expected));
             if !distance.is_finite() || !energy.last.is_finite() {
                 return failed(sample);
             }

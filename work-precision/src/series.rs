@@ -5,8 +5,9 @@ use std::time::Duration;
 
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
+use shadowstep::Scheme;
 use shadowstep::number::Rounded;
-use shadowstep::{Rational, Scheme};
+use shadowstep::scheme::MapKind;
 use shadowstep_analysis::stability::Stability;
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Computation;
@@ -17,7 +18,7 @@ use shadowstep_studies::Continues;
 use crate::of::Of;
 use crate::problem::Problem;
 use crate::reference::Reference;
-use crate::run::{Measurement, Measuring};
+use crate::run::Measurement;
 use crate::size::Size;
 
 /// Evaluations grow by the factor 2^(1/2) from run to run.
@@ -207,10 +208,10 @@ impl Computation for Run<'_> {
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         let SeriesOf { problem, scheme, reference, .. } = self.series_of;
-        let h: Rational = problem.step_size(self.steps);
-        let work = Measuring { steps: self.steps, reference };
-        let start = problem.system.start::<N>(context);
-        let found = problem.system.with(problem.steps(scheme, &h), start, context, work);
-        found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))
+        let mut integrator = problem.integrator::<N>(scheme, self.steps, context)?;
+        let of_output = scheme.scheme.processor().iter().filter(|(kind, _)| *kind == MapKind::Kick).count();
+        // with a pre-map at the beginning and a post-map at the end
+        let evaluations = self.steps * scheme.scheme.summary().evaluations as u64 + 2 * of_output as u64;
+        Ok(Measurement::of(&mut *integrator, (self.steps, evaluations), reference))
     }
 }

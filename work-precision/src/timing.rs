@@ -1,16 +1,13 @@
 //! The time of a step: the bare steps, all schemes by turns, the median of several repeats.
 
-use std::slice;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
-use shadowstep::{Ordered, Scheme, Stepper, System, ValidFor};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Computation;
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::NamedScheme;
-use shadowstep_scenes::start::Work;
 
 use crate::problem::Problem;
 
@@ -80,30 +77,14 @@ impl Computation for Steps<'_> {
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
         let Steps { problem, scheme, steps } = self;
-        let start = problem.system.start::<N>(context);
-        let h = problem.step_size(steps);
-        let found = problem.system.with(problem.steps(scheme, &h), start, context, Bare);
-        found.map_err(|error| Error::usage(error.to_string(), "check the initial state"))
-    }
-}
-
-/// Steps and nothing else, from the initial state each time: so all repeats make the same steps.
-struct Bare;
-
-impl<N: Ordered + 'static> Work<N> for Bare {
-    type Output = Repeat;
-
-    fn with<S, M>(self, stepper: &Stepper<S, N>, mut system: M) -> Repeat
-    where
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: System<Number = N> + 'static,
-    {
-        let (q, p, stepper) = (system.q().to_vec(), system.p().to_vec(), stepper.clone());
-        Box::new(move |count| {
-            system.state_mut().set(&q, &p);
+        let mut integrator = problem.integrator::<N>(scheme, steps, context)?;
+        let (q, p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
+        // steps and nothing else, from the initial state each time: so all repeats make the same steps
+        Ok(Box::new(move |count| {
+            integrator.system().state_mut().set(&q, &p);
             let begin = CpuTime::begin();
-            stepper.steps(slice::from_mut(&mut system), count.into());
+            integrator.steps(count.into());
             begin.elapsed()
-        })
+        }))
     }
 }

@@ -2,12 +2,10 @@
 
 use super::error::RecordedError;
 use super::misfit::{Differences, Misfit};
-use crate::increments::Increments;
-use crate::run::{RunError, ShadowRun, States, TrajectoryState, check_stepper};
-use crate::scheme::{Scheme, ValidFor};
+use crate::increments::{Carried, Increments};
+use crate::integrator::Integrator;
+use crate::run::{RunError, ShadowRun, States, TrajectoryState};
 use crate::shadow::{BuildEstimator, Estimator};
-use crate::stepper::Stepper;
-use crate::system::System;
 
 /// The states q, p that another program has computed by a scheme, n = 0, 1, …: from each the step is made again by the same scheme, which gives
 /// its increments of q, p and β.
@@ -42,7 +40,7 @@ use crate::system::System;
 /// let source = Source { path: "position-verlet.toml".to_owned(), text: text.to_owned() };
 /// let stepper = Stepper::new(read(&source, &|_, _| None, None).unwrap(), h)?;
 /// let pendulum = Motion::new(Pendulum, UnitMasses, vec![0.0], vec![0.0])?;
-/// let mut estimates = Repeated::new(&stepper, pendulum, &q, &p)?.estimates(&Bilinear::with_error(8))?;
+/// let mut estimates = Repeated::new(stepper.with(pendulum), &q, &p)?.estimates(&Bilinear::with_error(8))?;
 /// let mut modified = Vec::new();
 /// while let Some((_, found)) = estimates.advance()? {
 ///     modified.push(*found.value);
@@ -51,30 +49,29 @@ use crate::system::System;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Repeated<'a, S: Scheme, M: System<Number = f64>> {
-    stepper: &'a Stepper<S, f64>,
-    system: M,
+pub struct Repeated<'a, I> {
+    integrator: I,
     q: &'a [f64],
     p: &'a [f64],
     next: usize,
     misfits: [Misfit; 2],
 }
 
-impl<'a, S: Scheme + ValidFor<M::Class>, M: System<Number = f64>> Repeated<'a, S, M> {
+impl<'a, I: Integrator<Number = f64>> Repeated<'a, I> {
     /// States q and p, of each as many numbers as the system has coordinates, one after the other. The present state of the system has no effect.
     ///
     /// # Errors
-    /// Arrays that are not of as many states; a stepper with gradient kicks that the system has not.
-    pub fn new(stepper: &'a Stepper<S, f64>, system: M, q: &'a [f64], p: &'a [f64]) -> Result<Self, RecordedError> {
-        check_stepper(stepper, &system)?;
-        let columns = system.q().len();
+    /// Arrays that are not of as many states; steps that do not suit the system: see [`Integrator::check`].
+    pub fn new(integrator: I, q: &'a [f64], p: &'a [f64]) -> Result<Self, RecordedError> {
+        integrator.check()?;
+        let columns = integrator.state().q().len();
         let rows = q.len() / columns;
         for (name, found) in [("q", q.len()), ("p", p.len())] {
             if found != rows * columns {
                 return Err(RecordedError::Shape { name, found, rows, columns });
             }
         }
-        Ok(Repeated { stepper, system, q, p, next: 0, misfits: [Misfit::new(columns), Misfit::new(columns)] })
+        Ok(Repeated { integrator, q, p, next: 0, misfits: [Misfit::new(columns), Misfit::new(columns)] })
     }
 
     /// The modified energies at the states, from the first one that has enough states before it.
@@ -85,13 +82,11 @@ impl<'a, S: Scheme + ValidFor<M::Class>, M: System<Number = f64>> Repeated<'a, S
         self,
         settings: &impl BuildEstimator<f64, Estimator = E>,
     ) -> Result<ShadowRun<Self, E>, RecordedError> {
-        let h = self.stepper.step_size();
-        let estimator = settings.build(h, self.system.q().len(), &())?;
-        Ok(ShadowRun::of(self, estimator, h))
+        let h = self.integrator.step_size().clone();
+        let estimator = settings.build(&h, self.integrator.state().q().len(), &())?;
+        Ok(ShadowRun::of(self, estimator, &h))
     }
-}
 
-impl<S: Scheme, M: System<Number = f64>> Repeated<'_, S, M> {
     /// By how much q and p of the states so far differ from the increments of the steps to them; `None` before the first step.
     pub fn differences(&self) -> Option<[Differences; 2]> {
         let [of_q, of_p] = &self.misfits;
@@ -99,20 +94,20 @@ impl<S: Scheme, M: System<Number = f64>> Repeated<'_, S, M> {
     }
 }
 
-impl<'a, S: Scheme + ValidFor<M::Class>, M: System<Number = f64>> States for Repeated<'a, S, M> {
+impl<'a, I: Integrator<Number = f64>> States for Repeated<'a, I> {
     type Number = f64;
 
     fn advance(&mut self) -> Result<Option<TrajectoryState<'_, f64>>, RunError> {
-        let (n, dimension) = (self.next, self.system.q().len());
+        let (n, dimension) = (self.next, self.integrator.state().q().len());
         let row = |numbers: &'a [f64], n: usize| numbers.get(n * dimension..(n + 1) * dimension);
         let Some((q, p)) = row(self.q, n).zip(row(self.p, n)) else { return Ok(None) };
         self.next += 1;
         let before = n.checked_sub(1).and_then(|before| row(self.q, before).zip(row(self.p, before)));
         let increments = match before {
             Some((q_before, p_before)) => {
-                self.system.state_mut().set(q_before, p_before);
-                self.stepper.step_augmented(&mut self.system);
-                let increments = self.system.state().increments();
+                self.integrator.system().state_mut().set(q_before, p_before);
+                self.integrator.step(Carried::Increments);
+                let increments = self.integrator.state().increments();
                 let [of_q, of_p] = &mut self.misfits;
                 of_q.add_step(n as i64, [q_before, q], increments.q);
                 of_p.add_step(n as i64, [p_before, p], increments.p);

@@ -1,15 +1,13 @@
 //! The drift of the modified energy over a run: the paper's max − min, and the permanent change.
 
+use crate::integrator::Integrator;
 use crate::number::Ordered;
 use crate::run::error::RunError;
 use crate::run::permanent::{LowErrorStates, PermanentChange};
 use crate::run::shadow_run::ShadowRun;
 use crate::run::state::States;
-use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::{BuildEstimator, Estimate, Estimator};
 use crate::step_size::StepSize;
-use crate::stepper::Stepper;
-use crate::system::System;
 
 /// The modified energy over a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,19 +40,14 @@ pub struct EnergyDrift<N> {
 ///
 /// # Errors
 /// A state or a modified energy that is not finite; settings of the estimator that are not valid.
-pub fn energy_drift<S, M>(
-    stepper: &Stepper<S, M::Number>,
-    system: M,
+pub fn energy_drift<I: Integrator<Number: Ordered>>(
+    integrator: I,
     steps: u64,
-    settings: &impl BuildEstimator<M::Number>,
-) -> Result<EnergyDrift<M::Number>, RunError>
-where
-    S: Scheme + ValidFor<M::Class>,
-    M: System<Number: Ordered>,
-{
-    let mut run = ShadowRun::new(stepper, system, steps, settings)?;
+    settings: &impl BuildEstimator<I::Number>,
+) -> Result<EnergyDrift<I::Number>, RunError> {
+    let mut run = ShadowRun::new(integrator, steps, settings)?;
     let mut found = run.drift()?;
-    found.evaluations = run.system().state().evaluations();
+    found.evaluations = run.integrator().state().evaluations();
     Ok(found)
 }
 
@@ -96,7 +89,7 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
 ///
 /// let motion = Motion::new(Pendulum, UnitMasses, vec![0.0], vec![1.0])?;
 /// let stepper = Stepper::new(shipped("yoshida4").unwrap(), "1/10")?;
-/// let mut run = ShadowRun::new(&stepper, motion, 500, &Bilinear::with_error(12))?;
+/// let mut run = ShadowRun::new(stepper.with(motion), 500, &Bilinear::with_error(12))?;
 /// let mut drift = DriftRecorder::new(run.step_size().clone());
 /// while let Some((n, estimate)) = run.advance()? {
 ///     drift.include(n, &estimate);

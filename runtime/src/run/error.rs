@@ -4,11 +4,8 @@ use std::fmt;
 
 use thiserror::Error;
 
-use crate::number::{Number, Ordered};
-use crate::scheme::Scheme;
+use crate::number::Ordered;
 use crate::shadow::EstimatorError;
-use crate::stepper::Stepper;
-use crate::system::System;
 
 /// A run that cannot begin or cannot continue.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -102,21 +99,6 @@ impl fmt::Display for NotFinite {
             _ => write!(f, "{} is {}", self.quantity, self.value),
         }
     }
-}
-
-/// Refuses a stepper whose weights have another precision than the system, or that makes gradient kicks, which the system has not.
-pub(crate) fn check_stepper<S: Scheme, M: System<Number: Ordered>>(
-    stepper: &Stepper<S, M::Number>,
-    system: &M,
-) -> Result<(), RunError> {
-    let context = system.state().context();
-    if !stepper.weights().iter().all(|weight| weight.context() == context) {
-        return Err(RunError::Precision);
-    }
-    if !stepper.weights().gradient_kicks.is_empty() && !system.has_gradient_kicks() {
-        return Err(RunError::NoGradientKicks { scheme: stepper.scheme().summary().name.to_owned() });
-    }
-    Ok(())
 }
 
 /// Refuses a value that is not finite. States may be finite where their products overflow.

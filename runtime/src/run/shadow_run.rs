@@ -1,14 +1,12 @@
 //! States with their modified energies.
 
+use crate::integrator::Integrator;
 use crate::number::Ordered;
 use crate::run::error::{Quantity, RunError, check_value};
 use crate::run::state::{States, TrajectoryState};
 use crate::run::trajectory::Trajectory;
-use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::{BuildEstimator, Estimate, Estimator};
 use crate::step_size::StepSize;
-use crate::stepper::Stepper;
-use crate::system::System;
 
 /// An estimate and its n: the state n, or the middle between it and the next one.
 pub type Estimated<'a, N> = (i64, Estimate<'a, N>);
@@ -25,23 +23,17 @@ pub struct ShadowRun<T, E> {
     missing: usize,
 }
 
-impl<'s, S, M, E> ShadowRun<Trajectory<'s, S, M>, E>
-where
-    S: Scheme + ValidFor<M::Class>,
-    M: System<Number: Ordered>,
-    E: Estimator<M::Number>,
-{
+impl<I: Integrator<Number: Ordered>, E: Estimator<I::Number>> ShadowRun<Trajectory<I>, E> {
     /// Begins at the system's present state; makes the states before it that the estimator needs.
     ///
     /// # Errors
     /// As [`Trajectory::new`]; settings of the estimator that are not valid.
     pub fn new(
-        stepper: &'s Stepper<S, M::Number>,
-        system: M,
+        integrator: I,
         steps: u64,
-        settings: &impl BuildEstimator<M::Number, Estimator = E>,
+        settings: &impl BuildEstimator<I::Number, Estimator = E>,
     ) -> Result<Self, RunError> {
-        let mut run = Self::resume(stepper, system, 0, steps, settings)?;
+        let mut run = Self::resume(integrator, 0, steps, settings)?;
         run.states.step_back(run.reach as usize)?;
         Ok(run)
     }
@@ -55,21 +47,21 @@ where
     /// # Errors
     /// An energy at `from` that is not finite; settings of the estimator that are not valid.
     pub fn resume(
-        stepper: &'s Stepper<S, M::Number>,
-        system: M,
+        integrator: I,
         from: i64,
         steps: u64,
-        settings: &impl BuildEstimator<M::Number, Estimator = E>,
+        settings: &impl BuildEstimator<I::Number, Estimator = E>,
     ) -> Result<Self, RunError> {
-        let estimator = settings.build(stepper.step_size(), system.q().len(), &system.state().context())?;
-        let mut run = ShadowRun::of(Trajectory::after(stepper, system, from)?, estimator, stepper.step_size());
+        let (h, state) = (integrator.step_size().clone(), integrator.state());
+        let estimator = settings.build(&h, state.q().len(), &state.context())?;
+        let mut run = ShadowRun::of(Trajectory::after(integrator, from)?, estimator, &h);
         run.states.extend(steps, run.reach as usize);
         Ok(run)
     }
 
-    /// The system, for energies and counts.
-    pub fn system(&mut self) -> &mut M {
-        self.states.system()
+    /// The system with its stepper, for energies and counts.
+    pub fn integrator(&mut self) -> &mut I {
+        self.states.integrator()
     }
 }
 
@@ -146,6 +138,7 @@ mod tests {
     use crate::motion::Motion;
     use crate::problems::Kepler;
     use crate::shadow::{Central, SelectionRule, StoppingRule};
+    use crate::stepper::Stepper;
     use crate::tables::{TableScheme, shipped};
 
     type Comet = Motion<f64, Vec<f64>, Kepler, UnitMasses>;
@@ -161,7 +154,7 @@ mod tests {
     /// n, value, error and m.
     type Owned = (i64, f64, Option<f64>, u32);
 
-    fn estimates<E: Estimator<f64>>(mut run: ShadowRun<Trajectory<'_, TableScheme, Comet>, E>) -> Vec<Owned> {
+    fn estimates<E: Estimator<f64>>(mut run: ShadowRun<impl States<Number = f64>, E>) -> Vec<Owned> {
         let mut all = Vec::new();
         while let Some((n, found)) = run.advance().unwrap() {
             all.push((n, *found.value, found.error.copied(), found.order));
@@ -171,7 +164,7 @@ mod tests {
 
     /// q and p of the states from 0 on.
     fn states(stepper: &Stepper<TableScheme, f64>, steps: u64) -> Vec<(Vec<f64>, Vec<f64>)> {
-        let mut trajectory = Trajectory::plain(stepper, start(), 0, steps).unwrap();
+        let mut trajectory = Trajectory::plain(stepper.with(start()), 0, steps).unwrap();
         let mut states = Vec::new();
         while let Some(TrajectoryState { q, p, .. }) = trajectory.advance().unwrap() {
             states.push((q.to_vec(), p.to_vec()));
@@ -192,13 +185,13 @@ mod tests {
             let stepper = Stepper::new(shipped(name).unwrap(), "1/20").unwrap();
             let states = states(&stepper, 60);
             for settings in &all_settings {
-                let run = ShadowRun::new(&stepper, start(), 60, settings).unwrap();
+                let run = ShadowRun::new(stepper.with(start()), 60, settings).unwrap();
                 let reach = run.reach() as usize;
                 let all = estimates(run);
                 assert_eq!(all.len(), 61);
                 for from in [0, 1, 17, 59] {
                     let system = motion(&states[from].0, &states[from].1);
-                    let run = ShadowRun::resume(&stepper, system, from as i64, 60, settings).unwrap();
+                    let run = ShadowRun::resume(stepper.with(system), from as i64, 60, settings).unwrap();
                     let expected = all.get(from + reach + 1..).unwrap_or_default();
                     assert_eq!(estimates(run), expected, "{name}, {settings:?}, from {from}");
                 }

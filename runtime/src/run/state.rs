@@ -1,10 +1,12 @@
 //! States in the order of time, wherever they come from.
 
+use crate::coordinates::Coordinates;
 use crate::increments::Increments;
 use crate::instructions;
 use crate::number::Ordered;
 use crate::run::error::{Quantity, RunError, check_value};
-use crate::system::System;
+use crate::state::State;
+use crate::summation::Summation;
 
 /// A state of a trajectory.
 #[derive(Clone, Copy, Debug)]
@@ -20,9 +22,10 @@ pub struct TrajectoryState<'a, N> {
 }
 
 impl<'a, N: Ordered> TrajectoryState<'a, N> {
-    /// The present state of a system.
-    pub(crate) fn of<S: System<Number = N>>(system: &'a S, n: i64) -> Self {
-        TrajectoryState { n, q: system.q(), p: system.p(), increments: system.state().increments() }
+    /// The state of a system.
+    #[inline]
+    pub(crate) fn of<V: Coordinates<N>, S: Summation<N>>(state: &'a State<N, V, S>, n: i64) -> Self {
+        TrajectoryState { n, q: state.q(), p: state.p(), increments: state.increments() }
     }
 
     /// Refuses a state with a value that is not finite.

@@ -1,25 +1,24 @@
 //! The states of a trajectory in the order of time, with those that an estimator needs on both sides.
 
-use crate::increments::OwnedIncrements;
-use crate::number::Ordered;
-use crate::run::error::{RunError, check_energy, check_stepper};
+use crate::coordinates::Coordinates;
+use crate::increments::{Carried, OwnedIncrements};
+use crate::integrator::Integrator;
+use crate::number::{Number, Ordered};
+use crate::run::error::{RunError, check_energy};
 use crate::run::state::{States, TrajectoryState, last};
-use crate::scheme::{Scheme, ValidFor};
-use crate::state::Saved;
-use crate::stepper::Stepper;
-use crate::system::System;
+use crate::state::{Saved, State};
+use crate::summation::Summation;
 
 /// The states of a trajectory in the order of time: for an estimator n = −reach, …, steps + reach with the increments of each
 /// step, or [plain](Trajectory::plain) ones without them.
 ///
 /// States before 0 are made with the scheme's exact inverse from the state 0.
-pub struct Trajectory<'s, S: Scheme, M: System> {
-    stepper: &'s Stepper<S, M::Number>,
-    system: M,
+pub struct Trajectory<I: Integrator> {
+    integrator: I,
     augmented: bool,
     /// States that are computed before their turn, the earliest last.
-    before: Vec<Stored<M::Number>>,
-    present: Option<Stored<M::Number>>,
+    before: Vec<Stored<I::Number>>,
+    present: Option<Stored<I::Number>>,
     n: i64,
     last: i64,
 }
@@ -32,19 +31,19 @@ struct Stored<N> {
     increments: OwnedIncrements<N>,
 }
 
-impl<N: crate::Number> Stored<N> {
-    fn of<M: System<Number = N>>(system: &M) -> Self {
-        Stored { q: system.q().to_vec(), p: system.p().to_vec(), increments: system.state().increments().to_owned() }
+impl<N: Number> Stored<N> {
+    fn of<V: Coordinates<N>, S: Summation<N>>(state: &State<N, V, S>) -> Self {
+        Stored { q: state.q().to_vec(), p: state.p().to_vec(), increments: state.increments().to_owned() }
     }
 }
 
-impl<'s, S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<'s, S, M> {
+impl<I: Integrator<Number: Ordered>> Trajectory<I> {
     /// Begins at the system's present state.
     ///
     /// # Errors
-    /// An initial energy, or a state before 0, that is not finite; a stepper whose weights have another precision than the system, or with gradient kicks that it has not.
-    pub fn new(stepper: &'s Stepper<S, M::Number>, system: M, steps: u64, reach: usize) -> Result<Self, RunError> {
-        let mut trajectory = Self::after(stepper, system, 0)?;
+    /// An initial energy, or a state before 0, that is not finite; steps that do not suit the system: see [`Integrator::check`].
+    pub fn new(integrator: I, steps: u64, reach: usize) -> Result<Self, RunError> {
+        let mut trajectory = Self::after(integrator, 0)?;
         trajectory.extend(steps, reach);
         trajectory.step_back(reach)?;
         Ok(trajectory)
@@ -55,22 +54,22 @@ impl<'s, S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<
     /// They have the bits of the states with increments, and the bits of a trajectory from 0 where `from` is one of its states.
     ///
     /// # Errors
-    /// An energy at `from` that is not finite; a stepper whose weights have another precision than the system, or with gradient kicks that it has not.
-    pub fn plain(stepper: &'s Stepper<S, M::Number>, system: M, from: i64, steps: u64) -> Result<Self, RunError> {
-        let mut trajectory = Self::after(stepper, system, from)?;
+    /// An energy at `from` that is not finite; steps that do not suit the system.
+    pub fn plain(integrator: I, from: i64, steps: u64) -> Result<Self, RunError> {
+        let mut trajectory = Self::after(integrator, from)?;
         trajectory.extend(steps, 0);
         trajectory.augmented = false;
-        trajectory.before.push(Stored::of(&trajectory.system));
+        trajectory.before.push(Stored::of(trajectory.integrator.state()));
         trajectory.n -= 1;
         Ok(trajectory)
     }
 
     /// The states after `from`, with increments, up to a last one that [`extend`](Self::extend) sets; the system is at the state
     /// `from`.
-    pub(super) fn after(stepper: &'s Stepper<S, M::Number>, mut system: M, from: i64) -> Result<Self, RunError> {
-        check_stepper(stepper, &system)?;
-        check_energy(&system.energy(), system.q(), from)?;
-        Ok(Trajectory { stepper, system, augmented: true, before: Vec::new(), present: None, n: from, last: from })
+    pub(super) fn after(mut integrator: I, from: i64) -> Result<Self, RunError> {
+        integrator.check()?;
+        check_energy(&integrator.system().energy(), integrator.state().q(), from)?;
+        Ok(Trajectory { integrator, augmented: true, before: Vec::new(), present: None, n: from, last: from })
     }
 
     /// Sets the last state, which the estimate of the state `steps` needs.
@@ -80,38 +79,34 @@ impl<'s, S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<
 
     /// Makes the states −reach, …, 0 from the present one, which is 0, and returns to it.
     pub(super) fn step_back(&mut self, reach: usize) -> Result<(), RunError> {
-        let Trajectory { stepper, system, before, .. } = self;
-        let (mut later, saved) = (Stored::of(system), Saved::of(system.state()));
+        let Trajectory { integrator, before, .. } = self;
+        let (mut later, saved) = (Stored::of(integrator.state()), Saved::of(integrator.state()));
         for n in 1..=reach as i64 {
-            stepper.step_back_augmented(system);
-            TrajectoryState::of(system, -n).check()?;
+            integrator.step_back(Carried::Increments);
+            TrajectoryState::of(integrator.state(), -n).check()?;
             // the step from −n to −n + 1 adds what the step back took
-            later.increments.assign(system.state().increments());
+            later.increments.assign(integrator.state().increments());
             later.increments.negate();
-            let earlier = Stored::of(system);
+            let earlier = Stored::of(integrator.state());
             before.push(std::mem::replace(&mut later, earlier));
         }
         later.increments.assign_zero();
         before.push(later);
-        saved.restore(system.state_mut());
+        saved.restore(integrator.system().state_mut());
         self.n = -(reach as i64) - 1;
         Ok(())
     }
-}
 
-impl<S: Scheme, M: System<Number: Ordered>> Trajectory<'_, S, M> {
-    /// The system, for energies and counts.
-    pub fn system(&mut self) -> &mut M {
-        &mut self.system
+    /// The system with its stepper, for energies and counts.
+    pub fn integrator(&mut self) -> &mut I {
+        &mut self.integrator
     }
 
     /// Whether the following steps compute increments: q and p have the same bits with and without.
     pub fn set_augmented(&mut self, augmented: bool) {
         self.augmented = augmented;
     }
-}
 
-impl<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<'_, S, M> {
     /// Goes to the last state, of which alone something is needed: the same steps and checks as by [`advance`](States::advance), in less
     /// time. `continues` is asked after each step; returns false if that did.
     ///
@@ -122,46 +117,40 @@ impl<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> Trajectory<'_, 
             self.advance()?;
         }
         while self.n < self.last {
-            self.n += 1;
-            if self.augmented {
-                self.stepper.step_augmented(&mut self.system);
-            } else {
-                self.stepper.step(&mut self.system);
-            }
-            TrajectoryState::of(&self.system, self.n).check()?;
+            self.step()?;
             if !continues() {
                 return Ok(false);
             }
         }
         Ok(true)
     }
+
+    /// The next step, whose state must be finite.
+    #[inline]
+    fn step(&mut self) -> Result<TrajectoryState<'_, I::Number>, RunError> {
+        self.n += 1;
+        self.integrator.step(if self.augmented { Carried::Increments } else { Carried::Nothing });
+        let state = TrajectoryState::of(self.integrator.state(), self.n);
+        state.check()?;
+        Ok(state)
+    }
 }
 
-impl<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>> States for Trajectory<'_, S, M> {
-    type Number = M::Number;
+impl<I: Integrator<Number: Ordered>> States for Trajectory<I> {
+    type Number = I::Number;
 
-    fn advance(&mut self) -> Result<Option<TrajectoryState<'_, M::Number>>, RunError> {
+    fn advance(&mut self) -> Result<Option<TrajectoryState<'_, I::Number>>, RunError> {
         if self.n >= self.last {
             return Ok(None);
         }
+        let Some(stored) = self.before.pop() else { return self.step().map(Some) };
         self.n += 1;
-        let n = self.n;
-        self.present = self.before.pop();
-        if let Some(Stored { q, p, increments }) = &self.present {
-            return Ok(Some(TrajectoryState { n, q, p, increments: increments.view() }));
-        }
-        if self.augmented {
-            self.stepper.step_augmented(&mut self.system);
-        } else {
-            self.stepper.step(&mut self.system);
-        }
-        let state = TrajectoryState::of(&self.system, n);
-        state.check()?;
-        Ok(Some(state))
+        let Stored { q, p, increments } = self.present.insert(stored);
+        Ok(Some(TrajectoryState { n: self.n, q, p, increments: increments.view() }))
     }
 
     fn is_compensated(&self) -> bool {
-        self.system.state().is_compensated()
+        self.integrator.state().is_compensated()
     }
 }
 
@@ -171,6 +160,7 @@ mod tests {
     use crate::kinetic::UnitMasses;
     use crate::motion::Motion;
     use crate::problems::Kepler;
+    use crate::stepper::Stepper;
     use crate::tables::{TableScheme, shipped};
 
     type Comet = Motion<f64, Vec<f64>, Kepler, UnitMasses>;
@@ -191,7 +181,7 @@ mod tests {
 
     /// n, q and p of the states from 0 on.
     fn plain(stepper: &Stepper<TableScheme, f64>, steps: u64) -> Vec<(i64, Vec<f64>, Vec<f64>)> {
-        let mut trajectory = Trajectory::plain(stepper, start(), 0, steps).unwrap();
+        let mut trajectory = Trajectory::plain(stepper.with(start()), 0, steps).unwrap();
         let mut states = Vec::new();
         while let Some(state) = trajectory.advance().unwrap() {
             states.push((state.n, state.q.to_vec(), state.p.to_vec()));
@@ -204,7 +194,7 @@ mod tests {
         for stepper in steppers() {
             let states = plain(&stepper, 50);
             assert_eq!(states.len(), 51);
-            let mut augmented = Trajectory::new(&stepper, start(), 50, 3).unwrap();
+            let mut augmented = Trajectory::new(stepper.with(start()), 50, 3).unwrap();
             while let Some(TrajectoryState { n, q, p, .. }) = augmented.advance().unwrap() {
                 if (0..=50).contains(&n) {
                     assert_eq!((n, q, p), (states[n as usize].0, &*states[n as usize].1, &*states[n as usize].2));
@@ -216,16 +206,16 @@ mod tests {
     #[test]
     fn a_plain_trajectory_costs_its_steps_only() {
         let stepper = Stepper::new(shipped("stormer-verlet").unwrap(), "1/20").unwrap();
-        let mut trajectory = Trajectory::plain(&stepper, start(), 0, 40).unwrap();
+        let mut trajectory = Trajectory::plain(stepper.with(start()), 0, 40).unwrap();
         while trajectory.advance().unwrap().is_some() {}
-        assert_eq!(trajectory.system().evaluations(), 41);
+        assert_eq!(trajectory.integrator().state().evaluations(), 41);
     }
 
     #[test]
     fn the_end_is_reached_with_the_same_bits() {
         for stepper in steppers() {
             let (_, q, p) = plain(&stepper, 50).pop().unwrap();
-            let mut trajectory = Trajectory::plain(&stepper, start(), 0, 50).unwrap();
+            let mut trajectory = Trajectory::plain(stepper.with(start()), 0, 50).unwrap();
             let mut asked = 0;
             assert!(
                 trajectory
@@ -235,16 +225,16 @@ mod tests {
                     })
                     .unwrap()
             );
-            assert_eq!((trajectory.system().q(), asked), (&*q, 50));
-            assert_eq!(trajectory.system().p(), p);
+            assert_eq!((trajectory.integrator().state().q(), asked), (&*q, 50));
+            assert_eq!(trajectory.integrator().state().p(), p);
             assert!(trajectory.advance().unwrap().is_none());
-            let mut stopped = Trajectory::plain(&stepper, start(), 0, 50).unwrap();
+            let mut stopped = Trajectory::plain(stepper.with(start()), 0, 50).unwrap();
             assert!(!stopped.reach_the_end(|| false).unwrap());
             assert_eq!(stopped.advance().unwrap().unwrap().n, 2);
             // towards the origin: the force is infinite there
-            let mut lost = Trajectory::plain(&stepper, motion(vec![0.05, 0.0], vec![-1.0, 0.0]), 0, 2).unwrap();
+            let mut lost = Trajectory::plain(stepper.with(motion(vec![0.05, 0.0], vec![-1.0, 0.0])), 0, 2).unwrap();
             let error = lost.reach_the_end(|| true);
-            let mut again = Trajectory::plain(&stepper, motion(vec![0.05, 0.0], vec![-1.0, 0.0]), 0, 2).unwrap();
+            let mut again = Trajectory::plain(stepper.with(motion(vec![0.05, 0.0], vec![-1.0, 0.0])), 0, 2).unwrap();
             assert_eq!(error.err(), (0..3).find_map(|_| again.advance().err()));
         }
     }
@@ -254,7 +244,7 @@ mod tests {
         for stepper in steppers() {
             let states = plain(&stepper, 50);
             let (n, q, p) = states[20].clone();
-            let mut resumed = Trajectory::plain(&stepper, motion(q, p), n, 50).unwrap();
+            let mut resumed = Trajectory::plain(stepper.with(motion(q, p)), n, 50).unwrap();
             for (n, q, p) in &states[20..] {
                 let state = resumed.advance().unwrap().unwrap();
                 assert_eq!((state.n, state.q, state.p), (*n, &**q, &**p), "{:?}", stepper.scheme());

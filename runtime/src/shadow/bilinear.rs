@@ -32,7 +32,7 @@ use crate::step_size::StepSize;
 ///
 /// let start = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?; // eccentricity 0.6
 /// let verlet = Stepper::new(shipped("stormer-verlet").unwrap(), "1/40")?;
-/// let drift = energy_drift(&verlet, start, 400, &Bilinear::new(16))?;
+/// let drift = energy_drift(verlet.with(start), 400, &Bilinear::new(16))?;
 /// assert!(drift.drift < 1e-12); // the energy itself varies by 0.01
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -61,7 +61,7 @@ use crate::step_size::StepSize;
 ///
 /// let start = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?; // eccentricity 0.6
 /// let verlet = Stepper::new(shipped("stormer-verlet").unwrap(), "1/40")?;
-/// let mut run = ShadowRun::new(&verlet, start, 125, &Bilinear::best_to(64, exact("1e-10")?))?;
+/// let mut run = ShadowRun::new(verlet.with(start), 125, &Bilinear::best_to(64, exact("1e-10")?))?;
 /// let mut orders = Vec::new();
 /// while let Some((_, found)) = run.advance()? {
 ///     assert!(*found.error.unwrap() <= 1e-10);

@@ -28,7 +28,7 @@ use crate::step_size::StepSize;
 /// let start = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?; // eccentricity 0.6
 /// let verlet = Stepper::new(shipped("stormer-verlet").unwrap(), "1/20")?;
 /// let best = Central::best_with_error(40, StoppingRule::Full, SelectionRule::Robust);
-/// let mut run = ShadowRun::new(&verlet, start, 100, &best)?;
+/// let mut run = ShadowRun::new(verlet.with(start), 100, &best)?;
 /// while let Some((_, found)) = run.advance()? {
 ///     assert!((found.value + 0.490_943_1).abs() < 1e-6);
 ///     assert!(*found.error.unwrap() < 1e-6); // the largest is near the pericentre

@@ -12,6 +12,7 @@
 //! | `fastest` | the coordinate that turns fastest, each by itself |
 //! | `rate` | whether the rate is qᵀU_q − 2U |
 //! | `roughness` | whether the forces are smooth |
+//! | `shadow_energy` | the monitor with a stepper of its own: for loops |
 //! | `report`, `verdict`, `text` | the result in numbers, as a verdict, and as text |
 
 mod arithmetic;
@@ -25,6 +26,7 @@ mod recent;
 mod report;
 mod roughness;
 mod schedule;
+mod shadow_energy;
 mod statistics;
 mod text;
 mod trend;
@@ -33,6 +35,7 @@ mod verdict;
 
 pub use report::Report;
 pub use roughness::Rough;
+pub use shadow_energy::ShadowEnergy;
 pub use trend::Trend;
 pub use verdict::{Advice, Criterion, KINETIC_LIMIT, Missing, Verdict};
 
@@ -44,97 +47,20 @@ use self::rate::RateCheck;
 use self::recent::Recent;
 use self::schedule::Schedule;
 use self::statistics::Statistics;
-use crate::increments::Increments;
+use crate::increments::{Carried, Increments};
+use crate::integrator::Integrator;
 use crate::number::Ordered;
-use crate::run::{Quantity, RunError, TrajectoryState, check_energy, check_stepper, check_value};
-use crate::scheme::{Scheme, ValidFor};
+use crate::run::{Quantity, RunError, TrajectoryState, check_energy, check_value};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
-use crate::stepper::Stepper;
+use crate::step_size::StepSize;
 use crate::system::System;
 
-/// Follows the modified energy H̄ of the trajectory that a loop computes.
+/// Follows the modified energy H̄ of the states that an [integrator](crate::Integrator) makes: [`ShadowEnergy`] without a stepper.
 ///
-/// It takes all states, and keeps the states of *windows*: as many as the estimator needs, at every step or
-/// [every n steps](ShadowEnergy::every). Only the steps within windows are augmented; the others are plain steps, with the same
-/// bits and cost. From the windows it keeps extremes, sums and 64 estimates, however
-/// long the run: nothing is allocated after the beginning.
-///
-/// The [`Report`] splits the energy error into the method's part H − H̄, the range of H̄ beside the expected effect of round-off,
-/// and its permanent change; and it has a [verdict](Verdict) on the step size.
-///
-/// ```
-/// use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
-/// use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, splitting_scheme};
-///
-/// #[splitting_scheme("stormer-verlet.toml")]
-/// pub struct StormerVerlet;
-///
-/// let stepper = Stepper::new(StormerVerlet, "1/20")?;
-/// let mut comet = Motion::new(Kepler, UnitMasses, [0.4, 0.0], [0.0, 2.0])?; // eccentricity 0.6
-/// let mut monitor = ShadowEnergy::new(stepper, &mut comet, &Bilinear::with_error(8))?.every(100);
-///
-/// let mut farthest = 0.0_f64;
-/// for _ in 0..20_000 {
-///     monitor.step(&mut comet)?;
-///     farthest = farthest.max(comet.q()[0].hypot(comet.q()[1]));
-/// }
-///
-/// let report = monitor.report();
-/// println!("{report}");
-/// assert_eq!(report.verdict, Verdict::Fine);
-/// assert!(report.energy_error > 5e-3 && report.moved < 1e-12);
-/// # assert!((farthest - 1.6).abs() < 0.1);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// prints
-///
-/// ```text
-/// the step size is fine (20000 steps, 200 windows)
-///   energy error         9.38e-3  max − min of H; 1.9e-2 of T
-///   the method's part    1.58e-3  rms of H − H̄, which is from -8.68e-3 to 3.27e-4
-///   H̄ ranges over       2.40e-14  2.6e-12 of the energy error, a random walk
-///   it changed by      -1.23e-14  it moved by 3.73e-14 beyond its errors
-///   it is known to      2.22e-16  2.4e-14 of the energy error
-///   round-off           1.02e-14  1.1e-12 of the energy error, expected by Brouwer's law
-///   permanently         2.46e-14  2.6e-12 of the energy error, at most
-///   fastest motion          17.0  steps a turn
-///   the energy error is 1.9e-2 of T; in 20000 steps a permanent change above 4.99e-14 of T, 4.99e-17 of T per unit time is excluded
-/// ```
-///
-/// Where a loop does more than steps, it can make them itself: with increments where
-/// [`needs_increments`](ShadowEnergy::needs_increments) is true, and with [`observe`](ShadowEnergy::observe) after each.
-///
-/// ```
-/// # use shadowstep::shadow::{Bilinear, ShadowEnergy};
-/// # use shadowstep::{Motion, Stepper, UnitMasses, problems::Pendulum, tables::shipped};
-/// # let mut motion = Motion::new(Pendulum, UnitMasses, vec![0.0], vec![1.0])?;
-/// let stepper = Stepper::new(shipped("yoshida4").unwrap(), "1/10")?;
-/// let mut monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(6))?.every(50);
-/// for _ in 0..5000 {
-///     if monitor.needs_increments() {
-///         monitor.stepper().step_augmented(&mut motion);
-///     } else {
-///         monitor.stepper().step(&mut motion);
-///     }
-///     if let Some(sample) = monitor.observe(&mut motion)? {
-///         assert!((sample.modified - sample.energy).abs() < 1e-5); // one of a hundred
-///     }
-/// }
-/// # assert_eq!(monitor.report().windows, 100);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// Only the stepper may change the state, and the system must stay the same. Where increments were not computed or the state was
-/// changed otherwise, the verdict is [`Verdict::Inconsistent`] as far as that can be detected.
-///
-/// # Cost
-///
-/// For a hundred bodies, with a window in 100 steps, a monitor costs a few per cent of the loop; `docs/monitor.md` has the
-/// measurements, and `cargo bench -p shadowstep --bench monitor` repeats them.
+/// It takes every state with [`observe`](Monitor::observe), after a step that carries along what [`carried`](Monitor::carried) says.
 #[derive(Clone, Debug)]
-pub struct ShadowEnergy<S: Scheme, N: Ordered, E> {
-    stepper: Stepper<S, N>,
+pub struct Monitor<N: Ordered, E> {
+    h: StepSize,
     estimator: E,
     schedule: Schedule,
     energies: Energies<N>,
@@ -153,11 +79,6 @@ pub struct ShadowEnergy<S: Scheme, N: Ordered, E> {
     rate: RateCheck<N>,
     /// The first state that was not finite, or whose energy was not.
     not_finite: Option<u64>,
-}
-
-/// The post-map of a processed scheme evaluates the forces too, between two steps of the kernel.
-fn most_stages<S: Scheme, N: Ordered>(stepper: &Stepper<S, N>) -> u64 {
-    if stepper.is_processed() { stepper.scheme().summary().evaluations as u64 } else { u64::MAX }
 }
 
 #[derive(Clone, Debug)]
@@ -184,26 +105,36 @@ pub struct Sample<'a, N> {
     pub energy: &'a N,
 }
 
-impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
-    /// Begins at the system's present state, which is number 0. There is a window at every step.
+impl<N: Ordered, E: Estimator<N>> Monitor<N, E> {
+    /// Begins at the present state of an integrator, which is number 0. There is a window at every step.
     ///
     /// # Errors
-    /// A state or an energy that is not finite; settings of the estimator that are not valid; a stepper whose weights have another
-    /// precision than the system.
-    pub fn new<M: System<Number = N>>(
-        stepper: Stepper<S, N>,
+    /// As [`ShadowEnergy::new`].
+    pub fn new<I: Integrator<Number = N> + ?Sized>(
+        integrator: &mut I,
+        settings: &impl BuildEstimator<N, Estimator = E>,
+    ) -> Result<Self, RunError> {
+        integrator.check()?;
+        let stages = integrator.is_processed().then(|| integrator.scheme().evaluations as u64);
+        let h = integrator.step_size().clone();
+        Self::begin(&h, stages, integrator.system(), settings)
+    }
+
+    /// `stages` are the evaluations in a step of a processed scheme, whose post-map evaluates the forces too, between two steps of the kernel.
+    fn begin<M: System<Number = N> + ?Sized>(
+        h: &StepSize,
+        stages: Option<u64>,
         system: &mut M,
         settings: &impl BuildEstimator<N, Estimator = E>,
     ) -> Result<Self, RunError> {
         let (dimension, context) = (system.q().len(), system.state().context());
-        check_stepper(&stepper, system)?;
-        let estimator = settings.build(stepper.step_size(), dimension, &context)?;
+        let estimator = settings.build(h, dimension, &context)?;
         let states = estimator.states();
         let [mut energy, mut kinetic] = [N::zero(&context), N::zero(&context)];
         system.assign_energies(None, &mut energy, &mut kinetic);
         check_energy(&energy, system.q(), 0)?;
         let schedule = Schedule::new(states, 1);
-        let mut monitor = ShadowEnergy {
+        let mut monitor = Monitor {
             schedule,
             energies: Energies::new(schedule, states, &context),
             estimator,
@@ -211,23 +142,17 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
             statistics: Statistics::new(&energy),
             blocks: Blocks::new(&energy),
             newest: Newest { n: 0, modified: Estimated::zero(&context), has_error: false, order: 0, energy, kinetic },
-            recent: Recent::new(states, stepper.step_size(), dimension, &context)?
-                .with_most_stages(most_stages(&stepper)),
+            recent: Recent::new(states, h, dimension, &context)?.with_most_stages(stages.unwrap_or(u64::MAX)),
             fastest: Fastest::new(dimension, &context),
             unknown: N::zero(&context),
             method: N::zero(&context),
             rate: RateCheck::new(dimension, &context),
             not_finite: None,
-            stepper,
+            h: h.clone(),
         };
         monitor.fastest.begin(0, system.p());
         monitor.take(system)?;
         Ok(monitor)
-    }
-
-    /// The stepper, for loops that make the steps themselves.
-    pub fn stepper(&self) -> &Stepper<S, N> {
-        &self.stepper
     }
 
     /// One window every `steps` steps, of as many states as the estimator needs, at a place among these steps that changes from
@@ -255,24 +180,27 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
         self.schedule.needs_increments(self.n + 1)
     }
 
-    /// One step, augmented where that is needed; gives the estimate that it completes.
+    /// What the next step is to carry along: increments within windows, [`Carried::Rate`] just before one, which saves an evaluation.
+    #[inline]
+    pub fn carried(&self) -> Carried {
+        match self.n + 1 {
+            next if self.schedule.needs_increments(next) => Carried::Increments,
+            next if self.schedule.begins(next) => Carried::Rate,
+            _ => Carried::Nothing,
+        }
+    }
+
+    /// One step of the integrator with which the monitor began, and [`observe`](Monitor::observe).
     ///
     /// # Errors
-    /// As [`observe`](ShadowEnergy::observe).
+    /// As `observe`.
     #[inline]
-    pub fn step<M: System<Number = N>>(&mut self, system: &mut M) -> Result<Option<Sample<'_, N>>, RunError>
-    where
-        S: ValidFor<M::Class>,
-    {
-        if self.needs_increments() {
-            self.stepper.step_augmented(system);
-        } else if self.schedule.begins(self.n + 1) {
-            // the gradient at the first state of a window is the first one of an augmented step, too
-            self.stepper.step_before_augmented(system);
-        } else {
-            self.stepper.step(system);
-        }
-        self.observe(system)
+    pub fn step<I: Integrator<Number = N> + ?Sized>(
+        &mut self,
+        integrator: &mut I,
+    ) -> Result<Option<Sample<'_, N>>, RunError> {
+        integrator.step(self.carried());
+        self.observe(integrator.system())
     }
 
     /// Takes the state that a step has made, an augmented one where [`needs_increments`](ShadowEnergy::needs_increments) was true;
@@ -282,7 +210,10 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
     /// A state of a window, or its energy or modified energy, that is not finite. What is not finite stays so: between the
     /// windows it is found by the next one. A system of another dimension than at the start.
     #[inline]
-    pub fn observe<M: System<Number = N>>(&mut self, system: &mut M) -> Result<Option<Sample<'_, N>>, RunError> {
+    pub fn observe<M: System<Number = N> + ?Sized>(
+        &mut self,
+        system: &mut M,
+    ) -> Result<Option<Sample<'_, N>>, RunError> {
         self.n += 1;
         self.fastest.begin(self.n, system.p());
         if !self.schedule.takes(self.n) {
@@ -301,7 +232,7 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
 
     /// Takes a state of a window; returns whether it ends one.
     #[inline(always)]
-    fn take<M: System<Number = N>>(&mut self, system: &mut M) -> Result<bool, RunError> {
+    fn take<M: System<Number = N> + ?Sized>(&mut self, system: &mut M) -> Result<bool, RunError> {
         let (coordinates, begun) = (system.q().len(), self.fastest.dimension());
         if coordinates != begun {
             return Err(RunError::Dimension { coordinates, begun });

@@ -1,36 +1,30 @@
 //! The last step of a run in transformed time: to a given physical time.
 
-use crate::increments::Carried;
+use crate::integrator::Integrator;
 use crate::number::{Number, Ordered};
-use crate::scheme::{Scheme, ValidFor};
-use crate::scheme_maps::Maps;
-use crate::stepper::Stepper;
-use crate::system::System;
-use crate::weights::WeightLists;
 
 /// More iterations than any number type needs: bisections alone find double precision in 60.
 const MOST_ITERATIONS: u32 = 400;
 
 /// Makes one step after which the physical time, the last coordinate, is `until` to the last digits, and returns its size as a part of h.
-/// The scheme is that of the stepper, whose own step must not end before `until`; its weights times the part are rounded once.
+/// The step of the integrator itself must not end before `until`; it is made by [`Integrator::part_of_step`].
 ///
 /// The size is found by the secant method, within a bracket that shrinks in each iteration, with a trial step in each. `None` if the time
 /// is `until` already, or if a trial step is not finite; the system is then as it was.
-pub fn step_to_time<S, M>(stepper: &Stepper<S, M::Number>, system: &mut M, until: &M::Number) -> Option<M::Number>
+pub fn step_to_time<I>(integrator: &mut I, until: &I::Number) -> Option<I::Number>
 where
-    S: Scheme + ValidFor<M::Class>,
-    M: System<Number: Ordered>,
+    I: Integrator<Number: Ordered> + ?Sized,
 {
-    let context = system.state().context();
-    let zero = <M::Number as Number>::zero(&context);
-    let start = (system.q().to_vec(), system.p().to_vec());
-    let mut search = Search { start, stepper, until, best: None };
-    let mut low = (zero.clone(), search.missed(system));
+    let context = integrator.state().context();
+    let zero = <I::Number as Number>::zero(&context);
+    let start = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
+    let mut search = Search { start, until, best: None };
+    let mut low = (zero.clone(), search.missed(integrator));
     if low.1 == zero {
         return None;
     }
-    let one = <M::Number as Number>::from_rational(&num_traits::One::one(), &context);
-    let missed = search.after(system, &one)?;
+    let one = <I::Number as Number>::from_rational(&num_traits::One::one(), &context);
+    let missed = search.after(integrator, &one)?;
     let mut high = (one, missed);
     let mut latest = [low.clone(), high.clone()];
     for _ in 0..MOST_ITERATIONS {
@@ -38,7 +32,7 @@ where
         if high.1 == zero || part == low.0 || part == high.0 {
             break;
         }
-        let missed = search.after(system, &part)?;
+        let missed = search.after(integrator, &part)?;
         let point = (part, missed);
         let [_, newest] = latest;
         latest = [newest, point.clone()];
@@ -46,7 +40,7 @@ where
         *(if is_low { &mut low } else { &mut high }) = point;
     }
     let (part, _) = search.best.clone()?;
-    search.after(system, &part)?;
+    search.after(integrator, &part)?;
     Some(part)
 }
 
@@ -69,42 +63,29 @@ fn next_part<N: Ordered>(latest: &[Point<N>; 2], [low, high]: [&Point<N>; 2]) ->
     part
 }
 
-struct Search<'a, S: Scheme, N: Ordered> {
+struct Search<'a, N: Ordered> {
     start: (Vec<N>, Vec<N>),
-    stepper: &'a Stepper<S, N>,
     until: &'a N,
     /// The part that misses least, and by how much.
     best: Option<Point<N>>,
 }
 
-impl<S: Scheme, N: Ordered> Search<'_, S, N> {
-    /// t − until of the system.
-    fn missed<M: System<Number = N>>(&self, system: &M) -> N {
-        let mut missed = system.q().last().expect("a system has a coordinate").clone();
+impl<N: Ordered> Search<'_, N> {
+    /// t − until of the present state.
+    fn missed<I: Integrator<Number = N> + ?Sized>(&self, integrator: &I) -> N {
+        let mut missed = integrator.state().q().last().expect("a system has a coordinate").clone();
         missed.subtract(self.until);
         missed
     }
 
     /// t − until after a step of this part of h from the start; `None` if it is not finite.
-    fn after<M: System<Number = N>>(&mut self, system: &mut M, part: &N) -> Option<N>
-    where
-        S: ValidFor<M::Class>,
-    {
-        let times = |weight: &N, factor: &N| {
-            let mut product = weight.clone();
-            product.assign_product(weight, factor);
-            product
-        };
-        let linear = |weight: &N| times(weight, part);
-        // h³
-        let cubic = |weight: &N| times(&times(&times(weight, part), part), part);
-        let weights = S::Weights::from_vecs(self.stepper.weights().map(linear, cubic));
-        system.state_mut().set(&self.start.0, &self.start.1);
-        let maps = Maps::new(self.stepper.scheme(), &weights);
-        M::advance(std::slice::from_mut(system), &maps, 1, Carried::Nothing);
-        let missed = self.missed(system);
+    fn after<I: Integrator<Number = N> + ?Sized>(&mut self, integrator: &mut I, part: &N) -> Option<N> {
+        let begin = |integrator: &mut I| integrator.system().state_mut().set(&self.start.0, &self.start.1);
+        begin(integrator);
+        integrator.part_of_step(part);
+        let missed = self.missed(integrator);
         if !missed.is_finite() {
-            system.state_mut().set(&self.start.0, &self.start.1);
+            begin(integrator);
             return None;
         }
         let mut distance = missed.clone();

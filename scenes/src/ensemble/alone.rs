@@ -5,13 +5,13 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::thread;
 
 use shadowstep::ensemble::Outcome;
+use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::shadow::{BuildEstimator, Estimator, FixedBilinear};
-use shadowstep::{Scheme, Stepper, System, ValidFor};
+use shadowstep::{Carried, Integrator as _, VectorState};
 
 use super::settings::Observed;
 use crate::error::Error;
 use crate::scene::Scene;
-use crate::start::{Begin, Steps, Work};
 
 type EstimatorOf = <FixedBilinear as BuildEstimator<f64>>::Estimator;
 
@@ -43,18 +43,8 @@ pub(super) fn on_all_cores(
 
 /// What becomes of the trajectory of a scene; `continues` is asked now and then.
 pub(super) fn outcome(scene: &Scene, observed: Observed, continues: &dyn Fn() -> bool) -> Result<Outcome, Error> {
-    let steps = Steps {
-        scheme: &scene.scheme.scheme,
-        h: &scene.h,
-        compensated: scene.arithmetic.is_compensated(),
-        displaced: scene.displaced,
-        begin: Begin::InitialState,
-    };
-    let start = scene.system.start::<f64>(&());
-    let mut outcome = scene
-        .system
-        .with(steps, start, &(), Following { steps: scene.steps(), observed, continues })
-        .map_err(|error| Error::usage(error.to_string(), "check the initial state"))??;
+    let mut integrator = scene.integrator::<f64>(&())?;
+    let mut outcome = follow(&mut *integrator, scene.steps(), observed, continues)?;
     if let Some(mut shown) = scene.system.shown::<f64>(&()) {
         let (q, p) = shown.of_state(&outcome.q, &outcome.p);
         (outcome.q, outcome.p) = (q.to_vec(), p.to_vec());
@@ -63,49 +53,39 @@ pub(super) fn outcome(scene: &Scene, observed: Observed, continues: &dyn Fn() ->
 }
 
 /// A trajectory from its beginning to its end.
-struct Following<'a> {
+fn follow(
+    integrator: &mut VectorIntegrator<'_, f64>,
     steps: u64,
-    observed: Observed,
-    continues: &'a dyn Fn() -> bool,
-}
-
-impl Work<f64> for Following<'_> {
-    type Output = Result<Outcome, Error>;
-
-    fn with<S, M>(self, stepper: &Stepper<S, f64>, mut system: M) -> Self::Output
-    where
-        S: Scheme + Clone + ValidFor<M::Class> + 'static,
-        M: System<Number = f64> + 'static,
-    {
-        let Following { steps, observed: Observed { every, modified_energy }, continues } = self;
-        let estimator =
-            modified_energy.map(|k| FixedBilinear::new(k).build(stepper.step_size(), system.q().len(), &()));
-        let estimator = estimator.transpose();
-        let estimator = estimator.map_err(|error| Error::usage(error.to_string(), "give another order"))?;
-        let mut seen = Seen::new(stepper.at_output(&mut system, M::energy), estimator);
-        let mut window_end = 0;
-        for n in 0..steps {
-            if n % every == 0 {
-                // the states from here on up to the end of the window go to the estimator
-                window_end = seen.begin_window(&system, n, window_end);
-            }
-            if n < window_end {
-                stepper.step_augmented(&mut system);
-                seen.push(&system);
-            } else {
-                stepper.step(&mut system);
-            }
-            let made = n + 1;
-            if made % every == 0 || made == steps {
-                stepper.at_output(&mut system, |system| seen.look(system, made));
-            }
-            if made % AT_ONCE == 0 && !continues() {
-                return Err(Error::run("the ensemble was interrupted", "run it again"));
-            }
+    Observed { every, modified_energy }: Observed,
+    continues: &dyn Fn() -> bool,
+) -> Result<Outcome, Error> {
+    let estimator =
+        modified_energy.map(|k| FixedBilinear::new(k).build(integrator.step_size(), integrator.state().q().len(), &()));
+    let estimator = estimator.transpose();
+    let estimator = estimator.map_err(|error| Error::usage(error.to_string(), "give another order"))?;
+    let mut seen = Seen::new(at_output(integrator, |integrator| integrator.system().energy()), estimator);
+    let mut window_end = 0;
+    for n in 0..steps {
+        if n % every == 0 {
+            // the states from here on up to the end of the window go to the estimator
+            window_end = seen.begin_window(integrator.state(), n, window_end);
         }
-        stepper.postprocess(&mut system);
-        Ok(seen.outcome(&system))
+        if n < window_end {
+            integrator.step(Carried::Increments);
+            seen.push(integrator.state());
+        } else {
+            integrator.step(Carried::Nothing);
+        }
+        let made = n + 1;
+        if made % every == 0 || made == steps {
+            at_output(integrator, |integrator| seen.look(integrator, made));
+        }
+        if made % AT_ONCE == 0 && !continues() {
+            return Err(Error::run("the ensemble was interrupted", "run it again"));
+        }
     }
+    integrator.postprocess();
+    Ok(seen.outcome(integrator.state()))
 }
 
 /// What is seen of a trajectory.
@@ -127,9 +107,10 @@ impl Seen {
     }
 
     /// Looks at the state after n steps.
-    fn look<M: System<Number = f64>>(&mut self, system: &mut M, n: u64) {
-        let energy = system.energy();
-        let is_finite = energy.is_finite() && system.q().iter().chain(system.p()).all(|x| x.is_finite());
+    fn look(&mut self, integrator: &mut VectorIntegrator<'_, f64>, n: u64) {
+        let energy = integrator.system().energy();
+        let state = integrator.state();
+        let is_finite = energy.is_finite() && state.q().iter().chain(state.p()).all(|x| x.is_finite());
         if self.not_finite.is_none() && !is_finite {
             self.not_finite = Some(n);
         }
@@ -139,30 +120,30 @@ impl Seen {
     }
 
     /// A window of states for the modified energy begins at the present one, or the present window goes on; the n at which it ends.
-    fn begin_window<M: System<Number = f64>>(&mut self, system: &M, n: u64, window_end: u64) -> u64 {
+    fn begin_window(&mut self, state: &VectorState<f64>, n: u64, window_end: u64) -> u64 {
         let Some(estimator) = &self.estimator else { return 0 };
         let states = estimator.states() as u64;
         if n >= window_end {
             self.window = Some(estimator.clone());
-            self.push(system);
+            self.push(state);
         }
         n + states - 1
     }
 
-    fn push<M: System<Number = f64>>(&mut self, system: &M) {
+    fn push(&mut self, state: &VectorState<f64>) {
         let Some(window) = &mut self.window else { return };
-        let Some(estimate) = window.push(system.q(), system.p(), system.state().increments()) else { return };
+        let Some(estimate) = window.push(state.q(), state.p(), state.increments()) else { return };
         if estimate.value.is_finite() {
             // `min` and `max` ignore NaN
             self.modified = [self.modified[0].min(*estimate.value), self.modified[1].max(*estimate.value)];
         }
     }
 
-    fn outcome<M: System<Number = f64>>(&self, system: &M) -> Outcome {
+    fn outcome(&self, state: &VectorState<f64>) -> Outcome {
         let drift = self.modified[1] - self.modified[0];
         Outcome {
-            q: system.q().to_vec(),
-            p: system.p().to_vec(),
+            q: state.q().to_vec(),
+            p: state.p().to_vec(),
             energy_error: self.largest_error / self.initial.abs(),
             modified_drift: Some(drift).filter(|drift| drift.is_finite()),
             not_finite: self.not_finite,

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::scene::own::OwnPotential;
 use crate::scene::problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};
 use crate::split::{Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Shown, Split, TransformedTime};
-use crate::start::{Steps, Work};
+use crate::start::{SceneIntegrator, Steps};
 
 /// A problem and how its H is split for the steps.
 #[derive(Debug)]
@@ -172,7 +172,7 @@ impl System {
         self.transformed_time().map(|_| self.energy(context))
     }
 
-    /// Does some work with the system at a state and a scheme that is valid for it.
+    /// The system at a state with its stepper, whose scheme is valid for it.
     ///
     /// # Errors
     /// A state of another dimension.
@@ -180,14 +180,13 @@ impl System {
     /// # Panics
     /// If the step size is 0, the scheme is not valid for the parts or has gradient kicks that cannot be displaced as wanted, which reading a system
     /// and its scheme excludes.
-    pub fn with<N: Rounded + 'static, W: Work<N>>(
+    pub fn integrator<N: Rounded + 'static>(
         &self,
         steps: Steps<'_>,
         state: (Vec<N>, Vec<N>),
         context: &N::Context,
-        work: W,
-    ) -> Result<W::Output, MotionError> {
-        ask!(&self.parts, split => split.with(&self.problem, steps, state, context, work))
+    ) -> Result<SceneIntegrator<N>, MotionError> {
+        ask!(&self.parts, split => split.integrator(&self.problem, steps, state, context))
     }
 
     /// The function of the transformed time, if time is transformed. The last coordinate of states is then t, its momentum p_t = −H(0).

@@ -3,13 +3,11 @@
 use serde_json::{Value, json};
 use shadowstep::many_parts::{Part, PartFormula, SystemOfParts};
 use shadowstep::number::Rounded;
-use shadowstep::tables::TableScheme;
 use shadowstep::{MotionError, System as _};
 
 use super::{Class, Needs, Split, State};
-use crate::boxed::Boxed;
 use crate::scene::{EnergyAt, Formula, InitialValueProblem};
-use crate::start::{Steps, Work};
+use crate::start::{SceneIntegrator, Steps};
 
 /// H is the sum of these formulas.
 #[derive(Debug)]
@@ -31,16 +29,16 @@ impl Split for Formulas {
         Box::new(move |q, p| system.energy_at(q, p))
     }
 
-    fn with<N: Rounded + 'static, W: Work<N>>(
+    fn integrator<N: Rounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         steps: Steps<'_>,
         state: State<N>,
         context: &N::Context,
-        work: W,
-    ) -> Result<W::Output, MotionError> {
+    ) -> Result<SceneIntegrator<N>, MotionError> {
         let system = self.system(problem, &state, steps.compensated, context)?;
-        Ok(steps.begin(in_many_parts(steps.scheme), system, context, work))
+        let scheme = steps.scheme.clone().for_many_parts().expect("the scheme is valid for many parts");
+        Ok(steps.integrator(scheme, system, context))
     }
 
     fn hamiltonian(&self) -> Option<String> {
@@ -56,7 +54,7 @@ impl Formulas {
         (q, p): &State<N>,
         compensated: bool,
         context: &N::Context,
-    ) -> Result<Boxed<N>, MotionError> {
+    ) -> Result<SystemOfParts<N>, MotionError> {
         let dimension = problem.coordinates.len();
         if q.len() != dimension {
             return Err(MotionError::Potential { coordinates: q.len(), dimension });
@@ -64,14 +62,6 @@ impl Formulas {
         let parts = self.0.iter().map(|formula| formula.meaning().in_numbers(context));
         let parts = parts.map(|part| Ok(Box::new(part.map_err(|_| MotionError::Digits)?) as Box<dyn Part<N>>));
         let system = SystemOfParts::new(parts.collect::<Result<_, MotionError>>()?, q, p)?;
-        Ok(Boxed::ManyParts(Box::new(system.compensated_if(compensated))))
-    }
-}
-
-/// The scheme with the steps of many parts, which it has already where the scene was read with it.
-fn in_many_parts(scheme: &TableScheme) -> TableScheme {
-    match scheme.proved().proof.many_parts {
-        Some(_) => scheme.clone(),
-        None => scheme.clone().for_many_parts().expect("the scheme is valid for many parts").into(),
+        Ok(system.compensated_if(compensated))
     }
 }

@@ -7,7 +7,7 @@ use shadowstep::{Motion, MotionError};
 use super::{Class, Needs, Split, State};
 use crate::refusal::NoGradientKicks;
 use crate::scene::{ClassifiedKinetic, InitialValueProblem, PotentialEnergy};
-use crate::start::{Steps, Work};
+use crate::start::{SceneIntegrator, Steps};
 
 /// T(p) and U(q).
 #[derive(Clone, Copy, Debug)]
@@ -30,14 +30,13 @@ impl Split for KineticAndPotential {
         None
     }
 
-    fn with<N: Rounded + 'static, W: Work<N>>(
+    fn integrator<N: Rounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         steps: Steps<'_>,
         (q, p): State<N>,
         context: &N::Context,
-        work: W,
-    ) -> Result<W::Output, MotionError> {
+    ) -> Result<SceneIntegrator<N>, MotionError> {
         let (potential, displacements) = (problem.potential(context), steps.displacements(context));
         Ok(match problem.kinetic(context) {
             ClassifiedKinetic::Quadratic(kinetic) => {
@@ -45,12 +44,12 @@ impl Split for KineticAndPotential {
                 if let Some(displacements) = displacements {
                     motion = motion.displaced(displacements);
                 }
-                steps.begin(steps.scheme.clone(), motion.compensated_if(steps.compensated), context, work)
+                steps.integrator(steps.scheme.clone(), motion.compensated_if(steps.compensated), context)
             }
             ClassifiedKinetic::General(kinetic) => {
                 let scheme = steps.scheme.clone().for_every_kinetic().expect("the scheme was read for this T");
                 let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(steps.compensated);
-                steps.begin(scheme, motion, context, work)
+                steps.integrator(scheme, motion, context)
             }
         })
     }

@@ -9,10 +9,9 @@ use shadowstep_symbolic::decimal::from_text;
 
 use super::{Class, Needs, Split, State};
 use crate::arithmetic::{Arithmetic, LONGEST_EXACT_FLOW};
-use crate::boxed::Boxed;
 use crate::refusal::Refusal;
 use crate::scene::{InitialValueProblem, KineticEnergy};
-use crate::start::{Steps, Work};
+use crate::start::{SceneIntegrator, Steps};
 
 /// T(p) + ½qᵀKq with this K, row by row, and what is left of U.
 #[derive(Clone, Debug)]
@@ -33,24 +32,18 @@ impl Split for Linear {
         Some(("parts", json!(LINEAR)))
     }
 
-    fn with<N: Rounded + 'static, W: Work<N>>(
+    fn integrator<N: Rounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         steps: Steps<'_>,
         (q, p): State<N>,
         context: &N::Context,
-        work: W,
-    ) -> Result<W::Output, MotionError> {
+    ) -> Result<SceneIntegrator<N>, MotionError> {
         let mut system = LinearPart::new(problem.potential(context), &problem.exact_masses(), &self.0, &q, &p)?;
         if let Some(displacements) = steps.displacements(context) {
             system = system.displaced(displacements);
         }
-        Ok(steps.begin(
-            steps.scheme.clone(),
-            Boxed::Quadratic(Box::new(system.compensated_if(steps.compensated))),
-            context,
-            work,
-        ))
+        Ok(steps.integrator(steps.scheme.clone(), system.compensated_if(steps.compensated), context))
     }
 }
 

@@ -6,10 +6,9 @@ use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, Trans
 use shadowstep::{Kinetic, Motion, MotionError, Number, Ordered, Potential};
 
 use super::{Class, Needs, Shown, Split, State};
-use crate::boxed::Boxed;
 use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
 use crate::scene::{ClassifiedKinetic, EnergyAt, InitialValueProblem};
-use crate::start::{Steps, Work};
+use crate::start::{SceneIntegrator, Steps};
 
 /// f(T + p_t) and −f(−U): the steps are in a fictitious time.
 #[derive(Clone, Copy, Debug)]
@@ -71,20 +70,18 @@ impl Split for TransformedTime {
         Box::new(move |q, p| energy(&q[..dimension], &p[..dimension]))
     }
 
-    fn with<N: Rounded + 'static, W: Work<N>>(
+    fn integrator<N: Rounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         steps: Steps<'_>,
         state: State<N>,
         context: &N::Context,
-        work: W,
-    ) -> Result<W::Output, MotionError> {
-        let (time, potential) = (self.0, problem.potential(context));
-        let system = match problem.kinetic(context) {
-            ClassifiedKinetic::Quadratic(kinetic) => motion(time, potential, kinetic, state, steps.compensated)?,
-            ClassifiedKinetic::General(kinetic) => motion(time, potential, kinetic, state, steps.compensated)?,
-        };
-        Ok(steps.begin(steps.scheme.clone(), system, context, work))
+    ) -> Result<SceneIntegrator<N>, MotionError> {
+        let potential = TransformedPotential::new(self.0, problem.potential(context));
+        match problem.kinetic(context) {
+            ClassifiedKinetic::Quadratic(kinetic) => self.of_kinetic(potential, kinetic, steps, state, context),
+            ClassifiedKinetic::General(kinetic) => self.of_kinetic(potential, kinetic, steps, state, context),
+        }
     }
 
     fn transformed_time(&self) -> Option<TimeTransformation> {
@@ -112,6 +109,19 @@ impl TransformedTime {
             None => Ok(TransformedTime(time)),
         }
     }
+
+    fn of_kinetic<N: Rounded + 'static, K: Kinetic<N> + 'static>(
+        &self,
+        potential: TransformedPotential<Box<dyn Potential<N>>>,
+        kinetic: K,
+        steps: Steps<'_>,
+        (q, p): State<N>,
+        context: &N::Context,
+    ) -> Result<SceneIntegrator<N>, MotionError> {
+        let motion = Motion::new(potential, TransformedKinetic::new(self.0, kinetic), q, p)?;
+        let scheme = steps.scheme.clone().for_every_kinetic().expect("the scheme was read for transformed time");
+        Ok(steps.integrator(scheme, motion.compensated_if(steps.compensated), context))
+    }
 }
 
 /// Why the initial state has no transformed time, in double precision.
@@ -128,15 +138,4 @@ fn wrong_sign(problem: &InitialValueProblem) -> Option<String> {
             energy.to_text()
         )
     })
-}
-
-fn motion<N: Number + 'static, K: Kinetic<N> + 'static>(
-    time: TimeTransformation,
-    potential: Box<dyn Potential<N>>,
-    kinetic: K,
-    (q, p): (Vec<N>, Vec<N>),
-    compensated: bool,
-) -> Result<Boxed<N>, MotionError> {
-    let (potential, kinetic) = (TransformedPotential::new(time, potential), TransformedKinetic::new(time, kinetic));
-    Ok(Boxed::General(Box::new(Motion::new(potential, kinetic, q, p)?.compensated_if(compensated))))
 }

@@ -1,16 +1,14 @@
 //! The Kepler orbits of planets, and their interactions.
 
 use serde_json::{Value, json};
-use shadowstep::displaced::Displacements;
 use shadowstep::number::Rounded;
 use shadowstep::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
-use shadowstep::{MotionError, Number, System as _};
+use shadowstep::{MotionError, Number, Scheme, System as _, ValidFor};
 
 use super::{Class, Needs, Shown, Split, State};
-use crate::boxed::Boxed;
 use crate::refusal::{NoGradientKicks, Refusal};
 use crate::scene::{EnergyAt, InitialValueProblem};
-use crate::start::{Steps, Work};
+use crate::start::{SceneIntegrator, Steps};
 
 /// A planetary system of point masses, the central body first.
 #[derive(Clone, Debug)]
@@ -42,6 +40,22 @@ impl Canonical {
     }
 }
 
+/// Calls a method of [`Planets`] for their coordinates.
+macro_rules! in_coordinates {
+    ($planets:expr, $method:ident::<$number:ty>($($argument:expr),*)) => {
+        match ($planets.coordinates, $planets.dimensions) {
+            (Canonical::Jacobi, 2) => $planets.$method::<$number, Jacobi<$number, 2>, 2>($($argument),*),
+            (Canonical::Jacobi, _) => $planets.$method::<$number, Jacobi<$number, 3>, 3>($($argument),*),
+            (Canonical::DemocraticHeliocentric, 2) => {
+                $planets.$method::<$number, DemocraticHeliocentric<$number, 2>, 2>($($argument),*)
+            }
+            (Canonical::DemocraticHeliocentric, _) => {
+                $planets.$method::<$number, DemocraticHeliocentric<$number, 3>, 3>($($argument),*)
+            }
+        }
+    };
+}
+
 /// A number for each planet, from Q.
 pub(crate) type OfPlanets = Box<dyn FnMut(&[f64]) -> Vec<f64>>;
 
@@ -66,33 +80,49 @@ impl Split for Planets {
     fn start<N: Number + 'static>(
         &self,
         _: &InitialValueProblem,
-        inertial: State<N>,
+        (mut q, mut p): State<N>,
         context: &N::Context,
     ) -> State<N> {
-        self.canonical((&inertial.0, &inertial.1), context)
+        let inertial = (q.clone(), p.clone());
+        in_coordinates!(self, convert::<N>(&inertial, (&mut q, &mut p), context));
+        (q, p)
     }
 
     fn shown<N: Number + 'static>(&self, _: &InitialValueProblem, context: &N::Context) -> Option<Shown<N>> {
         Some(self.inertial(context))
     }
 
-    fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
-        let (q, p) = self.start(problem, problem.initial(context), context);
-        let system = self.system((&q, &p), false, None, context);
-        let mut system = system.expect("the dimensions were read with the system");
-        Box::new(move |q, p| system.energy_at(q, p))
+    fn energy<N: Rounded + 'static>(&self, _: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+        in_coordinates!(self, energy_at::<N>(context))
     }
 
-    fn with<N: Rounded + 'static, W: Work<N>>(
+    fn integrator<N: Rounded + 'static>(
         &self,
         _: &InitialValueProblem,
         steps: Steps<'_>,
         (q, p): State<N>,
         context: &N::Context,
-        work: W,
-    ) -> Result<W::Output, MotionError> {
-        let system = self.system((&q, &p), steps.compensated, steps.displacements(context), context)?;
-        Ok(steps.begin(steps.scheme.clone(), system, context, work))
+    ) -> Result<SceneIntegrator<N>, MotionError> {
+        let (coordinates, dimension) = (q.len(), self.bodies.count() * self.dimensions);
+        if coordinates != dimension {
+            return Err(MotionError::Potential { coordinates, dimension });
+        }
+        if p.len() != coordinates {
+            return Err(MotionError::Momenta { coordinates, momenta: p.len() });
+        }
+        let state = (q, p);
+        let scheme = steps.scheme.clone();
+        Ok(match (self.coordinates, self.dimensions) {
+            (Canonical::Jacobi, 2) => self.moved::<N, Jacobi<N, 2>, 2, _>(scheme, steps, &state, context),
+            (Canonical::Jacobi, _) => self.moved::<N, Jacobi<N, 3>, 3, _>(scheme, steps, &state, context),
+            (Canonical::DemocraticHeliocentric, dimensions) => {
+                let scheme = scheme.for_every_kinetic().expect("the scheme was read for these coordinates");
+                match dimensions {
+                    2 => self.moved::<N, DemocraticHeliocentric<N, 2>, 2, _>(scheme, steps, &state, context),
+                    _ => self.moved::<N, DemocraticHeliocentric<N, 3>, 3, _>(scheme, steps, &state, context),
+                }
+            }
+        })
     }
 }
 
@@ -113,25 +143,15 @@ impl Planets {
 
     /// From the coordinates of the steps to inertial ones.
     pub(crate) fn inertial<N: Number + 'static>(&self, context: &N::Context) -> Shown<N> {
-        match (self.coordinates, self.dimensions) {
-            (Canonical::Jacobi, 2) => shown::<N, Jacobi<N, 2>, 2>(self, context),
-            (Canonical::Jacobi, _) => shown::<N, Jacobi<N, 3>, 3>(self, context),
-            (Canonical::DemocraticHeliocentric, 2) => shown::<N, DemocraticHeliocentric<N, 2>, 2>(self, context),
-            (Canonical::DemocraticHeliocentric, _) => shown::<N, DemocraticHeliocentric<N, 3>, 3>(self, context),
-        }
+        in_coordinates!(self, shown_by::<N>(context))
     }
 
     /// Computes |B_Q|/|A_Q| of each planet, from Q.
     pub(crate) fn epsilon(&self) -> OfPlanets {
-        match (self.coordinates, self.dimensions) {
-            (Canonical::Jacobi, 2) => self.ratios::<Jacobi<f64, 2>, 2>(),
-            (Canonical::Jacobi, _) => self.ratios::<Jacobi<f64, 3>, 3>(),
-            (Canonical::DemocraticHeliocentric, 2) => self.ratios::<DemocraticHeliocentric<f64, 2>, 2>(),
-            (Canonical::DemocraticHeliocentric, _) => self.ratios::<DemocraticHeliocentric<f64, 3>, 3>(),
-        }
+        in_coordinates!(self, ratios::<f64>())
     }
 
-    fn ratios<C: PlanetaryCoordinates<f64, D> + 'static, const D: usize>(&self) -> OfPlanets {
+    fn ratios<N, C: PlanetaryCoordinates<f64, D> + 'static, const D: usize>(&self) -> OfPlanets {
         let mut coordinates = C::new(&self.bodies, &());
         let mut gradient = vec![0.0; self.bodies.count() * D];
         Box::new(move |q| {
@@ -142,97 +162,62 @@ impl Planets {
         })
     }
 
-    /// The system at a state in the coordinates of its steps.
-    ///
-    /// # Errors
-    /// A state of another dimension.
-    fn system<N: Number + 'static>(
+    /// The system at a state in the coordinates of its steps, with its stepper.
+    fn moved<N, C, const D: usize, S>(
         &self,
-        (q, p): (&[N], &[N]),
-        compensated: bool,
-        displacements: Option<Displacements<N>>,
+        scheme: S,
+        steps: Steps<'_>,
+        (q, p): &State<N>,
         context: &N::Context,
-    ) -> Result<Boxed<N>, MotionError> {
-        let (coordinates, dimension) = (q.len(), self.bodies.count() * self.dimensions);
-        if coordinates != dimension {
-            return Err(MotionError::Potential { coordinates, dimension });
+    ) -> SceneIntegrator<N>
+    where
+        N: Rounded + 'static,
+        C: PlanetaryCoordinates<N, D> + 'static,
+        S: Scheme + ValidFor<C::Class> + 'static,
+    {
+        let mut system = self.at_rest::<N, C, D>(context);
+        if let Some(displacements) = steps.displacements(context) {
+            system = system.displaced(displacements);
         }
-        if p.len() != coordinates {
-            return Err(MotionError::Momenta { coordinates, momenta: p.len() });
+        if steps.compensated {
+            system = system.compensated();
         }
-        let mut system = match (self.coordinates, self.dimensions) {
-            (Canonical::Jacobi, 2) => {
-                let system = self.at_rest::<N, Jacobi<N, 2>, 2>(compensated, context);
-                Boxed::Quadratic(Box::new(by_forces(system, displacements)))
-            }
-            (Canonical::Jacobi, _) => {
-                let system = self.at_rest::<N, Jacobi<N, 3>, 3>(compensated, context);
-                Boxed::Quadratic(Box::new(by_forces(system, displacements)))
-            }
-            (Canonical::DemocraticHeliocentric, 2) => {
-                Boxed::General(Box::new(self.at_rest::<N, DemocraticHeliocentric<N, 2>, 2>(compensated, context)))
-            }
-            (Canonical::DemocraticHeliocentric, _) => {
-                Boxed::General(Box::new(self.at_rest::<N, DemocraticHeliocentric<N, 3>, 3>(compensated, context)))
-            }
-        };
         system.state_mut().set(q, p);
-        Ok(system)
+        steps.integrator(scheme, system, context)
+    }
+
+    fn energy_at<N: Number + 'static, C: PlanetaryCoordinates<N, D> + 'static, const D: usize>(
+        &self,
+        context: &N::Context,
+    ) -> EnergyAt<N> {
+        let mut system = self.at_rest::<N, C, D>(context);
+        Box::new(move |q, p| system.energy_at(q, p))
     }
 
     /// All bodies at 0.
     fn at_rest<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize>(
         &self,
-        compensated: bool,
         context: &N::Context,
     ) -> WisdomHolman<N, C, D> {
         let zeros = vec![N::zero(context); self.bodies.count() * D];
-        let system = WisdomHolman::new(&self.bodies, (&zeros, &zeros), context).expect("it is a state of all bodies");
-        if compensated { system.compensated() } else { system }
+        WisdomHolman::new(&self.bodies, (&zeros, &zeros), context).expect("it is a state of all bodies")
     }
 
     /// The coordinates of the steps at an inertial state.
-    fn canonical<N: Number + 'static>(&self, inertial: (&[N], &[N]), context: &N::Context) -> (Vec<N>, Vec<N>) {
-        let (mut q, mut p) = (inertial.0.to_vec(), inertial.1.to_vec());
-        let own = (&mut q[..], &mut p[..]);
-        match (self.coordinates, self.dimensions) {
-            (Canonical::Jacobi, 2) => self.convert::<N, Jacobi<N, 2>, 2>(inertial, own, context),
-            (Canonical::Jacobi, _) => self.convert::<N, Jacobi<N, 3>, 3>(inertial, own, context),
-            (Canonical::DemocraticHeliocentric, 2) => {
-                self.convert::<N, DemocraticHeliocentric<N, 2>, 2>(inertial, own, context);
-            }
-            (Canonical::DemocraticHeliocentric, _) => {
-                self.convert::<N, DemocraticHeliocentric<N, 3>, 3>(inertial, own, context);
-            }
-        }
-        (q, p)
-    }
-
     fn convert<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize>(
         &self,
-        inertial: (&[N], &[N]),
+        (q, p): &State<N>,
         own: (&mut [N], &mut [N]),
         context: &N::Context,
     ) {
-        C::new(&self.bodies, context).assign_from_inertial(inertial, own);
+        C::new(&self.bodies, context).assign_from_inertial((q, p), own);
     }
-}
 
-fn shown<N: Number + 'static, C: PlanetaryCoordinates<N, D> + 'static, const D: usize>(
-    planets: &Planets,
-    context: &N::Context,
-) -> Shown<N> {
-    let mut coordinates = C::new(&planets.bodies, context);
-    Shown::by(planets.bodies.count() * D, context, move |state, shown| coordinates.assign_inertial(state, shown))
-}
-
-/// With gradient kicks by displaced forces, if these are given.
-fn by_forces<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize>(
-    system: WisdomHolman<N, C, D>,
-    displacements: Option<Displacements<N>>,
-) -> WisdomHolman<N, C, D> {
-    match displacements {
-        Some(displacements) => system.displaced(displacements),
-        None => system,
+    fn shown_by<N: Number + 'static, C: PlanetaryCoordinates<N, D> + 'static, const D: usize>(
+        &self,
+        context: &N::Context,
+    ) -> Shown<N> {
+        let mut coordinates = C::new(&self.bodies, context);
+        Shown::by(self.bodies.count() * D, context, move |state, shown| coordinates.assign_inertial(state, shown))
     }
 }

@@ -148,8 +148,8 @@ fn other_systems_are_refused() {
     let settings = Bilinear::with_error(8);
     let mut precise = comet::<Float>(&precision(60));
     assert_eq!(ShadowEnergy::new(stepper.clone(), &mut precise, &settings).map(drop), Err(RunError::Precision));
-    assert_eq!(ShadowRun::new(&stepper, precise, 10, &settings).map(drop), Err(RunError::Precision));
-    assert!(ShadowRun::new(&stepper, comet::<Float>(&precision(30)), 10, &settings).is_ok());
+    assert_eq!(ShadowRun::new(stepper.with(precise), 10, &settings).map(drop), Err(RunError::Precision));
+    assert!(ShadowRun::new(stepper.with(comet::<Float>(&precision(30))), 10, &settings).is_ok());
 
     let stepper = shadowstep_tests::stepper("stormer-verlet", "1/20", &());
     let pendulum = || Motion::new(Pendulum, UnitMasses, vec![0.0], vec![1.0]).unwrap();

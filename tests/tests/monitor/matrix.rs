@@ -19,7 +19,7 @@ fn verdicts_of(scene: &Scene, scheme: &str, part: f64) -> Vec<Report<f64>> {
         // what is not finite stays so, and each monitor has to see it
         monitors.iter_mut().for_each(|monitor| drop(monitor.observe(&mut motion)));
     }
-    monitors.iter().map(ShadowEnergy::report).collect()
+    monitors.iter().map(|monitor| monitor.report()).collect()
 }
 
 /// max − min of H in a run of three times the length; infinite where it is not finite.

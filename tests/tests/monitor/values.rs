@@ -63,7 +63,7 @@ fn has_the_values_of_a_run<N: Bits>(settings: &(impl BuildEstimator<N> + std::fm
     const STEPS: u64 = 400;
     for name in ["stormer-verlet", "ruth3"] {
         let stepper = stepper(name, "1/10", context);
-        let mut run = ShadowRun::new(&stepper, henon_heiles::<N>(context), STEPS, settings).unwrap();
+        let mut run = ShadowRun::new(stepper.with(henon_heiles::<N>(context)), STEPS, settings).unwrap();
         let mut expected = Vec::new();
         let mut energies = henon_heiles::<N>(context);
         while let Some((n, estimate)) = run.advance().unwrap() {

@@ -13,7 +13,7 @@ fn of_our_own_trajectory_they_are_those_of_the_run() {
     let verlet = stepper::<f64>("stormer-verlet", "0.004", &());
     let motion = |[q, p]: [Vec<f64>; 2]| Motion::new(fluid, UnitMasses, q, p).unwrap();
     for settings in [Bilinear::new(4), Bilinear::new(7), Bilinear::with_error(8)] {
-        let own = values(ShadowRun::new(&verlet, motion(fluid.start()), 50, &settings).unwrap());
+        let own = values(ShadowRun::new(verlet.with(motion(fluid.start())), 50, &settings).unwrap());
         let logged = Logged::new(&fluid, &[1.0; 81], 0.004, fluid.start(), 50);
         let found = values_of(logged.log(), &h, &[1.0; 81], &settings);
         let with_rates = Log::with_rates(81, [&logged.q, &logged.p], [&logged.energies, &logged.rates]).unwrap();
@@ -66,25 +66,25 @@ fn repeated_steps_give_the_bits_of_the_run() {
     for name in ["stormer-verlet", "symplectic-euler", "yoshida4"] {
         let scheme = stepper::<f64>(name, "0.004", &());
         let (mut q, mut p) = (Vec::new(), Vec::new());
-        let mut trajectory = Trajectory::plain(&scheme, motion(), 0, 40).unwrap();
+        let mut trajectory = Trajectory::plain(scheme.with(motion()), 0, 40).unwrap();
         while let Some(state) = trajectory.advance().unwrap() {
             q.extend(state.q);
             p.extend(state.p);
         }
-        let own = values(ShadowRun::new(&scheme, motion(), 40, &settings).unwrap());
-        let found = values(Repeated::new(&scheme, motion(), &q, &p).unwrap().estimates(&settings).unwrap());
+        let own = values(ShadowRun::new(scheme.with(motion()), 40, &settings).unwrap());
+        let found = values(Repeated::new(scheme.with(motion()), &q, &p).unwrap().estimates(&settings).unwrap());
         assert!(found.len() > 20);
         assert!(found.iter().all(|&(n, value)| own[n as usize] == (n, value)), "{name}");
     }
     // states of another step size
     let (scheme, other) = (stepper::<f64>("yoshida4", "0.004", &()), stepper::<f64>("yoshida4", "0.00404", &()));
-    let mut trajectory = Trajectory::plain(&scheme, motion(), 0, 2).unwrap();
+    let mut trajectory = Trajectory::plain(scheme.with(motion()), 0, 2).unwrap();
     let (mut q, mut p) = (Vec::new(), Vec::new());
     while let Some(state) = trajectory.advance().unwrap() {
         q.extend(state.q);
         p.extend(state.p);
     }
-    let mut repeated = Repeated::new(&other, motion(), &q, &p).unwrap();
+    let mut repeated = Repeated::new(other.with(motion()), &q, &p).unwrap();
     while repeated.advance().unwrap().is_some() {}
     let [of_q, of_p] = repeated.differences().unwrap();
     assert!((of_q.slope + 0.0099).abs() < 1e-4, "{of_q:?}");

@@ -11,8 +11,8 @@ use shadowstep::number::{Limbs, Number, Ordered};
 use shadowstep::problems::{Kepler, problem};
 use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential, step_to_time};
 use shadowstep::{
-    Coordinates, DiagonalMasses, Kinetic, Motion, Potential, Rational, Scheme, Stepper, System, ValidFor, exact, kinetic::General,
-    pairs::Pairs, potential,
+    Coordinates, DiagonalMasses, Kinetic, Motion, Potential, Rational, Scheme, Stepper, System, ValidFor, exact,
+    kinetic::General, pairs::Pairs, potential,
 };
 
 potential! {
@@ -121,25 +121,24 @@ where
     for _ in 0..ROUNDS {
         let (start, mut runs) = (ThreadTime::now(), 0);
         while runs == 0 || start.elapsed() < SHORTEST {
-            end = system();
-            run(stepper, &mut end, until);
+            end = run(stepper, system(), until);
             runs += 1;
         }
         least = least.min(start.elapsed().as_secs_f64() / f64::from(runs));
     }
-    let forces = end.evaluations();
+    let forces = end.state().evaluations();
     (least, end, forces)
 }
 
 /// Steps until the next one would pass `until`, and the last one to it.
-fn run<S, M>(stepper: &Stepper<S, M::Number>, system: &mut M, until: &M::Number)
+fn run<S, M>(stepper: &Stepper<S, M::Number>, mut system: M, until: &M::Number) -> M
 where
     S: Scheme + Clone + ValidFor<General>,
     M: System<Number: Ordered, Class = General>,
 {
     let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
     loop {
-        stepper.step(system);
+        stepper.step(&mut system);
         // not finite counts as passed
         if system.q().last().is_none_or(|t| t.partial_cmp(until) != Some(std::cmp::Ordering::Less)) {
             break;
@@ -148,7 +147,9 @@ where
         p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
     }
     system.state_mut().set(&q, &p);
-    step_to_time(stepper, system, until);
+    let mut integrator = stepper.with(system);
+    step_to_time(&mut integrator, until);
+    integrator.into_system()
 }
 
 /// q, t and p, p_t at the start, and the masses.
@@ -192,19 +193,10 @@ fn reference(encounter: &Encounter, h: &str) -> Vec<Limbs<4>> {
     let (q, p, masses) = start::<Limbs<4>>(encounter);
     let stepper = Stepper::new(SofroniouSpaletta10, h).expect("it is nonzero");
     let until = Limbs::from_rational(&exact(encounter.until).expect("a time"), &());
-    let end = |mut system: Box<dyn FnMut() -> Vec<Limbs<4>>>| system();
     if q.len() == 3 {
-        let mut system = motion((q, p), (Kepler, shadowstep::UnitMasses));
-        return end(Box::new(move || {
-            run(&stepper, &mut system, &until);
-            system.q().to_vec()
-        }));
+        return run(&stepper, motion((q, p), (Kepler, shadowstep::UnitMasses)), &until).q().to_vec();
     }
-    let mut system = motion((q, p), gravity::<Limbs<4>>(&masses));
-    end(Box::new(move || {
-        run(&stepper, &mut system, &until);
-        system.q().to_vec()
-    }))
+    run(&stepper, motion((q, p), gravity::<Limbs<4>>(&masses)), &until).q().to_vec()
 }
 
 fn array<const D: usize>(numbers: &[f64]) -> [f64; D] {
@@ -219,12 +211,14 @@ fn main() {
         }
         if words.first().is_some_and(|word| word == "reference") {
             let step = words.get(2).map_or("1/128", String::as_str);
-            let texts: Vec<String> = reference(&encounter, step).iter().map(|x| format!("{:.25}", x.to_text())).collect();
+            let texts: Vec<String> =
+                reference(&encounter, step).iter().map(|x| format!("{:.25}", x.to_text())).collect();
             println!("{} {}", encounter.name, texts.join(" "));
             continue;
         }
         let (q, p, masses) = start::<f64>(&encounter);
-        let reference: Vec<f64> = reference(&encounter, "1/128").iter().take(q.len() - 1).map(Ordered::to_f64).collect();
+        let reference: Vec<f64> =
+            reference(&encounter, "1/128").iter().take(q.len() - 1).map(Ordered::to_f64).collect();
         if q.len() == 3 {
             let system = motion((array::<3>(&q), array::<3>(&p)), (Kepler, shadowstep::UnitMasses));
             sweep(&Posed { encounter: &encounter, reference, system: || system.clone() });

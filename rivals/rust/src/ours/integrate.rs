@@ -2,11 +2,12 @@
 
 use shadowstep::number::{Float, Fused, Lanes, Number, Ordered, Precision};
 use shadowstep::pairs::{Ends, Pairs};
-use shadowstep::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
 use shadowstep::problems::{CubicSpring, Gravity, HenonHeiles, Kepler, LennardJones};
 use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential, step_to_time};
+use shadowstep::wisdom_holman::{Bodies, Jacobi, WisdomHolman};
 use shadowstep::{
-    DiagonalMasses, Kinetic, Motion, Potential, Rational, Scheme, Stepper, System, UnitMasses, ValidFor, exact,
+    DiagonalMasses, Integrator as _, Kinetic, Motion, Potential, Rational, Scheme, Stepper, System, UnitMasses,
+    ValidFor, exact,
     kinetic::{General, Quadratic},
 };
 
@@ -198,7 +199,7 @@ impl<M: System<Class = Quadratic, Number: Ordered>> WithScheme for Run<'_, M> {
     fn with<S: Scheme + ValidFor<Quadratic>>(self, scheme: S) -> Answer {
         let Run { request, mut system } = self;
         let h = step_size(request.until, request.steps());
-        let stepper = Stepper::with_context(scheme, h, &system.context()).expect("a step size");
+        let stepper = Stepper::with_context(scheme, h, &system.state().context()).expect("a step size");
         let mut answer = Answer::default();
         for _ in 0..request.samples {
             answer.time(|| stepper.steps(std::slice::from_mut(&mut system), request.steps() / request.samples));
@@ -238,12 +239,15 @@ struct RunLogarithmic<'a, N, M> {
     system: M,
 }
 
-impl<N: Ordered<Context = ()>, M: System<Number = N, Class = General> + Clone> WithGeneralScheme for RunLogarithmic<'_, N, M> {
+impl<N: Ordered<Context = ()>, M: System<Number = N, Class = General> + Clone> WithGeneralScheme
+    for RunLogarithmic<'_, N, M>
+{
     type Result = Answer;
 
     fn with<S: Scheme + ValidFor<General> + Clone>(self, scheme: S) -> Answer {
         let RunLogarithmic { request, number, mut system } = self;
-        let stepper = Stepper::with_context(scheme, step_size(request.until, request.steps()), &()).expect("a step size");
+        let stepper =
+            Stepper::with_context(scheme, step_size(request.until, request.steps()), &()).expect("a step size");
         let mut answer = Answer::default();
         for sample in 1..=request.samples {
             let until = number(request.until * sample as f64 / request.samples as f64);
@@ -252,11 +256,12 @@ impl<N: Ordered<Context = ()>, M: System<Number = N, Class = General> + Clone> W
                     stepper.step(&mut system);
                 }
                 stepper.step_back(&mut system);
-                let mut at_sample = system.clone();
-                step_to_time(&stepper, &mut at_sample, &until);
+                let mut at_sample = stepper.with(system.clone());
+                step_to_time(&mut at_sample, &until);
                 at_sample
             });
-            answer.state(at_sample.q()[..2].iter().chain(&at_sample.p()[..2]).map(Ordered::to_f64));
+            let state = at_sample.state();
+            answer.state(state.q()[..2].iter().chain(&state.p()[..2]).map(Ordered::to_f64));
         }
         answer
     }

@@ -30,7 +30,7 @@ impl<N: Ordered> RateCheck<N> {
     }
 
     /// Compares H as the system gives it at its present state.
-    pub(super) fn compare<M: System<Number = N>>(&mut self, system: &mut M, energy: &N) {
+    pub(super) fn compare<M: System<Number = N> + ?Sized>(&mut self, system: &mut M, energy: &N) {
         self.q.iter_mut().zip(system.q()).for_each(|(own, q)| own.assign(q));
         self.p.iter_mut().zip(system.p()).for_each(|(own, p)| own.assign(p));
         system.assign_energies(Some((&self.q, &self.p)), &mut self.energy, &mut self.kinetic);

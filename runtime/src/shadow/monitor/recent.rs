@@ -126,7 +126,7 @@ impl<N: Ordered> Recent<N> {
 
     /// Takes the next state of a window, to which an augmented step may have led.
     #[inline(always)]
-    pub(super) fn push<M: System<Number = N>>(&mut self, system: &M, is_augmented: bool) {
+    pub(super) fn push<M: System<Number = N> + ?Sized>(&mut self, system: &M, is_augmented: bool) {
         let (q, p, added) = (system.q(), system.p(), system.state().increments());
         self.newest = if self.newest + 1 < KEPT { self.newest + 1 } else { 0 };
         let [before, last, own] = in_order(&mut self.states, self.newest, q.len());

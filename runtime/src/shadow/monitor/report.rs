@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use num_traits::Signed;
 
-use super::ShadowEnergy;
+use super::Monitor;
 use super::arithmetic::{difference, integer, quotient, root};
 use super::change::Change;
 use super::estimated::Estimated;
@@ -15,7 +15,6 @@ use super::turning::Turning;
 use super::verdict::{Advice, Evidence, Missing, Verdict};
 use crate::Rational;
 use crate::number::Ordered;
-use crate::scheme::Scheme;
 use crate::shadow::Estimator;
 
 /// The energies of a run.
@@ -111,7 +110,7 @@ pub struct Report<N> {
 /// What the energy shows is slower by this factor than a coordinate that has no part in it.
 const SLOWER: f64 = 10.0;
 
-impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
+impl<N: Ordered, E: Estimator<N>> Monitor<N, E> {
     /// The report on the run so far.
     pub fn report(&self) -> Report<N> {
         let (statistics, context) = (&self.statistics, self.method.context());
@@ -127,7 +126,7 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
         let mut round_off: N = root(&integer(self.n, &context));
         round_off.multiply(&kick);
         let mut time: N = integer(self.n, &context);
-        time.multiply(&N::from_rational(&self.stepper.h().abs(), &context));
+        time.multiply(&N::from_rational(&self.h.exact().abs(), &context));
         let turning = self.recent.turning();
         let trend_ratio = trend_ratio(&accurate, &range);
         let mut report = Report {
@@ -179,7 +178,7 @@ impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
             moves: self.recent.moves(),
             energy_change,
             modified_change,
-            action: self.recent.action(self.stepper.h()),
+            action: self.recent.action(self.h.exact()),
             distance: self.statistics.distance_of_error(),
             last_term: quotient(&self.recent.last_term(), &self.statistics.error_rms()).to_f64(),
             error_rms: report.part(&self.statistics.error_rms()),
