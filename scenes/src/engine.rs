@@ -1,14 +1,17 @@
 //! The run of a scene: only what it asks for is computed.
 
+use std::mem::take;
+use std::ops::ControlFlow::{self, Break, Continue};
 use std::time::{Duration, Instant};
 
 use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::number::Rounded;
-use shadowstep::run::{RunError, ShadowRun, States, Trajectory};
-use shadowstep::shadow::EstimatorSettings;
-use shadowstep::{Integrator as _, MotionError, Ordered};
+use shadowstep::run::RunError;
+use shadowstep::shadow::Estimate;
+use shadowstep::{Carried, MotionError, Ordered};
 
 use crate::error::Error;
+use crate::follow::{Follower, follow};
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::physical_end::last_step;
@@ -42,7 +45,7 @@ pub enum Outcome {
 pub(crate) type Ended = (Outcome, Option<Summary>);
 
 /// Runs the scene, from a checkpoint if there is one, until it is complete or the observer stops it.
-pub(crate) fn follow<N: Rounded + 'static>(
+pub(crate) fn run<N: Rounded + 'static>(
     scene: &Scene,
     context: &N::Context,
     rows: &mut Rows<'_>,
@@ -63,6 +66,7 @@ pub(crate) fn follow<N: Rounded + 'static>(
     if let Some(remainders) = remainders {
         integrator.system().state_mut().set_remainders(&remainders);
     }
+    let from = saved.map(|saved| saved.n);
     let mut recorder = Recorder {
         scene,
         run: scene.as_run(),
@@ -72,13 +76,19 @@ pub(crate) fn follow<N: Rounded + 'static>(
         last_checkpoint: Instant::now(),
         last_state: Instant::now(),
         observer,
-        from: saved.map(|saved| saved.n),
+        from,
         shown: scene.system.shown(context),
         energy_of: scene.system.energy_of_rows(context),
+        watch: None,
+        snapshots: Snapshots::new(0),
+        state: (integrator.state().q().to_vec(), integrator.state().p().to_vec()),
+        n: from.unwrap_or(0),
     };
-    match &scene.output.modified_energy {
-        None => recorder.plain(&mut *integrator),
-        Some((settings, _)) => recorder.shadowed(&mut *integrator, settings),
+    recorder.watch = recorder.watch(&mut *integrator)?;
+    let settings = scene.output.modified_energy.as_ref().map(|(settings, _)| settings);
+    match follow(&mut *integrator, (from, recorder.run.steps), settings, &mut recorder)? {
+        Break(()) => Ok((Outcome::Stopped { n: recorder.n }, None)),
+        Continue(()) => recorder.complete(&mut *integrator),
     }
 }
 
@@ -111,6 +121,14 @@ struct Recorder<'a, 'r, N: Ordered> {
     shown: Option<Shown<N>>,
     /// H for rows, where the steps conserve another function.
     energy_of: Option<EnergyAt<N>>,
+    /// Follows the run for a summary.
+    watch: Option<Watch<N>>,
+    /// The states from which estimates can be computed again.
+    snapshots: Snapshots<N>,
+    /// The state of the newest output, in the coordinates of the steps; of a processed scheme the trajectory's where it is written.
+    state: (Vec<N>, Vec<N>),
+    /// The n of the newest output.
+    n: i64,
 }
 
 impl<N: Ordered + 'static> Recorder<'_, '_, N> {
@@ -123,12 +141,12 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         let initial = integrator.system().energy_at(&q, &p);
         let first = (self.from.unwrap_or(0), initial);
         let watch = Watch::begin(integrator, self.run, first, Energies::Windows, true);
-        let watch = watch.map_err(|error| self.failed(&error))?;
+        let watch = watch.map_err(|error| self.named(&error))?;
         Ok(Some(watch.of_system(&self.scene.system)))
     }
 
     /// The error of the run, with the scene's names of coordinates and momenta.
-    fn failed(&self, error: &RunError) -> Error {
+    fn named(&self, error: &RunError) -> Error {
         let system = &self.scene.system;
         let failed = self.run.failed_naming(error, &system.coordinates, &system.momenta);
         match (failed, system.transformed_time()) {
@@ -140,100 +158,59 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         }
     }
 
-    /// Without states beyond both ends; with increments only where a summary needs them.
-    fn plain(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Ended, Error> {
-        let (from, steps) = (self.from.unwrap_or(0), self.run.steps);
-        let mut watch = self.watch(integrator)?;
-        let mut trajectory = Trajectory::plain(integrator, from, steps).map_err(|error| self.failed(&error))?;
-        loop {
-            trajectory.set_augmented(watch.as_ref().is_some_and(Watch::needs_increments));
-            let next = trajectory.advance().map_err(|error| self.failed(&error))?;
-            let Some(n) = next.map(|state| state.n) else { break };
-            let integrator = &mut **trajectory.integrator();
-            if let Some(watch) = watch.as_mut().filter(|_| n > from) {
-                watch.include(n, integrator);
-            }
-            let [energy, state] =
-                [self.scene.output.energy, self.scene.output.trajectory].map(|every| self.is_due(every, n));
-            if energy || state {
-                at_output(integrator, |integrator| {
-                    let energy = energy.then(|| self.energy(integrator));
-                    self.row(n, integrator.state().q(), integrator.state().p(), energy.as_ref(), None)
-                })?;
-            } else {
-                self.observer.progress(n);
-            }
-            if self.ends(n, || Some(Snapshot::of(n, integrator.state())))? {
-                return Ok((Outcome::Stopped { n }, None));
-            }
+    /// The rows of the state n, at which the system is.
+    fn present(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
+        let [energy, state] =
+            [self.scene.output.energy, self.scene.output.trajectory].map(|every| self.is_due(every, n));
+        if !energy && !state {
+            self.observer.progress(n);
+            return Ok(());
         }
-        let integrator = &mut **trajectory.integrator();
-        let energy = at_output(integrator, |integrator| integrator.system().energy());
-        let ended = (self.complete(&energy, integrator.state().evaluations())?, self.summary(watch, &energy));
-        let (q, p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
-        self.end_at_time(integrator, (&q, &p))?;
-        Ok(ended)
+        at_output(integrator, |integrator| {
+            let energy = energy.then(|| self.energy(integrator));
+            self.row(n, integrator.state().q(), integrator.state().p(), energy.as_ref(), None)
+        })
     }
 
-    /// With increments and an estimate at each state; resumed after the state `from`.
-    fn shadowed(
+    /// The rows of the state n with its modified energy.
+    fn estimated(
         &mut self,
+        n: i64,
+        found: &Estimate<'_, N>,
         integrator: &mut VectorIntegrator<'_, N>,
-        settings: &EstimatorSettings,
-    ) -> Result<Ended, Error> {
-        let (from, steps) = (self.from, self.run.steps);
+    ) -> Result<(), Error> {
+        let (mut q, mut p) = take(&mut self.state);
+        q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
+        p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
+        let [due, state] = [self.scene.output.energy, self.scene.output.trajectory].map(|every| self.is_due(every, n));
         let every = self.scene.output.modified_energy.as_ref().map(|(_, every)| *every);
-        let (mut q, mut p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
-        let settings = settings.clone().with_errors(true);
-        let mut watch = self.watch(integrator)?;
-        let begin = from.map(|from| Snapshot::of(from, integrator.state()));
-        let mut shadow = match from {
-            None => ShadowRun::new(integrator, steps, &settings),
-            Some(from) => ShadowRun::resume(integrator, from, steps, &settings),
+        let modified = self.is_due(every, n).then(|| ModifiedEnergy::of(found));
+        if due || state || n.unsigned_abs() == self.run.steps {
+            integrator.postprocess_state(&mut q, &mut p);
         }
-        .map_err(|error| self.failed(&error))?;
-        let mut snapshots = Snapshots::new(shadow.reach());
-        begin.into_iter().for_each(|begin| snapshots.begin(begin));
-        let own = from.unwrap_or(0)..i64::try_from(steps).unwrap_or(i64::MAX);
-        while let Some((n, found)) = shadow
-            .advance_with(|n, trajectory| {
-                let integrator = &mut **trajectory.integrator();
-                snapshots.offer(n, integrator.state());
-                if let Some(watch) = watch.as_mut().filter(|_| own.contains(&(n - 1))) {
-                    watch.include(n, integrator);
-                }
-            })
-            .map_err(|error| self.failed(&error))?
-        {
-            q.iter_mut().zip(found.q).for_each(|(own, q)| own.assign(q));
-            p.iter_mut().zip(found.p).for_each(|(own, p)| own.assign(p));
-            let last = n.unsigned_abs() == steps;
-            let [due, state] =
-                [self.scene.output.energy, self.scene.output.trajectory].map(|every| self.is_due(every, n));
-            let modified = self.is_due(every, n).then(|| ModifiedEnergy::of(&found));
-            let integrator = &mut **shadow.integrator();
-            if due || state || last {
-                integrator.postprocess_state(&mut q, &mut p);
-            }
-            let energy = due.then(|| self.energy_at(integrator, (&q, &p)));
-            self.row(n, &q, &p, energy.as_ref(), modified)?;
-            if self.ends(n, || snapshots.for_those_after(n).cloned())? {
-                return Ok((Outcome::Stopped { n }, None));
-            }
-        }
-        let integrator = &mut **shadow.integrator();
-        let energy = integrator.system().energy_at(&q, &p);
-        let ended = (self.complete(&energy, integrator.state().evaluations())?, self.summary(watch, &energy));
-        self.end_at_time(integrator, (&q, &p))?;
-        Ok(ended)
+        let energy = due.then(|| match &mut self.energy_of {
+            Some(energy_of) => energy_of(&q, &p),
+            None => integrator.system().energy_at(&q, &p),
+        });
+        self.row(n, &q, &p, energy.as_ref(), modified)?;
+        self.state = (q, p);
+        Ok(())
     }
 
-    /// H of a state for a row.
-    fn energy_at(&mut self, integrator: &mut VectorIntegrator<'_, N>, (q, p): (&[N], &[N])) -> N {
-        match &mut self.energy_of {
-            Some(energy_of) => energy_of(q, p),
-            None => integrator.system().energy_at(q, p),
-        }
+    /// The outcome of a run with its last state, and the summary.
+    fn complete(mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Ended, Error> {
+        let energy = match self.scene.output.modified_energy {
+            None => {
+                self.state = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
+                at_output(integrator, |integrator| integrator.system().energy())
+            }
+            Some(_) => integrator.system().energy_at(&self.state.0, &self.state.1),
+        };
+        self.ends_in_the_domain(&energy)?;
+        let outcome = Outcome::Complete { force_evaluations: integrator.state().evaluations() };
+        let ended = (outcome, self.summary(&energy));
+        self.end_at_time(integrator)?;
+        Ok(ended)
     }
 
     /// H of the present state for a row.
@@ -244,11 +221,11 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         }
     }
 
-    /// Where time is transformed and the run ends at a physical time, makes the last step to it from a state, and its row.
-    fn end_at_time(&mut self, integrator: &mut VectorIntegrator<'_, N>, state: (&[N], &[N])) -> Result<(), Error> {
+    /// Where time is transformed and the run ends at a physical time, makes the last step to it, and its row.
+    fn end_at_time(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
         let scene = self.scene;
         let Some(until) = scene.physical_end() else { return Ok(()) };
-        if !last_step(integrator, state, (self.run, until))? {
+        if !last_step(integrator, (&self.state.0, &self.state.1), (self.run, until))? {
             return Ok(());
         }
         let n = i64::try_from(self.run.steps).unwrap_or(i64::MAX - 1) + 1;
@@ -261,14 +238,9 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
         )
     }
 
-    fn complete(&self, energy: &N, force_evaluations: u64) -> Result<Outcome, Error> {
-        self.ends_in_the_domain(energy)?;
-        Ok(Outcome::Complete { force_evaluations })
-    }
-
     /// `energy` is that of the last state.
-    fn summary(&self, watch: Option<Watch<N>>, energy: &N) -> Option<Summary> {
-        let mut watch = watch?;
+    fn summary(&mut self, energy: &N) -> Option<Summary> {
+        let mut watch = self.watch.take()?;
         watch.include_energy(i64::try_from(self.run.steps).unwrap_or(i64::MAX), energy);
         watch.summary(self.run)
     }
@@ -332,17 +304,17 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
     /// Makes a checkpoint where it is time for one, or where the run is stopped: then it ends.
     ///
     /// `state` is the one from which the run can be resumed; `None` for the state at t = 0.
-    fn ends(&mut self, n: i64, state: impl FnOnce() -> Option<Snapshot<N>>) -> Result<bool, Error> {
+    fn ends(&mut self, n: i64, state: impl FnOnce(&Self) -> Option<Snapshot<N>>) -> Result<ControlFlow<()>, Error> {
         let stops = self.observer.stops();
         let due = self.scene.output.checkpoint.is_some_and(|interval| self.is_time_for_a_checkpoint(n, interval));
         if n > self.written && (due || stops) {
-            match state().map(|state| SavedState::of(&state)) {
+            match state(self).map(|state| SavedState::of(&state)) {
                 Some(None) => self.observer.note(&Note::NoCheckpoint { n }),
                 saved => self.rows.target.keep(n, saved.flatten())?,
             }
             self.last_checkpoint = Instant::now();
         }
-        Ok(stops)
+        Ok(if stops { Break(()) } else { Continue(()) })
     }
 
     fn is_time_for_a_checkpoint(&mut self, n: i64, interval: CheckpointInterval) -> bool {
@@ -353,5 +325,54 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
                 CheckpointInterval::Steps(every) => n.unsigned_abs().is_multiple_of(every),
                 CheckpointInterval::Time(time) => now.duration_since(self.last_checkpoint) >= time,
             }
+    }
+}
+
+impl<N: Ordered + 'static> Follower<N> for Recorder<'_, '_, N> {
+    fn begin(&mut self, reach: i64, integrator: &mut VectorIntegrator<'_, N>) {
+        self.snapshots = Snapshots::new(reach);
+        if let Some(from) = self.from {
+            self.snapshots.begin(Snapshot::of(from, integrator.state()));
+        }
+    }
+
+    fn carried(&self) -> Carried {
+        match self.watch.as_ref().is_some_and(Watch::needs_increments) {
+            true => Carried::Increments,
+            false => Carried::Nothing,
+        }
+    }
+
+    fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
+        if self.scene.output.modified_energy.is_some() {
+            self.snapshots.offer(n, integrator.state());
+        }
+        let own = self.from.unwrap_or(0)..i64::try_from(self.run.steps).unwrap_or(i64::MAX);
+        if let Some(watch) = self.watch.as_mut().filter(|_| own.contains(&(n - 1))) {
+            watch.include(n, integrator);
+        }
+    }
+
+    fn output(
+        &mut self,
+        n: i64,
+        estimate: Option<Estimate<'_, N>>,
+        integrator: &mut VectorIntegrator<'_, N>,
+    ) -> Result<ControlFlow<()>, Error> {
+        self.n = n;
+        match estimate {
+            None => {
+                self.present(n, integrator)?;
+                self.ends(n, |_| Some(Snapshot::of(n, integrator.state())))
+            }
+            Some(found) => {
+                self.estimated(n, &found, integrator)?;
+                self.ends(n, |recorder| recorder.snapshots.for_those_after(n).cloned())
+            }
+        }
+    }
+
+    fn failed(&mut self, error: RunError) -> Result<(), Error> {
+        Err(self.named(&error))
     }
 }

@@ -1,12 +1,15 @@
 //! The modified energies along a run, one by one, and what the run shows.
 
-use shadowstep::Integrator as _;
+use std::ops::ControlFlow;
+
+use shadowstep::Ordered;
 use shadowstep::integrator::VectorIntegrator;
 use shadowstep::number::Rounded;
-use shadowstep::run::{RunError, ShadowRun};
+use shadowstep::run::RunError;
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 
 use crate::error::Error;
+use crate::follow::{Follower, follow};
 use crate::propagator::{Propagator, exact_flow};
 use crate::run::Run;
 use crate::scene::System;
@@ -81,52 +84,71 @@ impl Estimates<'_> {
         self,
         integrator: &mut VectorIntegrator<'_, N>,
         context: &N::Context,
-        mut take: impl FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
+        take: impl FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
     ) -> Result<Finished, Error> {
-        let Estimates { system: described, run, settings, summarised, .. } = self;
-        let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
-        let (q, p) = described.start(context);
+        let Estimates { system, run, settings, summarised, .. } = self;
+        let (q, p) = system.start(context);
         let initial = integrator.system().energy_at(&q, &p);
         let watch = Watch::begin(integrator, run, (0, initial), Energies::All, summarised);
-        let mut watch = watch.map_err(failed)?.of_system(described);
-        let mut evaluations = Evaluations::default();
-        let mut shadow = ShadowRun::new(integrator, run.steps, settings).map_err(failed)?;
+        let watch = watch.map_err(|error| self.failed(&error))?.of_system(system);
         let last = i64::try_from(run.steps).unwrap_or(i64::MAX);
-        while let Some((n, estimate)) = shadow
-            .advance_with(|n, trajectory| {
-                let integrator = &mut **trajectory.integrator();
-                evaluations.count(n, last, integrator.state().evaluations());
-                if 0 < n && n <= last {
-                    watch.include(n, integrator);
-                }
-            })
-            .map_err(failed)?
-        {
-            take(n, estimate)?;
-        }
+        let mut along = Along { estimates: self, take, watch, last, at_first: 0, at_last: 0 };
+        // none ends the run
+        let _ = follow(integrator, (None, run.steps), Some(settings), &mut along)?;
+        let Along { watch, at_first, at_last, .. } = along;
         Ok(Finished {
-            evaluations: shadow.integrator().state().evaluations(),
-            own_evaluations: evaluations.at_last - evaluations.at_first,
+            evaluations: integrator.state().evaluations(),
+            own_evaluations: at_last - at_first,
             energy: Some(watch.energy()),
             summary: watch.summary(run),
         })
     }
+
+    fn failed(self, error: &RunError) -> Error {
+        self.run.failed_naming(error, &self.system.coordinates, &self.system.momenta)
+    }
 }
 
-/// Evaluations of the gradient before the first and after the last step of the run.
-#[derive(Default)]
-struct Evaluations {
+/// Follows a run of a scheme.
+struct Along<'a, N: Ordered, F> {
+    estimates: Estimates<'a>,
+    take: F,
+    watch: Watch<N>,
+    /// The n of the last state of the run.
+    last: i64,
+    /// Evaluations of the gradient before the first and after the last step of the run.
     at_first: u64,
     at_last: u64,
 }
 
-impl Evaluations {
-    fn count(&mut self, n: i64, last: i64, evaluations: u64) {
+impl<N, F> Follower<N> for Along<'_, N, F>
+where
+    N: Ordered,
+    F: FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
+{
+    fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
         if n == 0 {
-            self.at_first = evaluations;
+            self.at_first = integrator.state().evaluations();
         }
-        if n == last {
-            self.at_last = evaluations;
+        if n == self.last {
+            self.at_last = integrator.state().evaluations();
         }
+        if 0 < n && n <= self.last {
+            self.watch.include(n, integrator);
+        }
+    }
+
+    fn output(
+        &mut self,
+        n: i64,
+        estimate: Option<Estimate<'_, N>>,
+        _: &mut VectorIntegrator<'_, N>,
+    ) -> Result<ControlFlow<()>, Error> {
+        (self.take)(n, estimate.expect("estimates are made"))?;
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn failed(&mut self, error: RunError) -> Result<(), Error> {
+        Err(self.estimates.failed(&error))
     }
 }

@@ -5,7 +5,7 @@ use std::io::Write;
 use shadowstep::number::Rounded;
 
 use crate::arithmetic::Computation;
-use crate::engine::{Ended, Outcome, follow};
+use crate::engine::{self, Ended, Outcome};
 use crate::error::Error;
 use crate::note::Note;
 use crate::observer::Observer;
@@ -91,7 +91,7 @@ impl Computation for Following<'_, '_> {
     type Output = Result<Ended, Error>;
 
     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
-        follow::<N>(self.scene, context, self.rows, self.checkpoint, self.observer)
+        engine::run::<N>(self.scene, context, self.rows, self.checkpoint, self.observer)
     }
 }
 

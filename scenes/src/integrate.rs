@@ -22,16 +22,18 @@
 //! # Ok::<(), shadowstep_scenes::Error>(())
 //! ```
 
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use shadowstep::Ordered;
 use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::number::{Number, Rounded};
-use shadowstep::run::{NotFinite, Quantity, RunError, ShadowRun};
-use shadowstep::shadow::EstimatorSettings;
+use shadowstep::run::{NotFinite, Quantity, RunError};
+use shadowstep::shadow::{Estimate, EstimatorSettings};
 use shadowstep::tables::TableScheme;
-use shadowstep::{Integrator as _, Ordered, VectorState};
 
 use crate::error::Error;
+use crate::follow::{Follower, follow};
 use crate::observer::Observer;
 use crate::run::Run;
 use crate::scene::{self, EnergyAt};
@@ -116,10 +118,15 @@ impl Integration<'_> {
                 modified: Vec::new(),
                 evaluations: 0,
             },
+            last: None,
+            at_once: 1,
+            asked: Instant::now(),
         };
-        match self.estimator {
-            None => keeper.plain(&mut *integrator)?,
-            Some(settings) => keeper.shadowed(&mut *integrator, settings)?,
+        // no follower of samples ends the run
+        let _ = follow(&mut *integrator, (None, run.steps), self.estimator, &mut keeper)?;
+        // the estimates between two states end before the last one
+        if let Some(last) = keeper.last.take() {
+            keeper.keep_state(run.steps, &mut *integrator, last)?;
         }
         keeper.samples.evaluations = integrator.state().evaluations();
         Ok(keeper.samples)
@@ -140,6 +147,11 @@ struct Keeper<'a, N: Number> {
     /// H, where the steps conserve another function.
     energy_of: Option<EnergyAt<N>>,
     samples: Samples<N>,
+    /// The last state, where estimates belong to the middles between states.
+    last: Option<(Vec<N>, Vec<N>)>,
+    /// The number of steps after which the observer is asked.
+    at_once: u64,
+    asked: Instant,
 }
 
 /// The observer is asked about as often as this.
@@ -149,78 +161,19 @@ const ASKED: Duration = Duration::from_millis(10);
 const MOST_AT_ONCE: u64 = 1 << 16;
 
 impl<N: Ordered + 'static> Keeper<'_, N> {
-    fn plain(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
-        let Integration { run, every, .. } = self.integration;
-        let every = every.clamp(1, run.steps.max(1));
-        at_output(integrator, |integrator| self.keep(0, integrator))?;
-        let (mut n, mut at_once, mut asked) = (0, 1, Instant::now());
-        while n < run.steps {
-            let next = (n / every + 1).saturating_mul(every).min(run.steps);
-            while n < next {
-                let count = at_once.min(next - n);
-                integrator.steps(count);
-                n += count;
-                // the time is asked for once in at_once steps, where states are kept at each of them, too
-                if count < at_once && n % at_once != 0 {
-                    continue;
-                }
-                let took = asked.elapsed();
-                if took < ASKED / 4 {
-                    at_once = (2 * at_once).min(MOST_AT_ONCE);
-                } else if took > ASKED {
-                    at_once = (at_once / 2).max(1);
-                }
-                asked = Instant::now();
-                self.ask(n)?;
-            }
-            at_output(integrator, |integrator| self.keep(n, integrator))?;
+    /// Asks the observer after some number of steps, which follows the time that these take; at all others not even for the time.
+    fn ask_in_time(&mut self, n: u64) -> Result<(), Error> {
+        if !n.is_multiple_of(self.at_once) {
+            return Ok(());
         }
-        Ok(())
-    }
-
-    fn shadowed(
-        &mut self,
-        integrator: &mut VectorIntegrator<'_, N>,
-        settings: &EstimatorSettings,
-    ) -> Result<(), Error> {
-        let Integration { run, system: described, .. } = self.integration;
-        let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
-        let settings = settings.clone().with_errors(true);
-        let (mut q, mut p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());
-        let mut shadow = ShadowRun::new(integrator, run.steps, &settings).map_err(failed)?;
-        let (mut asked, mut last) = (Instant::now(), None);
-        let keep_last = |n: i64, state: &VectorState<N>, last: &mut Option<(Vec<N>, Vec<N>)>| {
-            if settings.is_between() && n.unsigned_abs() == run.steps {
-                *last = Some((state.q().to_vec(), state.p().to_vec()));
-            }
-        };
-        while let Some((n, estimate)) = shadow
-            .advance_with(|n, trajectory| keep_last(n, trajectory.integrator().state(), &mut last))
-            .map_err(failed)?
-        {
-            let n = n.unsigned_abs();
-            if asked.elapsed() > ASKED {
-                asked = Instant::now();
-                self.ask(n)?;
-            }
-            if !self.integration.keeps(n) {
-                continue;
-            }
-            q.iter_mut().zip(estimate.q).for_each(|(own, q)| own.assign(q));
-            p.iter_mut().zip(estimate.p).for_each(|(own, p)| own.assign(p));
-            let (value, error) = (estimate.value.clone(), estimate.error.cloned());
-            self.samples.modified.push(Modified { value, error, order: estimate.order });
-            let integrator = &mut **shadow.integrator();
-            integrator.postprocess_state(&mut q, &mut p);
-            self.keep_state(n, integrator, (&q, &p))?;
+        let took = self.asked.elapsed();
+        if took < ASKED / 4 {
+            self.at_once = (2 * self.at_once).min(MOST_AT_ONCE);
+        } else if took > ASKED {
+            self.at_once = (self.at_once / 2).max(1);
         }
-        // the estimates between two states end before the last one
-        if let Some((mut q, mut p)) = last {
-            let integrator = &mut **shadow.integrator();
-            integrator.postprocess_state(&mut q, &mut p);
-            self.keep_state(run.steps, integrator, (&q, &p))?;
-        }
-        Ok(())
+        self.asked = Instant::now();
+        self.ask(n)
     }
 
     /// Reports progress, and ends the run if the observer stops it.
@@ -249,13 +202,14 @@ impl<N: Ordered + 'static> Keeper<'_, N> {
         &mut self,
         n: u64,
         integrator: &mut VectorIntegrator<'_, N>,
-        (q, p): (&[N], &[N]),
+        (mut q, mut p): (Vec<N>, Vec<N>),
     ) -> Result<(), Error> {
+        integrator.postprocess_state(&mut q, &mut p);
         let energy = match &mut self.energy_of {
-            Some(energy_of) => energy_of(q, p),
-            None => integrator.system().energy_at(q, p),
+            Some(energy_of) => energy_of(&q, &p),
+            None => integrator.system().energy_at(&q, &p),
         };
-        self.push(n, (q, p), energy)
+        self.push(n, (&q, &p), energy)
     }
 
     fn push(&mut self, n: u64, (q, p): (&[N], &[N]), energy: N) -> Result<(), Error> {
@@ -279,6 +233,47 @@ impl<N: Ordered + 'static> Keeper<'_, N> {
         samples.q.extend_from_slice(q);
         samples.p.extend_from_slice(p);
         Ok(())
+    }
+}
+
+impl<N: Ordered + 'static> Follower<N> for Keeper<'_, N> {
+    fn next(&self, n: i64) -> i64 {
+        let (n, every) = (n.unsigned_abs(), self.integration.every.max(1));
+        let next = |every: u64| (n / every + 1).saturating_mul(every);
+        i64::try_from(next(every).min(next(self.at_once))).unwrap_or(i64::MAX)
+    }
+
+    fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
+        let Integration { estimator, run, .. } = self.integration;
+        if estimator.is_some_and(EstimatorSettings::is_between) && n.unsigned_abs() == run.steps {
+            self.last = Some((integrator.state().q().to_vec(), integrator.state().p().to_vec()));
+        }
+    }
+
+    fn output(
+        &mut self,
+        n: i64,
+        estimate: Option<Estimate<'_, N>>,
+        integrator: &mut VectorIntegrator<'_, N>,
+    ) -> Result<ControlFlow<()>, Error> {
+        let n = n.unsigned_abs();
+        self.ask_in_time(n)?;
+        if self.integration.keeps(n) {
+            match estimate {
+                None => at_output(integrator, |integrator| self.keep(n, integrator))?,
+                Some(found) => {
+                    let (value, error) = (found.value.clone(), found.error.cloned());
+                    self.samples.modified.push(Modified { value, error, order: found.order });
+                    self.keep_state(n, integrator, (found.q.to_vec(), found.p.to_vec()))?;
+                }
+            }
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn failed(&mut self, error: RunError) -> Result<(), Error> {
+        let Integration { run, system, .. } = self.integration;
+        Err(run.failed_naming(&error, &system.coordinates, &system.momenta))
     }
 }
 

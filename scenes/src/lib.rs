@@ -100,6 +100,7 @@ pub mod estimator;
 mod execute;
 mod explain;
 pub mod family;
+pub mod follow;
 mod frequency;
 pub mod integrate;
 pub mod keys;

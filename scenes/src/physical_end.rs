@@ -1,13 +1,18 @@
 //! The end of a run in transformed time: how many steps fit before a physical time, and the last step to that time.
 
+use std::ops::ControlFlow::{self, Break, Continue};
+
 use num_traits::Signed;
 use shadowstep::integrator::VectorIntegrator;
 use shadowstep::number::Rounded;
+use shadowstep::run::RunError;
+use shadowstep::shadow::Estimate;
 use shadowstep::transformed_time::step_to_time;
-use shadowstep::{Carried, Integrator as _, Ordered, Rational};
+use shadowstep::{Ordered, Rational};
 
 use crate::arithmetic::Computation;
 use crate::error::Error;
+use crate::follow::{Follower, follow};
 use crate::run::Run;
 use crate::scene;
 use crate::steps::MOST_STEPS;
@@ -25,8 +30,6 @@ impl scene::Scene {
     }
 
     /// The number of steps that end at or before `until`. They are made once, in the numbers of the run: a step has no known time before.
-    ///
-    /// A step whose state is not finite counts, so that the run finds it.
     fn count_steps(&self, until: &Rational) -> u64 {
         self.arithmetic.compute(Counting { scene: self, until })
     }
@@ -44,15 +47,40 @@ impl Computation for Counting<'_> {
         let Counting { scene, until } = self;
         let Ok(mut integrator) = scene.integrator::<N>(context) else { return 0 };
         let until = N::from_rational(until, context);
-        let forward = scene.h.is_positive();
-        for n in 1..=MOST_STEPS {
-            integrator.step(Carried::Nothing);
-            let Some(t) = integrator.state().q().last().filter(|t| t.is_finite()) else { return n };
-            if (forward && *t > until) || (!forward && *t < until) {
-                return n - 1;
-            }
+        let mut count = StepsTo { until, forward: scene.h.is_positive(), steps: 0 };
+        // a step whose state is not finite counts, so that the run finds it
+        let _ = follow(&mut *integrator, (None, MOST_STEPS), None, &mut count);
+        count.steps
+    }
+}
+
+/// Counts the steps that end at or before a physical time.
+struct StepsTo<N> {
+    until: N,
+    forward: bool,
+    steps: u64,
+}
+
+impl<N: Ordered> Follower<N> for StepsTo<N> {
+    fn output(
+        &mut self,
+        n: i64,
+        _: Option<Estimate<'_, N>>,
+        integrator: &mut VectorIntegrator<'_, N>,
+    ) -> Result<ControlFlow<()>, Error> {
+        let t = integrator.state().q().last().expect("time is a coordinate");
+        if if self.forward { *t > self.until } else { *t < self.until } {
+            return Ok(Break(()));
         }
-        MOST_STEPS
+        self.steps = n.unsigned_abs();
+        Ok(Continue(()))
+    }
+
+    fn failed(&mut self, error: RunError) -> Result<(), Error> {
+        if let RunError::NotFinite { step, .. } = error {
+            self.steps = step.unsigned_abs();
+        }
+        Ok(())
     }
 }
 

@@ -90,7 +90,7 @@ fn steps_alone(scenes: &[Scene], runs: u64) {
 fn follow(scene: &Scene) {
     let mut integrator = scene.integrator::<f64>(&()).expect("the dimensions agree");
     let mut trajectory = Trajectory::plain(&mut *integrator, 0, STEPS).expect("the state is finite");
-    trajectory.reach_the_end(|| true).expect("the states are finite");
+    trajectory.reach(STEPS as i64).expect("the states are finite");
     black_box(trajectory.integrator().state().q());
 }
 

@@ -1,14 +1,16 @@
 //! One run: what is kept of it, or why it failed.
 
+use std::ops::ControlFlow::{self, Break, Continue};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
 use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::number::Rounded;
-use shadowstep::run::{DriftRecorder, EnergyDrift, Finding, RunError, ShadowRun, States, Trajectory};
-use shadowstep::shadow::EstimatorSettings;
-use shadowstep::{Integrator as _, Ordered};
+use shadowstep::run::{DriftRecorder, EnergyDrift, Finding, RunError};
+use shadowstep::shadow::Estimate;
+use shadowstep::{Carried, Ordered};
 use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::follow::{Follower, follow};
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::watch::{Energies, Watch};
 use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, Shown, Summary, System};
@@ -105,14 +107,19 @@ impl Computation for Measuring<'_> {
         let mut integrator = scene.integrator::<N>(context)?;
         let (run, described) = (scene.as_run(), &scene.system);
         let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
-        let mut following = Following::begin(scene, keep, &mut *integrator, context).map_err(failed)?;
+        let mut following = Following::begin(scene, (keep, stops), &mut *integrator, context).map_err(failed)?;
         let settings = scene.output.modified_energy.as_ref().filter(|_| keep.needs(Need::Estimates));
-        let ended = match settings {
-            None => plain(&mut following, &mut *integrator, run, stops),
-            Some((settings, _)) => estimated(&mut following, &mut *integrator, run, settings, stops),
-        };
-        let Some(ended) = ended.map_err(failed)? else { return Ok(None) };
-        following.values(run, &ended).map(Some)
+        if settings.is_some() {
+            let drift = DriftRecorder::new(integrator.step_size().clone());
+            following.drift = Some(drift.compensated_if(integrator.state().is_compensated()));
+        }
+        let settings = settings.map(|(settings, _)| settings);
+        let ended = follow(&mut *integrator, (None, run.steps), settings, &mut following)?;
+        if ended.is_break() && !following.is_over() {
+            return Ok(None);
+        }
+        let drift = following.drift.take().and_then(DriftRecorder::drift);
+        following.values(run, &Ended { drift, evaluations: integrator.state().evaluations() }).map(Some)
     }
 }
 
@@ -122,71 +129,14 @@ struct Ended<N> {
     evaluations: u64,
 }
 
-/// Follows the states of a run without estimates; `None` if it was stopped.
-fn plain<N: Rounded + 'static>(
-    following: &mut Following<'_, N>,
-    integrator: &mut VectorIntegrator<'_, N>,
-    run: Run<'_>,
-    stops: &AtomicBool,
-) -> Result<Option<Ended<N>>, RunError> {
-    let mut trajectory = Trajectory::plain(integrator, 0, run.steps)?;
-    if !following.follows_all() {
-        if !trajectory.reach_the_end(|| !stops.load(Ordering::Relaxed))? {
-            return Ok(None);
-        }
-        following.include(following.last, *trajectory.integrator());
-    }
-    while !following.is_over() {
-        trajectory.set_augmented(following.needs_increments());
-        let Some(n) = trajectory.advance()?.map(|state| state.n) else { break };
-        following.include(n, *trajectory.integrator());
-        if stops.load(Ordering::Relaxed) {
-            return Ok(None);
-        }
-    }
-    Ok(Some(Ended { drift: None, evaluations: trajectory.integrator().state().evaluations() }))
-}
-
-/// Follows the states of a run with an estimate at each of them; `None` if it was stopped.
-fn estimated<N: Rounded + 'static>(
-    following: &mut Following<'_, N>,
-    integrator: &mut VectorIntegrator<'_, N>,
-    run: Run<'_>,
-    settings: &EstimatorSettings,
-    stops: &AtomicBool,
-) -> Result<Option<Ended<N>>, RunError> {
-    let settings = settings.clone().with_errors(true);
-    let mut shadow = ShadowRun::new(integrator, run.steps, &settings)?;
-    let mut drift = DriftRecorder::new(shadow.step_size().clone()).compensated_if(shadow.is_compensated());
-    loop {
-        let next = shadow.advance_with(|n, trajectory| {
-            if 0 <= n && n <= following.last {
-                following.include(n, *trajectory.integrator());
-            }
-        });
-        let (n, estimate) = match next {
-            Ok(Some(found)) => found,
-            Ok(None) => break,
-            // beyond the state at which a condition ends the run, states are made for estimates only
-            Err(_) if following.is_over() => break,
-            Err(error) => return Err(error),
-        };
-        drift.include(n, &estimate);
-        if n >= following.last {
-            break;
-        }
-        if stops.load(Ordering::Relaxed) {
-            return Ok(None);
-        }
-    }
-    Ok(Some(Ended { drift: drift.drift(), evaluations: shadow.integrator().state().evaluations() }))
-}
-
 /// What is kept, as far as the states have come.
 struct Following<'a, N: Ordered> {
     run: Run<'a>,
     described: &'a System,
     keep: &'a Keep,
+    stops: &'a AtomicBool,
+    /// Of the modified energy, where it is estimated.
+    drift: Option<DriftRecorder<N>>,
     watch: Option<Watch<N>>,
     /// The conditions, each with the time of the first state that meets it.
     tests: Vec<(Test<N>, Option<String>)>,
@@ -209,7 +159,7 @@ struct End {
 impl<'a, N: Rounded + 'static> Following<'a, N> {
     fn begin(
         scene: &'a Scene,
-        keep: &'a Keep,
+        (keep, stops): (&'a Keep, &'a AtomicBool),
         integrator: &mut VectorIntegrator<'_, N>,
         context: &N::Context,
     ) -> Result<Self, RunError> {
@@ -235,6 +185,8 @@ impl<'a, N: Rounded + 'static> Following<'a, N> {
             run: scene.as_run(),
             described: &scene.system,
             keep,
+            stops,
+            drift: None,
             watch,
             tests: tests.collect(),
             at_end: at_end.collect(),
@@ -249,11 +201,7 @@ impl<'a, N: Rounded + 'static> Following<'a, N> {
         self.watch.is_some() || !self.tests.is_empty()
     }
 
-    fn needs_increments(&self) -> bool {
-        self.watch.as_ref().is_some_and(Watch::needs_increments)
-    }
-
-    /// Whether a condition has ended the run.
+    /// Whether the last state has come.
     fn is_over(&self) -> bool {
         self.end.is_some()
     }
@@ -304,6 +252,48 @@ impl<'a, N: Rounded + 'static> Following<'a, N> {
         let values = keep.values.iter().map(|kept| found.value(*kept));
         let times = tests.into_iter().map(|(_, met)| met);
         Ok(values.chain(times).chain(end.expressions).chain(end.state).collect())
+    }
+}
+
+/// This number of steps is made at once where only the last state is of interest.
+const AT_ONCE: i64 = 64;
+
+impl<N: Rounded + 'static> Follower<N> for Following<'_, N> {
+    fn carried(&self) -> Carried {
+        match self.watch.as_ref().is_some_and(Watch::needs_increments) {
+            true => Carried::Increments,
+            false => Carried::Nothing,
+        }
+    }
+
+    fn next(&self, n: i64) -> i64 {
+        if self.follows_all() { n + 1 } else { n + AT_ONCE }
+    }
+
+    fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
+        if 0 <= n && n <= self.last {
+            self.include(n, integrator);
+        }
+    }
+
+    fn output(
+        &mut self,
+        n: i64,
+        estimate: Option<Estimate<'_, N>>,
+        _: &mut VectorIntegrator<'_, N>,
+    ) -> Result<ControlFlow<()>, Error> {
+        if let (Some(estimate), Some(drift)) = (estimate, &mut self.drift) {
+            drift.include(n, &estimate);
+        }
+        Ok(if n >= self.last || self.stops.load(Ordering::Relaxed) { Break(()) } else { Continue(()) })
+    }
+
+    /// Beyond the state at which a condition ends the run, states are made for estimates only.
+    fn failed(&mut self, error: RunError) -> Result<(), Error> {
+        match self.is_over() {
+            true => Ok(()),
+            false => Err(self.run.failed_naming(&error, &self.described.coordinates, &self.described.momenta)),
+        }
     }
 }
 

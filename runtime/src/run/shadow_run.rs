@@ -101,18 +101,18 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     /// # Errors
     /// A state that is not finite, up to the last one that the estimator needs, or a modified energy that is not.
     pub fn advance(&mut self) -> Result<Option<Estimated<'_, T::Number>>, RunError> {
-        self.advance_with(|_, _| ())
+        Ok(self.advance_with(|_, _| ())?.map(|(n, estimate, _)| (n, estimate)))
     }
 
     /// As [`advance`](Self::advance), and calls `watch` with the n of each state on the way and the source of states, which is
-    /// there: those before and after the run, which only the estimator needs, included.
+    /// there: those before and after the run, which only the estimator needs, included. Returns the source of states, too.
     ///
     /// # Errors
     /// As [`advance`](Self::advance).
     pub fn advance_with(
         &mut self,
         mut watch: impl FnMut(i64, &mut T),
-    ) -> Result<Option<Estimated<'_, T::Number>>, RunError> {
+    ) -> Result<Option<(i64, Estimate<'_, T::Number>, &mut T)>, RunError> {
         loop {
             let Some(TrajectoryState { n, q, p, increments }) = self.states.advance()? else { return Ok(None) };
             if self.missing > 0 {
@@ -126,7 +126,7 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
             let Some(estimate) = estimate else { return Ok(None) };
             let n = n - self.after;
             check_value(estimate.value, Quantity::ModifiedEnergy, n)?;
-            return Ok(Some((n, estimate)));
+            return Ok(Some((n, estimate, &mut self.states)));
         }
     }
 }

@@ -37,6 +37,9 @@ impl<N: Number> Stored<N> {
     }
 }
 
+/// From this number of steps on [`Trajectory::reach`] saves a state and makes them at once.
+const AT_ONCE: i64 = 4;
+
 impl<I: Integrator<Number: Ordered>> Trajectory<I> {
     /// Begins at the system's present state.
     ///
@@ -107,22 +110,29 @@ impl<I: Integrator<Number: Ordered>> Trajectory<I> {
         self.augmented = augmented;
     }
 
-    /// Goes to the last state, of which alone something is needed: the same steps and checks as by [`advance`](States::advance), in less
-    /// time. `continues` is asked after each step; returns false if that did.
+    /// Goes to the state n, or to the last one if that comes before: the states between are made in less time than by [`advance`](States::advance), with
+    /// the same bits and checks.
     ///
     /// # Errors
     /// As `advance`.
-    pub fn reach_the_end(&mut self, mut continues: impl FnMut() -> bool) -> Result<bool, RunError> {
-        while !self.before.is_empty() {
+    pub fn reach(&mut self, n: i64) -> Result<(), RunError> {
+        let n = n.min(self.last);
+        while self.n < n && (self.augmented || !self.before.is_empty() || n - self.n < AT_ONCE) {
             self.advance()?;
         }
-        while self.n < self.last {
-            self.step()?;
-            if !continues() {
-                return Ok(false);
-            }
+        if self.n >= n {
+            return Ok(());
         }
-        Ok(true)
+        let (from, saved) = (self.n, Saved::of(self.integrator.state()));
+        self.integrator.steps(n.abs_diff(from));
+        self.n = n;
+        if TrajectoryState::of(self.integrator.state(), n).check().is_ok() {
+            return Ok(());
+        }
+        // what is not finite stays so: the first such state is found one by one
+        saved.restore(self.integrator.system().state_mut());
+        self.n = from;
+        (from..n).try_for_each(|_| self.step().map(drop))
     }
 
     /// The next step, whose state must be finite.
@@ -216,25 +226,18 @@ mod tests {
         for stepper in steppers() {
             let (_, q, p) = plain(&stepper, 50).pop().unwrap();
             let mut trajectory = Trajectory::plain(stepper.with(start()), 0, 50).unwrap();
-            let mut asked = 0;
-            assert!(
-                trajectory
-                    .reach_the_end(|| {
-                        asked += 1;
-                        true
-                    })
-                    .unwrap()
-            );
-            assert_eq!((trajectory.integrator().state().q(), asked), (&*q, 50));
+            for stop in [0, 3, 17] {
+                trajectory.reach(stop).unwrap();
+            }
+            assert_eq!(trajectory.advance().unwrap().unwrap().n, 18);
+            trajectory.reach(70).unwrap();
+            assert_eq!(trajectory.integrator().state().q(), q);
             assert_eq!(trajectory.integrator().state().p(), p);
             assert!(trajectory.advance().unwrap().is_none());
-            let mut stopped = Trajectory::plain(stepper.with(start()), 0, 50).unwrap();
-            assert!(!stopped.reach_the_end(|| false).unwrap());
-            assert_eq!(stopped.advance().unwrap().unwrap().n, 2);
             // towards the origin: the force is infinite there
-            let mut lost = Trajectory::plain(stepper.with(motion(vec![0.05, 0.0], vec![-1.0, 0.0])), 0, 2).unwrap();
-            let error = lost.reach_the_end(|| true);
-            let mut again = Trajectory::plain(stepper.with(motion(vec![0.05, 0.0], vec![-1.0, 0.0])), 0, 2).unwrap();
+            let mut lost = Trajectory::plain(stepper.with(motion(vec![0.05, 0.0], vec![-1.0, 0.0])), 0, 20).unwrap();
+            let error = lost.reach(20);
+            let mut again = Trajectory::plain(stepper.with(motion(vec![0.05, 0.0], vec![-1.0, 0.0])), 0, 20).unwrap();
             assert_eq!(error.err(), (0..3).find_map(|_| again.advance().err()));
         }
     }
