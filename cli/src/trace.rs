@@ -3,8 +3,7 @@
 mod rows;
 
 use clap::{ArgGroup, Args};
-use shadowstep::number::Rounded;
-use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::estimates::{Estimates, Finished};
 use shadowstep_scenes::propagator::Propagator;
 use shadowstep_scenes::run::Run;
@@ -123,7 +122,7 @@ struct Following<'a, 'w> {
 impl Computation for Following<'_, '_> {
     type Output = Result<Finished, Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let Following { selection, propagator, run, several, arguments, progress, interrupt, write, mut plots } = self;
         let (settings, between) = (selection.estimator.clone().with_errors(true), selection.estimator.is_between());
         let system = &selection.problem.system;
@@ -133,7 +132,7 @@ impl Computation for Following<'_, '_> {
         let estimates = Estimates { system, propagator, run, compensated, settings: &settings, summarised };
         let with_states = plots.as_ref().is_some_and(|plots| plots.needs_states());
         let mut lines = plots.as_ref().map(|plots| plots.run::<N>(run.name(), run.steps));
-        let finished = estimates.take::<N>(context, |n, found| {
+        let finished = estimates.take::<N>(context, &mut |n, found| {
             let energy = (!between).then(|| energy_of(found.q, found.p));
             if energy.as_ref().is_some_and(|energy| !energy.is_finite()) {
                 return Err(run.not_finite(&format!("the energy at n = {n}")));

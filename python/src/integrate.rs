@@ -4,9 +4,9 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use shadowstep::Rational;
-use shadowstep::number::Rounded;
 use shadowstep::shadow::EstimatorSettings;
-use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::integrate::{Integration, Samples};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::propagator::for_system;
@@ -137,7 +137,7 @@ struct InTexts<'a> {
 impl Computation for InTexts<'_> {
     type Output = Result<Samples<String>, Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         Ok(self.integration.run::<N>(context, self.observer)?.map(N::to_text))
     }
 }

@@ -5,8 +5,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::run::RunError;
-use shadowstep::shadow::{Bilinear, BuildEstimator, Monitor as ShadowMonitor, Report};
+use shadowstep::shadow::Report;
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::{Monitoring, RunNumber as _};
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
 use crate::errors::exception;
@@ -18,7 +19,7 @@ use crate::scheme::Table;
 #[pyclass(unsendable, module = "shadowstep._shadowstep")]
 pub(crate) struct Monitor {
     integrator: SceneIntegrator<f64>,
-    monitor: ShadowMonitor<f64, <Bilinear as BuildEstimator<f64>>::Estimator>,
+    monitor: Box<dyn Monitoring<f64>>,
     newest: Option<(u64, f64, Option<f64>, f64)>,
     problem: Py<Given>,
 }
@@ -53,9 +54,9 @@ impl Monitor {
             Steps { scheme: &posed.scheme.scheme, h: &h, compensated, displaced: false, begin: Begin::InitialState };
         let integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &());
         let mut integrator = integrator.map_err(|error| failed(error.into()))?;
-        let monitor = ShadowMonitor::new(&mut *integrator, &Bilinear::with_error(order));
+        let monitor = f64::monitor(&mut *integrator, order, every);
         given.raised(py)?;
-        let monitor = monitor.map_err(|error| failed(of_run(&error)))?.every(every);
+        let monitor = monitor.map_err(|error| failed(of_run(&error)))?;
         Ok(Monitor { integrator, monitor, newest: None, problem })
     }
 

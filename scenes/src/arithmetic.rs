@@ -1,10 +1,6 @@
 //! The arithmetic of a run: its number type, the one place that dispatches on number types, and its sums.
 
-use num_traits::Zero;
-use shadowstep::Rational;
-#[cfg(feature = "mpfr")]
-use shadowstep::number::Float;
-use shadowstep::number::{AnyLimbs, DoubleDouble, LimbCount, Precision, PrecisionError, Rounded};
+use shadowstep::number::{LimbCount, Precision, PrecisionError};
 use shadowstep_schemes::exact::DIGITS as TABLE_DIGITS;
 use shadowstep_schemes::scheme::Held;
 use shadowstep_symbolic::Exact;
@@ -34,15 +30,6 @@ pub const NUMBER_EXAMPLES: &str = "write an exact number, such as 1/10, 0.05, 1e
 
 /// What else helps where a scheme's weights have too few digits.
 pub const OTHER_SCHEME: &str = "a scheme whose weights are fractions";
-
-/// A computation that can be made in every number type.
-pub trait Computation {
-    /// Its result.
-    type Output;
-
-    /// Makes it with numbers of type N.
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output;
-}
 
 /// The digits of a run in words or numbers, as records and metadata have them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
@@ -86,14 +73,6 @@ pub enum Digits {
 const MOST_LIMBS: usize = 16;
 
 impl Numbers {
-    fn compute<C: Computation>(self, computation: C) -> C::Output {
-        match self {
-            Numbers::Double => computation.compute::<f64>(&()),
-            Numbers::DoubleDouble => computation.compute::<DoubleDouble>(&()),
-            Numbers::Digits(_, digits) => digits.compute(computation),
-        }
-    }
-
     fn digits(self) -> u32 {
         match self {
             Numbers::Double => 16,
@@ -108,39 +87,6 @@ impl Numbers {
             Numbers::DoubleDouble => "double-double precision".to_owned(),
             Numbers::Digits(digits, _) => readable::digits(digits),
         }
-    }
-}
-
-impl Digits {
-    fn compute<C: Computation>(self, computation: C) -> C::Output {
-        match self {
-            Digits::Limbs(count) => computation.compute::<AnyLimbs>(&count),
-            #[cfg(feature = "mpfr")]
-            Digits::Mpfr(precision) => computation.compute::<Float>(&precision),
-        }
-    }
-}
-
-/// Whether a number neither overflows nor becomes 0 in a number type.
-struct Holds<'a>(&'a Rational);
-
-impl Computation for Holds<'_> {
-    type Output = bool;
-
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> bool {
-        let rounded = N::from_rational(self.0, context);
-        rounded.is_finite() && (self.0.is_zero() || rounded != N::from_rational(&Rational::zero(), context))
-    }
-}
-
-/// Whether r² of points with such coordinates is finite in a number type.
-struct HasSquare<'a>(&'a Rational);
-
-impl Computation for HasSquare<'_> {
-    type Output = bool;
-
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> bool {
-        N::from_rational(self.0, context).has_finite_square()
     }
 }
 
@@ -168,30 +114,6 @@ impl Arithmetic {
     /// The number type.
     pub fn numbers(self) -> Numbers {
         self.numbers
-    }
-
-    /// Makes a computation in this number type.
-    ///
-    /// ```
-    /// use shadowstep::number::Rounded;
-    /// use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
-    ///
-    /// struct Third;
-    ///
-    /// impl Computation for Third {
-    ///     type Output = String;
-    ///
-    ///     fn compute<N: Rounded + 'static>(self, context: &N::Context) -> String {
-    ///         N::from_rational(&shadowstep::exact("1/3").unwrap(), context).to_text()
-    ///     }
-    /// }
-    ///
-    /// assert_eq!(Arithmetic::DOUBLE.compute(Third), "0.3333333333333333");
-    /// assert_eq!(Arithmetic::with_digits(30)?.compute(Third).len(), "0.".len() + 39);
-    /// # Ok::<(), shadowstep_scenes::arithmetic::DigitsError>(())
-    /// ```
-    pub fn compute<C: Computation>(self, computation: C) -> C::Output {
-        self.numbers.compute(computation)
     }
 
     /// Its significant decimal digits, rounded up.
@@ -258,21 +180,6 @@ impl Arithmetic {
             Numbers::Digits(_, Digits::Limbs(count)) => Some(count.get()),
             _ => None,
         }
-    }
-
-    /// Whether a value neither overflows nor becomes 0.
-    pub fn holds(self, value: &Rational) -> bool {
-        self.compute(Holds(value))
-    }
-
-    /// Whether r² of two points in space with such coordinates is finite.
-    pub fn has_square_of(self, value: &Rational) -> bool {
-        self.compute(HasSquare(value))
-    }
-
-    /// The first of these masses that overflows or underflows, or whose inverse does.
-    pub fn mass_out_of_range(self, masses: &[Exact]) -> Option<&Exact> {
-        masses.iter().find(|mass| !(self.holds(&mass.value) && self.holds(&mass.value.recip())))
     }
 
     /// The digits to which exact values of the run are computed.

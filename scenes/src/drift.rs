@@ -34,7 +34,8 @@ use shadowstep::run::EnergyDrift;
 use shadowstep::shadow::{EstimatorSettings, SelectionRule, StoppingRule};
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::arithmetic::{Arithmetic, Computation};
+use crate::arithmetic::Arithmetic;
+use crate::computation::{Computation, RunNumber};
 use crate::cpu_time::CpuTime;
 use crate::error::Error;
 use crate::estimates::{Estimates, Finished};
@@ -98,7 +99,7 @@ struct Measurement<'a> {
 impl Computation for Measurement<'_> {
     type Output = Result<Record, Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let Measurement { question, propagator, run, controls, follower } = self;
         let Question { system, summarised, .. } = *question;
         let settings = question.estimator.clone().with_errors(true);

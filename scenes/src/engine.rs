@@ -5,13 +5,13 @@ use std::ops::ControlFlow::{self, Break, Continue};
 use std::time::{Duration, Instant};
 
 use shadowstep::integrator::{VectorIntegrator, at_output};
-use shadowstep::number::Rounded;
 use shadowstep::run::RunError;
 use shadowstep::shadow::Estimate;
-use shadowstep::{Carried, MotionError, Ordered};
+use shadowstep::{Carried, MotionError};
 
+use crate::computation::RunNumber;
 use crate::error::Error;
-use crate::follow::{Follower, follow};
+use crate::follow::Follower;
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::physical_end::last_step;
@@ -45,7 +45,7 @@ pub enum Outcome {
 pub(crate) type Ended = (Outcome, Option<Summary>);
 
 /// Runs the scene, from a checkpoint if there is one, until it is complete or the observer stops it.
-pub(crate) fn run<N: Rounded + 'static>(
+pub(crate) fn run<N: RunNumber>(
     scene: &Scene,
     context: &N::Context,
     rows: &mut Rows<'_>,
@@ -86,7 +86,7 @@ pub(crate) fn run<N: Rounded + 'static>(
     };
     recorder.watch = recorder.watch(&mut *integrator)?;
     let settings = scene.output.modified_energy.as_ref().map(|(settings, _)| settings);
-    match follow(&mut *integrator, (from, recorder.run.steps), settings, &mut recorder)? {
+    match N::follow(&mut *integrator, (from, recorder.run.steps), settings, &mut recorder)? {
         Break(()) => Ok((Outcome::Stopped { n: recorder.n }, None)),
         Continue(()) => recorder.complete(&mut *integrator),
     }
@@ -105,7 +105,7 @@ fn unreadable(n: i64) -> Error {
 const LONG: Duration = Duration::from_millis(500);
 
 /// Follows the states of a run in the order of time.
-struct Recorder<'a, 'r, N: Ordered> {
+struct Recorder<'a, 'r, N: RunNumber> {
     scene: &'a Scene,
     run: Run<'a>,
     context: &'a N::Context,
@@ -131,7 +131,7 @@ struct Recorder<'a, 'r, N: Ordered> {
     n: i64,
 }
 
-impl<N: Ordered + 'static> Recorder<'_, '_, N> {
+impl<N: RunNumber> Recorder<'_, '_, N> {
     /// Follows the run for a summary, if the observer wants one.
     fn watch(&self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Option<Watch<N>>, Error> {
         if !self.observer.summarises() {
@@ -328,7 +328,7 @@ impl<N: Ordered + 'static> Recorder<'_, '_, N> {
     }
 }
 
-impl<N: Ordered + 'static> Follower<N> for Recorder<'_, '_, N> {
+impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
     fn begin(&mut self, reach: i64, integrator: &mut VectorIntegrator<'_, N>) {
         self.snapshots = Snapshots::new(reach);
         if let Some(from) = self.from {

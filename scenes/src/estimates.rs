@@ -2,14 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use shadowstep::Ordered;
 use shadowstep::integrator::VectorIntegrator;
-use shadowstep::number::Rounded;
 use shadowstep::run::RunError;
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 
+use crate::computation::RunNumber;
 use crate::error::Error;
-use crate::follow::{Follower, follow};
+use crate::follow::Follower;
 use crate::propagator::{Propagator, exact_flow};
 use crate::run::Run;
 use crate::scene::System;
@@ -55,10 +54,10 @@ impl Estimates<'_> {
     ///
     /// # Panics
     /// If the scheme is the exact flow of a system that has none, which [`Propagator::of_system`] excludes.
-    pub fn take<N: Rounded + 'static>(
+    pub fn take<N: RunNumber>(
         self,
         context: &N::Context,
-        mut take: impl FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
+        take: &mut dyn FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
     ) -> Result<Finished, Error> {
         let Estimates { system, propagator, run, settings, .. } = self;
         match propagator {
@@ -80,11 +79,11 @@ impl Estimates<'_> {
     }
 
     /// Those of a scheme.
-    fn along<N: Rounded + 'static>(
+    fn along<N: RunNumber>(
         self,
         integrator: &mut VectorIntegrator<'_, N>,
         context: &N::Context,
-        take: impl FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
+        take: &mut dyn FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
     ) -> Result<Finished, Error> {
         let Estimates { system, run, settings, summarised, .. } = self;
         let (q, p) = system.start(context);
@@ -94,7 +93,7 @@ impl Estimates<'_> {
         let last = i64::try_from(run.steps).unwrap_or(i64::MAX);
         let mut along = Along { estimates: self, take, watch, last, at_first: 0, at_last: 0 };
         // none ends the run
-        let _ = follow(integrator, (None, run.steps), Some(settings), &mut along)?;
+        let _ = N::follow(integrator, (None, run.steps), Some(settings), &mut along)?;
         let Along { watch, at_first, at_last, .. } = along;
         Ok(Finished {
             evaluations: integrator.state().evaluations(),
@@ -110,9 +109,9 @@ impl Estimates<'_> {
 }
 
 /// Follows a run of a scheme.
-struct Along<'a, N: Ordered, F> {
+struct Along<'a, N: RunNumber> {
     estimates: Estimates<'a>,
-    take: F,
+    take: &'a mut dyn FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
     watch: Watch<N>,
     /// The n of the last state of the run.
     last: i64,
@@ -121,11 +120,7 @@ struct Along<'a, N: Ordered, F> {
     at_last: u64,
 }
 
-impl<N, F> Follower<N> for Along<'_, N, F>
-where
-    N: Ordered,
-    F: FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
-{
+impl<N: RunNumber> Follower<N> for Along<'_, N> {
     fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
         if n == 0 {
             self.at_first = integrator.state().evaluations();

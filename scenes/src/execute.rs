@@ -2,9 +2,7 @@
 
 use std::io::Write;
 
-use shadowstep::number::Rounded;
-
-use crate::arithmetic::Computation;
+use crate::computation::{Computation, RunNumber};
 use crate::engine::{self, Ended, Outcome};
 use crate::error::Error;
 use crate::note::Note;
@@ -90,7 +88,7 @@ struct Following<'a, 'r> {
 impl Computation for Following<'_, '_> {
     type Output = Result<Ended, Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         engine::run::<N>(self.scene, context, self.rows, self.checkpoint, self.observer)
     }
 }

@@ -56,7 +56,7 @@ pub trait Follower<N: Ordered> {
 ///
 /// # Errors
 /// Those of the follower.
-pub fn follow<N: Ordered + 'static>(
+pub(crate) fn follow<N: Ordered + 'static>(
     integrator: &mut VectorIntegrator<'_, N>,
     (from, steps): (Option<i64>, u64),
     settings: Option<&EstimatorSettings>,

@@ -25,15 +25,15 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use shadowstep::Ordered;
 use shadowstep::integrator::{VectorIntegrator, at_output};
-use shadowstep::number::{Number, Rounded};
+use shadowstep::number::Number;
 use shadowstep::run::{NotFinite, Quantity, RunError};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
 use shadowstep::tables::TableScheme;
 
+use crate::computation::RunNumber;
 use crate::error::Error;
-use crate::follow::{Follower, follow};
+use crate::follow::Follower;
 use crate::observer::Observer;
 use crate::run::Run;
 use crate::scene::{self, EnergyAt};
@@ -95,11 +95,7 @@ impl Integration<'_> {
     ///
     /// # Panics
     /// If the scheme is not valid for the system.
-    pub fn run<N: Rounded + 'static>(
-        self,
-        context: &N::Context,
-        observer: &mut dyn Observer,
-    ) -> Result<Samples<N>, Error> {
+    pub fn run<N: RunNumber>(self, context: &N::Context, observer: &mut dyn Observer) -> Result<Samples<N>, Error> {
         let Integration { system, scheme, run, compensated, .. } = self;
         let steps = Steps { scheme, h: run.h, compensated, displaced: false, begin: Begin::InitialState };
         let mut integrator = system.integrator(steps, system.start(context), context)?;
@@ -123,7 +119,7 @@ impl Integration<'_> {
             asked: Instant::now(),
         };
         // no follower of samples ends the run
-        let _ = follow(&mut *integrator, (None, run.steps), self.estimator, &mut keeper)?;
+        let _ = N::follow(&mut *integrator, (None, run.steps), self.estimator, &mut keeper)?;
         // the estimates between two states end before the last one
         if let Some(last) = keeper.last.take() {
             keeper.keep_state(run.steps, &mut *integrator, last)?;
@@ -160,7 +156,7 @@ const ASKED: Duration = Duration::from_millis(10);
 /// At most this number of steps is made at once.
 const MOST_AT_ONCE: u64 = 1 << 16;
 
-impl<N: Ordered + 'static> Keeper<'_, N> {
+impl<N: RunNumber> Keeper<'_, N> {
     /// Asks the observer after some number of steps, which follows the time that these take; at all others not even for the time.
     fn ask_in_time(&mut self, n: u64) -> Result<(), Error> {
         if !n.is_multiple_of(self.at_once) {
@@ -236,7 +232,7 @@ impl<N: Ordered + 'static> Keeper<'_, N> {
     }
 }
 
-impl<N: Ordered + 'static> Follower<N> for Keeper<'_, N> {
+impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
     fn next(&self, n: i64) -> i64 {
         let (n, every) = (n.unsigned_abs(), self.integration.every.max(1));
         let next = |every: u64| (n / every + 1).saturating_mul(every);

@@ -90,6 +90,7 @@
 //! | [`readable`], `error`, `refusal` | numbers and texts for people; what can go wrong |
 
 pub mod arithmetic;
+pub mod computation;
 pub mod cpu_time;
 pub mod drift;
 mod engine;
@@ -117,6 +118,7 @@ pub mod readable;
 mod refusal;
 mod results;
 pub mod run;
+mod run_number;
 mod scene;
 pub mod scheme_record;
 mod shipped;
@@ -142,7 +144,7 @@ pub use refusal::{NoGradientKicks, NoProcessor, Refusal};
 pub use results::{FileOptions, elementary_functions, hexadecimal};
 pub use scene::{
     CheckpointInterval, EnergyAt, Format, Formula, InitialValueProblem, KineticEnergy, Outputs, OwnPotential,
-    PairEnergy, Parts, PotentialEnergy, Scene, System,
+    PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, System, SystemIn,
 };
 pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene};
 pub use split::{Canonical, Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Shown, TransformedTime};

@@ -4,15 +4,14 @@ use std::ops::ControlFlow::{self, Break, Continue};
 
 use num_traits::Signed;
 use shadowstep::integrator::VectorIntegrator;
-use shadowstep::number::Rounded;
 use shadowstep::run::RunError;
 use shadowstep::shadow::Estimate;
 use shadowstep::transformed_time::step_to_time;
 use shadowstep::{Ordered, Rational};
 
-use crate::arithmetic::Computation;
+use crate::computation::{Computation, RunNumber};
 use crate::error::Error;
-use crate::follow::{Follower, follow};
+use crate::follow::Follower;
 use crate::run::Run;
 use crate::scene;
 use crate::steps::MOST_STEPS;
@@ -43,13 +42,13 @@ struct Counting<'a> {
 impl Computation for Counting<'_> {
     type Output = u64;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> u64 {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> u64 {
         let Counting { scene, until } = self;
         let Ok(mut integrator) = scene.integrator::<N>(context) else { return 0 };
         let until = N::from_rational(until, context);
         let mut count = StepsTo { until, forward: scene.h.is_positive(), steps: 0 };
         // a step whose state is not finite counts, so that the run finds it
-        let _ = follow(&mut *integrator, (None, MOST_STEPS), None, &mut count);
+        let _ = N::follow(&mut *integrator, (None, MOST_STEPS), None, &mut count);
         count.steps
     }
 }

@@ -1,17 +1,18 @@
 //! What advances a state in time: a scheme, or the exact flow.
 
 use shadowstep::exact_flow::{self, ExactFlow, ExactFlowError};
-use shadowstep::number::{Number, Rounded};
+use shadowstep::number::Number;
 use shadowstep::problems::{Problem, ProblemMotion, Setup};
 use shadowstep::run::ShadowRun;
-use shadowstep::shadow::BuildEstimator;
+use shadowstep::shadow::{Estimator, EstimatorSettings};
 use shadowstep::tables::TableScheme;
 use shadowstep::{StepSize, Stepper};
 
 use crate::error::Error;
 use crate::library::{self, EXACT_FLOW, NamedScheme, Schemes};
 use crate::run::Run;
-use crate::scene::System;
+use crate::run_number::RunNumber;
+use crate::scene::{SceneNumber, System};
 
 /// A scheme, or the exact flow, on which an estimator shows its own error.
 #[derive(Debug)]
@@ -93,22 +94,28 @@ pub fn stepper<N: Number>(named: &NamedScheme, run: Run<'_>, context: &N::Contex
     Stepper::with_context(named.scheme.clone(), run.h, context).expect("runs have a nonzero step size")
 }
 
-pub(crate) fn exact_flow<N: Rounded, B: BuildEstimator<N>>(
+/// The estimates along the exact flow of a problem.
+pub(crate) fn exact_flow<N: RunNumber>(
     setup: &Setup,
     run: Run<'_>,
-    settings: &B,
+    settings: &EstimatorSettings,
     context: &N::Context,
-) -> Result<ShadowRun<ExactFlow<N>, B::Estimator>, Error> {
+) -> Result<ShadowRun<ExactFlow<N>, Box<dyn Estimator<N>>>, Error> {
     let h = StepSize::try_from(run.h).expect("runs have a nonzero step size");
-    ShadowRun::of_exact_flow(setup, &h, run.steps, settings, context).map_err(|error| run.not_followed(&error))
+    let estimates = || {
+        let estimator = N::estimator(settings, &h, setup.values.positions().len(), context)?;
+        let reach = (estimator.states() - 1) / 2;
+        Ok(ShadowRun::of(ExactFlow::new(setup, &h, run.steps, reach, context)?, estimator, &h))
+    };
+    estimates().map_err(|error: ExactFlowError| run.not_followed(&error))
 }
 
 /// The problem at its initial state.
 ///
 /// # Panics
 /// If a mass or its inverse is 0 or infinite in the number type, which the reading of a problem excludes.
-pub fn motion<N: Number + 'static>(setup: &Setup, context: &N::Context) -> ProblemMotion<N> {
-    setup.motion(context).expect("the masses were read with the problem")
+pub fn motion<N: SceneNumber>(setup: &Setup, context: &N::Context) -> ProblemMotion<N> {
+    N::motion(setup, context).expect("the masses were read with the problem")
 }
 
 /// The scheme with steps for a system: for every T(p) or for many parts, where that is needed.

@@ -2,6 +2,7 @@
 
 mod format;
 mod formula;
+mod number;
 mod output;
 mod own;
 mod pairs;
@@ -12,6 +13,7 @@ mod system;
 pub(crate) use format::COLUMNS;
 pub use format::Format;
 pub use formula::Formula;
+pub use number::{SceneNumber, SystemIn};
 pub use output::{CheckpointInterval, Outputs};
 pub use own::OwnPotential;
 pub use pairs::PairEnergy;
@@ -21,10 +23,8 @@ pub use system::{Parts, System};
 
 use std::sync::OnceLock;
 
-use shadowstep::MotionError;
-use shadowstep::Rational;
-use shadowstep::number::Rounded;
 use shadowstep::tables::Source;
+use shadowstep::{MotionError, Rational};
 
 use crate::arithmetic::Arithmetic;
 use crate::estimator::order_setting;
@@ -63,7 +63,7 @@ impl Scene {
     ///
     /// # Errors
     /// A state of another dimension.
-    pub fn integrator<N: Rounded + 'static>(&self, context: &N::Context) -> Result<SceneIntegrator<N>, MotionError> {
+    pub fn integrator<N: SceneNumber>(&self, context: &N::Context) -> Result<SceneIntegrator<N>, MotionError> {
         self.system.integrator(self.steps_from(Begin::InitialState), self.system.start(context), context)
     }
 

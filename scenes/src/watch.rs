@@ -6,7 +6,7 @@ mod energy;
 
 use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::run::RunError;
-use shadowstep::shadow::{Bilinear, BuildEstimator, Criterion, KINETIC_LIMIT, Missing, Monitor, Report, Verdict};
+use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
 use shadowstep::{Integrator as _, Ordered};
 
 use self::approaches::Approaches;
@@ -15,6 +15,7 @@ pub use self::encounters::Encounter;
 use self::encounters::Encounters;
 use self::energy::EnergyError;
 use crate::run::Run;
+use crate::run_number::{Monitoring, RunNumber};
 use crate::scene;
 use crate::summary::{EnergySummary, ModifiedEnergySummary, Summary};
 
@@ -37,7 +38,7 @@ pub enum Energies {
 }
 
 /// Follows the states of a run in the order of time.
-pub struct Watch<N: Ordered> {
+pub struct Watch<N: RunNumber> {
     energies: Energies,
     energy: EnergyError<N>,
     /// Whether H is that of transformed time, which is 0 but for round-off.
@@ -49,15 +50,15 @@ pub struct Watch<N: Ordered> {
     n: i64,
 }
 
-struct Observed<N: Ordered> {
-    monitor: Monitor<N, <Bilinear as BuildEstimator<N>>::Estimator>,
+struct Observed<N: RunNumber> {
+    monitor: Box<dyn Monitoring<N>>,
     encounters: Encounters<N>,
     approaches: Option<Approaches>,
     /// The states between windows of the monitor.
     every: u64,
 }
 
-impl<N: Ordered> Watch<N> {
+impl<N: RunNumber> Watch<N> {
     /// Begins at the system's present state, which is number `from` of the run; `initial` is H at t = 0.
     ///
     /// # Errors
@@ -73,9 +74,8 @@ impl<N: Ordered> Watch<N> {
         let every = (run.steps.saturating_sub(from.unsigned_abs()) / WINDOWS).max(1);
         let mut observed = None;
         if summarised {
-            let monitor = Monitor::new(integrator, &Bilinear::with_error(MONITOR_ORDER))?;
             observed = Some(Observed {
-                monitor: monitor.every(every),
+                monitor: N::monitor(integrator, MONITOR_ORDER, every)?,
                 encounters: Encounters::new(integrator.state().p()),
                 approaches: None,
                 every,
@@ -117,7 +117,7 @@ impl<N: Ordered> Watch<N> {
             approaches.include(n, (q, p), n.unsigned_abs().is_multiple_of(*every));
         }
         // what is not finite is found by the run as well, or by the verdict
-        if let Ok(Some(sample)) = monitor.observe(integrator.system())
+        if let Ok(Some(sample)) = monitor.observe(integrator)
             && self.energies == Energies::Windows
         {
             if integrator.is_processed() {

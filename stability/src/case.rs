@@ -3,9 +3,9 @@
 use serde::de::DeserializeOwned;
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
-use shadowstep::number::Rounded;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::{Arithmetic, Computation, Numbers};
+use shadowstep_scenes::arithmetic::{Arithmetic, Numbers};
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::{Calculation, Continues};
 
@@ -39,7 +39,7 @@ pub(crate) trait Case {
     fn seconds(suite: &Suite, trial: &Self::Trial) -> f64;
 
     /// Makes a trial. One that is asked not to continue ends at once, with any result, which is dropped.
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Self::Trial,
         context: &N::Context,
@@ -114,7 +114,7 @@ struct Measure<'a, C: Case> {
 impl<C: Case> Computation for Measure<'_, C> {
     type Output = Result<C::Measured, Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         C::measure::<N>(self.suite, self.trial, context, self.continues)
     }
 }

@@ -1,10 +1,10 @@
 //! Long runs of shipped problems: whether the energy error stays bounded and the bodies stay where they are.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::number::Rounded;
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -66,14 +66,14 @@ impl LongRun {
         schemes.iter().map(run).collect()
     }
 
-    fn make<N: Rounded + 'static>(
+    fn make<N: RunNumber>(
         &self,
         suite: &Suite,
         context: &N::Context,
         continues: Continues<'_>,
     ) -> Result<Stayed, Error> {
         let h = shadowstep::exact(&self.h).expect("it is exact");
-        let mut motion = setup(self.problem, &[]).motion::<N>(context).expect("masses are positive");
+        let mut motion = N::motion(&setup(self.problem, &[]), context).expect("masses are positive");
         let initial = motion.energy().to_f64();
         let size = |q: &[N]| {
             let origin = |i: usize| q[..self.about].get(i % self.about.max(1)).map_or(0.0, N::to_f64);
@@ -151,7 +151,7 @@ impl<C: LongCase> Case for C {
         run.steps as f64 * suite.scheme(&run.scheme).scheme.summary().evaluations as f64 * C::EVALUATION
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         run: &LongRun,
         context: &N::Context,

@@ -1,10 +1,10 @@
 //! A run of a scheme with a monitor: what it says, and when.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::number::Rounded;
 use shadowstep::problems::{ProblemMotion, Setup, problem};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::{Rational, Stepper};
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_studies::Continues;
 use shadowstep_studies::verdict::Verdict as Agreement;
@@ -65,7 +65,7 @@ pub(crate) fn setup(name: &str, set: &[(&str, String)]) -> Setup {
 }
 
 /// Makes `steps` steps of size h, with a window of the monitor every `every` steps; `each` gets every state with its number from 1 on.
-pub(crate) fn watched<N: Rounded + 'static>(
+pub(crate) fn watched<N: RunNumber>(
     (scheme, h): (&NamedScheme, &Rational),
     every: u64,
     mut motion: ProblemMotion<N>,

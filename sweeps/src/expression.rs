@@ -3,8 +3,9 @@
 use std::cmp::Ordering;
 
 use shadowstep::formula::{FormulaError, FormulaPotential};
-use shadowstep::number::{Lanes, Number, Rounded};
+use shadowstep::number::{Lanes, Number};
 use shadowstep::{Potential, Rational};
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::{EnergyAt, Shown, System};
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::{Exact, Expression as Syntax, Kind, parse};
@@ -124,11 +125,11 @@ pub(crate) struct Evaluator<N> {
     energy: Option<EnergyAt<N>>,
 }
 
-impl<N: Rounded + 'static> Evaluator<N> {
+impl<N: RunNumber> Evaluator<N> {
     /// For the states of a run, also in transformed time.
     pub(crate) fn of_run(expression: &Expression, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
         let energy = system.transformed_time().map(|_| system.energy(context));
-        Ok(Evaluator { energy, ..Evaluator::new(expression, system, context)? })
+        Ok(Evaluator { energy, shown: system.shown(context), ..Evaluator::new(expression, system, context)? })
     }
 }
 
@@ -154,8 +155,8 @@ impl<N: Number + 'static> Evaluator<N> {
         let mut scratch = vec![zero.clone(); formula.scratch()];
         formula.prepare(&mut scratch, context);
         let (has_time, has_energy) = (expression.has_time, expression.has_energy);
-        let (point, shown) = (vec![zero.clone(); names.len()], system.shown(context));
-        Ok(Evaluator { formula, scratch, point, value: zero, shown, has_time, has_energy, energy: None })
+        let point = vec![zero.clone(); names.len()];
+        Ok(Evaluator { formula, scratch, point, value: zero, shown: None, has_time, has_energy, energy: None })
     }
 
     /// The value at a state.
@@ -201,7 +202,7 @@ pub(crate) struct Test<N> {
     zero: N,
 }
 
-impl<N: Rounded + 'static> Test<N> {
+impl<N: RunNumber> Test<N> {
     pub(crate) fn new(condition: &Condition, system: &System, context: &N::Context) -> Result<Self, FormulaError> {
         let difference = Evaluator::of_run(&condition.difference, system, context)?;
         Ok(Test { difference, met: condition.met, zero: N::zero(context) })

@@ -5,12 +5,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
 use shadowstep::integrator::{VectorIntegrator, at_output};
-use shadowstep::number::Rounded;
 use shadowstep::run::{DriftRecorder, EnergyDrift, Finding, RunError};
 use shadowstep::shadow::Estimate;
 use shadowstep::{Carried, Ordered};
-use shadowstep_scenes::arithmetic::Computation;
-use shadowstep_scenes::follow::{Follower, follow};
+use shadowstep_scenes::computation::{Computation, RunNumber};
+use shadowstep_scenes::follow::Follower;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::watch::{Energies, Watch};
 use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, Shown, Summary, System};
@@ -102,7 +101,7 @@ struct Measuring<'a> {
 impl Computation for Measuring<'_> {
     type Output = Result<Option<Values>, Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let Measuring { scene, keep, stops } = self;
         let mut integrator = scene.integrator::<N>(context)?;
         let (run, described) = (scene.as_run(), &scene.system);
@@ -114,7 +113,7 @@ impl Computation for Measuring<'_> {
             following.drift = Some(drift.compensated_if(integrator.state().is_compensated()));
         }
         let settings = settings.map(|(settings, _)| settings);
-        let ended = follow(&mut *integrator, (None, run.steps), settings, &mut following)?;
+        let ended = N::follow(&mut *integrator, (None, run.steps), settings, &mut following)?;
         if ended.is_break() && !following.is_over() {
             return Ok(None);
         }
@@ -130,7 +129,7 @@ struct Ended<N> {
 }
 
 /// What is kept, as far as the states have come.
-struct Following<'a, N: Ordered> {
+struct Following<'a, N: RunNumber> {
     run: Run<'a>,
     described: &'a System,
     keep: &'a Keep,
@@ -156,7 +155,7 @@ struct End {
     has_energy: bool,
 }
 
-impl<'a, N: Rounded + 'static> Following<'a, N> {
+impl<'a, N: RunNumber> Following<'a, N> {
     fn begin(
         scene: &'a Scene,
         (keep, stops): (&'a Keep, &'a AtomicBool),
@@ -258,7 +257,7 @@ impl<'a, N: Rounded + 'static> Following<'a, N> {
 /// This number of steps is made at once where only the last state is of interest.
 const AT_ONCE: i64 = 64;
 
-impl<N: Rounded + 'static> Follower<N> for Following<'_, N> {
+impl<N: RunNumber> Follower<N> for Following<'_, N> {
     fn carried(&self) -> Carried {
         match self.watch.as_ref().is_some_and(Watch::needs_increments) {
             true => Carried::Increments,

@@ -1,9 +1,9 @@
 //! What schemes are compared on: a system, an interval of time, a number type.
 
 use num_traits::Signed;
-use shadowstep::number::Rounded;
 use shadowstep::{Number, Rational};
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::library::{NamedScheme, fingerprint};
 use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 use shadowstep_scenes::{Error, System};
@@ -35,7 +35,7 @@ impl Problem<'_> {
     }
 
     /// The system at t = 0 with a scheme that makes this number of steps.
-    pub(crate) fn integrator<N: Rounded + 'static>(
+    pub(crate) fn integrator<N: RunNumber>(
         &self,
         named: &NamedScheme,
         steps: u64,

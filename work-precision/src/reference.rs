@@ -6,12 +6,12 @@ use std::time::Duration;
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
 use shadowstep::exact_flow::ExactFlow;
-use shadowstep::number::Rounded;
 use shadowstep::problems::Setup;
 use shadowstep::run::States;
 use shadowstep::{Ordered, StepSize};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::{NamedScheme, scheme};
 use shadowstep_scenes::propagator::{for_system, with_exact_flow};
@@ -142,7 +142,7 @@ struct Texts<'a> {
 impl Computation for Texts<'_> {
     type Output = Result<Vec<Vec<String>>, Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let Texts { problem, named, run: (samples, steps) } = self;
         let found = positions::<N>(problem, named, (steps, samples), context)?;
         if (found.len() as u64) < samples {
@@ -173,7 +173,7 @@ struct ExactTexts<'a> {
 impl Computation for ExactTexts<'_> {
     type Output = Result<Vec<Vec<String>>, Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let ExactTexts { problem, setup, samples } = self;
         let h = StepSize::try_from(&problem.step_size(samples)).expect("the run has a nonzero length");
         let failed =
@@ -226,7 +226,7 @@ struct ByHalving<'a> {
 impl Computation for ByHalving<'_> {
     type Output = Result<Reference, Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let ByHalving { problem, named, digits, target, samples, time, continues } = self;
         let begin = CpuTime::begin();
         let mut steps = first_steps(problem, samples);
@@ -273,7 +273,7 @@ fn first_steps(problem: Problem<'_>, samples: u64) -> u64 {
     samples * per_sample.max(1)
 }
 
-fn positions<N: Rounded + 'static>(
+fn positions<N: RunNumber>(
     problem: Problem<'_>,
     named: &NamedScheme,
     (steps, samples): (u64, u64),

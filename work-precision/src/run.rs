@@ -1,9 +1,10 @@
 //! One run: the errors of its positions and of H, and its modified energy.
 
 use serde::{Deserialize, Serialize};
+use shadowstep::Ordered;
 use shadowstep::integrator::{VectorIntegrator, at_output};
-use shadowstep::shadow::{Bilinear, Monitor, Verdict};
-use shadowstep::{Integrator as _, Ordered};
+use shadowstep::shadow::Verdict;
+use shadowstep_scenes::computation::RunNumber;
 
 use crate::reference::Reference;
 use crate::size::Size;
@@ -78,16 +79,15 @@ pub struct Modified {
 
 impl Measurement {
     /// Makes a run of this number of steps, with as many evaluations, and measures it.
-    pub(crate) fn of<N: Ordered>(
+    pub(crate) fn of<N: RunNumber>(
         integrator: &mut VectorIntegrator<'_, N>,
         (steps, evaluations): (u64, u64),
         reference: &Reference,
     ) -> Measurement {
         let failed =
             |sample: usize| Measurement::failed(steps, evaluations, sample as f64 / reference.samples() as f64);
-        let monitor = Monitor::new(integrator, &Bilinear::with_error(MONITOR_ORDER));
-        let Ok(monitor) = monitor else { return failed(0) };
-        let mut monitor = monitor.every((steps / WINDOWS).max(1));
+        let monitor = N::monitor(integrator, MONITOR_ORDER, (steps / WINDOWS).max(1));
+        let Ok(mut monitor) = monitor else { return failed(0) };
         let mut energy = EnergyError::new(at_output(integrator, |integrator| integrator.system().energy()));
         let (mut position, mut largest_position) = (PositionError::None, PositionError::None);
         let mut in_first_half = (PositionError::None, Size::ZERO);

@@ -6,11 +6,10 @@ use std::time::Duration;
 use num_traits::ToPrimitive;
 use serde::{Deserialize, Serialize};
 use shadowstep::Scheme;
-use shadowstep::number::Rounded;
 use shadowstep::scheme::MapKind;
 use shadowstep_analysis::stability::Stability;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_studies::Continues;
@@ -206,7 +205,7 @@ struct Run<'a> {
 impl Computation for Run<'_> {
     type Output = Result<Measurement, Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let SeriesOf { problem, scheme, reference, .. } = self.series_of;
         let mut integrator = problem.integrator::<N>(scheme, self.steps, context)?;
         let of_output = scheme.scheme.processor().iter().filter(|(kind, _)| *kind == MapKind::Kick).count();

@@ -3,9 +3,8 @@
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
-use shadowstep::number::Rounded;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::cpu_time::CpuTime;
 use shadowstep_scenes::library::NamedScheme;
 
@@ -75,7 +74,7 @@ struct Steps<'a> {
 impl Computation for Steps<'_> {
     type Output = Result<Repeat, Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let Steps { problem, scheme, steps } = self;
         let mut integrator = problem.integrator::<N>(scheme, steps, context)?;
         let (q, p) = (integrator.state().q().to_vec(), integrator.state().p().to_vec());

@@ -5,8 +5,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use serde::Deserialize;
-use shadowstep::number::Rounded;
-use shadowstep_scenes::arithmetic::Computation;
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::{Error, Format, Scene};
 use shadowstep_symbolic::decimal::from_text;
 
@@ -43,7 +42,7 @@ struct Reading<'a> {
 impl Computation for Reading<'_> {
     type Output = Result<(), Error>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Self::Output {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
         let Reading { plots, scene, path, name } = self;
         let mut run = plots.run::<N>(name, scene.steps());
         let damaged = |n: u64| {

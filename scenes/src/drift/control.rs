@@ -17,6 +17,7 @@ use shadowstep::run::States;
 use super::follower::Follower;
 use super::measure::measure;
 use super::record::{Control, Permanent};
+use crate::computation::RunNumber;
 use crate::cpu_time::CpuTime;
 use crate::error::Error;
 use crate::estimates::Estimates;
@@ -72,7 +73,7 @@ impl Controls {
     }
 
     /// The control of a run that took `seconds`.
-    pub(super) fn of<N: Rounded + 'static>(
+    pub(super) fn of<N: RunNumber>(
         &mut self,
         estimates: Estimates<'_>,
         context: &N::Context,
@@ -112,7 +113,7 @@ fn expected<N: Rounded>(setup: &Setup, run: Run<'_>, context: &N::Context) -> Op
     Duration::try_from_secs_f64(all).ok()
 }
 
-fn control<N: Rounded + 'static>(
+fn control<N: RunNumber>(
     estimates: Estimates<'_>,
     context: &N::Context,
     limit: Option<Duration>,

@@ -1,14 +1,14 @@
 //! The drift of one run.
 
 use shadowstep::StepSize;
-use shadowstep::number::Rounded;
 use shadowstep::run::{DriftRecorder, EnergyDrift};
 
+use crate::computation::RunNumber;
 use crate::error::Error;
 use crate::estimates::{Estimates, Finished};
 
 /// The drift of a run, and what is known of the run besides.
-pub(super) fn measure<N: Rounded + 'static>(
+pub(super) fn measure<N: RunNumber>(
     estimates: Estimates<'_>,
     context: &N::Context,
     mut progress: impl FnMut(i64) -> Result<(), Error>,
@@ -16,7 +16,7 @@ pub(super) fn measure<N: Rounded + 'static>(
     let run = estimates.run;
     let drift = DriftRecorder::new(StepSize::try_from(run.h).expect("runs have a nonzero step size"));
     let mut drift = drift.compensated_if(estimates.compensated);
-    let finished = estimates.take::<N>(context, |n, estimate| {
+    let finished = estimates.take::<N>(context, &mut |n, estimate| {
         drift.include(n, &estimate);
         progress(n)
     })?;

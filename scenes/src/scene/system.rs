@@ -4,17 +4,14 @@ use std::ops::Deref;
 
 use num_traits::Zero;
 use serde_json::Value;
-use shadowstep::number::Rounded;
 use shadowstep::problems::Setup;
 use shadowstep::transformed_time::TimeTransformation;
-use shadowstep::{MotionError, Number};
 use shadowstep_symbolic::Exact;
 
 use crate::error::Error;
 use crate::scene::own::OwnPotential;
-use crate::scene::problem::{EnergyAt, InitialValueProblem, KineticEnergy, PotentialEnergy};
-use crate::split::{Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Shown, Split, TransformedTime};
-use crate::start::{SceneIntegrator, Steps};
+use crate::scene::problem::{InitialValueProblem, KineticEnergy, PotentialEnergy};
+use crate::split::{Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Split, TransformedTime};
 
 /// A problem and how its H is split for the steps.
 #[derive(Debug)]
@@ -148,47 +145,6 @@ impl System {
         ask!(&self.parts, split => split.needs(&self.problem))
     }
 
-    /// Positions and momenta at t = 0, in the coordinates of the steps.
-    pub fn start<N: Number + 'static>(&self, context: &N::Context) -> (Vec<N>, Vec<N>) {
-        let state = self.initial(context);
-        ask!(&self.parts, split => split.start(&self.problem, state, context))
-    }
-
-    /// Converts states from the coordinates of the steps to those that are shown, where these differ.
-    pub fn shown<N: Number + 'static>(&self, context: &N::Context) -> Option<Shown<N>> {
-        ask!(&self.parts, split => split.shown(&self.problem, context))
-    }
-
-    /// H of any state, in the coordinates of the steps; where time is transformed, of its q and p.
-    ///
-    /// # Panics
-    /// If q, p and U have different dimensions, which reading a system excludes.
-    pub fn energy<N: Rounded + 'static>(&self, context: &N::Context) -> EnergyAt<N> {
-        ask!(&self.parts, split => split.energy(&self.problem, context))
-    }
-
-    /// H for rows, where the steps conserve another function.
-    pub(crate) fn energy_of_rows<N: Rounded + 'static>(&self, context: &N::Context) -> Option<EnergyAt<N>> {
-        self.transformed_time().map(|_| self.energy(context))
-    }
-
-    /// The system at a state with its stepper, whose scheme is valid for it.
-    ///
-    /// # Errors
-    /// A state of another dimension.
-    ///
-    /// # Panics
-    /// If the step size is 0, the scheme is not valid for the parts or has gradient kicks that cannot be displaced as wanted, which reading a system
-    /// and its scheme excludes.
-    pub fn integrator<N: Rounded + 'static>(
-        &self,
-        steps: Steps<'_>,
-        state: (Vec<N>, Vec<N>),
-        context: &N::Context,
-    ) -> Result<SceneIntegrator<N>, MotionError> {
-        ask!(&self.parts, split => split.integrator(&self.problem, steps, state, context))
-    }
-
     /// The function of the transformed time, if time is transformed. The last coordinate of states is then t, its momentum p_t = −H(0).
     pub fn transformed_time(&self) -> Option<TimeTransformation> {
         ask!(&self.parts, split => split.transformed_time())
@@ -209,3 +165,5 @@ impl System {
         self.needs().class != Class::Quadratic
     }
 }
+
+pub(super) use ask;

@@ -3,11 +3,11 @@
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
-use shadowstep::number::Rounded;
 use shadowstep::pairs::{Ends, Pairs};
 use shadowstep::problems::CubicSpring;
 use shadowstep::{Motion, Potential, Rational, Scheme, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -63,7 +63,7 @@ impl Case for Chains {
         (WORK * REPEATS) as f64 * 20e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,

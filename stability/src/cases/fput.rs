@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -62,7 +63,7 @@ impl Case for Fput {
         f64::from(trial.until) * STEPS_A_UNIT as f64 * 500e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,
@@ -72,7 +73,7 @@ impl Case for Fput {
         let evaluations = scheme.scheme.summary().evaluations;
         let h = Rational::new(evaluations.into(), STEPS_A_UNIT.into());
         let steps = u64::from(trial.until) * STEPS_A_UNIT as u64 / evaluations as u64;
-        let motion = setup("fput-alpha", &[]).motion::<N>(context).expect("masses are 1");
+        let motion = N::motion(&setup("fput-alpha", &[]), context).expect("masses are 1");
         let initial = energy_of_first_mode(motion.q(), motion.p());
         let time = |n: u64| n as f64 * evaluations as f64 / STEPS_A_UNIT as f64;
         let mut first_mode = vec![(0.0, 1.0)];

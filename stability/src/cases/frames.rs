@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 use shadowstep::formula::FormulaPotential;
-use shadowstep::number::Rounded;
 use shadowstep::{DiagonalMasses, Motion, Rational, Scheme, Stepper};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -94,7 +94,7 @@ impl Case for Frames {
         trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 300e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,

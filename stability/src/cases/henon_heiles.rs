@@ -1,9 +1,9 @@
 //! Hénon–Heiles: regular, chaotic, escaping.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::number::Rounded;
 use shadowstep::{Number, Rational, Scheme};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -98,7 +98,7 @@ impl Case for HenonHeiles {
         2.0 * trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 40e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,
@@ -107,7 +107,7 @@ impl Case for HenonHeiles {
         let scheme = suite.scheme(&trial.scheme);
         let h = Rational::new(scheme.scheme.summary().evaluations.into(), STEPS_A_UNIT.into());
         let setup = setup("henon-heiles", &trial.kind.start());
-        let [mut motion, mut near] = [(), ()].map(|()| setup.motion::<N>(context).expect("masses are 1"));
+        let [mut motion, mut near] = [(), ()].map(|()| N::motion(&setup, context).expect("masses are 1"));
         let stepper = shadowstep::Stepper::with_context(scheme.scheme.clone(), &h, context).expect("it is positive");
         let moved = N::from_rational(&Rational::from_float(NEAR).expect("it is finite"), context);
         near.q_mut()[0].add(&moved);

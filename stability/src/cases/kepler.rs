@@ -7,9 +7,9 @@ use num_traits::FromPrimitive;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{RngCore, SeedableRng};
 use serde::{Deserialize, Serialize};
-use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Marker};
 use shadowstep_studies::finding::Finding;
@@ -99,7 +99,7 @@ impl Case for Kepler {
         trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 30e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,
@@ -112,7 +112,7 @@ impl Case for Kepler {
             ("py", "sqrt((1 - eccentricity)/(1 + eccentricity))".to_owned()),
         ];
         let setup = setup("kepler", &apocentre);
-        let motion = setup.motion::<N>(context).expect("masses are 1");
+        let motion = N::motion(&setup, context).expect("masses are 1");
         let mut apocentres = Apocentres::new(trial.steps);
         let watched = watched((suite.scheme(&trial.scheme), &h), EVERY, motion, trial.steps, continues, |n, motion| {
             let [q, p] = [motion.q(), motion.p()].map(|v| [v[0].to_f64(), v[1].to_f64()]);

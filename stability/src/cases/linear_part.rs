@@ -10,6 +10,7 @@ use shadowstep::number::Rounded;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Number, Rational, Stepper};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_schemes::MapKind;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
@@ -128,7 +129,7 @@ impl Case for LinearPartCase {
         trial.steps as f64 * suite.scheme(&trial.scheme).scheme.proved().plan.evaluations as f64 * 60e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,

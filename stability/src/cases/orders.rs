@@ -10,6 +10,7 @@ use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Rational, Stepper, System, UnitMasses, exact};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_schemes::MapKind;
 use shadowstep_schemes::proof::Order;
 use shadowstep_studies::Continues;
@@ -95,7 +96,7 @@ impl Case for Orders {
         2_f64.powi(trial.halvings[2] + 1) * evaluations as f64 * 30e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,
@@ -191,12 +192,7 @@ const Q: [&str; 2] = ["1", "1/5"];
 const P: [&str; 2] = ["-1/10", "9/10"];
 
 /// log₁₀ of the distance from the exact position at t = 1.
-fn distance<N: Rounded + 'static>(
-    stepper: &Stepper<TableScheme, N>,
-    steps: u64,
-    processed: bool,
-    context: &N::Context,
-) -> f64 {
+fn distance<N: RunNumber>(stepper: &Stepper<TableScheme, N>, steps: u64, processed: bool, context: &N::Context) -> f64 {
     let (q, p) = (numbers::<N, 2>(Q, context), numbers::<N, 2>(P, context));
     let mut motion = Motion::new(Kepler, UnitMasses, q, p).expect("two coordinates");
     if processed {
@@ -210,11 +206,7 @@ fn distance<N: Rounded + 'static>(
 }
 
 /// The same with Kepler's H as a sum of three parts.
-fn distance_in_parts<N: Rounded + 'static>(
-    scheme: &TableScheme,
-    (h, steps): (&Rational, u64),
-    context: &N::Context,
-) -> f64 {
+fn distance_in_parts<N: RunNumber>(scheme: &TableScheme, (h, steps): (&Rational, u64), context: &N::Context) -> f64 {
     let formulas = ["px^2/2 + x*py/3", "py^2/2 - x*py/3", "-1/sqrt(x^2 + y^2)"];
     let parts = parts::<N>(&formulas, (&["x", "y"], &["px", "py"]), &[], context).expect("their flows have formulas");
     let mut system = SystemOfParts::new(parts, &numbers(Q, context), &numbers(P, context)).expect("two coordinates");
@@ -225,7 +217,7 @@ fn distance_in_parts<N: Rounded + 'static>(
 }
 
 /// log₁₀ of the distance of q from the exact position at t = 1.
-fn off_the_orbit<N: Rounded + 'static>(q: &[N], context: &N::Context) -> f64 {
+fn off_the_orbit<N: RunNumber>(q: &[N], context: &N::Context) -> f64 {
     let (mut exact, mut v) = (numbers::<N, 2>(Q, context), numbers::<N, 2>(P, context));
     let [one] = numbers::<N, 1>(["1"], context);
     KeplerDrift::new(context).advance(&one, &one, &mut exact, &mut v);
@@ -238,11 +230,7 @@ fn off_the_orbit<N: Rounded + 'static>(q: &[N], context: &N::Context) -> f64 {
 }
 
 /// log₁₀ of the largest |H − H(0)| at t = 1, 2, 3, 4, for H = p²/2 − ε cos q.
-fn energy_error<N: Rounded + 'static>(
-    stepper: &Stepper<TableScheme, N>,
-    steps_a_unit: u64,
-    context: &N::Context,
-) -> f64 {
+fn energy_error<N: RunNumber>(stepper: &Stepper<TableScheme, N>, steps_a_unit: u64, context: &N::Context) -> f64 {
     let [epsilon, q, p] = numbers::<N, 3>([EPSILON, "7/10", "13/10"], context);
     let potential = FormulaPotential::<N>::new("-epsilon*cos(q)", &["q"], &[("epsilon", epsilon)]);
     let mut motion = Motion::new(potential.expect("it is a formula"), UnitMasses, [q], [p]).expect("one coordinate");
@@ -260,13 +248,14 @@ fn energy_error<N: Rounded + 'static>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shadowstep::number::Limbs;
+    use shadowstep::number::{AnyLimbs, LimbCount};
     use shadowstep_scenes::library::scheme;
 
     fn errors(name: &str, of: Of) -> Errors {
         let suite = Suite::new(vec![scheme(name).unwrap()], Arithmetic::DOUBLE, true);
         let trial = Orders::trials(&suite).into_iter().find(|trial| trial.of == of).unwrap();
-        Orders::measure::<Limbs<6>>(&suite, &trial, &(), &|_| true).unwrap()
+        let six = LimbCount::of_bits(6 * 64).unwrap();
+        Orders::measure::<AnyLimbs>(&suite, &trial, &six, &|_| true).unwrap()
     }
 
     #[test]

@@ -9,6 +9,7 @@ use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Number, Rational, Stepper, System, UnitMasses, exact};
 use shadowstep_analysis::stability::Stability;
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
@@ -73,7 +74,7 @@ impl Case for Oscillator {
         trial.steps as f64 * evaluations as f64 * 10e-9 * PARTS.len() as f64
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,

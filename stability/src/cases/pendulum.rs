@@ -1,9 +1,9 @@
 //! The pendulum at and around its separatrix.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::number::Rounded;
 use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -62,7 +62,7 @@ impl Case for Pendulum {
         trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 60e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,
@@ -72,7 +72,7 @@ impl Case for Pendulum {
         let evaluations = scheme.scheme.summary().evaluations;
         let h = Rational::new(evaluations.into(), STEPS_A_UNIT.into());
         let setup = setup("pendulum", &[("p", trial.momentum.to_owned())]);
-        let mut motion = setup.motion::<N>(context).expect("masses are 1");
+        let mut motion = N::motion(&setup, context).expect("masses are 1");
         let initial = motion.energy();
         let (mut back, mut over, mut energy_error) = (false, false, 0.0_f64);
         let watched = watched((scheme, &h), (trial.steps / 256).max(1), motion, trial.steps, continues, |_, motion| {

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 use shadowstep::Scheme;
-use shadowstep::number::Rounded;
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve, Mark};
 use shadowstep_studies::finding::Finding;
@@ -73,7 +73,7 @@ impl Case for Pericentres {
         trial.steps().1 as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 500e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         _: &N::Context,

@@ -1,10 +1,11 @@
 //! The same short run with 16 to 5000 digits.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::number::{Limbs, Rounded};
+use shadowstep::number::Limbs;
 use shadowstep::{Number, Ordered, Rational, Stepper};
 use shadowstep_scenes::Error;
-use shadowstep_scenes::arithmetic::{Arithmetic, Computation};
+use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
@@ -72,7 +73,7 @@ impl Case for Precision {
         f64::from(trial.digits).powf(1.6) * 1e-6
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         _: &N::Context,
@@ -135,12 +136,12 @@ struct Run<'a> {
 impl Computation for Run<'_> {
     type Output = Vec<String>;
 
-    fn compute<N: Rounded + 'static>(self, context: &N::Context) -> Vec<String> {
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Vec<String> {
         let digits = N::precision(context).in_digits() + 20;
         let setup = setup("kepler", &[]).problem.setup(&[], digits).expect("the defaults are valid");
         let h = Rational::new(1.into(), 20.into());
         let stepper = Stepper::with_context(self.scheme.scheme.clone(), &h, context).expect("it is positive");
-        let mut motion = setup.motion::<N>(context).expect("masses are positive");
+        let mut motion = N::motion(&setup, context).expect("masses are positive");
         (0..STEPS).for_each(|_| stepper.step(&mut motion));
         motion.q().iter().chain(motion.p()).map(N::to_text).collect()
     }

@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 use shadowstep::kinetic::Quadratic;
-use shadowstep::number::Rounded;
 use shadowstep::problems::Kepler;
 use shadowstep::tables::TableScheme;
 use shadowstep::wisdom_holman::{Jacobi, WisdomHolman};
 use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -80,7 +80,7 @@ impl Case for Processing {
         trial.steps as f64 * maps as f64 * map
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,
@@ -152,7 +152,7 @@ impl Outputs {
 /// One run that is read at every step, beside one that is not.
 fn run<N, M>(stepper: &Stepper<TableScheme, N>, mut system: M, steps: u64, continues: Continues<'_>) -> Outputs
 where
-    N: Rounded + 'static,
+    N: RunNumber,
     M: System<Number = N, Class = Quadratic> + Clone,
 {
     let initial = system.energy().to_f64();

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 use shadowstep::Scheme;
-use shadowstep::number::Rounded;
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -51,7 +51,7 @@ impl Case for Pythagorean {
         (UNTIL * trial.inverse) as f64 * 200e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         _: &N::Context,

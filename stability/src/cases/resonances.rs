@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
 use shadowstep::formula::FormulaPotential;
-use shadowstep::number::Rounded;
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as Said};
 use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
@@ -87,7 +87,7 @@ impl Case for Resonances {
         trial.steps as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 200e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,
@@ -179,12 +179,7 @@ fn step_size(scheme: &NamedScheme, n: u32) -> Option<f64> {
     Some(high)
 }
 
-fn vary<N: Rounded + 'static>(
-    scheme: &NamedScheme,
-    (h, cubic): (f64, bool),
-    steps: u64,
-    context: &N::Context,
-) -> Variation {
+fn vary<N: RunNumber>(scheme: &NamedScheme, (h, cubic): (f64, bool), steps: u64, context: &N::Context) -> Variation {
     let h = Rational::from_f64(h).expect("it is finite");
     let step = LinearStep::of(&scheme.scheme, &h);
     let number = |numerator: i64, denominator: i64| {

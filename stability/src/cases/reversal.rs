@@ -6,6 +6,7 @@ use shadowstep::problems::{Kepler, ProblemMotion};
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Ordered, Rational, Scheme, StepSize, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -96,7 +97,7 @@ impl Case for Reversal {
         2.2 * trial.longest() as f64 * suite.scheme(&trial.scheme).scheme.summary().evaluations as f64 * 20e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,
@@ -112,7 +113,7 @@ impl Case for Reversal {
             Stepper::with_context(scheme.clone(), h, context).expect("it is a step size")
         };
         let (forth, negative) = (stepper(h.clone()), stepper(-h));
-        let start: ProblemMotion<N> = setup(trial.problem, &[]).motion(context).expect("masses are positive");
+        let start: ProblemMotion<N> = N::motion(&setup(trial.problem, &[]), context).expect("masses are positive");
         let state = |motion: &ProblemMotion<N>| [motion.q(), motion.p()].concat();
         let begin = state(&start);
         let mut motion = start;

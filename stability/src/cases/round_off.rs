@@ -11,6 +11,7 @@ use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Rational, Scheme, Stepper, System, UnitMasses};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
 use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
@@ -99,7 +100,7 @@ impl Case for RoundOff {
         *trial.steps.last().expect("there are some") as f64 * evaluations as f64 * 20e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,

@@ -13,6 +13,7 @@ use shadowstep::tables::{First, TableScheme};
 use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::{Motion, Number, Rational, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
+use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::library::{NamedScheme, scheme_from};
 use shadowstep_schemes::MapKind;
 use shadowstep_studies::Continues;
@@ -87,7 +88,7 @@ impl Case for TransformedTime {
         f64::from(trial.periods) * TAU / STEP * 80e-9
     }
 
-    fn measure<N: Rounded + 'static>(
+    fn measure<N: RunNumber>(
         suite: &Suite,
         trial: &Trial,
         context: &N::Context,
@@ -177,7 +178,7 @@ fn gammas(scheme: &TableScheme) -> Option<Vec<Rational>> {
 }
 
 /// Follows an orbit beside its closed form.
-fn followed<N: Rounded + 'static>(
+fn followed<N: RunNumber>(
     stepper: &Stepper<TableScheme<General>, N>,
     gammas: &[Rational],
     trial: &Trial,

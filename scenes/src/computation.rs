@@ -1,0 +1,90 @@
+//! Computations that can be made in every number type of runs.
+
+use num_traits::Zero;
+use shadowstep::Rational;
+#[cfg(feature = "mpfr")]
+use shadowstep::number::Float;
+use shadowstep::number::{AnyLimbs, DoubleDouble};
+use shadowstep_symbolic::Exact;
+
+use crate::arithmetic::{Arithmetic, Digits, Numbers};
+pub use crate::run_number::{Monitoring, RunNumber};
+
+/// A computation that can be made in every number type.
+pub trait Computation {
+    /// Its result.
+    type Output;
+
+    /// Makes it with numbers of type N.
+    fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output;
+}
+
+impl Arithmetic {
+    /// Makes a computation in this number type.
+    ///
+    /// ```
+    /// use shadowstep_scenes::arithmetic::Arithmetic;
+    /// use shadowstep_scenes::computation::{Computation, RunNumber};
+    ///
+    /// struct Third;
+    ///
+    /// impl Computation for Third {
+    ///     type Output = String;
+    ///
+    ///     fn compute<N: RunNumber>(self, context: &N::Context) -> String {
+    ///         N::from_rational(&shadowstep::exact("1/3").unwrap(), context).to_text()
+    ///     }
+    /// }
+    ///
+    /// assert_eq!(Arithmetic::DOUBLE.compute(Third), "0.3333333333333333");
+    /// assert_eq!(Arithmetic::with_digits(30)?.compute(Third).len(), "0.".len() + 39);
+    /// # Ok::<(), shadowstep_scenes::arithmetic::DigitsError>(())
+    /// ```
+    pub fn compute<C: Computation>(self, computation: C) -> C::Output {
+        match self.numbers() {
+            Numbers::Double => computation.compute::<f64>(&()),
+            Numbers::DoubleDouble => computation.compute::<DoubleDouble>(&()),
+            Numbers::Digits(_, Digits::Limbs(count)) => computation.compute::<AnyLimbs>(&count),
+            #[cfg(feature = "mpfr")]
+            Numbers::Digits(_, Digits::Mpfr(precision)) => computation.compute::<Float>(&precision),
+        }
+    }
+
+    /// Whether a value neither overflows nor becomes 0.
+    pub fn holds(self, value: &Rational) -> bool {
+        self.compute(Holds(value))
+    }
+
+    /// Whether r² of two points in space with such coordinates is finite.
+    pub fn has_square_of(self, value: &Rational) -> bool {
+        self.compute(HasSquare(value))
+    }
+
+    /// The first of these masses that overflows or underflows, or whose inverse does.
+    pub fn mass_out_of_range(self, masses: &[Exact]) -> Option<&Exact> {
+        masses.iter().find(|mass| !(self.holds(&mass.value) && self.holds(&mass.value.recip())))
+    }
+}
+
+/// Whether a number neither overflows nor becomes 0 in a number type.
+struct Holds<'a>(&'a Rational);
+
+impl Computation for Holds<'_> {
+    type Output = bool;
+
+    fn compute<N: RunNumber>(self, context: &N::Context) -> bool {
+        let rounded = N::from_rational(self.0, context);
+        rounded.is_finite() && (self.0.is_zero() || rounded != N::from_rational(&Rational::zero(), context))
+    }
+}
+
+/// Whether r² of points with such coordinates is finite in a number type.
+struct HasSquare<'a>(&'a Rational);
+
+impl Computation for HasSquare<'_> {
+    type Output = bool;
+
+    fn compute<N: RunNumber>(self, context: &N::Context) -> bool {
+        N::from_rational(self.0, context).has_finite_square()
+    }
+}

@@ -1,0 +1,134 @@
+//! What follows a run, in the number types of runs. It is compiled in this crate, once for each, and not again in every crate that uses it.
+
+use std::ops::ControlFlow;
+
+use shadowstep::StepSize;
+use shadowstep::integrator::VectorIntegrator;
+#[cfg(feature = "mpfr")]
+use shadowstep::number::Float;
+use shadowstep::number::{AnyLimbs, DoubleDouble};
+use shadowstep::run::RunError;
+use shadowstep::shadow::{
+    Bilinear, BuildEstimator, Estimator, EstimatorError, EstimatorSettings, Monitor, Report, Sample,
+};
+
+use crate::error::Error;
+use crate::follow::{Follower, follow};
+use crate::scene::SceneNumber;
+
+/// A number type of runs.
+pub trait RunNumber: SceneNumber {
+    /// [`follow`]
+    ///
+    /// # Errors
+    /// As there.
+    fn follow(
+        integrator: &mut VectorIntegrator<'_, Self>,
+        states: (Option<i64>, u64),
+        settings: Option<&EstimatorSettings>,
+        follower: &mut dyn Follower<Self>,
+    ) -> Result<ControlFlow<()>, Error>;
+
+    /// The estimator of these settings: see [`BuildEstimator::build`].
+    ///
+    /// # Errors
+    /// As there.
+    fn estimator(
+        settings: &EstimatorSettings,
+        h: &StepSize,
+        dimension: usize,
+        context: &Self::Context,
+    ) -> Result<Box<dyn Estimator<Self>>, EstimatorError>;
+
+    /// A monitor by E_k with its error, with a window every `every` steps.
+    ///
+    /// # Errors
+    /// As [`Monitor::new`].
+    fn monitor(
+        integrator: &mut VectorIntegrator<'_, Self>,
+        k: u32,
+        every: u64,
+    ) -> Result<Box<dyn Monitoring<Self>>, RunError>;
+}
+
+/// A [`Monitor`] of the states of an integrator.
+pub trait Monitoring<N: RunNumber> {
+    /// [`Monitor::step`]
+    ///
+    /// # Errors
+    /// As there.
+    fn step(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Option<Sample<'_, N>>, RunError>;
+
+    /// [`Monitor::observe`]
+    ///
+    /// # Errors
+    /// As there.
+    fn observe(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Option<Sample<'_, N>>, RunError>;
+
+    /// [`Monitor::needs_increments`]
+    fn needs_increments(&self) -> bool;
+
+    /// [`Monitor::n`]
+    fn n(&self) -> u64;
+
+    /// [`Monitor::report`]
+    fn report(&self) -> Report<N>;
+}
+
+impl<N: RunNumber> Monitoring<N> for Monitor<N, <Bilinear as BuildEstimator<N>>::Estimator> {
+    fn step(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Option<Sample<'_, N>>, RunError> {
+        Monitor::step(self, integrator)
+    }
+
+    fn observe(&mut self, integrator: &mut VectorIntegrator<'_, N>) -> Result<Option<Sample<'_, N>>, RunError> {
+        Monitor::observe(self, integrator.system())
+    }
+
+    fn needs_increments(&self) -> bool {
+        Monitor::needs_increments(self)
+    }
+
+    fn n(&self) -> u64 {
+        Monitor::n(self)
+    }
+
+    fn report(&self) -> Report<N> {
+        Monitor::report(self)
+    }
+}
+
+macro_rules! run_numbers {
+    ($($number:ty),*) => {$(
+        impl RunNumber for $number {
+            fn follow(
+                integrator: &mut VectorIntegrator<'_, Self>,
+                states: (Option<i64>, u64),
+                settings: Option<&EstimatorSettings>,
+                follower: &mut dyn Follower<Self>,
+            ) -> Result<ControlFlow<()>, Error> {
+                follow(integrator, states, settings, follower)
+            }
+
+            fn estimator(
+                settings: &EstimatorSettings,
+                h: &StepSize,
+                dimension: usize,
+                context: &Self::Context,
+            ) -> Result<Box<dyn Estimator<Self>>, EstimatorError> {
+                settings.build(h, dimension, context)
+            }
+
+            fn monitor(
+                integrator: &mut VectorIntegrator<'_, Self>,
+                k: u32,
+                every: u64,
+            ) -> Result<Box<dyn Monitoring<Self>>, RunError> {
+                Ok(Box::new(Monitor::new(integrator, &Bilinear::with_error(k))?.every(every)))
+            }
+        }
+    )*};
+}
+
+run_numbers!(f64, DoubleDouble, AnyLimbs);
+#[cfg(feature = "mpfr")]
+run_numbers!(Float);

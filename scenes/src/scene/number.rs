@@ -1,0 +1,132 @@
+//! Systems in the number types of scenes. They are compiled in this crate, once for each, and not again in every crate that uses them.
+
+use shadowstep::MotionError;
+#[cfg(feature = "mpfr")]
+use shadowstep::number::Float;
+use shadowstep::number::counting::Counting;
+use shadowstep::number::{AnyLimbs, DoubleDouble, Rounded};
+use shadowstep::problems::{ProblemMotion, Setup};
+
+use super::problem::EnergyAt;
+use super::system::{Parts, System, ask};
+use crate::split::{Shown, Split as _, State};
+use crate::start::{SceneIntegrator, Steps};
+
+/// A number type in which systems are computed.
+pub trait SceneNumber: Rounded + 'static {
+    /// A system in these numbers.
+    fn system(system: &System) -> &dyn SystemIn<Self>;
+
+    /// The motion of a shipped problem.
+    ///
+    /// # Errors
+    /// As [`Setup::motion`].
+    fn motion(setup: &Setup, context: &Self::Context) -> Result<ProblemMotion<Self>, MotionError>;
+}
+
+/// What a system gives in numbers N.
+pub trait SystemIn<N: SceneNumber> {
+    /// [`System::start`]
+    fn start(&self, context: &N::Context) -> State<N>;
+
+    /// [`System::shown`]
+    fn shown(&self, context: &N::Context) -> Option<Shown<N>>;
+
+    /// [`System::energy`]
+    fn energy(&self, context: &N::Context) -> EnergyAt<N>;
+
+    /// [`System::integrator`]
+    ///
+    /// # Errors
+    /// As there.
+    fn integrator(
+        &self,
+        steps: Steps<'_>,
+        state: State<N>,
+        context: &N::Context,
+    ) -> Result<SceneIntegrator<N>, MotionError>;
+}
+
+impl System {
+    /// Positions and momenta at t = 0, in the coordinates of the steps.
+    pub fn start<N: SceneNumber>(&self, context: &N::Context) -> State<N> {
+        N::system(self).start(context)
+    }
+
+    /// Converts states from the coordinates of the steps to those that are shown, where these differ.
+    pub fn shown<N: SceneNumber>(&self, context: &N::Context) -> Option<Shown<N>> {
+        N::system(self).shown(context)
+    }
+
+    /// H of any state, in the coordinates of the steps; where time is transformed, of its q and p.
+    ///
+    /// # Panics
+    /// If q, p and U have different dimensions, which reading a system excludes.
+    pub fn energy<N: SceneNumber>(&self, context: &N::Context) -> EnergyAt<N> {
+        N::system(self).energy(context)
+    }
+
+    /// H for rows, where the steps conserve another function.
+    pub(crate) fn energy_of_rows<N: SceneNumber>(&self, context: &N::Context) -> Option<EnergyAt<N>> {
+        self.transformed_time().map(|_| self.energy(context))
+    }
+
+    /// The system at a state with its stepper, whose scheme is valid for it.
+    ///
+    /// # Errors
+    /// A state of another dimension.
+    ///
+    /// # Panics
+    /// If the step size is 0, the scheme is not valid for the parts or has gradient kicks that cannot be displaced as wanted, which reading a system
+    /// and its scheme excludes.
+    pub fn integrator<N: SceneNumber>(
+        &self,
+        steps: Steps<'_>,
+        state: State<N>,
+        context: &N::Context,
+    ) -> Result<SceneIntegrator<N>, MotionError> {
+        N::system(self).integrator(steps, state, context)
+    }
+}
+
+impl<N: SceneNumber> SystemIn<N> for System {
+    fn start(&self, context: &N::Context) -> State<N> {
+        let state = self.initial(context);
+        ask!(&self.parts, split => split.start(&self.problem, state, context))
+    }
+
+    fn shown(&self, context: &N::Context) -> Option<Shown<N>> {
+        ask!(&self.parts, split => split.shown(&self.problem, context))
+    }
+
+    fn energy(&self, context: &N::Context) -> EnergyAt<N> {
+        ask!(&self.parts, split => split.energy(&self.problem, context))
+    }
+
+    fn integrator(
+        &self,
+        steps: Steps<'_>,
+        state: State<N>,
+        context: &N::Context,
+    ) -> Result<SceneIntegrator<N>, MotionError> {
+        ask!(&self.parts, split => split.integrator(&self.problem, steps, state, context))
+    }
+}
+
+macro_rules! scene_numbers {
+    ($($number:ty),*) => {$(
+        impl SceneNumber for $number {
+            fn system(system: &System) -> &dyn SystemIn<Self> {
+                system
+            }
+
+            fn motion(setup: &Setup, context: &Self::Context) -> Result<ProblemMotion<Self>, MotionError> {
+                setup.motion(context)
+            }
+        }
+    )*};
+}
+
+scene_numbers!(f64, DoubleDouble, AnyLimbs, Counting<f64>);
+#[cfg(feature = "mpfr")]
+scene_numbers!(Float);
