@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let named = library::scheme(&arguments.scheme)?;
     let target: Target = arguments.to.parse().expect("only names of targets are accepted");
-    let code = emit(&named.scheme, target)
+    let code = emit(&named.quadratic(), target)
         .map_err(|refusal| Error::usage(format!("{} {}", refusal.scheme, refusal.reason), refusal.hint))?;
     named.note().iter().for_each(report::note);
     let mut output = Output::of(&arguments.output)?;

@@ -13,6 +13,6 @@ pub(crate) fn emit(py: Python<'_>, scheme: &Table, target: &str) -> PyResult<Str
         let names: Vec<_> = Target::ALL.iter().map(|target| target.name()).collect();
         usage(py, format!("there is no target `{target}`"), format!("it is one of {}", names.join(", ")))
     })?;
-    shadowstep_emit::emit(&scheme.0.scheme, target)
+    shadowstep_emit::emit(&scheme.0.quadratic(), target)
         .map_err(|refusal| usage(py, format!("{} {}", refusal.scheme, refusal.reason), refusal.hint))
 }

@@ -34,7 +34,7 @@ impl Table {
 
     /// Everything that is known of it, as JSON.
     fn record(&self, py: Python<'_>) -> PyResult<String> {
-        let scheme = &self.0.scheme;
+        let scheme = &self.0.quadratic();
         let json = py.detach(|| {
             let analysis = shadowstep_analysis::Analysis::of(scheme.proved());
             serde_json::to_string(&SchemeRecord::of(scheme, &analysis))

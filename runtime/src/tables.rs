@@ -116,15 +116,6 @@ impl TableScheme {
         }
         Err(QuadraticOnly::of(self.proved()))
     }
-
-    /// The scheme for systems of [three parts and more](crate::many_parts). The words on three letters are looked at with each call, which for
-    /// order 10 takes a moment.
-    ///
-    /// # Errors
-    /// A scheme with gradient kicks, with a processor, or whose order is for quadratic T only.
-    pub fn for_many_parts(self) -> Result<TableScheme<ManyParts>, NotForManyParts> {
-        Ok(TableScheme { proved: Arc::new(self.proved().for_many_parts()?), class: PhantomData })
-    }
 }
 
 impl QuadraticOnly {
@@ -145,15 +136,34 @@ impl ValidFor<General> for TableScheme<General> {}
 
 impl ValidFor<ManyParts> for TableScheme<ManyParts> {}
 
-/// For code in which the class of a system is known at run time only, and checked there. Steps of a system of two parts panic: see
-/// [`System::middle_parts`](crate::System::middle_parts).
-impl From<TableScheme<ManyParts>> for TableScheme {
-    fn from(scheme: TableScheme<ManyParts>) -> Self {
-        TableScheme { proved: scheme.proved, class: PhantomData }
+/// The class of a scheme where that of the system is known at run time only: its steps are made after one of the conversions of [`TableScheme`], which
+/// check it.
+#[derive(Clone, Copy, Debug)]
+pub enum AtRunTime {}
+
+impl TableScheme<AtRunTime> {
+    /// The scheme for systems with quadratic T; `None` if its steps are those of three parts and more.
+    pub fn for_quadratic(self) -> Option<TableScheme> {
+        let has_two_parts = self.proved.proof.many_parts.is_none();
+        has_two_parts.then_some(TableScheme { proved: self.proved, class: PhantomData })
     }
 }
 
 impl<Class> TableScheme<Class> {
+    /// The scheme for systems of [three parts and more](crate::many_parts). The words on three letters are looked at with each call, which for
+    /// order 10 takes a moment.
+    ///
+    /// # Errors
+    /// A scheme with gradient kicks, with a processor, or whose order is for quadratic T only.
+    pub fn for_many_parts(self) -> Result<TableScheme<ManyParts>, NotForManyParts> {
+        Ok(TableScheme { proved: Arc::new(self.proved().for_many_parts()?), class: PhantomData })
+    }
+
+    /// The scheme for code in which the class of the system is known at run time only.
+    pub fn at_run_time(self) -> TableScheme<AtRunTime> {
+        TableScheme { proved: self.proved, class: PhantomData }
+    }
+
     /// The exact scheme with its proof.
     pub fn proved(&self) -> &Proved {
         &self.proved

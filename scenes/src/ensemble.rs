@@ -48,6 +48,7 @@ use crate::family::{Family, Parsed};
 use crate::keys::ENSEMBLE;
 use crate::lanes::Together;
 use crate::scene::Scene;
+use crate::start::Begin;
 use columns::Columns;
 use settings::{Observed, settings};
 
@@ -126,13 +127,13 @@ impl Ensemble {
             return alone::on_all_cores(self.columns.trajectories(), one);
         }
         let compensated = self.first.arithmetic.is_compensated();
-        let scheme = self.first.scheme.scheme.clone();
+        let steps = self.first.steps_from(Begin::InitialState);
         let outcomes = if self.first.system.has_general_kinetic() {
-            let stepper = self.stepper(scheme.for_every_kinetic().expect("the scheme was read for this T"));
+            let stepper = self.stepper(steps.for_every_kinetic());
             let system = |block| Ok(self.together(&parsed, &block)?.general(compensated));
             self.trajectories().run_while(&stepper, system, continues)
         } else {
-            let stepper = self.stepper(scheme);
+            let stepper = self.stepper(steps.quadratic());
             let system = |block| Ok(self.together(&parsed, &block)?.quadratic(compensated));
             self.trajectories().run_while(&stepper, system, continues)
         };

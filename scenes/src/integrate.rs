@@ -29,7 +29,7 @@ use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::number::Number;
 use shadowstep::run::{NotFinite, Quantity, RunError};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
-use shadowstep::tables::TableScheme;
+use shadowstep::tables::{AtRunTime, TableScheme};
 
 use crate::computation::RunNumber;
 use crate::error::Error;
@@ -46,7 +46,7 @@ pub struct Integration<'a> {
     /// H and the initial state.
     pub system: &'a scene::System,
     /// The scheme, valid for the [system](crate::propagator::for_system).
-    pub scheme: &'a TableScheme,
+    pub scheme: &'a TableScheme<AtRunTime>,
     /// The steps.
     pub run: Run<'a>,
     /// Whether q and p are sums with remainders.

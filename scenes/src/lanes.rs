@@ -50,12 +50,10 @@ impl<const W: usize> Together<W> {
     /// # Panics
     /// If the step size is 0 or the scheme is not valid for T(p), which reading a scene excludes.
     pub fn integrator(self, steps: Steps<'_>) -> SceneIntegrator<Lanes<W>> {
-        let scheme = steps.scheme.clone();
         if matches!(self.kinetic, ClassifiedKinetic::Quadratic(_)) {
-            return steps.integrator(scheme, self.quadratic(steps.compensated), &());
+            return steps.integrator(steps.quadratic(), self.quadratic(steps.compensated), &());
         }
-        let scheme = scheme.for_every_kinetic().expect("the scheme was read for this T");
-        steps.integrator(scheme, self.general(steps.compensated), &())
+        steps.integrator(steps.for_every_kinetic(), self.general(steps.compensated), &())
     }
 
     pub(crate) fn quadratic(self, compensated: bool) -> MotionInLanes<W, Quadratic> {

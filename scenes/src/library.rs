@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use sha2::{Digest, Sha256};
 use shadowstep::problems::Problem;
-use shadowstep::tables::{self, Faults, Proved, Source, TableScheme, shipped_names};
+use shadowstep::tables::{self, AtRunTime, Faults, Proved, Source, TableScheme, shipped_names};
 use shadowstep::{Rational, Scheme, exact_flow};
 use shadowstep_analysis::best_for_every_kinetic;
 use shadowstep_schemes::document::{LARGEST_TABLE, read_text};
@@ -27,7 +27,7 @@ pub struct NamedScheme {
     /// The name of a shipped scheme or the path of a table, as requested.
     pub name: String,
     /// The scheme with its proof.
-    pub scheme: TableScheme,
+    pub scheme: TableScheme<AtRunTime>,
 }
 
 /// Why a scheme cannot be found or read.
@@ -47,6 +47,14 @@ pub enum LibraryError {
 }
 
 impl NamedScheme {
+    /// Its steps for systems with quadratic T.
+    ///
+    /// # Panics
+    /// If it was read for three parts and more.
+    pub fn quadratic(&self) -> TableScheme {
+        self.scheme.clone().for_quadratic().expect("the scheme was read for two parts")
+    }
+
     /// Its name with a hash of its weights: a table that is changed is another scheme.
     pub fn identity(&self) -> String {
         format!("{} {}", self.name, weights_fingerprint(self.scheme.proved()))
@@ -116,7 +124,7 @@ pub fn scheme(word: &str) -> Result<NamedScheme, LibraryError> {
 pub fn scheme_from(word: &str, folder: &Path, first: Option<First>) -> Result<NamedScheme, LibraryError> {
     let source = source_from(word, folder)?;
     let scheme = tables::read(&source, &beside_or_shipped, first)?;
-    Ok(NamedScheme { name: word.to_owned(), scheme })
+    Ok(NamedScheme { name: word.to_owned(), scheme: scheme.at_run_time() })
 }
 
 /// The scheme of a table's text, with the name of the scheme.
@@ -125,7 +133,7 @@ pub fn scheme_from(word: &str, folder: &Path, first: Option<First>) -> Result<Na
 /// A table with faults.
 pub fn scheme_of(source: &Source) -> Result<NamedScheme, LibraryError> {
     let scheme = tables::read(source, &beside_or_shipped, None)?;
-    Ok(NamedScheme { name: scheme.summary().name.to_owned(), scheme })
+    Ok(NamedScheme { name: scheme.summary().name.to_owned(), scheme: scheme.at_run_time() })
 }
 
 /// Schemes that have been read: each is read and proved once.
@@ -176,7 +184,8 @@ impl Schemes {
 /// # Errors
 /// A scheme for quadratic T only.
 pub(crate) fn check_every_kinetic(named: &NamedScheme) -> Result<(), Refusal> {
-    let Err(error) = named.scheme.clone().for_every_kinetic() else { return Ok(()) };
+    let scheme = named.scheme.clone().for_quadratic();
+    let Some(Err(error)) = scheme.map(TableScheme::for_every_kinetic) else { return Ok(()) };
     let claimed = named.scheme.proved().scheme.table.order.value;
     let better = best_for_every_kinetic(claimed).expect("there are shipped schemes for every T(p)");
     let (name, order) = (&better.scheme.table.name.value, better.proof.general.order);
@@ -200,7 +209,7 @@ pub(crate) fn check_gradient_kicks(named: &NamedScheme, none: Option<NoGradientK
 /// A scheme for two parts only.
 fn for_many_parts(named: &NamedScheme) -> Result<NamedScheme, Refusal> {
     match named.scheme.clone().for_many_parts() {
-        Ok(scheme) => Ok(NamedScheme { name: named.name.clone(), scheme: scheme.into() }),
+        Ok(scheme) => Ok(NamedScheme { name: named.name.clone(), scheme: scheme.at_run_time() }),
         Err(error) => {
             Err(Refusal::new(error.to_string(), "use a composition of the leapfrog, such as suzuki4 or blanes-moan-s6"))
         }

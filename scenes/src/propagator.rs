@@ -91,7 +91,7 @@ fn in_ordinary_time(system: &System) -> Option<Setup> {
 /// # Panics
 /// If the step size is 0, which runs exclude.
 pub fn stepper<N: Number>(named: &NamedScheme, run: Run<'_>, context: &N::Context) -> Stepper<TableScheme, N> {
-    Stepper::with_context(named.scheme.clone(), run.h, context).expect("runs have a nonzero step size")
+    Stepper::with_context(named.quadratic(), run.h, context).expect("runs have a nonzero step size")
 }
 
 /// The estimates along the exact flow of a problem.

@@ -2,16 +2,17 @@
 
 use shadowstep::displaced::Displacements;
 use shadowstep::integrator::VectorIntegrator;
+use shadowstep::kinetic::General;
 use shadowstep::number::Rounded;
 use shadowstep::summation::Compensated;
-use shadowstep::tables::TableScheme;
+use shadowstep::tables::{AtRunTime, TableScheme};
 use shadowstep::{Number, Rational, Scheme, Stepper, System, ValidFor};
 
 /// The steps that are made.
 #[derive(Clone, Copy, Debug)]
 pub struct Steps<'a> {
     /// The scheme.
-    pub scheme: &'a TableScheme,
+    pub scheme: &'a TableScheme<AtRunTime>,
     /// The step size.
     pub h: &'a Rational,
     /// Whether q and p are sums with remainders.
@@ -36,7 +37,20 @@ pub enum Begin {
 /// For a processed scheme the system is at a state of its kernel: see [`at_output`](shadowstep::integrator::at_output).
 pub type SceneIntegrator<N> = Box<VectorIntegrator<'static, N>>;
 
+/// The class of the system was known when the scheme was read.
+const READ: &str = "the scheme was read for this system";
+
 impl Steps<'_> {
+    /// The scheme for systems with quadratic T.
+    pub(crate) fn quadratic(self) -> TableScheme {
+        self.scheme.clone().for_quadratic().expect(READ)
+    }
+
+    /// The scheme for every T(p).
+    pub(crate) fn for_every_kinetic(self) -> TableScheme<General> {
+        self.quadratic().for_every_kinetic().expect(READ)
+    }
+
     /// The displacements of the forces, where gradient kicks are made by them.
     pub(crate) fn displacements<N: Rounded>(self, context: &N::Context) -> Option<Displacements<N>> {
         let stepper = self.displaced.then(|| stepper(self.scheme.clone(), self.h, context));

@@ -74,7 +74,7 @@ pub(crate) fn watched<N: RunNumber>(
     mut each: impl FnMut(u64, &mut ProblemMotion<N>) -> Next,
 ) -> Watched {
     let context = motion.context();
-    let stepper = Stepper::with_context(scheme.scheme.clone(), h, &context).expect("cases use nonzero steps");
+    let stepper = Stepper::with_context(scheme.quadratic(), h, &context).expect("cases use nonzero steps");
     let monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(MONITOR_ORDER));
     let mut monitor = monitor.expect("initial states are finite").every(every);
     let (mut finite, mut alarm, mut alarmed, mut next_report) = (true, None, None, 0);

@@ -53,7 +53,7 @@ mod tests {
             assert!(scheme(name).is_ok(), "{name}");
         }
         for name in GENERAL {
-            assert!(scheme(name).unwrap().scheme.for_every_kinetic().is_ok(), "{name}");
+            assert!(scheme(name).unwrap().quadratic().for_every_kinetic().is_ok(), "{name}");
         }
     }
 }

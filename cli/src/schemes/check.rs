@@ -42,7 +42,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         match tables::read(&source, &library::beside_or_shipped, None) {
             Ok(scheme) => {
                 write!(output, "{}", verdict(path, scheme.proved()))?;
-                NamedScheme { name: path.clone(), scheme }.note().iter().for_each(report::note);
+                NamedScheme { name: path.clone(), scheme: scheme.at_run_time() }.note().iter().for_each(report::note);
             }
             Err(faults) => {
                 writeln!(output, "{faults}")?;

@@ -87,7 +87,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     if let (true, Some(order)) = (records.is_empty(), arguments.order) {
         note_orders(&all, order, arguments);
     }
-    records.extend(custom.iter().map(|named| Record::of(&named.name, &named.scheme, false)));
+    records.extend(custom.iter().map(|named| Record::of(&named.name, &named.quadratic(), false)));
     sort(&mut records, arguments);
     let mut output = Output::stdout();
     if arguments.json {

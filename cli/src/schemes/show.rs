@@ -55,7 +55,7 @@ const MARGIN: usize = 17;
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let named = library::scheme(&arguments.name)?;
     named.note().iter().for_each(report::note);
-    let scheme = named.scheme;
+    let scheme = named.quadratic();
     let analysis = Analysis::of(scheme.proved());
     if let Some(path) = &arguments.plot {
         draw(path, arguments.force, &scheme, &analysis)?;

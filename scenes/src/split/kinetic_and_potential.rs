@@ -44,12 +44,11 @@ impl Split for KineticAndPotential {
                 if let Some(displacements) = displacements {
                     motion = motion.displaced(displacements);
                 }
-                steps.integrator(steps.scheme.clone(), motion.compensated_if(steps.compensated), context)
+                steps.integrator(steps.quadratic(), motion.compensated_if(steps.compensated), context)
             }
             ClassifiedKinetic::General(kinetic) => {
-                let scheme = steps.scheme.clone().for_every_kinetic().expect("the scheme was read for this T");
                 let motion = Motion::new(potential, kinetic, q, p)?.compensated_if(steps.compensated);
-                steps.integrator(scheme, motion, context)
+                steps.integrator(steps.for_every_kinetic(), motion, context)
             }
         })
     }

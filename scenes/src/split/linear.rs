@@ -43,7 +43,7 @@ impl Split for Linear {
         if let Some(displacements) = steps.displacements(context) {
             system = system.displaced(displacements);
         }
-        Ok(steps.integrator(steps.scheme.clone(), system.compensated_if(steps.compensated), context))
+        Ok(steps.integrator(steps.quadratic(), system.compensated_if(steps.compensated), context))
     }
 }
 

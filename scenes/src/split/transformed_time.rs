@@ -119,8 +119,7 @@ impl TransformedTime {
         context: &N::Context,
     ) -> Result<SceneIntegrator<N>, MotionError> {
         let motion = Motion::new(potential, TransformedKinetic::new(self.0, kinetic), q, p)?;
-        let scheme = steps.scheme.clone().for_every_kinetic().expect("the scheme was read for transformed time");
-        Ok(steps.integrator(scheme, motion.compensated_if(steps.compensated), context))
+        Ok(steps.integrator(steps.for_every_kinetic(), motion.compensated_if(steps.compensated), context))
     }
 }
 

@@ -111,12 +111,11 @@ impl Split for Planets {
             return Err(MotionError::Momenta { coordinates, momenta: p.len() });
         }
         let state = (q, p);
-        let scheme = steps.scheme.clone();
         Ok(match (self.coordinates, self.dimensions) {
-            (Canonical::Jacobi, 2) => self.moved::<N, Jacobi<N, 2>, 2, _>(scheme, steps, &state, context),
-            (Canonical::Jacobi, _) => self.moved::<N, Jacobi<N, 3>, 3, _>(scheme, steps, &state, context),
+            (Canonical::Jacobi, 2) => self.moved::<N, Jacobi<N, 2>, 2, _>(steps.quadratic(), steps, &state, context),
+            (Canonical::Jacobi, _) => self.moved::<N, Jacobi<N, 3>, 3, _>(steps.quadratic(), steps, &state, context),
             (Canonical::DemocraticHeliocentric, dimensions) => {
-                let scheme = scheme.for_every_kinetic().expect("the scheme was read for these coordinates");
+                let scheme = steps.for_every_kinetic();
                 match dimensions {
                     2 => self.moved::<N, DemocraticHeliocentric<N, 2>, 2, _>(scheme, steps, &state, context),
                     _ => self.moved::<N, DemocraticHeliocentric<N, 3>, 3, _>(scheme, steps, &state, context),

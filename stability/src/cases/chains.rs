@@ -69,7 +69,7 @@ impl Case for Chains {
         context: &N::Context,
         continues: Continues<'_>,
     ) -> Result<Cost, Error> {
-        let scheme = &suite.scheme(&trial.scheme).scheme;
+        let scheme = &suite.scheme(&trial.scheme).quadratic();
         let evaluations = scheme.summary().evaluations;
         let number = |numerator: i64, denominator: i64| {
             N::from_rational(&Rational::new(numerator.into(), denominator.into()), context)

@@ -100,7 +100,7 @@ impl Case for Frames {
         context: &N::Context,
         _: Continues<'_>,
     ) -> Result<Measured, Error> {
-        let scheme = &suite.scheme(&trial.scheme).scheme;
+        let scheme = &suite.scheme(&trial.scheme).quadratic();
         let (mass, length) = (trial.frame.mass(), trial.frame.length());
         // a = 1, G = 1: the period is 2π/√(m₁ + m₂)
         let total = 1.0 + mass;

@@ -108,7 +108,7 @@ impl Case for HenonHeiles {
         let h = Rational::new(scheme.scheme.summary().evaluations.into(), STEPS_A_UNIT.into());
         let setup = setup("henon-heiles", &trial.kind.start());
         let [mut motion, mut near] = [(), ()].map(|()| N::motion(&setup, context).expect("masses are 1"));
-        let stepper = shadowstep::Stepper::with_context(scheme.scheme.clone(), &h, context).expect("it is positive");
+        let stepper = shadowstep::Stepper::with_context(scheme.quadratic(), &h, context).expect("it is positive");
         let moved = N::from_rational(&Rational::from_float(NEAR).expect("it is finite"), context);
         near.q_mut()[0].add(&moved);
         let initial = motion.energy().to_f64();

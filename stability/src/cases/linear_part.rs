@@ -111,7 +111,7 @@ impl Case for LinearPartCase {
     fn trials(suite: &Suite) -> Vec<Trial> {
         let steps = suite.thorough(400_000, 20_000);
         let trials = |examined: &&Examined| {
-            let scheme = &examined.scheme.scheme;
+            let scheme = &examined.scheme.quadratic();
             let trial = |at: At| Trial { scheme: examined.identity.clone(), at, h: strongest(scheme, at), steps };
             At::ALL.map(trial)
         };
@@ -135,7 +135,7 @@ impl Case for LinearPartCase {
         context: &N::Context,
         _: Continues<'_>,
     ) -> Result<Found, Error> {
-        let scheme = &suite.scheme(&trial.scheme).scheme;
+        let scheme = &suite.scheme(&trial.scheme).quadratic();
         let predicted = Matrix::of_step(scheme, trial.h).growth();
         let h = rational(trial.h);
         let stepper = Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
@@ -163,7 +163,7 @@ impl Case for LinearPartCase {
             let parts: Vec<_> = all.iter().map(|(trial, found)| found.described(trial.at)).collect();
             let verdict = Verdict::of_all(all.iter().map(|(trial, found)| found.verdict(trial.at)));
             finding.check(&named.name, parts.join("; "), verdict);
-            curves.push(Curve::line(named.name.clone(), scan(&named.scheme), curves.len()));
+            curves.push(Curve::line(named.name.clone(), scan(&named.quadratic()), curves.len()));
         }
         let (x, y) = (Axis::linear("h"), Axis::log10("growth per step, from the eigenvalues"));
         finding.chart(
@@ -323,7 +323,7 @@ mod tests {
     #[test]
     fn the_matrix_is_that_of_a_step() {
         for name in ["stormer-verlet", "abah864"] {
-            let scheme = scheme(name).unwrap().scheme;
+            let scheme = scheme(name).unwrap().quadratic();
             let mut system = system::<f64>(&());
             let before: Vec<_> = system.q().iter().chain(system.p()).copied().collect();
             Stepper::new(scheme.clone(), 2.3).unwrap().step(&mut system);
@@ -338,7 +338,7 @@ mod tests {
     /// Of Störmer–Verlet, in first order of δ: hδ/2ω at 2ωh = 2π, hδ/2√(ω₁ω₂) at the sum.
     #[test]
     fn growth_at_the_resonances_of_verlet() {
-        let verlet = scheme("stormer-verlet").unwrap().scheme;
+        let verlet = scheme("stormer-verlet").unwrap().quadratic();
         let rate = |at: At, omega: f64| {
             (Matrix::of_step(&verlet, strongest(&verlet, at)).growth(), at.step_size() * DELTA / 2.0 / omega)
         };

@@ -78,8 +78,8 @@ impl Case for Orders {
             let all = [
                 Some((Of::Steps, steps)),
                 proved.proof.effective.as_ref().map(|_| (Of::Processed, steps)),
-                examined.scheme.scheme.clone().for_many_parts().is_ok().then_some((Of::ThreeParts, steps)),
-                of_epsilon(&examined.scheme.scheme).map(|_| (Of::Epsilon, [2, 3, 4])),
+                examined.scheme.quadratic().for_many_parts().is_ok().then_some((Of::ThreeParts, steps)),
+                of_epsilon(&examined.scheme.quadratic()).map(|_| (Of::Epsilon, [2, 3, 4])),
             ];
             let trial = |(of, halvings)| Trial { scheme: examined.identity.clone(), of, halvings };
             all.into_iter().flatten().map(trial).collect::<Vec<_>>()
@@ -102,7 +102,7 @@ impl Case for Orders {
         context: &N::Context,
         _: Continues<'_>,
     ) -> Result<Errors, Error> {
-        let scheme = &suite.scheme(&trial.scheme).scheme;
+        let scheme = &suite.scheme(&trial.scheme).quadratic();
         Ok(Errors(trial.halvings.map(|halvings| {
             let h = Rational::new(1.into(), (1_i64 << halvings).into());
             let stepper = Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
@@ -121,7 +121,8 @@ impl Case for Orders {
             let named = suite.scheme(&all[0].0.scheme);
             let (mut found, mut verdicts) = (Vec::new(), Vec::new());
             for (trial, errors) in all {
-                let (what, order) = claimed(&named.scheme, trial.of);
+                let scheme = named.quadratic();
+                let (what, order) = claimed(&scheme, trial.of);
                 let slope = errors.order();
                 found.push(format!("{what}{slope:.2}, proved {}", order.order));
                 verdicts.push(errors.verdict(order));
@@ -277,7 +278,7 @@ mod tests {
 
     #[test]
     fn another_order_differs_and_too_few_digits_decide_nothing() {
-        let scheme = scheme("yoshida4").unwrap().scheme;
+        let scheme = scheme("yoshida4").unwrap().quadratic();
         let (_, order) = claimed(&scheme, Of::Steps);
         let errors = |slope: f64| Errors([2.0, 1.0, 0.0].map(|k| -10.0 + k * slope * 2_f64.log10()));
         assert_eq!(errors(4.05).verdict(order), Verdict::Agrees);

@@ -87,7 +87,7 @@ impl Case for Oscillator {
             if !continues(i as f64 / sizes.len() as f64) {
                 break;
             }
-            points.push(point::<N>(&scheme.scheme, h, trial.steps, context));
+            points.push(point::<N>(&scheme.quadratic(), h, trial.steps, context));
         }
         Ok(points)
     }
@@ -212,21 +212,21 @@ mod tests {
     #[test]
     fn growth_begins_at_the_limit() {
         let verlet = scheme("stormer-verlet").unwrap();
-        let growth = |h: &str| LinearStep::of(&verlet.scheme, &exact(h).unwrap()).growth();
+        let growth = |h: &str| LinearStep::of(&verlet.quadratic(), &exact(h).unwrap()).growth();
         assert_eq!(growth("1.999"), 0.0);
         // 2 arsinh √((h² − 4)/4)
         let expected = 2.0 * ((2.1_f64 * 2.1 - 4.0) / 4.0).sqrt().asinh();
         assert!((growth("2.1") - expected).abs() < 1e-14);
-        let point = point_of(&verlet.scheme, "2.1");
+        let point = point_of(&verlet.quadratic(), "2.1");
         assert!((point.found - expected).abs() < 1e-9, "{} {expected}", point.found);
-        assert!(point_of(&verlet.scheme, "1.9").found.abs() < 1e-2);
+        assert!(point_of(&verlet.quadratic(), "1.9").found.abs() < 1e-2);
     }
 
     /// Takahashi and Imada's kicks are by 1 − h²/12 of the force, so that the trace is 2 − h² + h⁴/12, at least −1, and 2 again at h² = 12.
     #[test]
     fn gradient_kicks_are_a_part_of_the_trace() {
         let scheme = scheme("takahashi-imada").unwrap();
-        let cosine = |h: &str| LinearStep::of(&scheme.scheme, &exact(h).unwrap()).cosine();
+        let cosine = |h: &str| LinearStep::of(&scheme.quadratic(), &exact(h).unwrap()).cosine();
         for h in [0.5_f64, 2.0, 3.0] {
             let expected = 1.0 - h * h / 2.0 + h.powi(4) / 24.0;
             assert!((cosine(&h.to_string()) - expected).abs() < 1e-14, "{h}");
@@ -235,7 +235,7 @@ mod tests {
         assert_eq!(stability.limit, "3.46410161513775458705489268301");
         // cosh λ = 1 − h²/2 + h⁴/24
         let expected = 2.0 * ((3.5_f64.powi(4) / 24.0 - 3.5 * 3.5 / 2.0) / 2.0).sqrt().asinh();
-        let found = point_of(&scheme.scheme, "3.5").found;
+        let found = point_of(&scheme.quadratic(), "3.5").found;
         assert!((found - expected).abs() < 1e-9, "{found} {expected}");
     }
 

@@ -140,7 +140,7 @@ impl Computation for Run<'_> {
         let digits = N::precision(context).in_digits() + 20;
         let setup = setup("kepler", &[]).problem.setup(&[], digits).expect("the defaults are valid");
         let h = Rational::new(1.into(), 20.into());
-        let stepper = Stepper::with_context(self.scheme.scheme.clone(), &h, context).expect("it is positive");
+        let stepper = Stepper::with_context(self.scheme.quadratic(), &h, context).expect("it is positive");
         let mut motion = N::motion(&setup, context).expect("masses are positive");
         (0..STEPS).for_each(|_| stepper.step(&mut motion));
         motion.q().iter().chain(motion.p()).map(N::to_text).collect()

@@ -74,7 +74,7 @@ impl Case for Processing {
     }
 
     fn seconds(suite: &Suite, trial: &Trial) -> f64 {
-        let scheme = &suite.scheme(&trial.scheme).scheme;
+        let scheme = &suite.scheme(&trial.scheme).quadratic();
         let maps = 2 * scheme.summary().evaluations + scheme.processor().len();
         let map = if trial.problem == Problem::Planets { 500e-9 } else { 20e-9 };
         trial.steps as f64 * maps as f64 * map
@@ -86,7 +86,7 @@ impl Case for Processing {
         context: &N::Context,
         continues: Continues<'_>,
     ) -> Result<Outputs, Error> {
-        let scheme = &suite.scheme(&trial.scheme).scheme;
+        let scheme = &suite.scheme(&trial.scheme).quadratic();
         let evaluations = scheme.summary().evaluations as i64;
         let stepper = |h: Rational| Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
         Ok(match trial.problem {

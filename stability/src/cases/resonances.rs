@@ -156,7 +156,7 @@ fn compared(all: &[(Trial, Variation)]) -> (String, Verdict) {
 /// The least h > 0 at which a step of q²/2 turns by 1/n of a turn.
 fn step_size(scheme: &NamedScheme, n: u32) -> Option<f64> {
     let target = (TAU / f64::from(n)).cos();
-    let cosine = |h: f64| LinearStep::of(&scheme.scheme, &Rational::from_f64(h).expect("it is finite")).cosine();
+    let cosine = |h: f64| LinearStep::of(&scheme.quadratic(), &Rational::from_f64(h).expect("it is finite")).cosine();
     // no scheme turns by more than twice its angle, so that this bracket has one crossing
     let (mut low, mut high) = (0.0, None);
     for i in 1..=200 {
@@ -181,7 +181,7 @@ fn step_size(scheme: &NamedScheme, n: u32) -> Option<f64> {
 
 fn vary<N: RunNumber>(scheme: &NamedScheme, (h, cubic): (f64, bool), steps: u64, context: &N::Context) -> Variation {
     let h = Rational::from_f64(h).expect("it is finite");
-    let step = LinearStep::of(&scheme.scheme, &h);
+    let step = LinearStep::of(&scheme.quadratic(), &h);
     let number = |numerator: i64, denominator: i64| {
         N::from_rational(&Rational::new(numerator.into(), denominator.into()), context)
     };
@@ -189,7 +189,7 @@ fn vary<N: RunNumber>(scheme: &NamedScheme, (h, cubic): (f64, bool), steps: u64,
     let potential = FormulaPotential::<N>::new(formula, &["q"], &[]).expect("it is a formula");
     let start = (vec![number(AMPLITUDE.0, AMPLITUDE.1)], vec![number(0, 1)]);
     let mut motion = Motion::new(potential, UnitMasses, start.0, start.1).expect("one coordinate");
-    let stepper = Stepper::with_context(scheme.scheme.clone(), &h, context).expect("it is positive");
+    let stepper = Stepper::with_context(scheme.quadratic(), &h, context).expect("it is positive");
     let monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(8)).expect("it is finite");
     let mut monitor = monitor.every((steps / 256).max(1));
     let (mut least, mut largest) = (f64::INFINITY, 0.0_f64);

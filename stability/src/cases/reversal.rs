@@ -103,7 +103,7 @@ impl Case for Reversal {
         context: &N::Context,
         continues: Continues<'_>,
     ) -> Result<Back, Error> {
-        let scheme = &suite.scheme(&trial.scheme).scheme;
+        let scheme = &suite.scheme(&trial.scheme).quadratic();
         if trial.fixed_point {
             return Ok(in_fixed_point(scheme, trial, continues));
         }

@@ -106,7 +106,7 @@ impl Case for RoundOff {
         context: &N::Context,
         continues: Continues<'_>,
     ) -> Result<Changes, Error> {
-        let scheme = &suite.scheme(&trial.scheme).scheme;
+        let scheme = &suite.scheme(&trial.scheme).quadratic();
         let h = Rational::new(scheme.summary().evaluations.into(), STEPS_A_UNIT.into());
         let stepper = Stepper::with_context(scheme.clone(), &h, context).expect("it is positive");
         let (q, p) = start(f64::from(trial.phase) / f64::from(PHASES));

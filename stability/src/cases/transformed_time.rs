@@ -76,7 +76,7 @@ impl Case for TransformedTime {
     fn trials(suite: &Suite) -> Vec<Trial> {
         let periods = suite.thorough(1000, 10);
         let compositions =
-            suite.schemes_or(&SCHEMES).into_iter().filter(|scheme| gammas(&scheme.scheme.scheme).is_some());
+            suite.schemes_or(&SCHEMES).into_iter().filter(|scheme| gammas(&scheme.scheme.quadratic()).is_some());
         let of = |examined: &Examined| {
             let identity = examined.identity.clone();
             (1..=8).map(move |k| Trial { scheme: identity.clone(), k, periods })
@@ -95,7 +95,7 @@ impl Case for TransformedTime {
         continues: Continues<'_>,
     ) -> Result<Orbit, Error> {
         let named = suite.scheme(&trial.scheme);
-        let gammas = gammas(&named.scheme).expect("others are left out");
+        let gammas = gammas(&named.quadratic()).expect("others are left out");
         let h = Rational::from_f64(STEP).expect("it is finite") * Rational::from_integer(gammas.len().into());
         let stepper = Stepper::with_context(drift_first(named)?, &h, context).expect("it is positive");
         Ok(followed::<N>(&stepper, &gammas, trial, context, continues))
@@ -152,7 +152,7 @@ fn verdicts(all: &[(Trial, Orbit)]) -> String {
 fn drift_first(named: &NamedScheme) -> Result<TableScheme<General>, Error> {
     let named = scheme_from(&named.name, Path::new(""), Some(First::Drift))?;
     named
-        .scheme
+        .quadratic()
         .for_every_kinetic()
         .map_err(|error| Error::usage(error.to_string(), "use a composition of the leapfrog"))
 }
@@ -300,7 +300,7 @@ mod tests {
 
     #[test]
     fn compositions_of_the_leapfrog_are_recognised() {
-        let count = |name: &str| gammas(&scheme(name).unwrap().scheme).map(|gammas| gammas.len());
+        let count = |name: &str| gammas(&scheme(name).unwrap().quadratic()).map(|gammas| gammas.len());
         assert_eq!((count("stormer-verlet"), count("sofroniou-spaletta8-21")), (Some(1), Some(21)));
         assert_eq!(
             (count("blanes-moan-s6"), count("ruth3"), count("bcm6-11"), count("chin-4a")),
@@ -317,7 +317,9 @@ mod tests {
         // another turn is seen
         let stepper = Stepper::new(drift_first(&suite.schemes_or(&[])[0].scheme).unwrap(), "3/20").unwrap();
         let wrong =
-            followed::<f64>(&stepper, &gammas(&scheme("suzuki4").unwrap().scheme).unwrap(), &trial, &(), &|_| true);
+            followed::<f64>(&stepper, &gammas(&scheme("suzuki4").unwrap().quadratic()).unwrap(), &trial, &(), &|_| {
+                true
+            });
         assert!(wrong.position > 1e6, "{}", wrong.position);
     }
 }
