@@ -97,9 +97,11 @@ impl<N: RunNumber> Monitoring<N> for Monitor<N, <Bilinear as BuildEstimator<N>>:
     }
 }
 
+// not inlined: callers in other crates would compile what is called, and the methods of a `dyn`, once more
 macro_rules! run_numbers {
     ($($number:ty),*) => {$(
         impl RunNumber for $number {
+            #[inline(never)]
             fn follow(
                 integrator: &mut VectorIntegrator<'_, Self>,
                 states: (Option<i64>, u64),
@@ -109,6 +111,7 @@ macro_rules! run_numbers {
                 follow(integrator, states, settings, follower)
             }
 
+            #[inline(never)]
             fn estimator(
                 settings: &EstimatorSettings,
                 h: &StepSize,
@@ -118,6 +121,7 @@ macro_rules! run_numbers {
                 settings.build(h, dimension, context)
             }
 
+            #[inline(never)]
             fn monitor(
                 integrator: &mut VectorIntegrator<'_, Self>,
                 k: u32,

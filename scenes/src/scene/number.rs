@@ -113,13 +113,16 @@ impl<N: SceneNumber> SystemIn<N> for System {
     }
 }
 
+// not inlined: callers in other crates would compile what is called, and the methods of a `dyn`, once more
 macro_rules! scene_numbers {
     ($($number:ty),*) => {$(
         impl SceneNumber for $number {
+            #[inline(never)]
             fn system(system: &System) -> &dyn SystemIn<Self> {
                 system
             }
 
+            #[inline(never)]
             fn motion(setup: &Setup, context: &Self::Context) -> Result<ProblemMotion<Self>, MotionError> {
                 setup.motion(context)
             }
