@@ -173,6 +173,7 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
     }
 
     /// The rows of the state n with its modified energy.
+    #[inline(never)]
     fn estimated(
         &mut self,
         n: i64,
@@ -308,13 +309,19 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
         let stops = self.observer.stops();
         let due = self.scene.output.checkpoint.is_some_and(|interval| self.is_time_for_a_checkpoint(n, interval));
         if n > self.written && (due || stops) {
-            match state(self).map(|state| SavedState::of(&state)) {
-                Some(None) => self.observer.note(&Note::NoCheckpoint { n }),
-                saved => self.rows.target.keep(n, saved.flatten())?,
-            }
-            self.last_checkpoint = Instant::now();
+            self.checkpoint(n, state(self).as_ref())?;
         }
         Ok(if stops { Break(()) } else { Continue(()) })
+    }
+
+    #[cold]
+    fn checkpoint(&mut self, n: i64, state: Option<&Snapshot<N>>) -> Result<(), Error> {
+        match state.map(SavedState::of) {
+            Some(None) => self.observer.note(&Note::NoCheckpoint { n }),
+            saved => self.rows.target.keep(n, saved.flatten())?,
+        }
+        self.last_checkpoint = Instant::now();
+        Ok(())
     }
 
     fn is_time_for_a_checkpoint(&mut self, n: i64, interval: CheckpointInterval) -> bool {
@@ -356,7 +363,7 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
     fn output(
         &mut self,
         n: i64,
-        estimate: Option<Estimate<'_, N>>,
+        estimate: Option<&Estimate<'_, N>>,
         integrator: &mut VectorIntegrator<'_, N>,
     ) -> Result<ControlFlow<()>, Error> {
         self.n = n;
@@ -366,7 +373,7 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
                 self.ends(n, |_| Some(Snapshot::of(n, integrator.state())))
             }
             Some(found) => {
-                self.estimated(n, &found, integrator)?;
+                self.estimated(n, found, integrator)?;
                 self.ends(n, |recorder| recorder.snapshots.for_those_after(n).cloned())
             }
         }

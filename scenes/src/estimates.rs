@@ -57,7 +57,7 @@ impl Estimates<'_> {
     pub fn take<N: RunNumber>(
         self,
         context: &N::Context,
-        take: &mut dyn FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
+        take: &mut dyn FnMut(i64, &Estimate<'_, N>) -> Result<(), Error>,
     ) -> Result<Finished, Error> {
         let Estimates { system, propagator, run, settings, .. } = self;
         match propagator {
@@ -71,7 +71,7 @@ impl Estimates<'_> {
                 let setup = system.setup().expect("the exact flow was read for this system");
                 let mut shadow = exact_flow(&setup, run, settings, context)?;
                 while let Some((n, estimate)) = shadow.advance().map_err(|error| run.failed(&error))? {
-                    take(n, estimate)?;
+                    take(n, &estimate)?;
                 }
                 Ok(Finished { evaluations: 0, own_evaluations: 0, energy: None, summary: None })
             }
@@ -83,7 +83,7 @@ impl Estimates<'_> {
         self,
         integrator: &mut VectorIntegrator<'_, N>,
         context: &N::Context,
-        take: &mut dyn FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
+        take: &mut dyn FnMut(i64, &Estimate<'_, N>) -> Result<(), Error>,
     ) -> Result<Finished, Error> {
         let Estimates { system, run, settings, summarised, .. } = self;
         let (q, p) = system.start(context);
@@ -111,7 +111,7 @@ impl Estimates<'_> {
 /// Follows a run of a scheme.
 struct Along<'a, N: RunNumber> {
     estimates: Estimates<'a>,
-    take: &'a mut dyn FnMut(i64, Estimate<'_, N>) -> Result<(), Error>,
+    take: &'a mut dyn FnMut(i64, &Estimate<'_, N>) -> Result<(), Error>,
     watch: Watch<N>,
     /// The n of the last state of the run.
     last: i64,
@@ -136,7 +136,7 @@ impl<N: RunNumber> Follower<N> for Along<'_, N> {
     fn output(
         &mut self,
         n: i64,
-        estimate: Option<Estimate<'_, N>>,
+        estimate: Option<&Estimate<'_, N>>,
         _: &mut VectorIntegrator<'_, N>,
     ) -> Result<ControlFlow<()>, Error> {
         (self.take)(n, estimate.expect("estimates are made"))?;

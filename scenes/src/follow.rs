@@ -40,7 +40,7 @@ pub trait Follower<N: Ordered> {
     fn output(
         &mut self,
         n: i64,
-        estimate: Option<Estimate<'_, N>>,
+        estimate: Option<&Estimate<'_, N>>,
         integrator: &mut VectorIntegrator<'_, N>,
     ) -> Result<ControlFlow<()>, Error>;
 
@@ -128,7 +128,7 @@ fn estimated<N: Ordered + 'static>(
     loop {
         let next = run.advance_with(|n, trajectory| follower.state(n, *trajectory.integrator()))?;
         let Some((n, estimate, trajectory)) = next else { return Ok(Continue(())) };
-        if follower.output(n, Some(estimate), *trajectory.integrator())?.is_break() {
+        if follower.output(n, Some(&estimate), *trajectory.integrator())?.is_break() {
             return Ok(Break(()));
         }
     }

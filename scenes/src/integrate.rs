@@ -249,7 +249,7 @@ impl<N: RunNumber> Follower<N> for Keeper<'_, N> {
     fn output(
         &mut self,
         n: i64,
-        estimate: Option<Estimate<'_, N>>,
+        estimate: Option<&Estimate<'_, N>>,
         integrator: &mut VectorIntegrator<'_, N>,
     ) -> Result<ControlFlow<()>, Error> {
         let n = n.unsigned_abs();

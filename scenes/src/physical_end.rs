@@ -64,7 +64,7 @@ impl<N: Ordered> Follower<N> for StepsTo<N> {
     fn output(
         &mut self,
         n: i64,
-        _: Option<Estimate<'_, N>>,
+        _: Option<&Estimate<'_, N>>,
         integrator: &mut VectorIntegrator<'_, N>,
     ) -> Result<ControlFlow<()>, Error> {
         let t = integrator.state().q().last().expect("time is a coordinate");

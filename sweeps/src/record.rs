@@ -278,11 +278,11 @@ impl<N: RunNumber> Follower<N> for Following<'_, N> {
     fn output(
         &mut self,
         n: i64,
-        estimate: Option<Estimate<'_, N>>,
+        estimate: Option<&Estimate<'_, N>>,
         _: &mut VectorIntegrator<'_, N>,
     ) -> Result<ControlFlow<()>, Error> {
         if let (Some(estimate), Some(drift)) = (estimate, &mut self.drift) {
-            drift.include(n, &estimate);
+            drift.include(n, estimate);
         }
         Ok(if n >= self.last || self.stops.load(Ordering::Relaxed) { Break(()) } else { Continue(()) })
     }

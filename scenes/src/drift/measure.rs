@@ -17,7 +17,7 @@ pub(super) fn measure<N: RunNumber>(
     let drift = DriftRecorder::new(StepSize::try_from(run.h).expect("runs have a nonzero step size"));
     let mut drift = drift.compensated_if(estimates.compensated);
     let finished = estimates.take::<N>(context, &mut |n, estimate| {
-        drift.include(n, &estimate);
+        drift.include(n, estimate);
         progress(n)
     })?;
     let found = drift.drift().expect("a run has the state 0");
