@@ -35,10 +35,11 @@ impl<S: Scheme, N: Number> MapSequence<N> for Maps<'_, S, N> {
     #[inline(always)]
     fn each(&self, steps: Range<u64>, _: u64, flows: &mut impl Flows<Number = N>) {
         if S::IS_INLINED {
-            return steps.for_each(
-                #[inline(always)]
-                |_| self.scheme.forward(self.weights, flows),
-            );
+            // no `for_each`: what it calls is not inlined into it, and not compiled for the instructions of the caller
+            for _ in steps {
+                self.scheme.forward(self.weights, flows);
+            }
+            return;
         }
         for _ in steps {
             for (index, &map) in self.scheme.sequence().maps.iter().enumerate() {

@@ -68,8 +68,8 @@ where
             N::in_widest_instructions(
                 #[inline(always)]
                 || match motions {
-                    // numbers of a few bytes, of which registers hold a state
-                    [Motion { hamiltonian, at }] if size_of::<N>() <= 16 => hamiltonian.advance(at, maps, count),
+                    // registers hold the state
+                    [Motion { hamiltonian, at }] => hamiltonian.advance(at, maps, count),
                     many => turns::advance(many, maps, count),
                 },
             );
