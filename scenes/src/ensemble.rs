@@ -46,14 +46,11 @@ use shadowstep_schemes::document::document;
 use crate::error::Error;
 use crate::family::{Family, Parsed};
 use crate::keys::ENSEMBLE;
-use crate::lanes::Together;
+use crate::lanes::{LANES, Together};
 use crate::scene::Scene;
 use crate::start::Begin;
 use columns::Columns;
 use settings::{Observed, settings};
-
-/// Trajectories that are computed together.
-const LANES: usize = 8;
 
 /// A scene with columns of initial values and parameters.
 #[derive(Debug)]
@@ -160,7 +157,7 @@ impl Ensemble {
     }
 
     /// The system of some lanes.
-    fn together(&self, parsed: &Parsed<'_>, block: &Block<LANES>) -> Result<Together<LANES>, Error> {
+    fn together(&self, parsed: &Parsed<'_>, block: &Block<LANES>) -> Result<Together, Error> {
         let scenes = block.trajectories().map(|t| self.scene(parsed, t)).collect::<Result<Vec<Scene>, Error>>()?;
         let systems = std::array::from_fn(|lane| &scenes[lane].system);
         Together::of(&systems).ok_or_else(|| {

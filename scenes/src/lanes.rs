@@ -11,29 +11,32 @@ use shadowstep_symbolic::Exact;
 use crate::scene::{ClassifiedKinetic, KineticEnergy, PairEnergy, PotentialEnergy, System};
 use crate::start::{SceneIntegrator, Steps};
 
-/// The systems of W trajectories as one, at their initial states.
-pub struct Together<const W: usize> {
-    potential: Box<dyn Potential<Lanes<W>>>,
-    kinetic: ClassifiedKinetic<Lanes<W>>,
-    q: Vec<Lanes<W>>,
-    p: Vec<Lanes<W>>,
+/// Trajectories that are computed together.
+pub const LANES: usize = 16;
+
+/// The systems of [`LANES`] trajectories as one, at their initial states.
+pub struct Together {
+    potential: Box<dyn Potential<Lanes<LANES>>>,
+    kinetic: ClassifiedKinetic<Lanes<LANES>>,
+    q: Vec<Lanes<LANES>>,
+    p: Vec<Lanes<LANES>>,
 }
 
 /// A system of lanes.
-pub(crate) type MotionInLanes<const W: usize, C> = Motion<
-    Lanes<W>,
-    Vec<Lanes<W>>,
-    Box<dyn Potential<Lanes<W>>>,
-    Box<dyn Kinetic<Lanes<W>, Class = C>>,
-    Option<Compensated<Lanes<W>, Vec<Lanes<W>>>>,
+pub(crate) type MotionInLanes<C> = Motion<
+    Lanes<LANES>,
+    Vec<Lanes<LANES>>,
+    Box<dyn Potential<Lanes<LANES>>>,
+    Box<dyn Kinetic<Lanes<LANES>, Class = C>>,
+    Option<Compensated<Lanes<LANES>, Vec<Lanes<LANES>>>>,
 >;
 
 const READ: &str = "the system was read with the scene";
 const QUADRATIC: &str = "T is of the class of the first system";
 
-impl<const W: usize> Together<W> {
+impl Together {
     /// `None` if the systems differ in more than numbers, or are not of T(p) and U(q).
-    pub fn of(systems: &[&System; W]) -> Option<Self> {
+    pub fn of(systems: &[&System; LANES]) -> Option<Self> {
         if !systems.iter().all(|system| system.parts.is_kinetic_and_potential()) {
             return None;
         }
@@ -49,19 +52,20 @@ impl<const W: usize> Together<W> {
     ///
     /// # Panics
     /// If the step size is 0 or the scheme is not valid for T(p), which reading a scene excludes.
-    pub fn integrator(self, steps: Steps<'_>) -> SceneIntegrator<Lanes<W>> {
+    #[inline(never)]
+    pub fn integrator(self, steps: Steps<'_>) -> SceneIntegrator<Lanes<LANES>> {
         if matches!(self.kinetic, ClassifiedKinetic::Quadratic(_)) {
             return steps.integrator(steps.quadratic(), self.quadratic(steps.compensated), &());
         }
         steps.integrator(steps.for_every_kinetic(), self.general(steps.compensated), &())
     }
 
-    pub(crate) fn quadratic(self, compensated: bool) -> MotionInLanes<W, Quadratic> {
+    pub(crate) fn quadratic(self, compensated: bool) -> MotionInLanes<Quadratic> {
         let ClassifiedKinetic::Quadratic(kinetic) = self.kinetic else { unreachable!("{QUADRATIC}") };
         Motion::new(self.potential, kinetic, self.q, self.p).expect(READ).compensated_if(compensated)
     }
 
-    pub(crate) fn general(self, compensated: bool) -> MotionInLanes<W, General> {
+    pub(crate) fn general(self, compensated: bool) -> MotionInLanes<General> {
         let ClassifiedKinetic::General(kinetic) = self.kinetic else { unreachable!("{QUADRATIC}") };
         Motion::new(self.potential, kinetic, self.q, self.p).expect(READ).compensated_if(compensated)
     }
@@ -72,7 +76,7 @@ impl System {
     ///
     /// # Panics
     /// If a system has other parameters than the first.
-    pub fn parameters_of_each<'a, const W: usize>(systems: &[&'a System; W]) -> Vec<(&'a str, Lanes<W>)> {
+    pub fn parameters_of_each<'a>(systems: &[&'a System; LANES]) -> Vec<(&'a str, Lanes<LANES>)> {
         let names = systems[0].parameters.iter().enumerate();
         names.map(|(i, (name, _))| (name.as_str(), lanes_of(|lane| &systems[lane].parameters[i].1))).collect()
     }
@@ -102,21 +106,21 @@ fn pairs_have_one_form(a: &PairEnergy, b: &PairEnergy) -> bool {
 }
 
 /// An exact number of each system, rounded once.
-fn lanes_of<'a, const W: usize>(exact: impl Fn(usize) -> &'a Exact) -> Lanes<W> {
+fn lanes_of<'a>(exact: impl Fn(usize) -> &'a Exact) -> Lanes<LANES> {
     Lanes(std::array::from_fn(|lane| f64::from_rational(&exact(lane).value, &())))
 }
 
 /// The same for a list of each system.
-fn in_lanes<'a, const W: usize>(list: impl Fn(usize) -> &'a [Exact]) -> Vec<Lanes<W>> {
+fn in_lanes<'a>(list: impl Fn(usize) -> &'a [Exact]) -> Vec<Lanes<LANES>> {
     (0..list(0).len()).map(|i| lanes_of(|lane| &list(lane)[i])).collect()
 }
 
 /// The parameters of the formulas.
-fn parameters<const W: usize>(systems: &[&System; W]) -> Vec<Lanes<W>> {
+fn parameters(systems: &[&System; LANES]) -> Vec<Lanes<LANES>> {
     System::parameters_of_each(systems).into_iter().map(|(_, value)| value).collect()
 }
 
-fn potential<const W: usize>(systems: &[&System; W]) -> Box<dyn Potential<Lanes<W>>> {
+fn potential(systems: &[&System; LANES]) -> Box<dyn Potential<Lanes<LANES>>> {
     match &systems[0].potential {
         PotentialEnergy::Shipped(_) => Setup::potential_of_each(&systems.map(|system| match &system.potential {
             PotentialEnergy::Shipped(setup) => setup,
@@ -128,7 +132,7 @@ fn potential<const W: usize>(systems: &[&System; W]) -> Box<dyn Potential<Lanes<
     }
 }
 
-fn pair<const W: usize>(systems: &[&System; W], first: &PairEnergy) -> FormulaPair<Lanes<W>> {
+fn pair(systems: &[&System; LANES], first: &PairEnergy) -> FormulaPair<Lanes<LANES>> {
     let property = |lane: usize, k: usize| match &systems[lane].potential {
         PotentialEnergy::Pairs(pairs) => pairs.properties[k].1.as_slice(),
         _ => unreachable!("the systems have one form"),
@@ -138,7 +142,7 @@ fn pair<const W: usize>(systems: &[&System; W], first: &PairEnergy) -> FormulaPa
     first.formula.meaning().in_numbers(properties, parameters(systems))
 }
 
-fn kinetic<const W: usize>(systems: &[&System; W]) -> ClassifiedKinetic<Lanes<W>> {
+fn kinetic(systems: &[&System; LANES]) -> ClassifiedKinetic<Lanes<LANES>> {
     let KineticEnergy::Formula(formula) = &systems[0].kinetic else {
         return ClassifiedKinetic::Quadratic(of_masses(systems));
     };
@@ -148,7 +152,7 @@ fn kinetic<const W: usize>(systems: &[&System; W]) -> ClassifiedKinetic<Lanes<W>
     }
 }
 
-fn of_masses<const W: usize>(systems: &[&System; W]) -> Box<dyn Kinetic<Lanes<W>, Class = Quadratic>> {
+fn of_masses(systems: &[&System; LANES]) -> Box<dyn Kinetic<Lanes<LANES>, Class = Quadratic>> {
     let masses = systems.map(|system| match &system.kinetic {
         KineticEnergy::Masses(masses) => masses.as_ref(),
         KineticEnergy::Formula(_) => unreachable!("the systems have one form"),

@@ -1,8 +1,9 @@
 //! A run of a scheme with a monitor: what it says, and when.
 
 use serde::{Deserialize, Serialize};
+use shadowstep::integrator::{VectorIntegrator, VectorSystem};
 use shadowstep::problems::{ProblemMotion, Setup, problem};
-use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
+use shadowstep::shadow::Verdict;
 use shadowstep::{Rational, Stepper};
 use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::library::NamedScheme;
@@ -68,18 +69,19 @@ pub(crate) fn setup(name: &str, set: &[(&str, String)]) -> Setup {
 pub(crate) fn watched<N: RunNumber>(
     (scheme, h): (&NamedScheme, &Rational),
     every: u64,
-    mut motion: ProblemMotion<N>,
+    motion: ProblemMotion<N>,
     steps: u64,
     continues: Continues<'_>,
-    mut each: impl FnMut(u64, &mut ProblemMotion<N>) -> Next,
+    mut each: impl FnMut(u64, &mut VectorSystem<'_, N>) -> Next,
 ) -> Watched {
-    let context = motion.context();
+    let context = motion.state().context();
     let stepper = Stepper::with_context(scheme.quadratic(), h, &context).expect("cases use nonzero steps");
-    let monitor = ShadowEnergy::new(stepper, &mut motion, &Bilinear::with_error(MONITOR_ORDER));
-    let mut monitor = monitor.expect("initial states are finite").every(every);
+    let mut integrator = stepper.with(motion.compensated_if(false));
+    let integrator: &mut VectorIntegrator<'_, N> = &mut integrator;
+    let mut monitor = N::monitor(integrator, MONITOR_ORDER, every).expect("initial states are finite");
     let (mut finite, mut alarm, mut alarmed, mut next_report) = (true, None, None, 0);
     for n in 1..=steps {
-        let ended = match monitor.step(&mut motion) {
+        let ended = match monitor.step(integrator) {
             Ok(sample) => sample.is_some(),
             Err(_) => {
                 finite = false;
@@ -95,7 +97,7 @@ pub(crate) fn watched<N: RunNumber>(
             }
         }
         let asks = n % (steps / QUESTIONS).max(1) == 0;
-        if each(n, &mut motion) == Next::End || (asks && !continues(n as f64 / steps as f64)) {
+        if each(n, integrator.system()) == Next::End || (asks && !continues(n as f64 / steps as f64)) {
             break;
         }
     }

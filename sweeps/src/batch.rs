@@ -3,12 +3,13 @@
 use std::sync::atomic::AtomicBool;
 
 use shadowstep_scenes::family::Parsed;
+use shadowstep_scenes::lanes::LANES;
 use shadowstep_scenes::{Error, Scene};
 
 use crate::keep::Keep;
 use crate::plan::Plan;
 use crate::record::{Record, measured};
-use crate::together::{self, LANES, allows, are_alike, suits};
+use crate::together::{self, allows, are_alike, suits};
 
 /// Several times as many runs as are computed together, so that those that are not alike find others.
 const MOST_RUNS: usize = 4 * LANES;

@@ -6,6 +6,7 @@ use shadowstep::formula::{FormulaError, FormulaPotential};
 use shadowstep::number::{Lanes, Number};
 use shadowstep::{Potential, Rational};
 use shadowstep_scenes::computation::RunNumber;
+use shadowstep_scenes::lanes::LANES;
 use shadowstep_scenes::{EnergyAt, Shown, System};
 use shadowstep_schemes::document::{Reader, Text};
 use shadowstep_symbolic::{Exact, Expression as Syntax, Kind, parse};
@@ -188,9 +189,9 @@ impl<N: Number + 'static> Evaluator<N> {
     }
 }
 
-impl<const W: usize> Evaluator<Lanes<W>> {
+impl Evaluator<Lanes<LANES>> {
     /// For several systems of one form, each in a lane.
-    pub(crate) fn of_each(expression: &Expression, systems: &[&System; W]) -> Result<Self, FormulaError> {
+    pub(crate) fn of_each(expression: &Expression, systems: &[&System; LANES]) -> Result<Self, FormulaError> {
         Evaluator::with(expression, systems[0], System::parameters_of_each(systems), &())
     }
 }
@@ -218,19 +219,19 @@ impl<N: RunNumber> Test<N> {
     }
 }
 
-impl<const W: usize> Test<Lanes<W>> {
+impl Test<Lanes<LANES>> {
     /// For several systems of one form, each in a lane.
-    pub(crate) fn of_each(condition: &Condition, systems: &[&System; W]) -> Result<Self, FormulaError> {
+    pub(crate) fn of_each(condition: &Condition, systems: &[&System; LANES]) -> Result<Self, FormulaError> {
         let difference = Evaluator::of_each(&condition.difference, systems)?;
         Ok(Test { difference, met: condition.met, zero: Lanes::all(0.0) })
     }
 
     /// Whether the state in each lane meets the condition.
-    pub(crate) fn is_met_by_each<M: shadowstep::System<Number = Lanes<W>> + ?Sized>(
+    pub(crate) fn is_met_by_each<M: shadowstep::System<Number = Lanes<LANES>> + ?Sized>(
         &mut self,
         system: &mut M,
         time: impl Fn() -> Rational,
-    ) -> [bool; W] {
+    ) -> [bool; LANES] {
         self.difference.value(system, time).0.map(|difference| self.met.is_of(difference.partial_cmp(&0.0)))
     }
 }

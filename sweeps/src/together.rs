@@ -10,7 +10,7 @@ use shadowstep::number::counting::{Counting, count};
 use shadowstep::number::{Lanes, Number, Ordered};
 use shadowstep::{Carried, Scheme as _, System};
 use shadowstep_scenes::Scene;
-use shadowstep_scenes::lanes::Together;
+use shadowstep_scenes::lanes::{LANES, Together};
 use shadowstep_scenes::start::{Begin, Steps};
 use shadowstep_symbolic::decimal::to_text;
 
@@ -18,9 +18,6 @@ use crate::expression::{Evaluator, Test};
 use crate::keep::Keep;
 use crate::record::Values;
 use crate::values::{Kept, Need};
-
-/// The most runs that are computed together.
-pub(crate) const LANES: usize = 16;
 
 /// The most steps of runs that are computed together: all of them are lost where a call is stopped.
 const MOST_STEPS: u64 = 1_000_000;
