@@ -119,13 +119,31 @@ pub fn at_output<I: Integrator + ?Sized, R>(integrator: &mut I, read: impl FnOnc
 /// A system with a stepper that is valid for it: [`Stepper::with`] makes it.
 #[derive(Debug)]
 pub struct WithStepper<'s, S: Scheme, M: System> {
-    pub(crate) stepper: Held<'s, Stepper<S, M::Number>>,
-    pub(crate) system: M,
+    stepper: Held<'s, Stepper<S, M::Number>>,
+    system: M,
+}
+
+impl<S: Scheme, N: Number> Stepper<S, N> {
+    /// The system with this stepper, as trajectories and estimates along them take it.
+    pub fn with<M: System<Number = N>>(&self, system: M) -> WithStepper<'_, S, M>
+    where
+        S: ValidFor<M::Class>,
+    {
+        WithStepper { stepper: Held::Borrowed(self), system }
+    }
+
+    /// The same for a stepper that is used for this system only.
+    pub fn into_integrator<M: System<Number = N>>(self, system: M) -> WithStepper<'static, S, M>
+    where
+        S: ValidFor<M::Class>,
+    {
+        WithStepper { stepper: Held::Owned(Box::new(self)), system }
+    }
 }
 
 /// Borrowed or owned.
 #[derive(Debug)]
-pub(crate) enum Held<'s, T> {
+enum Held<'s, T> {
     Borrowed(&'s T),
     Owned(Box<T>),
 }

@@ -3,7 +3,6 @@
 use crate::Rational;
 use crate::displaced::{DisplacementError, Displacements};
 use crate::increments::Carried;
-use crate::integrator::{Held, WithStepper};
 use crate::maps::MapKind;
 use crate::number::{Number, Ordered};
 use crate::processor::Processor;
@@ -140,22 +139,6 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
         N: Ordered,
     {
         Displacements::of(&self.scheme, self.h(), self.weights().gradient_kicks)
-    }
-
-    /// The system with this stepper, as trajectories and estimates along them take it.
-    pub fn with<M: System<Number = N>>(&self, system: M) -> WithStepper<'_, S, M>
-    where
-        S: ValidFor<M::Class>,
-    {
-        WithStepper { stepper: Held::Borrowed(self), system }
-    }
-
-    /// The same for a stepper that is used for this system only.
-    pub fn into_integrator<M: System<Number = N>>(self, system: M) -> WithStepper<'static, S, M>
-    where
-        S: ValidFor<M::Class>,
-    {
-        WithStepper { stepper: Held::Owned(Box::new(self)), system }
     }
 
     /// Refuses a system whose numbers have another precision than the weights, or that has not the gradient kicks of the scheme.
