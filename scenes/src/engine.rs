@@ -11,7 +11,7 @@ use shadowstep::{Carried, MotionError};
 
 use crate::computation::RunNumber;
 use crate::error::Error;
-use crate::follow::Follower;
+use crate::follow::{Follower, follow};
 use crate::note::Note;
 use crate::observer::Observer;
 use crate::physical_end::last_step;
@@ -83,10 +83,11 @@ pub(crate) fn run<N: RunNumber>(
         snapshots: Snapshots::new(0),
         state: (integrator.state().q().to_vec(), integrator.state().p().to_vec()),
         n: from.unwrap_or(0),
+        due: 0,
     };
     recorder.watch = recorder.watch(&mut *integrator)?;
     let settings = scene.output.modified_energy.as_ref().map(|(settings, _)| settings);
-    match N::follow(&mut *integrator, (from, recorder.run.steps), settings, &mut recorder)? {
+    match follow(&mut *integrator, (from, recorder.run.steps), settings, &mut recorder)? {
         Break(()) => Ok((Outcome::Stopped { n: recorder.n }, None)),
         Continue(()) => recorder.complete(&mut *integrator),
     }
@@ -129,6 +130,8 @@ struct Recorder<'a, 'r, N: RunNumber> {
     state: (Vec<N>, Vec<N>),
     /// The n of the newest output.
     n: i64,
+    /// No row of states or energies is due before.
+    due: i64,
 }
 
 impl<N: RunNumber> Recorder<'_, '_, N> {
@@ -160,8 +163,14 @@ impl<N: RunNumber> Recorder<'_, '_, N> {
 
     /// The rows of the state n, at which the system is.
     fn present(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) -> Result<(), Error> {
-        let [energy, state] =
-            [self.scene.output.energy, self.scene.output.trajectory].map(|every| self.is_due(every, n));
+        if n < self.due {
+            self.observer.progress(n);
+            return Ok(());
+        }
+        let periods = [self.scene.output.energy, self.scene.output.trajectory];
+        let [energy, state] = periods.map(|every| self.is_due(every, n));
+        let next = |every: u64| n.saturating_add_unsigned(every - n.unsigned_abs() % every);
+        self.due = periods.into_iter().flatten().map(next).min().unwrap_or(i64::MAX);
         if !energy && !state {
             self.observer.progress(n);
             return Ok(());

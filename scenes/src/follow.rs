@@ -56,11 +56,11 @@ pub trait Follower<N: Ordered> {
 ///
 /// # Errors
 /// Those of the follower.
-pub(crate) fn follow<N: Ordered + 'static>(
+pub(crate) fn follow<N: Ordered + 'static, F: Follower<N> + ?Sized>(
     integrator: &mut VectorIntegrator<'_, N>,
     (from, steps): (Option<i64>, u64),
     settings: Option<&EstimatorSettings>,
-    follower: &mut dyn Follower<N>,
+    follower: &mut F,
 ) -> Result<ControlFlow<()>, Error> {
     let ended = match settings {
         None => plain(integrator, (from.unwrap_or(0), steps), follower),
@@ -92,10 +92,10 @@ impl From<Error> for Failed {
 }
 
 /// Without states beyond both ends, and with increments only where the follower needs them.
-fn plain<N: Ordered>(
+fn plain<N: Ordered, F: Follower<N> + ?Sized>(
     integrator: &mut VectorIntegrator<'_, N>,
     (from, steps): (i64, u64),
-    follower: &mut dyn Follower<N>,
+    follower: &mut F,
 ) -> Result<ControlFlow<()>, Failed> {
     let mut trajectory = Trajectory::plain(integrator, from, steps)?;
     let mut next = from;
@@ -113,11 +113,11 @@ fn plain<N: Ordered>(
 }
 
 /// With increments and an estimate at each state, and its error.
-fn estimated<N: Ordered + 'static>(
+fn estimated<N: Ordered + 'static, F: Follower<N> + ?Sized>(
     integrator: &mut VectorIntegrator<'_, N>,
     (from, steps): (Option<i64>, u64),
     settings: &EstimatorSettings,
-    follower: &mut dyn Follower<N>,
+    follower: &mut F,
 ) -> Result<ControlFlow<()>, Failed> {
     let settings = settings.clone().with_errors(true);
     let mut run = match from {

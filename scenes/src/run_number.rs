@@ -68,6 +68,12 @@ pub trait Monitoring<N: RunNumber> {
     /// [`Monitor::needs_increments`]
     fn needs_increments(&self) -> bool;
 
+    /// [`Monitor::idle`]
+    fn idle(&self) -> u64;
+
+    /// [`Monitor::pass`]
+    fn pass(&mut self, states: u64);
+
     /// [`Monitor::n`]
     fn n(&self) -> u64;
 
@@ -86,6 +92,14 @@ impl<N: RunNumber> Monitoring<N> for Monitor<N, <Bilinear as BuildEstimator<N>>:
 
     fn needs_increments(&self) -> bool {
         Monitor::needs_increments(self)
+    }
+
+    fn idle(&self) -> u64 {
+        Monitor::idle(self)
+    }
+
+    fn pass(&mut self, states: u64) {
+        Monitor::pass(self, states);
     }
 
     fn n(&self) -> u64 {

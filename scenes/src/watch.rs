@@ -4,6 +4,8 @@ pub(crate) mod approaches;
 pub(crate) mod encounters;
 mod energy;
 
+use std::mem::take;
+
 use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::run::RunError;
 use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
@@ -52,6 +54,9 @@ pub struct Watch<N: RunNumber> {
 
 struct Observed<N: RunNumber> {
     monitor: Box<dyn Monitoring<N>>,
+    /// Of the monitor: the states that pass unobserved, and those of them that are still to come.
+    pass: u64,
+    idle: u64,
     encounters: Encounters<N>,
     approaches: Option<Approaches>,
     /// The states between windows of the monitor.
@@ -74,8 +79,11 @@ impl<N: RunNumber> Watch<N> {
         let every = (run.steps.saturating_sub(from.unsigned_abs()) / WINDOWS).max(1);
         let mut observed = None;
         if summarised {
+            let monitor = N::monitor(integrator, MONITOR_ORDER, every)?;
             observed = Some(Observed {
-                monitor: N::monitor(integrator, MONITOR_ORDER, every)?,
+                idle: monitor.idle(),
+                pass: 0,
+                monitor,
                 encounters: Encounters::new(integrator.state().p()),
                 approaches: None,
                 every,
@@ -96,7 +104,7 @@ impl<N: RunNumber> Watch<N> {
 
     /// Whether the next step must compute increments.
     pub fn needs_increments(&self) -> bool {
-        self.observed.as_ref().is_some_and(|observed| observed.monitor.needs_increments())
+        self.observed.as_ref().is_some_and(|observed| observed.idle == 0 && observed.monitor.needs_increments())
     }
 
     /// Takes the state n, which a step has made: the one after the last one that it took. Of a processed scheme, the monitor and encounters
@@ -110,14 +118,22 @@ impl<N: RunNumber> Watch<N> {
             self.energy.include(n, &energy);
             self.energy.include_kinetic(&kinetic);
         }
-        let Some(Observed { monitor, encounters, approaches, every }) = &mut self.observed else { return };
+        let Some(Observed { monitor, pass, idle, encounters, approaches, every }) = &mut self.observed else { return };
         let (q, p) = (integrator.state().q(), integrator.state().p());
         encounters.include(n, p);
         if let Some(approaches) = approaches {
             approaches.include(n, (q, p), n.unsigned_abs().is_multiple_of(*every));
         }
+        if *idle > 0 {
+            (*idle, *pass) = (*idle - 1, *pass + 1);
+            if *idle == 0 {
+                monitor.pass(take(pass));
+            }
+            return;
+        }
         // what is not finite is found by the run as well, or by the verdict
-        if let Ok(Some(sample)) = monitor.observe(integrator)
+        let found = monitor.observe(integrator);
+        if let Ok(Some(sample)) = found
             && self.energies == Energies::Windows
         {
             if integrator.is_processed() {
@@ -126,6 +142,7 @@ impl<N: RunNumber> Watch<N> {
                 self.energy.include(self.from + i64::try_from(sample.n).unwrap_or(i64::MAX), sample.energy);
             }
         }
+        *idle = monitor.idle();
     }
 
     /// Takes H of a state that the run has computed.
@@ -154,7 +171,8 @@ impl<N: RunNumber> Watch<N> {
         let energy = self.energy();
         let of_kinetic = self.energy.of_kinetic();
         let Watch { observed, from, n, transformed, .. } = self;
-        let Observed { monitor, encounters, approaches, .. } = observed?;
+        let Observed { mut monitor, pass, encounters, approaches, .. } = observed?;
+        monitor.pass(pass);
         let report = monitor.report();
         let (verdict, reason) = conclusion(&report, of_kinetic);
         // where the energy is lost, the modified energy does not bound it

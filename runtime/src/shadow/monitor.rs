@@ -175,6 +175,16 @@ impl<N: Ordered, E: Estimator<N>> Monitor<N, E> {
         self.n
     }
 
+    /// How many of the following states it takes nothing of: they may [`pass`](Monitor::pass) by plain steps, and need not be observed.
+    pub fn idle(&self) -> u64 {
+        if self.fastest.begins(self.n + 1) { 0 } else { self.schedule.idle(self.n + 1) }
+    }
+
+    /// This number of states passes unobserved, [`idle`](Monitor::idle) at most.
+    pub fn pass(&mut self, states: u64) {
+        self.n += states;
+    }
+
     /// Whether the next step must be an augmented one, which gives increments.
     pub fn needs_increments(&self) -> bool {
         self.schedule.needs_increments(self.n + 1)

@@ -51,6 +51,11 @@ impl<N: Ordered> Fastest<N> {
         self.sums.len() / 3
     }
 
+    /// Whether p of the state n is of the beginning.
+    pub(super) fn begins(&self, n: u64) -> bool {
+        usize::try_from(n).is_ok_and(|n| n < self.start.len())
+    }
+
     /// Takes p of the state n: a body that is lost in the first steps turns only there.
     #[inline]
     pub(super) fn begin(&mut self, n: u64, p: &[N]) {

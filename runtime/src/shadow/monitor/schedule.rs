@@ -41,6 +41,11 @@ impl Schedule {
         self.overlaps() || n + self.states > self.end
     }
 
+    /// How many states from n on do not belong to a window.
+    pub(super) fn idle(&self, n: u64) -> u64 {
+        if self.overlaps() { 0 } else { (self.end + 1).saturating_sub(n + self.states) }
+    }
+
     /// Whether the state n is the first one of a window that follows plain steps.
     #[inline]
     pub(super) fn begins(&self, n: u64) -> bool {
