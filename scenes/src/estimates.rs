@@ -33,6 +33,9 @@ pub struct Estimates<'a> {
     pub summarised: bool,
 }
 
+/// Takes each estimate with its n.
+pub type Take<'a, N> = &'a mut dyn FnMut(i64, &Estimate<'_, N>) -> Result<(), Error>;
+
 /// What is known at the end of a run.
 #[derive(Clone, Debug)]
 pub struct Finished {
@@ -54,11 +57,7 @@ impl Estimates<'_> {
     ///
     /// # Panics
     /// If the scheme is the exact flow of a system that has none, which [`Propagator::of_system`] excludes.
-    pub fn take<N: RunNumber>(
-        self,
-        context: &N::Context,
-        take: &mut dyn FnMut(i64, &Estimate<'_, N>) -> Result<(), Error>,
-    ) -> Result<Finished, Error> {
+    pub fn take<N: RunNumber>(self, context: &N::Context, take: Take<'_, N>) -> Result<Finished, Error> {
         let Estimates { system, propagator, run, settings, .. } = self;
         match propagator {
             Propagator::Scheme(named) => {
@@ -83,7 +82,7 @@ impl Estimates<'_> {
         self,
         integrator: &mut VectorIntegrator<'_, N>,
         context: &N::Context,
-        take: &mut dyn FnMut(i64, &Estimate<'_, N>) -> Result<(), Error>,
+        take: Take<'_, N>,
     ) -> Result<Finished, Error> {
         let Estimates { system, run, settings, summarised, .. } = self;
         let (q, p) = system.start(context);
@@ -111,7 +110,7 @@ impl Estimates<'_> {
 /// Follows a run of a scheme.
 struct Along<'a, N: RunNumber> {
     estimates: Estimates<'a>,
-    take: &'a mut dyn FnMut(i64, &Estimate<'_, N>) -> Result<(), Error>,
+    take: Take<'a, N>,
     watch: Watch<N>,
     /// The n of the last state of the run.
     last: i64,

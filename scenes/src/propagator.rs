@@ -94,13 +94,16 @@ pub fn stepper<N: Number>(named: &NamedScheme, run: Run<'_>, context: &N::Contex
     Stepper::with_context(named.quadratic(), run.h, context).expect("runs have a nonzero step size")
 }
 
+/// Estimates along an exact flow.
+pub(crate) type AlongExactFlow<N> = ShadowRun<ExactFlow<N>, Box<dyn Estimator<N>>>;
+
 /// The estimates along the exact flow of a problem.
 pub(crate) fn exact_flow<N: RunNumber>(
     setup: &Setup,
     run: Run<'_>,
     settings: &EstimatorSettings,
     context: &N::Context,
-) -> Result<ShadowRun<ExactFlow<N>, Box<dyn Estimator<N>>>, Error> {
+) -> Result<AlongExactFlow<N>, Error> {
     let h = StepSize::try_from(run.h).expect("runs have a nonzero step size");
     let estimates = || {
         let estimator = N::estimator(settings, &h, setup.values.positions().len(), context)?;

@@ -11,6 +11,9 @@ use crate::step_size::StepSize;
 /// An estimate and its n: the state n, or the middle between it and the next one.
 pub type Estimated<'a, N> = (i64, Estimate<'a, N>);
 
+/// An estimate, its n, and the source of states.
+pub type EstimatedAlong<'a, T> = (i64, Estimate<'a, <T as States>::Number>, &'a mut T);
+
 /// States with the modified energies of n = 0, …, steps, or between them.
 pub struct ShadowRun<T, E> {
     states: T,
@@ -112,7 +115,7 @@ impl<T: States, E: Estimator<T::Number>> ShadowRun<T, E> {
     pub fn advance_with(
         &mut self,
         mut watch: impl FnMut(i64, &mut T),
-    ) -> Result<Option<(i64, Estimate<'_, T::Number>, &mut T)>, RunError> {
+    ) -> Result<Option<EstimatedAlong<'_, T>>, RunError> {
         loop {
             let Some(TrajectoryState { n, q, p, increments }) = self.states.advance()? else { return Ok(None) };
             if self.missing > 0 {

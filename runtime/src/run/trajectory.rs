@@ -115,7 +115,12 @@ impl<I: Integrator<Number: Ordered>> Trajectory<I> {
     ///
     /// # Errors
     /// As `advance`.
+    #[inline]
     pub fn reach(&mut self, n: i64) -> Result<(), RunError> {
+        if n <= self.n { Ok(()) } else { self.make_until(n) }
+    }
+
+    fn make_until(&mut self, n: i64) -> Result<(), RunError> {
         let n = n.min(self.last);
         while self.n < n && (self.augmented || !self.before.is_empty() || n - self.n < AT_ONCE) {
             self.advance()?;

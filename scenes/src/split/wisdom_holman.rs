@@ -147,11 +147,15 @@ impl Planets {
 
     /// Computes |B_Q|/|A_Q| of each planet, from Q.
     pub(crate) fn epsilon(&self) -> OfPlanets {
-        in_coordinates!(self, ratios::<f64>())
+        in_coordinates!(self, ratios::<f64>(&()))
     }
 
-    fn ratios<N, C: PlanetaryCoordinates<f64, D> + 'static, const D: usize>(&self) -> OfPlanets {
-        let mut coordinates = C::new(&self.bodies, &());
+    fn ratios<N, C, const D: usize>(&self, context: &N::Context) -> OfPlanets
+    where
+        N: Number<Context = ()>,
+        C: PlanetaryCoordinates<f64, D> + 'static,
+    {
+        let mut coordinates = C::new(&self.bodies, context);
         let mut gradient = vec![0.0; self.bodies.count() * D];
         Box::new(move |q| {
             coordinates.gradient_and_rate(q, &mut gradient, None);
