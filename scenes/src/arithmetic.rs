@@ -53,7 +53,7 @@ pub struct Arithmetic {
 pub enum Numbers {
     /// Double precision, `f64`.
     Double,
-    /// Sums of two doubles: [`DoubleDouble`].
+    /// Sums of two doubles: [`DoubleDouble`](shadowstep::number::DoubleDouble).
     DoubleDouble,
     /// Decimal digits, and the numbers that have them.
     Digits(u32, Digits),
@@ -62,7 +62,7 @@ pub enum Numbers {
 /// Numbers of many digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Digits {
-    /// This number of limbs of 64 bits: [`AnyLimbs`].
+    /// This number of limbs of 64 bits: [`AnyLimbs`](shadowstep::number::AnyLimbs).
     Limbs(LimbCount),
     /// MPFR's numbers: `Float`.
     #[cfg(feature = "mpfr")]

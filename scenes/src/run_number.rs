@@ -18,10 +18,11 @@ use crate::scene::SceneNumber;
 
 /// A number type of runs.
 pub trait RunNumber: SceneNumber {
-    /// [`follow`]
+    /// Makes the states n = `from`, …, steps, `states` being these two, and gives them to the follower, with estimates if there are settings for these. The
+    /// system is at the state `from`, or without one at t = 0. Returns whether the follower ended the run.
     ///
     /// # Errors
-    /// As there.
+    /// Those of the follower.
     fn follow(
         integrator: &mut VectorIntegrator<'_, Self>,
         states: (Option<i64>, u64),

@@ -213,7 +213,7 @@ impl<N: Ordered, E: Estimator<N>> Monitor<N, E> {
         self.observe(integrator.system())
     }
 
-    /// Takes the state that a step has made, an augmented one where [`needs_increments`](ShadowEnergy::needs_increments) was true;
+    /// Takes the state that a step has made, an augmented one where [`needs_increments`](Monitor::needs_increments) was true;
     /// gives the estimate that it completes.
     ///
     /// # Errors
