@@ -98,7 +98,7 @@ fn a_start_that_is_not_finite_is_refused() {
 /// The report that the documentation of `ShadowEnergy` shows.
 #[test]
 fn a_report_reads() {
-    let documentation = include_str!("../../../runtime/src/shadow/monitor.rs");
+    let documentation = include_str!("../../../runtime/src/shadow/monitor/shadow_energy.rs");
     let (_, shown) = documentation.split_once("```text\n").unwrap();
     let (shown, _) = shown.split_once("/// ```").unwrap();
     let shown: Vec<&str> = shown.lines().map(|line| line.trim_start_matches("/// ")).collect();
