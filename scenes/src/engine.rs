@@ -353,10 +353,7 @@ impl<N: RunNumber> Follower<N> for Recorder<'_, '_, N> {
     }
 
     fn carried(&self) -> Carried {
-        match self.watch.as_ref().is_some_and(Watch::needs_increments) {
-            true => Carried::Increments,
-            false => Carried::Nothing,
-        }
+        self.watch.as_ref().map_or(Carried::Nothing, Watch::carried)
     }
 
     fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {

@@ -9,7 +9,7 @@ use std::mem::take;
 use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::run::RunError;
 use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
-use shadowstep::{Integrator as _, Ordered};
+use shadowstep::{Carried, Integrator as _, Ordered};
 
 use self::approaches::Approaches;
 pub use self::approaches::{Approach, Interactions};
@@ -102,9 +102,12 @@ impl<N: RunNumber> Watch<N> {
         self
     }
 
-    /// Whether the next step must compute increments.
-    pub fn needs_increments(&self) -> bool {
-        self.observed.as_ref().is_some_and(|observed| observed.idle == 0 && observed.monitor.needs_increments())
+    /// What the next step is to carry along.
+    pub fn carried(&self) -> Carried {
+        match &self.observed {
+            Some(observed) if observed.idle == 0 && observed.monitor.needs_increments() => Carried::Increments,
+            _ => Carried::Nothing,
+        }
     }
 
     /// Takes the state n, which a step has made: the one after the last one that it took. Of a processed scheme, the monitor and encounters

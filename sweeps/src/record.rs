@@ -134,6 +134,8 @@ struct Following<'a, N: RunNumber> {
     described: &'a System,
     keep: &'a Keep,
     stops: &'a AtomicBool,
+    /// Whether numbers are longer than double precision.
+    is_long: bool,
     /// Of the modified energy, where it is estimated.
     drift: Option<DriftRecorder<N>>,
     watch: Option<Watch<N>>,
@@ -185,6 +187,7 @@ impl<'a, N: RunNumber> Following<'a, N> {
             described: &scene.system,
             keep,
             stops,
+            is_long: scene.arithmetic.is_longer_than_double(),
             drift: None,
             watch,
             tests: tests.collect(),
@@ -254,19 +257,17 @@ impl<'a, N: RunNumber> Following<'a, N> {
     }
 }
 
-/// This number of steps is made at once where only the last state is of interest.
+/// This number of steps in double precision is made at once where only the last state is of interest. Of longer numbers a step may take seconds, after
+/// which a call must be able to stop.
 const AT_ONCE: i64 = 64;
 
 impl<N: RunNumber> Follower<N> for Following<'_, N> {
     fn carried(&self) -> Carried {
-        match self.watch.as_ref().is_some_and(Watch::needs_increments) {
-            true => Carried::Increments,
-            false => Carried::Nothing,
-        }
+        self.watch.as_ref().map_or(Carried::Nothing, Watch::carried)
     }
 
     fn next(&self, n: i64) -> i64 {
-        if self.follows_all() { n + 1 } else { n + AT_ONCE }
+        if self.follows_all() || self.is_long { n + 1 } else { n + AT_ONCE }
     }
 
     fn state(&mut self, n: i64, integrator: &mut VectorIntegrator<'_, N>) {
