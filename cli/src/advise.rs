@@ -4,18 +4,18 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use shadowstep::number::{Limbs, Number, Ordered};
+use shadowstep::number::{Limbs, Number, Real};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::readable::wrapped_to;
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_work_precision::advise::{Advice, Choice, Question};
+use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::size::Size;
 use shadowstep_work_precision::study::Cost;
 
 use crate::colour::{heading, on_stdout};
 use crate::output::Output;
-use crate::posed::{Posed, PosedArguments};
+use crate::posed::{PosedArguments, PosedProblem};
 use crate::quantity;
 use crate::report::Status;
 use crate::terminal::{Folder, NOT_SAVED, SAVED, Terminal};
@@ -79,7 +79,7 @@ enum What {
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let tolerance = quantity::number("--tolerance", &arguments.tolerance)?;
     let tolerance = Size::power_of_ten(tolerance_log10(&tolerance, &arguments.tolerance)?);
-    let posed = Posed::read(&arguments.posed)?;
+    let posed = PosedProblem::read(&arguments.posed)?;
     let schemes = schemes(&arguments.schemes, &posed)?;
     let folder = Folder::of(arguments.out.as_deref())?;
     let of = match arguments.of {
@@ -92,7 +92,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         What::Time => Cost::Seconds,
     };
     let mut terminal = Terminal::listen(arguments.out.as_ref().map_or(NOT_SAVED, |_| SAVED));
-    let question = Question {
+    let request = AdviceRequest {
         problem: posed.problem(),
         schemes: &schemes,
         of,
@@ -101,9 +101,9 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         seconds: arguments.seconds,
         folder: folder.path().to_owned(),
     };
-    let advice = question.answer(&mut terminal)?;
+    let advice = request.run(&mut terminal)?;
     let mut output = Output::stdout();
-    write!(output, "{}", readable(&posed, &question, &advice, on_stdout()))?;
+    write!(output, "{}", readable(&posed, &request, &advice, on_stdout()))?;
     output.finish()?;
     Ok(match advice {
         Advice::Found { .. } => terminal.status,
@@ -124,15 +124,15 @@ fn tolerance_log10(tolerance: &shadowstep::Rational, text: &str) -> Result<f64, 
 
 const WIDTH: usize = 80;
 
-fn readable(posed: &Posed, question: &Question<'_>, advice: &Advice<'_>, coloured: bool) -> String {
+fn readable(posed: &PosedProblem, request: &AdviceRequest<'_>, advice: &Advice<'_>, coloured: bool) -> String {
     let mut text = wrapped_to(&posed.title(), "", WIDTH);
-    text += &wrapped_to(&format!("tolerance {}: {}", question.tolerance, question.of.name()), "", WIDTH);
+    text += &wrapped_to(&format!("tolerance {}: {}", request.tolerance, request.of.name()), "", WIDTH);
     match advice {
         Advice::OutOfReach { least, part, reference, in_time, missed } => {
             let runs = over(*part);
             let limit = match in_time {
                 true => format!("in {}", posed.arithmetic.described()),
-                false => format!("in runs of {} s a scheme, which --seconds sets", question.seconds),
+                false => format!("in runs of {} s a scheme, which --seconds sets", request.seconds),
             };
             let found = match least {
                 _ if *missed > 0 => format!(
@@ -141,7 +141,7 @@ fn readable(posed: &Posed, question: &Question<'_>, advice: &Advice<'_>, coloure
                 Some((error, name)) => {
                     format!("No scheme meets the tolerance {limit}: the smallest error was {error}, of {name}, {runs}.")
                 }
-                None if question.of == Of::Position => format!(
+                None if request.of == Of::Position => format!(
                     "No advice: the positions of the reference change by {reference} with its step {runs}, as they do where the motion is \
                      chaotic. Ask for --of energy, or for a shorter time."
                 ),

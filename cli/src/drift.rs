@@ -69,12 +69,12 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
     let bar = !arguments.json || arguments.run.output.output.is_some() || !std::io::stdout().is_terminal();
     let mut status = Status::Success;
     let mut controls = Controls::new(arguments.controls());
-    let question = selection.question(!arguments.run.no_summary);
+    let request = selection.drift_request(!arguments.run.no_summary);
     for (number, (propagator, run)) in (1..).zip(selection.runs()) {
         let progress = Progress::new(bar, selection.numbered(number, run), run.steps);
-        let mut follower = Following { progress, interrupt: &interrupt, hint: NOT_RESUMED };
+        let mut follower = DriftProgress { progress, interrupt: &interrupt, hint: NOT_RESUMED };
         let measured = interrupt.attended(
-            || question.answer(propagator, run, &mut controls, &mut follower),
+            || request.run(propagator, run, &mut controls, &mut follower),
             // the runs that are complete are written
             || match records.write() {
                 Ok(()) => Error::run(format!("{}: interrupted", run.name()), NOT_RESUMED),
@@ -141,14 +141,14 @@ impl<'a> Records<'a> {
 }
 
 /// Shows the progress of a run, and ends it after a signal.
-struct Following<'a> {
+struct DriftProgress<'a> {
     progress: Progress,
     interrupt: &'a Interrupt,
     /// What can be done after an interruption.
     hint: &'static str,
 }
 
-impl Follower for Following<'_> {
+impl Follower for DriftProgress<'_> {
     fn reaches(&mut self, run: Run<'_>, n: i64) -> Result<(), Error> {
         self.progress.reach(n);
         self.interrupt.check(run, n, self.hint)

@@ -22,7 +22,7 @@ pub(crate) use lines::{RunLines, Values};
 pub(crate) use rows::of_rows;
 
 use clap::Args;
-use shadowstep::Ordered;
+use shadowstep::Real;
 use shadowstep_scenes::plot::{MOST_CURVES, Picture};
 use shadowstep_scenes::{Error, System};
 use std::path::PathBuf;
@@ -104,12 +104,12 @@ impl Plots {
     }
 
     /// The empty lines of a run.
-    pub(crate) fn run<N: Ordered>(&self, name: String, steps: u64) -> RunLines<N> {
+    pub(crate) fn run<N: Real>(&self, name: String, steps: u64) -> RunLines<N> {
         RunLines::new(name, steps, &self.pictures)
     }
 
     /// Adds the lines of a run.
-    pub(crate) fn add<N: Ordered>(&mut self, run: RunLines<N>) {
+    pub(crate) fn add<N: Real>(&mut self, run: RunLines<N>) {
         self.runs.push(run.finish());
     }
 

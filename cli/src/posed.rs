@@ -59,13 +59,13 @@ fn has_run(path: &str) -> Result<bool, Error> {
 
 /// A system with the end of the runs and the number type.
 #[derive(Debug)]
-pub(crate) struct Posed {
+pub(crate) struct PosedProblem {
     pub(crate) described: Described,
     pub(crate) until: Rational,
     pub(crate) arithmetic: Arithmetic,
 }
 
-impl Posed {
+impl PosedProblem {
     pub(crate) fn read(arguments: &PosedArguments) -> Result<Self, Error> {
         let path = arguments.system.problem().filter(|word| is_file(word));
         let is_complete = arguments.until.is_some() && (arguments.named().is_some() || arguments.digits.is_some());
@@ -92,7 +92,7 @@ impl Posed {
         if until == Rational::from_integer(0.into()) {
             return Err(Error::usage("--until 0: the runs must have a length", "write --until 100"));
         }
-        Ok(Posed { described: Described::read(&arguments.system, arithmetic)?, until, arithmetic })
+        Ok(PosedProblem { described: Described::read(&arguments.system, arithmetic)?, until, arithmetic })
     }
 
     pub(crate) fn problem(&self) -> Problem<'_> {
@@ -101,7 +101,7 @@ impl Posed {
 
     /// The problem, the time and the number type in a line.
     pub(crate) fn title(&self) -> String {
-        let Posed { described, until, arithmetic } = self;
+        let PosedProblem { described, until, arithmetic } = self;
         let time = if described.system.transformed_time().is_some() { "s" } else { "t" };
         format!("{}, {time} = 0 to {}, {}", described.title, to_text(until), arithmetic.described())
     }

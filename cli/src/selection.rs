@@ -3,7 +3,7 @@
 use shadowstep::Rational;
 use shadowstep::shadow::{EstimatorOptions, EstimatorSettings, check_accuracy};
 use shadowstep_scenes::Note;
-use shadowstep_scenes::drift::Question;
+use shadowstep_scenes::drift::DriftRequest;
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::quantity;
@@ -85,10 +85,10 @@ impl Selection {
     }
 
     /// What is the same in all runs.
-    pub(crate) fn question(&self, summarised: bool) -> Question<'_> {
+    pub(crate) fn drift_request(&self, summarised: bool) -> DriftRequest<'_> {
         let Selection { problem, until, arithmetic, estimator, .. } = self;
         let Described { name, system, .. } = problem;
-        Question { problem: name, system, until, arithmetic: *arithmetic, estimator, summarised }
+        DriftRequest { problem: name, system, until, arithmetic: *arithmetic, estimator, summarised }
     }
 
     /// Notes of runs whose steps are beyond the stability limit of their scheme.

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use shadowstep_scenes::Error;
-use shadowstep_sweeps::{Chunk, Computed, Manifest, Plan, chunk_of_task, compute, explain, is_there};
+use shadowstep_sweeps::{Chunk, Computed, Manifest, SweepPlan, chunk_of_task, compute, explain, is_there};
 
 use crate::collect::{Format, collected};
 use crate::output::Output;
@@ -76,7 +76,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         Some(chunk) => Some(*chunk),
         None => chunk_of_task(|name| env::var(name).ok(), begun.map(|manifest| manifest.chunks))?,
     };
-    let plan = Plan::open(sweep)?;
+    let plan = SweepPlan::open(sweep)?;
     let mut terminal = Terminal::listen(SAVED);
     let manifest = Manifest::begin(out, &plan, chunk.map(|chunk| chunk.of))?;
     let Some(chunk) = chunk else {
@@ -94,7 +94,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
 }
 
 /// Runs that failed are in the results; here, one of them is named.
-fn report_failures(plan: &Plan, computed: &Computed) {
+fn report_failures(plan: &SweepPlan, computed: &Computed) {
     if let Some((run, failure)) = &computed.first_failure {
         let values = plan.axes().described(*run);
         report::note(format_args!(

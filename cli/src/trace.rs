@@ -82,7 +82,7 @@ pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
         let progress = Progress::new(bar, selection.numbered(number, run), run.steps);
         let (selection, interrupt, write) = (&selection, &interrupt, &mut write);
         let plots = plots.as_mut().map(|(plots, _)| plots);
-        let following = Following { selection, propagator, run, several, arguments, progress, interrupt, write, plots };
+        let following = TraceRun { selection, propagator, run, several, arguments, progress, interrupt, write, plots };
         summaries.extend(selection.arithmetic.compute(following)?.summary);
     }
     drop(write);
@@ -107,7 +107,7 @@ fn refuse_states_between(selection: &Selection, rows: bool, plot: bool) -> Resul
 }
 
 /// The run and its rows, in any number type.
-struct Following<'a, 'w> {
+struct TraceRun<'a, 'w> {
     selection: &'a Selection,
     propagator: &'a Propagator,
     run: Run<'a>,
@@ -119,11 +119,11 @@ struct Following<'a, 'w> {
     plots: Option<&'a mut Plots>,
 }
 
-impl Computation for Following<'_, '_> {
+impl Computation for TraceRun<'_, '_> {
     type Output = Result<Finished, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
-        let Following { selection, propagator, run, several, arguments, progress, interrupt, write, mut plots } = self;
+        let TraceRun { selection, propagator, run, several, arguments, progress, interrupt, write, mut plots } = self;
         let (settings, between) = (selection.estimator.clone().with_errors(true), selection.estimator.is_between());
         let system = &selection.problem.system;
         let (mut energy_of, mut shown) = (system.energy::<N>(context), system.shown::<N>(context));

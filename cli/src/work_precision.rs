@@ -20,7 +20,7 @@ use shadowstep_work_precision::study::Request;
 use crate::colour::on_stdout;
 use crate::invocation;
 use crate::output::Output;
-use crate::posed::{Posed, PosedArguments, check_digits};
+use crate::posed::{PosedArguments, PosedProblem, check_digits};
 use crate::quantity;
 use crate::report::{self, Status};
 use crate::terminal::{Terminal, study_in};
@@ -68,7 +68,7 @@ const REFERENCE: f64 = 10.0;
 
 /// Makes the runs, and writes charts and data.
 pub(crate) fn execute(arguments: &Arguments) -> Result<Status, Error> {
-    let posed = Posed::read(&arguments.posed)?;
+    let posed = PosedProblem::read(&arguments.posed)?;
     let problem = posed.problem();
     let schemes = schemes(&arguments.schemes, &posed)?;
     let range = range(arguments, &posed.until)?;
@@ -113,7 +113,7 @@ fn is_near_integrable(name: &str) -> bool {
 }
 
 /// The schemes, each once, that are valid for the system and have the digits of the runs.
-pub(crate) fn schemes(words: &[String], posed: &Posed) -> Result<Vec<NamedScheme>, Error> {
+pub(crate) fn schemes(words: &[String], posed: &PosedProblem) -> Result<Vec<NamedScheme>, Error> {
     let system = &posed.described.system;
     let (added, mut named): (Vec<&str>, Vec<&str>) =
         words.iter().map(String::as_str).partition(|word| word.starts_with('+'));
@@ -146,7 +146,7 @@ pub(crate) fn schemes(words: &[String], posed: &Posed) -> Result<Vec<NamedScheme
 }
 
 /// The scheme with steps for the system, whose weights have the digits of the runs.
-fn valid(scheme: NamedScheme, system: &System, posed: &Posed) -> Result<NamedScheme, Error> {
+fn valid(scheme: NamedScheme, system: &System, posed: &PosedProblem) -> Result<NamedScheme, Error> {
     let scheme = for_system(scheme, system)?;
     check_digits(&scheme, posed.arithmetic)?;
     Ok(scheme)

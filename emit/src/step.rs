@@ -76,14 +76,14 @@ pub(crate) fn long_decimal(exact: &Rational) -> String {
 
 /// What is kept from step to step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Kept {
+pub(crate) struct KeptForces {
     /// g: the first and the last map are kicks.
     pub(crate) gradient: bool,
     /// w: there are gradient kicks at both ends.
     pub(crate) curvature: bool,
 }
 
-const NOTHING: Kept = Kept { gradient: false, curvature: false };
+const NOTHING: KeptForces = KeptForces { gradient: false, curvature: false };
 
 /// A scheme as the targets need it.
 #[derive(Debug)]
@@ -94,7 +94,7 @@ pub(crate) struct Step<'a> {
     pub(crate) weights: Vec<Weight>,
     /// The weights of the post-map.
     pub(crate) post_weights: Vec<Weight>,
-    pub(crate) kept: Kept,
+    pub(crate) kept: KeptForces,
 }
 
 impl<'a> Step<'a> {
@@ -106,7 +106,8 @@ impl<'a> Step<'a> {
             run.is_some_and(|run| run.iter().any(|(kind, _)| *kind == MapKind::GradientKick))
         };
         let gradient = plan.keeps_gradient();
-        let kept = Kept { gradient, curvature: gradient && has_curvature(runs.first()) && has_curvature(runs.last()) };
+        let kept =
+            KeptForces { gradient, curvature: gradient && has_curvature(runs.first()) && has_curvature(runs.last()) };
         let named = |letter: char, exact: &[Rational]| {
             let weight = |(index, exact): (usize, &Rational)| Weight {
                 name: format!("{letter}{}", index + 1),
@@ -189,7 +190,7 @@ fn distinct(maps: &[Map], kind: MapKind) -> Vec<Rational> {
 }
 
 /// The actions that maps are, where the gradient is evaluated when it is needed and not known.
-fn actions<'a>(maps: &[Map], weights: &'a [Weight], mut known: Kept) -> Vec<Action<'a>> {
+fn actions<'a>(maps: &[Map], weights: &'a [Weight], mut known: KeptForces) -> Vec<Action<'a>> {
     let mut actions = Vec::new();
     for Map { kind, weight } in maps {
         let letters = match kind {

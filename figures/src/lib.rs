@@ -44,5 +44,5 @@ mod results;
 mod run;
 mod states;
 
-pub use reproduction::{Request, Summary, reproduce, written};
+pub use reproduction::{Reproduction, Request, reproduce, written};
 pub use shadowstep_studies::{Error, Observer, Progress};

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 use shadowstep::exact_flow::ExactFlow;
-use shadowstep::number::{AnyLimbs, LimbCount, Number, Ordered};
+use shadowstep::number::{AnyLimbs, LimbCount, Number, Real};
 use shadowstep::run::{Finding, RunError, ShadowRun, States, Trajectory};
 use shadowstep::shadow::{BuildEstimator, Estimate, Estimator, EstimatorSettings};
 use shadowstep::{Integrator as _, Rational, StepSize};
@@ -236,7 +236,7 @@ fn time_of_value(h: &Rational, n: i64, settings: &EstimatorSettings) -> f64 {
 
 impl Energies {
     fn include(&mut self, time: f64, estimate: &Estimate<'_, AnyLimbs>) {
-        let size = |number: Option<&AnyLimbs>| number.map(Ordered::log10_abs).filter(|size| size.is_finite());
+        let size = |number: Option<&AnyLimbs>| number.map(Real::log10_abs).filter(|size| size.is_finite());
         self.times.push(time);
         self.distances.push(estimate.q.iter().map(|q| q.to_f64().powi(2)).sum::<f64>().sqrt());
         self.values.push(estimate.value.to_text());

@@ -1,6 +1,6 @@
 //! Numbers as texts: with all their digits, and for people.
 
-use shadowstep::Ordered;
+use shadowstep::Real;
 use shadowstep::number::Limbs;
 
 /// A number with more digits than any run has.

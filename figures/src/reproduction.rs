@@ -24,7 +24,7 @@ pub struct Request {
 
 /// What was written.
 #[derive(Clone, Debug)]
-pub struct Summary {
+pub struct Reproduction {
     /// The file of the report.
     pub report: PathBuf,
     /// How many statements agree, differ, and are not decided: `statements of the paper: 9 agree, 1 differs, 2 not decided`.
@@ -45,7 +45,7 @@ pub fn written() -> impl Iterator<Item = String> {
 ///
 /// # Errors
 /// An unknown figure; a folder that cannot be written, or that another process uses.
-pub fn reproduce(request: &Request, observer: &mut dyn Observer) -> Result<Summary, Error> {
+pub fn reproduce(request: &Request, observer: &mut dyn Observer) -> Result<Reproduction, Error> {
     let requested = named(FIGURES, |figure| figure.name, "figure", &request.names)?;
     let mut store = Store::open(&request.folder, observer)?;
     let mut results = Results::new(request.quick);
@@ -66,7 +66,7 @@ pub fn reproduce(request: &Request, observer: &mut dyn Observer) -> Result<Summa
         }
     }
     let report = report(request, sections, &earlier);
-    Ok(Summary { report: write_page(&request.folder, &report)?, verdicts: report.verdicts() })
+    Ok(Reproduction { report: write_page(&request.folder, &report)?, verdicts: report.verdicts() })
 }
 
 /// The results of a figure that is not requested, if it has some and earlier runs left all of them: of the full grid, or of the

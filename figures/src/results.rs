@@ -7,7 +7,7 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use shadowstep::Ordered;
+use shadowstep::Real;
 use shadowstep::shadow::EstimatorSettings;
 
 use crate::calculation::{Calculation, Outcome, Quantity};

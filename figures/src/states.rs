@@ -9,11 +9,11 @@ use shadowstep::run::{RunError, States, TrajectoryState};
 pub(crate) struct Recorded {
     /// How many states there are before 0, and after the last one of the run.
     reach: usize,
-    states: Vec<Kept>,
+    states: Vec<RecordedState>,
 }
 
 #[derive(Debug)]
-struct Kept {
+struct RecordedState {
     n: i64,
     q: Vec<AnyLimbs>,
     p: Vec<AnyLimbs>,
@@ -25,7 +25,7 @@ impl Recorded {
     pub(crate) fn of(mut states: impl States<Number = AnyLimbs>, reach: usize) -> Result<Self, RunError> {
         let mut all = Vec::new();
         while let Some(TrajectoryState { n, q, p, increments }) = states.advance()? {
-            all.push(Kept { n, q: q.to_vec(), p: p.to_vec(), increments: increments.to_owned() });
+            all.push(RecordedState { n, q: q.to_vec(), p: p.to_vec(), increments: increments.to_owned() });
         }
         Ok(Recorded { reach, states: all })
     }
@@ -40,7 +40,7 @@ impl Recorded {
 /// Recorded states in the order of time.
 #[derive(Debug)]
 pub(crate) struct Replay<'a> {
-    states: std::slice::Iter<'a, Kept>,
+    states: std::slice::Iter<'a, RecordedState>,
 }
 
 impl States for Replay<'_> {
@@ -48,7 +48,12 @@ impl States for Replay<'_> {
 
     fn advance(&mut self) -> Result<Option<TrajectoryState<'_, AnyLimbs>>, RunError> {
         let state = self.states.next();
-        Ok(state.map(|Kept { n, q, p, increments }| TrajectoryState { n: *n, q, p, increments: increments.view() }))
+        Ok(state.map(|RecordedState { n, q, p, increments }| TrajectoryState {
+            n: *n,
+            q,
+            p,
+            increments: increments.view(),
+        }))
     }
 }
 

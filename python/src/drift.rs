@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use shadowstep_scenes::Error;
-use shadowstep_scenes::drift::{Controls, Follower, Question, Record, Wanted};
+use shadowstep_scenes::drift::{Controls, DriftRequest, Follower, Record, Wanted};
 use shadowstep_scenes::estimator::order_setting;
 use shadowstep_scenes::library::EXACT_FLOW;
 use shadowstep_scenes::propagator::Propagator;
@@ -11,7 +11,7 @@ use shadowstep_scenes::run::{OrderSetting, Run};
 use crate::errors::exception;
 use crate::estimator::Options;
 use crate::given::{Given, arithmetic, number};
-use crate::integrate::{Posed, Times};
+use crate::integrate::{SystemWithScheme, Times};
 use crate::scheme::Table;
 use crate::waiting::{Watched, waiting};
 
@@ -39,7 +39,7 @@ pub(crate) fn drift(
     let estimator = options.settings(py)?;
     let (system, propagator) = match scheme {
         Some(table) => {
-            let posed = Posed::of(problem, &table.0, arithmetic).map_err(failed)?;
+            let posed = SystemWithScheme::of(problem, &table.0, arithmetic).map_err(failed)?;
             (posed.system, Propagator::Scheme(Box::new(posed.scheme)))
         }
         None => {
@@ -50,20 +50,26 @@ pub(crate) fn drift(
     };
     let order = order_setting(&estimator).map(|(name, value)| OrderSetting { name, value });
     let run = Run { propagator: propagator.name(), h: &times.h, steps: times.steps, order };
-    let question =
-        Question { problem: name, system: &system, until: &until, arithmetic, estimator: &estimator, summarised: true };
+    let request = DriftRequest {
+        problem: name,
+        system: &system,
+        until: &until,
+        arithmetic,
+        estimator: &estimator,
+        summarised: true,
+    };
     let found = waiting(py, progress, |watched| -> Result<Record, Error> {
         let mut controls = Controls::new(if control { Wanted::Always } else { Wanted::Never });
-        question.answer(&propagator, run, &mut controls, &mut Following(watched))
+        request.run(&propagator, run, &mut controls, &mut DriftProgress(watched))
     });
     problem.raised(py)?;
     let record = found?.map_err(failed)?;
     serde_json::to_string(&record).map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
 }
 
-struct Following<'a>(&'a Watched);
+struct DriftProgress<'a>(&'a Watched);
 
-impl Follower for Following<'_> {
+impl Follower for DriftProgress<'_> {
     fn reaches(&mut self, run: Run<'_>, n: i64) -> Result<(), Error> {
         match self.0.reaches(n) {
             true => Ok(()),

@@ -12,9 +12,9 @@ use crate::own_forces::Forces;
 
 /// A problem as it was given; it is read again in the number type of each run, as exact values are computed to the digits of the run.
 #[pyclass(frozen, module = "shadowstep._shadowstep")]
-pub(crate) struct Given(Kind);
+pub(crate) struct Given(ProblemSource);
 
-enum Kind {
+enum ProblemSource {
     Scene(Source),
     Own { forces: Forces, q: Vec<Exact>, p: Vec<Exact>, masses: Option<Vec<Exact>> },
 }
@@ -24,13 +24,13 @@ impl Given {
     /// From the text of a scene, of which \[problem\], \[initial\], \[\[body\]\] and \[time\] are used.
     #[staticmethod]
     fn of_text(py: Python<'_>, text: String, path: String) -> PyResult<Self> {
-        Given(Kind::Scene(Source { path, text })).checked(py)
+        Given(ProblemSource::Scene(Source { path, text })).checked(py)
     }
 
     /// From a scene's file.
     #[staticmethod]
     fn of_file(py: Python<'_>, path: std::path::PathBuf) -> PyResult<Self> {
-        Given(Kind::Scene(source(&path).map_err(|error| exception(py, error))?)).checked(py)
+        Given(ProblemSource::Scene(source(&path).map_err(|error| exception(py, error))?)).checked(py)
     }
 
     /// With a function for the forces: a number is the address of a C function, anything else is called.
@@ -46,7 +46,7 @@ impl Given {
         let numbers = |texts: Vec<String>| texts.iter().map(|text| exact(py, text)).collect::<PyResult<Vec<_>>>();
         let (q, p, masses) = (numbers(q)?, numbers(p)?, masses.map(numbers).transpose()?);
         let forces = Forces::of(function, q.len())?;
-        Given(Kind::Own { forces, q, p, masses }).checked(py)
+        Given(ProblemSource::Own { forces, q, p, masses }).checked(py)
     }
 
     /// The names of q_1, q_2, ….
@@ -90,9 +90,9 @@ impl Given {
     /// The system in a number type.
     pub(crate) fn system(&self, arithmetic: Arithmetic) -> Result<System, Error> {
         let system = match &self.0 {
-            Kind::Scene(source) => System::read(source, arithmetic)?.0,
-            Kind::Own { forces, q, p, masses } => {
-                System::of_own(Box::new(forces.clone()), (q.clone(), p.clone()), masses.clone())?
+            ProblemSource::Scene(source) => System::read(source, arithmetic)?.0,
+            ProblemSource::Own { forces, q, p, masses } => {
+                System::of_own_potential(Box::new(forces.clone()), (q.clone(), p.clone()), masses.clone())?
             }
         };
         system.check_digits(arithmetic)?;
@@ -102,8 +102,8 @@ impl Given {
     /// What the function for the forces has raised since it was asked last.
     pub(crate) fn raised(&self, py: Python<'_>) -> PyResult<()> {
         match &self.0 {
-            Kind::Own { forces, .. } => forces.raised(py),
-            Kind::Scene(_) => Ok(()),
+            ProblemSource::Own { forces, .. } => forces.raised(py),
+            ProblemSource::Scene(_) => Ok(()),
         }
     }
 

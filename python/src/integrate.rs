@@ -41,7 +41,7 @@ pub(crate) fn integrate<'py>(
     let times = Times::of(py, h, steps, until)?;
     let estimator = options.map(|options| options.settings(py)).transpose()?;
     let failed = |error| exception(py, error);
-    let posed = Posed::of(problem, &scheme.0, arithmetic).map_err(failed)?;
+    let posed = SystemWithScheme::of(problem, &scheme.0, arithmetic).map_err(failed)?;
     let found = waiting(py, progress, |watched| {
         posed.run(&times, every, estimator.as_ref(), arithmetic, &mut watched.observer())
     });
@@ -86,13 +86,13 @@ impl Times {
 }
 
 /// A system with a scheme that is valid for it.
-pub(crate) struct Posed {
+pub(crate) struct SystemWithScheme {
     pub(crate) system: System,
     pub(crate) scheme: NamedScheme,
     note: Option<Note>,
 }
 
-impl Posed {
+impl SystemWithScheme {
     pub(crate) fn of(problem: &Given, scheme: &NamedScheme, arithmetic: Arithmetic) -> Result<Self, Error> {
         let system = problem.system(arithmetic)?;
         let scheme = for_system(scheme.clone(), &system)?;
@@ -102,7 +102,7 @@ impl Posed {
                 format!("use {} digits or fewer, or a scheme whose weights are fractions", error.most),
             )
         })?;
-        Ok(Posed { system, scheme, note })
+        Ok(SystemWithScheme { system, scheme, note })
     }
 
     fn run(
@@ -112,7 +112,7 @@ impl Posed {
         estimator: Option<&EstimatorSettings>,
         arithmetic: Arithmetic,
         observer: &mut dyn Observer,
-    ) -> Result<(Found, Vec<Note>), Error> {
+    ) -> Result<(Integrated, Vec<Note>), Error> {
         let setting = estimator.and_then(estimator::order_setting);
         let order = setting.map(|(name, value)| OrderSetting { name, value });
         let run = Run { propagator: &self.scheme.name, h: &times.h, steps: times.steps, order };
@@ -120,8 +120,8 @@ impl Posed {
         let (system, scheme) = (&self.system, &self.scheme.scheme);
         let integration = Integration { system, scheme, run, compensated, every, estimator };
         let found = match arithmetic.is_longer_than_double() {
-            false => Found::Doubles(integration.run::<f64>(&(), observer)?),
-            true => Found::Texts(arithmetic.compute(InTexts { integration, observer })?),
+            false => Integrated::Doubles(integration.run::<f64>(&(), observer)?),
+            true => Integrated::Texts(arithmetic.compute(InTexts { integration, observer })?),
         };
         let frequency = system.fastest_frequency();
         let unstable = frequency.and_then(|frequency| unstable(frequency, &self.scheme, &times.h));
@@ -143,18 +143,18 @@ impl Computation for InTexts<'_> {
 }
 
 /// The states of a run, in what Python has for its number type.
-enum Found {
+enum Integrated {
     Doubles(Samples<f64>),
     Texts(Samples<String>),
 }
 
-impl Found {
+impl Integrated {
     fn into_dictionary(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
         match self {
-            Found::Doubles(samples) => {
+            Integrated::Doubles(samples) => {
                 dictionary(py, samples, |numbers| Ok(PyArray1::from_vec(py, numbers).into_any()), f64::NAN)
             }
-            Found::Texts(samples) => {
+            Integrated::Texts(samples) => {
                 dictionary(py, samples, |texts| Ok(PyList::new(py, texts)?.into_any()), "nan".to_owned())
             }
         }

@@ -12,7 +12,7 @@ use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
 use crate::errors::exception;
 use crate::given::{Given, arithmetic, number};
-use crate::integrate::Posed;
+use crate::integrate::SystemWithScheme;
 use crate::scheme::Table;
 
 /// A system in double precision with its steps and its monitor.
@@ -48,7 +48,7 @@ impl Monitor {
         if h == shadowstep::Rational::from_integer(0.into()) {
             return Err(failed(Error::usage("the step size must be nonzero", "write a step size such as 1/10")));
         }
-        let posed = Posed::of(given, &scheme.0, arithmetic).map_err(failed)?;
+        let posed = SystemWithScheme::of(given, &scheme.0, arithmetic).map_err(failed)?;
         let compensated = arithmetic.is_compensated();
         let steps =
             Steps { scheme: &posed.scheme.scheme, h: &h, compensated, displaced: false, begin: Begin::InitialState };

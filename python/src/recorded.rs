@@ -16,11 +16,11 @@ use shadowstep_scenes::start::{Begin, SceneIntegrator, Steps};
 
 use crate::errors::{exception, usage};
 use crate::given::{Given, number};
-use crate::integrate::Posed;
+use crate::integrate::SystemWithScheme;
 use crate::scheme::Table;
 
 /// n, H̄ and its error of the states that have one.
-type Found = (Vec<i64>, Vec<f64>, Vec<f64>);
+type LogEstimates = (Vec<i64>, Vec<f64>, Vec<f64>);
 
 /// The estimates E_k of a log of velocity Verlet: U with the forces of each state, or with the rate qᵀU_q − 2U.
 #[pyfunction]
@@ -36,7 +36,7 @@ pub(crate) fn energies_of_log(
     masses: Vec<f64>,
     h: &str,
     k: u32,
-) -> PyResult<Found> {
+) -> PyResult<LogEstimates> {
     let h = step_size(py, h)?;
     let (dimension, q, p, energies) = (q.shape()[1], rows(&q)?, rows(&p)?, energies.to_vec()?);
     let gradients = forces.map(|forces| Ok::<_, PyErr>(negative(rows(&forces)?))).transpose()?;
@@ -61,10 +61,10 @@ pub(crate) fn energies_of_states(
     scheme: &Table,
     h: &str,
     k: u32,
-) -> PyResult<Found> {
+) -> PyResult<LogEstimates> {
     let h = step_size(py, h)?;
     let failed = |error| exception(py, error);
-    let posed = Posed::of(problem, &scheme.0, Arithmetic::DOUBLE).map_err(failed)?;
+    let posed = SystemWithScheme::of(problem, &scheme.0, Arithmetic::DOUBLE).map_err(failed)?;
     let begin = Begin::InitialState;
     let steps = Steps { scheme: &posed.scheme.scheme, h: h.exact(), compensated: false, displaced: false, begin };
     let integrator = posed.system.integrator(steps, posed.system.start::<f64>(&()), &());
@@ -74,12 +74,12 @@ pub(crate) fn energies_of_states(
     found.map_err(|error| refused(py, &error))
 }
 
-fn again(mut integrator: SceneIntegrator<f64>, q: &[f64], p: &[f64], k: u32) -> Result<Found, RecordedError> {
+fn again(mut integrator: SceneIntegrator<f64>, q: &[f64], p: &[f64], k: u32) -> Result<LogEstimates, RecordedError> {
     all(Repeated::new(&mut *integrator, q, p)?.estimates(&Bilinear::with_error(k))?)
 }
 
-fn all<T: States<Number = f64>, E: Estimator<f64>>(mut run: ShadowRun<T, E>) -> Result<Found, RecordedError> {
-    let mut all = Found::default();
+fn all<T: States<Number = f64>, E: Estimator<f64>>(mut run: ShadowRun<T, E>) -> Result<LogEstimates, RecordedError> {
+    let mut all = LogEstimates::default();
     while let Some((n, found)) = run.advance()? {
         all.0.push(n);
         all.1.push(*found.value);

@@ -11,7 +11,7 @@ use crate::errors::{exception, usage};
 use crate::waiting::{Watched, waiting};
 
 /// What a run of a scene gives: the rows as CSV or JSON lines, where it has no file; the summary as text and JSON; notes.
-type Found = (Option<String>, Option<(String, String)>, Vec<String>);
+type SceneResult = (Option<String>, Option<(String, String)>, Vec<String>);
 
 /// Runs a scene, from a file or a text. One that names a file is written there, from its last checkpoint on.
 #[pyfunction]
@@ -22,7 +22,7 @@ pub(crate) fn run_scene(
     text: Option<String>,
     restart: bool,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Found> {
+) -> PyResult<SceneResult> {
     let failed = |error| exception(py, error);
     let source = match text {
         Some(text) => Source { path: path.display().to_string(), text },
@@ -31,7 +31,7 @@ pub(crate) fn run_scene(
     waiting(py, progress, |watched| run(source, restart, watched))?.map_err(failed)
 }
 
-fn run(source: Source, restart: bool, watched: &Watched) -> Result<Found, Error> {
+fn run(source: Source, restart: bool, watched: &Watched) -> Result<SceneResult, Error> {
     let mut rows = Vec::new();
     let text = |rows| Some(String::from_utf8(rows).expect("rows are text"));
     if Ensemble::is_in(&source) {
@@ -39,7 +39,7 @@ fn run(source: Source, restart: bool, watched: &Watched) -> Result<Found, Error>
         return Ok((text(rows), None, Vec::new()));
     }
     let scene = Scene::read(source)?;
-    let mut follower = Following { watched, notes: scene.notes.clone(), summary: None };
+    let mut follower = SceneObserver { watched, notes: scene.notes.clone(), summary: None };
     let outcome = match &scene.output.file {
         Some(_) => {
             let options = FileOptions { restart, ..FileOptions::default() };
@@ -50,7 +50,7 @@ fn run(source: Source, restart: bool, watched: &Watched) -> Result<Found, Error>
     if let Outcome::Stopped { n } = outcome {
         return Err(Error::run(format!("the run was interrupted at n = {n}"), "run the scene again"));
     }
-    let Following { notes, summary, .. } = follower;
+    let SceneObserver { notes, summary, .. } = follower;
     let notes = notes.iter().map(Note::to_string).collect();
     let summary = summary.map(|summary| -> Result<_, Error> {
         let json = serde_json::to_string(&summary)?;
@@ -59,13 +59,13 @@ fn run(source: Source, restart: bool, watched: &Watched) -> Result<Found, Error>
     Ok((scene.output.file.is_none().then(|| text(rows)).flatten(), summary.transpose()?, notes))
 }
 
-struct Following<'a> {
+struct SceneObserver<'a> {
     watched: &'a Watched,
     notes: Vec<Note>,
     summary: Option<Summary>,
 }
 
-impl Observer for Following<'_> {
+impl Observer for SceneObserver<'_> {
     fn progress(&mut self, n: i64) {
         self.watched.reaches(n);
     }

@@ -10,7 +10,7 @@ use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::NamedScheme;
 use shadowstep_scenes::{Error, System};
 use shadowstep_symbolic::decimal::to_text;
-use shadowstep_work_precision::advise::{Advice, Choice, Question};
+use shadowstep_work_precision::advise::{Advice, Choice, AdviceRequest};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::run::{Measurement, PositionError};
@@ -21,7 +21,7 @@ use shadowstep_work_precision::study::{Cost, Request, Studied, Study};
 
 use crate::errors::{exception, usage};
 use crate::given::{Given, arithmetic, number};
-use crate::integrate::Posed;
+use crate::integrate::SystemWithScheme;
 use crate::scheme::Table;
 use crate::waiting::waiting;
 
@@ -50,7 +50,7 @@ impl Compared {
             }
             given => given.iter().map(|table| table.0.clone()).collect(),
         };
-        let valid = |scheme| Posed::of(problem, scheme, arithmetic).map(|posed| posed.scheme);
+        let valid = |scheme| SystemWithScheme::of(problem, scheme, arithmetic).map(|posed| posed.scheme);
         let schemes = given.iter().map(valid).collect::<Result<_, _>>().map_err(failed)?;
         Ok(Compared { system, until, arithmetic, schemes })
     }
@@ -156,7 +156,7 @@ pub(crate) fn advise(
     }
     let compared = Compared::of(py, problem, until, &schemes, digits)?;
     let found = waiting(py, progress, |watched| {
-        let question = Question {
+        let request = AdviceRequest {
             problem: compared.problem(),
             schemes: &compared.schemes,
             of,
@@ -165,7 +165,7 @@ pub(crate) fn advise(
             seconds,
             folder,
         };
-        question.answer(&mut watched.observer_of_tasks()).map(|advice| of_advice(&advice))
+        request.run(&mut watched.observer_of_tasks()).map(|advice| of_advice(&advice))
     });
     problem.raised(py)?;
     Ok(found?.map_err(|error| exception(py, error))?.to_string())

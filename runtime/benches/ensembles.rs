@@ -12,7 +12,7 @@ use shadowstep::formula::FormulaPotential;
 use shadowstep::instructions::Instructions;
 use shadowstep::kinetic::{Kinetic, Quadratic};
 use shadowstep::number::Lanes;
-use shadowstep::potential::Widest;
+use shadowstep::potential::Vectorised;
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
 use shadowstep::{
     DiagonalMasses, FullMasses, Motion, Number, Potential, Scheme, Stepper, UnitMasses, ValidFor, splitting_scheme,
@@ -242,12 +242,12 @@ fn measure_parts() {
         FullMasses::of_each(&each.each_ref()).unwrap()
     }
     let boxed: fn() -> Boxed = || Box::new(Kepler);
-    let widest: fn() -> Boxed = || Box::new(Widest(Kepler));
+    let widest: fn() -> Boxed = || Box::new(Vectorised(Kepler));
     let kepler: fn() -> Kepler = || Kepler;
     let contestants = vec![
         kepler_of("the potential's type is known", kepler, || UnitMasses, plain),
         kepler_of("behind a `dyn`", boxed, || UnitMasses, plain),
-        kepler_of("behind a `dyn`, `Widest`", widest, || UnitMasses, plain),
+        kepler_of("behind a `dyn`, `Vectorised`", widest, || UnitMasses, plain),
         kepler_of("a mass for each coordinate and trajectory", kepler, diagonal, plain),
         kepler_of("a matrix for each trajectory", kepler, full, plain),
         kepler_of(
@@ -267,7 +267,7 @@ fn measure_parts() {
             },
         ),
         kepler_of(
-            "the same behind a `dyn`, `Widest`",
+            "the same behind a `dyn`, `Vectorised`",
             widest,
             || UnitMasses,
             |stepper, motions| {

@@ -13,7 +13,7 @@ use std::hint::black_box;
 use rug::integer::Order;
 use rug::{Float, Integer};
 use shadowstep::number::counting::Counting;
-use shadowstep::number::{Limbs, Ordered, Precision};
+use shadowstep::number::{Limbs, Precision, Real};
 use shadowstep::problems::Kepler;
 use shadowstep::run::{States, Trajectory, TrajectoryState};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimator, EstimatorSettings, StoppingRule};
@@ -60,7 +60,7 @@ fn float(x: &Number7, precision: Precision) -> Float {
 }
 
 /// A run over all states, repeated until a given number of them is reached.
-fn contestant<'a, N: Ordered + 'static>(
+fn contestant<'a, N: Real + 'static>(
     name: &'static str,
     settings: &'a EstimatorSettings,
     states: &'a [Given<N>],

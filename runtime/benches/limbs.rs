@@ -8,14 +8,14 @@ use std::hint::black_box;
 
 use shadowstep::number::{AnyLimbs, Float, LimbCount, Limbs, Precision};
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum};
-use shadowstep::{Motion, Number, Ordered, Potential, Stepper, UnitMasses, exact, splitting_scheme};
+use shadowstep::{Motion, Number, Potential, Real, Stepper, UnitMasses, exact, splitting_scheme};
 
 use timing::{Contestant, compare};
 
 #[splitting_scheme("stormer-verlet.toml")]
 struct StormerVerlet;
 
-fn motion<N: Ordered, P: Potential<N>, const D: usize>(
+fn motion<N: Real, P: Potential<N>, const D: usize>(
     potential: P,
     context: &N::Context,
     q: [&str; D],
@@ -25,7 +25,7 @@ fn motion<N: Ordered, P: Potential<N>, const D: usize>(
     Motion::new(potential, UnitMasses, q.map(number), p.map(number)).expect("the dimensions agree")
 }
 
-fn steps<'a, N: Ordered + 'a, P: Potential<N> + 'a, const D: usize>(
+fn steps<'a, N: Real + 'a, P: Potential<N> + 'a, const D: usize>(
     name: &'static str,
     mut motion: Motion<N, [N; D], P, UnitMasses>,
     augmented: bool,
@@ -40,7 +40,7 @@ fn steps<'a, N: Ordered + 'a, P: Potential<N> + 'a, const D: usize>(
     (name, Box::new(run))
 }
 
-fn functions<'a, N: Ordered + 'a>(name: &'static str, context: &N::Context, apply: fn(&mut N, &N)) -> Contestant<'a> {
+fn functions<'a, N: Real + 'a>(name: &'static str, context: &N::Context, apply: fn(&mut N, &N)) -> Contestant<'a> {
     let number = |i: i64| N::from_rational(&exact(&format!("{i}/997")).expect("a number"), context);
     let (arguments, mut result): (Vec<N>, N) = ((1..=64).map(|i| number(11 * i)).collect(), N::zero(context));
     let run = move |repetitions| {

@@ -13,7 +13,7 @@ use shadowstep::kinetic::Quadratic;
 use shadowstep::number::Precision;
 use shadowstep::pairs::Pairs;
 use shadowstep::problems::{Gravity, HenonHeiles, Kepler, Pendulum, problem};
-use shadowstep::{DiagonalMasses, Kinetic, Motion, Ordered, Potential, Stepper, UnitMasses, exact, splitting_scheme};
+use shadowstep::{DiagonalMasses, Kinetic, Motion, Potential, Real, Stepper, UnitMasses, exact, splitting_scheme};
 
 use by_hand::{BODIES, ByHand, HenonHeilesStar, KeplerOrbit, PendulumBob, Planets};
 use timing::{Contestant, compare};
@@ -25,13 +25,13 @@ fn digits() -> Precision {
     Precision::digits(120).expect("120 digits are allowed")
 }
 
-fn numbers<N: Ordered, const D: usize>(texts: [&str; D], context: &N::Context) -> [N; D] {
+fn numbers<N: Real, const D: usize>(texts: [&str; D], context: &N::Context) -> [N; D] {
     texts.map(|text| N::from_rational(&exact(text).expect("an exact number"), context))
 }
 
 fn contestant<'a, N, V, P, K>(name: &'static str, mut motion: Motion<N, V, P, K>, h: &str) -> Contestant<'a>
 where
-    N: Ordered + 'a,
+    N: Real + 'a,
     V: shadowstep::Coordinates<N> + 'a,
     P: Potential<N> + 'a,
     K: Kinetic<N, Class = Quadratic> + 'a,
@@ -44,7 +44,7 @@ where
 #[inline(never)]
 fn steps<N, V, P, K>(motion: &mut Motion<N, V, P, K>, stepper: &Stepper<StormerVerlet, N>, repetitions: u32)
 where
-    N: Ordered,
+    N: Real,
     V: shadowstep::Coordinates<N>,
     P: Potential<N>,
     K: Kinetic<N, Class = Quadratic>,
@@ -55,7 +55,7 @@ where
     black_box(motion.q());
 }
 
-fn orbit<'a, N: Ordered + 'a, P: Potential<N> + 'a, const D: usize>(
+fn orbit<'a, N: Real + 'a, P: Potential<N> + 'a, const D: usize>(
     name: &'static str,
     potential: P,
     [q, p]: [[&str; D]; 2],
@@ -66,7 +66,7 @@ fn orbit<'a, N: Ordered + 'a, P: Potential<N> + 'a, const D: usize>(
 }
 
 /// The outer solar system, steps of 100 days.
-fn planets<'a, N: Ordered + 'a, P: Potential<N> + 'a>(
+fn planets<'a, N: Real + 'a, P: Potential<N> + 'a>(
     name: &'static str,
     potential: impl FnOnce(N, Vec<N>) -> P,
     context: &N::Context,
@@ -88,7 +88,7 @@ fn planets<'a, N: Ordered + 'a, P: Potential<N> + 'a>(
 const BY_HAND: &str = "potential by hand";
 const BY_FORMULA: &str = "potential from its formula";
 
-fn in_numbers<N: Ordered>(numbers: &str, context: &N::Context, repetitions: u32)
+fn in_numbers<N: Real>(numbers: &str, context: &N::Context, repetitions: u32)
 where
     ByHand<KeplerOrbit>: Potential<N>,
     ByHand<HenonHeilesStar>: Potential<N>,

@@ -36,13 +36,7 @@ fn big<P: Potential<Float>>(potential: P, q: [&str; 2], p: [&str; 2]) -> Big<P> 
     Motion::new(potential, UnitMasses, q.map(number), p.map(number)).expect("the dimensions agree")
 }
 
-fn steps<
-    'a,
-    S: Scheme + ValidFor<Quadratic> + 'a,
-    N: shadowstep::Ordered + 'a,
-    P: Potential<N> + 'a,
-    const D: usize,
->(
+fn steps<'a, S: Scheme + ValidFor<Quadratic> + 'a, N: shadowstep::Real + 'a, P: Potential<N> + 'a, const D: usize>(
     name: &'static str,
     scheme: S,
     mut motion: Motion<N, [N; D], P, UnitMasses>,

@@ -10,7 +10,7 @@
 
 use std::error::Error;
 
-use shadowstep::number::{Limbs, Number, Ordered};
+use shadowstep::number::{Limbs, Number, Real};
 use shadowstep::run::ShadowRun;
 use shadowstep::shadow::Bilinear;
 use shadowstep::tables::{self, First, Source, TableScheme};
@@ -86,7 +86,7 @@ fn scheme(name: &str) -> Result<TableScheme, Box<dyn Error>> {
 }
 
 /// The stepper of a map, and the planets before its first step.
-fn begin<N: Ordered + Number<Context = ()>>(map: &Map, days: u64) -> Result<Begun<N>, Box<dyn Error>> {
+fn begin<N: Real + Number<Context = ()>>(map: &Map, days: u64) -> Result<Begun<N>, Box<dyn Error>> {
     let masses: Vec<Rational> = MASSES.iter().map(|mass| exact(mass)).collect::<Result<_, _>>()?;
     let bodies = Bodies::new(exact("2.95912208286e-4")?, masses)?;
     let number = |(axis, text): (usize, &&str), mass: bool| {

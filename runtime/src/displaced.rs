@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::Rational;
 use crate::maps::MapKind;
-use crate::number::{Number, Ordered};
+use crate::number::{Number, Real};
 use crate::scheme::Scheme;
 
 /// How far the gradient kicks of a stepper displace the positions at which the force is evaluated once more.
@@ -56,7 +56,7 @@ pub enum DisplacementError {
     },
 }
 
-impl<N: Ordered> Displacements<N> {
+impl<N: Real> Displacements<N> {
     /// The displacements of a scheme with the step size h; `weights` are the numbers 2h³c.
     pub(crate) fn of(scheme: &impl Scheme, h: &Rational, weights: &[N]) -> Result<Self, DisplacementError> {
         let name = || scheme.summary().name.to_owned();

@@ -4,7 +4,7 @@
 //! flow of H, with β' = qᵀU_q − 2U, are a trajectory with H̄ = H.
 //!
 //! ```
-//! use shadowstep::number::{Limbs, Ordered};
+//! use shadowstep::number::{Limbs, Real};
 //! use shadowstep::{StepSize, exact_flow::ExactFlow, problems::problem, run::ShadowRun, shadow::Bilinear};
 //!
 //! let kepler = problem("kepler").unwrap().setup(&[], 80).unwrap(); // H = −1/2
@@ -24,7 +24,7 @@ pub(crate) mod solution;
 pub(crate) mod solver;
 
 use crate::increments::OwnedIncrements;
-use crate::number::{Number, Rounded};
+use crate::number::{CorrectlyRounded, Number};
 use crate::problems::{PROBLEMS, Problem, Setup};
 use crate::run::{RunError, ShadowRun, States, TrajectoryState, last};
 use crate::shadow::{BuildEstimator, Estimator};
@@ -49,7 +49,7 @@ pub struct ExactFlow<N> {
     increments: OwnedIncrements<N>,
 }
 
-impl<N: Rounded> ExactFlow<N> {
+impl<N: CorrectlyRounded> ExactFlow<N> {
     /// Begins at the initial state of the problem with steps of size h.
     ///
     /// # Errors
@@ -74,7 +74,7 @@ impl<N: Rounded> ExactFlow<N> {
     }
 }
 
-impl<N: Rounded> States for ExactFlow<N> {
+impl<N: CorrectlyRounded> States for ExactFlow<N> {
     type Number = N;
 
     /// The next state; `None` at the end.
@@ -93,7 +93,7 @@ impl<N: Rounded> States for ExactFlow<N> {
     }
 }
 
-impl<N: Rounded, E: Estimator<N>> ShadowRun<ExactFlow<N>, E> {
+impl<N: CorrectlyRounded, E: Estimator<N>> ShadowRun<ExactFlow<N>, E> {
     /// The estimates along the exact flow of a problem from its initial state. Each is H plus the error of the estimator.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! The force of gradient kicks, from second derivatives of B or from a force at displaced positions.
 
 use crate::displaced::Displacements;
-use crate::kept::Kept;
+use crate::kept::KeptForce;
 use crate::number::Number;
 
 /// The derivatives of B(q), and the M of A's kinetic part ½pᵀM⁻¹p.
@@ -31,7 +31,7 @@ pub(crate) struct GradientKicks<N> {
     pub(crate) force: Vec<N>,
     /// −vᵀ∂(qᵀB_q − 2B)/∂q with v = M⁻¹B_q: it adds weight times it to β.
     pub(crate) rate: N,
-    pub(crate) kept: Kept,
+    pub(crate) kept: KeptForce,
     /// The Hessian–vector products or displaced forces computed so far.
     pub(crate) evaluations: u64,
     velocity: Vec<N>,
@@ -56,7 +56,7 @@ impl<N: Number> GradientKicks<N> {
             force: zeros(),
             velocity: zeros(),
             rate: N::zero(context),
-            kept: Kept::Nothing,
+            kept: KeptForce::Nothing,
             evaluations: 0,
             displaced,
         }
@@ -73,7 +73,7 @@ impl<N: Number> GradientKicks<N> {
         let displaced = displaced.as_mut().map(|Displaced { displacements, last, q }| {
             let (place, delta) = displacements.of_weight(weight);
             if std::mem::replace(last, place) != place {
-                *kept = Kept::Nothing;
+                *kept = KeptForce::Nothing;
             }
             (delta, q)
         });
@@ -107,7 +107,7 @@ impl<N: Number> GradientKicks<N> {
                 }
             }
         }
-        *kept = if with_rate { Kept::GradientAndRate } else { Kept::Gradient };
+        *kept = if with_rate { KeptForce::GradientAndRate } else { KeptForce::Gradient };
         *evaluations += 1;
     }
 }

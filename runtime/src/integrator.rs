@@ -6,7 +6,7 @@ use crate::coordinates::Coordinates;
 use crate::increments::Carried;
 use crate::number::Number;
 use crate::run::RunError;
-use crate::scheme::{Scheme, Summary, ValidFor};
+use crate::scheme::{Scheme, SchemeProperties, ValidFor};
 use crate::scheme_maps::Maps;
 use crate::state::{Saved, State};
 use crate::step_size::StepSize;
@@ -54,7 +54,7 @@ pub trait Integrator {
     fn system(&mut self) -> &mut AnySystem<'_, Self::Number, Self::Coordinates, Self::Summation>;
 
     /// Name and proved properties of the scheme.
-    fn scheme(&self) -> Summary<'_>;
+    fn scheme(&self) -> SchemeProperties<'_>;
 
     /// The step size h.
     fn step_size(&self) -> &StepSize;
@@ -182,7 +182,7 @@ impl<S: Scheme + ValidFor<M::Class>, M: System> Integrator for WithStepper<'_, S
         &mut self.system
     }
 
-    fn scheme(&self) -> Summary<'_> {
+    fn scheme(&self) -> SchemeProperties<'_> {
         self.stepper.scheme().summary()
     }
 
@@ -250,7 +250,7 @@ impl<I: Integrator + ?Sized> Integrator for &mut I {
     fn system(&mut self) -> &mut AnySystem<'_, I::Number, I::Coordinates, I::Summation> {
         (**self).system()
     }
-    fn scheme(&self) -> Summary<'_> {
+    fn scheme(&self) -> SchemeProperties<'_> {
         (**self).scheme()
     }
     fn step_size(&self) -> &StepSize {

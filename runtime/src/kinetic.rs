@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 use thiserror::Error;
 
 use crate::Rational;
-use crate::number::{Lanes, Number, Ordered, epsilon};
+use crate::number::{Lanes, Number, Real, epsilon};
 use crate::partial_sums::add_sum;
 use num_traits::Signed;
 use shadowstep_symbolic::decimal::{to_significant, to_text};
@@ -211,7 +211,7 @@ impl<N: Number> DiagonalMasses<N> {
     }
 }
 
-impl<N: Ordered> DiagonalMasses<N> {
+impl<N: Real> DiagonalMasses<N> {
     /// Masses of the coordinates as numbers, such as `f64`; each 1/m_i is rounded once.
     ///
     /// ```
@@ -334,7 +334,7 @@ pub struct FullMasses<N> {
     inverse: Vec<Vec<N>>,
 }
 
-impl<N: Ordered> FullMasses<N> {
+impl<N: Real> FullMasses<N> {
     /// The rows of M⁻¹, each entry rounded once.
     ///
     /// # Errors
@@ -378,7 +378,7 @@ impl<const W: usize> FullMasses<Lanes<W>> {
 }
 
 /// Refuses a symmetric matrix with a pivot that is not positive, beyond round-off.
-fn check_positive_definite<N: Ordered>(rows: &[Vec<N>], context: &N::Context) -> Result<(), MassError> {
+fn check_positive_definite<N: Real>(rows: &[Vec<N>], context: &N::Context) -> Result<(), MassError> {
     let mut rest = rows.to_vec();
     let [mut bound, mut factor] = [N::zero(context), N::zero(context)];
     let mut round_off = epsilon::<N>(context);

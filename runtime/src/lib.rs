@@ -25,7 +25,7 @@
 //!
 //! ```
 //! use shadowstep::{Motion, Stepper, UnitMasses, problems::Kepler, run::energy_drift, shadow::Central, tables};
-//! use shadowstep::number::{Limbs, Number, Ordered};
+//! use shadowstep::number::{Limbs, Number, Real};
 //!
 //! let number = |text| Limbs::<7>::from_rational(&shadowstep::exact(text).unwrap(), &()); // 134 digits
 //! let motion = Motion::new(Kepler, UnitMasses, [number("0.4"), number("0")], [number("0"), number("2")])?;
@@ -129,13 +129,13 @@ pub use kinetic::{DiagonalMasses, FullMasses, Kinetic, UnitMasses};
 #[doc(inline)]
 pub use motion::{Motion, MotionError};
 #[doc(inline)]
-pub use number::{Number, Ordered};
+pub use number::{Number, Real};
 #[doc(inline)]
 pub use potential::Potential;
 #[doc(inline)]
 pub use potential_check::check_potential;
 #[doc(inline)]
-pub use scheme::{Scheme, Summary, ValidFor};
+pub use scheme::{Scheme, SchemeProperties, ValidFor};
 #[doc(inline)]
 pub use shadowstep_macros::{kinetic, potential, splitting_scheme};
 #[doc(inline)]

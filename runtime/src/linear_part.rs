@@ -14,11 +14,11 @@ use crate::Rational;
 use crate::displaced::Displacements;
 use crate::gradient_kicks::{Curvature, GradientKicks, Place};
 use crate::increments::Carried;
-use crate::kept::Kept;
+use crate::kept::KeptForce;
 use crate::kinetic::{DiagonalMasses, Kinetic, Quadratic};
 use crate::matrix::precision;
 use crate::motion::MotionError;
-use crate::number::{Number, Rounded};
+use crate::number::{CorrectlyRounded, Number};
 use crate::potential::Potential;
 use crate::state::{State, VectorState};
 use crate::summation::{Compensated, Half};
@@ -61,7 +61,7 @@ pub struct LinearPart<N, P> {
     scratch_of_kinetic: Vec<N>,
 }
 
-impl<N: Rounded, P: Potential<N>> LinearPart<N, P> {
+impl<N: CorrectlyRounded, P: Potential<N>> LinearPart<N, P> {
     /// The system at q, p, with the masses of the coordinates and K, row by row; the flow is computed in more digits than the numbers have, and rounded
     /// once.
     ///
@@ -148,7 +148,7 @@ impl<N: Rounded, P: Potential<N>> LinearPart<N, P> {
         self.kept = true;
         self.state.count_evaluation();
         if let Some(curved) = &mut self.gradient_kicks {
-            curved.0.kept = Kept::Nothing;
+            curved.0.kept = KeptForce::Nothing;
         }
     }
 }
@@ -164,7 +164,7 @@ fn room<N: Number, P: Potential<N>>(potential: &P, context: &N::Context) -> (Gra
 }
 
 /// The derivatives of B = U(q) − ½qᵀKq.
-struct Rest<'a, N, P> {
+struct RemainingPotential<'a, N, P> {
     potential: &'a mut P,
     scratch: &'a mut [N],
     stiffness: &'a [Vec<N>],
@@ -172,7 +172,7 @@ struct Rest<'a, N, P> {
     hessian_scratch: &'a mut [N],
 }
 
-impl<N: Number, P: Potential<N>> Rest<'_, N, P> {
+impl<N: Number, P: Potential<N>> RemainingPotential<'_, N, P> {
     /// x ← x − Kv
     fn subtract_linear_part(&self, v: &[N], x: &mut [N]) {
         for (x, row) in x.iter_mut().zip(self.stiffness) {
@@ -181,7 +181,7 @@ impl<N: Number, P: Potential<N>> Rest<'_, N, P> {
     }
 }
 
-impl<N: Number, P: Potential<N>> Curvature<N> for Rest<'_, N, P> {
+impl<N: Number, P: Potential<N>> Curvature<N> for RemainingPotential<'_, N, P> {
     fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
         self.kinetic.assign_velocity(gradient, velocity);
     }
@@ -206,7 +206,7 @@ impl<N: Number, P: Potential<N>> Curvature<N> for Rest<'_, N, P> {
     }
 }
 
-impl<N: Rounded, P: Potential<N>> System for LinearPart<N, P> {
+impl<N: CorrectlyRounded, P: Potential<N>> System for LinearPart<N, P> {
     type Number = N;
     /// A = ½pᵀM⁻¹p + f(q), and B depends on q only.
     type Class = Quadratic;
@@ -257,7 +257,7 @@ impl<N: Rounded, P: Potential<N>> System for LinearPart<N, P> {
         let curved = self.gradient_kicks.get_or_insert_with(|| Box::new(room(potential, &weight.context())));
         let (kicks, hessian_scratch) = &mut **curved;
         let before = kicks.evaluations;
-        let rest = &mut Rest { potential, scratch, stiffness, kinetic, hessian_scratch };
+        let rest = &mut RemainingPotential { potential, scratch, stiffness, kinetic, hessian_scratch };
         let augmented = carried == Carried::Increments;
         kicks.evaluate(rest, Place { q: &state.q, gradient, rate }, weight, augmented);
         if kicks.is_displaced() {

@@ -1,7 +1,7 @@
 //! Matrices of exact flows: computed in more digits than a run has, and rounded once.
 
 use crate::Rational;
-use crate::number::{AnyLimbs, LimbCount, Number, Rounded};
+use crate::number::{AnyLimbs, CorrectlyRounded, LimbCount, Number};
 
 /// A matrix, row by row.
 pub(crate) type Matrix<N> = Vec<Vec<N>>;
@@ -16,12 +16,12 @@ pub(crate) const MOST_TERMS: i32 = 300;
 const GUARD_BITS: u32 = 128;
 
 /// The numbers in which flows are computed; `None` if the run has more digits than they.
-pub(crate) fn precision<N: Rounded>(context: &N::Context) -> Option<LimbCount> {
+pub(crate) fn precision<N: CorrectlyRounded>(context: &N::Context) -> Option<LimbCount> {
     LimbCount::of_bits(N::precision(context).in_bits() + GUARD_BITS)
 }
 
 /// The matrix in the numbers of a run.
-pub(crate) fn round<N: Rounded>(matrix: &Matrix<AnyLimbs>, zero: &N) -> Matrix<N> {
+pub(crate) fn round<N: CorrectlyRounded>(matrix: &Matrix<AnyLimbs>, zero: &N) -> Matrix<N> {
     let rounded = |value: &AnyLimbs| {
         let mut number = zero.clone();
         number.assign_rounded(value);

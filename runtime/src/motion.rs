@@ -1,6 +1,6 @@
 //! The system of a potential and a kinetic energy, with its state.
 
-mod curved;
+mod gradient_kick_state;
 mod hamiltonian;
 mod steps;
 mod turns;
@@ -10,14 +10,14 @@ use thiserror::Error;
 use crate::coordinates::Coordinates;
 use crate::displaced::Displacements;
 use crate::increments::Increments;
-use crate::kept::Kept;
+use crate::kept::KeptForce;
 use crate::kinetic::{Kinetic, MassError};
 use crate::number::Number;
 use crate::potential::Potential;
 use crate::state::State;
 use crate::summation::{Compensated, FixedPoint, Plain, RangeError, Summation};
 
-use curved::Curved;
+use gradient_kick_state::GradientKickState;
 use hamiltonian::{Evaluated, Hamiltonian};
 
 /// A system H = T(p) + U(q) and its state.
@@ -48,7 +48,7 @@ where
         let context = check(&potential, &kinetic, q.as_ref(), p.as_ref())?;
         let hamiltonian = Hamiltonian::new(potential, kinetic, &context);
         let (gradient, rate) = (p.clone(), N::zero(&context));
-        let at = Evaluated { state: State::new(q, p, &context), gradient, rate, kept: Kept::Nothing };
+        let at = Evaluated { state: State::new(q, p, &context), gradient, rate, kept: KeptForce::Nothing };
         Ok(Motion { hamiltonian, at })
     }
 
@@ -104,7 +104,7 @@ where
     /// ```
     #[must_use]
     pub fn displaced(mut self, displacements: Displacements<N>) -> Self {
-        let curved = Curved::displaced(displacements, self.q().len(), &self.context());
+        let curved = GradientKickState::displaced(displacements, self.q().len(), &self.context());
         self.hamiltonian.curved = Some(Box::new(curved));
         self
     }
@@ -189,7 +189,7 @@ where
 
     /// Positions, to be changed; the kept gradient and remainders of sums are dropped.
     pub fn q_mut(&mut self) -> &mut [N] {
-        self.at.kept = Kept::Nothing;
+        self.at.kept = KeptForce::Nothing;
         self.at.state.q_mut()
     }
 

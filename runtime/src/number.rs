@@ -1,24 +1,24 @@
 //! Numbers of every kind behind one trait: `f64`, several of them in lanes, numbers of some limbs, MPFR numbers of any precision, and
 //! wrappers.
 
+mod correctly_rounded;
 pub mod counting;
 mod double;
 mod double_double;
 mod epsilon;
 mod fused;
+mod high_precision;
 mod lanes;
 mod limb_access;
 mod limbs;
 #[cfg(feature = "mpfr")]
 mod multiprecision;
 mod precision;
-mod reference;
-mod rounded;
 pub(crate) mod value;
 
+pub use correctly_rounded::CorrectlyRounded;
+pub use high_precision::{HighPrecision, ScaledInteger};
 pub use precision::{Precision, PrecisionError};
-pub use reference::{Reference, ScaledInteger};
-pub use rounded::Rounded;
 
 /// Numbers of 64-bit limbs, whose number is part of the type or chosen at run time: [`shadowstep_limbs`].
 pub use shadowstep_limbs::{AnyLimbs, LimbCount, Limbs};
@@ -75,7 +75,7 @@ use std::ops::DerefMut;
 /// ```
 ///
 /// There is no order, and no text: a number may be several at once, as in lanes. What compares, searches or prints needs an
-/// [`Ordered`] number; potentials, kinetic energies and steps do not.
+/// [`Real`] number; potentials, kinetic energies and steps do not.
 pub trait Number: Clone + fmt::Debug {
     /// What a new number needs: `()` for `f64` and [`Limbs`], the number of limbs for [`AnyLimbs`], the precision for MPFR.
     type Context: Clone + PartialEq + fmt::Debug;
@@ -267,16 +267,16 @@ pub trait Number: Clone + fmt::Debug {
 /// A number that can be compared, converted and printed: one value, as opposed to several in lanes.
 ///
 /// ```
-/// use shadowstep::number::{Number, Ordered};
+/// use shadowstep::number::{Number, Real};
 ///
-/// fn third<N: Ordered>(context: &N::Context) -> String {
+/// fn third<N: Real>(context: &N::Context) -> String {
 ///     let mut x = N::from_rational(&shadowstep::exact("1").unwrap(), context);
 ///     x.divide_integer(3);
 ///     x.to_text()
 /// }
 /// assert_eq!(third::<f64>(&()), "0.3333333333333333");
 /// ```
-pub trait Ordered: Number + PartialOrd + fmt::Display {
+pub trait Real: Number + PartialOrd + fmt::Display {
     /// Whether x < 0: false for −0 and for NaN.
     fn is_below_zero(&self) -> bool;
 

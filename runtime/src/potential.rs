@@ -3,13 +3,13 @@
 mod few_coordinates;
 mod from_fn;
 mod hessian;
-mod widest;
+mod vectorised;
 
 pub use few_coordinates::FewCoordinates;
 pub(crate) use few_coordinates::Repeated;
 pub use from_fn::{FromFn, from_fn};
 pub use hessian::HessianProduct;
-pub use widest::Widest;
+pub use vectorised::Vectorised;
 
 use crate::number::Number;
 

@@ -14,7 +14,7 @@ use self::checked::Checked;
 use self::comparison::add_absolute_product;
 use self::derivative::{Derivative, directional_derivative};
 use crate::motion::MotionError;
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::potential::Potential;
 
 /// Compares the gradient and the rate of a potential with its energy at states of your choice.
@@ -51,7 +51,7 @@ use crate::potential::Potential;
 /// A state whose dimension differs from the potential's, or no state.
 pub fn check_potential<N, P, Q>(potential: &mut P, states: &[Q]) -> Result<PotentialCheck<N>, MotionError>
 where
-    N: Ordered,
+    N: Real,
     P: Potential<N> + ?Sized,
     Q: AsRef<[N]>,
 {
@@ -86,7 +86,7 @@ pub struct PotentialCheck<N> {
     pub hessian: Option<HessianCheck<N>>,
 }
 
-impl<N: Ordered> PotentialCheck<N> {
+impl<N: Real> PotentialCheck<N> {
     /// Whether everything agrees.
     pub fn agrees(&self) -> bool {
         let all = [&self.gradient, &self.gradient_with_rate, &self.rate];
@@ -95,7 +95,7 @@ impl<N: Ordered> PotentialCheck<N> {
     }
 }
 
-impl<N: Ordered, P: Potential<N> + ?Sized> Checked<'_, N, P> {
+impl<N: Real, P: Potential<N> + ?Sized> Checked<'_, N, P> {
     fn check(&mut self) -> PotentialCheck<N> {
         let zero = N::zero(&self.q[0].context());
         let (mut gradient, mut with_rate) = (vec![zero.clone(); self.q.len()], vec![zero.clone(); self.q.len()]);
@@ -199,7 +199,7 @@ impl<N: Ordered, P: Potential<N> + ?Sized> Checked<'_, N, P> {
     }
 }
 
-impl<N: Ordered> fmt::Display for PotentialCheck<N> {
+impl<N: Real> fmt::Display for PotentialCheck<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let PotentialCheck { gradient, gradient_with_rate, rate, hessian } = self;
         writeln!(f, "the gradient {}", gradient.sentence("the derivative of the energy"))?;

@@ -21,7 +21,7 @@ pub trait Scheme {
     type Weights<N: Number>: WeightLists<N>;
 
     /// Name and proved properties.
-    fn summary(&self) -> Summary<'_>;
+    fn summary(&self) -> SchemeProperties<'_>;
 
     /// The distinct weights, exact.
     fn exact_weights(&self) -> Weights<Vec<Rational>>;
@@ -75,7 +75,7 @@ impl<S: Scheme> ValidFor<NoClass<false>> for S {}
 
 /// Name and proved properties of a scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Summary<'a> {
+pub struct SchemeProperties<'a> {
     /// The table's name.
     pub name: &'a str,
     /// Order for every T(p); 0 for a scheme with gradient kicks, which are for quadratic T only.

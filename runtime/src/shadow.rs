@@ -51,6 +51,7 @@ mod difference_table;
 mod differences;
 mod error_estimate;
 mod estimator;
+mod expected_round_off;
 mod family;
 mod fixed;
 mod form;
@@ -60,7 +61,6 @@ mod options;
 #[cfg(feature = "serde")]
 mod record;
 mod settings;
-mod walk;
 pub mod weights;
 mod window;
 
@@ -68,9 +68,9 @@ pub use bilinear::{Bilinear, BilinearEstimator, FixedBilinear, FixedBilinearEsti
 pub use central::{Central, CentralEstimator, FixedCentral, FixedCentralEstimator};
 pub use differences::{SelectionRule, StoppingRule};
 pub use estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
+pub(crate) use expected_round_off::ExpectedRoundOff;
 pub use monitor::{
     Advice, Criterion, KINETIC_LIMIT, Missing, Monitor, Report, Rough, Sample, ShadowEnergy, Trend, Verdict,
 };
 pub use options::{AccuracyError, EstimatorOptions, HIGHEST_ORDER, OptionConflict, UnknownWord, check_accuracy};
 pub use settings::EstimatorSettings;
-pub(crate) use walk::Walk;

@@ -4,7 +4,7 @@ use crate::Rational;
 use crate::displaced::{DisplacementError, Displacements};
 use crate::increments::Carried;
 use crate::maps::MapKind;
-use crate::number::{Number, Ordered};
+use crate::number::{Number, Real};
 use crate::processor::Processor;
 use crate::run::RunError;
 use crate::scheme::{Scheme, ValidFor};
@@ -136,7 +136,7 @@ impl<S: Scheme, N: Number> Stepper<S, N> {
     /// A scheme without gradient kicks; a gradient kick without a kick at the same q; gradient kicks of equal weight with kicks of different weights.
     pub fn displacements(&self) -> Result<Displacements<N>, DisplacementError>
     where
-        N: Ordered,
+        N: Real,
     {
         Displacements::of(&self.scheme, self.h(), self.weights().gradient_kicks)
     }

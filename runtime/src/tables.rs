@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 pub use shadowstep_schemes::shipped as shipped_source;
 pub use shadowstep_schemes::{Fault, Faults, First, NotForManyParts, Proved, Source, shipped_names};
-use shadowstep_schemes::{MapKind, Plan};
+use shadowstep_schemes::{MapKind, StepPlan};
 use thiserror::Error;
 
 use crate::Rational;
@@ -13,7 +13,7 @@ use crate::kinetic::{General, Quadratic};
 use crate::many_parts::ManyParts;
 use crate::maps::{Flows, PartOrder, Sequence};
 use crate::number::Number;
-use crate::scheme::{Scheme, Summary, ValidFor};
+use crate::scheme::{Scheme, SchemeProperties, ValidFor};
 use crate::weights::Weights;
 
 /// A proved scheme with the plan of its step. A clone shares them.
@@ -170,7 +170,7 @@ impl<Class> TableScheme<Class> {
     }
 
     /// The plan of its step.
-    pub fn plan(&self) -> &Plan {
+    pub fn plan(&self) -> &StepPlan {
         &self.proved.plan
     }
 }
@@ -178,10 +178,10 @@ impl<Class> TableScheme<Class> {
 impl<Class> Scheme for TableScheme<Class> {
     type Weights<N: Number> = Weights<Vec<N>>;
 
-    fn summary(&self) -> Summary<'_> {
+    fn summary(&self) -> SchemeProperties<'_> {
         let Proved { scheme, proof, plan, .. } = &*self.proved;
         let order = self.proved.order_for_every_kinetic().map_or(0, |order| order.order);
-        Summary {
+        SchemeProperties {
             name: &scheme.table.name.value,
             order,
             order_quadratic: if proof.many_parts.is_some() { order } else { proof.quadratic.order },
@@ -191,7 +191,7 @@ impl<Class> Scheme for TableScheme<Class> {
     }
 
     fn exact_weights(&self) -> Weights<Vec<Rational>> {
-        let Plan { kicks, drifts, middle_weights, gradient_kicks, .. } = self.plan().clone();
+        let StepPlan { kicks, drifts, middle_weights, gradient_kicks, .. } = self.plan().clone();
         Weights { kicks, drifts, middle_parts: middle_weights, gradient_kicks }
     }
 

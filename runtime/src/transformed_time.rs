@@ -245,7 +245,7 @@ mod tests {
     }
 
     fn close(a: &Limbs<7>, b: &Limbs<7>) {
-        use crate::number::Ordered;
+        use crate::number::Real;
         let mut difference = *a;
         difference.subtract(b);
         assert!(difference.log10_abs() < -70.0, "{a:?} {b:?}");

@@ -26,7 +26,7 @@ pub use orbits::Orbits;
 use crate::displaced::Displacements;
 use crate::gradient_kicks::{Curvature, GradientKicks, Place};
 use crate::increments::Carried;
-use crate::kept::Kept;
+use crate::kept::KeptForce;
 use crate::number::Number;
 use crate::state::{State, VectorState};
 use crate::summation::{Compensated, Half};
@@ -102,7 +102,7 @@ pub struct WisdomHolman<N: Number, C, const D: usize> {
     gradient: Vec<N>,
     /// −3B
     rate: N,
-    kept: Kept,
+    kept: KeptForce,
     /// Once there was a gradient kick; what it keeps belongs to the Q of the last evaluation.
     gradient_kicks: Option<Box<GradientKicks<N>>>,
     orbits: orbits::Advance<N, D>,
@@ -126,7 +126,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
             state: State::new(zeros(), zeros(), context).compensated_if(false),
             gradient: zeros(),
             rate: N::zero(context),
-            kept: Kept::Nothing,
+            kept: KeptForce::Nothing,
             gradient_kicks: None,
             orbits: orbits::Advance::new(context),
         };
@@ -164,7 +164,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
         // the remainders of what was there before
         state.q_mut();
         state.p_mut();
-        self.kept = Kept::Nothing;
+        self.kept = KeptForce::Nothing;
     }
 
     /// The coordinates, which convert states.
@@ -179,10 +179,10 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
         }
         let rate = with_rate.then_some(&mut self.rate);
         self.coordinates.gradient_and_rate(&self.state.q, &mut self.gradient, rate);
-        self.kept = if with_rate { Kept::GradientAndRate } else { Kept::Gradient };
+        self.kept = if with_rate { KeptForce::GradientAndRate } else { KeptForce::Gradient };
         self.state.count_evaluation();
         if let Some(kicks) = &mut self.gradient_kicks {
-            kicks.kept = Kept::Nothing;
+            kicks.kept = KeptForce::Nothing;
         }
     }
 
@@ -193,7 +193,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> WisdomHolman<N, C
         for index in D..state.q.len() {
             state.change(Half::Positions, index, carried, |q| q.add_product(weight, &velocity[index % D]));
         }
-        *kept = Kept::Nothing;
+        *kept = KeptForce::Nothing;
     }
 }
 
@@ -236,7 +236,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for Wisdom
     }
 
     fn state_mut(&mut self) -> &mut VectorState<N> {
-        self.kept = Kept::Nothing;
+        self.kept = KeptForce::Nothing;
         &mut self.state
     }
 
@@ -258,7 +258,7 @@ impl<N: Number, C: PlanetaryCoordinates<N, D>, const D: usize> System for Wisdom
     fn drift(&mut self, weight: &N, carried: Carried) {
         let WisdomHolman { coordinates, state, orbits, .. } = self;
         orbits.advance(coordinates.orbits(), weight, state, carried);
-        self.kept = Kept::Nothing;
+        self.kept = KeptForce::Nothing;
     }
 
     fn has_gradient_kicks(&self) -> bool {

@@ -3,7 +3,7 @@
 
 use rug::integer::Order;
 use rug::{Float, Integer};
-use shadowstep::number::{Limbs, Ordered, Precision};
+use shadowstep::number::{Limbs, Precision, Real};
 use shadowstep::problems::{PROBLEMS, Problem};
 use shadowstep::run::{States, Trajectory, TrajectoryState};
 use shadowstep::shadow::{
@@ -28,7 +28,7 @@ struct Found<N> {
     scale: f64,
 }
 
-fn estimates<N: Ordered + 'static>(
+fn estimates<N: Real + 'static>(
     states: &[Given<N>],
     settings: &EstimatorSettings,
     context: &N::Context,

@@ -5,7 +5,7 @@ use rand_pcg::rand_core::{RngCore, SeedableRng};
 use shadowstep::exact;
 use shadowstep::kepler_drift::{KeplerDrift, KeplerDriftError};
 use shadowstep::number::counting::Counting;
-use shadowstep::number::{AnyLimbs, DoubleDouble, Fused, Lanes, LimbCount, Limbs, Number, Ordered};
+use shadowstep::number::{AnyLimbs, DoubleDouble, Fused, Lanes, LimbCount, Limbs, Number, Real};
 use std::f64::consts::{PI, TAU};
 
 /// As many digits as the reference cases have, and some more.
@@ -32,7 +32,7 @@ fn reference(input: &Input<f64>) -> Output<Reference> {
     drift(&mut new(), input.map(Reference::from))
 }
 
-fn exactly<N: Ordered>(x: &N) -> Reference {
+fn exactly<N: Real>(x: &N) -> Reference {
     Reference::from_rational(&exact(&x.to_text()).unwrap(), &())
 }
 
@@ -74,7 +74,7 @@ fn size(vector: &[Reference]) -> f64 {
 }
 
 /// The relative errors of q and v in units of u times 1 + their condition.
-fn errors<N: Ordered>(found: &Output<N>, input: &Input<f64>, expected: &Output<Reference>, u: f64) -> [f64; 2] {
+fn errors<N: Real>(found: &Output<N>, input: &Input<f64>, expected: &Output<Reference>, u: f64) -> [f64; 2] {
     let found = found.each_ref().map(exactly);
     let conditions = conditions(input, expected);
     std::array::from_fn(|i| {
@@ -187,7 +187,7 @@ fn rotated([x, y]: [f64; 2], [a, b, c]: [f64; 3]) -> [f64; 3] {
 }
 
 /// The larger error of q and v of random orbits, sorted, by their eccentricities.
-fn errors_by_kind<N: Ordered + Number<Context = ()>>(count: usize, u: f64, of: impl Fn(f64) -> N) -> [Vec<f64>; 4] {
+fn errors_by_kind<N: Real + Number<Context = ()>>(count: usize, u: f64, of: impl Fn(f64) -> N) -> [Vec<f64>; 4] {
     let (mut orbits, mut kepler) = (Orbits::new(5), new::<N>());
     let mut kinds = [const { Vec::new() }; 4];
     for _ in 0..count {
@@ -351,10 +351,10 @@ fn powers_of_two_scale_all_numbers() {
     }
     let orbits = &mut Orbits::new(14);
     for (length, velocity) in [(60, 0), (-50, 40), (100, -70), (-100, -20)] {
-        check::<f64>(orbits, &(), length, velocity, Ordered::to_text);
+        check::<f64>(orbits, &(), length, velocity, Real::to_text);
     }
     for (length, velocity) in [(100_000, 0), (-1_000_000, 3000), (0, 20_000)] {
-        check::<Limbs<2>>(orbits, &(), length, velocity, Ordered::to_text);
+        check::<Limbs<2>>(orbits, &(), length, velocity, Real::to_text);
     }
 }
 

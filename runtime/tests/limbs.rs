@@ -5,7 +5,7 @@ use shadowstep::number::{Limbs, Precision};
 use shadowstep::problems::{PROBLEMS, Setup, problem};
 use shadowstep::run::energy_drift;
 use shadowstep::shadow::{Bilinear, Central, StoppingRule};
-use shadowstep::{Number, Ordered, Rational, Stepper, tables};
+use shadowstep::{Number, Rational, Real, Stepper, tables};
 use shadowstep_schemes::shipped_names;
 
 type Seven = Limbs<7>;
@@ -15,12 +15,12 @@ fn same_precision() -> Precision {
     Precision::bits(Seven::BITS).unwrap()
 }
 
-fn stepper<N: Ordered>(scheme: &str, h: &str, context: &N::Context) -> Stepper<tables::TableScheme, N> {
+fn stepper<N: Real>(scheme: &str, h: &str, context: &N::Context) -> Stepper<tables::TableScheme, N> {
     Stepper::with_context(tables::shipped(scheme).unwrap(), h, context).unwrap()
 }
 
 /// q, p and β after some steps.
-fn state<N: Ordered + 'static>(setup: &Setup, scheme: &str, steps: u32, context: &N::Context) -> Vec<N> {
+fn state<N: Real + 'static>(setup: &Setup, scheme: &str, steps: u32, context: &N::Context) -> Vec<N> {
     let stepper = stepper::<N>(scheme, setup.problem.description().step, context);
     let mut motion = setup.motion::<N>(context).unwrap();
     let mut beta = N::zero(context);
@@ -67,7 +67,7 @@ fn every_scheme_agrees_with_mpfr() {
 
 #[test]
 fn estimates_agree_with_mpfr() {
-    fn drift<N: Ordered + 'static>(context: &N::Context) -> [N; 2] {
+    fn drift<N: Real + 'static>(context: &N::Context) -> [N; 2] {
         let setup = problem("henon-heiles").unwrap().setup(&[], 150).unwrap();
         let stepper = stepper::<N>("stormer-verlet", "1/20", context);
         let motion = || setup.motion::<N>(context).unwrap();

@@ -6,7 +6,7 @@
 //! use shadowstep::tables::Source;
 //! use shadowstep_scenes::System;
 //! use shadowstep_scenes::arithmetic::Arithmetic;
-//! use shadowstep_scenes::drift::{Controls, Question, Wanted};
+//! use shadowstep_scenes::drift::{Controls, DriftRequest, Wanted};
 //! use shadowstep_scenes::propagator::Propagator;
 //! use shadowstep_scenes::run::Run;
 //!
@@ -15,10 +15,10 @@
 //! let (h, until) = (exact("1/20").unwrap(), exact("50").unwrap());
 //! let estimator = Bilinear::new(8).into();
 //! let (arithmetic, summarised) = (Arithmetic::DOUBLE, true);
-//! let question = Question { problem: "kepler", system: &system, until: &until, arithmetic, estimator: &estimator, summarised };
+//! let request = DriftRequest { problem: "kepler", system: &system, until: &until, arithmetic, estimator: &estimator, summarised };
 //! let propagator = Propagator::of_system("yoshida4", &system)?;
 //! let run = Run { propagator: propagator.name(), h: &h, steps: 1000, order: None };
-//! let record = question.answer(&propagator, run, &mut Controls::new(Wanted::Never), &mut ())?;
+//! let record = request.run(&propagator, run, &mut Controls::new(Wanted::Never), &mut ())?;
 //! assert!(record.drift.parse::<f64>().unwrap() < 1e-4);
 //! # Ok::<(), shadowstep_scenes::Error>(())
 //! ```
@@ -29,7 +29,7 @@ mod measure;
 mod record;
 
 use shadowstep::Rational;
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::run::EnergyDrift;
 use shadowstep::shadow::{EstimatorSettings, SelectionRule, StoppingRule};
 use shadowstep_symbolic::decimal::to_text;
@@ -42,7 +42,7 @@ use crate::estimates::{Estimates, Finished};
 use crate::propagator::Propagator;
 use crate::run::Run;
 use crate::scene::System;
-use control::Found;
+use control::KnownControl;
 use measure::measure;
 
 pub use control::{Controls, Wanted};
@@ -51,7 +51,7 @@ pub use record::{Control, Cost, NOT_SEEN, OrderLabel, Permanent, Record};
 
 /// What is the same in several runs.
 #[derive(Clone, Copy)]
-pub struct Question<'a> {
+pub struct DriftRequest<'a> {
     /// The name of the problem in records.
     pub problem: &'a str,
     /// H and the initial state.
@@ -66,19 +66,19 @@ pub struct Question<'a> {
     pub summarised: bool,
 }
 
-impl Question<'_> {
+impl DriftRequest<'_> {
     /// Makes a run, and its control.
     ///
     /// # Errors
     /// A state or a modified energy that is not finite; a follower that stops the run.
-    pub fn answer(
+    pub fn run(
         &self,
         propagator: &Propagator,
         run: Run<'_>,
         controls: &mut Controls,
         follower: &mut dyn Follower,
     ) -> Result<Record, Error> {
-        self.arithmetic.compute(Measurement { question: self, propagator, run, controls, follower })
+        self.arithmetic.compute(Measurement { request: self, propagator, run, controls, follower })
     }
 
     /// Every parameter and initial value with its exact text, or the digits of what is irrational.
@@ -89,7 +89,7 @@ impl Question<'_> {
 
 /// The measurement of one run, in any number type.
 struct Measurement<'a> {
-    question: &'a Question<'a>,
+    request: &'a DriftRequest<'a>,
     propagator: &'a Propagator,
     run: Run<'a>,
     controls: &'a mut Controls,
@@ -100,17 +100,17 @@ impl Computation for Measurement<'_> {
     type Output = Result<Record, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {
-        let Measurement { question, propagator, run, controls, follower } = self;
-        let Question { system, summarised, .. } = *question;
-        let settings = question.estimator.clone().with_errors(true);
-        let compensated = question.arithmetic.is_compensated() && propagator.scheme().is_some();
+        let Measurement { request, propagator, run, controls, follower } = self;
+        let DriftRequest { system, summarised, .. } = *request;
+        let settings = request.estimator.clone().with_errors(true);
+        let compensated = request.arithmetic.is_compensated() && propagator.scheme().is_some();
         let begin = CpuTime::begin();
         let estimates = Estimates { system, propagator, run, compensated, settings: &settings, summarised };
         let (found, finished) = measure::<N>(estimates, context, |n| follower.reaches(run, n))?;
         let seconds = begin.elapsed();
         let control = match propagator.scheme() {
             Some(_) => controls.of::<N>(estimates, context, seconds, follower),
-            None => Found::Nothing,
+            None => KnownControl::Nothing,
         };
         let per_step = propagator.scheme().map(|named| named.scheme.proved().plan.evaluations);
         let cost = Cost {
@@ -119,30 +119,30 @@ impl Computation for Measurement<'_> {
             force_evaluations: finished.evaluations,
             seconds: seconds.as_secs_f64(),
         };
-        Ok(record(question, run, &found, finished, control, cost))
+        Ok(record(request, run, &found, finished, control, cost))
     }
 }
 
-fn record<N: Rounded>(
-    question: &Question<'_>,
+fn record<N: CorrectlyRounded>(
+    request: &DriftRequest<'_>,
     run: Run<'_>,
     found: &EnergyDrift<N>,
     finished: Finished,
-    control: Found,
+    control: KnownControl,
     cost: Cost,
 ) -> Record {
-    let options = question.estimator.options();
+    let options = request.estimator.options();
     let (control, control_left_out) = control.parts();
     Record {
         shadowstep: env!("CARGO_PKG_VERSION"),
-        problem: question.problem.to_owned(),
-        parameters: question.values(),
+        problem: request.problem.to_owned(),
+        parameters: request.values(),
         scheme: run.propagator.to_owned(),
         step: to_text(run.h),
-        until: to_text(question.until),
+        until: to_text(request.until),
         end: to_text(&run.time_of_last()),
-        digits: question.arithmetic.label(),
-        estimator: question.estimator.name(),
+        digits: request.arithmetic.label(),
+        estimator: request.estimator.name(),
         order: options.order.map_or(OrderLabel::Word("auto"), OrderLabel::Fixed),
         max_order: options.max_order,
         stop: options.stop.map(StoppingRule::name),

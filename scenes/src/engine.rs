@@ -19,7 +19,7 @@ use crate::results::{Checkpoint, ModifiedEnergy, Row, Rows, SavedState};
 use crate::run::Run;
 use crate::scene::{CheckpointInterval, EnergyAt, Scene};
 use crate::snapshots::{Snapshot, Snapshots};
-use crate::split::Shown;
+use crate::split::ShownCoordinates;
 use crate::start::Begin;
 use crate::summary::Summary;
 use crate::watch::{Energies, Watch};
@@ -119,7 +119,7 @@ struct Recorder<'a, 'r, N: RunNumber> {
     /// The state from which the run is resumed; `None` at its beginning.
     from: Option<i64>,
     /// Converts states for rows, where these have other coordinates than the steps.
-    shown: Option<Shown<N>>,
+    shown: Option<ShownCoordinates<N>>,
     /// H for rows, where the steps conserve another function.
     energy_of: Option<EnergyAt<N>>,
     /// Follows the run for a summary.

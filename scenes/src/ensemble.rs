@@ -46,7 +46,7 @@ use shadowstep_schemes::document::document;
 use crate::error::Error;
 use crate::family::{Family, Parsed};
 use crate::keys::ENSEMBLE;
-use crate::lanes::{LANES, Together};
+use crate::lanes::{LANES, SystemInLanes};
 use crate::scene::Scene;
 use crate::start::Begin;
 use columns::Columns;
@@ -157,10 +157,10 @@ impl Ensemble {
     }
 
     /// The system of some lanes.
-    fn together(&self, parsed: &Parsed<'_>, block: &Block<LANES>) -> Result<Together, Error> {
+    fn together(&self, parsed: &Parsed<'_>, block: &Block<LANES>) -> Result<SystemInLanes, Error> {
         let scenes = block.trajectories().map(|t| self.scene(parsed, t)).collect::<Result<Vec<Scene>, Error>>()?;
         let systems = std::array::from_fn(|lane| &scenes[lane].system);
-        Together::of(&systems).ok_or_else(|| {
+        SystemInLanes::of(&systems).ok_or_else(|| {
             let fault = self.columns.fault(self.family.source(), "trajectories differ in more than numbers");
             Faults(vec![fault.hint("use the names of columns in numbers and formulas only")]).into()
         })

@@ -61,7 +61,7 @@ impl Scene {
                 rows.head(&Metadata::of(self))?;
             }
         }
-        let following = Following { scene: self, rows: &mut rows, checkpoint, observer: &mut *observer };
+        let following = SceneRun { scene: self, rows: &mut rows, checkpoint, observer: &mut *observer };
         let ended = self.arithmetic.compute(following);
         match &ended {
             Ok((Outcome::Stopped { .. }, _)) => {}
@@ -78,14 +78,14 @@ impl Scene {
 }
 
 /// The run of a scene in any number type.
-struct Following<'a, 'r> {
+struct SceneRun<'a, 'r> {
     scene: &'a Scene,
     rows: &'a mut Rows<'r>,
     checkpoint: Option<&'a Checkpoint>,
     observer: &'a mut dyn Observer,
 }
 
-impl Computation for Following<'_, '_> {
+impl Computation for SceneRun<'_, '_> {
     type Output = Result<Ended, Error>;
 
     fn compute<N: RunNumber>(self, context: &N::Context) -> Self::Output {

@@ -5,12 +5,12 @@ use std::ops::ControlFlow::{self, Break, Continue};
 use shadowstep::integrator::VectorIntegrator;
 use shadowstep::run::{RunError, ShadowRun, States as _, Trajectory};
 use shadowstep::shadow::{Estimate, EstimatorSettings};
-use shadowstep::{Carried, Ordered};
+use shadowstep::{Carried, Real};
 
 use crate::error::Error;
 
 /// What follows a run: it takes states as they are made, and outputs.
-pub trait Follower<N: Ordered> {
+pub trait Follower<N: Real> {
     /// The run begins, at the state `from` or at t = 0; an estimate needs `reach` states before its own.
     fn begin(&mut self, reach: i64, integrator: &mut VectorIntegrator<'_, N>) {
         let _ = (reach, integrator);
@@ -56,7 +56,7 @@ pub trait Follower<N: Ordered> {
 ///
 /// # Errors
 /// Those of the follower.
-pub(crate) fn follow<N: Ordered + 'static, F: Follower<N> + ?Sized>(
+pub(crate) fn follow<N: Real + 'static, F: Follower<N> + ?Sized>(
     integrator: &mut VectorIntegrator<'_, N>,
     (from, steps): (Option<i64>, u64),
     settings: Option<&EstimatorSettings>,
@@ -92,7 +92,7 @@ impl From<Error> for Failed {
 }
 
 /// Without states beyond both ends, and with increments only where the follower needs them.
-fn plain<N: Ordered, F: Follower<N> + ?Sized>(
+fn plain<N: Real, F: Follower<N> + ?Sized>(
     integrator: &mut VectorIntegrator<'_, N>,
     (from, steps): (i64, u64),
     follower: &mut F,
@@ -113,7 +113,7 @@ fn plain<N: Ordered, F: Follower<N> + ?Sized>(
 }
 
 /// With increments and an estimate at each state, and its error.
-fn estimated<N: Ordered + 'static, F: Follower<N> + ?Sized>(
+fn estimated<N: Real + 'static, F: Follower<N> + ?Sized>(
     integrator: &mut VectorIntegrator<'_, N>,
     (from, steps): (Option<i64>, u64),
     settings: &EstimatorSettings,

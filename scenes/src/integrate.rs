@@ -37,7 +37,7 @@ use crate::follow::Follower;
 use crate::observer::Observer;
 use crate::run::Run;
 use crate::scene::{self, EnergyAt};
-use crate::split::Shown;
+use crate::split::ShownCoordinates;
 use crate::start::{Begin, Steps};
 
 /// A run whose states are kept.
@@ -139,7 +139,7 @@ struct Keeper<'a, N: Number> {
     context: &'a N::Context,
     observer: &'a mut dyn Observer,
     /// Converts states, where those of the steps have other coordinates.
-    shown: Option<Shown<N>>,
+    shown: Option<ShownCoordinates<N>>,
     /// H, where the steps conserve another function.
     energy_of: Option<EnergyAt<N>>,
     samples: Samples<N>,

@@ -15,7 +15,7 @@ use crate::start::{SceneIntegrator, Steps};
 pub const LANES: usize = 16;
 
 /// The systems of [`LANES`] trajectories as one, at their initial states.
-pub struct Together {
+pub struct SystemInLanes {
     potential: Box<dyn Potential<Lanes<LANES>>>,
     kinetic: ClassifiedKinetic<Lanes<LANES>>,
     q: Vec<Lanes<LANES>>,
@@ -34,13 +34,13 @@ pub(crate) type MotionInLanes<C> = Motion<
 const READ: &str = "the system was read with the scene";
 const QUADRATIC: &str = "T is of the class of the first system";
 
-impl Together {
+impl SystemInLanes {
     /// `None` if the systems differ in more than numbers, or are not of T(p) and U(q).
     pub fn of(systems: &[&System; LANES]) -> Option<Self> {
         if !systems.iter().all(|system| system.parts.is_kinetic_and_potential()) {
             return None;
         }
-        systems.iter().all(|system| have_one_form(systems[0], system)).then(|| Together {
+        systems.iter().all(|system| have_one_form(systems[0], system)).then(|| SystemInLanes {
             potential: potential(systems),
             kinetic: kinetic(systems),
             q: in_lanes(|lane| &systems[lane].q),

@@ -147,7 +147,10 @@ pub use scene::{
     PairEnergy, Parts, PotentialEnergy, Scene, SceneNumber, System, SystemIn,
 };
 pub use shipped::{ENCOUNTER_SCENES, MANY_PARTS_SCENES, PLANETARY_SCENES, SCHEME_SCENES, ShippedScene, shipped_scene};
-pub use split::{Canonical, Class, Formulas, KineticAndPotential, Linear, Needs, Planets, Shown, TransformedTime};
+pub use split::{
+    CanonicalCoordinates, Class, Formulas, KineticAndPotential, Linear, Needs, Planets, ShownCoordinates,
+    TransformedTime,
+};
 pub use summary::{EnergySummary, ModifiedEnergySummary, Summary};
 pub use template::template;
 pub use temporary::{Temporary, remove_temporary_files};

@@ -7,7 +7,7 @@ use shadowstep::integrator::VectorIntegrator;
 use shadowstep::run::RunError;
 use shadowstep::shadow::Estimate;
 use shadowstep::transformed_time::step_to_time;
-use shadowstep::{Ordered, Rational};
+use shadowstep::{Rational, Real};
 
 use crate::computation::{Computation, RunNumber};
 use crate::error::Error;
@@ -60,7 +60,7 @@ struct StepsTo<N> {
     steps: u64,
 }
 
-impl<N: Ordered> Follower<N> for StepsTo<N> {
+impl<N: Real> Follower<N> for StepsTo<N> {
     fn output(
         &mut self,
         n: i64,
@@ -87,7 +87,7 @@ impl<N: Ordered> Follower<N> for StepsTo<N> {
 ///
 /// # Errors
 /// A state that is not finite on the way.
-pub(crate) fn last_step<N: Ordered>(
+pub(crate) fn last_step<N: Real>(
     integrator: &mut VectorIntegrator<'_, N>,
     (q, p): (&[N], &[N]),
     (run, until): (Run<'_>, &Rational),

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use shadowstep::{Ordered, Remainders, VectorState};
+use shadowstep::{Real, Remainders, VectorState};
 
 /// The state n with its remainders.
 #[derive(Clone, Debug)]
@@ -13,7 +13,7 @@ pub(crate) struct Snapshot<N> {
     pub(crate) remainders: Remainders<N>,
 }
 
-impl<N: Ordered> Snapshot<N> {
+impl<N: Real> Snapshot<N> {
     pub(crate) fn of(n: i64, state: &VectorState<N>) -> Self {
         Snapshot { n, q: state.q().to_vec(), p: state.p().to_vec(), remainders: state.remainders() }
     }
@@ -26,7 +26,7 @@ pub(crate) struct Snapshots<N> {
     kept: VecDeque<Snapshot<N>>,
 }
 
-impl<N: Ordered> Snapshots<N> {
+impl<N: Real> Snapshots<N> {
     /// The steps are `reach` + 1 states ahead of an estimate n, at most: of the multiples of `reach` up to there, the last one at or before
     /// n − reach is one of the newest four.
     const KEPT: usize = 4;

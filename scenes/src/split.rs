@@ -10,7 +10,7 @@ mod formulas;
 mod kinetic_and_potential;
 mod linear;
 mod needs;
-mod shown;
+mod shown_coordinates;
 mod transformed_time;
 mod wisdom_holman;
 
@@ -19,13 +19,13 @@ pub use kinetic_and_potential::KineticAndPotential;
 pub(crate) use linear::LINEAR;
 pub use linear::Linear;
 pub use needs::{Class, Needs};
-pub use shown::Shown;
+pub use shown_coordinates::ShownCoordinates;
 pub use transformed_time::TransformedTime;
 pub(crate) use wisdom_holman::OfPlanets;
-pub use wisdom_holman::{Canonical, Planets};
+pub use wisdom_holman::{CanonicalCoordinates, Planets};
 
 use serde_json::Value;
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::transformed_time::TimeTransformation;
 use shadowstep::{MotionError, Number};
 
@@ -54,12 +54,16 @@ pub(crate) trait Split {
     }
 
     /// Converts states from the coordinates of the steps to those that are shown, where these differ.
-    fn shown<N: Number + 'static>(&self, _: &InitialValueProblem, _: &N::Context) -> Option<Shown<N>> {
+    fn shown<N: Number + 'static>(&self, _: &InitialValueProblem, _: &N::Context) -> Option<ShownCoordinates<N>> {
         None
     }
 
     /// H of any state in the coordinates of the steps.
-    fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+    fn energy<N: CorrectlyRounded + 'static>(
+        &self,
+        problem: &InitialValueProblem,
+        context: &N::Context,
+    ) -> EnergyAt<N> {
         problem.plain_energy(context)
     }
 
@@ -67,7 +71,7 @@ pub(crate) trait Split {
     ///
     /// # Errors
     /// A state of another dimension.
-    fn integrator<N: Rounded + 'static>(
+    fn integrator<N: CorrectlyRounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         steps: Steps<'_>,

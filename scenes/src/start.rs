@@ -3,7 +3,7 @@
 use shadowstep::displaced::Displacements;
 use shadowstep::integrator::VectorIntegrator;
 use shadowstep::kinetic::General;
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::summation::Compensated;
 use shadowstep::tables::{AtRunTime, TableScheme};
 use shadowstep::{Number, Rational, Scheme, Stepper, System, ValidFor};
@@ -52,7 +52,7 @@ impl Steps<'_> {
     }
 
     /// The displacements of the forces, where gradient kicks are made by them.
-    pub(crate) fn displacements<N: Rounded>(self, context: &N::Context) -> Option<Displacements<N>> {
+    pub(crate) fn displacements<N: CorrectlyRounded>(self, context: &N::Context) -> Option<Displacements<N>> {
         let stepper = self.displaced.then(|| stepper(self.scheme.clone(), self.h, context));
         stepper.map(|stepper| stepper.displacements().expect("the scheme was read for displaced forces"))
     }

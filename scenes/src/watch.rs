@@ -9,7 +9,7 @@ use std::mem::take;
 use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::run::RunError;
 use shadowstep::shadow::{Criterion, KINETIC_LIMIT, Missing, Report, Verdict};
-use shadowstep::{Carried, Integrator as _, Ordered};
+use shadowstep::{Carried, Integrator as _, Real};
 
 use self::approaches::Approaches;
 pub use self::approaches::{Approach, Interactions};
@@ -208,7 +208,7 @@ impl<N: RunNumber> Watch<N> {
 }
 
 /// The verdict of the monitor with its reason. Of a run that is too short for it, one on the error of H.
-fn conclusion<N: Ordered>(report: &Report<N>, of_kinetic: f64) -> (Verdict, String) {
+fn conclusion<N: Real>(report: &Report<N>, of_kinetic: f64) -> (Verdict, String) {
     let short = report.verdict == Verdict::Undecided(Missing::Windows);
     if short && of_kinetic.is_finite() && of_kinetic >= KINETIC_LIMIT {
         let reason = format!("the energy error is {of_kinetic:.1e} of the mean kinetic energy");

@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::proof::Order;
-use shadowstep_schemes::{Kinetic, Map, MapKind, Plan, Proved, to_text};
+use shadowstep_schemes::{Kinetic, Map, MapKind, Proved, StepPlan, to_text};
 use shadowstep_symbolic::Rational;
 use syn::{Ident, ItemStruct, LitStr};
 
@@ -44,7 +44,7 @@ pub(crate) fn scheme(item: &ItemStruct, proved: &Proved, files: &[PathBuf]) -> T
             #is_inlined
             type Weights<N: ::shadowstep::Number> = #in_arrays;
 
-            fn summary(&self) -> ::shadowstep::Summary<'_> {
+            fn summary(&self) -> ::shadowstep::SchemeProperties<'_> {
                 #summary
             }
 
@@ -80,7 +80,7 @@ pub(crate) fn refused(item: &ItemStruct, table: &LitStr, message: &str, files: &
 
         impl ::shadowstep::Scheme for #ident {
             type Weights<N: ::shadowstep::Number> = ::shadowstep::scheme::Weights<[N; 0]>;
-            fn summary(&self) -> ::shadowstep::Summary<'_> {
+            fn summary(&self) -> ::shadowstep::SchemeProperties<'_> {
                 ::core::unreachable!()
             }
             fn exact_weights(&self) -> ::shadowstep::scheme::Weights<::std::vec::Vec<::shadowstep::Rational>> {
@@ -114,7 +114,7 @@ fn summary(proved: &Proved) -> TokenStream {
     let symmetric = proved.proof.symmetric;
     let evaluations = Literal::usize_unsuffixed(proved.plan.evaluations);
     quote! {
-        ::shadowstep::Summary {
+        ::shadowstep::SchemeProperties {
             name: #name,
             order: #order,
             order_quadratic: #order_quadratic,
@@ -152,8 +152,8 @@ struct Weights<'a> {
 }
 
 impl<'a> Weights<'a> {
-    fn of(plan: &'a Plan) -> Self {
-        let Plan { kicks, drifts, middle_weights, gradient_kicks, .. } = plan;
+    fn of(plan: &'a StepPlan) -> Self {
+        let StepPlan { kicks, drifts, middle_weights, gradient_kicks, .. } = plan;
         let fields = ["kicks", "drifts", "middle_parts", "gradient_kicks"].map(|name| format_ident!("{name}"));
         let [a, b, c, d] = fields;
         Weights { kinds: [(a, kicks), (b, drifts), (c, middle_weights), (d, gradient_kicks)] }
@@ -187,7 +187,7 @@ impl<'a> Weights<'a> {
     }
 }
 
-fn sequence(plan: &Plan) -> TokenStream {
+fn sequence(plan: &StepPlan) -> TokenStream {
     let kinds = plan.maps.iter().map(|(kind, _)| format_ident!("{kind:?}"));
     let places = plan.maps.iter().map(|(_, place)| Literal::usize_unsuffixed(*place));
     let middle = plan.middle.iter().map(|place| Literal::usize_unsuffixed(*place));

@@ -57,7 +57,7 @@ pub use document::{Fault, Faults, Source};
 pub use many_parts::NotForManyParts;
 pub use map::{First, Map, MapKind};
 pub use pipeline::{Proved, read, read_first, shipped_proved};
-pub use plan::{Plan, StepCost};
+pub use plan::{StepCost, StepPlan};
 pub use proof::{Proof, prove};
 pub use scheme::ExactScheme;
 pub use shadowstep_symbolic::decimal::{to_significant, to_text};

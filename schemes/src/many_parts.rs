@@ -13,7 +13,7 @@ use thiserror::Error;
 
 use crate::map::{Map, MapKind};
 use crate::pipeline::Proved;
-use crate::plan::Plan;
+use crate::plan::StepPlan;
 use crate::proof::{Order, order_of_parts};
 use crate::scheme::{ExactScheme, Held};
 
@@ -93,7 +93,7 @@ impl Proved {
             return Err(NotForManyParts::Fails { name, order: order.order, failed });
         }
         let mut proved = self.clone();
-        proved.plan = Plan::of_many_parts(scheme, middle_weights(&scheme.maps()));
+        proved.plan = StepPlan::of_many_parts(scheme, middle_weights(&scheme.maps()));
         proved.proof.many_parts = Some(order);
         Ok(proved)
     }

@@ -6,7 +6,7 @@ use crate::document::{Fault, Faults, Source};
 use crate::exact;
 use crate::library::Library;
 use crate::map::First;
-use crate::plan::Plan;
+use crate::plan::StepPlan;
 use crate::proof::{Finding, Order, Proof, findings, prove};
 use crate::scheme::ExactScheme;
 use crate::shipped;
@@ -21,7 +21,7 @@ pub struct Proved {
     /// What is true of it.
     pub proof: Proof,
     /// The plan of its step.
-    pub plan: Plan,
+    pub plan: StepPlan,
     /// Claims below what is proved, with their places.
     pub notes: Vec<Fault>,
 }
@@ -79,7 +79,7 @@ pub fn read_first(source: &Source, library: Library<'_>, first: Option<First>) -
     faults.extend(sentences(&refused));
     match Faults::of(faults) {
         Some(faults) => Err(faults),
-        None => Ok(Proved { plan: Plan::of(&scheme), scheme, proof, notes }),
+        None => Ok(Proved { plan: StepPlan::of(&scheme), scheme, proof, notes }),
     }
 }
 

@@ -11,7 +11,7 @@ use crate::scheme::ExactScheme;
 /// Maps of equal kind and weight share one constant. The gradient of the last kick serves the next step's first, so
 /// the first map costs no evaluation where both ends of the step are kicks.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Plan {
+pub struct StepPlan {
     /// Distinct weights of the kicks, in the order of their first use.
     pub kicks: Vec<Rational>,
     /// Distinct weights of the drifts, in the order of their first use.
@@ -41,10 +41,10 @@ pub struct StepCost {
     pub products_for_beta: usize,
 }
 
-impl Plan {
+impl StepPlan {
     /// The plan of a scheme's step.
-    pub fn of(scheme: &ExactScheme) -> Plan {
-        let mut plan = Plan {
+    pub fn of(scheme: &ExactScheme) -> StepPlan {
+        let mut plan = StepPlan {
             kicks: Vec::new(),
             drifts: Vec::new(),
             middle_weights: Vec::new(),
@@ -68,8 +68,8 @@ impl Plan {
     }
 
     /// The plan of its step for three parts and more, with the weights of the middle parts between each map and the next.
-    pub(crate) fn of_many_parts(scheme: &ExactScheme, middle: Vec<Rational>) -> Plan {
-        let mut plan = Plan::of(scheme);
+    pub(crate) fn of_many_parts(scheme: &ExactScheme, middle: Vec<Rational>) -> StepPlan {
+        let mut plan = StepPlan::of(scheme);
         plan.middle = middle.into_iter().map(|weight| index_of(weight, &mut plan.middle_weights)).collect();
         plan
     }

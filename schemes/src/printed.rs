@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use num_bigint::BigInt;
 use num_traits::{FromPrimitive, Signed, ToPrimitive};
-use shadowstep_symbolic::{Budget, Exact, Expression, Kind, Rational, evaluate_within, parse};
+use shadowstep_symbolic::{Budget, Exact, Expression, ExpressionKind, Rational, evaluate_within, parse};
 
 use crate::decimal::PrintedDecimal;
 use crate::document::Source;
@@ -266,7 +266,7 @@ impl Cells<'_> {
     /// ∂(expression)/∂(input)
     fn derivative(&self, expression: &Expression, at: &Exact, input: &Input) -> Option<f64> {
         match &expression.kind {
-            Kind::Name(_) | Kind::Number(_) => return Some(1.0),
+            ExpressionKind::Name(_) | ExpressionKind::Number(_) => return Some(1.0),
             _ => {}
         }
         let step = Rational::new(1.into(), BigInt::from(10).pow(DIGITS / 3));
@@ -295,8 +295,8 @@ fn inputs(expression: &Expression) -> Vec<Input> {
     let mut found = Vec::new();
     expression.visit(&mut |part| {
         let input = match &part.kind {
-            Kind::Name(name) => Input::Name(name.clone()),
-            Kind::Number(_) => Input::Literal(part.range.clone()),
+            ExpressionKind::Name(name) => Input::Name(name.clone()),
+            ExpressionKind::Number(_) => Input::Literal(part.range.clone()),
             _ => return,
         };
         if !found.contains(&input) {
@@ -310,11 +310,11 @@ fn inputs(expression: &Expression) -> Vec<Input> {
 fn with_moved(expression: &Expression, at: &Range<usize>, step: &Rational) -> Expression {
     let moved = |inner: &Expression| Box::new(with_moved(inner, at, step));
     let kind = match &expression.kind {
-        Kind::Number(value) if expression.range == *at => Kind::Number(value + step),
-        Kind::Number(_) | Kind::Name(_) => expression.kind.clone(),
-        Kind::Negate(inner) => Kind::Negate(moved(inner)),
-        Kind::Binary(operation, left, right) => Kind::Binary(*operation, moved(left), moved(right)),
-        Kind::Call { function, arguments } => Kind::Call {
+        ExpressionKind::Number(value) if expression.range == *at => ExpressionKind::Number(value + step),
+        ExpressionKind::Number(_) | ExpressionKind::Name(_) => expression.kind.clone(),
+        ExpressionKind::Negate(inner) => ExpressionKind::Negate(moved(inner)),
+        ExpressionKind::Binary(operation, left, right) => ExpressionKind::Binary(*operation, moved(left), moved(right)),
+        ExpressionKind::Call { function, arguments } => ExpressionKind::Call {
             function: function.clone(),
             arguments: arguments.iter().map(|argument| with_moved(argument, at, step)).collect(),
         },

@@ -1,9 +1,9 @@
 //! How fast the states of a linear system grow.
 
 use shadowstep::kinetic::Quadratic;
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::tables::TableScheme;
-use shadowstep::{Number, Ordered, Rational, Stepper, System};
+use shadowstep::{Number, Rational, Real, Stepper, System};
 
 /// Growth is measured when the growing part is e^25 times as large as the others.
 const SEPARATED: f64 = 25.0;
@@ -23,7 +23,7 @@ pub(crate) fn steps_to_see(rate: f64) -> u64 {
 ///
 /// A growing state may turn as well, which changes its size: the largest one of [`TURN`] steps counts, less what the expected rate makes of
 /// their places.
-pub(crate) fn growth<N: Rounded, M: System<Number = N, Class = Quadratic>>(
+pub(crate) fn growth<N: CorrectlyRounded, M: System<Number = N, Class = Quadratic>>(
     stepper: &Stepper<TableScheme, N>,
     system: &mut M,
     (rate, count): (f64, u64),
@@ -52,7 +52,7 @@ pub(crate) fn growth<N: Rounded, M: System<Number = N, Class = Quadratic>>(
 }
 
 /// |(q, p)|
-pub(crate) fn size<M: System<Number: Ordered>>(system: &M) -> f64 {
+pub(crate) fn size<M: System<Number: Real>>(system: &M) -> f64 {
     system.q().iter().chain(system.p()).fold(0.0, |size: f64, x| size.hypot(x.to_f64()))
 }
 

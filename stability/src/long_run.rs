@@ -29,7 +29,7 @@ pub(crate) struct LongRun {
 
 /// What it has shown.
 #[derive(Clone, Serialize, Deserialize)]
-pub(crate) struct Stayed {
+pub(crate) struct LongRunResult {
     pub(crate) watched: Watched,
     /// The largest |H − H(0)| as a part of |H(0)|, in each fourth of the run, over some states.
     pub(crate) energy_errors: [f64; 4],
@@ -71,7 +71,7 @@ impl LongRun {
         suite: &Suite,
         context: &N::Context,
         continues: Continues<'_>,
-    ) -> Result<Stayed, Error> {
+    ) -> Result<LongRunResult, Error> {
         let h = shadowstep::exact(&self.h).expect("it is exact");
         let mut motion = N::motion(&setup(self.problem, &[]), context).expect("masses are positive");
         let initial = motion.energy().to_f64();
@@ -104,7 +104,7 @@ impl LongRun {
             },
         );
         envelope.retain(|(_, error)| *error > 0.0);
-        Ok(Stayed { watched, energy_errors, envelope, farthest })
+        Ok(LongRunResult { watched, energy_errors, envelope, farthest })
     }
 }
 
@@ -127,7 +127,7 @@ pub(crate) trait LongCase {
     }
 
     /// What the runs show.
-    fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding;
+    fn judge(suite: &Suite, measured: &[(LongRun, LongRunResult)]) -> Finding;
 }
 
 impl<C: LongCase> Case for C {
@@ -137,7 +137,7 @@ impl<C: LongCase> Case for C {
     const REVISION: u32 = C::REVISION;
 
     type Trial = LongRun;
-    type Measured = Stayed;
+    type Measured = LongRunResult;
 
     fn trials(suite: &Suite) -> Vec<LongRun> {
         C::runs(suite)
@@ -156,11 +156,11 @@ impl<C: LongCase> Case for C {
         run: &LongRun,
         context: &N::Context,
         continues: Continues<'_>,
-    ) -> Result<Stayed, Error> {
+    ) -> Result<LongRunResult, Error> {
         run.make::<N>(suite, context, continues)
     }
 
-    fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {
+    fn judge(suite: &Suite, measured: &[(LongRun, LongRunResult)]) -> Finding {
         C::judge(suite, measured)
     }
 }
@@ -168,7 +168,7 @@ impl<C: LongCase> Case for C {
 /// Orbits that stay where they are: no coordinate is larger than `stays` times the largest one at the start, the error of H is at most
 /// 1.5 times as large in the last fourth of the run as in the first, and the monitor calls the step fine.
 pub(crate) fn staying(
-    (suite, measured): (&Suite, &[(LongRun, Stayed)]),
+    (suite, measured): (&Suite, &[(LongRun, LongRunResult)]),
     stays: f64,
     title: &str,
     unit: &str,
@@ -193,15 +193,15 @@ pub(crate) fn staying(
 }
 
 /// The largest error of H in the parts of several runs.
-fn envelopes<'a>(title: &str, unit: &str, runs: impl Iterator<Item = (String, &'a Stayed)>) -> Chart {
-    let curve = |(i, (label, stayed)): (usize, (String, &Stayed))| {
+fn envelopes<'a>(title: &str, unit: &str, runs: impl Iterator<Item = (String, &'a LongRunResult)>) -> Chart {
+    let curve = |(i, (label, stayed)): (usize, (String, &LongRunResult))| {
         Curve::line(label, stayed.envelope.iter().map(|(t, error)| (*t, error.log10())).collect(), i)
     };
     let (x, y) = (Axis::linear(unit), Axis::log10("largest error of H, as a part of H(0)"));
     Chart::new(title, x, y, runs.enumerate().map(curve).collect())
 }
 
-impl Stayed {
+impl LongRunResult {
     /// Whether the energy error of the last fourth is at most `factor` times that of the first one.
     pub(crate) fn is_bounded(&self, factor: f64) -> bool {
         self.watched.finite && self.farthest <= LOST && self.energy_errors[3] <= factor * self.energy_errors[0]

@@ -8,7 +8,7 @@ use shadowstep_studies::Continues;
 
 /// What a run said at its end.
 #[derive(Serialize, Deserialize)]
-pub(crate) enum Said {
+pub(crate) enum RunResult {
     /// It is complete.
     Ended(Ended),
     /// How it failed.
@@ -57,16 +57,16 @@ pub(crate) fn digits(arithmetic: Arithmetic) -> String {
 ///
 /// # Errors
 /// A scene that cannot be read. A run that fails is a result.
-pub(crate) fn run_scene(text: String, continues: Continues<'_>) -> Result<Said, Error> {
+pub(crate) fn run_scene(text: String, continues: Continues<'_>) -> Result<RunResult, Error> {
     let scene = Scene::read(Source { path: "case.toml".to_owned(), text })?;
     let (mut rows, mut watching) = (Vec::new(), Watching { continues, ended: None });
     match scene.run_into(&mut rows, &mut watching) {
         Ok(_) => {}
-        Err(Error::Run { message, .. }) => return Ok(Said::Failed(message)),
+        Err(Error::Run { message, .. }) => return Ok(RunResult::Failed(message)),
         Err(error) => return Err(error),
     }
     // a run that was asked not to continue has no summary, and its result is dropped
-    let Some(mut ended) = watching.ended else { return Ok(Said::Failed("the run was stopped".to_owned())) };
+    let Some(mut ended) = watching.ended else { return Ok(RunResult::Failed("the run was stopped".to_owned())) };
     let rows = String::from_utf8(rows).expect("rows are text");
     let mut lines = rows.lines().filter(|line| !line.starts_with('#'));
     let names: Vec<_> = lines.next().unwrap_or_default().split(',').collect();
@@ -76,7 +76,7 @@ pub(crate) fn run_scene(text: String, continues: Continues<'_>) -> Result<Said, 
         ended.energies.extend(column.map(|column| row[column]));
         ended.last = row;
     }
-    Ok(Said::Ended(ended))
+    Ok(RunResult::Ended(ended))
 }
 
 /// Keeps the summary of a run.
@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn a_run_has_its_rows_and_its_summary() {
-        let Said::Ended(ended) = run_scene(KEPLER.to_owned(), &|_| true).unwrap() else { panic!("it fails") };
+        let RunResult::Ended(ended) = run_scene(KEPLER.to_owned(), &|_| true).unwrap() else { panic!("it fails") };
         assert_eq!((ended.energies.len(), ended.energies[0]), (5, -0.5));
         assert!(ended.fine && ended.word() == "fine" && !ended.is_reported() && ended.energy < 1e-2);
     }
@@ -129,6 +129,6 @@ mod tests {
     #[test]
     fn a_run_that_is_stopped_has_no_result() {
         let said = run_scene(KEPLER.to_owned(), &|_| false).unwrap();
-        assert!(matches!(said, Said::Failed(_)));
+        assert!(matches!(said, RunResult::Failed(_)));
     }
 }

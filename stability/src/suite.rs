@@ -74,8 +74,8 @@ impl Suite {
         &found.expect("trials are made of the suite's schemes").scheme
     }
 
-    /// One value for a thorough examination, another for a quick one.
-    pub(crate) fn thorough<T>(&self, thorough: T, quick: T) -> T {
-        if self.quick { quick } else { thorough }
+    /// One value for a full examination, another for a quick one.
+    pub(crate) fn full_or_quick<T>(&self, full: T, quick: T) -> T {
+        if self.quick { quick } else { full }
     }
 }

@@ -12,7 +12,7 @@ use std::time::Instant;
 use shadowstep::run::Trajectory;
 use shadowstep::tables::Source;
 use shadowstep_scenes::Scene;
-use shadowstep_sweeps::{Collected, Manifest, Plan, TableFormat, collect, compute};
+use shadowstep_sweeps::{Collected, Manifest, SweepPlan, TableFormat, collect, compute};
 
 /// A run of about 1 ms.
 const STEPS: u64 = 32_000;
@@ -23,7 +23,7 @@ const SCENES: u64 = 500;
 fn main() {
     let given = |name, default| env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default);
     let (runs, rounds): (u64, u64) = (given("RUNS", 10_000), given("ROUNDS", 5));
-    let plan = Plan::of(&Source { path: "sweep.toml".to_owned(), text: text(runs) }).expect("the sweep is valid");
+    let plan = SweepPlan::of(&Source { path: "sweep.toml".to_owned(), text: text(runs) }).expect("the sweep is valid");
     let scenes = scenes(&plan);
     let folder = tempfile::tempdir().expect("there is a temporary folder");
     let (mut swept, mut bare, mut collected) = (Vec::new(), Vec::new(), Vec::new());
@@ -68,7 +68,7 @@ fn text(runs: u64) -> String {
 }
 
 /// Scenes that are read before the clock starts, evenly spread over all runs.
-fn scenes(plan: &Plan) -> Vec<Scene> {
+fn scenes(plan: &SweepPlan) -> Vec<Scene> {
     let runs = plan.axes().runs();
     (0..SCENES).map(|k| plan.scene(k * runs / SCENES).expect("the scene is valid")).collect()
 }

@@ -10,7 +10,7 @@ use std::time::Duration;
 use rustix::time::{ClockId, clock_gettime};
 use shadowstep::tables::Source;
 use shadowstep_scenes::ensemble::Ensemble;
-use shadowstep_sweeps::{Manifest, Plan, compute};
+use shadowstep_sweeps::{Manifest, SweepPlan, compute};
 
 /// The sweep of the documentation with fewer places.
 const ESCAPE: &str = include_str!("../../docs/sweeps/henon-heiles-escape.toml");
@@ -37,7 +37,7 @@ fn main() {
         ("Kepler: the state after 2000 steps", KEPLER.to_owned()),
         ("Kepler: the state after 100 steps", KEPLER.replace("2000", "100")),
     ] {
-        let plan = Plan::of(&Source { path: "sweep.toml".to_owned(), text }).expect("the sweep is valid");
+        let plan = SweepPlan::of(&Source { path: "sweep.toml".to_owned(), text }).expect("the sweep is valid");
         measure(name, &plan, rounds);
     }
     ensemble(10_000, 1);
@@ -54,7 +54,7 @@ fn at_the_end(escape: &str) -> String {
     kept.iter().fold(escape.to_owned(), |text, line| text.replace(line, ""))
 }
 
-fn measure(name: &str, plan: &Plan, rounds: usize) {
+fn measure(name: &str, plan: &SweepPlan, rounds: usize) {
     let folder = tempfile::tempdir().expect("there is a temporary folder");
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let runs = plan.axes().runs();

@@ -7,14 +7,14 @@ use shadowstep_scenes::lanes::LANES;
 use shadowstep_scenes::{Error, Scene};
 
 use crate::keep::Keep;
-use crate::plan::Plan;
+use crate::plan::SweepPlan;
 use crate::record::{Record, measured};
 use crate::together::{self, allows, are_alike, suits};
 
 /// Several times as many runs as are computed together, so that those that are not alike find others.
 const MOST_RUNS: usize = 4 * LANES;
 
-impl Plan {
+impl SweepPlan {
     /// How many runs a thread takes at once.
     pub(crate) fn batch(&self) -> usize {
         if allows(self.keep()) { MOST_RUNS } else { 1 }

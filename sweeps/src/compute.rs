@@ -13,7 +13,7 @@ use shadowstep_studies::{Observer, Progress};
 use crate::chunk::{self, Chunk, Header};
 use crate::manifest::{Manifest, VERSION};
 use crate::partial::Partial;
-use crate::plan::Plan;
+use crate::plan::SweepPlan;
 use crate::record::Record;
 
 /// How often the observer is asked.
@@ -37,7 +37,7 @@ pub struct Computed {
 /// # Errors
 /// A file that cannot be written; an observer that stops the computation.
 pub fn compute(
-    plan: &Plan,
+    plan: &SweepPlan,
     manifest: &Manifest,
     folder: &Path,
     chunks: impl IntoIterator<Item = Chunk, IntoIter: Send + Clone>,
@@ -124,7 +124,7 @@ fn attend<I>(
 
 /// What is to be computed.
 struct Due<'a> {
-    plan: &'a Plan,
+    plan: &'a SweepPlan,
     parsed: &'a Parsed<'a>,
     manifest: &'a Manifest,
     folder: &'a Path,
@@ -261,7 +261,7 @@ impl Computed {
 }
 
 /// The header of a chunk that this process makes.
-fn header(plan: &Plan, manifest: &Manifest, chunk: Chunk) -> Header {
+fn header(plan: &SweepPlan, manifest: &Manifest, chunk: Chunk) -> Header {
     let runs = chunk.runs(manifest.runs);
     Header {
         shadowstep: VERSION.to_owned(),

@@ -7,9 +7,9 @@ use shadowstep::number::{Lanes, Number};
 use shadowstep::{Potential, Rational};
 use shadowstep_scenes::computation::RunNumber;
 use shadowstep_scenes::lanes::LANES;
-use shadowstep_scenes::{EnergyAt, Shown, System};
+use shadowstep_scenes::{EnergyAt, ShownCoordinates, System};
 use shadowstep_schemes::document::{Reader, Text};
-use shadowstep_symbolic::{Exact, Expression as Syntax, Kind, parse};
+use shadowstep_symbolic::{Exact, Expression as Syntax, ExpressionKind, parse};
 
 /// The time and the energy.
 const TIME: &str = "t";
@@ -103,11 +103,11 @@ impl Condition {
 
 fn mentions(syntax: &Syntax, name: &str) -> bool {
     match &syntax.kind {
-        Kind::Number(_) => false,
-        Kind::Name(own) => own == name,
-        Kind::Negate(inner) => mentions(inner, name),
-        Kind::Binary(_, left, right) => mentions(left, name) || mentions(right, name),
-        Kind::Call { arguments, .. } => arguments.iter().any(|part| mentions(part, name)),
+        ExpressionKind::Number(_) => false,
+        ExpressionKind::Name(own) => own == name,
+        ExpressionKind::Negate(inner) => mentions(inner, name),
+        ExpressionKind::Binary(_, left, right) => mentions(left, name) || mentions(right, name),
+        ExpressionKind::Call { arguments, .. } => arguments.iter().any(|part| mentions(part, name)),
     }
 }
 
@@ -121,7 +121,7 @@ pub(crate) struct Evaluator<N> {
     has_time: bool,
     has_energy: bool,
     /// Converts states, where formulas are in other coordinates than the steps.
-    shown: Option<Shown<N>>,
+    shown: Option<ShownCoordinates<N>>,
     /// H, where the steps follow another Hamiltonian: in transformed time, where t is a coordinate.
     energy: Option<EnergyAt<N>>,
 }

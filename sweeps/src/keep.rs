@@ -6,13 +6,13 @@ use toml::de::{DeTable, DeValue};
 
 use crate::expression::{Condition, Expression};
 use crate::keys;
-use crate::values::{Description, Kept, Need, VALUES};
+use crate::values::{Description, Need, RunValue, VALUES};
 
 /// What is kept of each run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Keep {
     /// Values in the order of the text.
-    pub(crate) values: Vec<Kept>,
+    pub(crate) values: Vec<RunValue>,
     /// Whether q and p of the last state are kept.
     pub(crate) state: bool,
     /// Expressions at the last state.
@@ -84,7 +84,7 @@ impl Keep {
     }
 }
 
-fn values(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Vec<Kept> {
+fn values(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Vec<RunValue> {
     let Some(value) = section.get("values") else { return Vec::new() };
     let mut kept = Vec::new();
     for text in reader.readable_members(value, "a list of values: [\"verdict\", \"energy_error\"]", Reader::text) {

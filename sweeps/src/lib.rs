@@ -1,7 +1,7 @@
 //! Sweeps: many runs of a scene over axes of parameters, divided into chunks that can be computed anywhere and in any order.
 //!
 //! ```
-//! use shadowstep_sweeps::{Chunk, Collected, Manifest, Plan, TableFormat, collect, compute};
+//! use shadowstep_sweeps::{Chunk, Collected, Manifest, SweepPlan, TableFormat, collect, compute};
 //!
 //! let folder = tempfile::tempdir()?;
 //! let path = folder.path().join("sweep.toml");
@@ -14,7 +14,7 @@
 //! [keep]
 //! values = ["energy_error"]
 //! "#)?;
-//! let plan = Plan::open(&path)?;
+//! let plan = SweepPlan::open(&path)?;
 //! let out = folder.path().join("out");
 //! let manifest = Manifest::begin(&out, &plan, Some(4))?;
 //! compute(&plan, &manifest, &out, [Chunk { number: 3, of: 4 }], &mut ())?;
@@ -74,6 +74,6 @@ pub use keep::Column;
 pub use keys::explain;
 pub use manifest::Manifest;
 pub use picture::Picture;
-pub use plan::{Digests, Plan};
+pub use plan::{Digests, SweepPlan};
 pub use record::Record;
 pub use task::chunk_of_task;

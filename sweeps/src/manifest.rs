@@ -11,7 +11,7 @@ use tempfile::Builder;
 
 use crate::chunk::{AGAIN, Chunk, Header, MOST_RUNS_OF_CHUNK};
 use crate::keep::Column;
-use crate::plan::{Digests, Plan};
+use crate::plan::{Digests, SweepPlan};
 
 /// The name of the file.
 const NAME: &str = "plan.json";
@@ -52,7 +52,7 @@ impl Manifest {
     ///
     /// # Errors
     /// A folder of another sweep, or of another number of chunks; a folder that cannot be written.
-    pub fn begin(folder: &Path, plan: &Plan, chunks: Option<u64>) -> Result<Manifest, Error> {
+    pub fn begin(folder: &Path, plan: &SweepPlan, chunks: Option<u64>) -> Result<Manifest, Error> {
         let runs = plan.axes().runs();
         let wanted = chunks.unwrap_or_else(|| runs.min(CHUNKS.max(runs.div_ceil(RUNS_OF_CHUNK))));
         check_chunks(wanted, runs)?;

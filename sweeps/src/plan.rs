@@ -33,7 +33,7 @@ const OF_SCENE: [&str; 7] = ["problem", "body", "initial", "time", "run", "outpu
 /// use std::sync::atomic::AtomicBool;
 ///
 /// use shadowstep::tables::Source;
-/// use shadowstep_sweeps::Plan;
+/// use shadowstep_sweeps::SweepPlan;
 ///
 /// let text = r#"
 /// [problem]
@@ -50,7 +50,7 @@ const OF_SCENE: [&str; 7] = ["problem", "body", "initial", "time", "run", "outpu
 /// [keep]
 /// values = ["energy_error"]
 /// "#;
-/// let plan = Plan::of(&Source { path: "sweep.toml".to_owned(), text: text.to_owned() })?;
+/// let plan = SweepPlan::of(&Source { path: "sweep.toml".to_owned(), text: text.to_owned() })?;
 /// assert_eq!(plan.axes().runs(), 100);
 /// assert_eq!(plan.axes().described(18), "e = 1/10, h = 1/90");
 /// let record = plan.run(18, &AtomicBool::new(false)).unwrap();
@@ -59,7 +59,7 @@ const OF_SCENE: [&str; 7] = ["problem", "body", "initial", "time", "run", "outpu
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct Plan {
+pub struct SweepPlan {
     source: Source,
     family: Family,
     axes: Axes,
@@ -71,26 +71,26 @@ pub struct Plan {
     digests: Digests,
 }
 
-impl Plan {
+impl SweepPlan {
     /// Reads a plan from its file.
     ///
     /// # Errors
     /// A file that cannot be read; all faults of its text, or of that of the scene.
-    pub fn open(path: impl AsRef<Path>) -> Result<Plan, Error> {
+    pub fn open(path: impl AsRef<Path>) -> Result<SweepPlan, Error> {
         let read = source(path.as_ref()).map_err(|error| match error {
             Error::Usage { message, .. } => {
                 Error::usage(message, "give the path of a sweep, see `shadowstep sweep --explain`")
             }
             other => other,
         });
-        Plan::of(&read?)
+        SweepPlan::of(&read?)
     }
 
     /// Reads a plan from its text; paths in it are relative to the folder of its own path.
     ///
     /// # Errors
-    /// As [`open`](Plan::open).
-    pub fn of(source: &Source) -> Result<Plan, Error> {
+    /// As [`open`](SweepPlan::open).
+    pub fn of(source: &Source) -> Result<SweepPlan, Error> {
         let (document, faults) = document(source);
         let Some(document) = document.filter(|_| faults.is_empty()) else { return Err(Faults(faults).into()) };
         let mut reader = Reader::new(source, Vec::new());
@@ -117,7 +117,7 @@ impl Plan {
         refuse(reader.faults)?;
         let digests = digests::of(&document, &family, &axes)?;
         let long_numbers = first.arithmetic.is_longer_than_double() || axes.find("digits").is_some();
-        Ok(Plan { family, axes, keep, columns, picture, long_numbers, digests, source: source.clone() })
+        Ok(SweepPlan { family, axes, keep, columns, picture, long_numbers, digests, source: source.clone() })
     }
 
     /// Whether numbers have more digits than double precision.

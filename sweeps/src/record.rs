@@ -7,17 +7,17 @@ use serde::{Deserialize, Serialize};
 use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::run::{DriftRecorder, EnergyDrift, Finding, RunError};
 use shadowstep::shadow::Estimate;
-use shadowstep::{Carried, Ordered};
+use shadowstep::{Carried, Real};
 use shadowstep_scenes::computation::{Computation, RunNumber};
 use shadowstep_scenes::follow::Follower;
 use shadowstep_scenes::run::Run;
 use shadowstep_scenes::watch::{Energies, Watch};
-use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, Shown, Summary, System};
+use shadowstep_scenes::{EnergySummary, Error, Observer, Scene, ShownCoordinates, Summary, System};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::expression::{Evaluator, Test};
 use crate::keep::Keep;
-use crate::values::{Kept, Need};
+use crate::values::{Need, RunValue};
 
 /// What a run has given.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -106,7 +106,7 @@ impl Computation for Measuring<'_> {
         let mut integrator = scene.integrator::<N>(context)?;
         let (run, described) = (scene.as_run(), &scene.system);
         let failed = |error: RunError| run.failed_naming(&error, &described.coordinates, &described.momenta);
-        let mut following = Following::begin(scene, (keep, stops), &mut *integrator, context).map_err(failed)?;
+        let mut following = RunFollower::begin(scene, (keep, stops), &mut *integrator, context).map_err(failed)?;
         let settings = scene.output.modified_energy.as_ref().filter(|_| keep.needs(Need::Estimates));
         if settings.is_some() {
             let drift = DriftRecorder::new(integrator.step_size().clone());
@@ -129,7 +129,7 @@ struct Ended<N> {
 }
 
 /// What is kept, as far as the states have come.
-struct Following<'a, N: RunNumber> {
+struct RunFollower<'a, N: RunNumber> {
     run: Run<'a>,
     described: &'a System,
     keep: &'a Keep,
@@ -146,7 +146,7 @@ struct Following<'a, N: RunNumber> {
     last: i64,
     end: Option<End>,
     /// Converts states, where columns are in other coordinates than the steps.
-    shown: Option<Shown<N>>,
+    shown: Option<ShownCoordinates<N>>,
 }
 
 /// The last state.
@@ -157,7 +157,7 @@ struct End {
     has_energy: bool,
 }
 
-impl<'a, N: RunNumber> Following<'a, N> {
+impl<'a, N: RunNumber> RunFollower<'a, N> {
     fn begin(
         scene: &'a Scene,
         (keep, stops): (&'a Keep, &'a AtomicBool),
@@ -182,7 +182,7 @@ impl<'a, N: RunNumber> Following<'a, N> {
         let at_end =
             keep.at_end.iter().map(|(_, text)| Evaluator::of_run(text, &scene.system, context).expect(CHECKED));
         let last = i64::try_from(scene.steps()).unwrap_or(i64::MAX);
-        Ok(Following {
+        Ok(RunFollower {
             run: scene.as_run(),
             described: &scene.system,
             keep,
@@ -243,14 +243,14 @@ impl<'a, N: RunNumber> Following<'a, N> {
 
     /// The values of all columns.
     fn values(self, run: Run<'_>, ended: &Ended<N>) -> Result<Values, Error> {
-        let Following { keep, watch, tests, last, end, .. } = self;
+        let RunFollower { keep, watch, tests, last, end, .. } = self;
         let end = end.expect("the last state was included");
         if !end.has_energy {
             return Err(run.not_finite(&format!("the energy at the end, n = {last},")));
         }
         let energy = watch.as_ref().map(Watch::energy);
         let summary = watch.and_then(|watch| watch.summary(run));
-        let found = Found { energy: energy.as_ref(), summary: summary.as_ref(), ended, last };
+        let found = RunValues { energy: energy.as_ref(), summary: summary.as_ref(), ended, last };
         let values = keep.values.iter().map(|kept| found.value(*kept));
         let times = tests.into_iter().map(|(_, met)| met);
         Ok(values.chain(times).chain(end.expressions).chain(end.state).collect())
@@ -261,7 +261,7 @@ impl<'a, N: RunNumber> Following<'a, N> {
 /// which a call must be able to stop.
 const AT_ONCE: i64 = 64;
 
-impl<N: RunNumber> Follower<N> for Following<'_, N> {
+impl<N: RunNumber> Follower<N> for RunFollower<'_, N> {
     fn carried(&self) -> Carried {
         self.watch.as_ref().map_or(Carried::Nothing, Watch::carried)
     }
@@ -298,35 +298,35 @@ impl<N: RunNumber> Follower<N> for Following<'_, N> {
 }
 
 /// What the values are made of.
-struct Found<'a, N> {
+struct RunValues<'a, N> {
     energy: Option<&'a EnergySummary>,
     summary: Option<&'a Summary>,
     ended: &'a Ended<N>,
     last: i64,
 }
 
-impl<N: Ordered> Found<'_, N> {
-    fn value(&self, kept: Kept) -> Option<String> {
-        let Found { energy, summary, ended, last } = self;
+impl<N: Real> RunValues<'_, N> {
+    fn value(&self, kept: RunValue) -> Option<String> {
+        let RunValues { energy, summary, ended, last } = self;
         let permanent = ended.drift.as_ref().and_then(|drift| drift.permanent.as_ref());
         match kept {
-            Kept::Verdict => summary.map(|summary| summary.verdict().to_owned()),
-            Kept::Reason => summary.map(|summary| summary.reason().to_owned()),
-            Kept::EnergyError => energy.map(|energy| energy.largest.clone()),
-            Kept::RelativeEnergyError => energy.and_then(|energy| energy.largest_relative.clone()),
-            Kept::LastEnergyError => energy.map(|energy| energy.last.clone()),
-            Kept::MethodError => Some(summary.as_ref()?.modified_energy()?.method.clone()),
-            Kept::CloseEncounters => summary.map(|summary| summary.encounters().to_string()),
-            Kept::Drift => ended.drift.as_ref().map(|drift| drift.drift.to_text()),
+            RunValue::Verdict => summary.map(|summary| summary.verdict().to_owned()),
+            RunValue::Reason => summary.map(|summary| summary.reason().to_owned()),
+            RunValue::EnergyError => energy.map(|energy| energy.largest.clone()),
+            RunValue::RelativeEnergyError => energy.and_then(|energy| energy.largest_relative.clone()),
+            RunValue::LastEnergyError => energy.map(|energy| energy.last.clone()),
+            RunValue::MethodError => Some(summary.as_ref()?.modified_energy()?.method.clone()),
+            RunValue::CloseEncounters => summary.map(|summary| summary.encounters().to_string()),
+            RunValue::Drift => ended.drift.as_ref().map(|drift| drift.drift.to_text()),
             // of a change on one side of an encounter only, nothing is known
-            Kept::PermanentChange => {
+            RunValue::PermanentChange => {
                 let known = permanent.filter(|permanent| permanent.finding != Finding::OneSided);
                 known.map(|permanent| permanent.change.to_text())
             }
-            Kept::PermanentResolution => permanent.map(|permanent| permanent.resolution.to_text()),
-            Kept::PermanentFinding => permanent.map(|permanent| finding(permanent.finding).to_owned()),
-            Kept::Steps => Some(last.to_string()),
-            Kept::ForceEvaluations => Some(ended.evaluations.to_string()),
+            RunValue::PermanentResolution => permanent.map(|permanent| permanent.resolution.to_text()),
+            RunValue::PermanentFinding => permanent.map(|permanent| finding(permanent.finding).to_owned()),
+            RunValue::Steps => Some(last.to_string()),
+            RunValue::ForceEvaluations => Some(ended.evaluations.to_string()),
         }
     }
 }

@@ -7,17 +7,17 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use shadowstep::integrator::VectorIntegrator;
 use shadowstep::number::counting::{Counting, count};
-use shadowstep::number::{Lanes, Number, Ordered};
+use shadowstep::number::{Lanes, Number, Real};
 use shadowstep::{Carried, Scheme as _, System};
 use shadowstep_scenes::Scene;
-use shadowstep_scenes::lanes::{LANES, Together};
+use shadowstep_scenes::lanes::{LANES, SystemInLanes};
 use shadowstep_scenes::start::{Begin, Steps};
 use shadowstep_symbolic::decimal::to_text;
 
 use crate::expression::{Evaluator, Test};
 use crate::keep::Keep;
 use crate::record::Values;
-use crate::values::{Kept, Need};
+use crate::values::{Need, RunValue};
 
 /// The most steps of runs that are computed together: all of them are lost where a call is stopped.
 const MOST_STEPS: u64 = 1_000_000;
@@ -58,7 +58,9 @@ fn sums(scene: &Scene) -> Option<bool> {
 pub(crate) fn measure(scenes: &[&Scene], keep: &Keep, stops: &AtomicBool) -> Vec<Option<Values>> {
     // lanes without a run have the last one
     let of_lanes: [&Scene; LANES] = std::array::from_fn(|lane| scenes[lane.min(scenes.len() - 1)]);
-    let Some(together) = Together::of(&of_lanes.map(|scene| &scene.system)) else { return vec![None; scenes.len()] };
+    let Some(together) = SystemInLanes::of(&of_lanes.map(|scene| &scene.system)) else {
+        return vec![None; scenes.len()];
+    };
     let mut found = follow(&mut *together.integrator(steps(scenes[0])), &of_lanes, keep, stops);
     found.truncate(scenes.len());
     found
@@ -99,7 +101,7 @@ fn follow(
     keep: &Keep,
     stops: &AtomicBool,
 ) -> Vec<Option<Values>> {
-    let mut following = Following::begin(scenes, keep, integrator.system());
+    let mut following = LanesFollower::begin(scenes, keep, integrator.system());
     let at_once = if following.follows_all() { 1 } else { STEPS_AT_ONCE };
     let (mut n, last) = (0, scenes[0].steps());
     following.include(n, integrator.system());
@@ -116,7 +118,7 @@ fn follow(
 }
 
 /// What is kept, as far as the states have come.
-struct Following<'a> {
+struct LanesFollower<'a> {
     scene: &'a Scene,
     keep: &'a Keep,
     /// H − H(0), where it is kept.
@@ -136,7 +138,7 @@ struct Energies {
     last: Lanes<LANES>,
 }
 
-impl<'a> Following<'a> {
+impl<'a> LanesFollower<'a> {
     fn begin<M>(scenes: &[&'a Scene; LANES], keep: &'a Keep, system: &mut M) -> Self
     where
         M: System<Number = Lanes<LANES>> + ?Sized,
@@ -148,7 +150,7 @@ impl<'a> Following<'a> {
             .map(|(_, condition)| (Test::of_each(condition, &systems).expect(CHECKED), [None; LANES]));
         let at_end = keep.at_end.iter().map(|(_, text)| Evaluator::of_each(text, &systems).expect(CHECKED));
         let (initial, zero) = (system.energy(), Lanes::all(0.0));
-        Following {
+        LanesFollower {
             scene: scenes[0],
             keep,
             energies: keep.needs(Need::Energies).then_some(Energies { initial, largest: zero, last: zero }),
@@ -217,17 +219,17 @@ impl<'a> Following<'a> {
         }
     }
 
-    fn value(&self, kept: Kept, lane: usize, n: u64, evaluations: u64) -> Option<String> {
+    fn value(&self, kept: RunValue, lane: usize, n: u64, evaluations: u64) -> Option<String> {
         let energies = || self.energies.as_ref().expect("they are followed where they are kept");
         match kept {
-            Kept::EnergyError => Some(energies().largest.0[lane].to_text()),
-            Kept::RelativeEnergyError => {
+            RunValue::EnergyError => Some(energies().largest.0[lane].to_text()),
+            RunValue::RelativeEnergyError => {
                 let size = energies().initial.0[lane].abs();
                 (size > 0.0).then(|| (energies().largest.0[lane] / size).to_text())
             }
-            Kept::LastEnergyError => Some(energies().last.0[lane].to_text()),
-            Kept::Steps => Some(n.to_string()),
-            Kept::ForceEvaluations => Some(evaluations.to_string()),
+            RunValue::LastEnergyError => Some(energies().last.0[lane].to_text()),
+            RunValue::Steps => Some(n.to_string()),
+            RunValue::ForceEvaluations => Some(evaluations.to_string()),
             _ => unreachable!("runs of which it is kept are not computed together"),
         }
     }
@@ -251,7 +253,7 @@ mod tests {
     use shadowstep::tables::Source;
 
     use super::*;
-    use crate::plan::Plan;
+    use crate::plan::SweepPlan;
     use crate::record::measured;
 
     const HENON_HEILES: &str = "problem = { potential = \"(x^2 + y^2)/2 + x^2*y - y^3/3\", coordinates = [\"x\", \"y\"] }\n\
@@ -259,8 +261,8 @@ mod tests {
          run = { scheme = \"yoshida4\", step = \"1/10\", steps = 300, digits = \"double\" }\n\
          [axes]\ny0 = \"0 … 6/5 in 6 values\"\nv0 = \"-1/2 … 1/2 in 5 values\"\n";
 
-    fn plan(text: &str) -> Plan {
-        Plan::of(&Source { path: "sweep.toml".to_owned(), text: text.to_owned() })
+    fn plan(text: &str) -> SweepPlan {
+        SweepPlan::of(&Source { path: "sweep.toml".to_owned(), text: text.to_owned() })
             .unwrap_or_else(|error| panic!("{error}"))
     }
 

@@ -2,7 +2,7 @@
 
 /// A value that every run has, whatever its system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kept {
+pub(crate) enum RunValue {
     Verdict,
     Reason,
     EnergyError,
@@ -32,54 +32,54 @@ pub(crate) enum Need {
 
 /// A value with its name, its meaning, what it needs, and whether it is a number.
 pub(crate) struct Description {
-    pub(crate) kept: Kept,
+    pub(crate) kept: RunValue,
     pub(crate) name: &'static str,
     pub(crate) meaning: &'static str,
     pub(crate) need: Need,
     pub(crate) is_number: bool,
 }
 
-const fn number(kept: Kept, name: &'static str, need: Need, meaning: &'static str) -> Description {
+const fn number(kept: RunValue, name: &'static str, need: Need, meaning: &'static str) -> Description {
     Description { kept, name, meaning, need, is_number: true }
 }
 
-const fn word(kept: Kept, name: &'static str, need: Need, meaning: &'static str) -> Description {
+const fn word(kept: RunValue, name: &'static str, need: Need, meaning: &'static str) -> Description {
     Description { kept, name, meaning, need, is_number: false }
 }
 
 /// All of them.
 pub(crate) const VALUES: [Description; 13] = [
-    word(Kept::Verdict, "verdict", Need::Summary, "the monitor's verdict on the step size"),
-    word(Kept::Reason, "reason", Need::Summary, "the reason of the verdict"),
-    number(Kept::EnergyError, "energy_error", Need::Energies, "the largest |H(t) − H(0)| of all states"),
-    number(Kept::RelativeEnergyError, "relative_energy_error", Need::Energies, "the same as a part of |H(0)|"),
-    number(Kept::LastEnergyError, "last_energy_error", Need::Energies, "H − H(0) at the last state"),
-    number(Kept::MethodError, "method_error", Need::Summary, "the method's part of the error of H: H − H̄, rms"),
-    number(Kept::CloseEncounters, "close_encounters", Need::Summary, "the number of close encounters"),
-    number(Kept::Drift, "drift", Need::Estimates, "max − min of the modified energy"),
+    word(RunValue::Verdict, "verdict", Need::Summary, "the monitor's verdict on the step size"),
+    word(RunValue::Reason, "reason", Need::Summary, "the reason of the verdict"),
+    number(RunValue::EnergyError, "energy_error", Need::Energies, "the largest |H(t) − H(0)| of all states"),
+    number(RunValue::RelativeEnergyError, "relative_energy_error", Need::Energies, "the same as a part of |H(0)|"),
+    number(RunValue::LastEnergyError, "last_energy_error", Need::Energies, "H − H(0) at the last state"),
+    number(RunValue::MethodError, "method_error", Need::Summary, "the method's part of the error of H: H − H̄, rms"),
+    number(RunValue::CloseEncounters, "close_encounters", Need::Summary, "the number of close encounters"),
+    number(RunValue::Drift, "drift", Need::Estimates, "max − min of the modified energy"),
     number(
-        Kept::PermanentChange,
+        RunValue::PermanentChange,
         "permanent_change",
         Need::Estimates,
         "the permanent change of the modified energy; none where it is one-sided",
     ),
     number(
-        Kept::PermanentResolution,
+        RunValue::PermanentResolution,
         "permanent_resolution",
         Need::Estimates,
         "what a permanent change must exceed to be resolved",
     ),
-    word(Kept::PermanentFinding, "permanent_finding", Need::Estimates, "resolved, below-resolution or one-sided"),
-    number(Kept::Steps, "steps", Need::Nothing, "the number of steps"),
+    word(RunValue::PermanentFinding, "permanent_finding", Need::Estimates, "resolved, below-resolution or one-sided"),
+    number(RunValue::Steps, "steps", Need::Nothing, "the number of steps"),
     number(
-        Kept::ForceEvaluations,
+        RunValue::ForceEvaluations,
         "force_evaluations",
         Need::Nothing,
         "evaluations of the gradient, those for estimates and their states included",
     ),
 ];
 
-impl Kept {
+impl RunValue {
     pub(crate) fn description(self) -> &'static Description {
         VALUES.iter().find(|value| value.kept == self).expect("each value has its description")
     }

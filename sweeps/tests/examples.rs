@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use shadowstep_sweeps::Plan;
+use shadowstep_sweeps::SweepPlan;
 
 #[test]
 fn the_examples_of_the_documentation_can_be_run() {
@@ -12,7 +12,7 @@ fn the_examples_of_the_documentation_can_be_run() {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
-        let plan = Plan::open(&path).unwrap_or_else(|error| panic!("{error}"));
+        let plan = SweepPlan::open(&path).unwrap_or_else(|error| panic!("{error}"));
         let runs = plan.axes().runs();
         assert!(runs >= 10_000, "{}", path.display());
         assert!(plan.picture().is_some());

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
-use shadowstep_sweeps::{Collected, Manifest, Plan, TableFormat, collect, compute};
+use shadowstep_sweeps::{Collected, Manifest, SweepPlan, TableFormat, collect, compute};
 
 const SWEEP: &str = r#"
 [problem]
@@ -64,7 +64,7 @@ fn both_formats_hold_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let (path, out) = (folder.path().join("sweep.toml"), folder.path().join("out"));
     fs::write(&path, SWEEP).unwrap();
-    let plan = Plan::open(&path).unwrap();
+    let plan = SweepPlan::open(&path).unwrap();
     let manifest = Manifest::begin(&out, &plan, None).unwrap();
     let computed = compute(&plan, &manifest, &out, manifest.all_chunks(), &mut ()).unwrap();
     assert_eq!((computed.runs, computed.failed), (36, 12), "{computed:?}");

@@ -4,7 +4,7 @@ use std::fs;
 use std::sync::atomic::AtomicBool;
 
 use shadowstep::tables::Source;
-use shadowstep_sweeps::{Collected, Manifest, Plan, TableFormat, collect, compute};
+use shadowstep_sweeps::{Collected, Manifest, SweepPlan, TableFormat, collect, compute};
 
 /// 300 runs: with the square root of a negative number, with a potential that is infinite at the start, with orbits that
 /// leave, with two schemes and step sizes.
@@ -26,7 +26,7 @@ stop = ["escape"]
 
 #[test]
 fn the_files_of_a_sweep_have_the_records_of_its_runs_alone() {
-    let plan = Plan::of(&Source { path: "sweep.toml".to_owned(), text: SWEEP.to_owned() }).unwrap();
+    let plan = SweepPlan::of(&Source { path: "sweep.toml".to_owned(), text: SWEEP.to_owned() }).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let manifest = Manifest::begin(folder.path(), &plan, Some(2)).unwrap();
     let computed = compute(&plan, &manifest, folder.path(), manifest.all_chunks(), &mut ()).unwrap();

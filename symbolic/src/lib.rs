@@ -94,7 +94,7 @@ pub use program::potential::{PotentialPrograms, Summand};
 pub use text::decimal;
 pub use text::error::{Error, SemanticError, SemanticFault, SyntaxError};
 pub use text::near_names::{nearest, nearest_few, suggestion};
-pub use text::syntax::{Expression, Kind, Operation, parse};
+pub use text::syntax::{Expression, ExpressionKind, Operation, parse};
 
 /// Computes a formula without names; an irrational value is rounded to 300 significant digits.
 ///

@@ -1,15 +1,15 @@
 //! Text to tree: grouping, literals, ranges, messages and limits.
 
 use proptest::prelude::*;
-use shadowstep_symbolic::{Expression, Kind, Operation, Rational, parse};
+use shadowstep_symbolic::{Expression, ExpressionKind, Operation, Rational, parse};
 
 /// The tree with every pair of parentheses written.
 fn grouped(expression: &Expression) -> String {
     match &expression.kind {
-        Kind::Number(value) => value.to_string(),
-        Kind::Name(name) => name.clone(),
-        Kind::Negate(inner) => format!("(-{})", grouped(inner)),
-        Kind::Binary(operation, left, right) => {
+        ExpressionKind::Number(value) => value.to_string(),
+        ExpressionKind::Name(name) => name.clone(),
+        ExpressionKind::Negate(inner) => format!("(-{})", grouped(inner)),
+        ExpressionKind::Binary(operation, left, right) => {
             let symbol = match operation {
                 Operation::Add => '+',
                 Operation::Subtract => '-',
@@ -19,7 +19,7 @@ fn grouped(expression: &Expression) -> String {
             };
             format!("({}{symbol}{})", grouped(left), grouped(right))
         }
-        Kind::Call { function, arguments } => {
+        ExpressionKind::Call { function, arguments } => {
             let arguments: Vec<String> = arguments.iter().map(grouped).collect();
             format!("{function}[{}]", arguments.join(","))
         }
@@ -70,7 +70,7 @@ fn literals_are_exact() {
     ];
     for (text, expected) in table {
         let expected: Rational = expected.parse().unwrap();
-        assert_eq!(parse(text).unwrap().kind, Kind::Number(expected), "{text}");
+        assert_eq!(parse(text).unwrap().kind, ExpressionKind::Number(expected), "{text}");
     }
 }
 
@@ -79,14 +79,14 @@ fn every_part_knows_its_bytes() {
     let text = " (a + 1) * cbrt( -2.5 )";
     let product = parse(text).unwrap();
     assert_eq!(&text[product.range.clone()], "(a + 1) * cbrt( -2.5 )");
-    let Kind::Binary(Operation::Multiply, sum, call) = product.kind else { panic!("not a product") };
+    let ExpressionKind::Binary(Operation::Multiply, sum, call) = product.kind else { panic!("not a product") };
     assert_eq!(&text[sum.range.clone()], "(a + 1)");
-    let Kind::Binary(Operation::Add, a, one) = sum.kind else { panic!("not a sum") };
+    let ExpressionKind::Binary(Operation::Add, a, one) = sum.kind else { panic!("not a sum") };
     assert_eq!([&text[a.range], &text[one.range]], ["a", "1"]);
     assert_eq!(&text[call.range.clone()], "cbrt( -2.5 )");
-    let Kind::Call { arguments, .. } = call.kind else { panic!("not a call") };
+    let ExpressionKind::Call { arguments, .. } = call.kind else { panic!("not a call") };
     assert_eq!(&text[arguments[0].range.clone()], "-2.5");
-    let Kind::Negate(number) = &arguments[0].kind else { panic!("not negated") };
+    let ExpressionKind::Negate(number) = &arguments[0].kind else { panic!("not negated") };
     assert_eq!(&text[number.range.clone()], "2.5");
 }
 
@@ -159,10 +159,10 @@ fn ranges_nest(expression: &Expression) -> bool {
         expression.range.start <= part.range.start && part.range.end <= expression.range.end && ranges_nest(part)
     };
     match &expression.kind {
-        Kind::Number(_) | Kind::Name(_) => !expression.range.is_empty(),
-        Kind::Negate(inner) => inside(inner),
-        Kind::Binary(_, left, right) => left.range.end <= right.range.start && inside(left) && inside(right),
-        Kind::Call { arguments, .. } => arguments.iter().all(inside),
+        ExpressionKind::Number(_) | ExpressionKind::Name(_) => !expression.range.is_empty(),
+        ExpressionKind::Negate(inner) => inside(inner),
+        ExpressionKind::Binary(_, left, right) => left.range.end <= right.range.start && inside(left) && inside(right),
+        ExpressionKind::Call { arguments, .. } => arguments.iter().all(inside),
     }
 }
 

@@ -14,7 +14,7 @@ pub mod steps;
 pub mod systems;
 
 use rug::Float;
-use shadowstep::number::{Number, Ordered, Precision};
+use shadowstep::number::{Number, Precision, Real};
 use shadowstep::tables::{self, TableScheme};
 use shadowstep::{Potential, Rational, StepSize, Stepper, exact};
 
@@ -50,14 +50,14 @@ pub fn stepper<N: Number>(scheme: &str, h: &str, context: &N::Context) -> Steppe
 }
 
 /// log₁₀|a − b|, −∞ if they are equal.
-pub fn log10_distance<N: Ordered>(a: &N, b: &N) -> f64 {
+pub fn log10_distance<N: Real>(a: &N, b: &N) -> f64 {
     let mut difference = a.clone();
     difference.subtract(b);
     difference.log10_abs()
 }
 
 /// The largest log₁₀|a_i − b_i|, −∞ if all are equal.
-pub fn log10_largest_distance<N: Ordered>(a: &[N], b: &[N]) -> f64 {
+pub fn log10_largest_distance<N: Real>(a: &[N], b: &[N]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| log10_distance(a, b)).fold(f64::NEG_INFINITY, f64::max)
 }
@@ -78,7 +78,7 @@ pub fn potential_values<N: Number>(potential: &impl Potential<N>, q: &[N]) -> Ve
 }
 
 /// Numbers whose bits can be compared: −0 is not 0.
-pub trait Bits: Ordered + 'static {
+pub trait Bits: Real + 'static {
     /// The last place of 1, as a power of ten.
     fn log10_epsilon(&self) -> f64;
 

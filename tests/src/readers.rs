@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 use shadowstep::formula::FormulaPotential;
 use shadowstep::tables::Source;
 use shadowstep_scenes::{FileOptions, Observer, Outcome, Scene};
-use shadowstep_sweeps::Plan;
+use shadowstep_sweeps::SweepPlan;
 use shadowstep_symbolic::{Budget, Exact, evaluate_within, exact, parse};
 use tempfile::TempDir;
 
@@ -66,7 +66,7 @@ pub fn scene(bytes: &[u8]) {
 /// Reads a sweep, and words its faults, or some of its runs.
 pub fn sweep(bytes: &[u8]) {
     let Some(source) = source(bytes) else { return };
-    match Plan::of(&source) {
+    match SweepPlan::of(&source) {
         Ok(plan) => {
             let last = plan.axes().runs() - 1;
             for run in [0, last / 3, last] {

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use shadowstep::kinetic::{General, Quadratic};
 use shadowstep::tables::{self, TableScheme};
-use shadowstep::{Rational, Scheme, Summary, ValidFor, splitting_scheme};
+use shadowstep::{Rational, Scheme, SchemeProperties, ValidFor, splitting_scheme};
 use shadowstep_schemes::First;
 use shadowstep_schemes::scheme::Held;
 
@@ -25,7 +25,7 @@ pub struct Shipped<N: 'static, C: 'static = Quadratic> {
     /// Name, and whether the roles of kick and drift are exchanged.
     pub name: String,
     /// What the generated code states of itself.
-    pub summary: Summary<'static>,
+    pub summary: SchemeProperties<'static>,
     /// What the attribute wrote.
     pub generated: Steps<N, C>,
     /// The same table read at run time.

@@ -3,7 +3,7 @@
 use shadowstep::kinetic::Quadratic;
 use shadowstep::potential::HessianProduct;
 use shadowstep::problems::{HenonHeiles, Kepler, Pendulum, Scattering};
-use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Number, Ordered, Potential, UnitMasses};
+use shadowstep::{DiagonalMasses, FullMasses, Kinetic, Motion, Number, Potential, Real, UnitMasses};
 
 use crate::{numbers, rational};
 
@@ -76,7 +76,7 @@ pub enum Masses<N> {
     Full(FullMasses<N>),
 }
 
-impl<N: Ordered> Masses<N> {
+impl<N: Real> Masses<N> {
     /// One of each kind, all different from each other, for this dimension.
     pub fn all(dimension: usize, context: &N::Context) -> [Masses<N>; 3] {
         let diagonal: Vec<_> = [rational("4/3"), rational("0.7")][..dimension].to_vec();
@@ -129,7 +129,7 @@ pub fn system<N: Number + 'static>(problem: Problem, masses: Masses<N>, context:
 }
 
 /// All problems with all masses.
-pub fn systems<N: Ordered + 'static>(context: &N::Context) -> Vec<AnyMotion<N>> {
+pub fn systems<N: Real + 'static>(context: &N::Context) -> Vec<AnyMotion<N>> {
     let of = |problem: Problem| {
         let dimension = problem.start()[0].len();
         Masses::all(dimension, context).map(|masses| system(problem, masses, context))

@@ -4,7 +4,7 @@
 use rug::Float;
 use shadowstep::Number;
 use shadowstep::exact_flow::ExactFlow;
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::problem;
 use shadowstep::run::ShadowRun;
 use shadowstep::shadow::{Bilinear, BuildEstimator};
@@ -19,7 +19,7 @@ struct Found<N> {
 }
 
 /// The estimates of a number of steps of the exact flow from the pericentre on.
-fn on_the_exact_flow<N: Rounded>(
+fn on_the_exact_flow<N: CorrectlyRounded>(
     (e, h): (&str, &str),
     steps: u64,
     settings: &impl BuildEstimator<N>,
@@ -74,7 +74,7 @@ fn the_choice_is_its_rule_written_out() {
 }
 
 /// Where the target error is reported as met, it is met; elsewhere the error is estimated well.
-fn assert_met<N: Rounded>(name: &str, context: &N::Context) {
+fn assert_met<N: CorrectlyRounded>(name: &str, context: &N::Context) {
     for (e, h) in [("3/10", "1/10"), ("6/10", "1/20"), ("6/10", "2/83"), ("9/10", "1/40")] {
         for text in ["1e-6", "1e-12", "1e-20", "1e-30"] {
             let found = on_the_exact_flow::<N>((e, h), an_orbit(h), &Bilinear::best_to(64, rational(text)), context);
@@ -121,7 +121,7 @@ fn close_encounters_have_a_larger_k() {
 /// Without an accuracy the k rises until round-off or the close encounter ends it; round-off keeps it small.
 #[test]
 fn round_off_ends_the_search() {
-    fn of<N: Rounded>(name: &str, context: &N::Context, floor: f64) -> u32 {
+    fn of<N: CorrectlyRounded>(name: &str, context: &N::Context, floor: f64) -> u32 {
         let steps = an_orbit("1/20");
         let found = on_the_exact_flow::<N>(("3/10", "1/20"), steps, &Bilinear::best(64), context);
         let largest = found.iter().map(|one| one.off).fold(0.0, f64::max);

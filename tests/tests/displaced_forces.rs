@@ -2,7 +2,7 @@
 
 use rug::Float;
 use shadowstep::displaced::DisplacementError;
-use shadowstep::number::{Limbs, Number, Ordered};
+use shadowstep::number::{Limbs, Number, Real};
 use shadowstep::potential::from_fn;
 use shadowstep::problems::{HenonHeiles, Pendulum};
 use shadowstep::run::energy_drift;

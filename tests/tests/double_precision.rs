@@ -5,7 +5,7 @@ use std::iter::repeat_n;
 use shadowstep::problems::Kepler;
 use shadowstep::run::{ShadowRun, States, Trajectory};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimator, StoppingRule};
-use shadowstep::{Increments, Motion, Ordered, UnitMasses};
+use shadowstep::{Increments, Motion, Real, UnitMasses};
 use shadowstep_tests::{precision, stepper};
 
 type Double = Motion<f64, Vec<f64>, Kepler, UnitMasses>;

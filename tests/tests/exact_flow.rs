@@ -4,12 +4,12 @@
 use rug::Float;
 use rug::float::Constant;
 use shadowstep::exact_flow::{self, ExactFlow, ExactFlowError, has_exact_flow};
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::{PROBLEMS, Problem, Setup, problem};
 use shadowstep::run::{ShadowRun, States};
 use shadowstep::shadow::weights::central;
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, StoppingRule};
-use shadowstep::{Kinetic, Number, Ordered};
+use shadowstep::{Kinetic, Number, Real};
 use shadowstep_tests::reference::Separable;
 use shadowstep_tests::{
     log10_distance, log10_largest_distance, number, numbers, potential_values, precision, rational, step_size,
@@ -31,7 +31,13 @@ fn setup(name: &str, set: &[(&str, &str)]) -> Setup {
     problem(name).unwrap().setup(&set, 400).unwrap()
 }
 
-fn states<N: Rounded>(setup: &Setup, h: &str, steps: u64, reach: usize, context: &N::Context) -> Vec<Owned<N>> {
+fn states<N: CorrectlyRounded>(
+    setup: &Setup,
+    h: &str,
+    steps: u64,
+    reach: usize,
+    context: &N::Context,
+) -> Vec<Owned<N>> {
     let mut flow = ExactFlow::<N>::new(setup, &step_size(h), steps, reach, context).unwrap();
     let mut all = Vec::new();
     while let Some(state) = flow.advance().unwrap() {

@@ -7,7 +7,7 @@ use shadowstep::kinetic::Quadratic;
 use shadowstep::number::counting::{Counting, Operations, count};
 use shadowstep::potential::HessianProduct;
 use shadowstep::problems::{HenonHeiles, Kepler};
-use shadowstep::{Motion, Number, Ordered, Potential, Rational, Scheme, Stepper, UnitMasses, ValidFor};
+use shadowstep::{Motion, Number, Potential, Rational, Real, Scheme, Stepper, UnitMasses, ValidFor};
 use shadowstep_schemes::scheme::Held;
 use shadowstep_tests::shipped::{all, for_each};
 use shadowstep_tests::steps::Steps;
@@ -20,7 +20,7 @@ const STEP: &str = "1/53";
 type Step<N> = fn(&Steps<N>, &mut AnyMotion<N>);
 
 /// Every kind of step after every other one.
-fn mixed_steps<N: Ordered + 'static>() -> [(&'static str, Step<N>); 12] {
+fn mixed_steps<N: Real + 'static>() -> [(&'static str, Step<N>); 12] {
     let step: (_, Step<N>) = ("step", |s, m| s.step(m));
     let augmented: (_, Step<N>) = ("step_augmented", |s, m| s.step_augmented(m));
     let back: (_, Step<N>) = ("step_back", |s, m| s.step_back(m));
@@ -41,7 +41,7 @@ fn mixed_steps<N: Ordered + 'static>() -> [(&'static str, Step<N>); 12] {
     ]
 }
 
-fn describe<N: Ordered + 'static>(system: &AnyMotion<N>) -> String {
+fn describe<N: Real + 'static>(system: &AnyMotion<N>) -> String {
     format!("{:?}, {} coordinates", system.potential(), system.q().len())
 }
 

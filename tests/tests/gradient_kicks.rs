@@ -8,7 +8,7 @@ use shadowstep::problems::{Kepler, PROBLEMS};
 use shadowstep::run::{RunError, energy_drift};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::tables::shipped;
-use shadowstep::{Motion, Number, Ordered, Potential, Stepper, System, UnitMasses, potential};
+use shadowstep::{Motion, Number, Potential, Real, Stepper, System, UnitMasses, potential};
 use shadowstep_tests::refusals::{assert_refused, judge};
 use shadowstep_tests::{log10_largest_distance, numbers, precision, rational, same_bits};
 
@@ -137,7 +137,7 @@ fn assert_second_derivatives(potential: &dyn Potential<Float>, q: &[Float], what
     let (ahead, behind) = (at(1), at(-1));
     let expected: Vec<_> = ahead.into_iter().zip(behind).map(|(a, b)| (a - b) / &shift / 2).collect();
     product.push(rate);
-    let size = expected.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max);
+    let size = expected.iter().map(Real::log10_abs).fold(f64::NEG_INFINITY, f64::max);
     let off = log10_largest_distance(&product, &expected);
     assert!(off < size - 50.0, "{what}: 10^{off} of 10^{size}");
 }

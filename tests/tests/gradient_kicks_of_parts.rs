@@ -2,7 +2,7 @@
 
 use rug::Float;
 use shadowstep::linear_part::LinearPart;
-use shadowstep::number::{Limbs, Number, Ordered, Rounded};
+use shadowstep::number::{CorrectlyRounded, Limbs, Number, Real};
 use shadowstep::problems::HenonHeiles;
 use shadowstep::run::energy_drift;
 use shadowstep::shadow::Bilinear;
@@ -26,7 +26,7 @@ fn planets<N: Number>(context: &N::Context) -> WisdomHolman<N, Jacobi<N, 3>, 3> 
 }
 
 /// Hénon–Heiles with coupled oscillators of different masses, whose stiffness is not all of U_qq at 0.
-fn oscillators<N: Rounded>(context: &N::Context) -> LinearPart<N, HenonHeiles> {
+fn oscillators<N: CorrectlyRounded>(context: &N::Context) -> LinearPart<N, HenonHeiles> {
     let stiffness = [["2", "1/5"], ["1/5", "1/3"]].map(|row| row.map(rational).to_vec());
     let (q, p) = (numbers(&["0.1", "0.2"], context), numbers(&["0.3", "-0.1"], context));
     LinearPart::new(HenonHeiles, &["3", "1/2"].map(rational), &stiffness, &q, &p).expect("the dimensions agree")
@@ -77,7 +77,7 @@ fn is_the_derivative_of_kicks(mut system: impl System<Number = Float>, inverse_m
     system.state_mut().set(&q, &zeros);
     system.clear_increments();
     system.gradient_kick(&weight, Carried::Increments);
-    let size = expected.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max);
+    let size = expected.iter().map(Real::log10_abs).fold(f64::NEG_INFINITY, f64::max);
     let off = log10_largest_distance(system.p(), &expected);
     assert!(off < size - 50.0, "force: 10^{off} of 10^{size}");
     let off = log10_distance(system.state().increments().beta, &expected_rate);

@@ -6,21 +6,21 @@ use shadowstep::kinetic::Quadratic;
 use shadowstep::problems::{HarmonicOscillator, HenonHeiles, Kepler, Pendulum};
 use shadowstep::run::{EnergyDrift, Quantity, RunError, ShadowRun, energy_drift};
 use shadowstep::shadow::{Central, SelectionRule, ShadowEnergy, StoppingRule};
-use shadowstep::{Carried, Kinetic, Motion, MotionError, Ordered, Potential, System, UnitMasses};
+use shadowstep::{Carried, Kinetic, Motion, MotionError, Potential, Real, System, UnitMasses};
 use shadowstep_tests::{Bits, log10_largest_distance, numbers, precision, stepper};
 
 type State<P, N> = Motion<N, Vec<N>, P, UnitMasses>;
 
-fn state<P: Potential<N>, N: Ordered>(potential: P, q: &[&str], p: &[&str], context: &N::Context) -> State<P, N> {
+fn state<P: Potential<N>, N: Real>(potential: P, q: &[&str], p: &[&str], context: &N::Context) -> State<P, N> {
     Motion::new(potential, UnitMasses, numbers(q, context), numbers(p, context)).unwrap()
 }
 
 /// The orbit of eccentricity e = 1 − gap, from its pericentre.
-fn kepler<N: Ordered>(gap: &str, context: &N::Context) -> State<Kepler, N> {
+fn kepler<N: Real>(gap: &str, context: &N::Context) -> State<Kepler, N> {
     state(Kepler, &[gap, "0"], &["0", &format!("sqrt((2 - {gap})/{gap})")], context)
 }
 
-fn drift<P: Potential<N>, K: Kinetic<N, Class = Quadratic>, N: Ordered>(
+fn drift<P: Potential<N>, K: Kinetic<N, Class = Quadratic>, N: Real>(
     scheme: &str,
     motion: Motion<N, Vec<N>, P, K>,
     h: &str,

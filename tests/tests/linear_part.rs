@@ -27,7 +27,7 @@ fn ones(count: usize) -> Vec<Rational> {
 }
 
 /// Hénon–Heiles with both oscillators, ω = 1, as the linear part.
-fn henon_heiles<N: shadowstep::number::Rounded>(context: &N::Context) -> LinearPart<N, HenonHeiles> {
+fn henon_heiles<N: shadowstep::number::CorrectlyRounded>(context: &N::Context) -> LinearPart<N, HenonHeiles> {
     let (q, p) = (numbers(&["0.1", "0.2"], context), numbers(&["0.3", "-0.1"], context));
     LinearPart::new(HenonHeiles, &ones(2), &diagonal(&["1", "1"]), &q, &p).expect("the dimensions agree")
 }
@@ -84,7 +84,7 @@ fn the_orders_are_those_proved() {
 }
 
 /// max − min of H and of E_12.
-fn variations<N: shadowstep::number::Rounded>(system: LinearPart<N, HenonHeiles>, h: &str) -> [f64; 2] {
+fn variations<N: shadowstep::number::CorrectlyRounded>(system: LinearPart<N, HenonHeiles>, h: &str) -> [f64; 2] {
     let stepper = stepper::<N>("stormer-verlet", h, &system.state().context());
     let found = energy_drift(stepper.with(system.clone()), 400, &Bilinear::new(12)).expect("all states are finite");
     let mut system = system;
@@ -103,7 +103,7 @@ fn the_modified_energy_is_conserved() {
     assert!(energy > 1e-6 && modified < 1e-16, "{energy:e}, {modified:e}");
 }
 
-fn steps_are_steps<N: Bits + shadowstep::number::Rounded>(context: &N::Context) {
+fn steps_are_steps<N: Bits + shadowstep::number::CorrectlyRounded>(context: &N::Context) {
     let stepper = stepper::<N>("yoshida4", "1/3", context);
     let [mut plain, mut augmented] = [(); 2].map(|()| henon_heiles::<N>(context));
     let start = [plain.q(), plain.p()].concat();

@@ -5,7 +5,7 @@
 use rug::Float;
 use shadowstep::formula::FormulaPotential;
 use shadowstep::many_parts::{FlowState, FormulaPart, ManyParts, Part, SystemOfParts, parts};
-use shadowstep::number::{Number, Rounded};
+use shadowstep::number::{CorrectlyRounded, Number};
 use shadowstep::run::energy_drift;
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::tables::{TableScheme, shipped};
@@ -44,7 +44,7 @@ fn many(name: &str) -> TableScheme<ManyParts> {
     shipped(name).unwrap().for_many_parts().unwrap()
 }
 
-fn chain<N: Rounded + 'static>(context: &N::Context) -> SystemOfParts<N> {
+fn chain<N: CorrectlyRounded + 'static>(context: &N::Context) -> SystemOfParts<N> {
     let parts = parts(&CHAIN, NAMES, &parameters(), context).unwrap();
     let (q, p) = (numbers(&["0.4", "-0.7", "0.5"], context), numbers(&["0.3", "0.6", "-1.1"], context));
     SystemOfParts::new(parts, &q, &p).unwrap()
@@ -267,7 +267,7 @@ fn the_monitor_follows_a_run() {
 
 fn steps_are_steps<N, S>(scheme: S, twin: TableScheme<ManyParts>, context: &N::Context)
 where
-    N: Bits + Rounded + 'static,
+    N: Bits + CorrectlyRounded + 'static,
     S: Scheme + shadowstep::ValidFor<ManyParts> + Copy + 'static,
 {
     assert_eq!(scheme.summary(), twin.summary());

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use shadowstep::instructions::Instructions;
 use shadowstep::kinetic::Quadratic;
 use shadowstep::number::counting::{Counting, Operations, count};
-use shadowstep::number::{Float, Fused, Lanes, Limbs, Number, Ordered};
+use shadowstep::number::{Float, Fused, Lanes, Limbs, Number, Real};
 use shadowstep::problems::HenonHeiles;
 use shadowstep::{Carried, Motion, Rational, Scheme, Stepper, System, UnitMasses, ValidFor, splitting_scheme, tables};
 use shadowstep_schemes::First;

@@ -8,7 +8,7 @@ use shadowstep::run::{EnergyDrift, ShadowRun, States, Trajectory, energy_drift};
 use shadowstep::shadow::weights::central;
 use shadowstep::shadow::{BuildEstimator, Central, Estimator, SelectionRule, StoppingRule};
 use shadowstep::{
-    Increments, Kinetic, Motion, Number, Ordered, Potential, Rational, Scheme, Stepper, System, UnitMasses, ValidFor,
+    Increments, Kinetic, Motion, Number, Potential, Rational, Real, Scheme, Stepper, System, UnitMasses, ValidFor,
 };
 use shadowstep_tests::{log10_distance, number, numbers, precision, rational, step_size, stepper};
 
@@ -20,20 +20,20 @@ type State = (Vec<Float>, Vec<Float>, Float);
 /// n, value, last term where it is known, and m.
 type Estimated<N> = (i64, N, Option<N>, u32);
 
-fn kepler<N: Ordered>(context: &N::Context) -> Vector<Kepler, UnitMasses, N> {
+fn kepler<N: Real>(context: &N::Context) -> Vector<Kepler, UnitMasses, N> {
     Motion::new(Kepler, UnitMasses, numbers(&["0.4", "0"], context), numbers(&["0", "2"], context)).unwrap()
 }
 
-fn pendulum<N: Ordered>(context: &N::Context) -> Vector<Pendulum, UnitMasses, N> {
+fn pendulum<N: Real>(context: &N::Context) -> Vector<Pendulum, UnitMasses, N> {
     Motion::new(Pendulum, UnitMasses, numbers(&["0"], context), numbers(&["1"], context)).unwrap()
 }
 
-fn henon_heiles<N: Ordered>(context: &N::Context) -> Vector<HenonHeiles, UnitMasses, N> {
+fn henon_heiles<N: Real>(context: &N::Context) -> Vector<HenonHeiles, UnitMasses, N> {
     Motion::new(HenonHeiles, UnitMasses, numbers(&["0", "0.1"], context), numbers(&["0.3", "0"], context)).unwrap()
 }
 
 /// n, value, last term and m of every estimate of a run.
-fn estimates<S: Scheme + ValidFor<M::Class>, M: System<Number: Ordered>>(
+fn estimates<S: Scheme + ValidFor<M::Class>, M: System<Number: Real>>(
     stepper: &Stepper<S, M::Number>,
     system: M,
     steps: u64,
@@ -441,7 +441,7 @@ fn more_digits_give_the_same_values() {
         estimates(&verlet, kepler::<Float>(&context), 200, &Central::fixed(20))
     });
     for ((n, few, ..), (_, many, ..)) in few.iter().zip(&many) {
-        let off = Ordered::log10_abs(&Float::with_val(700, few - many));
+        let off = Real::log10_abs(&Float::with_val(700, few - many));
         assert!(off < -110.0, "n = {n}: 10^{off}");
     }
     // the two do not agree by being the same numbers
@@ -451,7 +451,7 @@ fn more_digits_give_the_same_values() {
 /// In double precision the drift is round-off and nothing else.
 #[test]
 fn drift_in_double_precision_is_round_off() {
-    fn drift<N: Ordered>(context: &N::Context) -> EnergyDrift<N> {
+    fn drift<N: Real>(context: &N::Context) -> EnergyDrift<N> {
         let verlet = stepper("stormer-verlet", "1/20", context);
         energy_drift(verlet.with(pendulum::<N>(context)), 1000, &Central::fixed(20)).unwrap()
     }
@@ -479,7 +479,7 @@ fn kepler_drift_is_exponentially_small() {
         let best = Central::best(120, StoppingRule::Full);
         let found = energy_drift(verlet.with(kepler::<Float>(&context)), 20 * inverse, &best).unwrap();
         println!("h = 1/{inverse}: drift {:e}, m = {:?}", found.drift.to_f64(), found.orders);
-        drifts.push(Ordered::log10_abs(&found.drift));
+        drifts.push(Real::log10_abs(&found.drift));
     }
     println!("ln of the energy's variation {energies:?}");
     for pair in energies.windows(2) {

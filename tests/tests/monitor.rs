@@ -18,12 +18,12 @@ use shadowstep::shadow::{
     Bilinear, BuildEstimator, Central, Criterion, Missing, Report, ShadowEnergy, StoppingRule, Trend, Verdict,
 };
 use shadowstep::tables::{TableScheme, shipped};
-use shadowstep::{DiagonalMasses, Motion, Ordered, Potential, Stepper, UnitMasses, kinetic, potential};
+use shadowstep::{DiagonalMasses, Motion, Potential, Real, Stepper, UnitMasses, kinetic, potential};
 use shadowstep_tests::{Bits, log10_distance, number, numbers, precision, same_bits, stepper};
 
 type Start<N, P> = Motion<N, Vec<N>, P, UnitMasses>;
 
-fn henon_heiles<N: Ordered>(context: &N::Context) -> Start<N, HenonHeiles> {
+fn henon_heiles<N: Real>(context: &N::Context) -> Start<N, HenonHeiles> {
     Motion::new(HenonHeiles, UnitMasses, numbers(&["0.1", "-0.3"], context), numbers(&["0.2", "0.1"], context)).unwrap()
 }
 
@@ -47,7 +47,7 @@ const ENERGY_ERROR: Verdict = Verdict::TooLarge(Criterion::EnergyError);
 
 /// Steps of the size h, which `step` makes, watched by a monitor with a stepper of the size `monitored`; `step` gets whether the
 /// monitor needs increments.
-fn watch_loop<N: Ordered, P: Potential<N>>(
+fn watch_loop<N: Real, P: Potential<N>>(
     mut motion: Start<N, P>,
     (h, monitored): (&str, &str),
     steps: u64,
@@ -63,7 +63,7 @@ fn watch_loop<N: Ordered, P: Potential<N>>(
 }
 
 /// With increments where the monitor needs them.
-fn as_needed<N: Ordered, P: Potential<N>>(
+fn as_needed<N: Real, P: Potential<N>>(
     stepper: &Stepper<TableScheme, N>,
     motion: &mut Start<N, P>,
     needs_increments: bool,

@@ -7,7 +7,7 @@
 use std::array;
 
 use rug::Float;
-use shadowstep::number::{Number, Ordered};
+use shadowstep::number::{Number, Real};
 use shadowstep_schemes::{MapKind, Proved, shipped_names, shipped_proved};
 use shadowstep_tests::precision;
 use shadowstep_tests::reference::{Separable, State};
@@ -130,7 +130,7 @@ fn near_terms(scheme: &Proved, k: u32) -> [f64; 3] {
                 *sum += error * factor;
             }
         }
-        let largest = sum.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max);
+        let largest = sum.iter().map(Real::log10_abs).fold(f64::NEG_INFINITY, f64::max);
         largest / std::f64::consts::LOG10_2
     })
 }

@@ -9,9 +9,7 @@ use shadowstep::kinetic::General;
 use shadowstep::run::{ShadowRun, energy_drift};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Criterion, ShadowEnergy, Verdict};
 use shadowstep::summation::{Half, Plain};
-use shadowstep::{
-    Carried, Integrator as _, Number, Ordered, OwnedIncrements, State, Stepper, System, splitting_scheme,
-};
+use shadowstep::{Carried, Integrator as _, Number, OwnedIncrements, Real, State, Stepper, System, splitting_scheme};
 use shadowstep_tests::shipped::all_for_every_kinetic;
 use shadowstep_tests::{Bits, log10_distance, log10_largest_distance, precision, rational, same_bits};
 
@@ -244,7 +242,7 @@ fn yoshida_has_order_4() {
 // The modified energy
 
 /// max − min of H over n = 0, …, steps.
-fn energy_variation<N: Ordered>(stepper: &Stepper<StormerVerlet, N>, steps: u64, context: &N::Context) -> f64 {
+fn energy_variation<N: Real>(stepper: &Stepper<StormerVerlet, N>, steps: u64, context: &N::Context) -> f64 {
     let mut rotor = Rotor::<N>::new(START, context);
     let energies: Vec<f64> = (0..=steps)
         .map(|n| {
@@ -257,8 +255,8 @@ fn energy_variation<N: Ordered>(stepper: &Stepper<StormerVerlet, N>, steps: u64,
     energies.iter().copied().fold(f64::MIN, f64::max) - energies.iter().copied().fold(f64::MAX, f64::min)
 }
 
-fn the_modified_energy_is_conserved<N: Ordered>(context: &N::Context, most: f64) {
-    fn check<N: Ordered>(
+fn the_modified_energy_is_conserved<N: Real>(context: &N::Context, most: f64) {
+    fn check<N: Real>(
         stepper: &Stepper<StormerVerlet, N>,
         settings: &(impl BuildEstimator<N> + std::fmt::Debug),
         context: &N::Context,
@@ -317,7 +315,7 @@ fn a_run_has_the_states_of_its_steps() {
 // ---------------------------------------------------------------------------------------------------------------
 // The monitor
 
-fn watch<N: Ordered>(h: &str, steps: u64, context: &N::Context) -> shadowstep::shadow::Report<N> {
+fn watch<N: Real>(h: &str, steps: u64, context: &N::Context) -> shadowstep::shadow::Report<N> {
     let mut rotor = Rotor::<N>::new(START, context);
     let stepper = Stepper::with_context(StormerVerlet, h, context).unwrap();
     let mut monitor = ShadowEnergy::new(stepper, &mut rotor, &Bilinear::with_error(8)).unwrap().every(20);

@@ -5,7 +5,7 @@ use shadowstep::formula::{FormulaPair, FormulaPotential};
 use shadowstep::number::counting::{Counting, Operations, count};
 use shadowstep::pairs::{Ends, Pair, Pairs, Separation, Summand};
 use shadowstep::problems::Gravity;
-use shadowstep::{Ordered, Potential, potential};
+use shadowstep::{Potential, Real, potential};
 use shadowstep_tests::{Bits, log10_distance, numbers, potential_values, precision};
 
 potential! {
@@ -33,7 +33,7 @@ const POINT: [&str; 6] = ["0.3", "-1.7", "2.1", "1/7", "-0.9", "2/3"];
 const CHARGES: [&str; 3] = ["1.5", "-2/3", "0.7"];
 const SIZES: [&str; 3] = ["0.4", "1.1", "2"];
 
-fn charged<N: Ordered>(context: &N::Context) -> (Charged<N>, FormulaPair<N>) {
+fn charged<N: Real>(context: &N::Context) -> (Charged<N>, FormulaPair<N>) {
     let [e, s] = [CHARGES, SIZES].map(|texts| numbers::<N>(&texts, context));
     let k = numbers::<N>(&["1.3"], context).remove(0);
     let properties = [("e", e.clone()), ("s", s.clone())];
@@ -41,7 +41,7 @@ fn charged<N: Ordered>(context: &N::Context) -> (Charged<N>, FormulaPair<N>) {
     (Charged { k, e, s }, read)
 }
 
-fn spring<N: Ordered>(context: &N::Context) -> (Spring<N>, FormulaPair<N>) {
+fn spring<N: Real>(context: &N::Context) -> (Spring<N>, FormulaPair<N>) {
     let a = numbers::<N>(&["0.3"], context).remove(0);
     let read = FormulaPair::new(SPRING, Separation::Difference, &[], &[("a", a.clone())]).unwrap();
     (Spring { a }, read)

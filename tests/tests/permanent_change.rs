@@ -5,7 +5,7 @@ use shadowstep::exact_flow::ExactFlow;
 use shadowstep::problems::{Setup, problem};
 use shadowstep::run::{EnergyDrift, Finding, PermanentChange, ShadowRun, energy_drift};
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, SelectionRule, StoppingRule};
-use shadowstep::{Number, Ordered, Rational};
+use shadowstep::{Number, Rational, Real};
 use shadowstep_tests::{precision, step_size, stepper};
 
 const DIGITS: u32 = 80;

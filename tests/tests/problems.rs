@@ -5,7 +5,7 @@ use num_traits::{One, Zero};
 use rug::Float;
 use shadowstep::number::Precision;
 use shadowstep::problems::{PROBLEMS, ProblemMotion, Setup, problem};
-use shadowstep::{Number, Ordered, Potential, Rational, Stepper, splitting_scheme};
+use shadowstep::{Number, Potential, Rational, Real, Stepper, splitting_scheme};
 use shadowstep_tests::{log10_distance, number, precision};
 
 #[splitting_scheme("yoshida4.toml")]
@@ -15,7 +15,7 @@ fn setup(name: &str) -> Setup {
     problem(name).unwrap().setup(&[], 150).unwrap()
 }
 
-fn motion<N: Ordered + 'static>(name: &str, context: &N::Context) -> ProblemMotion<N> {
+fn motion<N: Real + 'static>(name: &str, context: &N::Context) -> ProblemMotion<N> {
     setup(name).motion(context).unwrap()
 }
 

@@ -3,7 +3,7 @@
 
 use rug::Float;
 use shadowstep::integrator::at_output;
-use shadowstep::number::Ordered;
+use shadowstep::number::Real;
 use shadowstep::problems::Kepler;
 use shadowstep::tables::{TableScheme, shipped};
 use shadowstep::{Carried, Integrator as _, Motion, Scheme, Stepper, UnitMasses, splitting_scheme};
@@ -159,7 +159,7 @@ fn error(name: &str, k: u32, epsilon: &str, times: i32) -> State {
 }
 
 fn largest(state: &[Float]) -> f64 {
-    state.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max)
+    state.iter().map(Real::log10_abs).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// log₂ of the terms of ε and of ε² of the error: what is left of higher powers is 1e-40 of them.

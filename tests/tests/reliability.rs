@@ -4,7 +4,7 @@
 use rug::Float;
 use shadowstep::Number;
 use shadowstep::exact_flow::ExactFlow;
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::problem;
 use shadowstep::run::ShadowRun;
 use shadowstep::shadow::{Bilinear, BuildEstimator, Central, Estimate, SelectionRule, StoppingRule};
@@ -18,7 +18,7 @@ struct Found {
 }
 
 /// What an estimator gives over an orbit and its close encounters, from a pericentre on.
-fn over_an_orbit<N: Rounded, M: BuildEstimator<N>>(
+fn over_an_orbit<N: CorrectlyRounded, M: BuildEstimator<N>>(
     (e, h): (&str, &str),
     settings: &M,
     context: &N::Context,
@@ -52,7 +52,7 @@ fn orbits() -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 /// True error/estimate over all orbits, and for comparison true error/last term: how both are spread is printed.
-fn ratios<N: Rounded, M: BuildEstimator<N>>(
+fn ratios<N: CorrectlyRounded, M: BuildEstimator<N>>(
     name: &str,
     settings: &M,
     context: &N::Context,

@@ -11,7 +11,7 @@ use shadowstep::run::energy_drift;
 use shadowstep::scheme::Weights;
 use shadowstep::shadow::{Bilinear, Central};
 use shadowstep::{
-    DiagonalMasses, FullMasses, Motion, MotionError, Ordered, Potential, Rational, Scheme, StepSize, StepSizeError,
+    DiagonalMasses, FullMasses, Motion, MotionError, Potential, Rational, Real, Scheme, StepSize, StepSizeError,
     Stepper, UnitMasses, splitting_scheme,
 };
 use shadowstep_tests::{log10_distance, log10_largest_distance, number, numbers, precision, rational, same_bits};
@@ -171,7 +171,7 @@ impl Potential<f64> for Nothing {
 
 #[test]
 fn a_motion_whose_parts_do_not_fit_is_refused() {
-    fn refusal<N: Ordered, P: Potential<N>, K: shadowstep::Kinetic<N>>(
+    fn refusal<N: Real, P: Potential<N>, K: shadowstep::Kinetic<N>>(
         potential: P,
         kinetic: K,
         q: Vec<N>,
@@ -268,7 +268,7 @@ fn masses_that_overflow_or_underflow_are_refused() {
 
 #[test]
 fn an_inverse_mass_matrix_must_be_positive_definite() {
-    fn refusal<N: Ordered>(rows: &[&[&str]], context: &N::Context) -> Option<MassError> {
+    fn refusal<N: Real>(rows: &[&[&str]], context: &N::Context) -> Option<MassError> {
         let rows: Vec<Vec<_>> = rows.iter().map(|row| row.iter().map(|entry| rational(entry)).collect()).collect();
         FullMasses::<N>::from_inverse(&rows, context).err()
     }

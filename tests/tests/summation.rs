@@ -5,14 +5,14 @@ use rug::Float;
 use shadowstep::kinetic::Quadratic;
 use shadowstep::linear_part::LinearPart;
 use shadowstep::many_parts::{SystemOfParts, parts};
-use shadowstep::number::{DoubleDouble, Number, Rounded};
+use shadowstep::number::{CorrectlyRounded, DoubleDouble, Number};
 use shadowstep::problems::{HenonHeiles, Kepler};
 use shadowstep::run::{ShadowRun, States, Trajectory, energy_drift};
 use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict};
 use shadowstep::summation::RangeError;
 use shadowstep::{
-    Carried, Integrator as _, Motion, Ordered, Rational, Remainders, Scheme, Stepper, System, UnitMasses, ValidFor,
-    exact, tables,
+    Carried, Integrator as _, Motion, Rational, Real, Remainders, Scheme, Stepper, System, UnitMasses, ValidFor, exact,
+    tables,
 };
 use shadowstep_tests::general;
 use shadowstep_tests::shipped::{all, all_for_every_kinetic};
@@ -227,13 +227,16 @@ fn every_system_has_compensated_sums() {
         let has_remainders = |system: &M| system.state().remainders().q.iter().any(|rest| *rest != 0.0);
         assert!(!has_remainders(&plain) && has_remainders(&compensated));
     }
-    fn linear<N: Rounded>(number: impl Fn(f64) -> N, compensated: bool) -> LinearPart<N, HenonHeiles> {
+    fn linear<N: CorrectlyRounded>(number: impl Fn(f64) -> N, compensated: bool) -> LinearPart<N, HenonHeiles> {
         let [zero, one] = ["0", "1"].map(|text| exact(text).unwrap());
         let stiffness = [vec![one.clone(), zero.clone()], vec![zero, one.clone()]];
         let (q, p) = ([0.1, -0.3].map(&number), [0.2, 0.1].map(&number));
         LinearPart::new(HenonHeiles, &[one.clone(), one], &stiffness, &q, &p).unwrap().compensated_if(compensated)
     }
-    fn in_parts<N: Rounded<Context = ()> + 'static>(number: impl Fn(f64) -> N, compensated: bool) -> SystemOfParts<N> {
+    fn in_parts<N: CorrectlyRounded<Context = ()> + 'static>(
+        number: impl Fn(f64) -> N,
+        compensated: bool,
+    ) -> SystemOfParts<N> {
         let formulas = ["(px^2 + py^2)/2", "(x*py - y*px)/4 + (x^2 + y^2)/32", "cos(x) + cos(y)"];
         let parts = parts::<N>(&formulas, (&["x", "y"], &["px", "py"]), &[], &()).unwrap();
         let (q, p) = ([0.3, 0.1].map(&number), [0.5, -0.2].map(&number));

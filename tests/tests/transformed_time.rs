@@ -5,7 +5,7 @@
 
 use rug::Float;
 use shadowstep::kinetic::General;
-use shadowstep::number::{Limbs, Number, Ordered};
+use shadowstep::number::{Limbs, Number, Real};
 use shadowstep::problems::{Kepler, problem};
 use shadowstep::run::energy_drift;
 use shadowstep::shadow::Bilinear;
@@ -34,7 +34,7 @@ fn scheme(name: &str, first: Option<First>) -> TableScheme<General> {
 }
 
 /// Kepler's orbit of a = 1 at its pericentre.
-fn kepler<N: Ordered>(
+fn kepler<N: Real>(
     time: TimeTransformation,
     e: &str,
     context: &N::Context,
@@ -51,7 +51,7 @@ fn kepler<N: Ordered>(
 }
 
 /// How far q is from the ellipse r + e x = 1 − e², the largest over ten periods: log₁₀.
-fn off_the_ellipse<N: Ordered>(first: Option<First>, context: &N::Context) -> f64 {
+fn off_the_ellipse<N: Real>(first: Option<First>, context: &N::Context) -> f64 {
     let stepper = Stepper::with_context(scheme("stormer-verlet", first), "1/20", context).expect("it is nonzero");
     let mut system = kepler::<N>(LOGARITHMIC, "0.999", context);
     let [e, parameter] = ["0.999", "1 - 0.999^2"].map(|text| N::from_rational(&rational(text), context));

@@ -5,7 +5,7 @@
 
 use rug::Float;
 use shadowstep::kinetic::General;
-use shadowstep::number::{Limbs, Number, Ordered, Precision};
+use shadowstep::number::{Limbs, Number, Precision, Real};
 use shadowstep::run::energy_drift;
 use shadowstep::shadow::{Bilinear, ShadowEnergy};
 use shadowstep::tables::{self, TableScheme};
@@ -218,7 +218,7 @@ where
                 sum.add(&error);
             }
         }
-        sum.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max) / std::f64::consts::LOG10_2
+        sum.iter().map(Real::log10_abs).fold(f64::NEG_INFINITY, f64::max) / std::f64::consts::LOG10_2
     })
 }
 

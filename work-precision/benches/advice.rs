@@ -12,7 +12,7 @@ use shadowstep::tables::Source;
 use shadowstep_scenes::System;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::library::{NamedScheme, scheme};
-use shadowstep_work_precision::advise::{Advice, Choice, Question};
+use shadowstep_work_precision::advise::{Advice, AdviceRequest, Choice};
 use shadowstep_work_precision::of::Of;
 use shadowstep_work_precision::problem::Problem;
 use shadowstep_work_precision::run::PositionError;
@@ -64,7 +64,7 @@ fn main() {
         for exponent in TOLERANCES {
             let tolerance = Size::power_of_ten(f64::from(exponent));
             let folder = folder.path().join(format!("{exponent}"));
-            let question = Question {
+            let request = AdviceRequest {
                 problem,
                 schemes: &schemes,
                 of: Of::Position,
@@ -75,9 +75,9 @@ fn main() {
             };
             let best = study.cheapest(Of::Position, Cost::Evaluations, tolerance).into_iter().next();
             all += 1;
-            match (question.answer(&mut ()).unwrap(), best) {
+            match (request.run(&mut ()).unwrap(), best) {
                 (Advice::Found { choices, .. }, best) => {
-                    let error = measured(problem, &choices[0], &question.folder.join("measured"));
+                    let error = measured(problem, &choices[0], &request.folder.join("measured"));
                     let met = matches!(error, PositionError::Known(error) | PositionError::Below(error) if error <= tolerance);
                     missed += u32::from(!met);
                     let ratio = best.map(|(_, fewest)| choices[0].evaluations() / fewest);

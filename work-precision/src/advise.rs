@@ -23,7 +23,7 @@ use crate::study::{Cost, Request, Studied, Study, proved_order};
 use crate::timing::time_of_steps;
 
 /// What is wanted.
-pub struct Question<'a> {
+pub struct AdviceRequest<'a> {
     /// The system, the interval of time and the number type.
     pub problem: Problem<'a>,
     /// The schemes to choose from.
@@ -120,12 +120,12 @@ const SHOWN: usize = 3;
 /// The step is reduced so often if the verification does not meet the tolerance.
 const ATTEMPTS: usize = 4;
 
-impl<'a> Question<'a> {
+impl<'a> AdviceRequest<'a> {
     /// Studies the schemes over a part of the time that takes seconds, extrapolates to all of it, and verifies the best.
     ///
     /// # Errors
     /// As [`Request::study`].
-    pub fn answer(&self, observer: &mut dyn Observer) -> Result<Advice<'a>, Error> {
+    pub fn run(&self, observer: &mut dyn Observer) -> Result<Advice<'a>, Error> {
         let halvings = self.halvings()?;
         let until = self.problem.until / Rational::from_integer((1_i64 << halvings).into());
         let problem = Problem { until: &until, ..self.problem };

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::exact_flow::ExactFlow;
 use shadowstep::problems::Setup;
 use shadowstep::run::States;
-use shadowstep::{Ordered, StepSize};
+use shadowstep::{Real, StepSize};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
@@ -115,7 +115,7 @@ impl Reference {
     }
 
     /// The positions as sums of two numbers each: rounded ones and what rounding took away.
-    pub(crate) fn in_two_parts<N: Ordered>(&self, context: &N::Context) -> Vec<[Vec<N>; 2]> {
+    pub(crate) fn in_two_parts<N: Real>(&self, context: &N::Context) -> Vec<[Vec<N>; 2]> {
         let parts = |position: &Vec<String>| {
             let (mut first, mut second) = (Vec::new(), Vec::new());
             for text in position {
@@ -148,7 +148,7 @@ impl Computation for Texts<'_> {
         if (found.len() as u64) < samples {
             return Err(Error::run("the states of a run with half the step are not finite", "use a shorter time"));
         }
-        Ok(found.iter().map(|position| position.iter().map(Ordered::to_text).collect()).collect())
+        Ok(found.iter().map(|position| position.iter().map(Real::to_text).collect()).collect())
     }
 }
 
@@ -183,7 +183,7 @@ impl Computation for ExactTexts<'_> {
         let mut positions = Vec::new();
         while let Some(state) = flow.advance().map_err(|error| failed(error.to_string()))? {
             if state.n > 0 {
-                positions.push(state.q.iter().map(Ordered::to_text).collect());
+                positions.push(state.q.iter().map(Real::to_text).collect());
             }
         }
         Ok(positions)
@@ -241,7 +241,7 @@ impl Computation for ByHalving<'_> {
                 let shows_order = last_difference - difference >= GAIN.log10();
                 let gain = if shows_order { GAIN.log10() } else { 0.0 };
                 let errors = differences.iter().map(|size| size.times_power_of_ten(-gain)).collect();
-                let texts = |position: &Vec<N>| position.iter().map(Ordered::to_text).collect();
+                let texts = |position: &Vec<N>| position.iter().map(Real::to_text).collect();
                 let origin = Origin::Scheme { name: SCHEME.to_owned(), steps, digits };
                 best = Some(Reference { positions: found.iter().map(texts).collect(), errors, origin });
                 if difference - gain <= largest(&found) - target {
@@ -284,7 +284,7 @@ fn positions<N: RunNumber>(
 }
 
 /// |a − b| of each sample.
-fn distances<N: Ordered>(a: &[Vec<N>], b: &[Vec<N>], context: &N::Context) -> Vec<Size> {
+fn distances<N: Real>(a: &[Vec<N>], b: &[Vec<N>], context: &N::Context) -> Vec<Size> {
     let distance = |(a, b): (&Vec<N>, &Vec<N>)| {
         let square = square_distance(a, b, context);
         let mut distance = square.clone();
@@ -295,6 +295,6 @@ fn distances<N: Ordered>(a: &[Vec<N>], b: &[Vec<N>], context: &N::Context) -> Ve
 }
 
 /// log₁₀ of the largest coordinate.
-fn largest<N: Ordered>(positions: &[Vec<N>]) -> f64 {
-    positions.iter().flatten().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max)
+fn largest<N: Real>(positions: &[Vec<N>]) -> f64 {
+    positions.iter().flatten().map(Real::log10_abs).fold(f64::NEG_INFINITY, f64::max)
 }

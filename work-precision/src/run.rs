@@ -1,7 +1,7 @@
 //! One run: the errors of its positions and of H, and its modified energy.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::Ordered;
+use shadowstep::Real;
 use shadowstep::integrator::{VectorIntegrator, at_output};
 use shadowstep::shadow::Verdict;
 use shadowstep_scenes::computation::RunNumber;
@@ -131,7 +131,7 @@ impl Measurement {
 }
 
 /// |q − a − b| where a + b is the reference.
-fn distance<N: Ordered>(q: &[N], [a, b]: &[Vec<N>; 2]) -> Size {
+fn distance<N: Real>(q: &[N], [a, b]: &[Vec<N>; 2]) -> Size {
     let context = q[0].context();
     let [mut sum, mut difference] = [N::zero(&context), N::zero(&context)];
     for ((q, a), b) in q.iter().zip(a).zip(b) {
@@ -150,7 +150,7 @@ struct EnergyError<N> {
     last: N,
 }
 
-impl<N: Ordered> EnergyError<N> {
+impl<N: Real> EnergyError<N> {
     fn new(initial: N) -> Self {
         let zero = N::zero(&initial.context());
         EnergyError { initial, largest: zero.clone(), last: zero }

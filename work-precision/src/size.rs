@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
-use shadowstep::Ordered;
+use shadowstep::Real;
 
 /// A size |x| ≥ 0 by its logarithm, so that 1e-400 is not 0. It is displayed with three digits.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
@@ -20,7 +20,7 @@ impl Size {
     pub(crate) const INFINITE: Size = Size { log10: f64::MAX };
 
     /// |x|; infinite where x is infinite or NaN.
-    pub fn of<N: Ordered>(x: &N) -> Size {
+    pub fn of<N: Real>(x: &N) -> Size {
         if x.is_finite() { Size { log10: x.log10_abs() } } else { Size::INFINITE }
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use shadowstep_symbolic::{Kind, parse};
+use shadowstep_symbolic::{ExpressionKind, parse};
 
 use shadowstep_schemes::table::{Cell, Table, Weights};
 
@@ -12,7 +12,7 @@ pub(super) fn unused_constants(table: &Table) -> Vec<&str> {
     let use_names = |cell: &Cell, used: &mut BTreeSet<String>| {
         if let Ok(expression) = parse(&cell.value) {
             expression.visit(&mut |part| {
-                if let Kind::Name(name) = &part.kind {
+                if let ExpressionKind::Name(name) = &part.kind {
                     used.insert(name.clone());
                 }
             });
@@ -41,13 +41,13 @@ pub(super) fn cells_with_decimals(table: &Table) -> Vec<String> {
     let has_decimal = |cell: &Cell| {
         let mut found = false;
         if let Ok(expression) = parse(&cell.value) {
-            let stands_alone = matches!(&expression.kind, Kind::Number(_))
-                || matches!(&expression.kind, Kind::Negate(inner) if matches!(inner.kind, Kind::Number(_)));
+            let stands_alone = matches!(&expression.kind, ExpressionKind::Number(_))
+                || matches!(&expression.kind, ExpressionKind::Negate(inner) if matches!(inner.kind, ExpressionKind::Number(_)));
             expression.visit(&mut |part| {
                 let digits = |text: &str| text.bytes().filter(u8::is_ascii_digit).skip_while(|&c| c == b'0').count();
                 let text = &cell.value[part.range.clone()];
                 let is_long = text.contains('.') && digits(text) >= SHORTEST_ROUNDED;
-                found |= !stands_alone && is_long && matches!(part.kind, Kind::Number(_));
+                found |= !stands_alone && is_long && matches!(part.kind, ExpressionKind::Number(_));
             });
         }
         found

@@ -1,6 +1,6 @@
 //! The curves of a run, from its states one by one.
 
-use shadowstep::Ordered;
+use shadowstep::Real;
 use shadowstep_scenes::plot::{Content, Distance, Orbit, Picture};
 
 use super::thin::{InTime, Points};
@@ -53,7 +53,7 @@ enum Followed {
     Distances(Vec<(Distance, InTime)>),
 }
 
-impl<N: Ordered> RunLines<N> {
+impl<N: Real> RunLines<N> {
     pub(super) fn new(name: String, steps: u64, pictures: &[Picture]) -> Self {
         let charts = pictures.iter().map(|picture| match &picture.content {
             Content::Energies => Followed::Energies(Default::default()),
@@ -108,7 +108,7 @@ impl<N: Ordered> RunLines<N> {
 }
 
 /// log₁₀ |value − first|, with the digits of the run.
-fn change<N: Ordered>(first: &mut Option<N>, value: &N) -> f64 {
+fn change<N: Real>(first: &mut Option<N>, value: &N) -> f64 {
     let first = first.get_or_insert_with(|| value.clone());
     let mut change = value.clone();
     change.subtract(first);

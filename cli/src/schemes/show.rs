@@ -10,7 +10,7 @@ use shadowstep_schemes::claims::HIGHEST_ORDER;
 use shadowstep_schemes::map::Stages;
 use shadowstep_schemes::proof::Order;
 use shadowstep_schemes::table::Table;
-use shadowstep_schemes::{Kinetic, Plan, Proved};
+use shadowstep_schemes::{Kinetic, Proved, StepPlan};
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
@@ -134,7 +134,7 @@ fn facts(scheme: &TableScheme) -> Vec<(String, String)> {
 }
 
 /// The Hessian–vector products U_qq M⁻¹U_q of a step, if there are any: their cost is stated apart.
-fn hessian_products(plan: &Plan) -> String {
+fn hessian_products(plan: &StepPlan) -> String {
     match plan.hessian_products {
         0 => String::new(),
         1 => " and 1 Hessian–vector product".to_owned(),

@@ -6,7 +6,7 @@ use std::path::{Path, absolute};
 use clap::Args;
 use shadowstep_scenes::Error;
 use shadowstep_sweeps::slurm::{self, Chunks, Resources, Scripts, Submitted, SweepCommand, TaskList};
-use shadowstep_sweeps::{Manifest, Missing, Plan};
+use shadowstep_sweeps::{Manifest, Missing, SweepPlan};
 
 use crate::invocation;
 use crate::output::Output;
@@ -56,7 +56,7 @@ impl SlurmArguments {
         if self.status {
             return status(sweep, folder);
         }
-        let manifest = Manifest::begin(folder, &Plan::open(sweep)?, self.chunks.map(u64::from))?;
+        let manifest = Manifest::begin(folder, &SweepPlan::open(sweep)?, self.chunks.map(u64::from))?;
         let missing = missing(&manifest, folder);
         if missing.is_empty() && !self.dry_run {
             report::note(format_args!(

@@ -6,14 +6,14 @@ use shadowstep_work_precision::order::MeasuredOrder;
 use shadowstep_work_precision::study::{Studied, Study};
 use shadowstep_work_precision::tables::Cheapest;
 
-use super::Posed;
+use super::PosedProblem;
 use crate::colour::heading;
 use crate::readable::table;
 
 const WIDTH: usize = 80;
 
 /// What was found.
-pub(super) fn readable(posed: &Posed, study: &Study<'_>, coloured: bool) -> String {
+pub(super) fn readable(posed: &PosedProblem, study: &Study<'_>, coloured: bool) -> String {
     let title = |text: &str| if coloured { heading(text) } else { text.to_owned() };
     let mut text = wrapped_to(&posed.title(), "", WIDTH);
     text += &wrapped_to(&study.reference.described(), "", WIDTH);

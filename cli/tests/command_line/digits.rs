@@ -5,7 +5,7 @@ use crate::program::shadowstep;
 #[cfg(feature = "mpfr")]
 use crate::program::{objects, quietly, text};
 #[cfg(feature = "mpfr")]
-use shadowstep::number::{Limbs, Ordered};
+use shadowstep::number::{Limbs, Real};
 
 /// The run has 40 steps, and estimates divide by h = 1/20: both lose digits to round-off, two at most.
 #[test]

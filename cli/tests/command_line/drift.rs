@@ -3,7 +3,7 @@
 use crate::program::{objects, quietly, shadowstep, text};
 use serde_json::Value;
 use shadowstep::exact;
-use shadowstep::number::{Limbs, Ordered};
+use shadowstep::number::{Limbs, Real};
 
 const FAST: &str = "drift --problem kepler --scheme stormer-verlet --double --order 4 --until 2";
 
@@ -103,7 +103,7 @@ fn numbers_round_trip_and_the_drift_is_maximum_minus_minimum() {
     assert_eq!(number("drift"), &number("maximum") - &number("minimum"));
     assert!(!number("drift").is_below_zero() && !number("drift").is_zero());
     for field in ["drift", "minimum", "maximum", "first", "last"] {
-        assert_eq!(Ordered::to_text(&number(field)), text(record, field));
+        assert_eq!(Real::to_text(&number(field)), text(record, field));
     }
     // the last state's modified energy is between the extremes
     assert!(number("minimum") <= number("last") && number("last") <= number("maximum"));

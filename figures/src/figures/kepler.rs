@@ -1,6 +1,6 @@
 //! Shared by the figures of Kepler's problem.
 
-use shadowstep::Ordered;
+use shadowstep::Real;
 use shadowstep::problems::Problem;
 use shadowstep::shadow::EstimatorSettings;
 

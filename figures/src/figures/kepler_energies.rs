@@ -1,6 +1,6 @@
 //! Kepler's problem: the modified energy in time, for several step sizes and schemes.
 
-use shadowstep::Ordered;
+use shadowstep::Real;
 
 use super::kepler::{FAR, NEAR, apocentre, off, run};
 use crate::drawing::digits_held;
@@ -162,7 +162,7 @@ fn staircases(results: &Results, finding: &mut Finding) {
 
 /// t ≤ 40; the values between two encounters are those at the apocentre there.
 fn staircase(finding: &mut Finding, (label, colour): (&str, usize), values: &[(f64, Wide)], jumps: &[Wide]) {
-    let decade = jumps.iter().map(Ordered::log10_abs).fold(f64::NEG_INFINITY, f64::max).floor();
+    let decade = jumps.iter().map(Real::log10_abs).fold(f64::NEG_INFINITY, f64::max).floor();
     let relative = |value: &Wide| {
         let change = value - &values[0].1;
         let size = 10_f64.powf(change.log10_abs() - decade);

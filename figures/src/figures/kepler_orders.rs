@@ -1,6 +1,6 @@
 //! Kepler's problem: the change of the modified energy per step, the accumulated change, and the best m.
 
-use shadowstep::Ordered;
+use shadowstep::Real;
 use shadowstep::shadow::StoppingRule;
 
 use super::kepler::{FAR, NEAR, off, run};

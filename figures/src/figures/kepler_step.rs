@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use shadowstep::Ordered;
+use shadowstep::Real;
 
 use super::kepler::{FEW_STEPS, STEPS, apocentre, drifts, rate, run, singularity};
 use crate::drawing::{digits_held, drift_axis};

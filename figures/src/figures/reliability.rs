@@ -2,7 +2,7 @@
 
 use shadowstep::problems::Problem;
 use shadowstep::shadow::{EstimatorSettings, StoppingRule};
-use shadowstep::{Number, Ordered};
+use shadowstep::{Number, Real};
 
 use crate::drawing::additional;
 use crate::estimator::{best, bilinear, central};

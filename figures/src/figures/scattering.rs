@@ -1,6 +1,6 @@
 //! Scattering at a hill that vanishes far away: there H is the modified energy, and its change is observed without an estimator.
 
-use shadowstep::Ordered;
+use shadowstep::Real;
 use shadowstep::problems::Problem;
 
 use crate::drawing::digits_held;

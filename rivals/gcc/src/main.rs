@@ -8,7 +8,7 @@ mod timing;
 use std::hint::black_box;
 
 use shadowstep::kinetic::Quadratic;
-use shadowstep::number::{Fused, Number, Ordered};
+use shadowstep::number::{Fused, Number, Real};
 use shadowstep::pairs::Pairs;
 use shadowstep::problems::{Gravity, HenonHeiles, Kepler, Pendulum};
 use shadowstep::scheme::MapKind;
@@ -82,7 +82,7 @@ impl<const D: usize> Setting<'_, D> {
     fn check<S, M>(&self, of: S, stepper: &Stepper<S, M::Number>, mut system: M)
     where
         S: Scheme + ValidFor<M::Class>,
-        M: System<Number: Ordered>,
+        M: System<Number: Real>,
     {
         let (mut q, mut p) = (self.q, self.p);
         self.in_c(of)(100, &mut q, &mut p);
@@ -102,7 +102,7 @@ impl<const D: usize> Setting<'_, D> {
 
     fn ours<'a, N, S, P, K>(&self, names: [&'static str; 3], of: S, potential: P, masses: K) -> [Contestant<'a>; 3]
     where
-        N: Ordered + Number<Context = ()> + Copy + 'a,
+        N: Real + Number<Context = ()> + Copy + 'a,
         S: Scheme + ValidFor<Quadratic> + Copy + 'a,
         P: Potential<N> + Clone + 'a,
         K: Kinetic<N, Class = Quadratic> + Clone + 'a,

@@ -5,7 +5,7 @@ use std::fmt;
 use super::solution::{Point, Solution};
 use crate::increments::OwnedIncrements;
 use crate::number::value::Value;
-use crate::number::{Reference, Rounded};
+use crate::number::{CorrectlyRounded, HighPrecision};
 
 /// Points at the times n h.
 pub(super) trait Points<N>: fmt::Debug {
@@ -21,13 +21,13 @@ pub(super) struct PointsOf<R> {
     present: Option<(i64, Point<R>)>,
 }
 
-impl<R: Reference> PointsOf<R> {
+impl<R: HighPrecision> PointsOf<R> {
     pub(super) fn new(solution: Box<dyn Solution<R>>) -> Self {
         PointsOf { solution, present: None }
     }
 }
 
-impl<R: Reference, N: Rounded> Points<N> for PointsOf<R> {
+impl<R: HighPrecision, N: CorrectlyRounded> Points<N> for PointsOf<R> {
     fn assign(&mut self, n: i64, q: &mut [N], p: &mut [N], increments: &mut OwnedIncrements<N>) {
         let before = self.present.take().filter(|(number, _)| *number == n - 1);
         let before = before.map_or_else(|| self.solution.at(n - 1), |(_, point)| point);
@@ -41,12 +41,16 @@ impl<R: Reference, N: Rounded> Points<N> for PointsOf<R> {
     }
 }
 
-fn assign_rounded<N: Rounded, R: Reference>(numbers: &mut [N], values: &[Value<R>]) {
+fn assign_rounded<N: CorrectlyRounded, R: HighPrecision>(numbers: &mut [N], values: &[Value<R>]) {
     numbers.iter_mut().zip(values).for_each(|(own, value)| own.assign_rounded(&value.0));
 }
 
 /// The differences, each rounded once; empty for a number type that keeps no increments.
-fn assign_differences<N: Rounded, R: Reference>(increments: &mut [N], next: &[Value<R>], last: &[Value<R>]) {
+fn assign_differences<N: CorrectlyRounded, R: HighPrecision>(
+    increments: &mut [N],
+    next: &[Value<R>],
+    last: &[Value<R>],
+) {
     for ((own, next), last) in increments.iter_mut().zip(next).zip(last) {
         own.assign_rounded(&(next.clone() - last).0);
     }

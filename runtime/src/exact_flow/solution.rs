@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::Rational;
 use crate::number::value::Value;
-use crate::number::{Ordered, Reference};
+use crate::number::{HighPrecision, Real};
 use crate::problems::values::Values;
 use crate::shadow::EstimatorError;
 
@@ -66,7 +66,7 @@ pub(crate) trait Solution<R>: fmt::Debug {
 /// A method that solves the equations of motion of a problem.
 pub(crate) trait Method {
     /// What it makes.
-    type Solution<R: Reference>: Solution<R> + 'static;
+    type Solution<R: HighPrecision>: Solution<R> + 'static;
 
     /// Refuses initial states that the solution does not cover.
     fn check(values: &Values) -> Result<(), ExactFlowError> {
@@ -75,10 +75,10 @@ pub(crate) trait Method {
     }
 
     /// The bits to compute with; `rough` makes numbers with which sizes are estimated.
-    fn bits<R: Reference>(request: &Request<'_>, rough: &R::Context) -> Result<u32, ExactFlowError>;
+    fn bits<R: HighPrecision>(request: &Request<'_>, rough: &R::Context) -> Result<u32, ExactFlowError>;
 
     /// The solution, computed with numbers of the context.
-    fn solve<R: Reference>(request: &Request<'_>, context: R::Context) -> Self::Solution<R>;
+    fn solve<R: HighPrecision>(request: &Request<'_>, context: R::Context) -> Self::Solution<R>;
 }
 
 /// The initial values, times and digits for which a solution is made.
@@ -102,6 +102,6 @@ impl Request<'_> {
 }
 
 /// log₂|x|, −∞ for 0.
-pub(crate) fn log2(x: &impl Ordered) -> f64 {
+pub(crate) fn log2(x: &impl Real) -> f64 {
     x.log10_abs() * std::f64::consts::LOG2_10
 }

@@ -2,7 +2,7 @@
 
 use super::points::{Points, PointsOf};
 use super::solution::{ExactFlowError, Method, Request};
-use crate::number::{AnyLimbs, LimbCount, Reference, Rounded};
+use crate::number::{AnyLimbs, CorrectlyRounded, HighPrecision, LimbCount};
 use crate::problems::values::Values;
 
 /// A [`Method`], as the definition of a problem names it.
@@ -29,7 +29,10 @@ impl Solver {
     }
 
     /// The points of the solution, to be rounded to numbers of type N.
-    pub(super) fn points<N: Rounded>(&self, request: &Request<'_>) -> Result<Box<dyn Points<N>>, ExactFlowError> {
+    pub(super) fn points<N: CorrectlyRounded>(
+        &self,
+        request: &Request<'_>,
+    ) -> Result<Box<dyn Points<N>>, ExactFlowError> {
         let bits = (self.bits)(request)?;
         let found = boxed((self.limbs)(request, bits));
         #[cfg(feature = "mpfr")]
@@ -38,11 +41,11 @@ impl Solver {
     }
 }
 
-fn solve<M: Method, R: Reference>(request: &Request<'_>, bits: u32) -> Option<PointsOf<R>> {
+fn solve<M: Method, R: HighPrecision>(request: &Request<'_>, bits: u32) -> Option<PointsOf<R>> {
     R::context_of(bits).map(|context| PointsOf::new(Box::new(M::solve::<R>(request, context))))
 }
 
-fn boxed<N: Rounded, R: Reference>(points: Option<PointsOf<R>>) -> Option<Box<dyn Points<N>>> {
+fn boxed<N: CorrectlyRounded, R: HighPrecision>(points: Option<PointsOf<R>>) -> Option<Box<dyn Points<N>>> {
     points.map(|points| Box::new(points) as Box<dyn Points<N>>)
 }
 

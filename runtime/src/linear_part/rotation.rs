@@ -7,7 +7,7 @@ use shadowstep_symbolic::decimal::from_text;
 
 use crate::Rational;
 use crate::matrix::{MOST_KEPT, MOST_TERMS, Matrix, add, add_to_diagonal, precision, product, round, scale};
-use crate::number::{AnyLimbs, LimbCount, Number, Ordered, Rounded};
+use crate::number::{AnyLimbs, CorrectlyRounded, LimbCount, Number, Real};
 
 /// The flows over the times that have occurred: a scheme has a few.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ struct Flow<N> {
     of_q: Matrix<N>,
 }
 
-impl<N: Rounded> Rotations<N> {
+impl<N: CorrectlyRounded> Rotations<N> {
     pub(super) fn new(masses: &[Rational], stiffness: &[Vec<Rational>], context: &N::Context) -> Self {
         let zeros = || vec![N::zero(context); masses.len()];
         Rotations {
@@ -68,7 +68,7 @@ impl<N: Rounded> Rotations<N> {
     }
 }
 
-impl<N: Rounded> Flow<N> {
+impl<N: CorrectlyRounded> Flow<N> {
     /// The flow, computed in more digits and rounded once.
     fn new(masses: &[Rational], stiffness: &Matrix<Rational>, time: &N) -> Self {
         let count = precision::<N>(&time.context()).expect("it was checked with the system");

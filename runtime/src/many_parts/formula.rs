@@ -12,7 +12,7 @@ use super::part::{FlowState, Part};
 use super::quadratic::Quadratic;
 use crate::Rational;
 use crate::formula::{FormulaError, refuse_repeated};
-use crate::number::{Number, Rounded};
+use crate::number::{CorrectlyRounded, Number};
 
 /// A text that is no part of H with a known flow.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -80,7 +80,7 @@ impl PartFormula {
     ///
     /// # Errors
     /// [`PartError::Digits`].
-    pub fn in_numbers<N: Rounded + 'static>(&self, context: &N::Context) -> Result<FormulaPart<N>, PartError> {
+    pub fn in_numbers<N: CorrectlyRounded + 'static>(&self, context: &N::Context) -> Result<FormulaPart<N>, PartError> {
         let mut graph = self.graph.clone();
         let flows = self.flows.iter().map(|flow| part(&mut graph, flow.clone(), context));
         let flows = flows.collect::<Option<_>>().ok_or(PartError::Digits)?;
@@ -103,7 +103,7 @@ pub struct FormulaPart<N> {
     flows: Vec<Box<dyn Part<N>>>,
 }
 
-impl<N: Rounded + 'static> FormulaPart<N> {
+impl<N: CorrectlyRounded + 'static> FormulaPart<N> {
     /// The part of a formula, as [`PartFormula::new`] reads it, in numbers.
     ///
     /// # Errors
@@ -119,7 +119,11 @@ impl<N: Rounded + 'static> FormulaPart<N> {
 }
 
 /// `None` if the numbers have more digits than the flow is computed to.
-fn part<N: Rounded + 'static>(graph: &mut Graph, flow: ExplicitFlow, context: &N::Context) -> Option<Box<dyn Part<N>>> {
+fn part<N: CorrectlyRounded + 'static>(
+    graph: &mut Graph,
+    flow: ExplicitFlow,
+    context: &N::Context,
+) -> Option<Box<dyn Part<N>>> {
     let mut programs = |function: Node, count| graph.potential(function, count);
     Some(match flow {
         ExplicitFlow::Commuting { variables, function } => {
@@ -152,7 +156,7 @@ impl<N: Number> Part<N> for FormulaPart<N> {
 ///
 /// # Errors
 /// As [`FormulaPart::new`], of the first part that is refused.
-pub fn parts<N: Rounded + 'static>(
+pub fn parts<N: CorrectlyRounded + 'static>(
     formulas: &[&str],
     names: (&[&str], &[&str]),
     parameters: &[(&str, Rational)],

@@ -7,7 +7,7 @@ use shadowstep_symbolic::decimal::from_text;
 use super::part::{FlowState, Part};
 use crate::Rational;
 use crate::matrix::{MOST_KEPT, MOST_TERMS, Matrix, add, precision, product, round, scale};
-use crate::number::{AnyLimbs, Number, Ordered, Rounded};
+use crate::number::{AnyLimbs, CorrectlyRounded, Number, Real};
 
 /// The form with the flows over the times that have occurred: a scheme has a few.
 pub(super) struct Quadratic<N> {
@@ -19,7 +19,7 @@ pub(super) struct Quadratic<N> {
     by: N,
 }
 
-impl<N: Rounded> Quadratic<N> {
+impl<N: CorrectlyRounded> Quadratic<N> {
     /// `None` if the numbers have more digits than flows are computed to.
     pub(super) fn new(freedoms: Vec<usize>, matrix: Matrix<Rational>, context: &N::Context) -> Option<Self> {
         precision::<N>(context)?;
@@ -46,7 +46,7 @@ impl<N: Rounded> Quadratic<N> {
     }
 }
 
-impl<N: Rounded> Part<N> for Quadratic<N> {
+impl<N: CorrectlyRounded> Part<N> for Quadratic<N> {
     fn add_energy(&mut self, q: &[N], p: &[N], energy: &mut N) {
         let Quadratic { freedoms, rounded, x, by, .. } = self;
         let variables = freedoms.iter().map(|i| &q[*i]).chain(freedoms.iter().map(|i| &p[*i]));
@@ -77,7 +77,7 @@ impl<N: Rounded> Part<N> for Quadratic<N> {
 }
 
 /// e^{tJS} − 1, computed in more digits and rounded once.
-fn exponential<N: Rounded>(form: &Matrix<Rational>, time: &N) -> Matrix<N> {
+fn exponential<N: CorrectlyRounded>(form: &Matrix<Rational>, time: &N) -> Matrix<N> {
     let count = precision::<N>(&time.context()).expect("it was checked with the form");
     // the decimal reads back to the same number, thus differs by less than its rounding
     let Ok(exact) = from_text(&time.to_text()) else {

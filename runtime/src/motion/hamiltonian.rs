@@ -1,10 +1,10 @@
 //! T(p) and U(q) with their scratch space, and their flows.
 
-use super::curved::{Curved, Parts};
+use super::gradient_kick_state::{GradientKickState, Parts};
 use crate::coordinates::Coordinates;
 use crate::gradient_kicks::Place;
 use crate::increments::Carried;
-use crate::kept::Kept;
+use crate::kept::KeptForce;
 use crate::kinetic::Kinetic;
 use crate::maps::{Flows, MapKind, MapSequence, PartOrder};
 use crate::number::Number;
@@ -20,7 +20,7 @@ pub(super) struct Evaluated<N, V, S> {
     pub(super) gradient: V,
     /// qᵀU_q − 2U
     pub(super) rate: N,
-    pub(super) kept: Kept,
+    pub(super) kept: KeptForce,
 }
 
 /// A potential and a kinetic energy with their scratch space.
@@ -33,7 +33,7 @@ pub(super) struct Hamiltonian<N, P, K> {
     /// The kinetic energy's, with what it keeps there.
     pub(super) kinetic_scratch: Vec<N>,
     /// Of gradient kicks, once there was one; what it keeps belongs to the q of the last evaluation of the gradient.
-    pub(super) curved: Option<Box<Curved<N>>>,
+    pub(super) curved: Option<Box<GradientKickState<N>>>,
 }
 
 /// Flows are compiled for the instructions of the caller.
@@ -57,14 +57,14 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         self.potential.update(q);
         at.kept = if with_rate {
             self.potential.gradient_and_rate(q, gradient, &mut at.rate, &mut self.scratch);
-            Kept::GradientAndRate
+            KeptForce::GradientAndRate
         } else {
             self.potential.gradient(q, gradient, &mut self.scratch);
-            Kept::Gradient
+            KeptForce::Gradient
         };
         at.state.count_evaluation();
         if let Some(curved) = &mut self.curved {
-            curved.kicks.kept = Kept::Nothing;
+            curved.kicks.kept = KeptForce::Nothing;
         }
     }
 
@@ -77,12 +77,12 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
     ) {
         at.state.settle();
         if carried == Carried::Increments {
-            if at.kept != Kept::GradientAndRate {
+            if at.kept != KeptForce::GradientAndRate {
                 self.evaluate(at, true);
             }
             return at.state.kick_augmented(weight, at.gradient.as_ref(), &at.rate);
         }
-        if at.kept == Kept::Nothing {
+        if at.kept == KeptForce::Nothing {
             self.evaluate(at, carried == Carried::Rate);
         }
         at.state.kick(weight, at.gradient.as_ref());
@@ -99,11 +99,11 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
         let with_rate = carried != Carried::Nothing;
         at.state.settle();
         let is_displaced = self.curved.as_ref().is_some_and(|curved| curved.kicks.is_displaced());
-        if at.kept == Kept::Nothing || is_displaced && !at.kept.suffices(with_rate) {
+        if at.kept == KeptForce::Nothing || is_displaced && !at.kept.suffices(with_rate) {
             self.evaluate(at, with_rate);
         }
         let Hamiltonian { potential, kinetic, scratch, kinetic_scratch, curved } = self;
-        let kicks = curved.get_or_insert_with(|| Box::new(Curved::new(potential, &weight.context())));
+        let kicks = curved.get_or_insert_with(|| Box::new(GradientKickState::new(potential, &weight.context())));
         let place = Place { q: at.state.q.as_ref(), gradient: at.gradient.as_ref(), rate: &at.rate };
         let before = kicks.kicks.evaluations;
         kicks.evaluate(Parts { potential, kinetic, scratch, kinetic_scratch }, place, weight, with_rate);
@@ -129,7 +129,7 @@ impl<N: Number, P: Potential<N>, K: Kinetic<N>> Hamiltonian<N, P, K> {
             Carried::Increments => at.state.drift_augmented(&self.kinetic, weight, &mut self.kinetic_scratch),
             Carried::Nothing | Carried::Rate => at.state.drift(&self.kinetic, weight, &mut self.kinetic_scratch),
         }
-        at.kept = Kept::Nothing;
+        at.kept = KeptForce::Nothing;
     }
 
     /// energy ← T(p) + U(q), kinetic_energy ← T(p)

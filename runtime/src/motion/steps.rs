@@ -4,7 +4,7 @@ use super::hamiltonian::Evaluated;
 use super::{Motion, turns};
 use crate::coordinates::Coordinates;
 use crate::increments::Carried;
-use crate::kept::Kept;
+use crate::kept::KeptForce;
 use crate::kinetic::Kinetic;
 use crate::maps::MapSequence;
 use crate::number::Number;
@@ -33,7 +33,7 @@ where
     }
 
     fn state_mut(&mut self) -> &mut State<N, V, S> {
-        self.at.kept = Kept::Nothing;
+        self.at.kept = KeptForce::Nothing;
         &mut self.at.state
     }
 
@@ -91,7 +91,7 @@ where
     fn assign_energies(&mut self, at: Option<(&[N], &[N])>, energy: &mut N, kinetic_energy: &mut N) {
         let Motion { hamiltonian, at: Evaluated { state, gradient, rate, kept } } = self;
         let (q, p) = at.unwrap_or((state.q(), state.p()));
-        if at.is_some() || *kept != Kept::GradientAndRate {
+        if at.is_some() || *kept != KeptForce::GradientAndRate {
             return hamiltonian.assign_energies((q, p), energy, kinetic_energy);
         }
         energy.assign_zero();

@@ -9,7 +9,7 @@ use super::Motion;
 use super::hamiltonian::{Evaluated, FEW, Hamiltonian, kicks_and_drifts};
 use crate::coordinates::Coordinates;
 use crate::increments::Carried;
-use crate::kept::Kept;
+use crate::kept::KeptForce;
 use crate::kinetic::Kinetic;
 use crate::maps::{MapKind, MapSequence};
 use crate::number::Number;
@@ -153,7 +153,7 @@ where
 {
     for Motion { hamiltonian, at } in motions {
         at.state.settle();
-        if turn.kicks[0].is_some() && at.kept == Kept::Nothing {
+        if turn.kicks[0].is_some() && at.kept == KeptForce::Nothing {
             hamiltonian.evaluate(at, false);
         }
         let Evaluated { state: State { q, p, sums, .. }, gradient, kept, .. } = at;
@@ -166,7 +166,7 @@ where
             *p = copy;
         }
         if turn.drifts[0].is_some() {
-            *kept = Kept::Nothing;
+            *kept = KeptForce::Nothing;
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a computation costs: a number that counts its operations.
 
-use super::{Number, Ordered, Precision, Reference, Rounded};
+use super::{CorrectlyRounded, HighPrecision, Number, Precision, Real};
 use crate::Rational;
 use std::cell::Cell;
 use std::fmt;
@@ -167,17 +167,17 @@ impl<N: Number> Number for Counting<N> {
     }
 }
 
-impl<N: Rounded> Rounded for Counting<N> {
+impl<N: CorrectlyRounded> CorrectlyRounded for Counting<N> {
     fn precision(context: &N::Context) -> Precision {
         N::precision(context)
     }
 
-    fn assign_rounded(&mut self, a: &impl Reference) {
+    fn assign_rounded(&mut self, a: &impl HighPrecision) {
         self.0.assign_rounded(a);
     }
 }
 
-impl<N: Ordered> Ordered for Counting<N> {
+impl<N: Real> Real for Counting<N> {
     fn is_below_zero(&self) -> bool {
         self.0.is_below_zero()
     }

@@ -2,7 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
-use super::{Number, Ordered};
+use super::{Number, Real};
 use crate::Rational;
 use num_traits::ToPrimitive;
 
@@ -219,7 +219,7 @@ impl Number for f64 {
     }
 }
 
-impl Ordered for f64 {
+impl Real for f64 {
     fn is_below_zero(&self) -> bool {
         *self < 0.0
     }
@@ -244,7 +244,7 @@ impl Ordered for f64 {
 #[cfg(test)]
 mod tests {
     use super::super::tests::{functions, operations, products};
-    use super::{Number, Ordered};
+    use super::{Number, Real};
     use crate::Rational;
     use num_bigint::BigInt;
     use proptest::prelude::*;

@@ -56,7 +56,7 @@ pub use machine::Machine;
 /// an order above 2 begin with the platform's `f64`.
 ///
 /// ```
-/// use shadowstep::number::{DoubleDouble, Number, Ordered};
+/// use shadowstep::number::{DoubleDouble, Number, Real};
 ///
 /// let third = DoubleDouble::from_rational(&shadowstep::exact("1/3").unwrap(), &());
 /// assert_eq!(third.to_text(), "0.333333333333333333333333333333332");

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 
 use super::double::scaled;
-use super::{Number, Ordered};
+use super::{Number, Real};
 use crate::Rational;
 use crate::instructions;
 
@@ -189,7 +189,7 @@ impl Number for Fused {
     }
 }
 
-impl Ordered for Fused {
+impl Real for Fused {
     fn is_below_zero(&self) -> bool {
         self.0.is_below_zero()
     }

@@ -1,7 +1,7 @@
 //! Numbers of limbs as a [`Number`]: [`Limbs`], whose number of limbs is part of the type, and [`AnyLimbs`], for which it is chosen at run
 //! time.
 
-use super::{LimbAccess, Number, Ordered, Parts};
+use super::{LimbAccess, Number, Parts, Real};
 use crate::Rational;
 use num_traits::{Signed, Zero};
 use shadowstep_limbs::{AnyLimbs, LimbCount, Limbs};
@@ -36,7 +36,7 @@ impl Nearest for AnyLimbs {
     }
 }
 
-/// Implements [`Number`] and [`Ordered`], with what is different for a type.
+/// Implements [`Number`] and [`Real`], with what is different for a type.
 ///
 /// Sums, products, quotients, square roots and their reciprocals are correctly rounded, a b + c with two roundings, and elementary
 /// functions err by little more than half an ulp.
@@ -258,7 +258,7 @@ macro_rules! number_of_limbs {
             }
         }
 
-        impl<$($L)*> Ordered for $Limbs {
+        impl<$($L)*> Real for $Limbs {
             fn is_below_zero(&self) -> bool {
                 <$Limbs>::is_below_zero(self)
             }
@@ -318,7 +318,7 @@ fn quotient(value: &Rational, bits: u32) -> (Vec<u64>, i64, bool) {
 #[cfg(test)]
 mod tests {
     use super::super::tests::{functions, operations, products};
-    use super::{AnyLimbs, LimbCount, Limbs, Number, Ordered};
+    use super::{AnyLimbs, LimbCount, Limbs, Number, Real};
     use crate::Rational;
     use num_bigint::BigInt;
 
@@ -335,7 +335,7 @@ mod tests {
         let mut x = Limbs::<2>::ONE;
         x.divide_integer(0);
         assert!(!Number::is_finite(&x));
-        assert_eq!(Ordered::to_text(&x), "inf");
+        assert_eq!(Real::to_text(&x), "inf");
         for exponent in [-400, -5, 0, 7, 400] {
             let x = Limbs::<2>::from_rational(&-Rational::from(BigInt::from(10)).pow(exponent), &());
             assert!((x.log10_abs() - f64::from(exponent)).abs() < 1e-13);
@@ -365,7 +365,7 @@ mod tests {
         let same = |found: &[AnyLimbs], expected: &[Limbs<L>]| {
             let text = |x: &dyn std::fmt::Debug| format!("{x:?}");
             for (found, expected) in found.iter().zip(expected) {
-                assert_eq!((text(found), Ordered::to_text(found)), (text(expected), Ordered::to_text(expected)));
+                assert_eq!((text(found), Real::to_text(found)), (text(expected), Real::to_text(expected)));
             }
         };
         same(&of_any, &[a, b, c]);

@@ -1,7 +1,7 @@
 //! MPFR's numbers, [`rug::Float`], as a [`Number`].
 
-use super::reference::ScaledInteger;
-use super::{Number, Ordered, Precision};
+use super::high_precision::ScaledInteger;
+use super::{Number, Precision, Real};
 use crate::Rational;
 use num_bigint::BigInt;
 use num_traits::Signed;
@@ -194,7 +194,7 @@ impl Number for Float {
     }
 }
 
-impl Ordered for Float {
+impl Real for Float {
     fn is_below_zero(&self) -> bool {
         *self < 0
     }
@@ -264,7 +264,7 @@ fn decimal(value: &Float, digits: u32) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::tests::{functions, operations, products};
-    use super::{Number, Ordered, Precision};
+    use super::{Number, Precision, Real};
     use crate::Rational;
     use num_bigint::BigInt;
     use proptest::prelude::*;

@@ -3,7 +3,7 @@
 use std::array;
 use std::mem::{needs_drop, size_of};
 
-use crate::kept::Kept;
+use crate::kept::KeptForce;
 use crate::kinetic::InverseMasses;
 use crate::maps::MapKind;
 use crate::number::Number;
@@ -19,7 +19,7 @@ pub struct FewCoordinates<'a, N> {
     pub(crate) state: [&'a mut [N]; 3],
     pub(crate) inverse_masses: InverseMasses<'a, N>,
     /// What is kept at q before the first map and after the last.
-    pub(crate) kept: Kept,
+    pub(crate) kept: KeptForce,
     /// Evaluations of the gradient.
     pub(crate) evaluations: u64,
     pub(crate) maps: [Repeated<N>; 3],
@@ -62,7 +62,7 @@ impl<N: Number> FewCoordinates<'_, N> {
         let copy = |from: &[N]| -> [N; D] { array::from_fn(|i| from[i].clone()) };
         let [mut q, mut p, mut gradient] = [copy(state[0]), copy(state[1]), copy(state[2])];
         let mut velocity = p[0].clone();
-        let (mut has_gradient, mut evaluated) = (*kept != Kept::Nothing, 0);
+        let (mut has_gradient, mut evaluated) = (*kept != KeptForce::Nothing, 0);
         for (maps, times) in maps {
             for _ in 0..*times {
                 for (kind, weight) in &*maps {
@@ -80,7 +80,7 @@ impl<N: Number> FewCoordinates<'_, N> {
                 }
             }
         }
-        *kept = if has_gradient { Kept::Gradient } else { Kept::Nothing };
+        *kept = if has_gradient { KeptForce::Gradient } else { KeptForce::Nothing };
         *evaluations += evaluated;
         for (into, from) in state.iter_mut().zip([&q, &p, &gradient]) {
             into.clone_from_slice(from);

@@ -2,7 +2,7 @@
 
 use super::comparison::Comparison;
 use crate::Rational;
-use crate::number::{Ordered, epsilon};
+use crate::number::{Real, epsilon};
 use crate::potential::Potential;
 
 /// Sums of n terms are known to this many times √n roundings.
@@ -17,7 +17,7 @@ pub(super) struct Checked<'a, N, P: ?Sized> {
     pub(super) epsilon: N,
 }
 
-impl<'a, N: Ordered, P: Potential<N> + ?Sized> Checked<'a, N, P> {
+impl<'a, N: Real, P: Potential<N> + ?Sized> Checked<'a, N, P> {
     pub(super) fn new(potential: &'a mut P, q: &'a [N], state: usize) -> Self {
         let context = q[0].context();
         let mut scratch = vec![N::zero(&context); potential.scratch()];

@@ -1,6 +1,6 @@
 //! A comparison of two values with an uncertainty.
 
-use crate::number::Ordered;
+use crate::number::Real;
 
 /// The result of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,7 +37,7 @@ const DIFFERS: i32 = 100;
 /// A comparison is undecided if its uncertainty is more than one part in this many of the sizes of its terms.
 const LARGEST_UNCERTAINTY: i32 = 1000;
 
-impl<N: Ordered> Comparison<N> {
+impl<N: Real> Comparison<N> {
     /// `size` is the sum of the absolute values of all terms.
     pub(super) fn new(
         state: usize,
@@ -92,7 +92,7 @@ impl<N: Ordered> Comparison<N> {
 }
 
 /// sum ← sum + |a b|
-pub(super) fn add_absolute_product<N: Ordered>(sum: &mut N, a: &N, b: &N) {
+pub(super) fn add_absolute_product<N: Real>(sum: &mut N, a: &N, b: &N) {
     let mut product = a.clone();
     product.multiply(b);
     product.make_absolute();

@@ -1,6 +1,6 @@
 //! The derivative of a function along a direction, by differences that are extrapolated to 0.
 
-use crate::number::{Ordered, epsilon};
+use crate::number::{Real, epsilon};
 
 /// A derivative and its estimated error.
 pub(super) struct Derivative<N> {
@@ -18,7 +18,7 @@ const COLUMNS: usize = 8;
 /// the energies makes.
 ///
 /// Distances at which U is not finite are left out; where no two are left, value and error are NaN.
-pub(super) fn directional_derivative<N: Ordered>(
+pub(super) fn directional_derivative<N: Real>(
     energy: &mut impl FnMut(&[N], &mut N),
     q: &[N],
     direction: &[N],
@@ -61,7 +61,7 @@ pub(super) fn directional_derivative<N: Ordered>(
 }
 
 /// The next row of the table: from T(t/2) and T(t), of order j, follows T(t/2) + (T(t/2) − T(t))/(4^j − 1).
-fn extrapolate<N: Ordered>(above: &[N], slope: N, rounding: &N, best: &mut Option<Derivative<N>>) -> Vec<N> {
+fn extrapolate<N: Real>(above: &[N], slope: N, rounding: &N, best: &mut Option<Derivative<N>>) -> Vec<N> {
     let mut row = vec![slope];
     for (j, above) in above.iter().take(COLUMNS - 1).enumerate() {
         let left = &row[j];

@@ -3,7 +3,7 @@
 use super::checked::Checked;
 use super::comparison::{Comparison, add_absolute_product};
 use super::derivative::{Derivative, directional_derivative};
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::potential::Potential;
 
 /// What was found of the Hessian–vector product: of each comparison the state where it is worst.
@@ -17,7 +17,7 @@ pub struct HessianCheck<N> {
     pub rate: Comparison<N>,
 }
 
-impl<N: Ordered> HessianCheck<N> {
+impl<N: Real> HessianCheck<N> {
     pub(super) fn all(&self) -> [&Comparison<N>; 3] {
         [&self.product, &self.product_with_rate, &self.rate]
     }
@@ -29,7 +29,7 @@ impl<N: Ordered> HessianCheck<N> {
     }
 }
 
-impl<N: Ordered, P: Potential<N> + ?Sized> Checked<'_, N, P> {
+impl<N: Real, P: Potential<N> + ?Sized> Checked<'_, N, P> {
     /// In two directions; `None` where the potential has no Hessian–vector product.
     pub(super) fn check_hessian(&mut self) -> Option<HessianCheck<N>> {
         let mut worst: Option<HessianCheck<N>> = None;

@@ -5,7 +5,7 @@ use shadowstep_macros::potential;
 use super::definition::{Definition, Description, Parameter};
 use super::initial::Initial;
 use crate::number::Number;
-use crate::potential::{Potential, Widest};
+use crate::potential::{Potential, Vectorised};
 
 potential! {
     /// Three stiff springs of frequency omega between soft, quartic ones: x01, x02, x03 are (scaled) positions of the
@@ -35,6 +35,6 @@ impl Definition for Entry {
     };
 
     fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
-        Box::new(Widest(StiffFput { omega: number("omega") }))
+        Box::new(Vectorised(StiffFput { omega: number("omega") }))
     }
 }

@@ -8,7 +8,7 @@ use super::definition::{Definition, Description, Parameter};
 use super::initial::Initial;
 use crate::exact_flow::solver::Solver;
 use crate::number::Number;
-use crate::potential::{Potential, Widest};
+use crate::potential::{Potential, Vectorised};
 
 potential! {
     /// The harmonic oscillator. U is homogeneous of degree 2: β stays 0.
@@ -34,6 +34,6 @@ impl Definition for Entry {
     const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::ClosedForm>());
 
     fn potential<N: Number + 'static>(number: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
-        Box::new(Widest(HarmonicOscillator { omega: number("omega") }))
+        Box::new(Vectorised(HarmonicOscillator { omega: number("omega") }))
     }
 }

@@ -10,7 +10,7 @@ use super::initial::Initial;
 use crate::Rational;
 use crate::exact_flow::solver::Solver;
 use crate::number::Number;
-use crate::potential::{Potential, Widest};
+use crate::potential::{Potential, Vectorised};
 
 potential! {
     /// Kepler's problem in the plane.
@@ -47,6 +47,6 @@ impl Definition for Entry {
     const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::KeplersEquation>());
 
     fn potential<N: Number + 'static>(_: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
-        Box::new(Widest(Kepler))
+        Box::new(Vectorised(Kepler))
     }
 }

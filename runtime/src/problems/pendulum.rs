@@ -9,7 +9,7 @@ use super::definition::{Definition, Description};
 use super::initial::Initial;
 use crate::exact_flow::solver::Solver;
 use crate::number::Number;
-use crate::potential::{Potential, Widest};
+use crate::potential::{Potential, Vectorised};
 
 potential! {
     /// The mathematical pendulum.
@@ -35,6 +35,6 @@ impl Definition for Entry {
     const EXACT_FLOW: Option<Solver> = Some(Solver::of::<exact_flow::AdditionTheorems>());
 
     fn potential<N: Number + 'static>(_: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
-        Box::new(Widest(Pendulum))
+        Box::new(Vectorised(Pendulum))
     }
 }

@@ -5,7 +5,7 @@ use shadowstep_macros::potential;
 use super::definition::{Definition, Description, Parameter};
 use super::initial::Initial;
 use crate::number::Number;
-use crate::potential::{Potential, Widest};
+use crate::potential::{Potential, Vectorised};
 
 potential! {
     /// A Gaussian hill.
@@ -33,6 +33,6 @@ impl Definition for Entry {
     };
 
     fn potential<N: Number + 'static>(_: &dyn Fn(&str) -> N) -> Box<dyn Potential<N>> {
-        Box::new(Widest(Scattering))
+        Box::new(Vectorised(Scattering))
     }
 }

@@ -1,7 +1,7 @@
 //! The drift of the modified energy over a run: the paper's max − min, and the permanent change.
 
 use crate::integrator::Integrator;
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::run::error::RunError;
 use crate::run::permanent::{LowErrorStates, PermanentChange};
 use crate::run::shadow_run::ShadowRun;
@@ -40,7 +40,7 @@ pub struct EnergyDrift<N> {
 ///
 /// # Errors
 /// A state or a modified energy that is not finite; settings of the estimator that are not valid.
-pub fn energy_drift<I: Integrator<Number: Ordered>>(
+pub fn energy_drift<I: Integrator<Number: Real>>(
     integrator: I,
     steps: u64,
     settings: &impl BuildEstimator<I::Number>,
@@ -104,7 +104,7 @@ pub struct DriftRecorder<N> {
     found: Option<(EnergyDrift<N>, LowErrorStates<N>)>,
 }
 
-impl<N: Ordered> DriftRecorder<N> {
+impl<N: Real> DriftRecorder<N> {
     /// For steps of size h.
     pub fn new(h: StepSize) -> Self {
         DriftRecorder { h, compensated: false, found: None }
@@ -137,7 +137,7 @@ impl<N: Ordered> DriftRecorder<N> {
     }
 }
 
-impl<N: Ordered> EnergyDrift<N> {
+impl<N: Real> EnergyDrift<N> {
     fn begin(estimate: &Estimate<'_, N>) -> Self {
         let value = || estimate.value.clone();
         EnergyDrift {

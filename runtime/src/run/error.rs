@@ -4,7 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::shadow::EstimatorError;
 
 /// A run that cannot begin or cannot continue.
@@ -103,7 +103,7 @@ impl fmt::Display for NotFinite {
 
 /// Refuses a value that is not finite. States may be finite where their products overflow.
 #[inline]
-pub(crate) fn check_value<N: Ordered>(value: &N, quantity: Quantity, step: i64) -> Result<(), RunError> {
+pub(crate) fn check_value<N: Real>(value: &N, quantity: Quantity, step: i64) -> Result<(), RunError> {
     if value.is_finite() {
         return Ok(());
     }
@@ -111,7 +111,7 @@ pub(crate) fn check_value<N: Ordered>(value: &N, quantity: Quantity, step: i64) 
 }
 
 /// Refuses an energy that is not finite; names the position from which that comes, where its square overflows.
-pub(crate) fn check_energy<N: Ordered>(energy: &N, q: &[N], step: i64) -> Result<(), RunError> {
+pub(crate) fn check_energy<N: Real>(energy: &N, q: &[N], step: i64) -> Result<(), RunError> {
     let overflows = |position: &N| position.is_finite() && !position.has_finite_square();
     // NaN is not ordered
     match q.iter().position(overflows).filter(|_| energy.partial_cmp(energy).is_none()) {

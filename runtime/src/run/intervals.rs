@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::number::Ordered;
+use crate::number::Real;
 
 /// The factor by which errors rise and fall between two intervals: 2^10.
 const APART: i32 = 10;
@@ -30,7 +30,7 @@ struct Minimum<N> {
     error: N,
 }
 
-impl<N: Ordered> Intervals<N> {
+impl<N: Real> Intervals<N> {
     pub(super) fn new(context: &N::Context) -> Self {
         let zero = N::zero(context);
         Intervals {
@@ -108,7 +108,7 @@ impl<N: Ordered> Intervals<N> {
 }
 
 /// The difference of the values, or 0 where it is within their errors.
-fn assign_jump<N: Ordered>(jump: &mut N, a: &Minimum<N>, b: &Minimum<N>) {
+fn assign_jump<N: Real>(jump: &mut N, a: &Minimum<N>, b: &Minimum<N>) {
     jump.assign_sum(&a.error, &b.error);
     jump.multiply_integer(2);
     let within_errors = jump.clone();

@@ -24,9 +24,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::run::intervals::Intervals;
-use crate::shadow::{Estimate, Walk};
+use crate::shadow::{Estimate, ExpectedRoundOff};
 use crate::step_size::StepSize;
 
 /// The change of the modified energy between low-error states.
@@ -71,7 +71,7 @@ pub struct LowErrorStates<N> {
     /// By ⌊log₂ error⌋; an error of 0, where nothing changes from state to state, comes first.
     by_error: BTreeMap<i32, Extremes<N>>,
     intervals: Intervals<N>,
-    walk: Walk<N>,
+    walk: ExpectedRoundOff<N>,
 }
 
 #[derive(Clone, Debug)]
@@ -84,10 +84,10 @@ struct Extremes<N> {
     states: u64,
 }
 
-impl<N: Ordered> LowErrorStates<N> {
+impl<N: Real> LowErrorStates<N> {
     /// For steps of size h.
     pub fn new(h: &StepSize, context: &N::Context) -> Self {
-        let (intervals, walk) = (Intervals::new(context), Walk::new(h.exact(), context));
+        let (intervals, walk) = (Intervals::new(context), ExpectedRoundOff::new(h.exact(), context));
         LowErrorStates { by_error: BTreeMap::new(), intervals, walk }
     }
 
@@ -147,13 +147,13 @@ impl<N: Ordered> LowErrorStates<N> {
     }
 }
 
-fn difference<N: Ordered>(a: &N, b: &N) -> N {
+fn difference<N: Real>(a: &N, b: &N) -> N {
     let mut difference = a.clone();
     difference.subtract(b);
     difference
 }
 
-impl<N: Ordered> Extremes<N> {
+impl<N: Real> Extremes<N> {
     fn of(n: i64, value: &N, error: &N) -> Self {
         let value = || value.clone();
         Extremes {

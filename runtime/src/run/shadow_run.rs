@@ -1,7 +1,7 @@
 //! States with their modified energies.
 
 use crate::integrator::Integrator;
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::run::error::{Quantity, RunError, check_value};
 use crate::run::state::{States, TrajectoryState};
 use crate::run::trajectory::Trajectory;
@@ -26,7 +26,7 @@ pub struct ShadowRun<T, E> {
     missing: usize,
 }
 
-impl<I: Integrator<Number: Ordered>, E: Estimator<I::Number>> ShadowRun<Trajectory<I>, E> {
+impl<I: Integrator<Number: Real>, E: Estimator<I::Number>> ShadowRun<Trajectory<I>, E> {
     /// Begins at the system's present state; makes the states before it that the estimator needs.
     ///
     /// # Errors

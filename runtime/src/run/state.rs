@@ -3,7 +3,7 @@
 use crate::coordinates::Coordinates;
 use crate::increments::Increments;
 use crate::instructions;
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::run::error::{Quantity, RunError, check_value};
 use crate::state::State;
 use crate::summation::Summation;
@@ -21,7 +21,7 @@ pub struct TrajectoryState<'a, N> {
     pub increments: Increments<'a, N>,
 }
 
-impl<'a, N: Ordered> TrajectoryState<'a, N> {
+impl<'a, N: Real> TrajectoryState<'a, N> {
     /// The state of a system.
     #[inline]
     pub(crate) fn of<V: Coordinates<N>, S: Summation<N>>(state: &'a State<N, V, S>, n: i64) -> Self {
@@ -60,7 +60,7 @@ impl<'a, N: Ordered> TrajectoryState<'a, N> {
 /// A source of states for an estimator: a [`Trajectory`](crate::run::Trajectory), or the exact flow.
 pub trait States {
     /// The type of their numbers.
-    type Number: Ordered;
+    type Number: Real;
 
     /// Goes to the next state in the order of time; `None` at the end.
     ///

@@ -3,7 +3,7 @@
 use crate::coordinates::Coordinates;
 use crate::increments::{Carried, OwnedIncrements};
 use crate::integrator::Integrator;
-use crate::number::{Number, Ordered};
+use crate::number::{Number, Real};
 use crate::run::error::{RunError, check_energy};
 use crate::run::state::{States, TrajectoryState, last};
 use crate::state::{Saved, State};
@@ -40,7 +40,7 @@ impl<N: Number> Stored<N> {
 /// From this number of steps on [`Trajectory::reach`] saves a state and makes them at once.
 const AT_ONCE: i64 = 4;
 
-impl<I: Integrator<Number: Ordered>> Trajectory<I> {
+impl<I: Integrator<Number: Real>> Trajectory<I> {
     /// Begins at the system's present state.
     ///
     /// # Errors
@@ -151,7 +151,7 @@ impl<I: Integrator<Number: Ordered>> Trajectory<I> {
     }
 }
 
-impl<I: Integrator<Number: Ordered>> States for Trajectory<I> {
+impl<I: Integrator<Number: Real>> States for Trajectory<I> {
     type Number = I::Number;
 
     fn advance(&mut self) -> Result<Option<TrajectoryState<'_, I::Number>>, RunError> {

@@ -4,7 +4,7 @@ use std::cmp::max;
 
 use crate::Rational;
 use crate::increments::Increments;
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::shadow::estimator::{Estimate, Estimator};
 use crate::shadow::form::{Form, Products};
 
@@ -27,7 +27,7 @@ fn ladder(largest: u32) -> Vec<u32> {
     (1..).map(|power| 1_u32 << power).take_while(|k| *k < largest).chain([largest]).collect()
 }
 
-impl<N: Ordered> BestOrder<N> {
+impl<N: Real> BestOrder<N> {
     /// For a largest k ≥ 2.
     pub(super) fn new(
         largest: u32,
@@ -64,7 +64,7 @@ impl<N: Ordered> BestOrder<N> {
     }
 }
 
-impl<N: Ordered> Estimator<N> for BestOrder<N> {
+impl<N: Real> Estimator<N> for BestOrder<N> {
     fn states(&self) -> usize {
         2 * self.reach + 1
     }

@@ -7,7 +7,7 @@ use shadowstep_symbolic::decimal::to_significant;
 
 use crate::Rational;
 use crate::increments::Increments;
-use crate::number::{Number, Ordered};
+use crate::number::{Number, Real};
 use crate::shadow::best_bilinear::BestOrder;
 use crate::shadow::estimator::{BuildEstimator, Estimate, Estimator, EstimatorError};
 use crate::shadow::family::Family;
@@ -164,7 +164,7 @@ impl Family for Bilinear {
     }
 }
 
-impl<N: Ordered> BuildEstimator<N> for Bilinear {
+impl<N: Real> BuildEstimator<N> for Bilinear {
     type Estimator = BilinearEstimator<N>;
 
     /// # Errors
@@ -172,7 +172,7 @@ impl<N: Ordered> BuildEstimator<N> for Bilinear {
     fn build(&self, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self::Estimator, EstimatorError> {
         Ok(BilinearEstimator(match self {
             Bilinear::Fixed { k, with_error } => {
-                Kind::Fixed(FixedBilinear { k: *k, with_error: *with_error }.build(h, dimension, context)?)
+                FixedOrBest::Fixed(FixedBilinear { k: *k, with_error: *with_error }.build(h, dimension, context)?)
             }
             Bilinear::Best { largest, accuracy } => {
                 EstimatorError::check_order("the largest k", *largest, 2)?;
@@ -180,7 +180,7 @@ impl<N: Ordered> BuildEstimator<N> for Bilinear {
                 if accuracy.as_ref().is_some_and(Signed::is_negative) {
                     return Err(EstimatorError::NegativeAccuracy);
                 }
-                Kind::Best(BestOrder::new(*largest, accuracy.as_ref(), h.exact(), dimension, context))
+                FixedOrBest::Best(BestOrder::new(*largest, accuracy.as_ref(), h.exact(), dimension, context))
             }
         }))
     }
@@ -188,27 +188,27 @@ impl<N: Ordered> BuildEstimator<N> for Bilinear {
 
 /// The estimator that [`Bilinear`] describes.
 #[derive(Clone, Debug)]
-pub struct BilinearEstimator<N>(Kind<N>);
+pub struct BilinearEstimator<N>(FixedOrBest<N>);
 
 #[derive(Clone, Debug)]
-enum Kind<N> {
+enum FixedOrBest<N> {
     Fixed(FixedBilinearEstimator<N>),
     Best(BestOrder<N>),
 }
 
-impl<N: Ordered> Estimator<N> for BilinearEstimator<N> {
+impl<N: Real> Estimator<N> for BilinearEstimator<N> {
     fn states(&self) -> usize {
         match &self.0 {
-            Kind::Fixed(fixed) => fixed.states(),
-            Kind::Best(best) => best.states(),
+            FixedOrBest::Fixed(fixed) => fixed.states(),
+            FixedOrBest::Best(best) => best.states(),
         }
     }
 
     #[inline(always)]
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         match &mut self.0 {
-            Kind::Fixed(fixed) => fixed.push(q, p, increments),
-            Kind::Best(best) => best.push(q, p, increments),
+            FixedOrBest::Fixed(fixed) => fixed.push(q, p, increments),
+            FixedOrBest::Best(best) => best.push(q, p, increments),
         }
     }
 }

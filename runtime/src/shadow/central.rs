@@ -4,7 +4,7 @@ use num_traits::Zero;
 
 use crate::Rational;
 use crate::increments::Increments;
-use crate::number::{Number, Ordered};
+use crate::number::{Number, Real};
 use crate::shadow::differences::AllOrders;
 use crate::shadow::differences::{SelectionRule, StoppingRule};
 use crate::shadow::error_estimate::{ErrorEstimate, Point};
@@ -143,7 +143,7 @@ impl Family for Central {
     }
 }
 
-impl<N: Ordered> BuildEstimator<N> for Central {
+impl<N: Real> BuildEstimator<N> for Central {
     type Estimator = CentralEstimator<N>;
 
     /// # Errors
@@ -157,12 +157,12 @@ impl<N: Ordered> BuildEstimator<N> for Central {
         let h = step_size.exact();
         Ok(CentralEstimator(match *self {
             Central::Fixed { m, with_error } => {
-                Kind::Fixed(FixedCentral { m, with_error }.build(step_size, dimension, context)?)
+                FixedOrBest::Fixed(FixedCentral { m, with_error }.build(step_size, dimension, context)?)
             }
             Central::Best { largest, stop, rule, with_error } => {
                 EstimatorError::check_order("the largest m", largest, 2)?;
                 let around = with_error.then_some(AROUND);
-                Kind::Best(AllOrders::new((largest, stop, rule), around, h, dimension, context))
+                FixedOrBest::Best(AllOrders::new((largest, stop, rule), around, h, dimension, context))
             }
         }))
     }
@@ -170,26 +170,26 @@ impl<N: Ordered> BuildEstimator<N> for Central {
 
 /// The estimator that [`Central`] describes.
 #[derive(Clone, Debug)]
-pub struct CentralEstimator<N>(Kind<N>);
+pub struct CentralEstimator<N>(FixedOrBest<N>);
 
 #[derive(Clone, Debug)]
-enum Kind<N> {
+enum FixedOrBest<N> {
     Fixed(FixedCentralEstimator<N>),
     Best(AllOrders<N>),
 }
 
-impl<N: Ordered> Estimator<N> for CentralEstimator<N> {
+impl<N: Real> Estimator<N> for CentralEstimator<N> {
     fn states(&self) -> usize {
         match &self.0 {
-            Kind::Fixed(fixed) => fixed.states(),
-            Kind::Best(best) => best.states(),
+            FixedOrBest::Fixed(fixed) => fixed.states(),
+            FixedOrBest::Best(best) => best.states(),
         }
     }
 
     fn push(&mut self, q: &[N], p: &[N], increments: Increments<'_, N>) -> Option<Estimate<'_, N>> {
         match &mut self.0 {
-            Kind::Fixed(fixed) => fixed.push(q, p, increments),
-            Kind::Best(best) => best.push(q, p, increments),
+            FixedOrBest::Fixed(fixed) => fixed.push(q, p, increments),
+            FixedOrBest::Best(best) => best.push(q, p, increments),
         }
     }
 }

@@ -7,7 +7,7 @@
 
 use crate::Rational;
 use crate::increments::Increments;
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::shadow::difference_table::DifferenceTable;
 use crate::shadow::error_estimate::{ErrorEstimate, Point};
 use crate::shadow::estimator::{Estimate, Estimator};
@@ -94,7 +94,7 @@ struct Search<N> {
     ended: bool,
 }
 
-impl<N: Ordered> AllOrders<N> {
+impl<N: Real> AllOrders<N> {
     /// With the error from this many values on either side, or without.
     pub(super) fn new(
         (largest, stop, rule): (u32, StoppingRule, SelectionRule),
@@ -169,7 +169,7 @@ impl<N: Ordered> AllOrders<N> {
     }
 }
 
-impl<N: Ordered> Search<N> {
+impl<N: Real> Search<N> {
     /// The place for the next term.
     fn next(&mut self) -> &mut N {
         &mut self.sizes[self.count]
@@ -221,7 +221,7 @@ fn largest<N: PartialOrd>(numbers: &[N]) -> &N {
     numbers.iter().reduce(|a, b| if a < b { b } else { a }).expect("the window is not empty")
 }
 
-impl<N: Ordered> Estimator<N> for AllOrders<N> {
+impl<N: Real> Estimator<N> for AllOrders<N> {
     fn states(&self) -> usize {
         2 * (self.largest + self.error_estimate.around()) + 1
     }

@@ -49,7 +49,7 @@ use self::schedule::Schedule;
 use self::statistics::Statistics;
 use crate::increments::{Carried, Increments};
 use crate::integrator::Integrator;
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::run::{Quantity, RunError, TrajectoryState, check_energy, check_value};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
 use crate::step_size::StepSize;
@@ -59,7 +59,7 @@ use crate::system::System;
 ///
 /// It takes every state with [`observe`](Monitor::observe), after a step that carries along what [`carried`](Monitor::carried) says.
 #[derive(Clone, Debug)]
-pub struct Monitor<N: Ordered, E> {
+pub struct Monitor<N: Real, E> {
     h: StepSize,
     estimator: E,
     schedule: Schedule,
@@ -105,7 +105,7 @@ pub struct Sample<'a, N> {
     pub energy: &'a N,
 }
 
-impl<N: Ordered, E: Estimator<N>> Monitor<N, E> {
+impl<N: Real, E: Estimator<N>> Monitor<N, E> {
     /// Begins at the present state of an integrator, which is number 0. There is a window at every step.
     ///
     /// # Errors

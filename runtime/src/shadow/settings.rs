@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::shadow::bilinear::Bilinear;
 use crate::shadow::central::Central;
 use crate::shadow::estimator::{BuildEstimator, Estimator, EstimatorError};
@@ -99,7 +99,7 @@ macro_rules! estimators {
             }
         }
 
-        impl<N: Ordered + 'static> BuildEstimator<N> for EstimatorSettings {
+        impl<N: Real + 'static> BuildEstimator<N> for EstimatorSettings {
             type Estimator = Box<dyn Estimator<N>>;
 
             fn build(

@@ -1,7 +1,7 @@
 //! The last step of a run in transformed time: to a given physical time.
 
 use crate::integrator::Integrator;
-use crate::number::{Number, Ordered};
+use crate::number::{Number, Real};
 
 /// More iterations than any number type needs: bisections alone find double precision in 60.
 const MOST_ITERATIONS: u32 = 400;
@@ -13,7 +13,7 @@ const MOST_ITERATIONS: u32 = 400;
 /// is `until` already, or if a trial step is not finite; the system is then as it was.
 pub fn step_to_time<I>(integrator: &mut I, until: &I::Number) -> Option<I::Number>
 where
-    I: Integrator<Number: Ordered> + ?Sized,
+    I: Integrator<Number: Real> + ?Sized,
 {
     let context = integrator.state().context();
     let zero = <I::Number as Number>::zero(&context);
@@ -48,7 +48,7 @@ where
 type Point<N> = (N, N);
 
 /// The secant through the two latest points, or the middle of the bracket where that is outside.
-fn next_part<N: Ordered>(latest: &[Point<N>; 2], [low, high]: [&Point<N>; 2]) -> N {
+fn next_part<N: Real>(latest: &[Point<N>; 2], [low, high]: [&Point<N>; 2]) -> N {
     let [(a, missed_a), (b, missed_b)] = latest;
     let (mut part, mut slope, mut change) = (b.clone(), missed_b.clone(), b.clone());
     slope.subtract(missed_a);
@@ -63,14 +63,14 @@ fn next_part<N: Ordered>(latest: &[Point<N>; 2], [low, high]: [&Point<N>; 2]) ->
     part
 }
 
-struct Search<'a, N: Ordered> {
+struct Search<'a, N: Real> {
     start: (Vec<N>, Vec<N>),
     until: &'a N,
     /// The part that misses least, and by how much.
     best: Option<Point<N>>,
 }
 
-impl<N: Ordered> Search<'_, N> {
+impl<N: Real> Search<'_, N> {
     /// t − until of the present state.
     fn missed<I: Integrator<Number = N> + ?Sized>(&self, integrator: &I) -> N {
         let mut missed = integrator.state().q().last().expect("a system has a coordinate").clone();

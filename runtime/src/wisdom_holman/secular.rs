@@ -7,15 +7,15 @@
 //! Conjugate maps have the same frequencies, so that those of a processed scheme are the frequencies of its kernel.
 
 use super::{Jacobi, PlanetaryCoordinates, WisdomHolman};
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::system::System;
 
 /// e cos ϖ and e sin ϖ of a planet: in three dimensions e times the first two components of the direction of the pericentre.
 pub type Eccentricity = [f64; 2];
 
 /// e exp(iϖ) of each planet on its Kepler orbit in Jacobi coordinates: of the vector v × (Q × v)/μ − Q/|Q| with v = P/m.
-pub fn eccentricities<N: Ordered, const D: usize>(system: &WisdomHolman<N, Jacobi<N, D>, D>) -> Vec<Eccentricity> {
-    let numbers = |values: &[N]| values.iter().map(Ordered::to_f64).collect::<Vec<_>>();
+pub fn eccentricities<N: Real, const D: usize>(system: &WisdomHolman<N, Jacobi<N, D>, D>) -> Vec<Eccentricity> {
+    let numbers = |values: &[N]| values.iter().map(Real::to_f64).collect::<Vec<_>>();
     let (q, p) = (numbers(system.q()), numbers(system.p()));
     let planets = system.coordinates().orbits().planets.iter();
     let states = q.as_chunks::<D>().0.iter().zip(p.as_chunks::<D>().0).skip(1);

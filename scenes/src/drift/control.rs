@@ -10,7 +10,7 @@ use std::time::Duration;
 use shadowstep::Rational;
 use shadowstep::StepSize;
 use shadowstep::exact_flow::ExactFlow;
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::Setup;
 use shadowstep::run::States;
 
@@ -41,7 +41,7 @@ pub enum Wanted {
 
 /// What is known of the control of a step size.
 #[derive(Clone, Debug)]
-pub(super) enum Found {
+pub(super) enum KnownControl {
     /// The exact flow is not known, or the control is not wanted.
     Nothing,
     Estimates(Control),
@@ -49,12 +49,12 @@ pub(super) enum Found {
     LeftOut(String),
 }
 
-impl Found {
+impl KnownControl {
     pub(super) fn parts(self) -> (Option<Control>, Option<String>) {
         match self {
-            Found::Nothing => (None, None),
-            Found::Estimates(control) => (Some(control), None),
-            Found::LeftOut(why) => (None, Some(why)),
+            KnownControl::Nothing => (None, None),
+            KnownControl::Estimates(control) => (Some(control), None),
+            KnownControl::LeftOut(why) => (None, Some(why)),
         }
     }
 }
@@ -63,7 +63,7 @@ impl Found {
 #[derive(Debug)]
 pub struct Controls {
     wanted: Wanted,
-    known: BTreeMap<Rational, Found>,
+    known: BTreeMap<Rational, KnownControl>,
 }
 
 impl Controls {
@@ -79,12 +79,13 @@ impl Controls {
         context: &N::Context,
         seconds: Duration,
         follower: &mut dyn Follower,
-    ) -> Found {
+    ) -> KnownControl {
         let setup = with_exact_flow(estimates.system);
-        let Some(setup) = setup.filter(|_| self.wanted != Wanted::Never) else { return Found::Nothing };
+        let Some(setup) = setup.filter(|_| self.wanted != Wanted::Never) else { return KnownControl::Nothing };
         let limit = (self.wanted == Wanted::IfFast).then(|| seconds.max(SHORT));
         // a slower scheme may allow what a faster one did not
-        if let Some(known) = self.known.get(estimates.run.h).filter(|known| !matches!(known, Found::LeftOut(_))) {
+        if let Some(known) = self.known.get(estimates.run.h).filter(|known| !matches!(known, KnownControl::LeftOut(_)))
+        {
             return known.clone();
         }
         let run = Run { propagator: EXACT_FLOW, ..estimates.run };
@@ -100,7 +101,7 @@ impl Controls {
 
 /// How long the states of the exact flow will take, measured on the first ones; `None` if that is too short to matter, or if
 /// the flow cannot be followed, which the control reports.
-fn expected<N: Rounded>(setup: &Setup, run: Run<'_>, context: &N::Context) -> Option<Duration> {
+fn expected<N: CorrectlyRounded>(setup: &Setup, run: Run<'_>, context: &N::Context) -> Option<Duration> {
     const SAMPLE: u32 = 3;
     let h = StepSize::try_from(run.h).ok()?;
     let mut flow = ExactFlow::<N>::new(setup, &h, run.steps, 0, context).ok()?;
@@ -119,7 +120,7 @@ fn control<N: RunNumber>(
     limit: Option<Duration>,
     seconds: Duration,
     follower: &mut dyn Follower,
-) -> Found {
+) -> KnownControl {
     follower.begins_control(estimates.run);
     let begin = CpuTime::begin();
     let (steps, mut expected) = (estimates.run.steps as f64, None);
@@ -134,18 +135,18 @@ fn control<N: RunNumber>(
     match (found, expected) {
         (Ok((found, _)), _) => {
             let (drift, permanent_change) = (found.drift.to_text(), Permanent::of(&found));
-            Found::Estimates(Control { drift, permanent_change, seconds: begin.elapsed().as_secs_f64() })
+            KnownControl::Estimates(Control { drift, permanent_change, seconds: begin.elapsed().as_secs_f64() })
         }
         (Err(_), Some(expected)) => left_out(expected, seconds),
         (Err(error), None) => {
             follower.no_control(&error);
-            Found::Nothing
+            KnownControl::Nothing
         }
     }
 }
 
-fn left_out(expected: Duration, seconds: Duration) -> Found {
+fn left_out(expected: Duration, seconds: Duration) -> KnownControl {
     let times = (expected.as_secs_f64() / seconds.as_secs_f64()).max(1.0);
     let times = if times < 9.5 { format!("{times:.1}") } else { format!("{times:.0}") };
-    Found::LeftOut(format!("it would take about {times} times as long as the run; --control makes it"))
+    KnownControl::LeftOut(format!("it would take about {times} times as long as the run; --control makes it"))
 }

@@ -1,7 +1,7 @@
 //! The result of a run as a record.
 
 use serde::{Serialize, Serializer};
-use shadowstep::number::Ordered;
+use shadowstep::number::Real;
 use shadowstep::run::{EnergyDrift, Finding};
 
 use crate::arithmetic::DigitsLabel;
@@ -131,7 +131,7 @@ pub struct Control {
 
 impl Permanent {
     /// That of a drift, where errors are estimated.
-    pub fn of<N: Ordered>(found: &EnergyDrift<N>) -> Option<Self> {
+    pub fn of<N: Real>(found: &EnergyDrift<N>) -> Option<Self> {
         let permanent = found.permanent.as_ref()?;
         Some(Permanent {
             change: permanent.change.to_text(),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use num_traits::{One, Signed};
-use shadowstep::{Number, Ordered, Rational};
+use shadowstep::{Number, Rational, Real};
 use shadowstep_symbolic::decimal::to_significant;
 use shadowstep_symbolic::{Budget, Error, Exact, evaluate_within, parse};
 

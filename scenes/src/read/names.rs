@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use shadowstep_symbolic::{Expression, Kind, evaluate, parse};
+use shadowstep_symbolic::{Expression, ExpressionKind, evaluate, parse};
 
 use super::reader::Reader;
 use shadowstep_schemes::document::Text;
 
 /// Refuses a name that formulas cannot contain.
 pub(super) fn check_name(reader: &mut Reader<'_>, name: &Text) {
-    let is_name = |expression: &Expression| matches!(&expression.kind, Kind::Name(whole) if *whole == name.value);
+    let is_name =
+        |expression: &Expression| matches!(&expression.kind, ExpressionKind::Name(whole) if *whole == name.value);
     match parse(&name.value) {
         Ok(expression) if is_name(&expression) => {
             // a name that has a value by itself is a constant

@@ -1,7 +1,7 @@
 //! Bodies and the energy of each pair of them.
 
 use shadowstep::pairs::{Ends, Separation};
-use shadowstep_symbolic::{Exact, Expression, Kind, is_symmetric, parse};
+use shadowstep_symbolic::{Exact, Expression, ExpressionKind, is_symmetric, parse};
 
 use super::bodies::{Bodies, refuse_reserved};
 use super::given::Given;
@@ -49,11 +49,11 @@ impl PairFormula {
 
 fn separations(expression: &Expression, found: &mut Vec<Separation>) {
     match &expression.kind {
-        Kind::Number(_) => {}
-        Kind::Name(name) => found.extend(Separation::named(name)),
-        Kind::Negate(inner) => separations(inner, found),
-        Kind::Binary(_, left, right) => [left, right].into_iter().for_each(|part| separations(part, found)),
-        Kind::Call { arguments, .. } => arguments.iter().for_each(|part| separations(part, found)),
+        ExpressionKind::Number(_) => {}
+        ExpressionKind::Name(name) => found.extend(Separation::named(name)),
+        ExpressionKind::Negate(inner) => separations(inner, found),
+        ExpressionKind::Binary(_, left, right) => [left, right].into_iter().for_each(|part| separations(part, found)),
+        ExpressionKind::Call { arguments, .. } => arguments.iter().for_each(|part| separations(part, found)),
     }
 }
 

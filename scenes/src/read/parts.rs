@@ -9,7 +9,7 @@ use super::reader::Reader;
 use crate::arithmetic::Arithmetic;
 use crate::refusal::Refusal;
 use crate::scene::{InitialValueProblem, Parts, System};
-use crate::split::{Canonical, KineticAndPotential, LINEAR, Linear, Planets};
+use crate::split::{CanonicalCoordinates, KineticAndPotential, LINEAR, Linear, Planets};
 
 /// The parts of a problem, or why it has none of this kind; with the bodies that attract each other and their dimensions, if it is a problem of these.
 pub(super) type Split = fn(&InitialValueProblem, Arithmetic, Option<(Bodies, usize)>) -> Result<Parts, Refusal>;
@@ -18,9 +18,11 @@ const KINETIC_AND_POTENTIAL: Split = |_, _, _| Ok(Parts::KineticAndPotential(Kin
 
 /// The values of `parts`.
 const WORDS: [(&str, Split); 4] = [
-    (Canonical::Jacobi.name(), |_, _, bodies| Planets::of(Canonical::Jacobi, bodies).map(Parts::WisdomHolman)),
-    (Canonical::DemocraticHeliocentric.name(), |_, _, bodies| {
-        Planets::of(Canonical::DemocraticHeliocentric, bodies).map(Parts::WisdomHolman)
+    (CanonicalCoordinates::Jacobi.name(), |_, _, bodies| {
+        Planets::of(CanonicalCoordinates::Jacobi, bodies).map(Parts::WisdomHolman)
+    }),
+    (CanonicalCoordinates::DemocraticHeliocentric.name(), |_, _, bodies| {
+        Planets::of(CanonicalCoordinates::DemocraticHeliocentric, bodies).map(Parts::WisdomHolman)
     }),
     (LINEAR, |problem, arithmetic, bodies| Linear::of(problem, arithmetic, bodies.is_some()).map(Parts::Linear)),
     ("kinetic-potential", KINETIC_AND_POTENTIAL),

@@ -2,7 +2,7 @@
 
 use num_traits::Zero;
 use serde::{Deserialize, Serialize};
-use shadowstep::{Ordered, Remainders};
+use shadowstep::{Real, Remainders};
 use shadowstep_symbolic::decimal::from_text;
 
 use crate::arithmetic::Numbers;
@@ -172,7 +172,7 @@ fn seal(checkpoint: &Checkpoint) -> String {
 
 impl SavedState {
     /// A state; `None` if a number has an exponent that cannot be read.
-    pub(crate) fn of<N: Ordered>(Snapshot { n, q, p, remainders }: &Snapshot<N>) -> Option<SavedState> {
+    pub(crate) fn of<N: Real>(Snapshot { n, q, p, remainders }: &Snapshot<N>) -> Option<SavedState> {
         let text = |x: &N| Some(x.to_text()).filter(|text| number(text, &x.context()).as_ref() == Some(x));
         let texts = |numbers: &[N]| numbers.iter().map(text).collect::<Option<_>>();
         Some(SavedState {
@@ -185,14 +185,14 @@ impl SavedState {
     }
 
     /// q and p, and their remainders.
-    pub(crate) fn numbers<N: Ordered>(&self, context: &N::Context) -> Option<(State<N>, Remainders<N>)> {
+    pub(crate) fn numbers<N: Real>(&self, context: &N::Context) -> Option<(State<N>, Remainders<N>)> {
         let numbers = |texts: &[String]| texts.iter().map(|text| number(text, context)).collect::<Option<_>>();
         let remainders = Remainders { q: numbers(&self.q_remainders)?, p: numbers(&self.p_remainders)? };
         Some(((numbers(&self.q)?, numbers(&self.p)?), remainders))
     }
 }
 
-fn number<N: Ordered>(text: &str, context: &N::Context) -> Option<N> {
+fn number<N: Real>(text: &str, context: &N::Context) -> Option<N> {
     let exact = from_text(text).ok()?;
     let mut number = N::from_rational(&exact, context);
     // a rational 0 has no sign, a number's 0 has
@@ -207,7 +207,7 @@ mod tests {
     use super::*;
     use shadowstep::number::{Limbs, Number};
 
-    fn snapshot<N: Ordered>(q: &[N], p: &[N]) -> Snapshot<N> {
+    fn snapshot<N: Real>(q: &[N], p: &[N]) -> Snapshot<N> {
         Snapshot { n: 7, q: q.to_vec(), p: p.to_vec(), remainders: Remainders::default() }
     }
 

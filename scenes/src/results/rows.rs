@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use serde::Serialize;
-use shadowstep::Ordered;
+use shadowstep::Real;
 use shadowstep::shadow::Estimate;
 
 use crate::error::Error;
@@ -37,7 +37,7 @@ pub(crate) struct ModifiedEnergy {
 }
 
 impl ModifiedEnergy {
-    pub(crate) fn of<N: Ordered>(found: &Estimate<'_, N>) -> Self {
+    pub(crate) fn of<N: Real>(found: &Estimate<'_, N>) -> Self {
         ModifiedEnergy {
             modified_energy: found.value.to_text(),
             estimate: found.error.map(N::to_text),

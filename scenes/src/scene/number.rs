@@ -4,16 +4,16 @@ use shadowstep::MotionError;
 #[cfg(feature = "mpfr")]
 use shadowstep::number::Float;
 use shadowstep::number::counting::Counting;
-use shadowstep::number::{AnyLimbs, DoubleDouble, Rounded};
+use shadowstep::number::{AnyLimbs, CorrectlyRounded, DoubleDouble};
 use shadowstep::problems::{ProblemMotion, Setup};
 
 use super::problem::EnergyAt;
 use super::system::{Parts, System, ask};
-use crate::split::{Shown, Split as _, State};
+use crate::split::{ShownCoordinates, Split as _, State};
 use crate::start::{SceneIntegrator, Steps};
 
 /// A number type in which systems are computed.
-pub trait SceneNumber: Rounded + 'static {
+pub trait SceneNumber: CorrectlyRounded + 'static {
     /// A system in these numbers.
     fn system(system: &System) -> &dyn SystemIn<Self>;
 
@@ -30,7 +30,7 @@ pub trait SystemIn<N: SceneNumber> {
     fn start(&self, context: &N::Context) -> State<N>;
 
     /// [`System::shown`]
-    fn shown(&self, context: &N::Context) -> Option<Shown<N>>;
+    fn shown(&self, context: &N::Context) -> Option<ShownCoordinates<N>>;
 
     /// [`System::energy`]
     fn energy(&self, context: &N::Context) -> EnergyAt<N>;
@@ -54,7 +54,7 @@ impl System {
     }
 
     /// Converts states from the coordinates of the steps to those that are shown, where these differ.
-    pub fn shown<N: SceneNumber>(&self, context: &N::Context) -> Option<Shown<N>> {
+    pub fn shown<N: SceneNumber>(&self, context: &N::Context) -> Option<ShownCoordinates<N>> {
         N::system(self).shown(context)
     }
 
@@ -95,7 +95,7 @@ impl<N: SceneNumber> SystemIn<N> for System {
         ask!(&self.parts, split => split.start(&self.problem, state, context))
     }
 
-    fn shown(&self, context: &N::Context) -> Option<Shown<N>> {
+    fn shown(&self, context: &N::Context) -> Option<ShownCoordinates<N>> {
         ask!(&self.parts, split => split.shown(&self.problem, context))
     }
 

@@ -110,7 +110,7 @@ impl System {
     ///
     /// # Errors
     /// Numbers of momenta or masses that differ from that of the coordinates; a mass that is 0.
-    pub fn of_own(
+    pub fn of_own_potential(
         own: Box<dyn OwnPotential>,
         (q, p): (Vec<Exact>, Vec<Exact>),
         masses: Option<Vec<Exact>>,

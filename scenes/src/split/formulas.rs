@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use shadowstep::many_parts::{Part, PartFormula, SystemOfParts};
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::{MotionError, System as _};
 
 use super::{Class, Needs, Split, State};
@@ -22,14 +22,18 @@ impl Split for Formulas {
         Some(("parts", json!(self.0.iter().map(Formula::text).collect::<Vec<_>>())))
     }
 
-    fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+    fn energy<N: CorrectlyRounded + 'static>(
+        &self,
+        problem: &InitialValueProblem,
+        context: &N::Context,
+    ) -> EnergyAt<N> {
         let state = problem.initial(context);
         let mut system =
             self.system(problem, &state, false, context).expect("the dimensions were read with the system");
         Box::new(move |q, p| system.energy_at(q, p))
     }
 
-    fn integrator<N: Rounded + 'static>(
+    fn integrator<N: CorrectlyRounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         steps: Steps<'_>,
@@ -48,7 +52,7 @@ impl Split for Formulas {
 
 impl Formulas {
     /// The system of these parts at a state.
-    fn system<N: Rounded + 'static>(
+    fn system<N: CorrectlyRounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         (q, p): &State<N>,

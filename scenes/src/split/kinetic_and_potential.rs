@@ -1,7 +1,7 @@
 //! T(p) and U(q): drifts and kicks.
 
 use serde_json::Value;
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::{Motion, MotionError};
 
 use super::{Class, Needs, Split, State};
@@ -30,7 +30,7 @@ impl Split for KineticAndPotential {
         None
     }
 
-    fn integrator<N: Rounded + 'static>(
+    fn integrator<N: CorrectlyRounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         steps: Steps<'_>,

@@ -3,7 +3,7 @@
 use num_traits::Signed;
 use serde_json::{Value, json};
 use shadowstep::linear_part::LinearPart;
-use shadowstep::number::{AnyLimbs, LimbCount, Rounded};
+use shadowstep::number::{AnyLimbs, CorrectlyRounded, LimbCount};
 use shadowstep::{MotionError, Number, Potential, Rational, exact};
 use shadowstep_symbolic::decimal::from_text;
 
@@ -32,7 +32,7 @@ impl Split for Linear {
         Some(("parts", json!(LINEAR)))
     }
 
-    fn integrator<N: Rounded + 'static>(
+    fn integrator<N: CorrectlyRounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         steps: Steps<'_>,

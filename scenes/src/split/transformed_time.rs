@@ -1,11 +1,11 @@
 //! Transformed time: the system in q, t and p, p_t.
 
 use serde_json::{Value, json};
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
-use shadowstep::{Kinetic, Motion, MotionError, Number, Ordered, Potential};
+use shadowstep::{Kinetic, Motion, MotionError, Number, Potential, Real};
 
-use super::{Class, Needs, Shown, Split, State};
+use super::{Class, Needs, ShownCoordinates, Split, State};
 use crate::refusal::{NoGradientKicks, NoProcessor, Refusal};
 use crate::scene::{ClassifiedKinetic, EnergyAt, InitialValueProblem};
 use crate::start::{SceneIntegrator, Steps};
@@ -57,20 +57,28 @@ impl Split for TransformedTime {
     }
 
     /// Without t and p_t.
-    fn shown<N: Number + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> Option<Shown<N>> {
+    fn shown<N: Number + 'static>(
+        &self,
+        problem: &InitialValueProblem,
+        context: &N::Context,
+    ) -> Option<ShownCoordinates<N>> {
         let assign = |own: &[N], shown: &mut [N]| shown.iter_mut().zip(own).for_each(|(shown, own)| shown.assign(own));
-        Some(Shown::by(problem.q.len(), context, move |(q, p), shown| {
+        Some(ShownCoordinates::by(problem.q.len(), context, move |(q, p), shown| {
             assign(q, shown.0);
             assign(p, shown.1);
         }))
     }
 
-    fn energy<N: Rounded + 'static>(&self, problem: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+    fn energy<N: CorrectlyRounded + 'static>(
+        &self,
+        problem: &InitialValueProblem,
+        context: &N::Context,
+    ) -> EnergyAt<N> {
         let (mut energy, dimension) = (problem.plain_energy(context), problem.q.len());
         Box::new(move |q, p| energy(&q[..dimension], &p[..dimension]))
     }
 
-    fn integrator<N: Rounded + 'static>(
+    fn integrator<N: CorrectlyRounded + 'static>(
         &self,
         problem: &InitialValueProblem,
         steps: Steps<'_>,
@@ -110,7 +118,7 @@ impl TransformedTime {
         }
     }
 
-    fn of_kinetic<N: Rounded + 'static, K: Kinetic<N> + 'static>(
+    fn of_kinetic<N: CorrectlyRounded + 'static, K: Kinetic<N> + 'static>(
         &self,
         potential: TransformedPotential<Box<dyn Potential<N>>>,
         kinetic: K,

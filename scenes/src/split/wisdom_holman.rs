@@ -1,11 +1,11 @@
 //! The Kepler orbits of planets, and their interactions.
 
 use serde_json::{Value, json};
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::wisdom_holman::{Bodies, DemocraticHeliocentric, Jacobi, PlanetaryCoordinates, WisdomHolman};
 use shadowstep::{MotionError, Number, Scheme, System as _, ValidFor};
 
-use super::{Class, Needs, Shown, Split, State};
+use super::{Class, Needs, ShownCoordinates, Split, State};
 use crate::refusal::{NoGradientKicks, Refusal};
 use crate::scene::{EnergyAt, InitialValueProblem};
 use crate::start::{SceneIntegrator, Steps};
@@ -14,7 +14,7 @@ use crate::start::{SceneIntegrator, Steps};
 #[derive(Clone, Debug)]
 pub struct Planets {
     /// The coordinates of the steps; states are shown in inertial ones.
-    pub coordinates: Canonical,
+    pub coordinates: CanonicalCoordinates,
     /// The gravitational constant and the masses.
     pub bodies: Bodies,
     /// 2 or 3.
@@ -23,19 +23,19 @@ pub struct Planets {
 
 /// Canonical coordinates of a planetary system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Canonical {
+pub enum CanonicalCoordinates {
     /// [`Jacobi`]
     Jacobi,
     /// [`DemocraticHeliocentric`]
     DemocraticHeliocentric,
 }
 
-impl Canonical {
+impl CanonicalCoordinates {
     /// Its value of the key `parts`.
     pub(crate) const fn name(self) -> &'static str {
         match self {
-            Canonical::Jacobi => "wisdom-holman",
-            Canonical::DemocraticHeliocentric => "wisdom-holman-heliocentric",
+            CanonicalCoordinates::Jacobi => "wisdom-holman",
+            CanonicalCoordinates::DemocraticHeliocentric => "wisdom-holman-heliocentric",
         }
     }
 }
@@ -44,12 +44,12 @@ impl Canonical {
 macro_rules! in_coordinates {
     ($planets:expr, $method:ident::<$number:ty>($($argument:expr),*)) => {
         match ($planets.coordinates, $planets.dimensions) {
-            (Canonical::Jacobi, 2) => $planets.$method::<$number, Jacobi<$number, 2>, 2>($($argument),*),
-            (Canonical::Jacobi, _) => $planets.$method::<$number, Jacobi<$number, 3>, 3>($($argument),*),
-            (Canonical::DemocraticHeliocentric, 2) => {
+            (CanonicalCoordinates::Jacobi, 2) => $planets.$method::<$number, Jacobi<$number, 2>, 2>($($argument),*),
+            (CanonicalCoordinates::Jacobi, _) => $planets.$method::<$number, Jacobi<$number, 3>, 3>($($argument),*),
+            (CanonicalCoordinates::DemocraticHeliocentric, 2) => {
                 $planets.$method::<$number, DemocraticHeliocentric<$number, 2>, 2>($($argument),*)
             }
-            (Canonical::DemocraticHeliocentric, _) => {
+            (CanonicalCoordinates::DemocraticHeliocentric, _) => {
                 $planets.$method::<$number, DemocraticHeliocentric<$number, 3>, 3>($($argument),*)
             }
         }
@@ -62,8 +62,8 @@ pub(crate) type OfPlanets = Box<dyn FnMut(&[f64]) -> Vec<f64>>;
 impl Split for Planets {
     fn needs(&self, _: &InitialValueProblem) -> Needs {
         match self.coordinates {
-            Canonical::Jacobi => Needs::of_class(Class::Quadratic),
-            Canonical::DemocraticHeliocentric => Needs {
+            CanonicalCoordinates::Jacobi => Needs::of_class(Class::Quadratic),
+            CanonicalCoordinates::DemocraticHeliocentric => Needs {
                 no_gradient_kicks: Some(NoGradientKicks {
                     reason: "but in heliocentric coordinates the kicks depend on the momenta, so that [B,[A,B]] is no kick",
                     hint: "write parts = \"wisdom-holman\" for Jacobi coordinates, or use a scheme such as abah864",
@@ -88,15 +88,15 @@ impl Split for Planets {
         (q, p)
     }
 
-    fn shown<N: Number + 'static>(&self, _: &InitialValueProblem, context: &N::Context) -> Option<Shown<N>> {
+    fn shown<N: Number + 'static>(&self, _: &InitialValueProblem, context: &N::Context) -> Option<ShownCoordinates<N>> {
         Some(self.inertial(context))
     }
 
-    fn energy<N: Rounded + 'static>(&self, _: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
+    fn energy<N: CorrectlyRounded + 'static>(&self, _: &InitialValueProblem, context: &N::Context) -> EnergyAt<N> {
         in_coordinates!(self, energy_at::<N>(context))
     }
 
-    fn integrator<N: Rounded + 'static>(
+    fn integrator<N: CorrectlyRounded + 'static>(
         &self,
         _: &InitialValueProblem,
         steps: Steps<'_>,
@@ -112,9 +112,13 @@ impl Split for Planets {
         }
         let state = (q, p);
         Ok(match (self.coordinates, self.dimensions) {
-            (Canonical::Jacobi, 2) => self.moved::<N, Jacobi<N, 2>, 2, _>(steps.quadratic(), steps, &state, context),
-            (Canonical::Jacobi, _) => self.moved::<N, Jacobi<N, 3>, 3, _>(steps.quadratic(), steps, &state, context),
-            (Canonical::DemocraticHeliocentric, dimensions) => {
+            (CanonicalCoordinates::Jacobi, 2) => {
+                self.moved::<N, Jacobi<N, 2>, 2, _>(steps.quadratic(), steps, &state, context)
+            }
+            (CanonicalCoordinates::Jacobi, _) => {
+                self.moved::<N, Jacobi<N, 3>, 3, _>(steps.quadratic(), steps, &state, context)
+            }
+            (CanonicalCoordinates::DemocraticHeliocentric, dimensions) => {
                 let scheme = steps.for_every_kinetic();
                 match dimensions {
                     2 => self.moved::<N, DemocraticHeliocentric<N, 2>, 2, _>(scheme, steps, &state, context),
@@ -130,7 +134,7 @@ impl Planets {
     ///
     /// # Errors
     /// Another system.
-    pub(crate) fn of(coordinates: Canonical, bodies: Option<(Bodies, usize)>) -> Result<Self, Refusal> {
+    pub(crate) fn of(coordinates: CanonicalCoordinates, bodies: Option<(Bodies, usize)>) -> Result<Self, Refusal> {
         match bodies {
             Some((bodies, dimensions)) => Ok(Planets { coordinates, bodies, dimensions }),
             None => Err(Refusal::new(
@@ -141,7 +145,7 @@ impl Planets {
     }
 
     /// From the coordinates of the steps to inertial ones.
-    pub(crate) fn inertial<N: Number + 'static>(&self, context: &N::Context) -> Shown<N> {
+    pub(crate) fn inertial<N: Number + 'static>(&self, context: &N::Context) -> ShownCoordinates<N> {
         in_coordinates!(self, shown_by::<N>(context))
     }
 
@@ -174,7 +178,7 @@ impl Planets {
         context: &N::Context,
     ) -> SceneIntegrator<N>
     where
-        N: Rounded + 'static,
+        N: CorrectlyRounded + 'static,
         C: PlanetaryCoordinates<N, D> + 'static,
         S: Scheme + ValidFor<C::Class> + 'static,
     {
@@ -219,8 +223,10 @@ impl Planets {
     fn shown_by<N: Number + 'static, C: PlanetaryCoordinates<N, D> + 'static, const D: usize>(
         &self,
         context: &N::Context,
-    ) -> Shown<N> {
+    ) -> ShownCoordinates<N> {
         let mut coordinates = C::new(&self.bodies, context);
-        Shown::by(self.bodies.count() * D, context, move |state, shown| coordinates.assign_inertial(state, shown))
+        ShownCoordinates::by(self.bodies.count() * D, context, move |state, shown| {
+            coordinates.assign_inertial(state, shown)
+        })
     }
 }

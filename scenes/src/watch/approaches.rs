@@ -1,10 +1,10 @@
 //! Close approaches of planets, in Hill radii, and the size of their interactions.
 
 use serde::Serialize;
-use shadowstep::Ordered;
+use shadowstep::Real;
 
 use crate::scene::System;
-use crate::split::{OfPlanets, Planets, Shown};
+use crate::split::{OfPlanets, Planets, ShownCoordinates};
 
 /// The closest approach of two planets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -33,7 +33,7 @@ pub(super) struct Approaches {
     planets: Planets,
     names: Vec<String>,
     masses: Vec<f64>,
-    shown: Shown<f64>,
+    shown: ShownCoordinates<f64>,
     epsilon: OfPlanets,
     q: Vec<f64>,
     p: Vec<f64>,
@@ -61,7 +61,7 @@ impl Approaches {
     }
 
     /// Takes the state n, in the coordinates of the steps; and ε of it if that is asked for.
-    pub(super) fn include<N: Ordered>(&mut self, n: i64, (q, p): (&[N], &[N]), with_epsilon: bool) {
+    pub(super) fn include<N: Real>(&mut self, n: i64, (q, p): (&[N], &[N]), with_epsilon: bool) {
         self.q.iter_mut().zip(q).for_each(|(own, q)| *own = q.to_f64());
         self.p.iter_mut().zip(p).for_each(|(own, p)| *own = p.to_f64());
         if with_epsilon {

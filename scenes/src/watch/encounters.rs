@@ -4,7 +4,7 @@
 //! which it is at least half of the peak. It is a close encounter if the time since the passage before it is at least four times as
 //! long as it lasts: of an ellipse with an eccentricity of 0.5 or more each pericentre is one, of an oscillation nothing is.
 
-use shadowstep::Ordered;
+use shadowstep::Real;
 
 /// A passage is a close encounter if the interval before it is this many times as long.
 const APART: i64 = 4;
@@ -49,7 +49,7 @@ struct Passages {
     count: u64,
 }
 
-impl<N: Ordered> Encounters<N> {
+impl<N: Real> Encounters<N> {
     /// From the momenta of the first state.
     pub(super) fn new(p: &[N]) -> Self {
         let zero = N::zero(&p[0].context());

@@ -1,6 +1,6 @@
 //! The error of H over a run.
 
-use shadowstep::Ordered;
+use shadowstep::Real;
 
 /// H(t) − H(0), the largest and the last one.
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub(super) struct EnergyError<N> {
     states_of_kinetic: u64,
 }
 
-impl<N: Ordered> EnergyError<N> {
+impl<N: Real> EnergyError<N> {
     pub(super) fn new(initial: N) -> Self {
         let zero = N::zero(&initial.context());
         EnergyError {

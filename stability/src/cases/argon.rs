@@ -7,7 +7,7 @@ use shadowstep_studies::chart::{Axis, Chart, Curve};
 use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
-use crate::long_run::{LongCase, LongRun, Stayed};
+use crate::long_run::{LongCase, LongRun, LongRunResult};
 use crate::suite::{Examined, Suite};
 use crate::watched::setup;
 
@@ -38,7 +38,7 @@ impl LongCase for Argon {
     const EVALUATION: f64 = 200e-9;
 
     fn runs(suite: &Suite) -> Vec<LongRun> {
-        let until = suite.thorough(2.0, 0.2);
+        let until = suite.full_or_quick(2.0, 0.2);
         let schemes = suite.schemes_or(&SCHEMES);
         let of = |scheme: &&Examined| {
             let steps = STEPS.map(|fs| Rational::new(fs.into(), 1_000_000.into()));
@@ -48,7 +48,7 @@ impl LongCase for Argon {
         schemes.iter().flat_map(of).collect()
     }
 
-    fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {
+    fn judge(suite: &Suite, measured: &[(LongRun, LongRunResult)]) -> Finding {
         let omega =
             System::of_setup(setup("argon-crystal", &[])).fastest_frequency().map_or(f64::NAN, |found| found.omega);
         let (mut finding, mut curves) = (Finding::default(), Vec::new());

@@ -12,7 +12,7 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
-use crate::scene_run::{Said, digits, run_scene};
+use crate::scene_run::{RunResult, digits, run_scene};
 use crate::suite::Suite;
 
 /// The case.
@@ -52,10 +52,10 @@ impl Case for ClosePlanets {
     const REVISION: u32 = 1;
 
     type Trial = Trial;
-    type Measured = Said;
+    type Measured = RunResult;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let periods = suite.thorough(5000, 400);
+        let periods = suite.full_or_quick(5000, 400);
         let schemes = suite.schemes_or(&SCHEMES).into_iter();
         let schemes = schemes.filter(|examined| !examined.scheme.scheme.proved().scheme.has_gradient_kicks());
         let of = |scheme: &crate::suite::Examined| {
@@ -74,7 +74,7 @@ impl Case for ClosePlanets {
         trial: &Trial,
         _: &N::Context,
         continues: Continues<'_>,
-    ) -> Result<Said, Error> {
+    ) -> Result<RunResult, Error> {
         let named = suite.scheme(&trial.scheme);
         let h = format!("{:.6e}", TAU / KICKS * named.scheme.summary().evaluations as f64);
         let steps = (f64::from(trial.periods) * TAU / h.parse::<f64>().expect("it is a number")) as u64;
@@ -93,7 +93,7 @@ impl Case for ClosePlanets {
         run_scene(text, continues)
     }
 
-    fn judge(suite: &Suite, measured: &[(Trial, Said)]) -> Finding {
+    fn judge(suite: &Suite, measured: &[(Trial, RunResult)]) -> Finding {
         let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let name = &suite.scheme(&all[0].0.scheme).name;
@@ -118,8 +118,8 @@ impl Case for ClosePlanets {
 }
 
 /// What a run says, whether it is as predicted, and the closest approach.
-fn outcome(said: &Said, separation: f64) -> (String, Verdict, Option<f64>) {
-    let Said::Ended(ended) = said else {
+fn outcome(said: &RunResult, separation: f64) -> (String, Verdict, Option<f64>) {
+    let RunResult::Ended(ended) = said else {
         return ("fails".to_owned(), Verdict::from(separation < STABLE), None);
     };
     let (closest, lost) = (ended.hill_radii.unwrap_or(f64::MAX), ended.energy > LOST);

@@ -3,7 +3,7 @@
 use shadowstep::Rational;
 use shadowstep_studies::finding::Finding;
 
-use crate::long_run::{LongCase, LongRun, Stayed, staying};
+use crate::long_run::{LongCase, LongRun, LongRunResult, staying};
 use crate::suite::Suite;
 
 /// The case.
@@ -23,12 +23,12 @@ impl LongCase for FigureEight {
     const EVALUATION: f64 = 60e-9;
 
     fn runs(suite: &Suite) -> Vec<LongRun> {
-        let until = PERIOD * suite.thorough(1000.0, 50.0);
+        let until = PERIOD * suite.full_or_quick(1000.0, 50.0);
         let h = Rational::new(1.into(), 200.into());
         LongRun::at_equal_cost(&suite.schemes_or(&SCHEMES), "figure-eight", &h, until)
     }
 
-    fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {
+    fn judge(suite: &Suite, measured: &[(LongRun, LongRunResult)]) -> Finding {
         staying((suite, measured), STAYS, "The error of H on the figure eight", "time units")
     }
 }

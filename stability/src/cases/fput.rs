@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::{Rational, Scheme};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::RunNumber;
@@ -115,7 +115,7 @@ impl Case for Fput {
 }
 
 /// ½(P² + ω²Q²) of the first mode, with Q = √(2/33) Σ q_i sin(πi/33) and ω = 2 sin(π/66).
-fn energy_of_first_mode<N: Rounded>(q: &[N], p: &[N]) -> f64 {
+fn energy_of_first_mode<N: CorrectlyRounded>(q: &[N], p: &[N]) -> f64 {
     let walls = (BODIES + 1) as f64;
     let along = |values: &[N]| -> f64 {
         let products = values.iter().zip(1..).map(|(value, i)| value.to_f64() * (PI * f64::from(i) / walls).sin());

@@ -85,7 +85,7 @@ impl Case for Frames {
     type Measured = Measured;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.thorough(100_000, 10_000);
+        let steps = suite.full_or_quick(100_000, 10_000);
         let of = |scheme: &&Examined| FRAMES.map(|frame| Trial { scheme: scheme.identity.clone(), frame, steps });
         suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
     }

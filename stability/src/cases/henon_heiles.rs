@@ -20,13 +20,13 @@ pub(super) struct HenonHeiles;
 #[derive(Serialize)]
 pub(super) struct Trial {
     scheme: String,
-    kind: Kind,
+    kind: OrbitKind,
     steps: u64,
 }
 
 /// Of what kind the exact orbit is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-enum Kind {
+enum OrbitKind {
     Regular,
     Chaotic,
     Escaping,
@@ -59,13 +59,13 @@ const SAMPLES: u64 = 200;
 /// Curves that can be told apart.
 const MOST_CURVES: usize = 12;
 
-impl Kind {
+impl OrbitKind {
     /// The initial state: H = 0.005; H = 1/8 from the chaotic sea; H = 0.2, above 1/6.
     fn start(self) -> [(&'static str, String); 4] {
         let [x, y, px, py] = match self {
-            Kind::Regular => ["0", "0", "1/10", "0"],
-            Kind::Chaotic => ["0", "-1/10", "sqrt(1/4 - 1/100 - 1/1500)", "0"],
-            Kind::Escaping => ["0", "0", "sqrt(2/5 - 9/100)", "3/10"],
+            OrbitKind::Regular => ["0", "0", "1/10", "0"],
+            OrbitKind::Chaotic => ["0", "-1/10", "sqrt(1/4 - 1/100 - 1/1500)", "0"],
+            OrbitKind::Escaping => ["0", "0", "sqrt(2/5 - 9/100)", "3/10"],
         };
         [("x", x.to_owned()), ("y", y.to_owned()), ("px", px.to_owned()), ("py", py.to_owned())]
     }
@@ -82,10 +82,10 @@ impl Case for HenonHeiles {
     type Measured = Measured;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.thorough(1_000_000, 40_000);
+        let steps = suite.full_or_quick(1_000_000, 40_000);
         let of = |scheme: &&Examined| {
             let evaluations = scheme.scheme.scheme.summary().evaluations as u64;
-            [Kind::Regular, Kind::Chaotic, Kind::Escaping].map(|kind| Trial {
+            [OrbitKind::Regular, OrbitKind::Chaotic, OrbitKind::Escaping].map(|kind| Trial {
                 scheme: scheme.identity.clone(),
                 kind,
                 steps: steps / evaluations,
@@ -140,8 +140,8 @@ impl Case for HenonHeiles {
             let [first, second] = one.energy_errors;
             let bounded = second <= BOUNDED * first;
             let (found, verdict) = match (trial.kind, one.escaped) {
-                (Kind::Escaping, Some(n)) => (format!("escapes at step {n}"), Verdict::Agrees),
-                (Kind::Escaping, None) => ("does not escape".to_owned(), Verdict::NotDecided),
+                (OrbitKind::Escaping, Some(n)) => (format!("escapes at step {n}"), Verdict::Agrees),
+                (OrbitKind::Escaping, None) => ("does not escape".to_owned(), Verdict::NotDecided),
                 (_, Some(n)) => (format!("escapes at step {n}"), Verdict::Differs),
                 (kind, None) => {
                     let chaotic = one.growth > CHAOTIC;
@@ -149,14 +149,14 @@ impl Case for HenonHeiles {
                         "a distance grows to 1e{:.1} of its size; error of H {first:.1e} and {second:.1e} in the halves; the monitor: {}",
                         one.growth, one.watched.verdict
                     );
-                    let as_exact = Verdict::from(bounded && chaotic == (kind == Kind::Chaotic));
+                    let as_exact = Verdict::from(bounded && chaotic == (kind == OrbitKind::Chaotic));
                     (found, Verdict::of_all([as_exact, one.watched.is_fine()]))
                 }
             };
             let kind = format!("{:?}", trial.kind).to_lowercase();
             let name = &suite.scheme(&trial.scheme).name;
             finding.check(name, format!("{kind}: {found}"), verdict);
-            if trial.kind != Kind::Escaping && curves.len() < MOST_CURVES {
+            if trial.kind != OrbitKind::Escaping && curves.len() < MOST_CURVES {
                 curves.push(Curve::line(format!("{name}, {kind}"), one.growing.clone(), curves.len()));
             }
         }

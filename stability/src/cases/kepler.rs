@@ -74,7 +74,7 @@ impl Case for Kepler {
     fn trials(suite: &Suite) -> Vec<Trial> {
         let mut random = Pcg64Mcg::seed_from_u64(SEED);
         let schemes = suite.schemes_or(&SCHEMES);
-        let (count, most_steps) = suite.thorough((500, 200_000.0), (60, 10_000.0));
+        let (count, most_steps) = suite.full_or_quick((500, 200_000.0), (60, 10_000.0));
         let mut uniform = move |from: f64, to: f64| {
             let unit = (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
             from + (to - from) * unit
@@ -282,10 +282,10 @@ impl Counts {
 }
 
 /// A label, which outcomes it is for, and their marker.
-type Kind = (&'static str, fn(Outcome) -> bool, Marker);
+type OutcomeMarker = (&'static str, fn(Outcome) -> bool, Marker);
 
 fn chart(suite: &Suite, measured: &[(Trial, Orbit)]) -> Chart {
-    let kinds: [Kind; 7] = [
+    let kinds: [OutcomeMarker; 7] = [
         ("kept", |o| o == Outcome::Kept { alarm: false }, Marker::Circle),
         ("kept, reported", |o| o == Outcome::Kept { alarm: true }, Marker::FilledSquare),
         ("changed", |o| matches!(o, Outcome::Changed { .. }), Marker::Plus),

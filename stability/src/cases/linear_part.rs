@@ -6,7 +6,7 @@ use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
 use shadowstep::formula::FormulaPotential;
 use shadowstep::linear_part::LinearPart;
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Number, Rational, Stepper};
 use shadowstep_scenes::Error;
@@ -52,7 +52,7 @@ enum At {
 
 /// What the steps have shown.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Found {
+pub(super) struct StepsResult {
     /// log of the largest modulus of an eigenvalue of a step.
     predicted: f64,
     /// How fast log|(q, p)| grows a step; or, where no growth is predicted, log of the largest |(q, p)| in the second half of the steps beside that of the first.
@@ -106,10 +106,10 @@ impl Case for LinearPartCase {
     const REVISION: u32 = 1;
 
     type Trial = Trial;
-    type Measured = Found;
+    type Measured = StepsResult;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.thorough(400_000, 20_000);
+        let steps = suite.full_or_quick(400_000, 20_000);
         let trials = |examined: &&Examined| {
             let scheme = &examined.scheme.quadratic();
             let trial = |at: At| Trial { scheme: examined.identity.clone(), at, h: strongest(scheme, at), steps };
@@ -134,7 +134,7 @@ impl Case for LinearPartCase {
         trial: &Trial,
         context: &N::Context,
         _: Continues<'_>,
-    ) -> Result<Found, Error> {
+    ) -> Result<StepsResult, Error> {
         let scheme = &suite.scheme(&trial.scheme).quadratic();
         let predicted = Matrix::of_step(scheme, trial.h).growth();
         let h = rational(trial.h);
@@ -144,7 +144,7 @@ impl Case for LinearPartCase {
             let count = steps_to_see(predicted);
             let too_slow = 2 * count > trial.steps;
             let found = if too_slow { 0.0 } else { growth(&stepper, &mut system, (predicted, count)) };
-            return Ok(Found { predicted, found, too_slow });
+            return Ok(StepsResult { predicted, found, too_slow });
         }
         let mut half = || {
             (0..trial.steps / 20).fold(0.0, |largest: f64, _| {
@@ -153,10 +153,10 @@ impl Case for LinearPartCase {
             })
         };
         let (first, second) = (half(), half());
-        Ok(Found { predicted, found: (second / first).ln(), too_slow: false })
+        Ok(StepsResult { predicted, found: (second / first).ln(), too_slow: false })
     }
 
-    fn judge(suite: &Suite, measured: &[(Trial, Found)]) -> Finding {
+    fn judge(suite: &Suite, measured: &[(Trial, StepsResult)]) -> Finding {
         let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let named = suite.scheme(&all[0].0.scheme);
@@ -174,13 +174,15 @@ impl Case for LinearPartCase {
     }
 }
 
-impl Found {
+impl StepsResult {
     fn described(&self, at: At) -> String {
         let at = at.named();
         match self {
-            Found { predicted, .. } if *predicted == 0.0 => format!("{at}: bounded"),
-            Found { too_slow: true, predicted, .. } => format!("{at}: {predicted:.1e} a step, too slow to be seen"),
-            Found { predicted, found, .. } => {
+            StepsResult { predicted, .. } if *predicted == 0.0 => format!("{at}: bounded"),
+            StepsResult { too_slow: true, predicted, .. } => {
+                format!("{at}: {predicted:.1e} a step, too slow to be seen")
+            }
+            StepsResult { predicted, found, .. } => {
                 format!("{at}: {predicted:.2e} a step, off by {:.0e} of it", (found / predicted - 1.0).abs())
             }
         }
@@ -189,13 +191,13 @@ impl Found {
     fn verdict(&self, at: At) -> Verdict {
         match self {
             // the oscillators of a difference do not grow, nor does a step off the resonances
-            Found { predicted, .. } if *predicted > 0.0 && matches!(at, At::Difference | At::Beyond) => {
+            StepsResult { predicted, .. } if *predicted > 0.0 && matches!(at, At::Difference | At::Beyond) => {
                 Verdict::Differs
             }
-            Found { predicted, found, .. } if *predicted == 0.0 => Verdict::from(*found <= SAME),
+            StepsResult { predicted, found, .. } if *predicted == 0.0 => Verdict::from(*found <= SAME),
             // the others of the row decide
-            Found { too_slow: true, .. } => Verdict::Agrees,
-            Found { predicted, found, .. } => Verdict::from((found / predicted - 1.0).abs() <= TOLERANCE),
+            StepsResult { too_slow: true, .. } => Verdict::Agrees,
+            StepsResult { predicted, found, .. } => Verdict::from((found / predicted - 1.0).abs() <= TOLERANCE),
         }
     }
 }
@@ -205,7 +207,7 @@ fn rational(x: f64) -> Rational {
 }
 
 /// The two oscillators at q = (1, 1/2), p = 0, with B in the kicks.
-fn system<N: Rounded>(context: &N::Context) -> LinearPart<N, FormulaPotential<N>> {
+fn system<N: CorrectlyRounded>(context: &N::Context) -> LinearPart<N, FormulaPotential<N>> {
     let number = |x: f64| N::from_rational(&rational(x), context);
     let [first, second] = OMEGAS.map(|omega| &rational(omega) * rational(omega));
     let squares = [&first, &second].map(|square| N::from_rational(square, context));
@@ -353,7 +355,7 @@ mod tests {
 
     #[test]
     fn what_differs_from_the_eigenvalues_differs() {
-        let found = |predicted: f64, found: f64| Found { predicted, found, too_slow: false };
+        let found = |predicted: f64, found: f64| StepsResult { predicted, found, too_slow: false };
         assert_eq!(found(1e-2, 1.0001e-2).verdict(At::Sum), Verdict::Agrees);
         assert_eq!(found(1e-2, 1.01e-2).verdict(At::Sum), Verdict::Differs);
         assert_eq!(found(0.0, 0.5).verdict(At::Beyond), Verdict::Differs);

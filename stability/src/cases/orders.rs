@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use shadowstep::formula::FormulaPotential;
 use shadowstep::kepler_drift::KeplerDrift;
 use shadowstep::many_parts::{SystemOfParts, parts};
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::Kepler;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Rational, Stepper, System, UnitMasses, exact};
@@ -72,7 +72,7 @@ impl Case for Orders {
     type Measured = Errors;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.thorough([6, 7, 8], [5, 6, 7]);
+        let steps = suite.full_or_quick([6, 7, 8], [5, 6, 7]);
         let of = |examined: &&Examined| {
             let proved = examined.scheme.scheme.proved();
             let all = [
@@ -184,7 +184,7 @@ fn of_epsilon(scheme: &TableScheme) -> Option<&Order> {
     orders.first().filter(|_| drifts_dominate)
 }
 
-fn numbers<N: Rounded, const D: usize>(texts: [&str; D], context: &N::Context) -> [N; D] {
+fn numbers<N: CorrectlyRounded, const D: usize>(texts: [&str; D], context: &N::Context) -> [N; D] {
     texts.map(|text| N::from_rational(&exact(text).expect("it is a number"), context))
 }
 

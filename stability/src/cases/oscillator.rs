@@ -3,7 +3,7 @@
 use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
 use shadowstep::kinetic::Quadratic;
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::HarmonicOscillator;
 use shadowstep::tables::TableScheme;
 use shadowstep::{Motion, Number, Rational, Stepper, System, UnitMasses, exact};
@@ -64,7 +64,7 @@ impl Case for Oscillator {
     type Measured = Vec<Point>;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.thorough(1_000_000, 30_000);
+        let steps = suite.full_or_quick(1_000_000, 30_000);
         let schemes = suite.schemes_or_all();
         schemes.iter().map(|scheme| Trial { scheme: scheme.identity.clone(), steps }).collect()
     }
@@ -132,7 +132,7 @@ fn step_sizes(scheme: &NamedScheme) -> Vec<Rational> {
     sizes
 }
 
-fn point<N: Rounded>(scheme: &TableScheme, h: &Rational, steps: u64, context: &N::Context) -> Point {
+fn point<N: CorrectlyRounded>(scheme: &TableScheme, h: &Rational, steps: u64, context: &N::Context) -> Point {
     let matrix = LinearStep::of(scheme, h);
     let stepper = Stepper::with_context(scheme.clone(), h, context).expect("limits are positive");
     let one = N::from_rational(&Rational::one(), context);
@@ -153,7 +153,7 @@ fn point<N: Rounded>(scheme: &TableScheme, h: &Rational, steps: u64, context: &N
 }
 
 /// The largest |q| of a run.
-fn largest<N: Rounded, M: System<Number = N, Class = Quadratic>>(
+fn largest<N: CorrectlyRounded, M: System<Number = N, Class = Quadratic>>(
     stepper: &Stepper<TableScheme, N>,
     system: &mut M,
     steps: u64,

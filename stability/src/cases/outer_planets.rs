@@ -4,7 +4,7 @@ use shadowstep::Rational;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_studies::finding::Finding;
 
-use crate::long_run::{LongCase, LongRun, Stayed, staying};
+use crate::long_run::{LongCase, LongRun, LongRunResult, staying};
 use crate::suite::{OF_ORDERS_2_TO_8, Suite};
 
 /// The case.
@@ -22,7 +22,7 @@ impl LongCase for OuterPlanets {
     const EVALUATION: f64 = 200e-9;
 
     fn runs(suite: &Suite) -> Vec<LongRun> {
-        let until = suite.thorough(1e8, 1e6);
+        let until = suite.full_or_quick(1e8, 1e6);
         let h = Rational::from_integer(50.into());
         let runs = LongRun::at_equal_cost(&suite.schemes_or(&OF_ORDERS_2_TO_8), "outer-solar-system", &h, until);
         // the published data have a barycentre that moves
@@ -34,7 +34,7 @@ impl LongCase for OuterPlanets {
         Arithmetic::DOUBLE
     }
 
-    fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {
+    fn judge(suite: &Suite, measured: &[(LongRun, LongRunResult)]) -> Finding {
         staying((suite, measured), STAYS, "The error of H of the outer planets", "days")
     }
 }

@@ -52,7 +52,7 @@ impl Case for Pendulum {
     type Measured = Moved;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.thorough(300_000, 20_000);
+        let steps = suite.full_or_quick(300_000, 20_000);
         let of =
             |scheme: &&Examined| MOMENTA.map(|momentum| Trial { scheme: scheme.identity.clone(), momentum, steps });
         suite.schemes_or(&OF_ORDERS_2_TO_8).iter().flat_map(of).collect()

@@ -12,7 +12,7 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
-use crate::scene_run::{Said, digits, run_scene};
+use crate::scene_run::{RunResult, digits, run_scene};
 use crate::suite::Suite;
 
 /// The case.
@@ -51,10 +51,10 @@ impl Case for Pericentres {
     const REVISION: u32 = 1;
 
     type Trial = Trial;
-    type Measured = Said;
+    type Measured = RunResult;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let periods = suite.thorough(300, 10);
+        let periods = suite.full_or_quick(300, 10);
         let mut trials = Vec::new();
         for scheme in suite.schemes_or(&SCHEMES) {
             if scheme.scheme.scheme.proved().scheme.has_gradient_kicks() {
@@ -78,7 +78,7 @@ impl Case for Pericentres {
         trial: &Trial,
         _: &N::Context,
         continues: Continues<'_>,
-    ) -> Result<Said, Error> {
+    ) -> Result<RunResult, Error> {
         let (h, steps) = trial.steps();
         let outer = if trial.alone { "" } else { OUTER };
         let text = format!(
@@ -94,7 +94,7 @@ impl Case for Pericentres {
         run_scene(text, continues)
     }
 
-    fn judge(suite: &Suite, measured: &[(Trial, Said)]) -> Finding {
+    fn judge(suite: &Suite, measured: &[(Trial, RunResult)]) -> Finding {
         let mut finding = Finding::default();
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let name = &suite.scheme(&all[0].0.scheme).name;
@@ -146,8 +146,8 @@ struct Outcome {
 }
 
 impl Outcome {
-    fn of(said: &Said) -> Outcome {
-        let Said::Ended(ended) = said else {
+    fn of(said: &RunResult) -> Outcome {
+        let RunResult::Ended(ended) = said else {
             return Outcome { error: f64::MAX, grows: true, word: "fails".to_owned(), fine: false, reported: true };
         };
         let energies = &ended.energies;
@@ -174,7 +174,7 @@ impl Outcome {
     }
 }
 
-fn chart(suite: &Suite, measured: &[(Trial, Said)]) -> Chart {
+fn chart(suite: &Suite, measured: &[(Trial, RunResult)]) -> Chart {
     let mut curves = Vec::new();
     let scheme = &measured.first().map_or(String::new(), |(trial, _)| trial.scheme.clone());
     for (i, eccentricity) in ECCENTRICITIES.iter().enumerate() {

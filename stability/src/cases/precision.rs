@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use shadowstep::number::Limbs;
-use shadowstep::{Number, Ordered, Rational, Stepper};
+use shadowstep::{Number, Rational, Real, Stepper};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::arithmetic::Arithmetic;
 use shadowstep_scenes::computation::{Computation, RunNumber};
@@ -58,7 +58,7 @@ impl Case for Precision {
 
     fn trials(suite: &Suite) -> Vec<Trial> {
         let schemes = suite.schemes_or(&SCHEMES);
-        let digits = suite.thorough(&DIGITS[..], &DIGITS[..6]);
+        let digits = suite.full_or_quick(&DIGITS[..], &DIGITS[..6]);
         let trial =
             |scheme: &str| digits.iter().map(|&digits| Trial { scheme: scheme.to_owned(), digits }).collect::<Vec<_>>();
         schemes.iter().flat_map(|scheme| trial(&scheme.identity)).collect()

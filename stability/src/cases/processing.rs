@@ -62,7 +62,7 @@ impl Case for Processing {
     type Measured = Outputs;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.thorough(20_000, 1000);
+        let steps = suite.full_or_quick(20_000, 1000);
         let processed = suite.schemes_or_all().into_iter();
         let processor = |examined: &Examined| examined.scheme.scheme.proved().scheme.table.processor.clone();
         let trial = |examined: &Examined| {

@@ -10,7 +10,7 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 
 use crate::case::Case;
-use crate::scene_run::{Ended, Said, digits, run_scene};
+use crate::scene_run::{Ended, RunResult, digits, run_scene};
 use crate::suite::{Examined, Suite};
 
 /// The case.
@@ -36,10 +36,10 @@ impl Case for Pythagorean {
     const REVISION: u32 = 2;
 
     type Trial = Trial;
-    type Measured = Said;
+    type Measured = RunResult;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let inverses = suite.thorough(&[100, 1000, 10_000][..], &[100, 1000][..]);
+        let inverses = suite.full_or_quick(&[100, 1000, 10_000][..], &[100, 1000][..]);
         let of = |scheme: &&Examined| {
             let identity = scheme.identity.clone();
             inverses.iter().map(move |&inverse| Trial { scheme: identity.clone(), inverse })
@@ -56,7 +56,7 @@ impl Case for Pythagorean {
         trial: &Trial,
         _: &N::Context,
         continues: Continues<'_>,
-    ) -> Result<Said, Error> {
+    ) -> Result<RunResult, Error> {
         let scheme = suite.scheme(&trial.scheme);
         let evaluations = scheme.scheme.summary().evaluations as u64;
         let text = format!(
@@ -71,13 +71,13 @@ impl Case for Pythagorean {
         run_scene(text, continues)
     }
 
-    fn judge(suite: &Suite, measured: &[(Trial, Said)]) -> Finding {
+    fn judge(suite: &Suite, measured: &[(Trial, RunResult)]) -> Finding {
         let mut finding = Finding::default();
         for (trial, said) in measured {
             let evaluations = suite.scheme(&trial.scheme).scheme.summary().evaluations;
             let (what, verdict) = match said {
-                Said::Failed(message) => (message.clone(), Verdict::Agrees),
-                Said::Ended(Ended { energy, verdict, fine, encounters, closest, .. }) => {
+                RunResult::Failed(message) => (message.clone(), Verdict::Agrees),
+                RunResult::Ended(Ended { energy, verdict, fine, encounters, closest, .. }) => {
                     let lost = *energy > LOST;
                     let named = *encounters > 0;
                     let what = format!("energy off by {energy:.1e} of it; {verdict}; close encounters {closest}");
@@ -90,10 +90,10 @@ impl Case for Pythagorean {
                 verdict,
             );
         }
-        let curve = |(i, all): (usize, &[(Trial, Said)])| {
-            let point = |(trial, said): &(Trial, Said)| match said {
-                Said::Ended(Ended { energy, .. }) => Some(((trial.inverse as f64).log10(), energy.log10())),
-                Said::Failed(_) => None,
+        let curve = |(i, all): (usize, &[(Trial, RunResult)])| {
+            let point = |(trial, said): &(Trial, RunResult)| match said {
+                RunResult::Ended(Ended { energy, .. }) => Some(((trial.inverse as f64).log10(), energy.log10())),
+                RunResult::Failed(_) => None,
             };
             Curve::marked(suite.scheme(&all[0].0.scheme).name.clone(), all.iter().filter_map(point).collect(), i)
         };

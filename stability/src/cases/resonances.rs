@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
 use shadowstep::formula::FormulaPotential;
-use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as Said};
+use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as RunResult};
 use shadowstep::{Motion, Rational, Scheme, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::RunNumber;
@@ -73,7 +73,7 @@ impl Case for Resonances {
     type Measured = Variation;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps = suite.thorough(200_000, 20_000);
+        let steps = suite.full_or_quick(200_000, 20_000);
         let schemes = suite.schemes_or(&SCHEMES);
         let trials = |scheme: &&Examined| {
             let at = [3, 4, 5, 7].map(|n| (n, 0.0));
@@ -208,6 +208,6 @@ fn vary<N: RunNumber>(scheme: &NamedScheme, (h, cubic): (f64, bool), steps: u64,
         ratio: Some(ratio),
         verdict: said.to_string(),
         fine: said.is_fine(),
-        resonance: matches!(said, Said::NearResonance { .. }),
+        resonance: matches!(said, RunResult::NearResonance { .. }),
     }
 }

@@ -1,10 +1,10 @@
 //! Time reversal: steps forth and back.
 
 use serde::{Deserialize, Serialize};
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::{Kepler, ProblemMotion};
 use shadowstep::tables::TableScheme;
-use shadowstep::{Motion, Ordered, Rational, Scheme, StepSize, Stepper, UnitMasses};
+use shadowstep::{Motion, Rational, Real, Scheme, StepSize, Stepper, UnitMasses};
 use shadowstep_scenes::Error;
 use shadowstep_scenes::computation::RunNumber;
 use shadowstep_studies::Continues;
@@ -70,7 +70,7 @@ impl Case for Reversal {
     type Measured = Back;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let steps: Vec<u64> = (2..=suite.thorough(6, 4)).map(|decade| 10_u64.pow(decade)).collect();
+        let steps: Vec<u64> = (2..=suite.full_or_quick(6, 4)).map(|decade| 10_u64.pow(decade)).collect();
         let schemes = suite.schemes_or(&SCHEMES);
         let trials = schemes.iter().flat_map(|scheme| {
             [("kepler", 200), ("henon-heiles", 40)].map(|(problem, inverse)| Trial {
@@ -81,7 +81,7 @@ impl Case for Reversal {
                 steps: steps.clone(),
             })
         });
-        let most = suite.thorough(10_000_000, 10_000);
+        let most = suite.full_or_quick(10_000_000, 10_000);
         let fixed = schemes.iter().map(|scheme| Trial {
             scheme: scheme.identity.clone(),
             problem: "kepler",
@@ -196,21 +196,21 @@ fn in_fixed_point(scheme: &TableScheme, trial: &Trial, continues: Continues<'_>)
     Back { to_start: vec![distance(&begin, &[motion.q(), motion.p()].concat())], to_negative: 0.0 }
 }
 
-fn steps<N: Ordered + 'static>(stepper: &Stepper<TableScheme, N>, motion: &mut ProblemMotion<N>, count: u64) {
+fn steps<N: Real + 'static>(stepper: &Stepper<TableScheme, N>, motion: &mut ProblemMotion<N>, count: u64) {
     (0..count).for_each(|_| stepper.step(motion));
 }
 
-fn steps_back<N: Ordered + 'static>(stepper: &Stepper<TableScheme, N>, motion: &mut ProblemMotion<N>, count: u64) {
+fn steps_back<N: Real + 'static>(stepper: &Stepper<TableScheme, N>, motion: &mut ProblemMotion<N>, count: u64) {
     (0..count).for_each(|_| stepper.step_back(motion));
 }
 
-fn set<N: Ordered + 'static>(motion: &mut ProblemMotion<N>, state: &[N]) {
+fn set<N: Real + 'static>(motion: &mut ProblemMotion<N>, state: &[N]) {
     let (q, p) = state.split_at(state.len() / 2);
     motion.q_mut().clone_from_slice(q);
     motion.p_mut().clone_from_slice(p);
 }
 
-fn distance<N: Rounded>(one: &[N], other: &[N]) -> f64 {
+fn distance<N: CorrectlyRounded>(one: &[N], other: &[N]) -> f64 {
     let last_place = -f64::from(N::precision(&one[0].context()).in_bits() - 1) * std::f64::consts::LOG10_2;
     let square = one.iter().zip(other).map(|(a, b)| {
         let mut difference = a.clone();

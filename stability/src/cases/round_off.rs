@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::Kepler;
 use shadowstep::shadow::{Bilinear, ShadowEnergy};
 use shadowstep::tables::TableScheme;
@@ -78,7 +78,7 @@ impl Case for RoundOff {
         let of = |scheme: &&Examined| {
             // the same number of evaluations, to a factor of a few
             let fewer = u32::from(scheme.scheme.scheme.summary().evaluations > 1);
-            let longest = suite.thorough(8, 5) - fewer;
+            let longest = suite.full_or_quick(8, 5) - fewer;
             let steps: Vec<u64> =
                 (2 * (longest - 3)..=2 * longest).map(|half| 10_f64.powf(f64::from(half) / 2.0) as u64).collect();
             let identity = scheme.identity.clone();
@@ -187,7 +187,7 @@ fn start(part: f64) -> ([f64; 2], [f64; 2]) {
 }
 
 /// The modified energy with the least estimated error of the next period, and that error.
-fn modified_energy<N: Rounded, M: System<Number = N, Class = shadowstep::kinetic::Quadratic>>(
+fn modified_energy<N: CorrectlyRounded, M: System<Number = N, Class = shadowstep::kinetic::Quadratic>>(
     stepper: &Stepper<TableScheme, N>,
     system: &mut M,
 ) -> (N, f64) {

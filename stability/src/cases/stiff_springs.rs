@@ -7,7 +7,7 @@ use shadowstep_studies::finding::Finding;
 use shadowstep_studies::verdict::Verdict;
 use shadowstep_symbolic::decimal::to_text;
 
-use crate::long_run::{LongCase, LongRun, Stayed};
+use crate::long_run::{LongCase, LongRun, LongRunResult};
 use crate::suite::{Examined, Suite};
 
 /// The case.
@@ -35,7 +35,7 @@ impl LongCase for StiffSprings {
     const EVALUATION: f64 = 60e-9;
 
     fn runs(suite: &Suite) -> Vec<LongRun> {
-        let steps = suite.thorough(200_000, 10_000);
+        let steps = suite.full_or_quick(200_000, 10_000);
         let of = |scheme: &&Examined| {
             let limit = Stability::of_scheme(scheme.scheme.scheme.proved()).map(|stability| stability.limit);
             let limit = limit.and_then(|limit| exact(&limit).ok());
@@ -48,7 +48,7 @@ impl LongCase for StiffSprings {
         suite.schemes_or(&SCHEMES).iter().flat_map(of).collect()
     }
 
-    fn judge(suite: &Suite, measured: &[(LongRun, Stayed)]) -> Finding {
+    fn judge(suite: &Suite, measured: &[(LongRun, LongRunResult)]) -> Finding {
         let (mut finding, mut curves) = (Finding::default(), Vec::new());
         for all in measured.chunk_by(|(one, _), (other, _)| one.scheme == other.scheme) {
             let named = suite.scheme(&all[0].0.scheme);

@@ -6,9 +6,9 @@ use std::path::Path;
 use num_traits::FromPrimitive;
 use serde::{Deserialize, Serialize};
 use shadowstep::kinetic::General;
-use shadowstep::number::Rounded;
+use shadowstep::number::CorrectlyRounded;
 use shadowstep::problems::Kepler;
-use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as Said};
+use shadowstep::shadow::{Bilinear, ShadowEnergy, Verdict as RunResult};
 use shadowstep::tables::{First, TableScheme};
 use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential};
 use shadowstep::{Motion, Number, Rational, Stepper, UnitMasses};
@@ -74,7 +74,7 @@ impl Case for TransformedTime {
     type Measured = Orbit;
 
     fn trials(suite: &Suite) -> Vec<Trial> {
-        let periods = suite.thorough(1000, 10);
+        let periods = suite.full_or_quick(1000, 10);
         let compositions =
             suite.schemes_or(&SCHEMES).into_iter().filter(|scheme| gammas(&scheme.scheme.quadratic()).is_some());
         let of = |examined: &Examined| {
@@ -194,7 +194,7 @@ fn followed<N: RunNumber>(
     let steps = (f64::from(trial.periods) * TAU / h) as u64;
     let monitor = ShadowEnergy::new(stepper.clone(), &mut motion, &Bilinear::with_error(8)).expect("it is finite");
     let mut monitor = monitor.every((steps / 256).max(1));
-    let unit = 2_f64.powi(-(<N as Rounded>::precision(context).in_bits() as i32));
+    let unit = 2_f64.powi(-(<N as CorrectlyRounded>::precision(context).in_bits() as i32));
     let mut worst = [0.0_f64; 4];
     for n in 1..=steps {
         let finite = monitor.step(&mut motion).is_ok();
@@ -213,7 +213,7 @@ fn followed<N: RunNumber>(
     let verdict = monitor.report().verdict;
     let [energy, angular_momentum, position, time] = worst;
     let period = h / ellipse.turn.to_f64() - 1.0;
-    let too_large = matches!(verdict, Said::TooLarge(_) | Said::NearResonance { .. });
+    let too_large = matches!(verdict, RunResult::TooLarge(_) | RunResult::NearResonance { .. });
     Orbit { steps, energy, angular_momentum, position, time, period, too_large, verdict: verdict.to_string() }
 }
 
@@ -229,7 +229,7 @@ struct Ellipse<N> {
     angular_momentum: N,
 }
 
-impl<N: Rounded> Ellipse<N> {
+impl<N: CorrectlyRounded> Ellipse<N> {
     fn new(h: &Rational, gammas: &[Rational], k: u32, context: &N::Context) -> Self {
         let number = |value: &Rational| N::from_rational(value, context);
         let one = Rational::from_integer(1.into());

@@ -17,7 +17,7 @@ use crate::number::rational::Rational;
 use crate::text::decimal::to_significant;
 use crate::text::error::{HIGHEST_ROOT, SemanticFault};
 use crate::text::names::{Callee, PI, callee, unknown_name};
-use crate::text::syntax::{Expression, Kind, Operation};
+use crate::text::syntax::{Expression, ExpressionKind, Operation};
 
 /// One attempt to compute an expression.
 pub(super) struct Evaluator<'a> {
@@ -37,11 +37,11 @@ impl Evaluator<'_> {
     pub(super) fn value(&self, expression: &Expression) -> Result<Value, AttemptError> {
         let range = &expression.range;
         match &expression.kind {
-            Kind::Number(value) => Ok(Value::Exact(Exact { value: value.clone(), rounded: false })),
-            Kind::Name(name) => self.named(name).map_err(|unknown| fault(unknown, range)),
-            Kind::Negate(inner) => Ok(self.value(inner)?.negate()),
-            Kind::Binary(operation, left, right) => self.binary(*operation, left, right, range),
-            Kind::Call { function, arguments } => self.call(function, arguments, range),
+            ExpressionKind::Number(value) => Ok(Value::Exact(Exact { value: value.clone(), rounded: false })),
+            ExpressionKind::Name(name) => self.named(name).map_err(|unknown| fault(unknown, range)),
+            ExpressionKind::Negate(inner) => Ok(self.value(inner)?.negate()),
+            ExpressionKind::Binary(operation, left, right) => self.binary(*operation, left, right, range),
+            ExpressionKind::Call { function, arguments } => self.call(function, arguments, range),
         }
     }
 

@@ -12,7 +12,7 @@ use crate::number::power::{MOST_BITS, exact_power};
 use crate::number::rational::Rational;
 use crate::text::error::{HIGHEST_ROOT, LARGEST_POWER, MOST_FACTORS, SemanticError, SemanticFault};
 use crate::text::names::{Callee, NOT_SMOOTH, PI, callee, unknown_name};
-use crate::text::syntax::{Expression, Kind, Operation};
+use crate::text::syntax::{Expression, ExpressionKind, Operation};
 
 impl Graph {
     /// The formula of an expression whose names are coordinates and parameters, known by their index.
@@ -59,12 +59,12 @@ impl Builder<'_> {
     fn node(&mut self, expression: &Expression) -> Result<Node, SemanticError> {
         let range = &expression.range;
         match &expression.kind {
-            Kind::Number(value) => Ok(self.graph.number(value.clone())),
-            Kind::Name(name) => self.named(name).map_err(|unknown| SemanticError::new(unknown, range)),
-            Kind::Binary(Operation::Power, base, exponent) => self.power(base, exponent, range),
-            Kind::Binary(Operation::Multiply | Operation::Divide, ..) => self.product(expression),
-            Kind::Negate(_) | Kind::Binary(..) => self.sum(expression),
-            Kind::Call { function, arguments } => self.call(function, arguments, range),
+            ExpressionKind::Number(value) => Ok(self.graph.number(value.clone())),
+            ExpressionKind::Name(name) => self.named(name).map_err(|unknown| SemanticError::new(unknown, range)),
+            ExpressionKind::Binary(Operation::Power, base, exponent) => self.power(base, exponent, range),
+            ExpressionKind::Binary(Operation::Multiply | Operation::Divide, ..) => self.product(expression),
+            ExpressionKind::Negate(_) | ExpressionKind::Binary(..) => self.sum(expression),
+            ExpressionKind::Call { function, arguments } => self.call(function, arguments, range),
         }
     }
 
@@ -107,8 +107,8 @@ impl Builder<'_> {
         terms: &mut Vec<(Node, Rational)>,
     ) -> Result<(), SemanticError> {
         match &expression.kind {
-            Kind::Negate(inner) => self.terms(inner, &-sign, terms),
-            Kind::Binary(operation @ (Operation::Add | Operation::Subtract), left, right) => {
+            ExpressionKind::Negate(inner) => self.terms(inner, &-sign, terms),
+            ExpressionKind::Binary(operation @ (Operation::Add | Operation::Subtract), left, right) => {
                 self.terms(left, sign, terms)?;
                 let sign = if *operation == Operation::Subtract { -sign } else { sign.clone() };
                 self.terms(right, &sign, terms)
@@ -135,7 +135,9 @@ impl Builder<'_> {
         exponent: &Rational,
         factors: &mut Vec<(Node, Rational)>,
     ) -> Result<(), SemanticError> {
-        if let Kind::Binary(operation @ (Operation::Multiply | Operation::Divide), left, right) = &expression.kind {
+        if let ExpressionKind::Binary(operation @ (Operation::Multiply | Operation::Divide), left, right) =
+            &expression.kind
+        {
             self.factors(left, exponent, factors)?;
             let exponent = if *operation == Operation::Divide { -exponent } else { exponent.clone() };
             return self.factors(right, &exponent, factors);

@@ -25,14 +25,14 @@ const DEEPEST: usize = 200;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Expression {
     /// What it is.
-    pub kind: Kind,
+    pub kind: ExpressionKind,
     /// Its bytes in the text, with the parentheses around it and the plus signs before it.
     pub range: Range<usize>,
 }
 
 /// The forms of an expression. A tree is at most 200 expressions high.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Kind {
+pub enum ExpressionKind {
     /// A literal, exactly.
     Number(Rational),
     /// A name for a number.
@@ -126,7 +126,7 @@ impl Parser<'_> {
                 let operand = self.signed()?;
                 let range = start..operand.range.end;
                 match sign {
-                    '-' => node(Kind::Negate(Box::new(operand)), range)?,
+                    '-' => node(ExpressionKind::Negate(Box::new(operand)), range)?,
                     _ => Expression { range, ..operand },
                 }
             }
@@ -153,7 +153,7 @@ impl Parser<'_> {
             Token::Symbol(_) => Err(self.no_operand()),
             Token::Number(value) => {
                 self.next += 1;
-                Ok(Expression { kind: Kind::Number(value), range })
+                Ok(Expression { kind: ExpressionKind::Number(value), range })
             }
             Token::Name => {
                 self.next += 1;
@@ -166,7 +166,7 @@ impl Parser<'_> {
     fn name(&mut self, range: Range<usize>) -> Result<Expression, SyntaxError> {
         let name = self.text[range.clone()].to_string();
         if self.symbol() != Some('(') {
-            return Ok(Expression { kind: Kind::Name(name), range });
+            return Ok(Expression { kind: ExpressionKind::Name(name), range });
         }
         let open = self.take();
         let mut arguments = Vec::new();
@@ -178,7 +178,7 @@ impl Parser<'_> {
             }
         }
         let end = self.close(open)?;
-        node(Kind::Call { function: name, arguments }, range.start..end)
+        node(ExpressionKind::Call { function: name, arguments }, range.start..end)
     }
 
     fn parenthesized(&mut self) -> Result<Expression, SyntaxError> {
@@ -217,7 +217,7 @@ impl Parser<'_> {
     ) -> Result<Expression, SyntaxError> {
         let right = operand(self)?;
         let range = left.range.start..right.range.end;
-        node(Kind::Binary(operation, Box::new(left), Box::new(right)), range)
+        node(ExpressionKind::Binary(operation, Box::new(left), Box::new(right)), range)
     }
 
     /// The next token, if it is a symbol.
@@ -288,7 +288,7 @@ impl Parser<'_> {
 }
 
 /// An expression with parts, unless its tree is too high.
-fn node(kind: Kind, range: Range<usize>) -> Result<Expression, SyntaxError> {
+fn node(kind: ExpressionKind, range: Range<usize>) -> Result<Expression, SyntaxError> {
     let expression = Expression { kind, range };
     match height(&expression) <= DEEPEST {
         true => Ok(expression),
@@ -298,10 +298,10 @@ fn node(kind: Kind, range: Range<usize>) -> Result<Expression, SyntaxError> {
 
 fn height(expression: &Expression) -> usize {
     1 + match &expression.kind {
-        Kind::Number(_) | Kind::Name(_) => 0,
-        Kind::Negate(inner) => height(inner),
-        Kind::Binary(_, left, right) => height(left).max(height(right)),
-        Kind::Call { arguments, .. } => arguments.iter().map(height).max().unwrap_or(0),
+        ExpressionKind::Number(_) | ExpressionKind::Name(_) => 0,
+        ExpressionKind::Negate(inner) => height(inner),
+        ExpressionKind::Binary(_, left, right) => height(left).max(height(right)),
+        ExpressionKind::Call { arguments, .. } => arguments.iter().map(height).max().unwrap_or(0),
     }
 }
 
@@ -315,13 +315,13 @@ impl Expression {
     pub fn visit(&self, look: &mut impl FnMut(&Expression)) {
         look(self);
         match &self.kind {
-            Kind::Number(_) | Kind::Name(_) => {}
-            Kind::Negate(inner) => inner.visit(look),
-            Kind::Binary(_, left, right) => {
+            ExpressionKind::Number(_) | ExpressionKind::Name(_) => {}
+            ExpressionKind::Negate(inner) => inner.visit(look),
+            ExpressionKind::Binary(_, left, right) => {
                 left.visit(look);
                 right.visit(look);
             }
-            Kind::Call { arguments, .. } => arguments.iter().for_each(|argument| argument.visit(look)),
+            ExpressionKind::Call { arguments, .. } => arguments.iter().for_each(|argument| argument.visit(look)),
         }
     }
 }

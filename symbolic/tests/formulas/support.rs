@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use shadowstep_symbolic::{
-    Expression, Form, Function, Graph, Instruction, Kind, Node, Operation, Place, Program, Rational, parse,
+    Expression, ExpressionKind, Form, Function, Graph, Instruction, Node, Operation, Place, Program, Rational, parse,
 };
 
 /// Digits to which results must agree; the numbers have some 300.
@@ -147,15 +147,15 @@ pub(crate) fn names(text: &str) -> Vec<String> {
 /// The value of a syntax tree, operation by operation.
 pub(crate) fn of_tree<R: Real>(tree: &Expression, names: &HashMap<String, R>) -> R {
     match &tree.kind {
-        Kind::Number(value) => R::rational(value),
-        Kind::Name(name) => names[name].clone(),
-        Kind::Negate(inner) => of_tree(inner, names).negate(),
-        Kind::Binary(Operation::Power, base, exponent) => {
+        ExpressionKind::Number(value) => R::rational(value),
+        ExpressionKind::Name(name) => names[name].clone(),
+        ExpressionKind::Negate(inner) => of_tree(inner, names).negate(),
+        ExpressionKind::Binary(Operation::Power, base, exponent) => {
             let exponent = shadowstep_symbolic::evaluate(exponent, &Default::default(), 50).unwrap();
             assert!(!exponent.rounded);
             of_tree(base, names).power(&exponent.value)
         }
-        Kind::Binary(operation, left, right) => {
+        ExpressionKind::Binary(operation, left, right) => {
             let (left, right) = (of_tree(left, names), of_tree(right, names));
             match operation {
                 Operation::Add => left.add(&right),
@@ -165,7 +165,7 @@ pub(crate) fn of_tree<R: Real>(tree: &Expression, names: &HashMap<String, R>) ->
                 Operation::Power => unreachable!(),
             }
         }
-        Kind::Call { function, arguments } => {
+        ExpressionKind::Call { function, arguments } => {
             let argument = of_tree(&arguments[0], names);
             match function.as_str() {
                 "sqrt" => argument.root(2),

@@ -3,7 +3,7 @@
 use super::*;
 
 /// Eccentricity 0.6.
-fn comet<N: Ordered>(context: &N::Context) -> Start<N, Kepler> {
+fn comet<N: Real>(context: &N::Context) -> Start<N, Kepler> {
     Motion::new(Kepler, UnitMasses, numbers(&["0.4", "0"], context), numbers(&["0", "2"], context)).unwrap()
 }
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use num_traits::ToPrimitive as _;
-use shadowstep::number::{Limbs, Number, Ordered};
+use shadowstep::number::{Limbs, Number, Real};
 use shadowstep::problems::{Kepler, problem};
 use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential, step_to_time};
 use shadowstep::{
@@ -134,7 +134,7 @@ where
 fn run<S, M>(stepper: &Stepper<S, M::Number>, mut system: M, until: &M::Number) -> M
 where
     S: Scheme + Clone + ValidFor<General>,
-    M: System<Number: Ordered, Class = General>,
+    M: System<Number: Real, Class = General>,
 {
     let (mut q, mut p) = (system.q().to_vec(), system.p().to_vec());
     loop {
@@ -153,7 +153,7 @@ where
 }
 
 /// q, t and p, p_t at the start, and the masses.
-fn start<N: Ordered>(encounter: &Encounter) -> (Vec<N>, Vec<N>, Vec<Rational>)
+fn start<N: Real>(encounter: &Encounter) -> (Vec<N>, Vec<N>, Vec<Rational>)
 where
     N: Number<Context = ()> + 'static,
 {
@@ -218,7 +218,7 @@ fn main() {
         }
         let (q, p, masses) = start::<f64>(&encounter);
         let reference: Vec<f64> =
-            reference(&encounter, "1/128").iter().take(q.len() - 1).map(Ordered::to_f64).collect();
+            reference(&encounter, "1/128").iter().take(q.len() - 1).map(Real::to_f64).collect();
         if q.len() == 3 {
             let system = motion((array::<3>(&q), array::<3>(&p)), (Kepler, shadowstep::UnitMasses));
             sweep(&Posed { encounter: &encounter, reference, system: || system.clone() });

@@ -1,6 +1,6 @@
 //! The integrations that are measured: generated steps of a generated potential.
 
-use shadowstep::number::{Float, Fused, Lanes, Number, Ordered, Precision};
+use shadowstep::number::{Float, Fused, Lanes, Number, Real, Precision};
 use shadowstep::pairs::{Ends, Pairs};
 use shadowstep::problems::{CubicSpring, Gravity, HenonHeiles, Kepler, LennardJones};
 use shadowstep::transformed_time::{TimeTransformation, TransformedKinetic, TransformedPotential, step_to_time};
@@ -48,7 +48,7 @@ struct Asked<'a> {
 
 impl Asked<'_> {
     /// A problem whose coordinates are arrays.
-    fn small<N: Ordered<Context = ()>>(&self, problem: &str, number: fn(f64) -> N, compensated: bool) -> Answer {
+    fn small<N: Real<Context = ()>>(&self, problem: &str, number: fn(f64) -> N, compensated: bool) -> Answer {
         let numbers = |values: &[f64]| -> Vec<N> { values.iter().copied().map(number).collect() };
         let Initial { parameters, masses, .. } = self.initial;
         match problem {
@@ -77,7 +77,7 @@ impl Asked<'_> {
         compensated: bool,
     ) -> Answer
     where
-        N: Ordered<Context = ()>,
+        N: Real<Context = ()>,
         P: Potential<N>,
         K: Kinetic<N, Class = Quadratic>,
     {
@@ -126,7 +126,7 @@ impl Asked<'_> {
     }
 
     /// Kepler's problem in logarithmic time; the answers are at physical times.
-    fn logarithmic<N: Ordered<Context = ()>>(&self, number: fn(f64) -> N, compensated: bool) -> Answer {
+    fn logarithmic<N: Real<Context = ()>>(&self, number: fn(f64) -> N, compensated: bool) -> Answer {
         let Initial { q, p, .. } = self.initial;
         let time = TimeTransformation::Logarithmic;
         let energy = (p[0] * p[0] + p[1] * p[1]) / 2.0 - 1.0 / q[0].hypot(q[1]);
@@ -157,7 +157,7 @@ impl Asked<'_> {
         self.run(Motion::new(Kepler, UnitMasses, q, p).expect("the dimensions agree"))
     }
 
-    fn run<M: System<Class = Quadratic, Number: Ordered>>(&self, system: M) -> Answer {
+    fn run<M: System<Class = Quadratic, Number: Real>>(&self, system: M) -> Answer {
         with_scheme(self.scheme, Run { request: self.request, system })
     }
 }
@@ -193,7 +193,7 @@ struct Run<'a, M> {
     system: M,
 }
 
-impl<M: System<Class = Quadratic, Number: Ordered>> WithScheme for Run<'_, M> {
+impl<M: System<Class = Quadratic, Number: Real>> WithScheme for Run<'_, M> {
     type Result = Answer;
 
     fn with<S: Scheme + ValidFor<Quadratic>>(self, scheme: S) -> Answer {
@@ -203,7 +203,7 @@ impl<M: System<Class = Quadratic, Number: Ordered>> WithScheme for Run<'_, M> {
         let mut answer = Answer::default();
         for _ in 0..request.samples {
             answer.time(|| stepper.steps(std::slice::from_mut(&mut system), request.steps() / request.samples));
-            answer.state(system.q().iter().chain(system.p()).map(Ordered::to_f64));
+            answer.state(system.q().iter().chain(system.p()).map(Real::to_f64));
         }
         answer
     }
@@ -239,7 +239,7 @@ struct RunLogarithmic<'a, N, M> {
     system: M,
 }
 
-impl<N: Ordered<Context = ()>, M: System<Number = N, Class = General> + Clone> WithGeneralScheme
+impl<N: Real<Context = ()>, M: System<Number = N, Class = General> + Clone> WithGeneralScheme
     for RunLogarithmic<'_, N, M>
 {
     type Result = Answer;
@@ -261,7 +261,7 @@ impl<N: Ordered<Context = ()>, M: System<Number = N, Class = General> + Clone> W
                 at_sample
             });
             let state = at_sample.state();
-            answer.state(state.q()[..2].iter().chain(&state.p()[..2]).map(Ordered::to_f64));
+            answer.state(state.q()[..2].iter().chain(&state.p()[..2]).map(Real::to_f64));
         }
         answer
     }

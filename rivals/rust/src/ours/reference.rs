@@ -1,7 +1,7 @@
 //! Reference solutions at 40 digits.
 
 use shadowstep::exact_flow::{ExactFlow, has_exact_flow};
-use shadowstep::number::{Float, Ordered, Precision};
+use shadowstep::number::{Float, Real, Precision};
 use shadowstep::run::States as _;
 use shadowstep::step_size::StepSize;
 use shadowstep::{Stepper, tables};
@@ -27,6 +27,6 @@ pub fn print(problem: &str, until: &str, steps: &str) {
         (0..steps).for_each(|_| stepper.step(&mut motion));
         motion.q().to_vec()
     };
-    let texts: Vec<_> = q.iter().map(Ordered::to_text).collect();
+    let texts: Vec<_> = q.iter().map(Real::to_text).collect();
     println!("{}", texts.join(" "));
 }

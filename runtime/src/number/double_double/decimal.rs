@@ -5,7 +5,7 @@ use shadowstep_symbolic::decimal::{from_text, to_significant};
 use super::DoubleDouble;
 use super::nearest::nearest;
 use crate::Rational;
-use crate::number::Ordered;
+use crate::number::Real;
 
 /// A text of this many digits survives being read and printed.
 const SURVIVING_DIGITS: usize = 31;

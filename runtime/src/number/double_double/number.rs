@@ -6,7 +6,7 @@ use super::nearest::nearest;
 use super::{DoubleDouble, Machine, decimal, exponential, root, trigonometric};
 use crate::Rational;
 use crate::number::double::{Copied, LARGEST_SQUARED, scaled};
-use crate::number::{Number, Ordered};
+use crate::number::{Number, Real};
 
 impl<T: Machine> DoubleDouble<T> {
     /// Applies a function of one number to each lane.
@@ -232,7 +232,7 @@ impl From<f64> for DoubleDouble {
     }
 }
 
-impl Ordered for DoubleDouble {
+impl Real for DoubleDouble {
     fn is_below_zero(&self) -> bool {
         self.high < 0.0
     }

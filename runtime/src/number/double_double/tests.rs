@@ -18,7 +18,7 @@ use super::DoubleDouble;
 use super::nearest::nearest;
 use crate::Rational;
 use crate::instructions::Instructions;
-use crate::number::{Lanes, Number, Ordered};
+use crate::number::{Lanes, Number, Real};
 
 fn rational(text: &str) -> Rational {
     from_text(text).unwrap()

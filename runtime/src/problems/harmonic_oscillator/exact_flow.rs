@@ -2,12 +2,12 @@
 
 use crate::Rational;
 use crate::exact_flow::solution::{ExactFlowError, Method, Point, Request, Solution, log2};
-use crate::number::Reference;
+use crate::number::HighPrecision;
 use crate::number::value::Value;
 
 /// A rotation of (ωq, p).
 #[derive(Debug)]
-pub(super) struct Rotation<R: Reference> {
+pub(super) struct Rotation<R: HighPrecision> {
     h: Rational,
     context: R::Context,
     omega: Value<R>,
@@ -20,15 +20,15 @@ pub(super) struct Rotation<R: Reference> {
 pub(super) struct ClosedForm;
 
 impl Method for ClosedForm {
-    type Solution<R: Reference> = Rotation<R>;
+    type Solution<R: HighPrecision> = Rotation<R>;
 
-    fn bits<R: Reference>(request: &Request<'_>, rough: &R::Context) -> Result<u32, ExactFlowError> {
+    fn bits<R: HighPrecision>(request: &Request<'_>, rough: &R::Context) -> Result<u32, ExactFlowError> {
         let omega = R::from_rational(request.values.value("omega"), rough);
         // the bits of the largest angle before its point
         request.bits(log2(&omega) + request.longest.log2(), u32::MAX)
     }
 
-    fn solve<R: Reference>(request: &Request<'_>, context: R::Context) -> Rotation<R> {
+    fn solve<R: HighPrecision>(request: &Request<'_>, context: R::Context) -> Rotation<R> {
         Rotation {
             h: request.h.clone(),
             omega: Value(R::from_rational(request.values.value("omega"), &context)),
@@ -39,7 +39,7 @@ impl Method for ClosedForm {
     }
 }
 
-impl<R: Reference> Solution<R> for Rotation<R> {
+impl<R: HighPrecision> Solution<R> for Rotation<R> {
     fn at(&mut self, n: i64) -> Point<R> {
         let t = Value(R::from_rational(&(&self.h * Rational::from_integer(n.into())), &self.context));
         let (sin, cos) = (t * &self.omega).sin_cos();

@@ -17,7 +17,7 @@ use num_traits::Zero;
 
 use crate::Rational;
 use crate::exact_flow::solution::{ExactFlowError, Method, Point, Request, Solution, log2};
-use crate::number::Reference;
+use crate::number::HighPrecision;
 use crate::number::value::Value;
 use crate::problems::values::Values;
 
@@ -30,7 +30,7 @@ const RADIAL: ExactFlowError = ExactFlowError::InitialState(
 
 /// An ellipse and the time on it.
 #[derive(Debug)]
-pub(super) struct Ellipse<R: Reference> {
+pub(super) struct Ellipse<R: HighPrecision> {
     h: Rational,
     context: R::Context,
     q: Vec<Value<R>>,
@@ -44,7 +44,7 @@ pub(super) struct Ellipse<R: Reference> {
     tau: Value<R>,
 }
 
-impl<R: Reference> Ellipse<R> {
+impl<R: HighPrecision> Ellipse<R> {
     fn with(request: &Request<'_>, context: R::Context) -> Self {
         let values = |numbers: Vec<R>| numbers.into_iter().map(Value).collect::<Vec<_>>();
         let (q, p) = (values(request.values.q(&context)), values(request.values.p(&context)));
@@ -106,7 +106,7 @@ const ROUGH_BITS: u32 = 128;
 /// Bits that a step of Newton's method may lose where the equation is flat and curved.
 const LOST_BITS: u32 = 40;
 
-impl<R: Reference> Equation<R> {
+impl<R: HighPrecision> Equation<R> {
     fn rounded(ellipse: &Ellipse<R>, mean: &Value<R>, bits: u32) -> Self {
         let [sigma, tau, mean] = [&ellipse.sigma, &ellipse.tau, mean].map(|value| Value(value.at_bits(bits)));
         Equation { sigma, tau, mean }
@@ -144,7 +144,7 @@ impl<R: Reference> Equation<R> {
 }
 
 /// sin x and 1 − cos x.
-fn sine_and_versine<R: Reference>(x: &Value<R>) -> (Value<R>, Value<R>) {
+fn sine_and_versine<R: HighPrecision>(x: &Value<R>) -> (Value<R>, Value<R>) {
     let (sin, cos) = x.sin_cos();
     (sin, 1 - cos)
 }
@@ -154,7 +154,7 @@ fn sine_and_versine<R: Reference>(x: &Value<R>) -> (Value<R>, Value<R>) {
 pub(super) struct KeplersEquation;
 
 impl Method for KeplersEquation {
-    type Solution<R: Reference> = Ellipse<R>;
+    type Solution<R: HighPrecision> = Ellipse<R>;
 
     /// Refuses orbits with H ≥ 0 and those through the centre.
     fn check(values: &Values) -> Result<(), ExactFlowError> {
@@ -170,7 +170,7 @@ impl Method for KeplersEquation {
         Ok(())
     }
 
-    fn bits<R: Reference>(request: &Request<'_>, rough: &R::Context) -> Result<u32, ExactFlowError> {
+    fn bits<R: HighPrecision>(request: &Request<'_>, rough: &R::Context) -> Result<u32, ExactFlowError> {
         let rough = Ellipse::<R>::with(request, rough.clone());
         // the orbit is so close to a parabola that no digits of 1/a are left
         if !rough.a.is_finite() || rough.a.is_below_zero() {
@@ -188,12 +188,12 @@ impl Method for KeplersEquation {
         request.bits(growth, u32::MAX)
     }
 
-    fn solve<R: Reference>(request: &Request<'_>, context: R::Context) -> Ellipse<R> {
+    fn solve<R: HighPrecision>(request: &Request<'_>, context: R::Context) -> Ellipse<R> {
         Ellipse::with(request, context)
     }
 }
 
-impl<R: Reference> Solution<R> for Ellipse<R> {
+impl<R: HighPrecision> Solution<R> for Ellipse<R> {
     fn at(&mut self, n: i64) -> Point<R> {
         let t = Value(R::from_rational(&(&self.h * Rational::from_integer(n.into())), &self.context));
         let (x, sin, versine) = self.anomaly(&(t * &self.omega));

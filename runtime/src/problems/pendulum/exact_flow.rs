@@ -17,7 +17,7 @@ use std::f64::consts::{LOG2_E, TAU};
 use super::taylor::flow;
 use crate::exact_flow::solution::{ExactFlowError, Method, Point, Request, Solution, log2};
 use crate::number::value::Value;
-use crate::number::{Number, Reference};
+use crate::number::{HighPrecision, Number};
 
 /// The largest number of bits for the growth of errors: with more a run takes too long. On the separatrix they suffice to
 /// |t| = 2772.
@@ -61,14 +61,14 @@ struct Step<R> {
     turn: Value<R>,
 }
 
-impl<R: Reference> State<R> {
+impl<R: HighPrecision> State<R> {
     fn of(point: Point<R>) -> Self {
         let (s, c) = (point.q[0].clone() / 2).sin_cos();
         State { s, c, p: point.p[0].clone() / 2, point }
     }
 }
 
-impl<R: Reference> Step<R> {
+impl<R: HighPrecision> Step<R> {
     /// A step of t on the orbit with this k².
     fn new(squared: &Value<R>, t: &Value<R>) -> Self {
         let k = squared.clone().sqrt();
@@ -123,7 +123,7 @@ impl<R: Reference> Step<R> {
     }
 }
 
-fn start<R: Reference>(request: &Request<'_>, context: &R::Context) -> Point<R> {
+fn start<R: HighPrecision>(request: &Request<'_>, context: &R::Context) -> Point<R> {
     let values = |numbers: Vec<R>| numbers.into_iter().map(Value).collect();
     Point { q: values(request.values.q(context)), p: values(request.values.p(context)), beta: Value::zero(context) }
 }
@@ -133,20 +133,20 @@ fn start<R: Reference>(request: &Request<'_>, context: &R::Context) -> Point<R> 
 pub(super) struct AdditionTheorems;
 
 /// p²/2 − cos q
-fn energy<R: Reference>(Point { q, p, .. }: &Point<R>) -> Value<R> {
+fn energy<R: HighPrecision>(Point { q, p, .. }: &Point<R>) -> Value<R> {
     p[0].clone().square() / 2 - q[0].clone().cos()
 }
 
 /// How many steps make one of the step size.
-fn parts<R: Reference>(request: &Request<'_>, energy: &Value<R>) -> f64 {
+fn parts<R: HighPrecision>(request: &Request<'_>, energy: &Value<R>) -> f64 {
     let h = f64::from_rational(request.h, &()).abs();
     (h * (2.0 * (energy.to_f64() + 1.0)).max(0.0).sqrt() / LONGEST).ceil().max(1.0)
 }
 
 impl Method for AdditionTheorems {
-    type Solution<R: Reference> = Addition<R>;
+    type Solution<R: HighPrecision> = Addition<R>;
 
-    fn bits<R: Reference>(request: &Request<'_>, rough: &R::Context) -> Result<u32, ExactFlowError> {
+    fn bits<R: HighPrecision>(request: &Request<'_>, rough: &R::Context) -> Result<u32, ExactFlowError> {
         let rough: Point<R> = start(request, rough);
         let (q, p, energy) = (&rough.q[0], &rough.p[0], energy(&rough));
         // errors grow by e^t at most, as |U''| ≤ 1; and away from the separatrix H = 1 linearly, by a factor of some
@@ -162,7 +162,7 @@ impl Method for AdditionTheorems {
         request.bits(size + exponential.min(linear) + steps, MOST_GROWTH)
     }
 
-    fn solve<R: Reference>(request: &Request<'_>, context: R::Context) -> Addition<R> {
+    fn solve<R: HighPrecision>(request: &Request<'_>, context: R::Context) -> Addition<R> {
         let start: State<R> = State::of(start(request, &context));
         let parts = parts(request, &energy(&start.point));
         let squared = start.s.clone().square() + start.p.clone().square();
@@ -172,7 +172,7 @@ impl Method for AdditionTheorems {
     }
 }
 
-impl<R: Reference> Solution<R> for Addition<R> {
+impl<R: HighPrecision> Solution<R> for Addition<R> {
     fn at(&mut self, n: i64) -> Point<R> {
         // from the present state, or from the initial one if that is nearer
         if n.abs() <= (n - self.n).abs() {

@@ -14,14 +14,14 @@ use num_traits::FromPrimitive;
 
 use crate::Rational;
 use crate::exact_flow::solution::{Point, log2};
-use crate::number::Reference;
+use crate::number::HighPrecision;
 use crate::number::value::Value;
 
 /// The number of consecutive terms that are examined, because every second one may be 0.
 const LAST_TERMS: usize = 4;
 
 /// The state after the time t.
-pub(super) fn flow<R: Reference>(state: &Point<R>, t: &Value<R>) -> Point<R> {
+pub(super) fn flow<R: HighPrecision>(state: &Point<R>, t: &Value<R>) -> Point<R> {
     let (mut state, mut rest) = (state.clone(), t.clone());
     while !rest.is_zero() {
         (state, rest) = advance(&state, rest);
@@ -30,7 +30,7 @@ pub(super) fn flow<R: Reference>(state: &Point<R>, t: &Value<R>) -> Point<R> {
 }
 
 /// Advances by `rest`, or by the part of it that one series allows; returns the remainder as well.
-fn advance<R: Reference>(state: &Point<R>, rest: Value<R>) -> (Point<R>, Value<R>) {
+fn advance<R: HighPrecision>(state: &Point<R>, rest: Value<R>) -> (Point<R>, Value<R>) {
     let bits = f64::from(rest.bits());
     let most = (bits * LN_2 / 2.0).ceil() as usize + LAST_TERMS;
     let mut terms = Terms::new(state);
@@ -59,7 +59,7 @@ struct Terms<R> {
     weighted: Vec<Value<R>>,
 }
 
-impl<R: Reference> Terms<R> {
+impl<R: HighPrecision> Terms<R> {
     fn new(Point { q, p, beta }: &Point<R>) -> Self {
         let zero = Value::zero(&beta.context());
         let (sin, cos) = q[0].sin_cos();
@@ -119,7 +119,7 @@ impl<R: Reference> Terms<R> {
 }
 
 /// Σ_j a_j b_{k−j}
-fn product<R: Reference>(a: &[Value<R>], b: &[Value<R>]) -> Value<R> {
+fn product<R: HighPrecision>(a: &[Value<R>], b: &[Value<R>]) -> Value<R> {
     let mut sum = R::zero(&a[0].context());
     a.iter().zip(b.iter().rev()).for_each(|(a, b)| sum.add_product(&a.0, &b.0));
     Value(sum)

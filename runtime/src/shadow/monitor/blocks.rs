@@ -3,7 +3,7 @@
 
 use super::arithmetic::{integer, quotient};
 use super::estimated::Estimated;
-use crate::number::Ordered;
+use crate::number::Real;
 
 /// The largest number of blocks; a long run has at least half as many.
 const BLOCKS: usize = 64;
@@ -22,7 +22,7 @@ pub(super) struct Block<N> {
     modified: N,
 }
 
-impl<N: Ordered> Block<N> {
+impl<N: Real> Block<N> {
     fn zero(context: &N::Context) -> Self {
         Block { best: Estimated::zero(context), energy: N::zero(context), modified: N::zero(context) }
     }
@@ -43,7 +43,7 @@ pub(super) struct Blocks<N> {
     count: u64,
 }
 
-impl<N: Ordered> Blocks<N> {
+impl<N: Real> Blocks<N> {
     /// The blocks of a run that begins with the energy `origin`.
     pub(super) fn new(origin: &N) -> Self {
         let context = origin.context();

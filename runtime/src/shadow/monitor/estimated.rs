@@ -1,6 +1,6 @@
 //! A modified energy with its error.
 
-use crate::number::Ordered;
+use crate::number::Real;
 
 /// An estimate of the modified energy, and its error.
 #[derive(Clone, Debug)]
@@ -10,7 +10,7 @@ pub(super) struct Estimated<N> {
     pub(super) error: N,
 }
 
-impl<N: Ordered> Estimated<N> {
+impl<N: Real> Estimated<N> {
     pub(super) fn zero(context: &N::Context) -> Self {
         Estimated { value: N::zero(context), error: N::zero(context) }
     }

@@ -2,7 +2,7 @@
 
 use super::turning::{STATES, Sums, Turning, assign_second_difference, turning};
 use crate::instructions;
-use crate::number::{Ordered, epsilon};
+use crate::number::{Real, epsilon};
 
 /// This number of coordinates of a long state is computed at once.
 const LANES: usize = 8;
@@ -30,7 +30,7 @@ pub(super) struct Fastest<N> {
     z: N,
 }
 
-impl<N: Ordered> Fastest<N> {
+impl<N: Real> Fastest<N> {
     pub(super) fn new(dimension: usize, context: &N::Context) -> Self {
         let zero = || N::zero(context);
         let mut rounding: N = epsilon(context);
@@ -185,7 +185,7 @@ impl<N: Ordered> Fastest<N> {
 
 /// Whether δ²p is more than round-off.
 #[inline(always)]
-fn turns<N: Ordered>(second: &N, (p, rounding): (&N, &N), [x, z]: [&mut N; 2]) -> bool {
+fn turns<N: Real>(second: &N, (p, rounding): (&N, &N), [x, z]: [&mut N; 2]) -> bool {
     let (mut x, mut z) = (x.register(), z.register());
     x.assign(second);
     x.make_absolute();
@@ -196,7 +196,7 @@ fn turns<N: Ordered>(second: &N, (p, rounding): (&N, &N), [x, z]: [&mut N; 2]) -
 
 /// Adds the products of δ²p and δ⁴p of a coordinate.
 #[inline(always)]
-fn add_products<N: Ordered>([squares, products, fourths]: [&mut N; 3], second: &N, fourth: &N) {
+fn add_products<N: Real>([squares, products, fourths]: [&mut N; 3], second: &N, fourth: &N) {
     squares.add_product(second, second);
     products.add_product(second, fourth);
     fourths.add_product(fourth, fourth);

@@ -1,6 +1,6 @@
 //! Whether the rate is qᵀU_q − 2U: H from the gradient and the rate against H itself.
 
-use crate::number::{Ordered, epsilon};
+use crate::number::{Real, epsilon};
 use crate::system::System;
 
 /// Both are rounded; a difference of this number of last places of |H| + T is not round-off.
@@ -20,7 +20,7 @@ pub(super) struct RateCheck<N> {
     pub(super) wrong: u64,
 }
 
-impl<N: Ordered> RateCheck<N> {
+impl<N: Real> RateCheck<N> {
     pub(super) fn new(dimension: usize, context: &N::Context) -> Self {
         let zero = || N::zero(context);
         let zeros = || vec![zero(); dimension];

@@ -8,10 +8,10 @@ use super::schedule::Schedule;
 use super::turning::{STATES, Sums, Turning, assign_second_difference, turning};
 use crate::Rational;
 use crate::instructions::{self, copy};
-use crate::number::{Ordered, epsilon};
+use crate::number::{Real, epsilon};
 use crate::partial_sums::PartialSums;
 use crate::shadow::estimator::EstimatorError;
-use crate::shadow::walk::{add_squares_of_increments, kick_factor};
+use crate::shadow::expected_round_off::{add_squares_of_increments, kick_factor};
 use crate::step_size::StepSize;
 use crate::system::System;
 
@@ -73,7 +73,7 @@ pub(super) struct Recent<N> {
     z: N,
 }
 
-impl<N: Ordered> Recent<N> {
+impl<N: Real> Recent<N> {
     pub(super) fn new(
         states: usize,
         h: &StepSize,
@@ -296,7 +296,7 @@ impl<N: Ordered> Recent<N> {
 }
 
 /// A state that is kept.
-struct Kept<'a, N> {
+struct StateView<'a, N> {
     q: &'a mut [N],
     p: &'a mut [N],
     second: &'a mut [N],
@@ -304,7 +304,7 @@ struct Kept<'a, N> {
 
 /// The states from the oldest to the newest.
 #[inline(always)]
-fn in_order<N>(states: &mut [N], newest: usize, dimension: usize) -> [Kept<'_, N>; KEPT] {
+fn in_order<N>(states: &mut [N], newest: usize, dimension: usize) -> [StateView<'_, N>; KEPT] {
     let length = 3 * dimension;
     let (a, others) = states.split_at_mut(length);
     let (b, others) = others.split_at_mut(length);
@@ -314,15 +314,15 @@ fn in_order<N>(states: &mut [N], newest: usize, dimension: usize) -> [Kept<'_, N
         1 => [c, a, b],
         _ => [a, b, c],
     };
-    [Kept::of(a, dimension), Kept::of(b, dimension), Kept::of(c, dimension)]
+    [StateView::of(a, dimension), StateView::of(b, dimension), StateView::of(c, dimension)]
 }
 
-impl<'a, N> Kept<'a, N> {
+impl<'a, N> StateView<'a, N> {
     #[inline(always)]
     fn of(row: &'a mut [N], dimension: usize) -> Self {
         let (q, others) = row.split_at_mut(dimension);
         let (p, second) = others.split_at_mut(dimension);
-        Kept { q, p, second }
+        StateView { q, p, second }
     }
 }
 
@@ -330,7 +330,7 @@ impl<'a, N> Kept<'a, N> {
 ///
 /// Increments that a plain step left behind belong to an earlier step, or are 0.
 #[inline(always)]
-fn differ<N: Ordered>(
+fn differ<N: Real>(
     [before, after, added]: [&[N]; 3],
     rounding: &N,
     three: &mut PartialSums<N, 3>,

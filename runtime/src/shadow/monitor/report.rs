@@ -14,7 +14,7 @@ use super::trend::{Trend, TrendRatio, trend_ratio};
 use super::turning::Turning;
 use super::verdict::{Advice, Evidence, Missing, Verdict};
 use crate::Rational;
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::shadow::Estimator;
 
 /// The energies of a run.
@@ -110,7 +110,7 @@ pub struct Report<N> {
 /// What the energy shows is slower by this factor than a coordinate that has no part in it.
 const SLOWER: f64 = 10.0;
 
-impl<N: Ordered, E: Estimator<N>> Monitor<N, E> {
+impl<N: Real, E: Estimator<N>> Monitor<N, E> {
     /// The report on the run so far.
     pub fn report(&self) -> Report<N> {
         let (statistics, context) = (&self.statistics, self.method.context());
@@ -194,7 +194,7 @@ impl<N: Ordered, E: Estimator<N>> Monitor<N, E> {
     }
 }
 
-fn largest_error<'a, N: Ordered + 'a>(estimates: impl Iterator<Item = &'a Estimated<N>>, context: &N::Context) -> N {
+fn largest_error<'a, N: Real + 'a>(estimates: impl Iterator<Item = &'a Estimated<N>>, context: &N::Context) -> N {
     let mut largest = N::zero(context);
     for Estimated { error, .. } in estimates {
         if *error > largest {
@@ -204,7 +204,7 @@ fn largest_error<'a, N: Ordered + 'a>(estimates: impl Iterator<Item = &'a Estima
     largest
 }
 
-impl<N: Ordered> Report<N> {
+impl<N: Real> Report<N> {
     pub(super) fn evidence(&self) -> Evidence {
         let numbers = [&self.energy_error, &self.kinetic, &self.method_rms, &self.kick];
         Evidence {

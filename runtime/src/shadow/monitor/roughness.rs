@@ -6,7 +6,7 @@
 
 use super::arithmetic::{integer, quotient, root};
 use crate::increments::{Increments, OwnedIncrements};
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::shadow::bilinear::{Bilinear, BilinearEstimator};
 use crate::shadow::estimator::{BuildEstimator, Estimator, EstimatorError};
 use crate::step_size::StepSize;
@@ -52,7 +52,7 @@ pub(super) struct Roughness<N> {
     kicks: N,
 }
 
-impl<N: Ordered> Roughness<N> {
+impl<N: Real> Roughness<N> {
     pub(super) fn new(
         states: usize,
         h: &StepSize,
@@ -136,7 +136,7 @@ struct Spacings<N> {
     unknown: N,
 }
 
-impl<N: Ordered> Spacings<N> {
+impl<N: Real> Spacings<N> {
     fn new(k: usize, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self, EstimatorError> {
         Ok(Spacings {
             fine: LastTerms::new(k, h, dimension, context)?,
@@ -190,7 +190,7 @@ struct LastTerms<N> {
     squares: N,
 }
 
-impl<N: Ordered> LastTerms<N> {
+impl<N: Real> LastTerms<N> {
     fn new(k: usize, h: &StepSize, dimension: usize, context: &N::Context) -> Result<Self, EstimatorError> {
         let build = |k: usize| Bilinear::new(u32::try_from(k).expect("at most 8")).build(h, dimension, context);
         let zero = || N::zero(context);

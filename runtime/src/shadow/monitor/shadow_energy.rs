@@ -4,7 +4,7 @@ use std::ops::Deref;
 
 use super::{Monitor, Sample};
 use crate::increments::Carried;
-use crate::number::Ordered;
+use crate::number::Real;
 use crate::run::RunError;
 use crate::scheme::{Scheme, ValidFor};
 use crate::shadow::estimator::{BuildEstimator, Estimator};
@@ -92,13 +92,13 @@ use crate::system::System;
 /// For a hundred bodies, with a window in 100 steps, a monitor costs a few per cent of the loop; `docs/monitor.md` has the
 /// measurements, and `cargo bench -p shadowstep --bench monitor` repeats them.
 #[derive(Clone, Debug)]
-pub struct ShadowEnergy<S: Scheme, N: Ordered, E> {
+pub struct ShadowEnergy<S: Scheme, N: Real, E> {
     stepper: Stepper<S, N>,
     monitor: Monitor<N, E>,
 }
 
 /// What it has found so far.
-impl<S: Scheme, N: Ordered, E> Deref for ShadowEnergy<S, N, E> {
+impl<S: Scheme, N: Real, E> Deref for ShadowEnergy<S, N, E> {
     type Target = Monitor<N, E>;
 
     fn deref(&self) -> &Monitor<N, E> {
@@ -106,7 +106,7 @@ impl<S: Scheme, N: Ordered, E> Deref for ShadowEnergy<S, N, E> {
     }
 }
 
-impl<S: Scheme, N: Ordered, E: Estimator<N>> ShadowEnergy<S, N, E> {
+impl<S: Scheme, N: Real, E: Estimator<N>> ShadowEnergy<S, N, E> {
     /// Begins at the system's present state, which is number 0. There is a window at every step.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use super::arithmetic::{difference, integer, quotient, root};
 use super::estimated::Estimated;
-use crate::number::Ordered;
+use crate::number::Real;
 
 /// An estimate may be wrong by this many times its error.
 const ERROR_FACTOR: i32 = 3;
@@ -14,7 +14,7 @@ pub(super) struct Range<N> {
     pub(super) largest: N,
 }
 
-impl<N: Ordered> Range<N> {
+impl<N: Real> Range<N> {
     pub(super) fn of(first: &N) -> Self {
         Range { least: first.clone(), largest: first.clone() }
     }
@@ -52,7 +52,7 @@ pub(super) struct Statistics<N> {
     distances: N,
 }
 
-impl<N: Ordered> Statistics<N> {
+impl<N: Real> Statistics<N> {
     pub(super) fn new(energy: &N) -> Self {
         let zero = N::zero(&energy.context());
         Statistics {

@@ -6,12 +6,12 @@ use super::report::Report;
 use super::roughness::Rough;
 use super::trend::Trend;
 use super::verdict::{Advice, Criterion, LEAST_WINDOWS, Missing, PERMANENT_LIMIT, Verdict};
-use crate::number::Ordered;
+use crate::number::Real;
 
 /// A coordinate that turns once in fewer steps is hardly resolved.
 const FEW_STEPS: f64 = 10.0;
 
-impl<N: Ordered> Report<N> {
+impl<N: Real> Report<N> {
     /// An energy as a part of the energy error; its value where that is 0.
     fn in_parts(&self, energy: &N) -> String {
         match self.part(energy) {
@@ -219,7 +219,7 @@ impl<N: Ordered> Report<N> {
     }
 }
 
-impl<N: Ordered> fmt::Display for Report<N> {
+impl<N: Real> fmt::Display for Report<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Report { steps, windows, verdict, .. } = self;
         writeln!(f, "{verdict} ({steps} steps, {windows} windows)")?;
@@ -273,7 +273,7 @@ impl fmt::Display for Trend {
 }
 
 /// Three digits, also of a number outside the range of `f64`.
-fn short<N: Ordered>(number: &N) -> String {
+fn short<N: Real>(number: &N) -> String {
     if !number.is_finite() {
         return "not finite".to_owned();
     }

@@ -2,7 +2,7 @@
 
 use super::arithmetic::{difference, quotient};
 use super::estimated::Estimated;
-use crate::number::Ordered;
+use crate::number::Real;
 
 /// How the modified energy depends on time: by (max − min)²/Σ(differences)² of successive accurate estimates.
 ///
@@ -25,7 +25,7 @@ pub(super) struct TrendRatio {
     count: usize,
 }
 
-pub(super) fn trend_ratio<N: Ordered>(accurate: &[&Estimated<N>], range: &N) -> Option<TrendRatio> {
+pub(super) fn trend_ratio<N: Real>(accurate: &[&Estimated<N>], range: &N) -> Option<TrendRatio> {
     if accurate.len() < 16 {
         return None;
     }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::number::Ordered;
+use crate::number::Real;
 
 /// States that the turning needs: three second differences.
 pub(super) const STATES: usize = 5;
@@ -20,7 +20,7 @@ pub(super) struct Sums<N> {
     pub(super) fourths: N,
 }
 
-impl<N: Ordered> Sums<N> {
+impl<N: Real> Sums<N> {
     pub(super) fn zero(context: &N::Context) -> Self {
         let zero = || N::zero(context);
         Sums { squares: zero(), products: zero(), fourths: zero() }
@@ -39,7 +39,7 @@ pub(super) struct Turning {
 }
 
 /// `None` where nothing turns; without the effect of round-off.
-pub(super) fn turning<N: Ordered>(Sums { squares, products, fourths }: &Sums<N>, quotient: &mut N) -> Option<Turning> {
+pub(super) fn turning<N: Real>(Sums { squares, products, fourths }: &Sums<N>, quotient: &mut N) -> Option<Turning> {
     let mut ratio = |a: &N| {
         quotient.assign_quotient(a, squares);
         quotient.to_f64()
@@ -59,7 +59,7 @@ impl Turning {
 }
 
 /// out ← a − 2b + c
-pub(super) fn assign_second_difference<N: Ordered>(out: &mut N, a: &N, b: &N, c: &N) {
+pub(super) fn assign_second_difference<N: Real>(out: &mut N, a: &N, b: &N, c: &N) {
     out.assign_sum(a, c);
     out.subtract(b);
     out.subtract(b);

@@ -67,7 +67,7 @@ pub(super) enum Atom {
 
 /// All that is computed.
 #[derive(Debug)]
-pub(super) struct Plan {
+pub(super) struct LoweringPlan {
     pub(super) quantities: Vec<Quantity>,
     pub(super) atoms: Vec<Atom>,
     /// The requested quantities; `None` for 0.
@@ -79,7 +79,7 @@ pub(super) struct Plan {
 }
 
 /// What the nodes need. Constants are added to the plan's list.
-pub(super) fn plan(graph: &mut Graph, nodes: &[Node], stage: Stage) -> Plan {
+pub(super) fn plan(graph: &mut Graph, nodes: &[Node], stage: Stage) -> LoweringPlan {
     let mut collector = Collector {
         graph,
         stage,
@@ -98,7 +98,7 @@ pub(super) fn plan(graph: &mut Graph, nodes: &[Node], stage: Stage) -> Plan {
     collector.work();
     let one = collector.resolve_products();
     let quantities = collector.quantities.into_iter().map(|quantity| quantity.expect("defined by `work`")).collect();
-    Plan { quantities, atoms: collector.atoms, outputs, hoisted: collector.hoisted, one }
+    LoweringPlan { quantities, atoms: collector.atoms, outputs, hoisted: collector.hoisted, one }
 }
 
 /// A product whose atoms are chosen when all exponents of its bases are known.

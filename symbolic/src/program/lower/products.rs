@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use super::collect::{Atom, Plan, Product, Quantity};
+use super::collect::{Atom, LoweringPlan, Product, Quantity};
 
 /// The largest number of pairs of factors that are examined: only very long formulas have more.
 const MOST_VISITS: usize = 1_000_000;
 
 /// Rewrites the products of a plan such that common parts are atoms of their own.
-pub(super) fn share(plan: &mut Plan) {
+pub(super) fn share(plan: &mut LoweringPlan) {
     merge_denominators(plan);
     invert_shared(plan);
     let mut visits = 0;
@@ -18,27 +18,27 @@ pub(super) fn share(plan: &mut Plan) {
     move_signs(plan);
 }
 
-fn products(plan: &Plan) -> impl Iterator<Item = &Product> {
+fn products(plan: &LoweringPlan) -> impl Iterator<Item = &Product> {
     plan.quantities.iter().filter_map(|quantity| match quantity {
         Quantity::Product(product) => Some(product),
         _ => None,
     })
 }
 
-fn products_mut(plan: &mut Plan) -> impl Iterator<Item = &mut Product> {
+fn products_mut(plan: &mut LoweringPlan) -> impl Iterator<Item = &mut Product> {
     plan.quantities.iter_mut().filter_map(|quantity| match quantity {
         Quantity::Product(product) => Some(product),
         _ => None,
     })
 }
 
-fn add_atom(plan: &mut Plan, atom: Atom) -> usize {
+fn add_atom(plan: &mut LoweringPlan, atom: Atom) -> usize {
     plan.atoms.push(atom);
     plan.atoms.len() - 1
 }
 
 /// The atoms in denominators, with their products and multiplicities.
-fn denominators(plan: &Plan) -> BTreeMap<usize, Vec<(usize, i64)>> {
+fn denominators(plan: &LoweringPlan) -> BTreeMap<usize, Vec<(usize, i64)>> {
     let mut found: BTreeMap<usize, Vec<(usize, i64)>> = BTreeMap::new();
     for (index, product) in products(plan).enumerate() {
         for (atom, count) in product.factors.iter().filter(|(_, count)| **count < 0) {
@@ -49,7 +49,7 @@ fn denominators(plan: &Plan) -> BTreeMap<usize, Vec<(usize, i64)>> {
 }
 
 /// Factors in the same denominators become one: 1/(a b) is a single division.
-fn merge_denominators(plan: &mut Plan) {
+fn merge_denominators(plan: &mut LoweringPlan) {
     let mut groups: BTreeMap<Vec<(usize, i64)>, Vec<usize>> = BTreeMap::new();
     for (atom, places) in denominators(plan) {
         if places.len() > 1 {
@@ -68,7 +68,7 @@ fn merge_denominators(plan: &mut Plan) {
 }
 
 /// A factor in several denominators is inverted once.
-fn invert_shared(plan: &mut Plan) {
+fn invert_shared(plan: &mut LoweringPlan) {
     for (atom, places) in denominators(plan) {
         if places.len() > 1 {
             let inverse = add_atom(plan, Atom::Inverse(atom));
@@ -83,7 +83,7 @@ fn invert_shared(plan: &mut Plan) {
 }
 
 /// The two factors, perhaps equal, whose product saves most multiplications if it is computed first.
-fn best_pair(plan: &Plan, visits: &mut usize) -> Option<(usize, usize)> {
+fn best_pair(plan: &LoweringPlan, visits: &mut usize) -> Option<(usize, usize)> {
     let mut uses: HashMap<(usize, usize), i64> = HashMap::new();
     for product in products(plan) {
         let factors: Vec<(usize, i64)> =
@@ -106,7 +106,7 @@ fn best_pair(plan: &Plan, visits: &mut usize) -> Option<(usize, usize)> {
 }
 
 /// Replaces a pair by one atom everywhere.
-fn replace(plan: &mut Plan, (a, b): (usize, usize)) {
+fn replace(plan: &mut LoweringPlan, (a, b): (usize, usize)) {
     let both = add_atom(plan, Atom::Pair(a, b));
     for product in products_mut(plan) {
         let count = |atom| product.factors.get(&atom).copied().unwrap_or(0);
@@ -121,7 +121,7 @@ fn replace(plan: &mut Plan, (a, b): (usize, usize)) {
 }
 
 /// Moves minus signs into integer factors: −2 x costs what 2 x does, −x one operation more than x.
-fn move_signs(plan: &mut Plan) {
+fn move_signs(plan: &mut LoweringPlan) {
     absorb_negations(plan);
     let mut excluded = HashSet::new();
     let mut negative = HashSet::new();
@@ -148,7 +148,7 @@ fn move_signs(plan: &mut Plan) {
 }
 
 /// −(a b), where a b itself is not needed, becomes a product with a minus.
-fn absorb_negations(plan: &mut Plan) {
+fn absorb_negations(plan: &mut LoweringPlan) {
     let mut uses = vec![0; plan.quantities.len()];
     for quantity in &plan.quantities {
         match quantity {
@@ -177,7 +177,7 @@ fn absorb_negations(plan: &mut Plan) {
 }
 
 /// The integer factors of a product, also those in pairs with others.
-fn integers(plan: &Plan, product: &Product) -> Vec<usize> {
+fn integers(plan: &LoweringPlan, product: &Product) -> Vec<usize> {
     let mut found = Vec::new();
     let mut waiting: Vec<usize> = product.factors.keys().copied().collect();
     while let Some(atom) = waiting.pop() {

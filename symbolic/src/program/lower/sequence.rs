@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::collect::{Atom, Id, Plan, Product, Quantity};
+use super::collect::{Atom, Id, LoweringPlan, Product, Quantity};
 use super::{products, sums};
 use crate::number::function::Function;
 use crate::number::rational::Rational;
@@ -52,7 +52,7 @@ pub(super) struct Sequence {
 }
 
 /// Orders a plan: what an output needs is computed just before it, unless an earlier output needed it.
-pub(super) fn sequence(mut plan: Plan) -> Sequence {
+pub(super) fn sequence(mut plan: LoweringPlan) -> Sequence {
     sums::share(&mut plan);
     products::share(&mut plan);
     let mut sequencer =
@@ -72,7 +72,7 @@ enum Unit {
 }
 
 struct Sequencer {
-    plan: Plan,
+    plan: LoweringPlan,
     known: HashMap<Unit, Value>,
     values: HashMap<Operation, Value>,
     sequence: Sequence,

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::collect::{Id, Plan, Quantity};
+use super::collect::{Id, LoweringPlan, Quantity};
 
 /// The largest number of pairs of parts that are examined: only very long formulas have more.
 const MOST_VISITS: usize = 1_000_000;
@@ -11,14 +11,14 @@ const MOST_VISITS: usize = 1_000_000;
 type Pair = (Id, Id, bool);
 
 /// Rewrites the sums of a plan such that common parts are sums of their own.
-pub(super) fn share(plan: &mut Plan) {
+pub(super) fn share(plan: &mut LoweringPlan) {
     let mut visits = 0;
     while let Some(pair) = best_pair(plan, &mut visits) {
         replace(plan, pair);
     }
 }
 
-fn sums(plan: &Plan) -> impl Iterator<Item = &Vec<(bool, Id)>> {
+fn sums(plan: &LoweringPlan) -> impl Iterator<Item = &Vec<(bool, Id)>> {
     plan.quantities.iter().filter_map(|quantity| match quantity {
         Quantity::Sum(parts) => Some(parts),
         _ => None,
@@ -26,7 +26,7 @@ fn sums(plan: &Plan) -> impl Iterator<Item = &Vec<(bool, Id)>> {
 }
 
 /// The two parts that are together in most sums, if these are at least two.
-fn best_pair(plan: &Plan, visits: &mut usize) -> Option<Pair> {
+fn best_pair(plan: &LoweringPlan, visits: &mut usize) -> Option<Pair> {
     let mut uses = vec![0; plan.quantities.len()];
     sums(plan).flatten().for_each(|(_, part)| uses[*part] += 1);
     let mut pairs: HashMap<Pair, usize> = HashMap::new();
@@ -48,7 +48,7 @@ fn best_pair(plan: &Plan, visits: &mut usize) -> Option<Pair> {
 }
 
 /// Replaces a pair by one part everywhere.
-fn replace(plan: &mut Plan, (a, b, differ): Pair) {
+fn replace(plan: &mut LoweringPlan, (a, b, differ): Pair) {
     let both = plan.quantities.len();
     for quantity in &mut plan.quantities {
         if let Quantity::Sum(parts) = quantity {

@@ -5,7 +5,7 @@ use rand_pcg::rand_core::{RngCore, SeedableRng};
 use rug::Float;
 
 use super::super::DoubleDouble;
-use crate::number::{Number, Rounded};
+use crate::number::{CorrectlyRounded, Number};
 
 /// Enough for exact sums and products of the numbers here.
 pub(super) const BITS: u32 = 420;

@@ -5,7 +5,7 @@ use rug::float::Constant;
 
 use super::super::DoubleDouble;
 use super::super::constants::*;
-use crate::number::{Number, Rounded};
+use crate::number::{CorrectlyRounded, Number};
 
 const BITS: u32 = 2000;
 

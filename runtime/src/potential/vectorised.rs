@@ -10,19 +10,19 @@ use crate::number::Number;
 /// and does not need this. Other numbers than lanes are computed as without it.
 ///
 /// ```
-/// use shadowstep::potential::{Potential, Widest};
+/// use shadowstep::potential::{Potential, Vectorised};
 /// use shadowstep::{Motion, UnitMasses, number::Lanes, problems::Kepler};
 ///
-/// let potential: Box<dyn Potential<Lanes<8>>> = Box::new(Widest(Kepler));
+/// let potential: Box<dyn Potential<Lanes<8>>> = Box::new(Vectorised(Kepler));
 /// let [zero, one] = [0.0, 1.0].map(Lanes::all);
 /// let mut motion = Motion::new(potential, UnitMasses, [one, zero], [zero, one])?;
 /// assert_eq!(motion.energy(), Lanes::all(-0.5));
 /// # Ok::<(), shadowstep::MotionError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Widest<P>(pub P);
+pub struct Vectorised<P>(pub P);
 
-impl<N: Number, P: Potential<N>> Potential<N> for Widest<P> {
+impl<N: Number, P: Potential<N>> Potential<N> for Vectorised<P> {
     fn dimension(&self) -> usize {
         self.0.dimension()
     }

@@ -14,7 +14,7 @@ const STATES: usize = 3;
 /// A step rounds q and p by c ε|q| and c ε|p| at least, which moves H by U_q δq and T_p δp; T_p is Δq/h, and U_q is −Δp/h. In
 /// compensated sums the increments are rounded.
 #[derive(Clone, Debug)]
-pub(crate) struct Walk<N> {
+pub(crate) struct ExpectedRoundOff<N> {
     compensated: bool,
     /// The newest states, the newest one last.
     states: VecDeque<(Vec<N>, Vec<N>)>,
@@ -26,10 +26,10 @@ pub(crate) struct Walk<N> {
     y: N,
 }
 
-impl<N: Number> Walk<N> {
+impl<N: Number> ExpectedRoundOff<N> {
     pub(crate) fn new(h: &Rational, context: &N::Context) -> Self {
         let zero = || N::zero(context);
-        Walk {
+        ExpectedRoundOff {
             compensated: false,
             states: VecDeque::new(),
             factor: kick_factor(&epsilon(context), h, context),
@@ -54,7 +54,7 @@ impl<N: Number> Walk<N> {
             own_q.iter_mut().zip(q).for_each(|(own, q)| own.assign(q));
             own_p.iter_mut().zip(p).for_each(|(own, p)| own.assign(p));
         }
-        let Walk { compensated, states, sum, x, y, .. } = self;
+        let ExpectedRoundOff { compensated, states, sum, x, y, .. } = self;
         match (states.iter().rev().collect::<Vec<_>>().as_slice(), *compensated) {
             ([(q1, p1), (q0, p0), ..], false) => add_squares(sum, [q0, q1], [p0, p1], [x, y]),
             ([(q2, p2), (q1, p1), (q0, p0)], true) => {

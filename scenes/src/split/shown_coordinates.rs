@@ -6,13 +6,13 @@ use shadowstep::Number;
 type Convert<N> = Box<dyn FnMut((&[N], &[N]), (&mut [N], &mut [N]))>;
 
 /// Converts states of a system to those that are shown.
-pub struct Shown<N> {
+pub struct ShownCoordinates<N> {
     convert: Convert<N>,
     q: Vec<N>,
     p: Vec<N>,
 }
 
-impl<N: Number> Shown<N> {
+impl<N: Number> ShownCoordinates<N> {
     /// The conversion into states of this dimension.
     pub(super) fn by(
         dimension: usize,
@@ -20,7 +20,7 @@ impl<N: Number> Shown<N> {
         convert: impl FnMut((&[N], &[N]), (&mut [N], &mut [N])) + 'static,
     ) -> Self {
         let zeros = || vec![N::zero(context); dimension];
-        Shown { convert: Box::new(convert), q: zeros(), p: zeros() }
+        ShownCoordinates { convert: Box::new(convert), q: zeros(), p: zeros() }
     }
 
     /// The positions and momenta that are shown of a state.

@@ -8,7 +8,7 @@ use crate::potential::Potential;
 
 /// The force of gradient kicks with its scratch space, allocated when the first of them is made.
 #[derive(Clone, Debug)]
-pub(super) struct Curved<N> {
+pub(super) struct GradientKickState<N> {
     pub(super) kicks: GradientKicks<N>,
     one: N,
     /// The potential's, for Hessian–vector products.
@@ -23,7 +23,7 @@ pub(super) struct Parts<'a, N, P, K> {
     pub(super) kinetic_scratch: &'a mut [N],
 }
 
-impl<N: Number> Curved<N> {
+impl<N: Number> GradientKickState<N> {
     /// Room for the second derivatives of a potential.
     ///
     /// # Panics
@@ -34,17 +34,17 @@ impl<N: Number> Curved<N> {
         );
         let mut scratch = vec![N::zero(context); hessian.hessian_scratch()];
         hessian.prepare_hessian(&mut scratch, context);
-        Curved { scratch, ..Curved::with(None, potential.dimension(), context) }
+        GradientKickState { scratch, ..GradientKickState::with(None, potential.dimension(), context) }
     }
 
     /// Room for displaced forces.
     pub(super) fn displaced(displacements: Displacements<N>, dimension: usize, context: &N::Context) -> Self {
-        Curved::with(Some(displacements), dimension, context)
+        GradientKickState::with(Some(displacements), dimension, context)
     }
 
     fn with(displacements: Option<Displacements<N>>, dimension: usize, context: &N::Context) -> Self {
         let one = N::from_rational(&crate::Rational::from_integer(1.into()), context);
-        Curved { kicks: GradientKicks::new(dimension, displacements, context), one, scratch: Vec::new() }
+        GradientKickState { kicks: GradientKicks::new(dimension, displacements, context), one, scratch: Vec::new() }
     }
 
     /// Computes the force for a gradient kick of this weight, and the rate where it is wanted, unless they are known.
@@ -55,18 +55,18 @@ impl<N: Number> Curved<N> {
         weight: &N,
         with_rate: bool,
     ) {
-        let Curved { kicks, one, scratch } = self;
-        kicks.evaluate(&mut Curving { parts, one, hessian_scratch: scratch }, at, weight, with_rate);
+        let GradientKickState { kicks, one, scratch } = self;
+        kicks.evaluate(&mut MotionCurvature { parts, one, hessian_scratch: scratch }, at, weight, with_rate);
     }
 }
 
-struct Curving<'a, N, P, K> {
+struct MotionCurvature<'a, N, P, K> {
     parts: Parts<'a, N, P, K>,
     one: &'a N,
     hessian_scratch: &'a mut [N],
 }
 
-impl<N: Number, P: Potential<N>, K: Kinetic<N>> Curvature<N> for Curving<'_, N, P, K> {
+impl<N: Number, P: Potential<N>, K: Kinetic<N>> Curvature<N> for MotionCurvature<'_, N, P, K> {
     fn assign_velocity(&mut self, gradient: &[N], velocity: &mut [N]) {
         // the drift of a quadratic T moves by M⁻¹ times a vector
         velocity.iter_mut().for_each(N::assign_zero);

@@ -1,33 +1,33 @@
 //! Numbers that a number of more digits is rounded to.
 
-use super::{AnyLimbs, DoubleDouble, LimbCount, Limbs, Ordered, Precision, Reference};
+use super::{AnyLimbs, DoubleDouble, HighPrecision, LimbCount, Limbs, Precision, Real};
 use crate::Rational;
 
 /// A number that takes a number of any precision with one rounding.
-pub trait Rounded: Ordered {
+pub trait CorrectlyRounded: Real {
     /// The precision of the numbers of a context.
     fn precision(context: &Self::Context) -> Precision;
 
     /// x ← the number nearest to a
-    fn assign_rounded(&mut self, a: &impl Reference);
+    fn assign_rounded(&mut self, a: &impl HighPrecision);
 }
 
-impl Rounded for f64 {
+impl CorrectlyRounded for f64 {
     fn precision((): &()) -> Precision {
         Precision::of_bits(f64::MANTISSA_DIGITS)
     }
 
-    fn assign_rounded(&mut self, a: &impl Reference) {
+    fn assign_rounded(&mut self, a: &impl HighPrecision) {
         *self = a.to_f64();
     }
 }
 
-impl<const L: usize> Rounded for Limbs<L> {
+impl<const L: usize> CorrectlyRounded for Limbs<L> {
     fn precision((): &()) -> Precision {
         Precision::of_limbs(L)
     }
 
-    fn assign_rounded(&mut self, a: &impl Reference) {
+    fn assign_rounded(&mut self, a: &impl HighPrecision) {
         *self = match a.scaled_integer() {
             Some(a) => Limbs::from_magnitude(a.negative, &a.magnitude, a.exponent, false),
             None => Limbs::from(a.to_f64()),
@@ -35,12 +35,12 @@ impl<const L: usize> Rounded for Limbs<L> {
     }
 }
 
-impl Rounded for AnyLimbs {
+impl CorrectlyRounded for AnyLimbs {
     fn precision(count: &LimbCount) -> Precision {
         Precision::of_bits(count.bits())
     }
 
-    fn assign_rounded(&mut self, a: &impl Reference) {
+    fn assign_rounded(&mut self, a: &impl HighPrecision) {
         let count = self.count();
         *self = match a.scaled_integer() {
             Some(a) => AnyLimbs::from_magnitude(a.negative, &a.magnitude, a.exponent, false, count),
@@ -50,12 +50,12 @@ impl Rounded for AnyLimbs {
 }
 
 #[cfg(feature = "mpfr")]
-impl Rounded for rug::Float {
+impl CorrectlyRounded for rug::Float {
     fn precision(context: &Precision) -> Precision {
         *context
     }
 
-    fn assign_rounded(&mut self, a: &impl Reference) {
+    fn assign_rounded(&mut self, a: &impl HighPrecision) {
         match a.scaled_integer() {
             Some(a) => super::multiprecision::assign_scaled(self, &a),
             None => rug::Assign::assign(self, a.to_f64()),
@@ -63,13 +63,13 @@ impl Rounded for rug::Float {
     }
 }
 
-impl Rounded for DoubleDouble {
+impl CorrectlyRounded for DoubleDouble {
     /// 107 bits: the sign of the low part is one.
     fn precision((): &()) -> Precision {
         Precision::of_bits(2 * f64::MANTISSA_DIGITS + 1)
     }
 
-    fn assign_rounded(&mut self, a: &impl Reference) {
+    fn assign_rounded(&mut self, a: &impl HighPrecision) {
         let high = a.to_f64();
         *self = Rational::from_float(high).map_or(DoubleDouble::from(high), |exact| {
             let mut rest = a.clone();
@@ -79,6 +79,6 @@ impl Rounded for DoubleDouble {
     }
 }
 
-fn from_rational_like<R: Reference>(a: &R, value: &Rational) -> R {
+fn from_rational_like<R: HighPrecision>(a: &R, value: &Rational) -> R {
     R::from_rational(value, &a.context())
 }

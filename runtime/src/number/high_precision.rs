@@ -1,9 +1,9 @@
 //! Numbers of many digits that exact results are computed with, before these are rounded to the numbers of a run.
 
-use super::{AnyLimbs, LimbCount, Ordered};
+use super::{AnyLimbs, LimbCount, Real};
 
 /// A number type whose numbers can be rounded to any other.
-pub trait Reference: Ordered + 'static {
+pub trait HighPrecision: Real + 'static {
     /// What makes numbers of at least this number of bits; `None` if the type has none.
     fn context_of(bits: u32) -> Option<Self::Context>;
 
@@ -32,7 +32,7 @@ pub struct ScaledInteger {
     pub exponent: i64,
 }
 
-impl Reference for AnyLimbs {
+impl HighPrecision for AnyLimbs {
     fn context_of(bits: u32) -> Option<LimbCount> {
         LimbCount::of_bits(bits)
     }
@@ -56,7 +56,7 @@ impl Reference for AnyLimbs {
 }
 
 #[cfg(feature = "mpfr")]
-impl Reference for rug::Float {
+impl HighPrecision for rug::Float {
     fn context_of(bits: u32) -> Option<super::Precision> {
         super::Precision::bits(bits).ok()
     }
